@@ -1,0 +1,20 @@
+/// The plain words of a calibration.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "calibration/moduli_fit.h"
+
+namespace fingertip::calibration {
+
+/// What `fit` (everything filled in but its statement) reached, why it cannot reach more, which
+/// constants the tests leave open and how the choice among them was made; SI. `cell_mechanisms` is
+/// the number of motions of one cell that cost no energy.
+std::string fit_statement(const ModuliFit& fit, int cell_mechanisms);
+
+/// A direction of (k1, k2, k3, kappa) in words: "k1 + 1, k2 - 1, k3 + 0.75", scaled so that its
+/// largest component is 1.
+std::string describe_direction(const Eigen::Vector4d& direction);
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,42 @@
+/// Elastic constants of a cubic spring lattice.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lattice/constants.h"
+
+namespace fingertip::calibration {
+
+/// The engineering constants of a cubic material; SI.
+struct ElasticModuli {
+  double c11 = 0.0, c12 = 0.0, c44 = 0.0;  ///< stiffness in Voigt's notation [Pa]
+  double youngs_modulus_100 = 0.0;         ///< E along a cube axis [Pa]
+  double youngs_modulus_110 = 0.0;         ///< E along a face diagonal [Pa]
+  double youngs_modulus_111 = 0.0;         ///< E along a body diagonal [Pa]
+  double shear_modulus = 0.0;              ///< C44: shear of a cube face along a cube edge [Pa]
+  double poissons_ratio_100 = 0.0;         ///< lateral contraction under tension along a cube axis
+  double bulk_modulus = 0.0;               ///< K = (C11 + 2 C12)/3 [Pa]
+  double anisotropy = 0.0;                 ///< Zener's A = 2 C44/(C11 - C12), 1 when isotropic
+};
+
+/// The engineering constants that follow from C11, C12, C44 (Nye, Physical Properties of
+/// Crystals, ch. VIII).
+ElasticModuli moduli_from_stiffness(double c11, double c12, double c44);
+
+/// Young's modulus [Pa] of a cubic material along `direction` (any length):
+/// 1/E = S11 - 2 (S11 - S12 - S44/2)(l²m² + m²n² + n²l²).
+double youngs_modulus_along(const ElasticModuli& moduli, const Eigen::Vector3d& direction);
+
+/// Homogenised constants of the infinite lattice [derived in README]:
+///   C11 = (k1 + 2 k2 + 4/3 k3)/a + kappa,  C12 = (k2 + 4/3 k3)/a + kappa,  C44 = (k2 + 4/3 k3)/a.
+/// `spacing` a > 0 [m].
+ElasticModuli homogenised_moduli(const lattice::SpringConstants& constants, double spacing);
+
+/// d(C11, C12, C44)/d(k1, k2, k3, kappa), one row per stiffness; [1/m] in the first three columns,
+/// dimensionless in the last. The map is linear, so this holds everywhere.
+Eigen::Matrix<double, 3, 4> stiffness_jacobian(double spacing);
+
+/// d(E_100, G, nu_100, K)/d(k1, k2, k3, kappa), one row per modulus in that order, at `constants`.
+Eigen::Matrix4d moduli_jacobian(const lattice::SpringConstants& constants, double spacing);
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,237 @@
+#include "calibration/moduli_fit.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "calibration/cube_test.h"
+#include "calibration/fit_statement.h"
+#include "lattice/cube.h"
+#include "meshes/errors.h"
+#include "meshes/files.h"
+
+namespace fingertip::calibration {
+namespace {
+
+using lattice::ModelKind;
+using lattice::SpringConstants;
+
+/// Targets count as reached below this residual; round-off leaves about 1e-13.
+constexpr double reached = 1e-9;
+
+/// Residuals and Jacobian of the virtual tests as functions of x = (k1, k2, k3)/(E a) and, for
+/// hookean, kappa/E: the scaling that makes every unknown of order one.
+class ModuliProblem {
+ public:
+  ModuliProblem(ModelKind model, const meshes::Rubber& rubber, double spacing)
+      : model_(model), rubber_(rubber), spacing_(spacing) {}
+
+  int unknowns() const { return model_ == ModelKind::hookean ? 4 : 3; }
+  int tests() const { return model_ == ModelKind::hookean ? 3 : 2; }
+
+  std::vector<std::string> names() const {
+    if (model_ == ModelKind::hookean) return {"C11", "C12", "C44"};
+    return {"E_100", "G"};
+  }
+
+  Eigen::Vector4d scale() const {
+    const double spring = rubber_.youngs_modulus * spacing_;
+    return {spring, spring, spring, rubber_.youngs_modulus};
+  }
+
+  SpringConstants constants(const Eigen::VectorXd& x) const {
+    const Eigen::Vector4d s = scale();
+    return {x(0) * s(0), x(1) * s(1), x(2) * s(2), unknowns() == 4 ? x(3) * s(3) : 0.0};
+  }
+
+  Eigen::VectorXd residuals(const SpringConstants& constants) const {
+    const ElasticModuli m = homogenised_moduli(constants, spacing_);
+    const double g = rubber_.shear_modulus;
+    if (model_ == ModelKind::hookean)
+      return Eigen::Vector3d(m.c11 - rubber_.longitudinal_modulus(), m.c12 - rubber_.lame_lambda(),
+                             m.c44 - g) /
+             g;
+    return Eigen::Vector2d(m.youngs_modulus_100 / rubber_.youngs_modulus - 1.0,
+                           m.shear_modulus / g - 1.0);
+  }
+
+  Eigen::MatrixXd jacobian(const SpringConstants& constants) const {
+    Eigen::MatrixXd by_constants(tests(), 4);
+    if (model_ == ModelKind::hookean) {
+      by_constants = stiffness_jacobian(spacing_) / rubber_.shear_modulus;
+    } else {
+      by_constants = moduli_jacobian(constants, spacing_).topRows<2>();
+      by_constants.row(0) /= rubber_.youngs_modulus;
+      by_constants.row(1) /= rubber_.shear_modulus;
+    }
+    return (by_constants * scale().asDiagonal()).leftCols(unknowns());
+  }
+
+ private:
+  ModelKind model_;
+  meshes::Rubber rubber_;
+  double spacing_;
+};
+
+/// The problem as Ceres sees it: one block of unknowns, one block of residuals.
+class ModuliCost final : public ceres::CostFunction {
+ public:
+  explicit ModuliCost(const ModuliProblem& problem) : problem_(problem) {
+    set_num_residuals(problem.tests());
+    mutable_parameter_block_sizes()->push_back(problem.unknowns());
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Eigen::Map<const Eigen::VectorXd> x(parameters[0], problem_.unknowns());
+    const SpringConstants constants = problem_.constants(x);
+    Eigen::Map<Eigen::VectorXd>(residuals, problem_.tests()) = problem_.residuals(constants);
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      Eigen::Map<RowMajor>(jacobians[0], problem_.tests(), problem_.unknowns()) =
+          problem_.jacobian(constants);
+    }
+    // All springs zero has no moduli; Ceres then shortens its step.
+    return Eigen::Map<Eigen::VectorXd>(residuals, problem_.tests()).allFinite();
+  }
+
+ private:
+  ModuliProblem problem_;
+};
+
+/// Moves along the direction that changes no modulus, (k1, k2, k3) += t (4/3, -4/3, 1), to the
+/// member of the family whose weaker one of k1 and k2 is largest, subject to k3 >= 0.
+SpringConstants farthest_from_mechanisms(const SpringConstants& c) {
+  double t = std::max(-c.k3, 3.0 / 8.0 * (c.k2 - c.k1));
+  // hookean has k1 = k2 exactly at k3 = 0; round-off must not leave a trace of body diagonals.
+  if (c.k3 + t < 1e-9 * (c.k1 + c.k2)) t = -c.k3;
+  return {c.k1 + 4.0 / 3.0 * t, c.k2 - 4.0 / 3.0 * t, c.k3 + t, c.kappa};
+}
+
+struct Solution {
+  SpringConstants constants;
+  double error = std::numeric_limits<double>::infinity();  ///< largest residual
+  int iterations = 0;
+};
+
+Solution solve_from(const ModuliProblem& problem, Eigen::VectorXd x) {
+  ceres::Problem least_squares;
+  least_squares.AddResidualBlock(new ModuliCost(problem), nullptr, x.data());
+  // A spring must not push back where it should pull; kappa may be negative, its limit K > 0 is
+  // met by meeting the targets.
+  for (int i = 0; i < 3; ++i) least_squares.SetParameterLowerBound(x.data(), i, 0.0);
+
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = 200;
+  // The targets can be met exactly, so iterate to round-off rather than to slow progress.
+  options.function_tolerance = 0.0;
+  options.gradient_tolerance = 1e-20;
+  options.parameter_tolerance = 1e-16;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &least_squares, &summary);
+
+  Solution solution;
+  if (!summary.IsSolutionUsable()) return solution;
+  solution.constants = farthest_from_mechanisms(problem.constants(x));
+  solution.error = problem.residuals(solution.constants).cwiseAbs().maxCoeff();
+  solution.iterations = int(summary.iterations.size());
+  return solution;
+}
+
+std::vector<Solution> solve_from_random_starts(const ModuliProblem& problem, int starts,
+                                               unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> of_order_one(0.05, 3.0);
+  std::vector<Solution> solutions;
+  for (int start = 0; start < starts; ++start) {
+    Eigen::VectorXd x(problem.unknowns());
+    for (double& value : x) value = of_order_one(generator);
+    solutions.push_back(solve_from(problem, x));
+  }
+  return solutions;
+}
+
+/// Right singular vectors of the Jacobian that no test sees, the first nonzero component positive.
+std::vector<Eigen::Vector4d> null_directions(const Eigen::MatrixXd& jacobian) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeFullV);
+  const Eigen::VectorXd& values = svd.singularValues();
+  std::vector<Eigen::Vector4d> directions;
+  for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
+    if (i < values.size() && values(i) >= 1e-8 * values(0)) continue;
+    Eigen::Vector4d direction = Eigen::Vector4d::Zero();
+    direction.head(jacobian.cols()) = svd.matrixV().col(i);
+    direction = (direction.array().abs() > 1e-12).select(direction, 0.0);  // round-off
+    Eigen::Index leading = 0;
+    while (direction(leading) == 0.0) ++leading;
+    directions.push_back(direction * (direction(leading) < 0.0 ? -1.0 : 1.0));
+  }
+  return directions;
+}
+
+int count_agreeing(const std::vector<Solution>& solutions, const Solution& best,
+                   const Eigen::Vector4d& scale) {
+  const auto scaled = [&](const SpringConstants& c) {
+    return Eigen::Vector4d(c.k1, c.k2, c.k3, c.kappa).cwiseQuotient(scale).eval();
+  };
+  const Eigen::Vector4d reference = scaled(best.constants);
+  const double tolerance = 1e-6 * reference.norm();
+  return int(std::count_if(solutions.begin(), solutions.end(), [&](const Solution& s) {
+    return (scaled(s.constants) - reference).norm() <= tolerance;
+  }));
+}
+
+void check(const meshes::Rubber& rubber, const ModuliFitOptions& options) {
+  std::vector<meshes::Violation> found = rubber.violations();
+  if (options.model == ModelKind::published)
+    found.push_back({"lattice.model", std::string(lattice::name(options.model)),
+                     "the published model has a rule for its constants, k = E/l0, not a fit",
+                     "calibrate central or hookean"});
+  if (!std::isfinite(options.spacing) || options.spacing <= 0.0)
+    found.push_back({"lattice.spacing", meshes::to_text(options.spacing) + " m",
+                     "the spacing must be finite and positive", "give the lattice spacing"});
+  if (options.starts < 1)
+    found.push_back({"calibration.starts", std::to_string(options.starts),
+                     "a fit needs at least one start", "give 1 or more"});
+  if (!found.empty()) throw meshes::InvalidInput(found);
+}
+
+}  // namespace
+
+ModuliFit fit_moduli(const meshes::Rubber& rubber, const ModuliFitOptions& options) {
+  check(rubber, options);
+  const ModuliProblem problem(options.model, rubber, options.spacing);
+  const std::vector<Solution> solutions =
+      solve_from_random_starts(problem, options.starts, options.seed);
+  const Solution best =
+      *std::min_element(solutions.begin(), solutions.end(),
+                        [](const Solution& a, const Solution& b) { return a.error < b.error; });
+  if (!(best.error < reached))
+    throw meshes::NotConverged("moduli fit: none of " + std::to_string(options.starts) +
+                               " random starts reached the targets to 1e-9; the best is off by " +
+                               meshes::to_text(best.error));
+
+  ModuliFit fit;
+  fit.model = options.model;
+  fit.spacing = options.spacing;
+  fit.target = rubber;
+  fit.constants = best.constants;
+  fit.achieved = homogenised_moduli(best.constants, options.spacing);
+  fit.residuals = problem.residuals(best.constants);
+  fit.residual_names = problem.names();
+  fit.unidentifiable = null_directions(problem.jacobian(best.constants));
+  fit.converged = true;
+  fit.iterations = best.iterations;
+  fit.starts = options.starts;
+  fit.starts_agreeing = count_agreeing(solutions, best, problem.scale());
+  fit.statement = fit_statement(
+      fit, count_mechanisms(lattice::cube_lattice(fit.model, fit.constants, fit.spacing, 1)));
+  return fit;
+}
+
+}  // namespace fingertip::calibration

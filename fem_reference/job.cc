@@ -1,0 +1,191 @@
+#include "fem_reference/job.h"
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <string>
+#include <utility>
+
+#include "meshes/files.h"
+
+namespace fingertip::fem_reference {
+namespace {
+
+using Json = nlohmann::json;
+using meshes::ContactMode;
+using meshes::InvalidInput;
+using meshes::Violation;
+
+constexpr std::array contact_modes{ContactMode::stick, ContactMode::frictionless};
+constexpr std::array solvers{LinearSolver::automatic, LinearSolver::condensed,
+                             LinearSolver::multigrid};
+
+template <class T>
+void get(const Json& value, T& target) {
+  if constexpr (std::is_same_v<T, double>)
+    if (!value.is_number()) throw std::invalid_argument("must be a number");
+  if constexpr (std::is_same_v<T, int>)
+    if (!value.is_number_integer()) throw std::invalid_argument("must be an integer");
+  target = value.get<T>();
+}
+
+template <class Names, class T>
+void get_name(const Json& value, const Names& allowed, T& target) {
+  const auto wanted = value.get<std::string>();
+  std::string list;
+  for (const T candidate : allowed) {
+    if (name(candidate) == wanted) {
+      target = candidate;
+      return;
+    }
+    list += (list.empty() ? "" : ", ") + std::string(name(candidate));
+  }
+  throw std::invalid_argument("must be one of " + list);
+}
+
+/// Reads the entries of one JSON object and refuses those that nobody asked for.
+class Section {
+ public:
+  Section(const Json& object, std::string prefix, std::vector<Violation>& broken)
+      : object_(object), prefix_(std::move(prefix)), broken_(broken) {
+    if (!object.is_object()) report("", object, "must be a JSON object");
+  }
+  ~Section() {
+    if (!object_.is_object()) return;
+    for (const auto& [key, value] : object_.items())
+      if (std::ranges::find(known_, key) == known_.end())
+        report(key, value, "is no entry of a reference job");
+  }
+  Section(const Section&) = delete;
+  Section& operator=(const Section&) = delete;
+
+  template <class Read>
+  void read(const char* key, Read read_value) {
+    known_.push_back(key);
+    if (!object_.is_object() || !object_.contains(key)) return;
+    try {
+      read_value(object_.at(key));
+    } catch (const std::invalid_argument& error) {
+      report(key, object_.at(key), error.what());
+    } catch (const Json::exception&) {
+      report(key, object_.at(key), "is of the wrong type");
+    }
+  }
+  template <class T>
+  void value(const char* key, T& target) {
+    read(key, [&](const Json& json) { get(json, target); });
+  }
+
+ private:
+  void report(const std::string& key, const Json& value, const char* rule) {
+    broken_.push_back({prefix_ + key, value.dump(), rule, "correct the entry or leave it out"});
+  }
+
+  const Json& object_;
+  std::string prefix_;
+  std::vector<Violation>& broken_;
+  std::vector<std::string> known_;
+};
+
+void read_entries(const Json& json, const std::string& file, ReferenceJob& job,
+                  std::vector<Violation>& broken) {
+  Section top(json, file + ": ", broken);
+  top.read("geometry", [&](const Json& object) {
+    Section section(object, file + ": geometry.", broken);
+    section.value("tip_radius", job.geometry.tip_radius);
+    section.value("rod_radius", job.geometry.rod_radius);
+    section.value("sleeve_length", job.geometry.sleeve_length);
+    section.value("rod_length", job.geometry.rod_length);
+  });
+  top.read("rubber", [&](const Json& object) {
+    Section section(object, file + ": rubber.", broken);
+    section.value("youngs_modulus", job.rubber.youngs_modulus);
+    section.value("shear_modulus", job.rubber.shear_modulus);
+    section.value("density", job.rubber.density);
+    section.value("retardation_time", job.rubber.retardation_time);
+  });
+  top.read("contact", [&](const Json& j) { get_name(j, contact_modes, job.contact); });
+  top.read("solver", [&](const Json& j) { get_name(j, solvers, job.solver); });
+  top.value("samples", job.samples);
+  top.value("degree", job.degree);
+  top.value("refinement", job.refinement);
+  top.value("tolerance", job.tolerance);
+  top.value("write_fields", job.write_fields);
+  top.value("estimate_error", job.estimate_error);
+}
+
+}  // namespace
+
+std::string_view name(LinearSolver solver) {
+  switch (solver) {
+    case LinearSolver::automatic: return "automatic";
+    case LinearSolver::condensed: return "condensed";
+    case LinearSolver::multigrid: return "multigrid";
+  }
+  return "";
+}
+
+std::vector<Violation> ReferenceJob::violations() const {
+  std::vector<Violation> broken = geometry.violations();
+  for (const Violation& violation : rubber.violations()) broken.push_back(violation);
+  meshes::PressProtocol protocol;
+  protocol.depth = samples.empty() ? 0.0 : samples.back();
+  protocol.samples = samples;
+  for (const Violation& violation : protocol.violations(geometry)) broken.push_back(violation);
+  if (degree != 1 && degree != 2)
+    broken.push_back({"reference.degree", std::to_string(degree), "must be 1 or 2",
+                      "choose linear (1) or quadratic (2) elements"});
+  if (!(refinement >= 0.5 && refinement <= 4.0))
+    broken.push_back({"reference.refinement", meshes::to_text(refinement),
+                      "must lie between 0.5 and 4", "choose 1 for the default mesh"});
+  if (!(tolerance >= 1e-12 && tolerance <= 1e-4))
+    broken.push_back({"reference.tolerance", meshes::to_text(tolerance),
+                      "must lie between 1e-12 and 1e-4", "choose 1e-8"});
+  return broken;
+}
+
+void write_job(const ReferenceJob& job, const std::filesystem::path& file) {
+  const Json json{{"geometry",
+                   {{"tip_radius", job.geometry.tip_radius},
+                    {"rod_radius", job.geometry.rod_radius},
+                    {"sleeve_length", job.geometry.sleeve_length},
+                    {"rod_length", job.geometry.rod_length}}},
+                  {"rubber",
+                   {{"youngs_modulus", job.rubber.youngs_modulus},
+                    {"shear_modulus", job.rubber.shear_modulus},
+                    {"density", job.rubber.density},
+                    {"retardation_time", job.rubber.retardation_time}}},
+                  {"contact", name(job.contact)},
+                  {"samples", job.samples},
+                  {"degree", job.degree},
+                  {"refinement", job.refinement},
+                  {"tolerance", job.tolerance},
+                  {"solver", name(job.solver)},
+                  {"write_fields", job.write_fields},
+                  {"estimate_error", job.estimate_error}};
+  meshes::write_atomically(file, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
+}
+
+ReferenceJob read_job(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in)
+    throw InvalidInput({file.string(), "unreadable", "the job file must exist and be readable",
+                        "write it with write_job or start `fingertip reference`"});
+  Json json;
+  try {
+    json = Json::parse(in);
+  } catch (const Json::parse_error& error) {
+    throw InvalidInput({file.string(), "byte " + std::to_string(error.byte),
+                        "the job file must be valid JSON", error.what()});
+  }
+  ReferenceJob job;
+  std::vector<Violation> broken;
+  read_entries(json, file.string(), job, broken);
+  if (broken.empty()) broken = job.violations();
+  if (!broken.empty()) throw InvalidInput(broken);
+  return job;
+}
+
+}  // namespace fingertip::fem_reference

@@ -1,0 +1,43 @@
+/// The numbers that turn a cubic grid into rubber: spring constants per class and volume constant.
+#pragma once
+
+#include <string_view>
+
+#include "meshes/rubber.h"
+
+namespace fingertip::lattice {
+
+/// The spring lattices this room knows (README: physics of each).
+enum class ModelKind {
+  published,  ///< Reznik & Laugier 1996 as printed: k = E/l0, every spring counts fully
+  central,    ///< the three spring constants fitted to the moduli, weighted per cell
+  hookean,    ///< central plus one volume constant per cell: exact E, G, nu
+};
+
+/// How deformation is measured.
+enum class Kinematics {
+  small,   ///< springs and cells see the displacement, linearised about the rest state
+  finite,  ///< springs see their true length, cells their true volume
+};
+
+std::string_view name(ModelKind kind);
+std::string_view name(Kinematics kinematics);
+
+/// Stiffness per class of neighbour. Axis springs have rest length a, face diagonals a√2, body
+/// diagonals a√3.
+struct SpringConstants {
+  double k1 = 0.0;     ///< axis springs [N/m]
+  double k2 = 0.0;     ///< face diagonals [N/m]
+  double k3 = 0.0;     ///< body diagonals [N/m]
+  double kappa = 0.0;  ///< volume constant of a cell, U = kappa (V - V0)²/(2 V0) [Pa]
+};
+
+/// The published rule k = E/l0 in its lattice reading, k = E a²/l0: read literally it is a
+/// stiffness per area, and the effective modulus would grow like 1/a².
+SpringConstants published_constants(const meshes::Rubber& rubber, double spacing);
+
+/// Constants of the hookean model: kappa = lambda - G, k1 = aG + 4/3 k3, k2 = aG - 4/3 k3, exact
+/// and isotropic for every -1 < nu < 1/2 and 0 <= k3 < 3aG/4 (derivation: README).
+SpringConstants hookean_constants(const meshes::Rubber& rubber, double spacing, double k3 = 0.0);
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,60 @@
+#include "lattice/energy.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "lattice/cell.h"
+
+namespace fingertip::lattice {
+
+using meshes::Vector3;
+
+namespace {
+
+double spring_energy(const LatticeModel& model, const State& state, int s) {
+  const Direction& direction = half_stencil[std::size_t(s)];
+  const Vector3 rest = model.spacing() * Vector3(direction.dx, direction.dy, direction.dz);
+  const double length = rest.norm();
+  const std::size_t step = std::size_t(neighbour_offset(model.grid.size, s));
+  const auto& weight = model.weight[std::size_t(s)];
+  double sum = 0.0;
+  for (const std::size_t i : model.particles) {
+    if (weight[i] == 0.0) continue;
+    const Vector3 relative = state.displacement.at(i + step) - state.displacement.at(i);
+    const double elongation = model.kinematics == Kinematics::small
+                                  ? relative.dot(rest) / length
+                                  : (rest + relative).norm() - length;
+    sum += weight[i] * elongation * elongation;
+  }
+  return 0.5 * model.stiffness[direction.family] * sum;
+}
+
+}  // namespace
+
+double elastic_energy(const LatticeModel& model, const State& state) {
+  double energy = 0.0;
+  for (int s = 0; s < directions; ++s) energy += spring_energy(model, state, s);
+  if (!model.has_volume_term()) return energy;
+  double squares = 0.0;
+  for (const std::size_t cell : model.cells) {
+    const double change = volume_change(model, state.displacement, cell);
+    squares += change * change;
+  }
+  return energy + 0.5 * model.volume_stiffness * std::pow(model.spacing(), 3) * squares;
+}
+
+double kinetic_energy(const LatticeModel& model, const State& state) {
+  double sum = 0.0;
+  for (const std::size_t i : model.particles) {
+    sum += model.mass[i] * state.velocity.at(i).squaredNorm();
+  }
+  return 0.5 * sum;
+}
+
+Vector3 linear_momentum(const LatticeModel& model, const State& state) {
+  Vector3 sum = Vector3::Zero();
+  for (const std::size_t i : model.particles) sum += model.mass[i] * state.velocity.at(i);
+  return sum;
+}
+
+}  // namespace fingertip::lattice

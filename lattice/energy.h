@@ -1,0 +1,19 @@
+/// Energies of the lattice; the ligaments' is in bond.h.
+#pragma once
+
+#include "lattice/model.h"
+#include "lattice/state.h"
+
+namespace fingertip::lattice {
+
+/// Sum of ½ k (elongation)² over springs and kappa (V - V0)²/(2 V0) over cells [J]; the internal
+/// forces without damping are minus its gradient.
+double elastic_energy(const LatticeModel& model, const State& state);
+
+/// Sum of ½ m v² [J].
+double kinetic_energy(const LatticeModel& model, const State& state);
+
+/// Sum of m v [N s].
+meshes::Vector3 linear_momentum(const LatticeModel& model, const State& state);
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,33 @@
+#include "lattice/kernel.h"
+
+#include <stdexcept>
+
+namespace fingertip::lattice::kernel {
+
+namespace {
+
+Offer offer(int width) {
+  switch (width) {
+    case 2: return offer_width2();
+    case 4: return offer_width4();
+    case 8: return offer_width8();
+    default: throw std::invalid_argument("kernel::select: width must be 2, 4 or 8");
+  }
+}
+
+}  // namespace
+
+int supported_width() {
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")) {
+    return 8;
+  }
+  return __builtin_cpu_supports("avx2") ? 4 : 2;
+}
+
+Kernel select(const Variant& variant, int width) { return offer(width).select(variant); }
+Kernel select(const Variant& variant) { return select(variant, supported_width()); }
+MoveParticles select_move(int width) { return offer(width).move; }
+MoveParticles select_move() { return select_move(supported_width()); }
+
+}  // namespace fingertip::lattice::kernel

@@ -1,0 +1,86 @@
+/// Interface of the vectorised force kernel: raw arrays only, so that the same source can be
+/// compiled for several instruction sets (no inline function of a library is shared with them).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace fingertip::lattice::kernel {
+
+/// Borrowed arrays of a LatticeModel and a state; sizes and units as in model.h.
+struct Arrays {
+  const double* displacement[3];
+  const double* velocity[3];
+  const double* weight[13];
+  const double* cell_weight;
+  double* force[3];      ///< written at every point of the blocks [N]
+  double* cell_force[9]; ///< scratch per cell: small kinematics use the first one only
+  std::ptrdiff_t neighbour[13];
+  std::ptrdiff_t row, plane;  ///< offsets to the next point along y and z
+  double spacing;
+  double stiffness[3], damping[3];
+  double volume_stiffness, volume_damping;
+};
+
+/// Which force law. `rates`: whether velocities enter; without, the displacement handed over is
+/// u + tau v (small kinematics with proportional damping: one pass does both).
+struct Variant {
+  bool finite = false;
+  bool rates = true;
+  bool cells = false;
+};
+
+/// Forces of springs, and of cells if the variant has them, on the points of
+/// blocks[begin, end). Every point gathers its own 26 springs and 8 cells, each of them evaluated
+/// from both ends: no two calls write the same place, and the result does not depend on how
+/// blocks are distributed.
+using GatherForces = void (*)(const Arrays&, const std::uint32_t* blocks, std::size_t begin,
+                              std::size_t end);
+
+/// First pass over the cells' blocks: what each cell exerts, for the second pass to gather.
+using CellForces = GatherForces;
+
+struct Kernel {
+  GatherForces gather = nullptr;
+  CellForces cells = nullptr;  ///< null for variants without cells
+};
+
+/// Borrowed arrays for moving the particles through one time step.
+struct Motion {
+  const double* force[3];
+  const double* mass;
+  const double* inverse_mass;
+  double* displacement[3];
+  double* velocity[3];
+  double step;      ///< [s]
+  bool symplectic;  ///< whether displacements take the new velocity
+};
+
+/// v += f/m dt and x += v dt on the points of blocks[begin, end); `momentum` receives their sum of
+/// m v before the step. Points of no mass stay where they are.
+using MoveParticles = void (*)(const Motion&, const std::uint32_t* blocks, std::size_t begin,
+                               std::size_t end, double momentum[3]);
+
+/// The kernel for this variant and the widest instruction set of the running processor.
+Kernel select(const Variant& variant);
+
+/// The same for a given number of doubles per register: 2 (every x86-64), 4 (AVX2) or 8
+/// (AVX-512). The caller makes sure that the processor has it. For tests.
+Kernel select(const Variant& variant, int width);
+
+MoveParticles select_move();
+MoveParticles select_move(int width);
+
+/// Widest of 2, 4, 8 that the running processor supports.
+int supported_width();
+
+/// What the file compiled for one register width offers; called through select.
+struct Offer {
+  Kernel (*select)(const Variant& variant);
+  MoveParticles move;
+};
+Offer offer_width2();
+Offer offer_width4();
+Offer offer_width8();
+
+}  // namespace fingertip::lattice::kernel

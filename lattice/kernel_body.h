@@ -1,0 +1,285 @@
+/// The force kernel itself, compiled once per instruction set (kernel_width2/4/8.cc). Included by
+/// those files only. `Pack` is as wide as the instruction set's registers; its type differs
+/// between them, which keeps their instantiations apart.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <experimental/simd>
+#include <utility>
+
+#include "lattice/kernel.h"
+#include "lattice/stencil.h"
+
+namespace fingertip::lattice::kernel {
+
+template <typename Pack>
+struct Body {
+  static constexpr std::ptrdiff_t width = std::ptrdiff_t(Pack::size());
+  static constexpr std::ptrdiff_t block = 8;
+
+  struct Vector {
+    Pack x, y, z;
+  };
+
+  static Pack load(const double* from) { return Pack(from, std::experimental::element_aligned); }
+  static void store(double* to, const Pack& value) {
+    value.copy_to(to, std::experimental::element_aligned);
+  }
+  static Vector load(const double* const* field, std::ptrdiff_t i) {
+    return {load(field[0] + i), load(field[1] + i), load(field[2] + i)};
+  }
+
+  /// sign * value with sign known at compile time; vanishes for 0.
+  template <int Sign>
+  static void add_signed(Pack& sum, const Pack& value) {
+    if constexpr (Sign > 0) sum += value;
+    if constexpr (Sign < 0) sum -= value;
+  }
+  template <int S>
+  static Pack along(const Vector& v) {  // the grid direction s times v
+    constexpr Direction d = half_stencil[S];
+    Pack sum = 0.0;
+    add_signed<d.dx>(sum, v.x);
+    add_signed<d.dy>(sum, v.y);
+    add_signed<d.dz>(sum, v.z);
+    return sum;
+  }
+  template <int S>
+  static void add_along(Vector& force, const Pack& magnitude) {
+    constexpr Direction d = half_stencil[S];
+    add_signed<d.dx>(force.x, magnitude);
+    add_signed<d.dy>(force.y, magnitude);
+    add_signed<d.dz>(force.z, magnitude);
+  }
+  static Vector minus(const Vector& a, const Vector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+
+  /// Small kinematics: f = k d̂ (d̂·(u_j - u_i)) + mu d̂ (d̂·(v_j - v_i)), d̂ at rest. The law is even
+  /// in d̂, so both ends of the line through i read alike.
+  template <int S, bool Rates>
+  static void small_springs(const Arrays& a, std::ptrdiff_t i, const Vector& u, const Vector& v,
+                            Vector& force) {
+    constexpr Family family = half_stencil[S].family;
+    const std::ptrdiff_t step = a.neighbour[S];
+    const Pack ahead = load(a.weight[S] + i), behind = load(a.weight[S] + i - step);
+    const double inverse_square = 1.0 / (double(family) + 1.0);
+    const Pack stretch = ahead * along<S>(minus(load(a.displacement, i + step), u)) +
+                         behind * along<S>(minus(load(a.displacement, i - step), u));
+    Pack magnitude = Pack(a.stiffness[family] * inverse_square) * stretch;
+    if constexpr (Rates) {
+      const Pack rate = ahead * along<S>(minus(load(a.velocity, i + step), v)) +
+                        behind * along<S>(minus(load(a.velocity, i - step), v));
+      magnitude += Pack(a.damping[family] * inverse_square) * rate;
+    }
+    add_along<S>(force, magnitude);
+  }
+
+  /// Equation (1): [k (|d| - l0) + mu d̂·(v_j - v_i)] d̂ of the spring toward direction
+  /// Sign * half_stencil[S].
+  template <int S, int Sign>
+  static void finite_spring(const Arrays& a, std::ptrdiff_t i, const Vector& u, const Vector& v,
+                            Vector& force) {
+    constexpr Direction s = half_stencil[S];
+    const std::ptrdiff_t step = a.neighbour[S];
+    const std::ptrdiff_t j = Sign > 0 ? i + step : i - step;
+    const Pack weight = load(a.weight[S] + (Sign > 0 ? i : j));
+    Vector d = minus(load(a.displacement, j), u);
+    d.x += Pack(Sign * s.dx * a.spacing);
+    d.y += Pack(Sign * s.dy * a.spacing);
+    d.z += Pack(Sign * s.dz * a.spacing);
+    const Vector w = minus(load(a.velocity, j), v);
+    const double rest = a.spacing * __builtin_sqrt(double(s.family) + 1.0);
+    // Absent neighbours may coincide with the point: the floor keeps 0 * (1/0) out of the sum.
+    const Pack floor = 1e-24 * a.spacing * a.spacing;
+    const Pack square = std::experimental::max(d.x * d.x + d.y * d.y + d.z * d.z, floor);
+    const Pack inverse_length = Pack(1.0) / std::experimental::sqrt(square);
+    const Pack rate = (d.x * w.x + d.y * w.y + d.z * w.z) * inverse_length;
+    const Pack magnitude =
+        weight * (Pack(a.stiffness[s.family]) * (Pack(1.0) - Pack(rest) * inverse_length) +
+                  Pack(a.damping[s.family]) * rate * inverse_length);
+    force.x += magnitude * d.x;
+    force.y += magnitude * d.y;
+    force.z += magnitude * d.z;
+  }
+
+  template <bool Finite, bool Rates, std::size_t... S>
+  static void springs(const Arrays& a, std::ptrdiff_t i, const Vector& u, const Vector& v,
+                      Vector& force, std::index_sequence<S...>) {
+    if constexpr (Finite) {
+      ((finite_spring<S, 1>(a, i, u, v, force), finite_spring<S, -1>(a, i, u, v, force)), ...);
+    } else {
+      (small_springs<S, Rates>(a, i, u, v, force), ...);
+    }
+  }
+
+  /// Grid offset of corner c of a cell.
+  static std::ptrdiff_t corner(const Arrays& a, int c) {
+    return (c & 1) + (c >> 1 & 1) * a.row + (c >> 2 & 1) * a.plane;
+  }
+
+  /// Adds what the eight cells around point i exert on it.
+  template <bool Finite>
+  static void gather_cells(const Arrays& a, std::ptrdiff_t i, Vector& force) {
+    for (int c = 0; c < 8; ++c) {  // the point is corner c of cell i - corner(c)
+      const std::ptrdiff_t cell = i - corner(a, c);
+      const double x = c & 1 ? 1.0 : -1.0, y = c & 2 ? 1.0 : -1.0, z = c & 4 ? 1.0 : -1.0;
+      if constexpr (Finite) {
+        const auto column = [&](int k) { return load(a.cell_force[k] + cell); };
+        force.x += Pack(x) * column(0) + Pack(y) * column(3) + Pack(z) * column(6);
+        force.y += Pack(x) * column(1) + Pack(y) * column(4) + Pack(z) * column(7);
+        force.z += Pack(x) * column(2) + Pack(y) * column(5) + Pack(z) * column(8);
+      } else {
+        const Pack push = load(a.cell_force[0] + cell);
+        force.x += Pack(x) * push;
+        force.y += Pack(y) * push;
+        force.z += Pack(z) * push;
+      }
+    }
+  }
+
+  template <bool Finite, bool Rates, bool Cells>
+  static void gather(const Arrays& a, const std::uint32_t* blocks, std::size_t begin,
+                     std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      for (std::ptrdiff_t lane = 0; lane < block; lane += width) {
+        const std::ptrdiff_t i = std::ptrdiff_t(blocks[b]) + lane;
+        const Vector u = load(a.displacement, i);
+        Vector v{0.0, 0.0, 0.0};
+        if constexpr (Rates) v = load(a.velocity, i);
+        Vector force{0.0, 0.0, 0.0};
+        springs<Finite, Rates>(a, i, u, v, force, std::make_index_sequence<directions>());
+        if constexpr (Cells) gather_cells<Finite>(a, i, force);
+        store(a.force[0] + i, force.x);
+        store(a.force[1] + i, force.y);
+        store(a.force[2] + i, force.z);
+      }
+    }
+  }
+
+  /// Mean edge vectors of a cell of a field, times 4: differences between opposite faces.
+  struct Edges {
+    Vector x, y, z;
+  };
+  static Edges edges(const Arrays& a, const double* const* field, std::ptrdiff_t cell) {
+    Edges e{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    for (int c = 0; c < 8; ++c) {
+      const Vector p = load(field, cell + corner(a, c));
+      add(e.x, p, c & 1);
+      add(e.y, p, c & 2);
+      add(e.z, p, c & 4);
+    }
+    return e;
+  }
+  static void add(Vector& sum, const Vector& p, int positive) {
+    const Pack sign = positive ? 1.0 : -1.0;
+    sum.x += sign * p.x;
+    sum.y += sign * p.y;
+    sum.z += sign * p.z;
+  }
+
+  /// Small kinematics: U = ½ kappa a³ e², e the mean dilatation; every corner is pushed outward
+  /// along each axis by -kappa e a²/4.
+  template <bool Rates>
+  static Pack small_cell(const Arrays& a, std::ptrdiff_t cell) {
+    const Edges u = edges(a, a.displacement, cell);
+    const double face = 0.25 * a.spacing * a.spacing, per_edge = 0.25 / a.spacing;
+    Pack pressure = Pack(a.volume_stiffness * per_edge) * (u.x.x + u.y.y + u.z.z);
+    if constexpr (Rates) {
+      const Edges v = edges(a, a.velocity, cell);
+      pressure += Pack(a.volume_damping * per_edge) * (v.x.x + v.y.y + v.z.z);
+    }
+    return Pack(-face) * load(a.cell_weight + cell) * pressure;
+  }
+
+  static Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  static Pack dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+  /// Finite kinematics: V = e_x·(e_y x e_z) of the mean edges, U = kappa (V - V0)²/(2 V0); a corner
+  /// takes ±¼ of each face vector e_y x e_z, e_z x e_x, e_x x e_y times the pressure.
+  static void finite_cell(const Arrays& a, std::ptrdiff_t cell) {
+    Edges e = edges(a, a.displacement, cell);
+    const Edges w = edges(a, a.velocity, cell);
+    const Pack quarter = 0.25, spacing = a.spacing;
+    for (Vector* edge : {&e.x, &e.y, &e.z}) {
+      edge->x *= quarter;
+      edge->y *= quarter;
+      edge->z *= quarter;
+    }
+    e.x.x += spacing;
+    e.y.y += spacing;
+    e.z.z += spacing;
+    const Vector faces[3] = {cross(e.y, e.z), cross(e.z, e.x), cross(e.x, e.y)};
+    const double rest = a.spacing * a.spacing * a.spacing;
+    const Pack volume = dot(e.x, faces[0]);
+    const Pack rate = quarter * (dot(w.x, faces[0]) + dot(w.y, faces[1]) + dot(w.z, faces[2]));
+    const Pack pressure = Pack(a.volume_stiffness / rest) * (volume - Pack(rest)) +
+                          Pack(a.volume_damping / rest) * rate;
+    const Pack push = Pack(-0.25) * load(a.cell_weight + cell) * pressure;
+    for (int k = 0; k < 3; ++k) {
+      store(a.cell_force[3 * k] + cell, push * faces[k].x);
+      store(a.cell_force[3 * k + 1] + cell, push * faces[k].y);
+      store(a.cell_force[3 * k + 2] + cell, push * faces[k].z);
+    }
+  }
+
+  template <bool Finite, bool Rates>
+  static void cells(const Arrays& a, const std::uint32_t* blocks, std::size_t begin,
+                    std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      for (std::ptrdiff_t lane = 0; lane < block; lane += width) {
+        const std::ptrdiff_t cell = std::ptrdiff_t(blocks[b]) + lane;
+        if constexpr (Finite) {
+          finite_cell(a, cell);
+        } else {
+          store(a.cell_force[0] + cell, small_cell<Rates>(a, cell));
+        }
+      }
+    }
+  }
+
+  static void move(const Motion& m, const std::uint32_t* blocks, std::size_t begin,
+                   std::size_t end, double momentum[3]) {
+    const Pack step = m.step;
+    for (int c = 0; c < 3; ++c) {
+      // Summed lane by lane first, so that the sum does not depend on the register width.
+      Pack sum[block / width];
+      for (Pack& s : sum) s = 0.0;
+      for (std::size_t b = begin; b < end; ++b) {
+        for (std::ptrdiff_t part = 0; part < block / width; ++part) {
+          const std::ptrdiff_t i = std::ptrdiff_t(blocks[b]) + part * width;
+          const Pack before = load(m.velocity[c] + i);
+          const Pack after = before + step * (load(m.inverse_mass + i) * load(m.force[c] + i));
+          sum[part] += load(m.mass + i) * before;
+          store(m.displacement[c] + i,
+                load(m.displacement[c] + i) + step * (m.symplectic ? after : before));
+          store(m.velocity[c] + i, after);
+        }
+      }
+      double lane[block];
+      for (std::ptrdiff_t part = 0; part < block / width; ++part) {
+        store(lane + part * width, sum[part]);
+      }
+      momentum[c] = 0.0;
+      for (const double value : lane) momentum[c] += value;
+    }
+  }
+
+  static Kernel select(const Variant& variant) {
+    if (variant.finite) {
+      return variant.cells ? Kernel{gather<true, true, true>, cells<true, true>}
+                           : Kernel{gather<true, true, false>, nullptr};
+    }
+    if (variant.rates) {
+      return variant.cells ? Kernel{gather<false, true, true>, cells<false, true>}
+                           : Kernel{gather<false, true, false>, nullptr};
+    }
+    return variant.cells ? Kernel{gather<false, false, true>, cells<false, false>}
+                         : Kernel{gather<false, false, false>, nullptr};
+  }
+};
+
+}  // namespace fingertip::lattice::kernel

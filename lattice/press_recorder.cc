@@ -1,0 +1,131 @@
+#include "lattice/press_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lattice/energy.h"
+
+namespace fingertip::lattice {
+
+using meshes::Vector3;
+
+namespace {
+
+constexpr int even_depths = 60;
+
+}  // namespace
+
+PressRecorder::PressRecorder(const meshes::PressProtocol& protocol, const Plane& plane,
+                             const Finger& finger, PressOutcome& outcome)
+    : normal_(plane.normal), finger_(&finger), outcome_(&outcome) {
+  const auto samples =
+      protocol.samples.empty() ? meshes::default_samples(protocol.depth) : protocol.samples;
+  depths_ = samples;
+  for (int i = 1; i <= even_depths; ++i) {
+    const double depth = protocol.depth * i / even_depths;
+    const bool known = std::any_of(samples.begin(), samples.end(), [&](double sample) {
+      return std::abs(sample - depth) < 1e-6 * protocol.depth;
+    });
+    if (!known) depths_.push_back(depth);
+  }
+  std::sort(depths_.begin(), depths_.end());
+  for (const double depth : depths_) {
+    is_sample_.push_back(std::find(samples.begin(), samples.end(), depth) != samples.end());
+  }
+  find_boundary();
+}
+
+void PressRecorder::find_boundary() {
+  const LatticeModel& model = finger_->model();
+  std::vector<int> number(model.points(), -1);
+  for (std::size_t b = 0; b < model.boundary.size(); ++b) {
+    number[model.boundary[b]] = int(b);
+    outcome_->boundary_rest.push_back(model.rest_position(model.boundary[b]));
+  }
+  for (const std::size_t i : model.boundary) {
+    for (int s = 0; s < directions; ++s) {
+      if (half_stencil[std::size_t(s)].family != axis) continue;
+      const std::size_t j = i + std::size_t(neighbour_offset(model.grid.size, s));
+      if (number[j] >= 0) outcome_->boundary_springs.push_back({number[i], number[j]});
+    }
+  }
+}
+
+meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
+                                                  double indentation) const {
+  const double fraction = (indentation - previous_.indentation) /
+                          (end.indentation - previous_.indentation);
+  const auto between = [fraction](const auto& from, const auto& to) {
+    return (from + fraction * (to - from));
+  };
+  const Vector3 force = between(previous_.bond.force, end.bond.force).eval();
+  const Vector3 torque = between(previous_.bond.torque, end.bond.torque).eval();
+  const Vector3 t1 = (Vector3::UnitX() - normal_ * normal_.x()).normalized();
+  const Vector3 t2 = t1.cross(normal_);
+  meshes::PressSample sample;
+  sample.indentation = indentation;
+  sample.normal_force = force.dot(normal_);
+  sample.lateral_force_x = force.dot(t1);
+  sample.lateral_force_y = force.dot(t2);
+  sample.torque_x = torque.x();
+  sample.torque_y = torque.y();
+  sample.torque_z = torque.z();
+  sample.contact_radius = finger_->contact().radius();
+  sample.time = between(previous_.time, end.time);
+  return sample;
+}
+
+bool PressRecorder::add_step(const PressInstant& start) {
+  plane_impulse_ += finger_->plane_impulse().dot(normal_);
+  if (std::isnan(outcome_->first_touch_time) && finger_->contact().anchored() > 0) {
+    outcome_->first_touch_time = finger_->time();
+  }
+  bool passed_sample = false;
+  while (next_ < depths_.size() && start.indentation >= depths_[next_]) {
+    outcome_->response.append(sample_between(start, depths_[next_]));
+    passed_sample = passed_sample || is_sample_[next_] != 0;
+    ++next_;
+  }
+  previous_ = start;
+  return passed_sample;
+}
+
+void PressRecorder::add_trace(const PressInstant& now, const SetPoint& commanded,
+                              const Wrench& applied) {
+  const RodState& rod = finger_->rod();
+  const double elapsed = now.time - plane_since_;
+  TraceRow row;
+  row.time = now.time;
+  row.indentation = now.indentation;
+  row.commanded_speed = commanded.speed;
+  row.speed = -rod.velocity_at(rod.endpoint()).dot(normal_);
+  row.tilt = Eigen::AngleAxisd(rod.pose().orientation).angle();
+  row.normal_force = now.bond.force.dot(normal_);
+  row.lateral_force = (now.bond.force - normal_ * row.normal_force).norm();
+  row.torque = now.bond.torque.norm();
+  row.command_force = -applied.force.dot(normal_);
+  row.plane_force = elapsed > 0.0 ? plane_impulse_ / elapsed : 0.0;
+  row.anchored = finger_->contact().anchored();
+  row.kinetic_energy = lattice::kinetic_energy(finger_->model(), finger_->state());
+  row.elastic_energy = finger_->elastic_energy();
+  outcome_->trace.push_back(row);
+  plane_impulse_ = 0.0;
+  plane_since_ = now.time;
+}
+
+void PressRecorder::update(double wall_time) {
+  const LatticeModel& model = finger_->model();
+  outcome_->simulated_time = finger_->time();
+  outcome_->wall_time = wall_time;
+  outcome_->momentum_defect = finger_->largest_impulse() > 0.0
+                                  ? finger_->momentum_defect() / finger_->largest_impulse()
+                                  : 0.0;
+  outcome_->boundary_deformed.resize(model.boundary.size());
+  outcome_->boundary_anchored.resize(model.boundary.size());
+  for (std::size_t b = 0; b < model.boundary.size(); ++b) {
+    outcome_->boundary_deformed[b] = position(model, finger_->state(), model.boundary[b]);
+    outcome_->boundary_anchored[b] = finger_->contact().holds(b);
+  }
+}
+
+}  // namespace fingertip::lattice

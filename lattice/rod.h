@@ -1,0 +1,83 @@
+/// The rigid rod: six degrees of freedom, its inertia from its shape (paper, section III and Fig. 1).
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "lattice/settings.h"
+#include "meshes/geometry.h"
+
+namespace fingertip::lattice {
+
+/// A force [N] and a torque [N m] about a stated point, in world axes.
+struct Wrench {
+  meshes::Vector3 force = meshes::Vector3::Zero();
+  meshes::Vector3 torque = meshes::Vector3::Zero();
+};
+
+/// Where a rigid body is: x = position + orientation * X for a body-frame point X.
+struct Pose {
+  meshes::Vector3 position = meshes::Vector3::Zero();                    ///< [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+
+  meshes::Vector3 operator*(const meshes::Vector3& body_point) const {
+    return position + orientation * body_point;
+  }
+};
+
+/// Mass properties of the cylinder (radius r, from z = 0 to -l) with the hemisphere on top, in the
+/// finger's frame.
+struct RodBody {
+  double mass = 0.0;                                          ///< M [kg]
+  meshes::Vector3 centre = meshes::Vector3::Zero();           ///< centre of mass [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();          ///< about the centre of mass [kg m²]
+  meshes::Vector3 endpoint = meshes::Vector3::Zero();         ///< (0, 0, -l) [m]
+
+  /// 6 x 6 inertia about the endpoint: (force, torque) = I (acceleration, angular acceleration)
+  /// for a body at rest in its starting orientation.
+  Eigen::Matrix<double, 6, 6> inertia_at_endpoint() const;
+};
+
+RodBody rod_body(const meshes::Geometry& geometry, const RodSettings& settings);
+
+/// Motion of the rod. Momentum and angular momentum are the state, so that without forces both are
+/// conserved to round-off and the gyroscopic term needs no formula of its own.
+class RodState {
+ public:
+  /// At rest where the geometry puts it.
+  explicit RodState(const RodBody& body);
+
+  Pose pose() const;                               ///< of the finger's frame
+  meshes::Vector3 endpoint() const { return pose() * body_.endpoint; }
+  const meshes::Vector3& centre() const { return centre_; }  ///< centre of mass [m]
+  meshes::Vector3 velocity() const { return momentum_ / body_.mass; }  ///< of the centre [m/s]
+  meshes::Vector3 angular_velocity() const;        ///< [rad/s], world axes
+  meshes::Vector3 velocity_at(const meshes::Vector3& point) const;  ///< of the rod at a world point
+  const meshes::Vector3& momentum() const { return momentum_; }             ///< [N s]
+  const meshes::Vector3& angular_momentum() const { return spin_; }  ///< about the centre [N m s]
+  double kinetic_energy() const;                   ///< [J]
+  const RodBody& body() const { return body_; }
+
+  /// Changes the momenta by `wrench` about world point `at` acting for `duration` [s].
+  void kick(const Wrench& wrench, const meshes::Vector3& at, double duration);
+  /// Moves with the present velocities for `duration` [s].
+  void drift(double duration);
+  /// Puts the rod, in its starting orientation, at `travel` [m] with velocity [m/s], not turning.
+  void prescribe(const meshes::Vector3& travel, const meshes::Vector3& velocity);
+  /// Sets velocity of the centre and angular velocity (world axes).
+  void set_velocity(const meshes::Vector3& velocity, const meshes::Vector3& angular_velocity);
+
+ private:
+  Eigen::Matrix3d world_inertia() const;
+
+  RodBody body_;
+  meshes::Vector3 centre_;
+  Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();
+  meshes::Vector3 momentum_ = meshes::Vector3::Zero();
+  meshes::Vector3 spin_ = meshes::Vector3::Zero();
+};
+
+/// Rotation by the vector `turn` (axis times angle [rad]).
+Eigen::Quaterniond rotation_by(const meshes::Vector3& turn);
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,88 @@
+#include "lattice/settings.h"
+
+#include <cmath>
+
+#include "meshes/files.h"
+
+namespace fingertip::lattice {
+
+using meshes::Violation;
+
+std::string_view name(Integrator integrator) {
+  return integrator == Integrator::symplectic_euler ? "symplectic-euler" : "explicit-euler";
+}
+
+namespace {
+
+bool positive(double value) { return std::isfinite(value) && value > 0.0; }
+bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
+
+void add_lattice(std::vector<Violation>& found, const PressSetup& setup) {
+  const LatticeSettings& l = setup.lattice;
+  if (!(positive(l.spacing) && l.spacing <= 0.5 * setup.geometry.thickness())) {
+    found.push_back({"lattice.spacing", meshes::to_text(l.spacing) + " m",
+                     "the spacing must be positive and at most (R - r)/2, two cells through the "
+                     "rubber",
+                     "choose a finer lattice"});
+  }
+  if (!(l.offset.allFinite() && l.offset.cwiseAbs().maxCoeff() <= 1.0)) {
+    found.push_back({"lattice.offset", "",
+                     "every component of the offset must lie between -1 and 1 spacing",
+                     "shift the grid by less"});
+  }
+  const SpringConstants& k = l.constants;
+  const bool springs = not_negative(k.k1) && not_negative(k.k2) && not_negative(k.k3) &&
+                       k.k1 + k.k2 + k.k3 > 0.0 && std::isfinite(k.kappa);
+  if (!springs) {
+    found.push_back({"lattice.constants",
+                     "k1 " + meshes::to_text(k.k1) + ", k2 " + meshes::to_text(k.k2) + ", k3 " +
+                         meshes::to_text(k.k3) + " N/m",
+                     "spring constants must be finite, not negative and not all zero",
+                     "use the model's closed form or a calibration"});
+  }
+  if (!positive(l.ligament_stiffness)) {
+    found.push_back({"lattice.ligament_stiffness", meshes::to_text(l.ligament_stiffness),
+                     "the factor on the ligaments must be finite and positive",
+                     "1 is the standard ligament"});
+  }
+}
+
+void add_controller(std::vector<Violation>& found, const PidSettings& c) {
+  const auto require = [&](double value, const char* key, const char* unit, const char* what) {
+    if (positive(value)) return;
+    found.push_back({key, meshes::to_text(value) + unit, what, "give a positive value"});
+  };
+  require(c.period, "controller.period", " s", "the sampling period must be finite and positive");
+  require(c.natural_frequency, "controller.natural_frequency", " Hz",
+          "the closed loop's natural frequency must be finite and positive");
+  require(c.derivative_filter, "controller.derivative_filter", "",
+          "the derivative filter's N must be finite and positive");
+  require(c.force_limit, "controller.force_limit", " N",
+          "the actuator's force limit must be finite and positive");
+  require(c.torque_limit, "controller.torque_limit", " N m",
+          "the actuator's torque limit must be finite and positive");
+}
+
+}  // namespace
+
+std::vector<Violation> PressSetup::violations() const {
+  std::vector<Violation> found = geometry.violations();
+  const auto append = [&found](const std::vector<Violation>& more) {
+    found.insert(found.end(), more.begin(), more.end());
+  };
+  append(rubber.violations());
+  append(protocol.violations(geometry));
+  add_lattice(found, *this);
+  if (!positive(rod.density)) {
+    found.push_back({"rod.density", meshes::to_text(rod.density) + " kg/m^3",
+                     "the rod's density must be finite and positive", "aluminium has 2700"});
+  }
+  add_controller(found, controller);
+  if (threads < 0) {
+    found.push_back({"run.threads", std::to_string(threads),
+                     "the number of threads must not be negative", "0 takes all cores"});
+  }
+  return found;
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,65 @@
+/// Everything that defines a lattice press, apart from the specimen itself.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "lattice/constants.h"
+#include "meshes/errors.h"
+#include "meshes/geometry.h"
+#include "meshes/press_protocol.h"
+#include "meshes/rubber.h"
+
+namespace fingertip::lattice {
+
+/// Time integration of x' = v, v' = f/m.
+enum class Integrator {
+  symplectic_euler,  ///< v first, then x with the new v; the default
+  explicit_euler,    ///< as printed in the paper's Fig. 4: x with the old v, then v
+};
+std::string_view name(Integrator integrator);
+
+/// The lattice of the tip.
+struct LatticeSettings {
+  ModelKind model = ModelKind::hookean;
+  Kinematics kinematics = Kinematics::small;
+  double spacing = 0.01 / 12.0;                        ///< a [m], at most (R - r)/2
+  meshes::Vector3 offset = meshes::Vector3::Zero();    ///< shift of the grid in units of a
+  SpringConstants constants;                           ///< for this spacing
+  double ligament_stiffness = 1.0;                     ///< multiplies the ligaments' k = E a
+};
+
+/// The rigid rod: its shape comes from the geometry.
+struct RodSettings {
+  double density = 2700.0;  ///< [kg/m³]
+};
+
+/// The 6-degree-of-freedom PID at the rod's endpoint. Gains follow from the rod's inertia and a
+/// triple closed-loop pole at the natural frequency (README of control/).
+struct PidSettings {
+  double period = 1.0e-3;             ///< sampling period, zero-order hold in between [s]
+  double natural_frequency = 60.0;    ///< of the closed loop with the bare rod [Hz]
+  double derivative_filter = 10.0;    ///< N: the derivative is low-passed at N times the natural frequency
+  double bond_compensation = 1.0;     ///< share of the measured bond wrench fed forward, 0 to 1
+  double force_limit = 20.0;          ///< largest force the actuator can exert [N]
+  double torque_limit = 1.0;          ///< largest torque [N m]
+};
+
+/// The complete order for one press.
+struct PressSetup {
+  meshes::Geometry geometry;
+  meshes::Rubber rubber;
+  meshes::PressProtocol protocol;
+  LatticeSettings lattice;
+  RodSettings rod;
+  PidSettings controller;
+  Integrator integrator = Integrator::symplectic_euler;
+  std::optional<double> time_step;  ///< [s]; the largest safe one when absent
+  int threads = 0;                  ///< 0: all cores. The result does not depend on it.
+
+  /// Every broken rule of specimen, protocol, lattice, rod and controller.
+  std::vector<meshes::Violation> violations() const;
+};
+
+}  // namespace fingertip::lattice

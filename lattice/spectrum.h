@@ -1,0 +1,29 @@
+/// How stiff and how viscous the lattice can get: bounds on the eigenvalues that limit an explicit
+/// time step.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lattice/model.h"
+#include "lattice/rod.h"
+
+namespace fingertip::lattice {
+
+/// What limits the step, over all motions of particles and rod (README: stable steps).
+struct SpectralBounds {
+  double stiffness = 0.0;         ///< lambda: largest eigenvalue of M⁻¹K is at most this [1/s²]
+  double damping = 0.0;           ///< c: largest eigenvalue of M⁻¹C is at most this [1/s]
+  double shortest_retardation = 0.0;  ///< smallest mu/k of any spring, cell or ligament [s]
+  double longest_retardation = 0.0;   ///< largest mu/k [s]
+};
+
+/// Spring lattices (published): lambda <= max over particles of the largest eigenvalue of
+/// (2/m) Σ k d̂d̂ᵀ. Cells: the largest eigenvalue of one cell on its own corner masses. Ligaments are
+/// added particle by particle. `rod` null: bonded to a rod that cannot move.
+SpectralBounds spectral_bounds(const LatticeModel& model, const RodBody* rod);
+
+/// Largest eigenvalues by the Lanczos method with the rod held, from below; converged to a few
+/// parts in 10⁴. Retardation times as in spectral_bounds.
+SpectralBounds spectral_estimate(const LatticeModel& model);
+
+}  // namespace fingertip::lattice

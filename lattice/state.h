@@ -1,0 +1,45 @@
+/// What changes in time: displacement and velocity of every particle.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "lattice/model.h"
+
+namespace fingertip::lattice {
+
+/// Three components of a vector per grid point, structure of arrays.
+struct VectorField {
+  std::array<std::vector<double>, 3> component;
+
+  VectorField() = default;
+  explicit VectorField(std::size_t points) {
+    for (auto& c : component) c.assign(points, 0.0);
+  }
+  meshes::Vector3 at(std::size_t point) const {
+    return {component[0][point], component[1][point], component[2][point]};
+  }
+  void set(std::size_t point, const meshes::Vector3& value) {
+    for (std::size_t c = 0; c < 3; ++c) component[c][point] = value[Eigen::Index(c)];
+  }
+  void add(std::size_t point, const meshes::Vector3& value) {
+    for (std::size_t c = 0; c < 3; ++c) component[c][point] += value[Eigen::Index(c)];
+  }
+};
+
+/// World displacement u = x - X and velocity v; zero at points without a particle.
+struct State {
+  VectorField displacement;  ///< [m]
+  VectorField velocity;      ///< [m/s]
+
+  State() = default;
+  explicit State(const LatticeModel& model)
+      : displacement(model.points()), velocity(model.points()) {}
+};
+
+/// x = X + u [m].
+inline meshes::Vector3 position(const LatticeModel& model, const State& state, std::size_t point) {
+  return model.rest_position(point) + state.displacement.at(point);
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,39 @@
+#include "meshes/files.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include <unistd.h>
+
+namespace fingertip::meshes {
+
+void write_atomically(const std::filesystem::path& file,
+                      const std::function<void(std::ostream&)>& write) {
+  std::filesystem::path temporary = file;
+  temporary += ".part" + std::to_string(::getpid());
+  try {
+    std::ofstream out(temporary, std::ios::binary);
+    if (out) write(out);
+    out.close();
+    if (!out) {
+      throw std::runtime_error("cannot write " + file.string() +
+                               ": check that the folder exists, is writable and has space left");
+    }
+    std::filesystem::rename(temporary, file);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw;
+  }
+}
+
+std::string to_text(double value) {
+  if (std::isnan(value)) return {};
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, result.ptr};
+}
+
+}  // namespace fingertip::meshes

@@ -1,0 +1,71 @@
+#include "meshes/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "meshes/files.h"
+
+namespace fingertip::meshes {
+
+std::string_view name(Surface surface) {
+  switch (surface) {
+    case Surface::outer: return "outer";
+    case Surface::bond: return "bond";
+    case Surface::end: return "end";
+  }
+  return "";
+}
+
+std::vector<Violation> Geometry::violations() const {
+  std::vector<Violation> found;
+  const auto require = [&](bool holds, const char* key, double value, const char* rule,
+                           const char* remedy) {
+    if (!holds) found.push_back({key, to_text(value) + " m", rule, remedy});
+  };
+  const auto finite = [](double value) { return std::isfinite(value); };
+  require(finite(tip_radius) && tip_radius > 0.0, "geometry.tip_radius", tip_radius,
+          "R must be finite and positive", "give the outer radius of the rubber");
+  require(finite(rod_radius) && rod_radius > 0.0, "geometry.rod_radius", rod_radius,
+          "r must be finite and positive", "give the radius of the rigid rod");
+  require(!(rod_radius >= tip_radius), "geometry.rod_radius", rod_radius,
+          "r must be smaller than tip_radius R, or there is no rubber",
+          "reduce rod_radius or enlarge tip_radius");
+  require(finite(sleeve_length) && sleeve_length >= 0.0, "geometry.sleeve_length", sleeve_length,
+          "L must be finite and not negative", "give the length of the rubber sleeve, or 0");
+  require(finite(rod_length) && rod_length > 0.0, "geometry.rod_length", rod_length,
+          "l must be finite and positive", "give the length of the rod");
+  require(!(rod_length < sleeve_length), "geometry.rod_length", rod_length,
+          "l must be at least sleeve_length L, for the sleeve sits on the rod",
+          "lengthen the rod or shorten the sleeve");
+  return found;
+}
+
+double Geometry::radial_distance(const Vector3& w) {
+  return w.z() >= 0.0 ? w.norm() : std::hypot(w.x(), w.y());
+}
+
+double Geometry::signed_distance(const Vector3& w) const {
+  const double radial = radial_distance(w);
+  // Beyond either curved surface when positive; its foot point lies at the same height, so this
+  // is the distance wherever w is not below the sleeve's end.
+  const double layer = std::max(radial - tip_radius, rod_radius - radial);
+  const double below = -sleeve_length - w.z();
+  if (below <= 0.0) return std::max(layer, below);
+  return std::hypot(std::max(layer, 0.0), below);
+}
+
+bool Geometry::contains(const Vector3& w, double tolerance) const {
+  const double radial = radial_distance(w);
+  return radial > rod_radius + tolerance && radial <= tip_radius + tolerance &&
+         w.z() >= -sleeve_length - tolerance;
+}
+
+double Geometry::tip_volume() const {
+  const auto cube = [](double x) { return x * x * x; };
+  const auto square = [](double x) { return x * x; };
+  return std::numbers::pi * (2.0 / 3.0 * (cube(tip_radius) - cube(rod_radius)) +
+                             (square(tip_radius) - square(rod_radius)) * sleeve_length);
+}
+
+}  // namespace fingertip::meshes

@@ -1,0 +1,56 @@
+#include "meshes/press_protocol.h"
+
+#include <cmath>
+
+#include "meshes/files.h"
+
+namespace fingertip::meshes {
+
+std::string_view name(ContactMode mode) {
+  return mode == ContactMode::stick ? "stick" : "frictionless";
+}
+
+std::string_view name(DriveMode mode) {
+  return mode == DriveMode::pid ? "pid" : "quasi-static";
+}
+
+std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const {
+  std::vector<Violation> found;
+  const auto require = [&](bool holds, const char* key, std::string value, const char* rule,
+                           const char* remedy) {
+    if (!holds) found.push_back({key, std::move(value), rule, remedy});
+  };
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  require(positive(depth) && depth < geometry.thickness(), "press.depth", to_text(depth) + " m",
+          "the depth must lie between 0 and the rubber's thickness R - r",
+          "press less deep, or make the rubber thicker");
+  require(positive(speed), "press.speed", to_text(speed) + " m/s",
+          "the speed must be finite and positive", "give the approach speed");
+  require(positive(clearance), "press.clearance", to_text(clearance) + " m",
+          "the clearance must be finite and positive",
+          "give the gap between pole and plane at the start");
+  bool increasing = true;
+  double previous = 0.0;
+  for (const double sample : samples) {
+    increasing = increasing && std::isfinite(sample) && sample > previous;
+    previous = sample;
+  }
+  require(increasing, "press.samples", std::to_string(samples.size()) + " depths",
+          "sample depths must be positive and increase", "sort them and drop duplicates");
+  if (increasing && !samples.empty()) {
+    require(samples.back() == depth, "press.samples", to_text(samples.back()) + " m",
+            "the last sample must be the depth of the press", "end the samples at press.depth");
+  }
+  return found;
+}
+
+std::vector<double> default_samples(double depth) {
+  std::vector<double> samples;
+  for (const double thirtieths : {1.0, 2.0, 3.0, 5.0, 7.5, 10.0, 15.0, 20.0, 25.0}) {
+    samples.push_back(depth * thirtieths / 30.0);
+  }
+  samples.push_back(depth);
+  return samples;
+}
+
+}  // namespace fingertip::meshes

@@ -1,0 +1,69 @@
+/// What a press yields, from whichever model: force, torque and contact against indentation.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace fingertip::meshes {
+
+/// A quantity a program does not know; an empty cell in the CSV.
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// One row of response.csv, SI. Signs: n points from the plane toward the rod; normal_force = F·n
+/// >= 0 in compression with F the sum of bond forces on the rod; torque about the rod's endpoint
+/// in the rod's starting axes, right-handed; indentation > 0 when pressed.
+struct PressSample {
+  double indentation = 0.0;        ///< [m]
+  double normal_force = 0.0;       ///< [N]
+  double lateral_force_x = unknown;///< along t1 [N]
+  double lateral_force_y = unknown;///< along t2 [N]
+  double torque_x = unknown;       ///< [N m]
+  double torque_y = unknown;       ///< [N m]
+  double torque_z = unknown;       ///< [N m]
+  double contact_radius = unknown; ///< [m]
+  double max_pressure = unknown;   ///< [Pa]
+  double force_error = unknown;    ///< estimated error of normal_force [N]
+  double time = unknown;           ///< since the start of the press [s]; empty for static runs
+};
+
+/// A curve of samples by increasing indentation.
+class PressResponse {
+ public:
+  PressResponse() = default;
+  explicit PressResponse(std::vector<PressSample> samples) : samples_(std::move(samples)) {}
+
+  const std::vector<PressSample>& samples() const { return samples_; }
+  bool empty() const { return samples_.empty(); }
+  void append(const PressSample& sample) { samples_.push_back(sample); }
+
+  /// Largest indentation reached [m]; 0 when empty.
+  double depth() const { return samples_.empty() ? 0.0 : samples_.back().indentation; }
+
+  /// Normal force [N] at `indentation` [m] by monotone piecewise-cubic interpolation
+  /// (Fritsch & Carlson 1980) through the samples and the origin, so that it never overshoots.
+  /// Throws std::out_of_range beyond the largest sample or below zero.
+  double normal_force_at(double indentation) const;
+
+  /// Writes the CSV whose first line holds names with units (see README), atomically.
+  void write_csv(const std::filesystem::path& file) const;
+
+  /// Reads a CSV with at least the columns `indentation [m]` and `normal_force [N]`; others may
+  /// be missing or empty. Throws InvalidInput naming file and line for a missing column, a cell
+  /// that is no number, a truncated row, or indentations that do not increase.
+  static PressResponse read_csv(const std::filesystem::path& file);
+
+ private:
+  std::vector<PressSample> samples_;
+};
+
+/// (F(indentation) - F_ref(indentation)) / F_ref(indentation), dimensionless.
+double relative_force_error(const PressResponse& response, const PressResponse& reference,
+                            double indentation);
+
+/// sqrt(∫(F - F_ref)² / ∫F_ref²) over [from, to] [m], by the trapezoidal rule on 200 intervals.
+double relative_l2_force_error(const PressResponse& response, const PressResponse& reference,
+                               double from, double to);
+
+}  // namespace fingertip::meshes

@@ -1,0 +1,34 @@
+/// Linear isotropic rubber, given by Young's and shear modulus as in the paper (section II.E).
+#pragma once
+
+#include <vector>
+
+#include "meshes/errors.h"
+
+namespace fingertip::meshes {
+
+/// SI units. Valid for E > 0, G > E/3 (equivalently -1 < nu < 1/2), rho > 0, tau >= 0.
+struct Rubber {
+  double youngs_modulus = 3922.66;    ///< E [Pa]; default 40 gf/cm²
+  double shear_modulus = 1372.931;    ///< G [Pa]; default 14 gf/cm²
+  double density = 500.0;             ///< rho [kg/m³]
+  double retardation_time = 0.3e-3;   ///< tau of the Kelvin-Voigt damping [s], tan d = omega tau
+
+  std::vector<Violation> violations() const;
+
+  double poissons_ratio() const { return youngs_modulus / (2.0 * shear_modulus) - 1.0; }
+  /// K = E G / (3 (3G - E)) [Pa]
+  double bulk_modulus() const {
+    return youngs_modulus * shear_modulus / (3.0 * (3.0 * shear_modulus - youngs_modulus));
+  }
+  /// First Lamé constant, lambda = K - 2G/3 [Pa]
+  double lame_lambda() const { return bulk_modulus() - 2.0 / 3.0 * shear_modulus; }
+  /// Modulus of a laterally confined layer, lambda + 2G [Pa]
+  double longitudinal_modulus() const { return lame_lambda() + 2.0 * shear_modulus; }
+  /// c_p = sqrt((lambda + 2G)/rho) [m/s]
+  double longitudinal_wave_speed() const;
+  /// c_s = sqrt(G/rho) [m/s]
+  double shear_wave_speed() const;
+};
+
+}  // namespace fingertip::meshes

@@ -1,0 +1,360 @@
+#include "meshes/volume_mesh.h"
+
+#include <gmsh.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace fingertip::meshes {
+namespace {
+
+/// The diagonal corner of the cap lies this much further from the pole than the two on the
+/// meridians: it opens the obtuse angle of that corner (measured in README).
+constexpr double diagonal_stretch = 1.2;
+
+/// gmsh keeps one global state; this opens and closes it, and keeps it quiet.
+class GmshSession {
+ public:
+  GmshSession() {
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.NumThreads", 1);
+    gmsh::model::add("tip");
+  }
+  ~GmshSession() { gmsh::finalize(); }
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+};
+
+enum Layer { inner = 0, outer_layer = 1 };
+enum Ring { pole = 0, cap = 1, equator = 2, end_ring = 3 };
+
+/// A corner of the block structure.
+struct Corner {
+  int layer = inner;
+  int ring = pole;
+  int azimuth = 0;  ///< in steps of 45 degrees; 0 at the pole
+  auto operator<=>(const Corner&) const = default;
+};
+
+using Quad = std::array<Corner, 4>;  ///< around the face
+
+/// The blocks as gmsh entities. Every entity is made once, on first use, and found again by its
+/// corners, so that neighbouring blocks share it and no coincident nodes arise.
+class BlockStructure {
+ public:
+  BlockStructure(const Geometry& geometry, const TipMeshOptions& options)
+      : geometry_(geometry), options_(options) {
+    centre_ = gmsh::model::geo::addPoint(0, 0, 0);
+    end_centre_ = gmsh::model::geo::addPoint(0, 0, -geometry.sleeve_length);
+  }
+
+  /// The block between an inner and an outer face; `face` names the corners of one of them.
+  void add_block(const Quad& face) {
+    std::array<Quad, 6> quads;
+    for (const int layer : {inner, outer_layer}) {
+      quads[std::size_t(layer)] = face;
+      for (Corner& corner : quads[std::size_t(layer)]) corner.layer = layer;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t next = (i + 1) % 4;
+      quads[2 + i] = {quads[0][i], quads[0][next], quads[1][next], quads[1][i]};
+    }
+    std::vector<int> surfaces, corners;
+    for (const Quad& quad : quads) surfaces.push_back(surface(quad));
+    for (const int layer : {inner, outer_layer})
+      for (const Corner& corner : quads[std::size_t(layer)]) corners.push_back(point(corner));
+    const int volume = gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop(surfaces)});
+    gmsh::model::geo::mesh::setTransfiniteVolume(volume, corners);
+    volumes_.push_back(volume);
+  }
+
+  const std::vector<int>& volumes() const { return volumes_; }
+
+  /// Tags of the surfaces all of whose corners satisfy `belongs`.
+  template <class Predicate>
+  std::vector<int> surfaces_where(Predicate belongs) const {
+    std::vector<int> tags;
+    for (const auto& [corners, tag] : surfaces_)
+      if (std::ranges::all_of(corners, belongs)) tags.push_back(tag);
+    return tags;
+  }
+
+ private:
+  double radius(const Corner& corner) const {
+    return corner.layer == inner ? geometry_.rod_radius : geometry_.tip_radius;
+  }
+
+  int point(const Corner& corner) {
+    const auto found = points_.find(corner);
+    if (found != points_.end()) return found->second;
+    // Multiples of 45 degrees from a table, so that the symmetry planes are met exactly.
+    constexpr double d = std::numbers::sqrt2 / 2;
+    static constexpr std::array<double, 8> cosine{1, d, 0, -d, -1, -d, 0, d};
+    const double c = cosine[std::size_t(corner.azimuth)];
+    const double s = cosine[std::size_t(corner.azimuth + 6) % 8];
+    const double r = radius(corner);
+    double rho = r, z = 0;
+    if (corner.ring == pole) {
+      rho = 0, z = r;
+    } else if (corner.ring == cap) {
+      const double angle =
+          options_.cap_angle * (corner.azimuth % 2 == 1 ? diagonal_stretch : 1.0);
+      rho = r * std::sin(angle), z = r * std::cos(angle);
+    } else if (corner.ring == end_ring) {
+      z = -geometry_.sleeve_length;
+    }
+    return points_[corner] = gmsh::model::geo::addPoint(rho * c, rho * s, z);
+  }
+
+  /// The curve between two corners, directed from the smaller to the larger one.
+  int curve(Corner a, Corner b) {
+    if (b < a) std::swap(a, b);
+    const auto found = curves_.find({a, b});
+    if (found != curves_.end()) return found->second;
+    const bool straight = a.layer != b.layer || (a.ring != b.ring && b.ring == end_ring);
+    const int centre = a.ring == end_ring ? end_centre_ : centre_;
+    const int tag = straight ? gmsh::model::geo::addLine(point(a), point(b))
+                             : gmsh::model::geo::addCircleArc(point(a), centre, point(b));
+    divide(tag, a, b);
+    return curves_[{a, b}] = tag;
+  }
+
+  /// Sets the element count and grading of a curve.
+  void divide(int tag, const Corner& a, const Corner& b) const {
+    int elements = options_.cap_elements;
+    double last_over_first = 1.0;
+    if (a.layer != b.layer) {
+      elements = options_.radial_elements;
+      last_over_first = 1.0 / options_.radial_grading;
+    } else if (a.ring == pole) {
+      last_over_first = options_.cap_grading;
+    } else if (a.ring == cap && b.ring == equator) {
+      elements = options_.ring_elements;
+    } else if (a.ring == equator && b.ring == end_ring) {
+      elements = options_.sleeve_elements;
+    }
+    gmsh::model::geo::mesh::setTransfiniteCurve(tag, elements + 1, "Progression",
+                                                std::pow(last_over_first, 1.0 / (elements - 1)));
+  }
+
+  int surface(const Quad& corners) {
+    Quad key = corners;
+    std::ranges::sort(key);
+    const auto found = surfaces_.find(key);
+    if (found != surfaces_.end()) return found->second;
+    std::vector<int> loop, points;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Corner &from = corners[i], &to = corners[(i + 1) % 4];
+      loop.push_back(from < to ? curve(from, to) : -curve(from, to));
+      points.push_back(point(from));
+    }
+    const bool on_sphere = std::ranges::all_of(corners, [&](const Corner& corner) {
+      return corner.layer == corners[0].layer && corner.ring != end_ring;
+    });
+    const int tag = gmsh::model::geo::addSurfaceFilling({gmsh::model::geo::addCurveLoop(loop)}, -1,
+                                                        on_sphere ? centre_ : -1);
+    gmsh::model::geo::mesh::setTransfiniteSurface(tag, "Left", points);
+    gmsh::model::geo::mesh::setRecombine(2, tag);
+    return surfaces_[key] = tag;
+  }
+
+  const Geometry& geometry_;
+  const TipMeshOptions& options_;
+  int centre_ = 0, end_centre_ = 0;
+  std::map<Corner, int> points_;
+  std::map<std::pair<Corner, Corner>, int> curves_;
+  std::map<Quad, int> surfaces_;
+  std::vector<int> volumes_;
+};
+
+void add_quarter(BlockStructure& blocks, int first_azimuth, bool sleeve) {
+  const int a0 = first_azimuth, a1 = a0 + 1, a2 = (a0 + 2) % 8;
+  blocks.add_block({Corner{0, pole, 0}, {0, cap, a0}, {0, cap, a1}, {0, cap, a2}});
+  for (const auto& [from, to] : {std::pair{a0, a1}, std::pair{a1, a2}}) {
+    blocks.add_block({Corner{0, cap, from}, {0, equator, from}, {0, equator, to}, {0, cap, to}});
+    if (sleeve)
+      blocks.add_block(
+          {Corner{0, equator, from}, {0, end_ring, from}, {0, end_ring, to}, {0, equator, to}});
+  }
+}
+
+void name_groups(const BlockStructure& blocks, bool sleeve, Sector sector) {
+  const auto group = [](int dimension, const std::vector<int>& tags, PhysicalTag tag,
+                        const char* group_name) {
+    gmsh::model::addPhysicalGroup(dimension, tags, int(tag));
+    gmsh::model::setPhysicalName(dimension, int(tag), group_name);
+  };
+  group(3, blocks.volumes(), PhysicalTag::tip, "tip");
+  group(2, blocks.surfaces_where([](const Corner& c) { return c.layer == outer_layer; }),
+        PhysicalTag::outer, "outer");
+  group(2, blocks.surfaces_where([](const Corner& c) { return c.layer == inner; }),
+        PhysicalTag::bond, "bond");
+  const int last = sleeve ? end_ring : equator;
+  group(2, blocks.surfaces_where([last](const Corner& c) { return c.ring == last; }),
+        PhysicalTag::end, "end");
+  if (sector == Sector::full) return;
+  group(2, blocks.surfaces_where([](const Corner& c) { return c.ring == pole || c.azimuth == 2; }),
+        PhysicalTag::symmetry_x, "symmetry_x");
+  group(2, blocks.surfaces_where([](const Corner& c) { return c.ring == pole || c.azimuth == 0; }),
+        PhysicalTag::symmetry_y, "symmetry_y");
+}
+
+/// Moves the nodes of `surface` that gmsh left off the sphere or cylinder onto it.
+void snap(PhysicalTag surface, double radius) {
+  std::vector<std::size_t> tags;
+  std::vector<double> coordinates;
+  gmsh::model::mesh::getNodesForPhysicalGroup(2, int(surface), tags, coordinates);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const Vector3 w(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
+    const double factor = radius / Geometry::radial_distance(w);
+    const double x = w.x() * factor, y = w.y() * factor;
+    const double z = w.z() > 0 ? w.z() * factor : w.z();
+    gmsh::model::mesh::setNode(tags[i], {x, y, z}, {});
+  }
+}
+
+struct Hexahedra {
+  std::map<std::size_t, Vector3> nodes;
+  std::vector<std::array<std::size_t, 8>> elements;
+};
+
+Hexahedra read_hexahedra() {
+  Hexahedra mesh;
+  std::vector<std::size_t> tags, element_tags, nodes;
+  std::vector<double> coordinates, parameters;
+  gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+  std::map<std::size_t, Vector3> all;
+  for (std::size_t i = 0; i < tags.size(); ++i)
+    all[tags[i]] = {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
+  const int hexahedron = gmsh::model::mesh::getElementType("hexahedron", 1);
+  gmsh::model::mesh::getElementsByType(hexahedron, element_tags, nodes);
+  mesh.elements.resize(element_tags.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    mesh.elements[i / 8][i % 8] = nodes[i];
+    mesh.nodes[nodes[i]] = all.at(nodes[i]);
+  }
+  return mesh;
+}
+
+/// Jacobian determinants of a straight-sided hexahedron at its corners, where the extremes of
+/// what one can check cheaply lie, plain and divided by the lengths of the three edges.
+std::array<std::pair<double, double>, 8> corner_jacobians(const std::array<Vector3, 8>& w) {
+  // gmsh numbers the bottom face 0-3 and the top face 4-7, both in the same sense.
+  std::array<std::pair<double, double>, 8> result;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const std::size_t base = i / 4 * 4, k = i % 4;
+    const Vector3 next = w[base + (k + 1) % 4] - w[i];
+    const Vector3 previous = w[base + (k + 3) % 4] - w[i];
+    const Vector3 across = w[(i + 4) % 8] - w[i];
+    const double sign = base == 0 ? 1.0 : -1.0;
+    const double jacobian = sign * next.cross(previous).dot(across);
+    result[i] = {jacobian, jacobian / (next.norm() * previous.norm() * across.norm())};
+  }
+  return result;
+}
+
+/// ∫ det J over the unit cube by the 2 x 2 x 2 Gauss rule, exact for trilinear maps.
+double hexahedra_volume() {
+  std::vector<double> points, weights, jacobians, determinants, coordinates;
+  const int hexahedron = gmsh::model::mesh::getElementType("hexahedron", 1);
+  gmsh::model::mesh::getIntegrationPoints(hexahedron, "Gauss2", points, weights);
+  gmsh::model::mesh::getJacobians(hexahedron, points, jacobians, determinants, coordinates);
+  double volume = 0.0;
+  for (std::size_t i = 0; i < determinants.size(); ++i)
+    volume += determinants[i] * weights[i % weights.size()];
+  return volume;
+}
+
+MeshQuality measure() {
+  const Hexahedra mesh = read_hexahedra();
+  MeshQuality quality;
+  quality.hexahedra = mesh.elements.size();
+  quality.nodes = mesh.nodes.size();
+  quality.volume = hexahedra_volume();
+  quality.min_jacobian = quality.min_scaled_jacobian = std::numeric_limits<double>::infinity();
+  for (const auto& element : mesh.elements) {
+    std::array<Vector3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) corners[i] = mesh.nodes.at(element[i]);
+    for (const auto& [jacobian, scaled] : corner_jacobians(corners)) {
+      quality.min_jacobian = std::min(quality.min_jacobian, jacobian);
+      quality.min_scaled_jacobian = std::min(quality.min_scaled_jacobian, scaled);
+    }
+  }
+  return quality;
+}
+
+MeshQuality mesh_tip(const Geometry& geometry, const TipMeshOptions& options,
+                     const std::filesystem::path& file) {
+  const GmshSession session;
+  const bool sleeve = geometry.sleeve_length > 0.0;
+  BlockStructure blocks(geometry, options);
+  for (int azimuth = 0; azimuth < (options.sector == Sector::full ? 8 : 2); azimuth += 2)
+    add_quarter(blocks, azimuth, sleeve);
+  gmsh::model::geo::synchronize();
+  name_groups(blocks, sleeve, options.sector);
+  gmsh::model::mesh::generate(3);
+  snap(PhysicalTag::outer, geometry.tip_radius);
+  snap(PhysicalTag::bond, geometry.rod_radius);
+
+  const MeshQuality quality = measure();
+  if (!(quality.min_jacobian > 0.0))
+    throw NotConverged("the mesh of the tip has an inverted element (smallest Jacobian " +
+                       std::to_string(quality.min_jacobian) + " m^3); use a milder grading");
+  gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
+  gmsh::write(file.string());
+  return quality;
+}
+
+}  // namespace
+
+TipMeshOptions TipMeshOptions::refined(double factor) const {
+  TipMeshOptions result = *this;
+  for (int* count : {&result.cap_elements, &result.ring_elements, &result.sleeve_elements,
+                     &result.radial_elements})
+    *count = std::max(2, int(std::lround(*count * factor)));
+  return result;
+}
+
+std::vector<Violation> TipMeshOptions::violations() const {
+  std::vector<Violation> broken;
+  const auto require = [&](bool valid, const char* key, double value, const char* rule,
+                           const char* remedy) {
+    if (!valid) broken.push_back({std::string("mesh.") + key, std::to_string(value), rule, remedy});
+  };
+  for (const auto& [key, count] : {std::pair{"cap_elements", cap_elements},
+                                   std::pair{"ring_elements", ring_elements},
+                                   std::pair{"sleeve_elements", sleeve_elements},
+                                   std::pair{"radial_elements", radial_elements}})
+    require(count >= 2 && count <= 500, key, count, "must be between 2 and 500",
+            "choose a count in this range");
+  for (const auto& [key, ratio] : {std::pair{"cap_grading", cap_grading},
+                                   std::pair{"radial_grading", radial_grading}})
+    require(ratio >= 1.0 && ratio <= 20.0, key, ratio, "must be between 1 and 20",
+            "choose 1 for equal elements");
+  require(cap_angle >= 0.2 && cap_angle <= 1.2, "cap_angle", cap_angle,
+          "must be between 0.2 and 1.2 rad", "keep the cap off the pole and the equator");
+  return broken;
+}
+
+MeshQuality write_tip_mesh(const Geometry& geometry, const TipMeshOptions& options,
+                           const std::filesystem::path& file) {
+  std::vector<Violation> broken = geometry.violations();
+  for (const Violation& violation : options.violations()) broken.push_back(violation);
+  if (!broken.empty()) throw InvalidInput(broken);
+  try {
+    return mesh_tip(geometry, options, file);
+  } catch (const std::string& message) {  // gmsh's way of failing
+    throw NotConverged("gmsh could not mesh the tip: " + message);
+  }
+}
+
+}  // namespace fingertip::meshes

@@ -1,0 +1,53 @@
+/// The continuum's mesh of the tip: block-structured, all-hexahedral, made by gmsh.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "meshes/geometry.h"
+
+namespace fingertip::meshes {
+
+/// How much of the tip is meshed. A press along the axis has two symmetry planes, so its quarter
+/// x >= 0, y >= 0 tells everything.
+enum class Sector { quarter, full };
+
+/// Numbers of the physical groups in the mesh file, for readers that do not keep the names.
+enum class PhysicalTag { tip = 1, outer = 2, bond = 3, end = 4, symmetry_x = 5, symmetry_y = 6 };
+
+/// Element counts of the blocks. The quarter is five blocks, each spanning the rubber layer: a cap around the
+/// pole, two blocks from the cap to the equator, two blocks of the sleeve; the full tip is four quarters.
+struct TipMeshOptions {
+  Sector sector = Sector::quarter;
+  double cap_angle = 0.72;       ///< polar angle of the cap's edge on the meridians x = 0, y = 0 [rad]
+  int cap_elements = 12;         ///< along each side of the cap (and along each 45° of the equator)
+  double cap_grading = 2.0;      ///< largest over smallest element size in the cap; fine at the pole
+  int ring_elements = 7;         ///< from the cap to the equator
+  int sleeve_elements = 6;       ///< from the equator to the end of the sleeve
+  int radial_elements = 6;       ///< through the rubber
+  double radial_grading = 2.5;   ///< thickest over thinnest layer; fine at the outer surface
+
+  /// The same mesh with every count multiplied by `factor` (rounded, at least 2).
+  TipMeshOptions refined(double factor) const;
+
+  /// Every broken rule: counts 2 ... 500, gradings 1 ... 20, cap angle 0.2 ... 1.2 rad.
+  std::vector<Violation> violations() const;
+};
+
+struct MeshQuality {
+  std::size_t hexahedra = 0;
+  std::size_t nodes = 0;
+  double min_jacobian = 0.0;         ///< smallest Jacobian determinant at a corner [m³]
+  double min_scaled_jacobian = 0.0;  ///< smallest scaled Jacobian, 1 for a cube
+  double volume = 0.0;               ///< volume of the straight-sided elements [m³]
+};
+
+/// Writes the mesh in MSH 4.1 format with the physical volume `tip` and the physical surfaces
+/// `outer`, `bond`, `end` and, for the quarter, `symmetry_x` (the plane x = 0) and `symmetry_y`.
+/// Lengths in metres. Throws InvalidInput for a broken option, NotConverged when gmsh fails or
+/// when an element has a non-positive Jacobian.
+MeshQuality write_tip_mesh(const Geometry& geometry, const TipMeshOptions& options,
+                           const std::filesystem::path& file);
+
+}  // namespace fingertip::meshes

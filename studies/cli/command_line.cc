@@ -1,0 +1,142 @@
+#include "studies/cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "studies/config/key_table.h"
+#include "studies/run/provenance.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+/// Which options a verb takes.
+enum Options : unsigned {
+  config_options = 1U,  ///< --config, --set
+  run_options = 2U,     ///< --threads, --progress, --resume
+  out_options = 4U,     ///< --out, --force
+};
+
+struct Verb {
+  const char* name;
+  const char* help;
+  const char* argument;  ///< name of the positional arguments; empty for none
+  const char* argument_help;
+  unsigned options;
+};
+
+constexpr unsigned everything = config_options | run_options | out_options;
+
+constexpr Verb verbs[] = {
+    {"validate", "the whole path for a case: fit, press, continuum, judgement, report", "CASE",
+     "cases to validate (default: 01_paper_rubber)", everything},
+    {"press", "press the lattice", "", "", everything},
+    {"reference", "press the continuum (finite elements)", "", "", everything},
+    {"calibrate", "fit the spring constants of lattice.model to the rubber", "", "", everything},
+    {"compare", "compare force curves with the continuum's or the first one's", "RUN",
+     "run folders", out_options},
+    {"report", "write report.html anew", "RUN", "run folders of validate", 0U},
+    {"check", "check a configuration file", "FILE", "the file", config_options},
+    {"explain", "explain a configuration key, or list all", "KEY", "section.key", 0U},
+    {"init", "write a commented configuration with every key", "FILE",
+     "the file (default: standard output)", out_options},
+    {"doctor", "tell versions, programs, folders and cores", "", "", 0U},
+};
+
+constexpr const char* footer =
+    "`./fingertip test` runs the tests; it belongs to the launcher script beside README.md.\n"
+    "Exit codes: 0 done, 1 internal error, 2 bad input, 3 not converged, 4 a criterion failed,\n"
+    "130 interrupted.";
+
+void add_config(CLI::App& app, CommandLine& line) {
+  app.add_option("--config", line.config.file, "TOML file (fingertip init writes one)")
+      ->type_name("FILE");
+  app.add_option("--set", line.config.sets, "one key, e.g. --set press.depth=\"0.2 cm\"; repeatable")
+      ->type_name("section.key=value")
+      ->allow_extra_args(false);
+}
+
+void add_run(CLI::App& app, CommandLine& line, std::string& progress, std::string& resume) {
+  app.add_option("--threads", line.config.threads, "threads to use; 0: all cores")->type_name("N");
+  app.add_option("--progress", progress, "how to show progress on stderr")
+      ->check(CLI::IsMember({"tty", "json", "off"}));
+  app.add_option("--resume", resume, "auto: keep what is finished in an existing --out")
+      ->check(CLI::IsMember({"auto"}));
+}
+
+void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& progress,
+              std::string& resume) {
+  CLI::App& sub = *app.add_subcommand(verb.name, verb.help);
+  const std::string name = verb.name;
+  if (*verb.argument != '\0') sub.add_option(verb.argument, line.arguments, verb.argument_help);
+  if ((verb.options & config_options) != 0U) add_config(sub, line);
+  if ((verb.options & run_options) != 0U) add_run(sub, line, progress, resume);
+  if ((verb.options & out_options) != 0U) {
+    sub.add_option("--out", line.out, name == "init" ? "file to write" : "folder to write")
+        ->type_name(name == "init" ? "FILE" : "DIR");
+    sub.add_flag("--force", line.force, "replace what exists");
+  }
+  if (name == "validate") sub.add_flag("--all", line.all, "every case in studies/cases");
+  if (name == "explain") {
+    sub.add_flag("--schema", line.schema, "JSON Schema of configuration files");
+    sub.add_flag("--markdown", line.markdown, "reference page of all keys");
+  }
+  sub.add_flag("--quiet", line.quiet, "print errors only");
+  sub.callback([&line, name] { line.verb = name; });
+}
+
+/// The nearest verb to a mistyped one, or nothing when the first word is one.
+std::optional<std::string> misspelt_verb(const std::vector<std::string>& words) {
+  if (words.empty() || words.front().starts_with('-')) return {};
+  std::vector<std::string> names = {"test"};
+  for (const Verb& verb : verbs) names.emplace_back(verb.name);
+  if (std::find(names.begin(), names.end(), words.front()) != names.end()) return {};
+  return nearest_word(words.front(), names);
+}
+
+ProgressStyle style(const std::string& word, bool quiet) {
+  if (word == "json") return ProgressStyle::json;
+  if (word == "tty") return ProgressStyle::tty;
+  if (word == "off" || quiet) return ProgressStyle::off;
+  return ::isatty(STDERR_FILENO) == 1 ? ProgressStyle::tty : ProgressStyle::off;
+}
+
+}  // namespace
+
+std::variant<CommandLine, int> parse_command_line(int argc, char** argv) {
+  CommandLine line;
+  line.words.assign(argv, argv + argc);
+  const std::vector<std::string> words(line.words.begin() + (argc > 0 ? 1 : 0), line.words.end());
+  if (const auto nearest = misspelt_verb(words)) {
+    fmt::print(stderr, "fingertip: error: {}: there is no such verb; the nearest one is {} "
+               "(fingertip --help lists them)\n", words.front(), *nearest);
+    return 2;
+  }
+  if (!words.empty() && words.front() == "test") {
+    fmt::print(stderr, "fingertip: error: test: belongs to the launcher script; run ./fingertip "
+               "test in the source folder\n");
+    return 2;
+  }
+  std::string progress;
+  std::string resume;
+  CLI::App app("Mass-spring lattice of a soft fingertip against its continuum.", "fingertip");
+  app.set_version_flag("--version", "fingertip " + program_version());
+  app.require_subcommand(1);
+  app.footer(footer);
+  for (const Verb& verb : verbs) add_verb(app, verb, line, progress, resume);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);  // help or version: prints to stdout, 0
+  } catch (const CLI::ParseError& error) {
+    const std::string verb = words.empty() ? "" : words.front() + " ";
+    fmt::print(stderr, "fingertip: error: {}; see fingertip {}--help\n", error.what(), verb);
+    return 2;
+  }
+  line.resume = !resume.empty();
+  line.progress = style(progress, line.quiet);
+  return line;
+}
+
+}  // namespace fingertip::studies

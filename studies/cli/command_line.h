@@ -1,0 +1,33 @@
+/// What the user typed.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "studies/config/loader.h"
+#include "studies/run/progress.h"
+
+namespace fingertip::studies {
+
+struct CommandLine {
+  std::string verb;
+  std::vector<std::string> arguments;  ///< positional ones: cases, runs, a file, a key
+  ConfigSource config;                 ///< --config, --set, --threads
+  std::filesystem::path out;
+  bool force = false;
+  bool resume = false;
+  bool quiet = false;
+  bool all = false;       ///< validate --all
+  bool schema = false;    ///< explain --schema
+  bool markdown = false;  ///< explain --markdown
+  ProgressStyle progress = ProgressStyle::off;
+  std::vector<std::string> words;      ///< everything as typed, for the manifest
+};
+
+/// Either what to do or, after help, version or a refusal (already printed), the exit code.
+std::variant<CommandLine, int> parse_command_line(int argc, char** argv);
+
+}  // namespace fingertip::studies

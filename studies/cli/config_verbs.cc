@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "meshes/files.h"
+#include "studies/cases/case_file.h"
+#include "studies/cli/verbs.h"
+#include "studies/config/documents.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+int run_check(const CommandLine& line) {
+  std::vector<std::string> files = line.arguments;
+  if (!line.config.file.empty()) files.push_back(line.config.file.string());
+  if (files.empty()) {
+    throw ConfigError({{"check", "", "", "no file is given", "give a configuration file"}});
+  }
+  for (const std::string& file : files) {
+    const Case one = load_case(file, line.config);
+    check_all(one.loaded);
+    if (line.quiet) continue;
+    for (const std::string& note : one.loaded.notes) fmt::print("{}: note: {}\n", file, note);
+    fmt::print("{}: OK\n", file);
+  }
+  return 0;
+}
+
+int run_explain(const CommandLine& line) {
+  if (line.schema) std::cout << json_schema();
+  if (line.markdown) std::cout << markdown_reference();
+  if (line.schema || line.markdown) return 0;
+  if (line.arguments.empty()) {
+    std::cout << key_overview() << "\nfingertip explain section.key tells more about one.\n";
+    return 0;
+  }
+  for (const std::string& name : line.arguments) {
+    bool found = false;
+    for (const Key& key : key_table()) {
+      if (key.full_name() != name && key.name != name && key.section != name) continue;
+      std::cout << (found ? "\n" : "") << explanation(key);
+      found = true;
+    }
+    if (!found) {
+      throw ConfigError({{"explain " + name, "", "", "there is no such key",
+                          "the nearest valid key is " + nearest_key(name)}});
+    }
+  }
+  return 0;
+}
+
+int run_init(const CommandLine& line) {
+  std::filesystem::path file = line.out;
+  if (!line.arguments.empty()) file = line.arguments.front();
+  if (file.empty()) {
+    std::cout << config_template();
+    return 0;
+  }
+  const auto refuse = [&](const std::string& rule, const std::string& remedy) {
+    throw ConfigError({{"init " + file.string(), "", "", rule, remedy}});
+  };
+  if (std::filesystem::exists(file) && !line.force) {
+    refuse("the file exists already", "choose another name, or say --force to replace it");
+  }
+  try {
+    meshes::write_atomically(file, [](std::ostream& out) { out << config_template(); });
+  } catch (const std::runtime_error& error) {
+    refuse(error.what(), "choose a folder in which you may write");
+  }
+  if (!line.quiet) fmt::print("written: {}\n", file.string());
+  return 0;
+}
+
+}  // namespace fingertip::studies

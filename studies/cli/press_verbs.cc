@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "meshes/press_response.h"
+#include "studies/cli/run_verb.h"
+#include "studies/cli/verbs.h"
+#include "studies/config/units.h"
+#include "studies/run/jobs.h"
+#include "studies/run/json_file.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+/// A cell of a table: the value in another unit, or nothing when it is unknown.
+std::string cell(double value, const char* from, const char* to, int decimals) {
+  if (std::isnan(value)) return fmt::format("{:>14}", "");
+  return fmt::format("{:14.{}f}", convert(value, from, to), decimals);
+}
+
+/// The curve at the wanted depths, for a terminal.
+void print_response(const std::filesystem::path& folder, const std::vector<double>& depths) {
+  const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}\n", "depth [cm]", "force [gf]", "force [mN]",
+             "error [mN]", "contact [cm]");
+  for (const double depth : depths) {
+    for (const meshes::PressSample& row : response.samples()) {
+      if (std::abs(row.indentation - depth) > 1e-6 * depth) continue;
+      fmt::print("{}{}{}{}{}\n", cell(row.indentation, "m", "cm", 4),
+                 cell(row.normal_force, "N", "gf", 4), cell(row.normal_force, "N", "mN", 4),
+                 cell(row.force_error, "N", "mN", 4), cell(row.contact_radius, "m", "cm", 4));
+      break;
+    }
+  }
+}
+
+void print_folder(const Session& session, const JobResult& result) {
+  if (result.reused) {
+    fmt::print("(result from an earlier run with the same input)\n");
+  } else {
+    fmt::print("computed in {:.2f} s\n", result.wall_time);
+  }
+  fmt::print("run folder: {}\n", session.path_of({}).string());
+}
+
+void print_press_facts(const std::filesystem::path& folder) {
+  const auto summary = read_json(folder / "summary.json");
+  fmt::print("time step {:.3g} s: {}\n", summary["step"]["step"].get<double>(),
+             summary["step"]["explanation"].get<std::string>());
+  fmt::print("real-time factor {:.2f} (simulated over wall time)\n",
+             summary["real_time_factor"].get<double>());
+  if (!summary.contains("tracking") || !summary["tracking"]["speed_deviation"].is_number()) return;
+  fmt::print("controller: speed within {:.2f} %, tilt within {:.2g} deg\n",
+             100.0 * summary["tracking"]["speed_deviation"].get<double>(),
+             summary["tracking"]["tilt_deg"].get<double>());
+}
+
+}  // namespace
+
+int run_press(const CommandLine& line) {
+  const LoadedConfig loaded = load_checked(line);
+  const lattice::PressSetup setup = press_setup(loaded);
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const JobResult result = session.run({"", press_job(setup), false});
+    if (!line.quiet) {
+      fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
+                 meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
+      print_response(session.folder().path(), setup.protocol.samples);
+      print_press_facts(session.folder().path());
+      print_folder(session, result);
+    }
+    return 0;
+  });
+}
+
+int run_reference(const CommandLine& line) {
+  const LoadedConfig loaded = load_checked(line);
+  const fem_reference::ReferenceJob order = reference_order(loaded);
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const JobResult result = session.run({"", reference_job(order), false});
+    if (!line.quiet) {
+      fmt::print("continuum, small strain, {} contact\n", meshes::name(order.contact));
+      print_response(session.folder().path(), order.samples);
+      print_folder(session, result);
+    }
+    return 0;
+  });
+}
+
+int run_calibrate(const CommandLine& line) {
+  const LoadedConfig loaded = load_checked(line);
+  const lattice::ModelKind model = loaded.config.press.lattice.model;
+  if (model == lattice::ModelKind::published) {
+    throw loaded.locate({{"lattice.model", "published",
+                          "the published model has a rule for its constants and is not calibrated",
+                          "calibrate central or hookean"}});
+  }
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const PlannedJob planned{"", moduli_job(loaded.config.press.rubber, fit_options(loaded, model)),
+                             false};
+    const JobResult result = session.run(planned);
+    if (line.quiet) return 0;
+    const auto content = read_json(session.folder().path() / "calibration.json");
+    fmt::print("{}\n\n{:<22}{:>14}{:>14}{:>16}\n", content["statement"].get<std::string>(), "",
+               "target", "achieved", "achieved [Pa]");
+    const auto& target = content["target"];
+    const auto& achieved = content["achieved"];
+    const auto row = [&](const char* name, const char* wanted, const char* reached) {
+      const double pascal = achieved[reached].get<double>();
+      fmt::print("{:<22}{:>14.4f}{:>14.4f}{:>16.6g}\n", name,
+                 convert(target[wanted].get<double>(), "Pa", "gf/cm^2"),
+                 convert(pascal, "Pa", "gf/cm^2"), pascal);
+    };
+    row("E_100 [gf/cm^2]", "youngs_modulus", "youngs_modulus_100");
+    row("E_110 [gf/cm^2]", "youngs_modulus", "youngs_modulus_110");
+    row("E_111 [gf/cm^2]", "youngs_modulus", "youngs_modulus_111");
+    row("G [gf/cm^2]", "shear_modulus", "shear_modulus");
+    row("K [gf/cm^2]", "bulk_modulus", "bulk_modulus");
+    fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "nu_100", target["poissons_ratio"].get<double>(),
+               achieved["poissons_ratio_100"].get<double>());
+    fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "anisotropy A", 1.0,
+               achieved["anisotropy"].get<double>());
+    print_folder(session, result);
+    return 0;
+  });
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,21 @@
+/// What press, reference, calibrate and validate have in common.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "studies/cli/command_line.h"
+#include "studies/run/session.h"
+
+namespace fingertip::studies {
+
+/// Prepares the run folder, runs `body` in it and completes the manifest whatever happens. Bad
+/// input that only shows during the run (an unstable time step) takes a new folder away again.
+/// Returns body's exit code; rethrows what it throws, with violations located in the user's input.
+int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std::string& case_text,
+                  const std::function<int(Session&)>& body);
+
+/// The configuration of `line`, checked as a whole.
+LoadedConfig load_checked(const CommandLine& line);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "studies/cases/validation.h"
+#include "studies/cli/run_verb.h"
+#include "studies/cli/verbs.h"
+#include "studies/report/report.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> wanted_cases(const CommandLine& line) {
+  if (!line.config.file.empty()) {
+    if (line.all || !line.arguments.empty()) {
+      throw ConfigError({{"--config " + line.config.file.string(), "", "",
+                          "validate takes either cases or a configuration, not both",
+                          "leave out one of them"}});
+    }
+    return {line.config.file};
+  }
+  if (line.all) return all_cases();
+  if (line.arguments.empty()) return {find_case("01_paper_rubber")};
+  std::vector<fs::path> files;
+  for (const std::string& name : line.arguments) files.push_back(find_case(name));
+  return files;
+}
+
+/// Where the case's run goes: a sub-folder of its own when there are several.
+CommandLine line_for(const CommandLine& line, const Case& one, bool several) {
+  CommandLine own = line;
+  if (several && !line.out.empty()) own.out = line.out / one.name;
+  if (several && line.out.empty()) own.verb += "-" + one.name;
+  return own;
+}
+
+}  // namespace
+
+int run_validate(const CommandLine& line) {
+  std::vector<Case> cases;
+  for (const fs::path& file : wanted_cases(line)) {
+    cases.push_back(load_case(file, line.config));
+    check_all(cases.back().loaded);
+  }
+  int worst = 0;
+  for (const Case& one : cases) {
+    const CommandLine own = line_for(line, one, cases.size() > 1);
+    const int code = run_in_folder(own, one.loaded, one.text, [&](Session& session) {
+      const Verdict verdict = validate(session, one);
+      if (!line.quiet) {
+        fmt::print("{}\nreport: {}\n", verdict_text(session.folder().path()),
+                   (session.folder().path() / "report.html").string());
+      }
+      return verdict == Verdict::passed ? 0 : 4;
+    });
+    worst = std::max(worst, code);
+  }
+  return worst;
+}
+
+}  // namespace fingertip::studies

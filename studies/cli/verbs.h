@@ -1,0 +1,19 @@
+/// The verbs. Each returns an exit code or throws what main maps to one.
+#pragma once
+
+#include "studies/cli/command_line.h"
+
+namespace fingertip::studies {
+
+int run_validate(const CommandLine& line);
+int run_press(const CommandLine& line);
+int run_reference(const CommandLine& line);
+int run_calibrate(const CommandLine& line);
+int run_compare(const CommandLine& line);
+int run_report(const CommandLine& line);
+int run_check(const CommandLine& line);
+int run_explain(const CommandLine& line);
+int run_init(const CommandLine& line);
+int run_doctor(const CommandLine& line);
+
+}  // namespace fingertip::studies

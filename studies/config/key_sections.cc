@@ -1,0 +1,329 @@
+#include "studies/config/key_sections.h"
+
+#include <algorithm>
+
+namespace fingertip::studies {
+
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr Range positive{0.0, endless, false};
+constexpr Range not_negative{0.0, endless, true};
+constexpr Range any{};
+
+/// A key whose value is one quantity, stored in `member`.
+template <typename Target>
+Key quantity(const char* section, const char* name, const char* preset, const char* unit,
+             Range range, const char* help, Target target) {
+  Key key;
+  key.section = section;
+  key.name = name;
+  key.kind = Kind::quantity;
+  key.preset = "\"" + std::string(preset) + "\"";
+  key.unit = unit;
+  key.range = range;
+  key.help = help;
+  key.assign = [target](Config& config, const Value& value) { target(config) = value.number; };
+  return key;
+}
+
+Key plain(const char* section, const char* name, Kind kind, const char* preset, Range range,
+          const char* help, std::function<void(Config&, const Value&)> assign) {
+  Key key;
+  key.section = section;
+  key.name = name;
+  key.kind = kind;
+  key.preset = preset;
+  key.range = range;
+  key.help = help;
+  key.assign = std::move(assign);
+  return key;
+}
+
+Key choice(const char* section, const char* name, const char* preset, std::vector<Choice> choices,
+           const char* help, std::function<void(Config&, const Value&)> assign) {
+  const std::string literal = "\"" + std::string(preset) + "\"";
+  Key key = plain(section, name, Kind::choice, literal.c_str(), any, help, std::move(assign));
+  key.choices = std::move(choices);
+  return key;
+}
+
+Key with_rule(Key key, const char* rule, std::vector<std::string> related) {
+  key.rule = rule;
+  key.related = std::move(related);
+  return key;
+}
+
+void assign_constants(Config& config, const Value& value) {
+  config.constants = value.word == "auto"         ? ConstantsSource::automatic
+                     : value.word == "rule"       ? ConstantsSource::rule
+                     : value.word == "calibrated" ? ConstantsSource::calibrated
+                                                  : ConstantsSource::file;
+  if (config.constants == ConstantsSource::file) config.constants_file = value.word;
+}
+
+void assign_spacing(Config& config, const Value& value) {
+  config.spacing_divisor.reset();
+  if (value.word.empty()) {
+    config.press.lattice.spacing = value.number;
+  } else {
+    config.spacing_divisor = value.number;
+  }
+}
+
+void assign_kinematics(Config& config, const Value& value) {
+  config.kinematics.reset();
+  if (value.word == "small") config.kinematics = lattice::Kinematics::small;
+  if (value.word == "finite") config.kinematics = lattice::Kinematics::finite;
+}
+
+void assign_model(Config& config, const Value& value) {
+  config.press.lattice.model = value.word == "published" ? lattice::ModelKind::published
+                               : value.word == "central" ? lattice::ModelKind::central
+                                                         : lattice::ModelKind::hookean;
+}
+
+void assign_samples(Config& config, const Value& value) {
+  config.press.protocol.samples = value.numbers;
+  std::ranges::sort(config.press.protocol.samples);
+}
+
+void assign_time_step(Config& config, const Value& value) {
+  config.press.time_step.reset();
+  if (value.word.empty()) config.press.time_step = value.number;
+}
+
+void assign_solver(Config& config, const Value& value) {
+  using fem_reference::LinearSolver;
+  config.reference.solver = value.word == "condensed"   ? LinearSolver::condensed
+                            : value.word == "multigrid" ? LinearSolver::multigrid
+                                                        : LinearSolver::automatic;
+}
+
+}  // namespace
+
+const std::vector<Section>& sections() {
+  static const std::vector<Section> all = {
+      {"geometry", "The finger: rigid rod inside a rubber tip (paper, Fig. 1)"},
+      {"rubber", "The tip's material: linear, isotropic"},
+      {"rod", "The rigid rod"},
+      {"lattice", "The mass-spring model of the tip"},
+      {"press", "What is done to the finger"},
+      {"controller", "The 6-degree-of-freedom controller that moves the rod in mode pid"},
+      {"reference", "The continuum (finite elements)"},
+      {"calibration", "How spring constants are fitted"},
+      {"run", "How to compute"},
+  };
+  return all;
+}
+
+std::vector<Key> specimen_keys() {
+  const auto geometry = [](double meshes::Geometry::*member) {
+    return [member](Config& config) -> double& { return config.press.geometry.*member; };
+  };
+  const auto rubber = [](double meshes::Rubber::*member) {
+    return [member](Config& config) -> double& { return config.press.rubber.*member; };
+  };
+  using meshes::Geometry;
+  using meshes::Rubber;
+  return {
+      quantity("geometry", "tip_radius", "1 cm", "m", positive,
+               "R, outer radius of the rubber", geometry(&Geometry::tip_radius)),
+      with_rule(quantity("geometry", "rod_radius", "0.5 cm", "m", positive,
+                         "r, radius of the rod; the rubber is bonded to it",
+                         geometry(&Geometry::rod_radius)),
+                "smaller than tip_radius", {"geometry.tip_radius"}),
+      quantity("geometry", "sleeve_length", "1.5 cm", "m", not_negative,
+               "L, length of the rubber sleeve behind the hemisphere",
+               geometry(&Geometry::sleeve_length)),
+      with_rule(quantity("geometry", "rod_length", "3 cm", "m", positive,
+                         "l, from the hemisphere's centre to the rod's endpoint, which is held",
+                         geometry(&Geometry::rod_length)),
+                "at least sleeve_length", {"geometry.sleeve_length"}),
+      quantity("rubber", "youngs_modulus", "40 gf/cm^2", "Pa", positive, "E, Young's modulus",
+               rubber(&Rubber::youngs_modulus)),
+      with_rule(quantity("rubber", "shear_modulus", "14 gf/cm^2", "Pa", positive,
+                         "G, shear modulus", rubber(&Rubber::shear_modulus)),
+                "greater than youngs_modulus/3 (Poisson's ratio below 1/2)",
+                {"rubber.youngs_modulus"}),
+      quantity("rubber", "density", "0.5 g/cm^3", "kg/m^3", positive, "rho, mass density",
+               rubber(&Rubber::density)),
+      quantity("rubber", "retardation_time", "0.3 ms", "s", not_negative,
+               "tau of the Kelvin-Voigt damping, loss factor = omega tau",
+               rubber(&Rubber::retardation_time)),
+      quantity("rod", "density", "2.7 g/cm^3", "kg/m^3", positive,
+               "mass density of the rod; sets its inertia",
+               [](Config& config) -> double& { return config.press.rod.density; }),
+  };
+}
+
+std::vector<Key> lattice_keys() {
+  Key spacing = with_rule(
+      quantity("lattice", "spacing", "tip_radius/12", "m", positive,
+               "a, distance of neighbouring masses along the axes",
+               [](Config& config) -> double& { return config.press.lattice.spacing; }),
+      "at most (tip_radius - rod_radius)/2, and no more than 20 million masses",
+      {"geometry.tip_radius", "geometry.rod_radius"});
+  spacing.word = "tip_radius/N";
+  spacing.assign = assign_spacing;
+  Key constants = with_rule(
+      choice("lattice", "constants", "auto",
+             {{"auto", "published: rule; central: calibrated; hookean: rule"},
+              {"rule", "published, central: k = E a^2/l0; hookean: its exact closed form"},
+              {"calibrated", "least-squares fit to the rubber's moduli (central, hookean)"}},
+             "spring constants: a word, or a material.toml written by calibrate",
+             assign_constants),
+      "a file must be for the same model; published has a rule and is never calibrated",
+      {"lattice.model"});
+  constants.kind = Kind::source;
+  return {
+      choice("lattice", "model", "hookean",
+             {{"published", "Reznik & Laugier 1996 as printed: every spring counts fully"},
+              {"central", "spring constants fitted to E and G, weighted per cell"},
+              {"hookean", "central plus one volume constant per cell: exact E, G and nu"}},
+             "which mass-spring model", assign_model),
+      spacing,
+      plain("lattice", "offset", Kind::numbers, "[0.0, 0.0, 0.0]", {-1.0, 1.0, true},
+            "shift of the grid along x, y, z in units of the spacing",
+            [](Config& config, const Value& value) {
+              for (int axis = 0; axis < 3; ++axis) {
+                config.press.lattice.offset[axis] = value.numbers[std::size_t(axis)];
+              }
+            }),
+      constants,
+      plain("lattice", "ligament_stiffness", Kind::number, "1.0", positive,
+            "multiplies the stiffness E a of the ligaments between tip and rod",
+            [](Config& config, const Value& value) {
+              config.press.lattice.ligament_stiffness = value.number;
+            }),
+      choice("lattice", "kinematics", "auto",
+             {{"auto", "published: finite; central, hookean: small"},
+              {"small", "linearised about the rest state"},
+              {"finite", "true spring lengths and cell volumes"}},
+             "how deformation is measured", assign_kinematics),
+  };
+}
+
+std::vector<Key> press_keys() {
+  const auto protocol = [](double meshes::PressProtocol::*member) {
+    return [member](Config& config) -> double& { return config.press.protocol.*member; };
+  };
+  const auto pid = [](double lattice::PidSettings::*member) {
+    return [member](Config& config) -> double& { return config.press.controller.*member; };
+  };
+  using lattice::PidSettings;
+  using meshes::PressProtocol;
+  Key samples = with_rule(
+      plain("press", "samples", Kind::quantities, "[]", positive,
+            "output depths, e.g. [\"0.05 cm\", \"0.1 cm\"]; [] means ten up to depth",
+            assign_samples),
+      "different depths; the largest one becomes the depth of the press", {"press.depth"});
+  samples.unit = "m";
+  return {
+      choice("press", "mode", "pid",
+             {{"pid", "dynamics; a controller holds speed and orientation"},
+              {"quasi-static", "dynamics; the rod's motion is prescribed"}},
+             "what moves the rod (lattice only)",
+             [](Config& config, const Value& value) {
+               config.press.protocol.mode =
+                   value.word == "pid" ? meshes::DriveMode::pid : meshes::DriveMode::quasi_static;
+             }),
+      choice("press", "contact", "stick",
+             {{"stick", "infinite friction: anchored where it first touched"},
+              {"frictionless", "only the normal gap is held, compressive only"}},
+             "how tip and plane interact",
+             [](Config& config, const Value& value) {
+               config.press.protocol.contact = value.word == "stick"
+                                                   ? meshes::ContactMode::stick
+                                                   : meshes::ContactMode::frictionless;
+             }),
+      with_rule(quantity("press", "depth", "0.3 cm", "m", positive, "final indentation",
+                         protocol(&PressProtocol::depth)),
+                "less than tip_radius - rod_radius",
+                {"press.samples", "geometry.tip_radius", "geometry.rod_radius"}),
+      quantity("press", "speed", "1 cm/s", "m/s", positive, "approach speed of the rod",
+               protocol(&PressProtocol::speed)),
+      quantity("press", "clearance", "0.05 cm", "m", positive,
+               "gap between pole and plane at the start, where the rod is at rest",
+               protocol(&PressProtocol::clearance)),
+      samples,
+      choice("controller", "type", "pid", {{"pid", "PID with anti-windup and filtered derivative"}},
+             "control law", [](Config&, const Value&) {}),
+      quantity("controller", "period", "1 ms", "s", positive, "sampling period",
+               pid(&PidSettings::period)),
+      quantity("controller", "natural_frequency", "60 Hz", "Hz", positive,
+               "of the closed loop with the bare rod; sets all gains",
+               pid(&PidSettings::natural_frequency)),
+      plain("controller", "derivative_filter", Kind::number, "10.0", positive,
+            "N: the derivative is low-passed at N times the natural frequency",
+            [](Config& config, const Value& value) {
+              config.press.controller.derivative_filter = value.number;
+            }),
+      quantity("controller", "force_limit", "20 N", "N", positive,
+               "largest force of the actuator", pid(&PidSettings::force_limit)),
+      quantity("controller", "torque_limit", "1 N m", "N m", positive,
+               "largest torque of the actuator", pid(&PidSettings::torque_limit)),
+  };
+}
+
+std::vector<Key> solver_keys() {
+  const auto nothing = [](Config&, const Value&) {};
+  Key time_step = quantity("run", "time_step", "auto", "s", positive,
+                           "lattice time step; auto takes the largest safe one",
+                           [](Config& config) -> double& { return *config.press.time_step; });
+  time_step.word = "auto";
+  time_step.assign = assign_time_step;
+  return {
+      choice("reference", "strain", "linear", {{"linear", "small strain, Hooke's law"}},
+             "continuum theory", nothing),
+      choice("reference", "mode", "static", {{"static", "one equilibrium per output depth"}},
+             "what is solved", nothing),
+      plain("reference", "degree", Kind::integer, "2", {1, 2, true},
+            "polynomial degree of the elements",
+            [](Config& config, const Value& value) { config.reference.degree = int(value.number); }),
+      plain("reference", "refinement", Kind::number, "1.0", {0.5, 4, true},
+            "factor on the element counts of the mesh",
+            [](Config& config, const Value& value) { config.reference.refinement = value.number; }),
+      plain("reference", "tolerance", Kind::number, "1e-8", {1e-12, 1e-4, true},
+            "relative residual of the linear solver",
+            [](Config& config, const Value& value) { config.reference.tolerance = value.number; }),
+      choice("reference", "solver", "automatic",
+             {{"automatic", "condensed while it fits into memory, else multigrid"},
+              {"condensed", "sparse Cholesky factors, condensed to the contact patch"},
+              {"multigrid", "conjugate gradients with algebraic multigrid"}},
+             "linear solver", assign_solver),
+      plain("reference", "estimate_error", Kind::boolean, "true", any,
+            "solve on a coarser mesh, too, and fill in the column force_error",
+            [](Config& config, const Value& value) {
+              config.reference.estimate_error = value.number != 0.0;
+            }),
+      plain("reference", "fields", Kind::boolean, "true", any,
+            "write displacement, stress and pressure for ParaView",
+            [](Config& config, const Value& value) {
+              config.reference.write_fields = value.number != 0.0;
+            }),
+      choice("calibration", "problem", "moduli", {{"moduli", "fit to Young's and shear modulus"}},
+             "what is fitted to what", nothing),
+      plain("calibration", "starts", Kind::integer, "10", {1, 1000, true},
+            "random starts of the fit; the best one is kept",
+            [](Config& config, const Value& value) { config.fit_starts = int(value.number); }),
+      plain("calibration", "seed", Kind::integer, "1", {0, 4294967295.0, true},
+            "seed of the random starts",
+            [](Config& config, const Value& value) { config.fit_seed = unsigned(value.number); }),
+      plain("run", "threads", Kind::integer, "0", {0, 1024, true},
+            "threads to use, 0 for all cores; results do not depend on it",
+            [](Config& config, const Value& value) { config.press.threads = int(value.number); }),
+      choice("run", "integrator", "symplectic-euler",
+             {{"symplectic-euler", "velocities first, then positions"},
+              {"explicit-euler", "as printed in the paper's Fig. 4"}},
+             "time integration of the lattice",
+             [](Config& config, const Value& value) {
+               config.press.integrator = value.word == "symplectic-euler"
+                                             ? lattice::Integrator::symplectic_euler
+                                             : lattice::Integrator::explicit_euler;
+             }),
+      time_step,
+  };
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,15 @@
+/// The parts of the key table (studies/config/key_table.h joins them).
+#pragma once
+
+#include <vector>
+
+#include "studies/config/key_table.h"
+
+namespace fingertip::studies {
+
+std::vector<Key> specimen_keys();  ///< [geometry] [rubber] [rod]
+std::vector<Key> lattice_keys();   ///< [lattice]
+std::vector<Key> press_keys();     ///< [press] [controller]
+std::vector<Key> solver_keys();    ///< [reference] [calibration] [run]
+
+}  // namespace fingertip::studies

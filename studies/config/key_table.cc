@@ -1,0 +1,84 @@
+#include "studies/config/key_table.h"
+
+#include <algorithm>
+
+#include "meshes/files.h"
+#include "studies/config/key_sections.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+/// Restricted Damerau-Levenshtein distance: insertions, deletions, substitutions and swaps of
+/// neighbouring letters cost one each.
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<int>> cost(a.size() + 1, std::vector<int>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = int(i);
+  for (std::size_t j = 0; j <= b.size(); ++j) cost[0][j] = int(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int substitution = cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, substitution});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return cost[a.size()][b.size()];
+}
+
+std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+
+}  // namespace
+
+std::string Key::example() const {
+  if (kind == Kind::quantities) return "0.1 cm";
+  const bool quoted = preset.size() > 2 && preset.front() == '"';
+  const bool default_is_quantity = quoted && preset.find(' ') != preset.npos;
+  return default_is_quantity ? preset.substr(1, preset.size() - 2) : "1 " + unit;
+}
+
+std::string Key::allowed() const {
+  std::string text;
+  const std::string suffix = unit.empty() ? "" : " " + unit;
+  const bool below = range.minimum > -std::numeric_limits<double>::infinity();
+  const bool above = range.maximum < std::numeric_limits<double>::infinity();
+  if (below) text = (range.minimum_allowed ? ">= " : "> ") + meshes::to_text(range.minimum) + suffix;
+  if (above) text += (below ? " and <= " : "<= ") + meshes::to_text(range.maximum) + suffix;
+  for (const Choice& choice : choices) text += (text.empty() ? "" : " | ") + choice.word;
+  if (kind == Kind::source) text += " | path of a material.toml";
+  if (!word.empty()) text += (text.empty() ? "or " : ", or ") + word;
+  return text;
+}
+
+const std::vector<Key>& key_table() {
+  static const std::vector<Key> table = [] {
+    std::vector<Key> keys;
+    for (const auto& part : {specimen_keys(), lattice_keys(), press_keys(), solver_keys()}) {
+      keys.insert(keys.end(), part.begin(), part.end());
+    }
+    return keys;
+  }();
+  return table;
+}
+
+const Key* find_key(std::string_view full_name) {
+  const auto found = std::ranges::find_if(
+      key_table(), [&](const Key& key) { return key.full_name() == full_name; });
+  return found == key_table().end() ? nullptr : &*found;
+}
+
+std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
+  return *std::ranges::min_element(
+      words, {}, [&](const std::string& candidate) { return edit_distance(word, candidate); });
+}
+
+std::string nearest_key(std::string_view name) {
+  // A right name in the wrong section is the likelier slip than a wrong name in the right one.
+  const auto distance = [&](const Key& key) {
+    return 2 * edit_distance(last_part(name), key.name) + edit_distance(name, key.full_name());
+  };
+  return std::ranges::min_element(key_table(), {}, distance)->full_name();
+}
+
+}  // namespace fingertip::studies

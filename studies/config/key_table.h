@@ -1,0 +1,86 @@
+/// The one place where every configuration key is declared: name, kind, unit, default, range,
+/// meaning and target. Parser, template, `explain`, JSON Schema and reference page follow from it.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "studies/config/config.h"
+
+namespace fingertip::studies {
+
+enum class Kind {
+  quantity,    ///< text "number unit"
+  quantities,  ///< list of such texts
+  number,      ///< TOML number
+  numbers,     ///< list of three TOML numbers
+  integer,     ///< TOML integer
+  boolean,     ///< true or false
+  choice,      ///< one of the listed words
+  source,      ///< one of the listed words or the path of a file
+};
+
+/// A value read from text, in SI.
+struct Value {
+  double number = 0.0;          ///< quantity, number, integer, boolean (0 or 1)
+  std::vector<double> numbers;  ///< quantities, numbers
+  std::string word;             ///< choice, source; for a quantity the word given instead of one
+};
+
+struct Choice {
+  std::string word;
+  std::string meaning;
+};
+
+struct Range {
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  bool minimum_allowed = true;
+  bool contains(double value) const {
+    return (minimum_allowed ? value >= minimum : value > minimum) && value <= maximum;
+  }
+};
+
+struct Key {
+  std::string section;
+  std::string name;
+  Kind kind = Kind::quantity;
+  std::string preset;           ///< default as a TOML literal
+  std::string unit;             ///< SI unit; empty for what is no quantity
+  Range range;                  ///< in SI
+  std::vector<Choice> choices;
+  std::string word;             ///< word accepted instead of a quantity: "auto", "tip_radius/N"
+  std::string help;             ///< one line
+  std::string rule;             ///< further rule in words, may be empty
+  std::vector<std::string> related;  ///< keys its rule also depends on
+  std::function<void(Config&, const Value&)> assign;
+
+  std::string full_name() const { return section + "." + name; }
+  /// A quantity text to quote in advice: the default, or "1 <unit>".
+  std::string example() const;
+  /// The allowed values in words: range, choices or nothing.
+  std::string allowed() const;
+};
+
+struct Section {
+  std::string name;
+  std::string help;
+};
+
+/// All sections and keys in the order of the template.
+const std::vector<Section>& sections();
+const std::vector<Key>& key_table();
+
+/// The key called "section.key"; nullptr when there is none.
+const Key* find_key(std::string_view full_name);
+
+/// The valid key nearest to `name` by edit distance, preferring an equal last part.
+std::string nearest_key(std::string_view name);
+
+/// The nearest of `words` to `word` by edit distance.
+std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
+
+}  // namespace fingertip::studies

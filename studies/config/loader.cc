@@ -1,0 +1,253 @@
+#include "studies/config/loader.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+#include "meshes/files.h"
+#include "studies/config/key_table.h"
+#include "studies/config/units.h"
+#include "studies/config/value_reader.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+std::string joined(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + to_string(problem);
+  return text;
+}
+
+/// Collects values and problems from all sources.
+class Reader {
+ public:
+  Reader() {
+    for (const Key& key : key_table()) {
+      const toml::table defaults = toml::parse("v = " + key.preset);
+      take(key, *defaults.get("v"), {key.preset, "default", false}, {});
+    }
+  }
+
+  void read_file(const std::filesystem::path& file);
+  void read_set(const std::string& text);
+  /// One assignment outside of a file. `place` is how the user wrote it.
+  void read_assignment(const std::string& place, const std::string& name,
+                       const std::string& value);
+
+  LoadedConfig finish();
+
+ private:
+  /// Files named by a value are relative to `base`: the configuration file's folder.
+  void take(const Key& key, const toml::node& node, Entry entry,
+            const std::filesystem::path& base);
+  void read_section(const std::string& section, const toml::node& node,
+                    const std::filesystem::path& file);
+  void unknown(const std::string& place, const std::string& name, const std::string& value,
+               const std::string& what) {
+    problems_.push_back({place, name, value, "unknown " + what,
+                         "the nearest valid key is " + nearest_key(name)});
+  }
+
+  LoadedConfig loaded_;
+  std::vector<Problem> problems_;
+};
+
+void Reader::take(const Key& key, const toml::node& node, Entry entry,
+                  const std::filesystem::path& base) {
+  const std::string name = key.full_name();
+  try {
+    Value value = read_value(key, node);
+    const bool is_choice = std::ranges::any_of(
+        key.choices, [&](const Choice& choice) { return choice.word == value.word; });
+    if (key.kind == Kind::source && !is_choice) {
+      value.word = std::filesystem::absolute(base / value.word).lexically_normal().string();
+      entry.literal = toml_literal(toml::value<std::string>(value.word));
+    }
+    key.assign(loaded_.config, value);
+  } catch (const UnitError& error) {
+    problems_.push_back({entry.place, name, unquoted(entry.literal), error.rule, error.remedy});
+  }
+  loaded_.entries[name] = std::move(entry);
+}
+
+void Reader::read_section(const std::string& section, const toml::node& node,
+                          const std::filesystem::path& file) {
+  const auto place = [&](const toml::node& at) {
+    return file.string() + ":" + std::to_string(at.source().begin.line);
+  };
+  const bool known =
+      std::ranges::any_of(sections(), [&](const Section& one) { return one.name == section; });
+  const auto* table = node.as_table();
+  if (!known || table == nullptr) {
+    std::vector<std::string> names;
+    for (const Section& one : sections()) names.push_back(one.name);
+    problems_.push_back({place(node), section, "", known ? "must be a section" : "unknown section",
+                         "the nearest valid section is [" + nearest_word(section, names) + "]"});
+    return;
+  }
+  for (const auto& [name, value] : *table) {
+    const std::string full_name = section + "." + std::string(name.str());
+    const std::string literal = toml_literal(value);
+    if (const Key* key = find_key(full_name)) {
+      take(*key, value, {literal, place(value), true}, file.parent_path());
+    } else {
+      unknown(place(value), full_name, unquoted(literal), "key");
+    }
+  }
+}
+
+void Reader::read_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream content;
+  if (!std::filesystem::is_regular_file(file) || !in || !(content << in.rdbuf())) {
+    problems_.push_back({file.string(), "", "", "the configuration file cannot be read",
+                         "give the path of an existing, readable, non-empty TOML file (fingertip "
+                         "init writes one)"});
+    return;
+  }
+  try {
+    const toml::table root = toml::parse(content.str(), file.string());
+    for (const auto& [section, node] : root) {
+      if (section.str() != "case") read_section(std::string(section.str()), node, file);
+    }
+  } catch (const toml::parse_error& error) {
+    problems_.push_back({file.string() + ":" + std::to_string(error.source().begin.line), "", "",
+                         "not valid TOML: " + std::string(error.description()),
+                         "correct the line, or compare with the template that fingertip init "
+                         "writes"});
+  }
+}
+
+void Reader::read_set(const std::string& text) {
+  const std::string place = "--set " + text;
+  const auto equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  if (equals == text.npos) {
+    problems_.push_back({place, name, "", "must have the form section.key=value",
+                         "write e.g. --set press.depth=\"0.2 cm\""});
+    return;
+  }
+  read_assignment(place, name, text.substr(equals + 1));
+}
+
+void Reader::read_assignment(const std::string& place, const std::string& name,
+                             const std::string& value) {
+  toml::table parsed;
+  try {
+    parsed = toml::parse("v = " + value);
+  } catch (const toml::parse_error&) {
+    parsed.clear();
+  }
+  // A text with line breaks could smuggle in further keys: then it is no literal, either.
+  if (parsed.size() != 1) parsed = toml::table{{"v", value}};
+  const toml::node& node = *parsed.get("v");
+  if (const Key* key = find_key(name)) {
+    take(*key, node, {toml_literal(node), place, true}, {});
+  } else {
+    unknown(place, name, value, "key");
+  }
+}
+
+LoadedConfig Reader::finish() {
+  Config& config = loaded_.config;
+  lattice::PressSetup& press = config.press;
+  if (config.spacing_divisor) {
+    press.lattice.spacing = press.geometry.tip_radius / *config.spacing_divisor;
+  }
+  press.lattice.kinematics = config.kinematics.value_or(default_kinematics(press.lattice.model));
+  meshes::PressProtocol& protocol = press.protocol;
+  if (protocol.samples.empty()) {
+    protocol.samples = meshes::default_samples(protocol.depth);
+  } else {
+    if (loaded_.entries["press.depth"].given && protocol.depth != protocol.samples.back()) {
+      loaded_.notes.push_back("press.depth = " + loaded_.entries["press.depth"].literal +
+                              " is overridden by the largest of press.samples");
+    }
+    protocol.depth = protocol.samples.back();
+  }
+  config.reference.geometry = press.geometry;
+  config.reference.rubber = press.rubber;
+  config.reference.contact = protocol.contact;
+  config.reference.samples = protocol.samples;
+
+  std::vector<meshes::Violation> broken = press.geometry.violations();
+  for (const auto& more : {press.rubber.violations(), protocol.violations(press.geometry)}) {
+    broken.insert(broken.end(), more.begin(), more.end());
+  }
+  const ConfigError located = loaded_.locate(broken);
+  for (const Problem& problem : located.problems()) {
+    // A value that could not be read still holds its default: rules about it mean nothing.
+    const bool unread = std::ranges::any_of(problems_, [&](const Problem& earlier) {
+      const Key* key = find_key(problem.key);
+      return earlier.key == problem.key ||
+             (key != nullptr && std::ranges::find(key->related, earlier.key) != key->related.end());
+    });
+    if (!unread) problems_.push_back(problem);
+  }
+  if (!problems_.empty()) throw ConfigError(problems_);
+  return std::move(loaded_);
+}
+
+}  // namespace
+
+std::string to_string(const Problem& problem) {
+  std::string text = problem.place + ": ";
+  if (!problem.key.empty()) {
+    text += problem.key + (problem.value.empty() ? "" : " = " + problem.value) + ": ";
+  }
+  return text + problem.rule + "; " + problem.remedy;
+}
+
+ConfigError::ConfigError(std::vector<Problem> problems)
+    : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
+
+ConfigError LoadedConfig::locate(const std::vector<meshes::Violation>& violations) const {
+  std::vector<Problem> problems;
+  for (const meshes::Violation& violation : violations) {
+    Problem problem{"", violation.key, violation.value, violation.rule, violation.remedy};
+    const auto entry = entries.find(violation.key);
+    if (entry != entries.end()) {
+      problem.place = entry->second.place;
+      problem.value = unquoted(entry->second.literal);
+    }
+    const Key* key = find_key(violation.key);
+    // When the named key has its default, the culprit is a key that the rule also depends on.
+    if (key != nullptr && !entries.at(violation.key).given) {
+      for (const std::string& other : key->related) {
+        const Entry& related = entries.at(other);
+        if (related.given) {
+          problem.place = related.place;
+          problem.rule += " (here " + other + " = " + unquoted(related.literal) + ")";
+          break;
+        }
+      }
+    }
+    if (problem.place.empty()) problem.place = "input";
+    problems.push_back(std::move(problem));
+  }
+  return ConfigError(std::move(problems));
+}
+
+LoadedConfig LoadedConfig::with(const std::vector<std::string>& further_sets) const {
+  ConfigSource source;
+  for (const auto& [name, entry] : entries) {
+    if (entry.given) source.sets.push_back(name + "=" + entry.literal);
+  }
+  source.sets.insert(source.sets.end(), further_sets.begin(), further_sets.end());
+  return load_config(source);
+}
+
+LoadedConfig load_config(const ConfigSource& source) {
+  Reader reader;
+  if (!source.file.empty()) reader.read_file(source.file);
+  for (const std::string& text : source.sets) reader.read_set(text);
+  if (source.threads) {
+    reader.read_assignment("--threads " + *source.threads, "run.threads", *source.threads);
+  }
+  return reader.finish();
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,150 @@
+#include "studies/config/value_reader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "studies/config/units.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+[[noreturn]] void refuse(std::string rule, std::string remedy) {
+  throw UnitError(std::move(rule), std::move(remedy));
+}
+
+std::string preset_advice(const Key& key) { return "write e.g. " + key.name + " = " + key.preset; }
+
+void check_range(const Key& key, double value) {
+  if (!std::isfinite(value)) refuse("must be a finite number", preset_advice(key));
+  if (!key.range.contains(value)) refuse("must be " + key.allowed(), "choose a value in range");
+}
+
+/// "tip_radius/12" against the pattern "tip_radius/N": the number N.
+double read_fraction(const Key& key, const std::string& text) {
+  const std::string prefix = key.word.substr(0, key.word.find('N'));
+  double divisor = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data() + prefix.size(), end, divisor);
+  if (error != std::errc() || rest != end || !std::isfinite(divisor) || !(divisor > 0.0)) {
+    refuse("must be a length or " + key.word + " with a number N > 0", preset_advice(key));
+  }
+  return divisor;
+}
+
+Value read_quantity(const Key& key, const toml::node& node) {
+  const auto* text = node.as_string();
+  if (text == nullptr) {
+    if (!node.is_number()) refuse("must be a text with number and unit", preset_advice(key));
+    const double number = *node.value<double>();
+    if (!std::isfinite(number)) refuse("must be a finite number with a unit", preset_advice(key));
+    refuse("the unit is missing", "write it as \"" + key.example() + "\"");
+  }
+  Value value;
+  const bool is_pattern = key.word.find('/') != key.word.npos;
+  if (!key.word.empty() && !is_pattern && text->get() == key.word) {
+    value.word = key.word;
+    return value;
+  }
+  if (is_pattern && text->get().starts_with(key.word.substr(0, key.word.find('N')))) {
+    value.word = key.word;
+    value.number = read_fraction(key, text->get());
+    return value;
+  }
+  value.number = parse_quantity(text->get(), key.unit, key.example());
+  check_range(key, value.number);
+  return value;
+}
+
+Value read_quantities(const Key& key, const toml::node& node) {
+  const auto* list = node.as_array();
+  if (list == nullptr) refuse("must be a list of quantities", "write e.g. [\"0.1 cm\", \"0.2 cm\"]");
+  Value value;
+  for (const toml::node& element : *list) {
+    value.numbers.push_back(read_quantity(key, element).number);
+  }
+  return value;
+}
+
+Value read_number(const Key& key, const toml::node& node) {
+  if (!node.is_number()) refuse("must be a number without quotes or unit", preset_advice(key));
+  Value value;
+  value.number = *node.value<double>();
+  check_range(key, value.number);
+  return value;
+}
+
+Value read_numbers(const Key& key, const toml::node& node) {
+  const auto* list = node.as_array();
+  if (list == nullptr || list->size() != 3) refuse("must be a list of 3 numbers", preset_advice(key));
+  Value value;
+  for (const toml::node& element : *list) {
+    value.numbers.push_back(read_number(key, element).number);
+  }
+  return value;
+}
+
+Value read_word(const Key& key, const toml::node& node) {
+  std::vector<std::string> words;
+  for (const Choice& choice : key.choices) words.push_back(choice.word);
+  const auto* text = node.as_string();
+  if (text == nullptr) refuse("must be one of " + key.allowed(), preset_advice(key));
+  const std::string& word = text->get();
+  const bool known = std::ranges::find(words, word) != words.end();
+  if (!known && (key.kind == Kind::choice || word.empty())) {
+    refuse("must be one of " + key.allowed(),
+           "did you mean \"" + nearest_word(word, words) + "\"?");
+  }
+  Value value;
+  value.word = word;
+  return value;
+}
+
+}  // namespace
+
+Value read_value(const Key& key, const toml::node& node) {
+  Value value;
+  switch (key.kind) {
+    case Kind::quantity: return read_quantity(key, node);
+    case Kind::quantities: return read_quantities(key, node);
+    case Kind::number: return read_number(key, node);
+    case Kind::numbers: return read_numbers(key, node);
+    case Kind::choice:
+    case Kind::source: return read_word(key, node);
+    case Kind::integer:
+      if (!node.is_integer()) refuse("must be an integer", preset_advice(key));
+      return read_number(key, node);
+    case Kind::boolean:
+      if (!node.is_boolean()) refuse("must be true or false", preset_advice(key));
+      value.number = *node.value<bool>() ? 1.0 : 0.0;
+  }
+  return value;
+}
+
+std::string toml_literal(const toml::node& node) {
+  if (node.is_table()) return "{...}";
+  std::ostringstream text;
+  node.visit([&](const auto& value) {
+    using Node = std::decay_t<decltype(value)>;
+    if constexpr (toml::is_array<Node>) {
+      for (const toml::node& element : value) {
+        text << (text.tellp() > 0 ? ", " : "") << toml_literal(element);
+      }
+    } else if constexpr (!toml::is_table<Node>) {
+      text << toml::toml_formatter{toml::table{{"v", value}}};
+    }
+  });
+  if (node.is_array()) return "[" + text.str() + "]";
+  const std::string assignment = text.str();
+  return assignment.substr(assignment.find('=') + 2);
+}
+
+std::string unquoted(const std::string& literal) {
+  const bool quoted = literal.size() >= 2 && (literal.front() == '"' || literal.front() == '\'') &&
+                      literal.front() == literal.back();
+  return quoted ? literal.substr(1, literal.size() - 2) : literal;
+}
+
+}  // namespace fingertip::studies

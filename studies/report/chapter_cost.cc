@@ -1,0 +1,171 @@
+/// Time step, cost, mesh quality; provenance.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+#include "studies/report/chapters.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+using nlohmann::json;
+
+Cell plain(const std::string& text, const std::string& note = "") {
+  return {text, note, Grade::none};
+}
+
+/// One line of the lattices' table: what it tells and how a model's summary.json tells it.
+struct Quantity {
+  std::string label, note;
+  std::function<std::string(const json& summary)> value;
+};
+
+/// An entry of the part `group` of summary.json, or of the file itself when `group` is empty.
+double entry(const json& summary, const std::string& group, const std::string& key) {
+  return number_at(group.empty() ? summary : object_at(summary, group), key);
+}
+
+std::vector<Quantity> size_quantities() {
+  const auto census = [](const char* key) {
+    return [key](const json& summary) { return count(entry(summary, "census", key)); };
+  };
+  return {{"Spacing", "", [](const json& s) { return length(entry(s, "", "spacing")); }},
+          {"Particles", "", census("particles")},
+          {"Expected V/a³", "", census("expected_particles")},
+          {"Springs", "", census("springs")},
+          {"Cells", "", census("cells")},
+          {"Boundary particles", "", census("boundary_particles")},
+          {"Ligaments", "", census("ligaments")},
+          {"Mass against ρV", "", [](const json& s) {
+             return percent(entry(s, "census", "mass") / entry(s, "census", "exact_mass") - 1.0);
+           }}};
+}
+
+std::vector<Quantity> time_quantities() {
+  const auto seconds = [](const char* group, const char* key) {
+    return
+        [group, key](const json& summary) { return with_prefix(entry(summary, group, key), "s"); };
+  };
+  const auto plain_number = [](const char* group, const char* key, int digits) {
+    return [group, key, digits](const json& s) { return number(entry(s, group, key), digits); };
+  };
+  const auto steps = [](const json& s) {
+    return count(std::round(entry(s, "", "simulated_time") / entry(s, "step", "step")));
+  };
+  return {
+      {"ω₀ = √(2k/m)", "the paper's estimate, rad/s", plain_number("step", "omega0", 4)},
+      {"1/ω₀", "the paper's bound", seconds("step", "paper_bound")},
+      {"Spectral bound", "largest stable step", seconds("step", "spectral_bound")},
+      {"Step used", "", seconds("step", "step")},
+      {"Steps", "", steps},
+      {"Simulated time", "", seconds("", "simulated_time")},
+      {"Wall time", "", seconds("", "wall_time")},
+      {"Real-time factor", "above 1: faster than real time",
+       plain_number("", "real_time_factor", 3)},
+      {"Momentum defect", "rod, tip and plane, relative", plain_number("", "momentum_defect", 2)}};
+}
+
+Table lattice_table(const RunData& run) {
+  Table table;
+  table.caption = "Size, time step and cost of the lattices.";
+  table.header = {plain("Lattice")};
+  for (const ModelData& model : run.models) {
+    if (model.summary.empty()) continue;
+    table.header.push_back(plain(model_label(model.name), text_at(model.summary, "kinematics")));
+  }
+  for (const std::vector<Quantity>& group : {size_quantities(), time_quantities()}) {
+    for (const Quantity& quantity : group) {
+      std::vector<Cell> row{plain(quantity.label, quantity.note)};
+      for (const ModelData& model : run.models) {
+        if (!model.summary.empty()) row.push_back(plain(quantity.value(model.summary)));
+      }
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+Table mesh_table(const RunData& run) {
+  const json& summary = run.reference_summary;
+  const json mesh = object_at(summary, "mesh");
+  Table table;
+  table.caption = "The continuum's mesh and solution.";
+  table.header = {plain("Continuum"), plain("Value")};
+  table.rows = {
+      {plain("Status"), plain(text_at(summary, "status"))},
+      {plain("Contact"), plain(text_at(summary, "contact"))},
+      {plain("Polynomial degree"), plain(count(number_at(summary, "degree")))},
+      {plain("Hexahedra"), plain(count(number_at(mesh, "hexahedra")))},
+      {plain("Degrees of freedom"), plain(count(number_at(summary, "dofs")))},
+      {plain("Smallest scaled Jacobian", "1 for a cube"),
+       plain(number(number_at(mesh, "min_scaled_jacobian"), 3))},
+      {plain("Smallest Jacobian", "m³"), plain(number(number_at(mesh, "min_jacobian"), 3))},
+      {plain("Volume of the mesh", "straight-sided elements, meshed sector"),
+       plain(number(1e6 * number_at(mesh, "volume")) + gap + "cm³")},
+      {plain("Wall time"), plain(with_prefix(number_at(summary, "wall_time"), "s"))},
+  };
+  return table;
+}
+
+/// A list of words as one line, anything else as text_at.
+std::string words_at(const json& object, const std::string& key) {
+  if (!object.contains(key) || !object.at(key).is_array()) return text_at(object, key);
+  std::string line;
+  for (const json& word : object.at(key)) {
+    line += (line.empty() ? "" : " ") + (word.is_string() ? word.get<std::string>() : word.dump());
+  }
+  return line;
+}
+
+/// name → value of a JSON object as rows of a table.
+void add_rows(Table& table, const json& object, const std::string& prefix) {
+  for (const auto& [key, value] : object.items()) {
+    Cell cell = plain(text_at(object, key));
+    cell.words = true;
+    table.rows.push_back({plain(prefix + key), cell});
+  }
+}
+
+}  // namespace
+
+Chapter cost_chapter(const RunData& run) {
+  Chapter chapter{"cost", "Time step, cost and quality", {}};
+  const Table lattices = lattice_table(run);
+  if (lattices.header.size() > 1) chapter.blocks.push_back(lattices);
+  for (const ModelData& model : run.models) {
+    const std::string explanation = text_at(object_at(model.summary, "step"), "explanation");
+    if (!explanation.empty())
+      chapter.blocks.push_back(Paragraph{fmt::format("Step of {}.", model.name), explanation});
+  }
+  if (!run.reference_summary.empty()) chapter.blocks.push_back(mesh_table(run));
+  return chapter;
+}
+
+Chapter provenance_chapter(const RunData& run) {
+  Chapter chapter{"provenance", "Provenance", {}};
+  Table table;
+  table.caption = "What made these numbers, from manifest.json.";
+  table.header = {plain("Entry"), plain("Value")};
+  for (const char* key :
+       {"version", "source_hash", "input_hash", "command", "command_line", "started", "finished"}) {
+    Cell cell = plain(words_at(run.manifest, key));
+    cell.words = true;
+    if (!cell.text.empty()) table.rows.push_back({plain(key), cell});
+  }
+  add_rows(table, object_at(run.manifest, "host"), "host: ");
+  add_rows(table, object_at(run.manifest, "packages"), "");
+  if (!table.rows.empty()) chapter.blocks.push_back(std::move(table));
+  if (!run.parameters.empty()) {
+    chapter.blocks.push_back(
+        Paragraph{"To reproduce:",
+                  "take parameters.toml from this folder (below) and run `fingertip validate "
+                  "--config parameters.toml`; every value that "
+                  "went into the run is in it. The curves, traces and fields in the subfolders are "
+                  "the data behind the figures."});
+    chapter.blocks.push_back(Listing{"parameters.toml", run.parameters});
+  }
+  return chapter;
+}
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,306 @@
+/// Elastic constants: against direction, from the calibrations, on finite cubes.
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "calibration/moduli.h"
+#include "studies/report/chapters.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+using Eigen::Vector3d;
+
+/// C11 and C12 from tension along a cube axis: S11 = 1/E_100, S12 = -nu_100/E_100, and for a
+/// cubic material C11 - C12 = 1/(S11 - S12), C11 + 2 C12 = 1/(S11 + 2 S12).
+calibration::ElasticModuli cubic(const Moduli& moduli) {
+  const double difference = moduli.E_100 / (1.0 + moduli.nu_100);
+  const double sum = moduli.E_100 / (1.0 - 2.0 * moduli.nu_100);
+  const double c12 = (sum - difference) / 3.0;
+  return calibration::moduli_from_stiffness(c12 + difference, c12, moduli.G);
+}
+
+/// E against direction in the plane of two unit vectors, as a closed curve around the origin.
+template <class Modulus>
+Series polar_series(const std::string& name, const Vector3d& right, const Vector3d& up,
+                    const Modulus& modulus) {
+  Series series{model_label(name), name, {}, {}, {}, model_style(name)};
+  for (int degree = 0; degree <= 360; degree += 2) {
+    const double angle = degree * std::numbers::pi / 180.0;
+    const double E = to_gf_per_cm2(modulus(std::cos(angle) * right + std::sin(angle) * up));
+    series.x.push_back(E * std::cos(angle));
+    series.y.push_back(E * std::sin(angle));
+  }
+  return series;
+}
+
+/// A spoke of the polar plot with its crystal direction at the end.
+void add_spoke(Panel& panel, double degree, double length, const std::string& text) {
+  const double x = length * std::cos(degree * std::numbers::pi / 180.0);
+  const double y = length * std::sin(degree * std::numbers::pi / 180.0);
+  panel.series.push_back(
+      {"", "direction " + text, {0.0, x}, {0.0, y}, {}, {"#999999", "(2,3)", 0.8, 0, true}});
+  panel.texts.push_back({1.12 * x, 1.12 * y, text});
+}
+
+Panel polar_panel(const RunData& run, const std::string& title, const Vector3d& right,
+                  const Vector3d& up) {
+  Panel panel;
+  panel.title = title;
+  panel.x_label = "E · cos(angle) [gf/cm²]";
+  panel.y_label = "E · sin(angle) [gf/cm²]";
+  panel.equal_scales = true;
+  for (const ModelData& model : run.models) {
+    if (!std::isfinite(model.moduli.E_100 + model.moduli.nu_100 + model.moduli.G)) continue;
+    const calibration::ElasticModuli moduli = cubic(model.moduli);
+    panel.series.push_back(polar_series(model.name, right, up, [&](const Vector3d& direction) {
+      return calibration::youngs_modulus_along(moduli, direction);
+    }));
+  }
+  // Last, to be seen on top of the models that reach it.
+  const double target = run.target.youngs_modulus;
+  panel.series.push_back(
+      polar_series("reference", right, up, [&](const Vector3d&) { return target; }));
+  panel.series.back().label = panel.series.back().key = "target";
+  panel.series.back().style = {"#000000", "(1,3)", 2.0, 0, true};
+  return panel;
+}
+
+FigureBlock polar_figure(const RunData& run) {
+  const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
+  Panel cube_face = polar_panel(run, "(001) plane", x, y);
+  Panel diagonal = polar_panel(run, "(1-10) plane", (x + y).normalized(), z);
+  double most = 0.0;
+  for (const Panel* panel : {&cube_face, &diagonal}) {
+    for (const Series& series : panel->series) {
+      for (std::size_t i = 0; i < series.x.size(); ++i)
+        most = std::fmax(most, std::hypot(series.x[i], series.y[i]));
+    }
+  }
+  const double spoke = 1.16 * most;  // ends outside of every curve
+  for (const auto& [degree, text] : {std::pair{0.0, "[100]"}, {45.0, "[110]"}, {90.0, "[010]"}}) {
+    add_spoke(cube_face, degree, spoke, text);
+  }
+  for (const auto& [degree, text] :
+       {std::pair{0.0, "[110]"}, {35.264389682754654, "[111]"}, {90.0, "[001]"}}) {
+    add_spoke(diagonal, degree, spoke, text);
+  }
+  cube_face.key = "";
+  for (Panel* panel : {&cube_face, &diagonal})
+    panel->x_range = panel->y_range = Range{-1.45 * most, 1.45 * most};
+  diagonal.key = "bottom right";
+  return {{"elastic_directions", 860, 470, 2, {cube_face, diagonal}},
+          "Young's modulus against direction",
+          "Distance from the centre is E along that direction of the lattice. Rubber is a circle "
+          "(dotted). "
+          "A model that touches it only along the cube axes has the right stiffness in one test "
+          "and the wrong "
+          "one in every other."};
+}
+
+Table achieved_table(const RunData& run) {
+  Table table;
+  table.caption =
+      "Homogenised constants of the infinite lattices: achieved value in gf/cm² with SI and "
+      "deviation. A = 2 C44/(C11 − "
+      "C12) is Zener's anisotropy, 1 for an isotropic material.";
+  table.graded = true;
+  table.header = {{"Constant", "", Grade::none}, {"Target", "", Grade::none}};
+  for (const ModelData& model : run.models)
+    table.header.push_back({model_label(model.name), "", Grade::none});
+  struct Row {
+    const char* name;
+    double Moduli::*value;
+    double Target::*target;
+  };
+  for (const Row& row :
+       {Row{"E along [100]", &Moduli::E_100, &Target::youngs_modulus},
+        {"E along [110]", &Moduli::E_110, &Target::youngs_modulus},
+        {"E along [111]", &Moduli::E_111, &Target::youngs_modulus},
+        {"Shear modulus G", &Moduli::G, &Target::shear_modulus},
+        {"Poisson's ratio ν along [100]", &Moduli::nu_100, &Target::poissons_ratio},
+        {"Bulk modulus K", &Moduli::K, &Target::bulk_modulus}}) {
+    const bool ratio = row.value == &Moduli::nu_100;
+    const double target = run.target.*row.target;
+    const auto shown = [&](double value) {
+      return ratio ? number(value) : number(to_gf_per_cm2(value));
+    };
+    std::vector<Cell> cells{{row.name, "", Grade::none},
+                            {shown(target), ratio ? "" : with_prefix(target, "Pa"), Grade::none}};
+    for (const ModelData& model : run.models) {
+      const double value = model.moduli.*row.value;
+      const double error = value / target - 1.0;
+      const std::string si = ratio ? "" : with_prefix(value, "Pa") + ", ";
+      cells.push_back({shown(value), si + percent(error), grade(error)});
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  std::vector<Cell> anisotropy{{"Anisotropy A", "", Grade::none}, {"1", "", Grade::none}};
+  for (const ModelData& model : run.models) {
+    const double A = cubic(model.moduli).anisotropy;
+    anisotropy.push_back({number(A), percent(A - 1.0), grade(A - 1.0)});
+  }
+  table.rows.push_back(std::move(anisotropy));
+  return table;
+}
+
+std::string cauchy_text(const RunData& run) {
+  std::string text =
+      "Springs that push and pull only along their own line cannot tell shear from sideways "
+      "contraction: for every choice "
+      "of k1, k2, k3 they give C12 = C44 (Cauchy's relation). If such a lattice is isotropic, "
+      "Poisson's ratio is 1/4, "
+      "whatever the constants";
+  if (std::isfinite(run.target.poissons_ratio)) {
+    text += fmt::format("; this rubber has {}", number(run.target.poissons_ratio));
+  }
+  text += ".";
+  const ModelData* central = run.model("central");
+  if (central && std::isfinite(central->moduli.K)) {
+    text += fmt::format(
+        " Fitted to E and G together, the central lattice therefore pays with ν₁₀₀ = {} and K = {} "
+        "in place of {}.",
+        number(central->moduli.nu_100), stress(central->moduli.K), stress(run.target.bulk_modulus));
+  }
+  return text +
+         " A volume constant per cell, as in hookean, lifts the limit: it adds to C11 and C12 and "
+         "leaves C44 alone.";
+}
+
+/// "(0.62, −0.62, 0.47, 0)" for each direction the tests leave open, "–" when there is none.
+std::string null_directions(const nlohmann::json& calibration) {
+  if (!calibration.contains("unidentifiable")) return "–";
+  std::vector<std::string> directions;
+  for (const nlohmann::json& direction : calibration.at("unidentifiable")) {
+    std::vector<std::string> parts;
+    for (const char* key : {"k1", "k2", "k3", "kappa"}) {
+      const double value = number_at(direction, key);
+      parts.push_back(std::abs(value) < 5e-4 ? "0" : number(value, 2));
+    }
+    directions.push_back(fmt::format("({})", fmt::join(parts, ", ")));
+  }
+  return directions.empty() ? "–" : enumerate(directions);
+}
+
+void add_calibrations(const RunData& run, Chapter& chapter) {
+  Table table;
+  table.caption =
+      "Spring and volume constants. Null direction: the moves of the constants that no test of "
+      "elastic "
+      "constants notices.";
+  table.header = {{"Model", "", Grade::none},
+                  {"Spacing", "cm", Grade::none},
+                  {"k1", "axis", Grade::none},
+                  {"k2", "face diagonal", Grade::none},
+                  {"k3", "body diagonal", Grade::none},
+                  {"κ", "volume", Grade::none},
+                  {"Null direction", "(k1, k2, k3, κ)", Grade::none}};
+  for (const ModelData& model : run.models) {
+    const nlohmann::json& source = model.calibration.empty() ? model.summary : model.calibration;
+    const nlohmann::json constants = object_at(source, "constants");
+    if (constants.empty()) continue;
+    std::vector<Cell> row{{model_label(model.name),
+                           model.calibration.empty() ? "rule k = E a²/l₀" : "fitted", Grade::none},
+                          {number(to_cm(number_at(source, "spacing"))), "", Grade::none}};
+    for (const char* key : {"k1", "k2", "k3"}) {
+      row.push_back({with_prefix(number_at(constants, key), "N/m"), "", Grade::none});
+    }
+    row.push_back({with_prefix(number_at(constants, "kappa"), "Pa"), "", Grade::none});
+    row.push_back({null_directions(model.calibration), "", Grade::none});
+    table.rows.push_back(std::move(row));
+  }
+  if (!table.rows.empty()) chapter.blocks.push_back(std::move(table));
+  for (const ModelData& model : run.models) {
+    if (model.calibration.empty()) continue;
+    chapter.blocks.push_back(Paragraph{fmt::format("Calibration of {}.", model.name),
+                                       text_at(model.calibration, "statement")});
+  }
+}
+
+struct CubeColumn {
+  const char* column;
+  const char* label;
+};
+constexpr CubeColumn cube_columns[] = {
+    {"youngs_modulus_100 [Pa]", "E₁₀₀"}, {"youngs_modulus_110 [Pa]", "E₁₁₀"},
+    {"youngs_modulus_111 [Pa]", "E₁₁₁"}, {"shear_modulus [Pa]", "G"},
+    {"poissons_ratio_100", "ν₁₀₀"},      {"bulk_modulus [Pa]", "K"}};
+
+Table cubes_table(const RunData& run) {
+  Table table;
+  table.caption =
+      "Free cubes of whole cells, loaded on all faces (gf/cm²; deviation from the infinite lattice "
+      "of the same model below).";
+  table.header = {{"Model", "", Grade::none}, {"Cells across", "", Grade::none}};
+  const std::vector<std::string> models = run.cubes.texts("model");
+  const std::vector<double> across = run.cubes.numbers("cells_across");
+  for (const CubeColumn& column : cube_columns)
+    table.header.push_back({column.label, "", Grade::none});
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    std::vector<Cell> row{{models[i], "", Grade::none}, {count(across[i]), "", Grade::none}};
+    const ModelData* model = run.model(models[i]);
+    const Moduli known = model ? model->moduli : Moduli();
+    const double infinite[] = {known.E_100, known.E_110,  known.E_111,
+                               known.G,     known.nu_100, known.K};
+    for (std::size_t c = 0; c < std::size(cube_columns); ++c) {
+      const double value = run.cubes.numbers(cube_columns[c].column)[i];
+      const bool ratio = c == 4;
+      row.push_back({number(ratio ? value : to_gf_per_cm2(value)),
+                     percent(value / infinite[c] - 1.0), Grade::none});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+FigureBlock cubes_figure(const RunData& run) {
+  Panel panel;
+  panel.x_label = "cells across the cube";
+  panel.y_label = "E along [100] [gf/cm²]";
+  panel.log_x = true;
+  panel.key = "top right";
+  const std::vector<std::string> models = run.cubes.texts("model");
+  const std::vector<double> across = run.cubes.numbers("cells_across");
+  const std::vector<double> E = run.cubes.numbers("youngs_modulus_100 [Pa]");
+  for (const std::string& name : std::set<std::string>(models.begin(), models.end())) {
+    Series series{model_label(name), name, {}, {}, {}, model_style(name)};
+    series.style.point = name == "published" ? 5 : name == "central" ? 9 : 7;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      if (models[i] != name) continue;
+      series.x.push_back(across[i]);
+      series.y.push_back(to_gf_per_cm2(E[i]));
+    }
+    panel.series.push_back(std::move(series));
+  }
+  double least = 1e9, most = 1.0;
+  for (double cells : across) least = std::fmin(least, cells), most = std::fmax(most, cells);
+  panel.x_range = Range{0.8 * least, 1.25 * most};
+  panel.y_range = Range{0.0, meshes::unknown};
+  return {{"cubes", 760, 340, 1, {panel}},
+          "The surface effect of full springs",
+          "Counted fully, the springs of a free surface are shared with no neighbouring cell, so a "
+          "small specimen is too stiff. "
+          "Weighted per cell, every size gives the constants of the infinite lattice."};
+}
+
+}  // namespace
+
+Chapter elasticity_chapter(const RunData& run) {
+  Chapter chapter{"elasticity", "Elastic constants", {}};
+  if (run.models.empty()) return chapter;
+  chapter.blocks.push_back(polar_figure(run));
+  chapter.blocks.push_back(achieved_table(run));
+  chapter.blocks.push_back(Paragraph{"The Cauchy limit.", cauchy_text(run)});
+  add_calibrations(run, chapter);
+  if (!run.cubes.empty()) {
+    chapter.blocks.push_back(cubes_figure(run));
+    chapter.blocks.push_back(cubes_table(run));
+  }
+  return chapter;
+}
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,269 @@
+/// Force curves and controller tracking.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/report/chapters.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+constexpr double speed_limit = 2.0;  ///< tolerated deviation from the commanded speed [%]
+constexpr double tilt_limit = 0.1;   ///< tolerated tilt [°]
+const std::string above = "outside top center horizontal";
+
+Series force_series(const meshes::PressResponse& response, const std::string& name) {
+  Series series{model_label(name), name, {0.0}, {0.0}, {}, model_style(name)};
+  for (const meshes::PressSample& sample : response.samples()) {
+    series.x.push_back(to_cm(sample.indentation));
+    series.y.push_back(to_gf(sample.normal_force));
+  }
+  return series;
+}
+
+/// The continuum's samples as points with error bars ...
+Series reference_points(const meshes::PressResponse& response) {
+  Series series = force_series(response, "reference");
+  series.style.line = false;
+  series.error.push_back(0.0);
+  for (const meshes::PressSample& sample : response.samples()) {
+    series.error.push_back(to_gf(sample.force_error));
+  }
+  return series;
+}
+
+/// ... and the curve between them that the errors are measured against.
+Series reference_line(const meshes::PressResponse& response) {
+  Series series{"", "reference, interpolated", {}, {}, {}, model_style("reference")};
+  series.style.point = 0;
+  const int steps = 120;
+  for (int i = 0; i <= steps; ++i) {
+    const double depth = i == steps ? response.depth() : response.depth() * i / steps;
+    series.x.push_back(to_cm(depth));
+    series.y.push_back(to_gf(response.normal_force_at(depth)));
+  }
+  return series;
+}
+
+Panel force_panel(const RunData& run) {
+  Panel panel;
+  panel.x_label = "indentation [cm]";
+  panel.y_label = "normal force [gf]";
+  if (!run.reference.empty()) panel.series.push_back(reference_line(run.reference));
+  for (const ModelData& model : run.models) {
+    if (!model.response.empty()) panel.series.push_back(force_series(model.response, model.name));
+  }
+  // Last, so that the points stay visible on top.
+  if (!run.reference.empty()) panel.series.push_back(reference_points(run.reference));
+  return panel;
+}
+
+/// Relative error at 60 depths from the first sample of the continuum on: before it the reference
+/// is only an interpolation from zero.
+Series error_series(const RunData& run, const ModelData& model) {
+  Series series{model_label(model.name), model.name, {}, {}, {}, model_style(model.name)};
+  const double from = run.reference.samples().front().indentation;
+  const double to = std::min(run.reference.depth(), model.response.depth());
+  const int steps = 60;
+  for (int i = 0; i <= steps && to > from; ++i) {
+    const double depth = i == steps ? to : from + (to - from) * i / steps;
+    series.x.push_back(to_cm(depth));
+    series.y.push_back(100.0 * meshes::relative_force_error(model.response, run.reference, depth));
+  }
+  return series;
+}
+
+/// Range of the error axis that shows the useful part: before the first depth of the verdict, where
+/// a point or two touch, a curve may leave the picture.
+Range error_axis(const RunData& run, const std::vector<Series>& curves) {
+  const double from = run.depths.empty() ? 0.0 : to_cm(run.depths.front());
+  double least = -5.0, most = 5.0;
+  for (const Series& curve : curves) {
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      if (curve.x[i] < from) continue;
+      least = std::fmin(least, curve.y[i]);
+      most = std::fmax(most, curve.y[i]);
+    }
+  }
+  const double room = 0.08 * (most - least);
+  return {least - room, most + room};
+}
+
+Table response_table(const RunData& run) {
+  Table table;
+  table.caption =
+      "Normal force in gf (mN below) at the depths of the verdict, and the continuum's contact.";
+  table.header = {{"Indentation", "cm", Grade::none},
+                  {"Continuum", "± estimated error", Grade::none},
+                  {"Contact radius", "cm", Grade::none},
+                  {"Peak pressure", "gf/cm²", Grade::none}};
+  for (const ModelData& model : run.models)
+    table.header.push_back({model_label(model.name), "", Grade::none});
+  for (double depth : run.depths) {
+    std::vector<Cell> row{{fmt::format("{:.4g}", to_cm(depth)), "", Grade::none}};
+    const auto cell = [&](const meshes::PressResponse& response) -> Cell {
+      const double f = force_at(response, depth);
+      if (std::isnan(f)) return {"–", "", Grade::none};
+      return {number(to_gf(f)), number(1e3 * f) + gap + "mN", Grade::none};
+    };
+    row.push_back(cell(run.reference));
+    row.push_back({"–", "", Grade::none});
+    row.push_back({"–", "", Grade::none});
+    for (const meshes::PressSample& sample : run.reference.samples()) {
+      if (std::abs(sample.indentation - depth) > 1e-9) continue;
+      if (std::isfinite(sample.force_error))
+        row[1].text += " ± " + number(to_gf(sample.force_error), 2);
+      row[2] = {number(to_cm(sample.contact_radius)),
+                number(1e3 * sample.contact_radius) + gap + "mm", Grade::none};
+      row[3] = {number(to_gf_per_cm2(sample.max_pressure)), with_prefix(sample.max_pressure, "Pa"),
+                Grade::none};
+    }
+    for (const ModelData& model : run.models) row.push_back(cell(model.response));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// Values of a trace column in display units against time.
+Series trace_series(const ModelData& model, const std::vector<double>& time,
+                    std::vector<double> values) {
+  return {model_label(model.name), model.name, time,
+          std::move(values),       {},         model_style(model.name)};
+}
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+/// Deviation from the commanded speed in percent; NaN while nothing is commanded.
+std::vector<double> speed_deviation(const CsvTable& trace) {
+  std::vector<double> speed = trace.numbers("speed [m/s]");
+  const std::vector<double> command = trace.numbers("commanded_speed [m/s]");
+  for (std::size_t i = 0; i < speed.size(); ++i) {
+    speed[i] = command[i] > 0.0 ? 100.0 * (speed[i] / command[i] - 1.0) : meshes::unknown;
+  }
+  return speed;
+}
+
+Figure tracking_figure(const RunData& run) {
+  Figure figure;
+  figure.name = "tracking";
+  figure.height = 860;
+  Panel speed, deviation, tilt, force;
+  double most_tilt = tilt_limit, end = 0.0;
+  speed.y_label = "approach speed [cm/s]";
+  speed.key = "bottom right";
+  deviation.y_label = "speed off command [%]";
+  deviation.y_range = Range{-6.0, 6.0};
+  deviation.band = Band{-speed_limit, speed_limit};
+  tilt.y_label = "tilt [°]";
+  tilt.band = Band{0.0, tilt_limit};
+  force.y_label = "normal force [gf]";
+  force.x_label = speed.x_label = deviation.x_label = tilt.x_label = "time [s]";
+  deviation.key = tilt.key = force.key = "";
+  for (const ModelData& model : run.models) {
+    if (model.trace.empty()) continue;
+    const std::vector<double> time = model.trace.numbers("time [s]");
+    end = std::fmax(end, time.back());
+    const auto column = [&](const char* name, double factor) {
+      return trace_series(model, time, scaled(model.trace.numbers(name), factor));
+    };
+    speed.series.push_back(column("speed [m/s]", 100.0));
+    deviation.series.push_back(trace_series(model, time, speed_deviation(model.trace)));
+    tilt.series.push_back(column("tilt [rad]", degree_per_radian));
+    for (double degree : tilt.series.back().y) most_tilt = std::fmax(most_tilt, degree);
+    force.series.push_back(column("normal_force [N]", 1.0 / newton_per_gf));
+    const double touch = number_at(model.summary, "first_touch_time");
+    if (!std::isfinite(touch)) continue;
+    for (Panel* panel : {&speed, &deviation, &tilt, &force}) {
+      panel->markers.push_back({touch, model_style(model.name).colour});
+    }
+  }
+  tilt.y_range = Range{0.0, 1.15 * most_tilt};
+  for (Panel* panel : {&speed, &deviation, &tilt, &force}) panel->x_range = Range{0.0, end};
+  figure.panels = {speed, deviation, tilt, force};
+  return figure;
+}
+
+Table tracking_table(const RunData& run) {
+  Table table;
+  table.caption =
+      "Speed error where it counts: from 50 ms after the start, except the first 20 ms after first "
+      "touch, which have a column of their own. Limits: 2 % and 0.1°.";
+  table.header = {{"Model", "", Grade::none},
+                  {"First touch", "s", Grade::none},
+                  {"Speed error", "largest", Grade::none},
+                  {"Speed error", "at first touch", Grade::none},
+                  {"Tilt", "largest", Grade::none},
+                  {"Peak force", "gf", Grade::none}};
+  for (const ModelData& model : run.models) {
+    if (model.trace.empty()) continue;
+    const nlohmann::json tracking = object_at(model.summary, "tracking");
+    double peak = meshes::unknown;
+    for (double f : model.trace.numbers("normal_force [N]")) peak = std::fmax(peak, f);
+    table.rows.push_back(
+        {{model_label(model.name), "", Grade::none},
+         {number(number_at(model.summary, "first_touch_time"), 4), "", Grade::none},
+         {percent_magnitude(number_at(tracking, "speed_deviation")), "", Grade::none},
+         {percent_magnitude(number_at(tracking, "speed_deviation_at_touch")), "", Grade::none},
+         {number(number_at(tracking, "tilt_deg"), 2) + "°", "", Grade::none},
+         {number(to_gf(peak)), with_prefix(peak, "N"), Grade::none}});
+  }
+  return table;
+}
+
+}  // namespace
+
+Chapter force_chapter(const RunData& run) {
+  Chapter chapter{"force", "Force against indentation", {}};
+  Figure curves{"force_indentation", 760, 460, 1, {force_panel(run)}};
+  if (curves.panels.front().series.empty()) return chapter;
+  chapter.blocks.push_back(FigureBlock{
+      curves, "Normal force against indentation",
+      "Black: the deal.II continuum, its points with bars of the estimated error of discretisation "
+      "(mostly smaller than the points). A lattice that is the same material on the same body "
+      "follows the black curve."});
+  Panel errors;
+  errors.x_label = "indentation [cm]";
+  errors.y_label = "force error [%]";
+  errors.key = above;
+  errors.band = Band{-2.0, 2.0};
+  for (const ModelData& model : run.models) {
+    if (!run.reference.empty() && !model.response.empty())
+      errors.series.push_back(error_series(run, model));
+  }
+  if (!errors.series.empty()) {
+    errors.y_range = error_axis(run, errors.series);
+    chapter.blocks.push_back(FigureBlock{
+        {"force_error", 760, 360, 1, {errors}},
+        "Relative error of the force against the continuum",
+        "The shaded band is ±2 %. The error is largest where few lattice points touch, and each "
+        "further layer of points that reaches the plane shows as a step."});
+  }
+  if (!run.depths.empty()) chapter.blocks.push_back(response_table(run));
+  return chapter;
+}
+
+Chapter control_chapter(const RunData& run) {
+  Chapter chapter{"control", "Under the controller", {}};
+  const Figure figure = tracking_figure(run);
+  if (figure.panels.front().series.empty()) return chapter;
+  chapter.blocks.push_back(Paragraph{"",
+                                     "A six-degree-of-freedom PID pushes the rod's endpoint so "
+                                     "that approach speed and orientation "
+                                     "stay constant before, during and after contact: the task of "
+                                     "the 1996 paper. It sees only pose, "
+                                     "twist and wrench at the endpoint."});
+  chapter.blocks.push_back(FigureBlock{figure,
+                                       "Speed, speed error, tilt and contact force over time",
+                                       "Dotted verticals: first touch of each model in its colour. "
+                                       "Shaded: what is tolerated, 2 % of the "
+                                       "commanded speed (except just after the start and just "
+                                       "after first touch) and 0.1° of tilt."});
+  chapter.blocks.push_back(tracking_table(run));
+  return chapter;
+}
+
+}  // namespace fingertip::studies::reporting

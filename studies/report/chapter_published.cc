@@ -1,0 +1,174 @@
+/// The published model's force: a property of its grid.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/report/chapters.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+/// One lattice of the study: what was varied, its setting, and the errors at the depths.
+struct Variant {
+  std::string varied;
+  double spacing, x, y, z, ligament;
+  std::vector<double> depth, force, error;
+
+  bool same_lattice(const Variant& other) const {
+    return varied == other.varied && spacing == other.spacing && x == other.x && y == other.y &&
+           z == other.z && ligament == other.ligament;
+  }
+  std::string offset() const { return fmt::format("({:.3g}, {:.3g}, {:.3g})", x, y, z); }
+  std::string label() const {
+    if (varied == "spacing") return fmt::format("{} cm", number(to_cm(spacing), 3));
+    if (varied == "offset") return offset();
+    return fmt::format("×{:.4g}", ligament);
+  }
+};
+
+std::vector<Variant> read_variants(const CsvTable& study) {
+  const std::vector<std::string> varied = study.texts("varied");
+  const auto column = [&](const char* name) { return study.numbers(name); };
+  const std::vector<double> spacing = column("spacing [m]"),
+                            ligament = column("ligament_stiffness");
+  const std::vector<double> x = column("offset_x"), y = column("offset_y"), z = column("offset_z");
+  const std::vector<double> depth = column("indentation [m]"), force = column("normal_force [N]");
+  const std::vector<double> error = column("relative_error");
+  std::vector<Variant> variants;
+  for (std::size_t i = 0; i < varied.size(); ++i) {
+    const Variant row{varied[i], spacing[i], x[i], y[i], z[i], ligament[i], {}, {}, {}};
+    if (variants.empty() || !variants.back().same_lattice(row)) variants.push_back(row);
+    variants.back().depth.push_back(depth[i]);
+    variants.back().force.push_back(force[i]);
+    variants.back().error.push_back(error[i]);
+  }
+  return variants;
+}
+
+std::vector<double> all_depths(const std::vector<Variant>& variants) {
+  std::vector<double> depths;
+  for (const Variant& variant : variants)
+    depths.insert(depths.end(), variant.depth.begin(), variant.depth.end());
+  std::sort(depths.begin(), depths.end());
+  const auto close = [](double a, double b) { return std::abs(a - b) < 1e-9; };
+  depths.erase(std::unique(depths.begin(), depths.end(), close), depths.end());
+  return depths;
+}
+
+Table study_table(const std::vector<Variant>& variants) {
+  Table table;
+  table.caption =
+      "Contact force of the published lattice in gf, and its error against the continuum below, at "
+      "each indentation.";
+  table.graded = true;
+  table.header = {{"Varied", "", Grade::none},
+                  {"Spacing", "cm", Grade::none},
+                  {"Grid offset", "in spacings", Grade::none},
+                  {"Ligaments", "stiffness ×", Grade::none}};
+  const std::vector<double> depths = all_depths(variants);
+  for (double depth : depths)
+    table.header.push_back({"F", fmt::format("{:.4g} cm", to_cm(depth)), Grade::none});
+  for (const Variant& variant : variants) {
+    std::string varied = variant.varied;
+    std::replace(varied.begin(), varied.end(), '_', ' ');
+    std::vector<Cell> row{{varied, "", Grade::none},
+                          {number(to_cm(variant.spacing)), "", Grade::none},
+                          {variant.offset(), "", Grade::none},
+                          {fmt::format("{:.4g}", variant.ligament), "", Grade::none}};
+    for (double depth : depths) {
+      Cell cell{"–", "", Grade::none};
+      for (std::size_t i = 0; i < variant.depth.size(); ++i) {
+        if (std::abs(variant.depth[i] - depth) > 1e-9) continue;
+        cell = {number(to_gf(variant.force[i])), percent(variant.error[i]),
+                grade(variant.error[i])};
+      }
+      row.push_back(cell);
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+FigureBlock study_figure(const std::vector<Variant>& variants) {
+  Figure figure{"published_study", 960, 430, 0, {}};
+  double least = 0.0, most = 0.0;
+  for (const Variant& variant : variants) {
+    if (figure.panels.empty() || figure.panels.back().title != variant.varied) {
+      Panel panel;
+      panel.title = variant.varied;
+      panel.x_label = "indentation [cm]";
+      panel.y_label = "force error [%]";
+      panel.key = "bottom right";
+      figure.panels.push_back(panel);
+    }
+    std::vector<Series>& series = figure.panels.back().series;
+    Series curve{variant.label(), variant.label(), {}, {}, {}, numbered_style(series.size())};
+    for (std::size_t i = 0; i < variant.depth.size(); ++i) {
+      curve.x.push_back(to_cm(variant.depth[i]));
+      curve.y.push_back(100.0 * variant.error[i]);
+      least = std::fmin(least, curve.y.back());
+      most = std::fmax(most, curve.y.back());
+    }
+    series.push_back(std::move(curve));
+  }
+  // The same axis for all, with room for the legend below the curves.
+  const double room = 0.55 * (most - least) + 1.0;
+  for (Panel& panel : figure.panels) {
+    panel.y_range = Range{least - room, most + 0.1 * room};
+    std::replace(panel.title.begin(), panel.title.end(), '_', ' ');
+  }
+  figure.columns = int(figure.panels.size());
+  return {figure, "The published model's force error against depth",
+          "Left to right: other spacing, other place of the grid in the body, other stiffness of "
+          "the ligaments to the rod. The "
+          "material is the same in every curve; what changes is the grid."};
+}
+
+/// The range of errors in the table, as evidence for the text.
+std::string spread(const std::vector<Variant>& variants) {
+  double least = meshes::unknown, most = meshes::unknown;
+  for (const Variant& variant : variants) {
+    for (double error : variant.error)
+      least = std::fmin(least, error), most = std::fmax(most, error);
+  }
+  return fmt::format("Over the lattices of this table the error of the force runs from {} to {}.",
+                     percent(least), percent(most));
+}
+
+}  // namespace
+
+Chapter published_chapter(const RunData& run) {
+  Chapter chapter{"published", "The published model's force", {}};
+  const std::vector<Variant> variants = read_variants(run.published_study);
+  if (variants.empty()) return chapter;
+  chapter.blocks.push_back(
+      Paragraph{"No particular force should be expected from it.",
+                "Its contact is made of particles: a single one at the pole carries everything "
+                "until the next layer of the grid reaches the "
+                "plane, and a few ligaments of unspecified stiffness hand the load to the rod. The "
+                "force is a property of the grid as much as of "
+                "the rubber. " +
+                    spread(variants)});
+  chapter.blocks.push_back(study_figure(variants));
+  chapter.blocks.push_back(study_table(variants));
+  chapter.blocks.push_back(
+      Paragraph{"How the printed rule is read.",
+                "The paper sets k = E/l₀, which is a force per length only after multiplication by "
+                "an area. Taken literally the effective "
+                "modulus would grow like 1/a² as the grid is refined; the lattice reading k = E "
+                "a²/l₀ (k1 = E a, k2 = E a/√2, k3 = E a/√3) "
+                "makes the lattice a material of its own, the same at every spacing, though not "
+                "the rubber it was meant to be."});
+  chapter.blocks.push_back(
+      Paragraph{"Misprints that are not copied.",
+                "AccumulateForces subtracts u_j although u_j = −u_i already, which would push both "
+                "ends the same way. With i, j ≥ 0 the offset "
+                "−R/2 in w_ijk keeps only 60 % of the tip, so i and j run over both signs here. "
+                "The paper leaves the ligaments open: here every "
+                "particle closer than one spacing to the rod gets an isotropic spring k = E a to "
+                "its radial projection, with zero force at rest."});
+  return chapter;
+}
+
+}  // namespace fingertip::studies::reporting

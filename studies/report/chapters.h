@@ -1,0 +1,37 @@
+/// The chapters of the validation report. Each function reads a run and returns the chapter with
+/// what there is; a chapter without blocks is left out of the page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/report/document.h"
+#include "studies/report/run_data.h"
+
+namespace fingertip::studies::reporting {
+
+/// The result in one paragraph, in words made from the numbers.
+std::string answer(const RunData& run);
+/// Model × (elastic constants against target, force error at each depth, real-time factor),
+/// criteria.
+Chapter verdict_chapter(const RunData& run);
+/// Force against indentation of continuum and lattices, and the relative error.
+Chapter force_chapter(const RunData& run);
+/// Speed, tilt and force under the controller.
+Chapter control_chapter(const RunData& run);
+/// Elastic constants against direction, the calibrations and the cubes.
+Chapter elasticity_chapter(const RunData& run);
+/// The mesh, the lattices and the contact pressure.
+Chapter pictures_chapter(const RunData& run);
+/// How the published model's force depends on grid and ligaments.
+Chapter published_chapter(const RunData& run);
+/// Why the models differ, in words.
+Chapter reasons_chapter(const RunData& run);
+/// Time step, cost, mesh quality, momentum balance.
+Chapter cost_chapter(const RunData& run);
+/// Versions, host, times, parameters.
+Chapter provenance_chapter(const RunData& run);
+/// Everything the chapters look for in vain.
+std::vector<NotRun> missing_parts(const RunData& run);
+
+}  // namespace fingertip::studies::reporting

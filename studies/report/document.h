@@ -1,0 +1,76 @@
+/// A page as data: chapters made of paragraphs, tables and figures, and its rendering to HTML.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "studies/report/figure.h"
+#include "studies/report/format.h"
+
+namespace fingertip::studies::reporting {
+
+/// Running text, with an optional lead-in in bold.
+struct Paragraph {
+  std::string lead;
+  std::string text;
+};
+
+/// Text shown as it is.
+struct Listing {
+  std::string title;
+  std::string text;
+};
+
+struct Cell {
+  std::string text;
+  std::string note;  ///< second, smaller line: the SI value or the deviation
+  Grade grade = Grade::none;
+  bool words = false;  ///< prose: left-aligned and wrapped
+};
+
+/// The first column names the row.
+struct Table {
+  std::string caption;
+  std::vector<Cell> header;
+  std::vector<std::vector<Cell>> rows;
+  bool graded = false;  ///< explain the marks below the table
+};
+
+/// A figure with the sentence that says what to see.
+struct FigureBlock {
+  Figure figure;
+  std::string title;
+  std::string caption;
+};
+
+using Block = std::variant<Paragraph, Listing, Table, FigureBlock>;
+
+struct Chapter {
+  std::string id, title;
+  std::vector<Block> blocks;
+};
+
+/// Something the page would show if it had been run.
+struct NotRun {
+  std::string what;
+  std::string missing;  ///< the files it would be read from
+};
+
+struct Page {
+  std::string title, subtitle;
+  std::string status;             ///< one line below the title, may be empty
+  std::string answer;             ///< the result in one paragraph
+  std::vector<Chapter> chapters;  ///< those without blocks are left out
+  std::vector<NotRun> not_run;
+};
+
+/// Renders the page and publishes it: `folder`/figures/*, then `folder`/`file_name`. Everything is
+/// made in a hidden folder beside them first, so an error leaves the old page untouched.
+void publish(const Page& page, const std::filesystem::path& folder, const std::string& file_name);
+
+/// `text` for use inside HTML: & < > " ' as entities.
+std::string escaped(const std::string& text);
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,300 @@
+#include "studies/report/figure.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "meshes/files.h"
+#include "studies/report/document.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_points(const Series& series) {
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    if (std::isfinite(series.x[i]) && std::isfinite(series.y[i])) return true;
+  }
+  return false;
+}
+
+/// A string for gnuplot: single quotes suspend every other escape.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (char c : text) {
+    if (c == '\'')
+      result += "''";
+    else
+      result += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return result + "'";
+}
+
+std::string data_block(const Series& series, const std::string& name) {
+  std::string text = name + " << EOD\n";
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) {
+      text += '\n';
+      continue;
+    }
+    const double error = i < series.error.size() ? series.error[i] : 0.0;
+    text += fmt::format("{:.8g} {:.8g} {:.8g}\n", series.x[i], series.y[i],
+                        std::isfinite(error) ? error : 0.0);
+  }
+  return text + "EOD\n";
+}
+
+std::string plot_item(const Series& series, const std::string& block) {
+  const Style& style = series.style;
+  const std::string with = !style.line ? "points" : style.point ? "linespoints" : "lines";
+  std::string item = fmt::format("{} using 1:2 with {} lc rgb '{}'", block, with, style.colour);
+  if (style.line)
+    item += fmt::format(" lw {} dt {}", style.width, style.dash.empty() ? "solid" : style.dash);
+  if (style.point) item += fmt::format(" pt {} ps {}", style.point, style.point_size);
+  item += series.label.empty() ? " notitle" : " title " + quoted(series.label);
+  if (!series.error.empty()) {
+    // Vectors with flat ends: the style "errorbars" would erase the curves around its points.
+    item += fmt::format(
+        ", {} using 1:($2-$3):(0):(2*$3) with vectors heads size screen 0.004,90 "
+        "lc rgb '{}' lw 1.2 notitle",
+        block, style.colour);
+  }
+  return item;
+}
+
+std::string decorations(const Panel& panel) {
+  std::string text;
+  if (panel.band) {
+    text += fmt::format(
+        "set object rectangle from graph 0, first {:.8g} to graph 1, first {:.8g} "
+        "behind fillcolor rgb '#e8e4d4' fillstyle solid noborder\n",
+        panel.band->from, panel.band->to);
+  }
+  for (const Marker& marker : panel.markers) {
+    text += fmt::format(
+        "set arrow from first {0:.8g}, graph 0 to first {0:.8g}, graph 1 nohead "
+        "lc rgb '{1}' lw 1 dt (2,3)\n",
+        marker.x, marker.colour);
+  }
+  for (const Text& label : panel.texts) {
+    text += fmt::format("set label {} at first {:.8g}, first {:.8g} center tc rgb '#444444'\n",
+                        quoted(label.text), label.x, label.y);
+  }
+  return text;
+}
+
+std::string axis_range(const char* axis, const std::optional<Range>& range) {
+  if (!range) return fmt::format("set {}range [*:*]\n", axis);
+  const auto end = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.8g}", value) : std::string("*");
+  };
+  return fmt::format("set {}range [{}:{}]\n", axis, end(range->from), end(range->to));
+}
+
+std::string panel_script(const Panel& panel, std::size_t index) {
+  std::string text = "unset object\nunset arrow\nunset label\nunset logscale\n";
+  text += "set title " + quoted(panel.title) + " offset 0,-0.5\n";
+  text += "set xlabel " + quoted(panel.x_label) + "\nset ylabel " + quoted(panel.y_label) + "\n";
+  text += axis_range("x", panel.x_range) + axis_range("y", panel.y_range);
+  text += panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n";
+  text += panel.key.empty() ? "unset key\n" : "set key " + panel.key + " Left reverse samplen 3\n";
+  if (panel.log_x) text += "set logscale x 2\n";
+  text += decorations(panel);
+  std::string plot;
+  for (std::size_t i = 0; i < panel.series.size(); ++i) {
+    if (!has_points(panel.series[i])) continue;
+    const std::string block = fmt::format("$p{}s{}", index, i);
+    text += data_block(panel.series[i], block);
+    plot += (plot.empty() ? "plot " : ", \\\n  ") + plot_item(panel.series[i], block);
+  }
+  if (plot.empty()) {
+    // An empty panel keeps its place in the layout.
+    plot = "set xrange [0:1]\nset yrange [0:1]\nplot NaN notitle";
+  }
+  return text + plot + "\n";
+}
+
+/// Where the panels sit: the same room for labels in px around each of them. Panels of one column
+/// share their horizontal axis, so only the lowest needs its label.
+std::string layout(const Figure& figure, int columns, int rows) {
+  const double w = figure.width, h = figure.height;
+  const bool shared = columns == 1;
+  return fmt::format(
+      "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen "
+      "{:.4f},{:.4f}\n",
+      rows, columns, 78 / w, 1.0 - 18 / w, 66 / h, 1.0 - (shared ? 14 : 46) / h, 84 / w,
+      (shared ? 34 : 92) / h);
+}
+
+std::string script(const Figure& figure, const fs::path& svg) {
+  const int columns = std::max(1, figure.columns);
+  const int rows = (int(figure.panels.size()) + columns - 1) / columns;
+  std::string text = fmt::format(
+      "set terminal svg size {},{} dynamic noenhanced font 'sans-serif,13' background '#ffffff' "
+      "linewidth 1\nset output {}\nset encoding utf8\nset minussign\nset border 3 lc rgb "
+      "'#555555'\n"
+      "set tics nomirror tc rgb '#333333'\nset grid lc rgb '#dddddd' lw 0.6 dt solid\n",
+      figure.width, figure.height, quoted(svg.string()));
+  if (rows * columns > 1) text += layout(figure, columns, rows);
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    Panel panel = figure.panels[i];
+    if (columns == 1 && i + 1 < figure.panels.size()) panel.x_label.clear();
+    text += panel_script(panel, i);
+  }
+  if (rows * columns > 1) text += "unset multiplot\n";
+  return text + "unset output\n";
+}
+
+std::string read_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Runs gnuplot on a script file; returns its exit code, -1 when it could not be started.
+int run_gnuplot(const fs::path& script_file, const fs::path& log) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  std::string program = "gnuplot", option = "--default-settings", name = script_file.string();
+  std::array<char*, 4> arguments{program.data(), option.data(), name.data(), nullptr};
+  pid_t child = 0;
+  const int failed = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) return -1;
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return -1;
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// Replaces the first stretch from `from` to `to`; false when there is none.
+bool cut(std::string& text, const std::string& from, const std::string& to, const std::string& by) {
+  const std::size_t begin = text.find(from);
+  if (begin == std::string::npos) return false;
+  const std::size_t end = text.find(to, begin + from.size());
+  if (end == std::string::npos) return false;
+  text.replace(begin, end + to.size() - begin, by);
+  return true;
+}
+
+/// The SVG as an element of an HTML page, where prolog and name spaces are not needed and ids must
+/// not meet those of the other figures.
+std::string inlined(std::string svg, const std::string& name, const std::string& title) {
+  svg.erase(0, svg.find("<svg"));
+  cut(svg, "<title>", "</title>", "<title>" + escaped(title) + "</title>");
+  cut(svg, "<desc>", "</desc>", "");
+  while (cut(svg, "<title>gnuplot_", "</title>", "")) {
+    // Every curve carries its number as a tooltip.
+  }
+  cut(svg, "<filter id='textbox'", "</filter>", "");
+  cut(svg, "<filter id='greybox'", "</filter>", "");
+  cut(svg, "xmlns=\"", "\"", "role=\"img\"");
+  cut(svg, "xmlns:xlink=\"", "\"", "");
+  for (const char* prefix : {"id=\"", "id='", "href='#", "href=\"#", "url(#"}) {
+    replace_all(svg, std::string(prefix) + "gnuplot_", std::string(prefix) + name + "_");
+    replace_all(svg, std::string(prefix) + "gp", std::string(prefix) + name + "_");
+  }
+  return svg;
+}
+
+void write_points(const Figure& figure, const fs::path& file) {
+  std::vector<std::string> labels;
+  const auto column = [&](const std::string& label) {
+    const auto found = std::find(labels.begin(), labels.end(), label);
+    if (found != labels.end()) return std::size_t(found - labels.begin());
+    labels.push_back(label);
+    return labels.size() - 1;
+  };
+  for (const Panel& panel : figure.panels) column(panel.x_label), column(panel.y_label);
+  meshes::write_atomically(file, [&](std::ostream& out) {
+    out << "panel,series";
+    for (const std::string& label : labels) out << ',' << csv_cell(label);
+    out << '\n';
+    for (const Panel& panel : figure.panels) {
+      for (const Series& series : panel.series) {
+        for (std::size_t i = 0; i < series.x.size(); ++i) {
+          std::vector<std::string> cells(labels.size());
+          cells[column(panel.x_label)] = meshes::to_text(series.x[i]);
+          cells[column(panel.y_label)] = meshes::to_text(series.y[i]);
+          out << csv_cell(panel.title) << ','
+              << csv_cell(series.key.empty() ? series.label : series.key);
+          for (const std::string& cell : cells) out << ',' << cell;
+          out << '\n';
+        }
+      }
+    }
+  });
+}
+
+}  // namespace
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+Style model_style(const std::string& name) {
+  if (name == "reference") return {"#000000", "", 1.8, 7, true};
+  if (name == "published") return {"#D55E00", "(9,5)", 2.2, 0, true};
+  if (name == "central") return {"#0072B2", "(10,4,2,4)", 2.2, 0, true};
+  if (name == "hookean") return {"#009E73", "", 2.6, 0, true};
+  return {"#CC79A7", "(3,3)", 2.2, 0, true};
+}
+
+Style numbered_style(std::size_t i) {
+  static const std::array<const char*, 7> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                  "#E69F00", "#56B4E9", "#000000"};
+  static const std::array<const char*, 4> dashes{"", "(9,5)", "(10,4,2,4)", "(3,3)"};
+  static const std::array<int, 7> points{7, 5, 9, 13, 6, 4, 8};
+  return {colours[i % colours.size()], dashes[i % dashes.size()], 2.0, points[i % points.size()],
+          true};
+}
+
+std::string model_label(const std::string& name) {
+  if (name == "reference") return "continuum (FEM)";
+  return name == "published" ? "published (1996)" : name;
+}
+
+std::string draw(const Figure& figure, const std::string& title, const fs::path& folder) {
+  const fs::path svg = folder / (figure.name + ".svg");
+  const fs::path script_file = folder / (figure.name + ".gnuplot");
+  const fs::path log = folder / (figure.name + ".log");
+  meshes::write_atomically(script_file, [&](std::ostream& out) { out << script(figure, svg); });
+  const int code = run_gnuplot(script_file, log);
+  const std::string message = read_file(log);
+  std::string image = read_file(svg);
+  if (code != 0 || image.find("</svg>") == std::string::npos) {
+    throw std::runtime_error(
+        fmt::format("gnuplot could not draw the figure {} (exit code {}): {}", figure.name, code,
+                    message.empty() ? "is the package gnuplot-nox installed?" : message));
+  }
+  fs::remove(script_file);
+  fs::remove(log);
+  write_points(figure, folder / (figure.name + ".csv"));
+  return inlined(std::move(image), figure.name, title);
+}
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,88 @@
+/// Figures drawn by gnuplot as SVG, with the plotted numbers as CSV.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fingertip::studies::reporting {
+
+/// How a curve looks. Colours are the colour-blind-safe ones of Okabe & Ito (2008); every model
+/// keeps its colour and dash pattern in all figures.
+struct Style {
+  std::string colour = "#000000";
+  std::string dash;  ///< gnuplot's (on, off, …) lengths, solid when empty
+  double width = 2.0;
+  int point = 0;     ///< gnuplot's point type, 0 for none
+  bool line = true;  ///< join the points
+  double point_size = 0.65;
+};
+
+/// The style of a curve that belongs to "reference" or to a model of that name.
+Style model_style(const std::string& name);
+/// The i-th of a row of styles without meaning of their own.
+Style numbered_style(std::size_t i);
+/// The name of a model as the reader sees it.
+std::string model_label(const std::string& name);
+
+/// A curve in display units. A NaN in x or y breaks the line.
+struct Series {
+  std::string label;  ///< in the legend; left out of it when empty
+  std::string key;    ///< name in the CSV; `label` when empty
+  std::vector<double> x, y;
+  std::vector<double> error;  ///< half-height of error bars, empty for none
+  Style style;
+};
+
+/// A NaN end follows the data.
+struct Range {
+  double from, to;
+};
+/// A horizontal band, e.g. a tolerance.
+struct Band {
+  double from, to;
+};
+/// A vertical line at `x`.
+struct Marker {
+  double x;
+  std::string colour;
+};
+struct Text {
+  double x, y;
+  std::string text;
+};
+
+/// One pair of axes.
+struct Panel {
+  std::string title, x_label, y_label;  ///< labels carry their unit in brackets
+  std::vector<Series> series;
+  std::optional<Range> x_range, y_range;
+  std::optional<Band> band;
+  std::vector<Marker> markers;
+  std::vector<Text> texts;
+  bool equal_scales = false;     ///< one unit is as long on x as on y
+  bool log_x = false;            ///< logarithmic to base 2
+  std::string key = "top left";  ///< gnuplot's place of the legend, "" for none
+};
+
+struct Figure {
+  std::string name;               ///< file name without extension
+  int width = 760, height = 430;  ///< [px]
+  int columns = 1;
+  std::vector<Panel> panels;
+};
+
+/// Draws the figure with gnuplot (started as a process) into `folder`/NAME.svg and writes what is
+/// plotted to `folder`/NAME.csv: one row per point, `panel,series`, then one column per distinct
+/// axis label. Returns the SVG for use inside an HTML page: without XML prolog, with ids that
+/// are unique to the figure and `title` as its accessible name.
+/// Throws std::runtime_error with gnuplot's message when it is missing or fails.
+std::string draw(const Figure& figure, const std::string& title,
+                 const std::filesystem::path& folder);
+
+/// A CSV cell: quoted when it holds a comma, a quote or a line break.
+std::string csv_cell(const std::string& text);
+
+}  // namespace fingertip::studies::reporting

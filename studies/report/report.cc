@@ -1,0 +1,68 @@
+#include "studies/report/report.h"
+
+#include <fmt/format.h>
+
+#include "studies/report/chapters.h"
+
+namespace fingertip::studies {
+namespace reporting {
+
+std::vector<NotRun> missing_parts(const RunData& run) {
+  std::vector<NotRun> missing;
+  const auto need = [&](bool there, const std::string& what, const std::string& files) {
+    if (!there) missing.push_back({what, files});
+  };
+  need(!run.reference.empty(), "Continuum reference", "reference/response.csv");
+  need(!run.section.empty(), "Picture of the continuum's mesh", "reference/section.csv");
+  need(!run.pressure.empty(), "Contact pressure of the continuum", "reference/pressure.csv");
+  for (const char* name : {"published", "central", "hookean"}) {
+    const ModelData* model = run.model(name);
+    const std::string folder = name;
+    if (!model || (model->response.empty() && model->summary.empty())) {
+      missing.push_back({fmt::format("Press of the {} lattice", folder), folder + "/"});
+      continue;
+    }
+    need(!model->response.empty(), "Force curve of " + folder, folder + "/response.csv");
+    need(!model->trace.empty(), "Controller trace of " + folder, folder + "/trace.csv");
+    need(!model->boundary.empty() && !model->boundary_springs.empty(), "Picture of " + folder,
+         folder + "/boundary.csv, " + folder + "/boundary_springs.csv");
+  }
+  for (const std::string name : {"central", "hookean"}) {
+    const ModelData* model = run.model(name);
+    need(model && !model->calibration.empty(), "Calibration of " + name,
+         "calibration_" + name + "/calibration.json");
+  }
+  need(!run.cubes.empty(), "Cubes: the surface effect of full springs", "cubes.csv");
+  need(!run.published_study.empty(), "The published model's force against grid and ligaments",
+       "published_study.csv");
+  need(!run.manifest.empty(), "Provenance", "manifest.json");
+  return missing;
+}
+
+namespace {
+
+Page report_page(const RunData& run) {
+  Page page;
+  page.title = run.title.empty() ? "Soft fingertip: lattice against continuum" : run.title;
+  page.subtitle = fmt::format(
+      "Validation of mass-spring fingertips against a continuum of the same specimen{}{}",
+      run.case_name.empty() ? "" : ", case " + run.case_name,
+      text_at(run.manifest, "started").empty() ? "" : ", " + text_at(run.manifest, "started"));
+  if (!run.status.empty() && run.status != "ok") page.status = "Status of the run: " + run.status;
+  page.answer = answer(run);
+  page.chapters = {verdict_chapter(run),    force_chapter(run),    control_chapter(run),
+                   elasticity_chapter(run), pictures_chapter(run), published_chapter(run),
+                   reasons_chapter(run),    cost_chapter(run),     provenance_chapter(run)};
+  page.not_run = missing_parts(run);
+  return page;
+}
+
+}  // namespace
+}  // namespace reporting
+
+void write_report(const std::filesystem::path& run_folder) {
+  const reporting::RunData run = reporting::read_run(run_folder);
+  reporting::publish(reporting::report_page(run), run_folder, "report.html");
+}
+
+}  // namespace fingertip::studies

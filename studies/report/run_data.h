@@ -1,0 +1,101 @@
+/// What a run folder holds, read back from disk; SI.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshes/press_response.h"
+
+namespace fingertip::studies::reporting {
+
+/// A CSV file whose first line holds names with units. Cells are kept as text.
+struct CsvTable {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> rows;
+
+  bool empty() const { return rows.empty(); }
+  bool has(const std::string& name) const;
+  /// The column as numbers, NaN where a cell is empty; all NaN when the column does not exist.
+  std::vector<double> numbers(const std::string& name) const;
+  /// The column as text, empty where it does not exist.
+  std::vector<std::string> texts(const std::string& name) const;
+};
+
+/// Reads a CSV; an absent file is an empty table. Throws InvalidInput naming file and line for a
+/// row whose number of cells differs from the header's.
+CsvTable read_csv(const std::filesystem::path& file);
+
+/// The rubber's constants the models are measured against [Pa]; NaN where no file tells them.
+struct Target {
+  double youngs_modulus = meshes::unknown;
+  double shear_modulus = meshes::unknown;
+  double poissons_ratio = meshes::unknown;
+  double bulk_modulus = meshes::unknown;
+};
+
+/// Elastic constants of a lattice as `validate` puts them into summary.json [Pa].
+struct Moduli {
+  double E_100 = meshes::unknown, E_110 = meshes::unknown, E_111 = meshes::unknown;
+  double G = meshes::unknown, nu_100 = meshes::unknown, K = meshes::unknown;
+};
+
+/// One lattice model of a validate run.
+struct ModelData {
+  std::string name;    ///< "published", "central", "hookean", ...
+  std::string status;  ///< of its press, e.g. "ok"
+  Moduli moduli;
+  std::vector<double> force_error;    ///< relative, at RunData::depths; NaN where not reached
+  double l2_error = meshes::unknown;  ///< relative L2 error of the force curve
+  double real_time_factor = meshes::unknown;  ///< simulated over wall time
+  nlohmann::json summary;                     ///< NAME/summary.json; an empty object when absent
+  nlohmann::json calibration;                 ///< calibration_NAME/calibration.json, likewise
+  meshes::PressResponse response;             ///< empty when absent
+  CsvTable trace, boundary, boundary_springs;
+
+  /// Relative force error at the last depth reached; NaN when there is none.
+  double last_force_error() const;
+};
+
+struct Criterion {
+  std::string name;
+  double value = meshes::unknown;
+  double limit = meshes::unknown;
+  bool passed = false;
+};
+
+/// A validate run.
+struct RunData {
+  std::filesystem::path folder;
+  std::string case_name, title, description, status;
+  std::vector<double> depths;  ///< where force errors are given [m]
+  Target target;
+  std::vector<Criterion> criteria;
+  nlohmann::json manifest;           ///< an empty object when absent
+  std::string parameters;            ///< parameters.toml as text
+  nlohmann::json reference_summary;  ///< reference/summary.json, likewise
+  meshes::PressResponse reference;   ///< empty when the continuum was not run
+  CsvTable section, pressure, cubes, published_study;
+  std::vector<ModelData> models;  ///< published, central, hookean, then any others
+
+  const ModelData* model(const std::string& name) const;
+};
+
+/// Reads the run folder of a `validate`. Throws InvalidInput when summary.json is missing or any
+/// file is damaged.
+RunData read_run(const std::filesystem::path& folder);
+
+/// Normal force [N] at `depth` [m]; NaN when the press did not get there. A controller may stop a
+/// rounding error short of the last depth.
+double force_at(const meshes::PressResponse& response, double depth);
+
+/// `json[key]` as a number; NaN when absent or null.
+double number_at(const nlohmann::json& json, const std::string& key);
+/// `json[key]` as text: strings as they are, other values as JSON, "" when absent.
+std::string text_at(const nlohmann::json& json, const std::string& key);
+/// `json[key]` if it is an object, else an empty object.
+nlohmann::json object_at(const nlohmann::json& json, const std::string& key);
+
+}  // namespace fingertip::studies::reporting

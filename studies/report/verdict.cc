@@ -1,0 +1,238 @@
+/// The answer, the verdict table and the criteria, as page and as text.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "studies/report/chapters.h"
+#include "studies/report/report.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+double deviation(double value, double target) {
+  return value / target - 1.0;
+}
+
+/// Index of the depth with the smallest (sign -1) or largest (sign 1) finite force error; the
+/// number of depths when there is none.
+std::size_t extreme(const ModelData& model, double sign) {
+  const std::vector<double>& errors = model.force_error;
+  std::size_t found = errors.size();
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!std::isfinite(errors[i])) continue;
+    if (found == errors.size() || sign * errors[i] > sign * errors[found]) found = i;
+  }
+  return found;
+}
+
+/// Largest |force error|; infinite without one, so that such models come last.
+double largest_error(const ModelData& model) {
+  double largest = -1.0;
+  for (double error : model.force_error) largest = std::fmax(largest, std::abs(error));
+  return largest < 0.0 ? std::numeric_limits<double>::infinity() : largest;
+}
+
+std::string describe(const RunData& run, const ModelData& model) {
+  const std::size_t least = extreme(model, -1.0), most = extreme(model, 1.0);
+  if (least == model.force_error.size()) return model.name + " is unknown";
+  const auto at = [&](std::size_t i) {
+    return fmt::format("{} at {:.4g}{}cm", percent(model.force_error[i]), to_cm(run.depths[i]),
+                       gap);
+  };
+  const bool flat = model.force_error[most] - model.force_error[least] < 5e-4;
+  if (flat) return fmt::format("{} is off by {}", model.name, percent(model.force_error[most]));
+  return fmt::format("{} is off by {} to {}", model.name, at(least), at(most));
+}
+
+std::string criteria_sentence(const RunData& run) {
+  std::vector<std::string> failed;
+  for (const Criterion& criterion : run.criteria) {
+    if (!criterion.passed) failed.push_back(criterion.name);
+  }
+  if (run.criteria.empty()) return "";
+  if (failed.empty() && run.criteria.size() == 1) return " The criterion of the case is met.";
+  if (failed.empty())
+    return fmt::format(" All {} criteria of the case are met.", run.criteria.size());
+  return fmt::format(" Of {} criteria {} {} not met: {}.", run.criteria.size(), failed.size(),
+                     failed.size() == 1 ? "is" : "are", enumerate(failed));
+}
+
+struct Constant {
+  const char* label;
+  const char* ascii;
+  double Moduli::*value;
+  double Target::*target;
+};
+constexpr Constant constants[] = {
+    {"E₁₀₀", "E_100", &Moduli::E_100, &Target::youngs_modulus},
+    {"E₁₁₀", "E_110", &Moduli::E_110, &Target::youngs_modulus},
+    {"E₁₁₁", "E_111", &Moduli::E_111, &Target::youngs_modulus},
+    {"G", "G", &Moduli::G, &Target::shear_modulus},
+    {"ν₁₀₀", "nu_100", &Moduli::nu_100, &Target::poissons_ratio},
+    {"K", "K", &Moduli::K, &Target::bulk_modulus},
+};
+
+bool is_ratio(const Constant& constant) {
+  return constant.value == &Moduli::nu_100;
+}
+
+Cell constant_cell(const Constant& constant, double value, double target) {
+  const double error = deviation(value, target);
+  const double shown = is_ratio(constant) ? value : to_gf_per_cm2(value);
+  return {number(shown), percent(error), grade(error)};
+}
+
+Cell target_cell(const Constant& constant, double target) {
+  if (is_ratio(constant)) return {number(target), "", Grade::none};
+  return {number(to_gf_per_cm2(target)), with_prefix(target, "Pa"), Grade::none};
+}
+
+Table verdict_table(const RunData& run) {
+  Table table;
+  table.caption =
+      "Every model against the rubber (elastic constants in gf/cm², deviation below) and against "
+      "the continuum (error of the normal force at each indentation). Real time: simulated over "
+      "wall time.";
+  table.graded = true;
+  table.header = {{"Model", "", Grade::none}};
+  for (const Constant& constant : constants)
+    table.header.push_back({constant.label, "", Grade::none});
+  for (double depth : run.depths) {
+    table.header.push_back({"F", fmt::format("{:.4g} cm", to_cm(depth)), Grade::none});
+  }
+  table.header.push_back({"F", "rel. L²", Grade::none});
+  table.header.push_back({"Real time", "factor", Grade::none});
+  std::vector<Cell> target{{"Target", "rubber, continuum", Grade::none}};
+  for (const Constant& constant : constants)
+    target.push_back(target_cell(constant, run.target.*constant.target));
+  for (double depth : run.depths) {
+    const double f = force_at(run.reference, depth);
+    target.push_back(
+        {std::isfinite(f) ? number(to_gf(f)) + gap + "gf" : "–", with_prefix(f, "N"), Grade::none});
+  }
+  target.push_back({"", "", Grade::none});
+  target.push_back({"", "", Grade::none});
+  table.rows.push_back(std::move(target));
+  for (const ModelData& model : run.models) {
+    const std::string status = model.status == "ok" ? "" : model.status;
+    std::vector<Cell> row{{model_label(model.name), status, Grade::none}};
+    for (const Constant& constant : constants) {
+      row.push_back(
+          constant_cell(constant, model.moduli.*constant.value, run.target.*constant.target));
+    }
+    for (double error : model.force_error) row.push_back({percent(error), "", grade(error)});
+    row.push_back({percent_magnitude(model.l2_error), "", grade(model.l2_error)});
+    row.push_back({number(model.real_time_factor, 3), "", Grade::none});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table criteria_table(const RunData& run) {
+  Table table;
+  table.caption =
+      "What this case demands. The published and central models are exhibits, never criteria.";
+  table.header = {{"Criterion", "", Grade::none},
+                  {"Value", "", Grade::none},
+                  {"Limit", "", Grade::none},
+                  {"Result", "", Grade::none}};
+  for (const Criterion& criterion : run.criteria) {
+    table.rows.push_back({{criterion.name, "", Grade::none},
+                          {number(criterion.value, 3), "", Grade::none},
+                          {number(criterion.limit, 3), "", Grade::none},
+                          {criterion.passed ? "✓ met" : "✕ not met", "", Grade::none}});
+  }
+  return table;
+}
+
+/// Pads ASCII text on the left to `width`.
+std::string cell(const std::string& text, int width) {
+  return fmt::format("{:>{}}", text, width);
+}
+
+std::string plain_percent(double fraction) {
+  return std::isfinite(fraction) ? fmt::format("{:+.1f} %", 100.0 * fraction) : "-";
+}
+
+std::string plain_number(double value, const char* format) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
+}
+
+std::string text_table(const RunData& run) {
+  std::string text = fmt::format("{:<12}", "model");
+  for (const Constant& constant : constants) text += cell(constant.ascii, 8);
+  for (double depth : run.depths) text += cell(fmt::format("F {:.4g} cm", to_cm(depth)), 11);
+  text += cell("real time", 11) + "\n" + fmt::format("{:<12}", "target");
+  const auto shown = [](const Constant& constant, double value) {
+    return is_ratio(constant) ? plain_number(value, "{:.4f}")
+                              : plain_number(to_gf_per_cm2(value), "{:.2f}");
+  };
+  for (const Constant& constant : constants)
+    text += cell(shown(constant, run.target.*constant.target), 8);
+  for (double depth : run.depths) {
+    text += cell(plain_number(to_gf(force_at(run.reference, depth)), "{:.4g} gf"), 11);
+  }
+  text += "\n";
+  for (const ModelData& model : run.models) {
+    text += fmt::format("{:<12}", model.name);
+    for (const Constant& constant : constants)
+      text += cell(shown(constant, model.moduli.*constant.value), 8);
+    for (double error : model.force_error) text += cell(plain_percent(error), 11);
+    text += cell(plain_number(model.real_time_factor, "{:.3g}"), 11) + "\n";
+  }
+  return text + "moduli in gf/cm^2; F: force of the continuum, error of the models\n";
+}
+
+}  // namespace
+
+std::string answer(const RunData& run) {
+  std::string text;
+  if (!run.reference.empty()) {
+    const double depth = run.reference.depth();
+    text = fmt::format("Pressed {} deep, the continuum pushes back with {}. ", length(depth),
+                       force(run.reference.normal_force_at(depth)));
+  }
+  std::vector<const ModelData*> models;
+  for (const ModelData& model : run.models) models.push_back(&model);
+  // Best first; models without a force at the end.
+  std::stable_sort(models.begin(), models.end(), [](const ModelData* a, const ModelData* b) {
+    return largest_error(*a) < largest_error(*b);
+  });
+  std::vector<std::string> sentences;
+  for (const ModelData* model : models) sentences.push_back(describe(run, *model));
+  if (!sentences.empty()) {
+    text += run.reference.empty() ? "Without a continuum to compare with, "
+                                  : "Against the continuum, the contact force of ";
+    for (std::size_t i = 0; i < sentences.size(); ++i) text += (i ? "; " : "") + sentences[i];
+    text += ".";
+  }
+  return text + criteria_sentence(run);
+}
+
+Chapter verdict_chapter(const RunData& run) {
+  Chapter chapter{"verdict", "Verdict", {}};
+  if (!run.description.empty()) chapter.blocks.push_back(Paragraph{"", run.description});
+  if (!run.models.empty()) chapter.blocks.push_back(verdict_table(run));
+  if (!run.criteria.empty()) chapter.blocks.push_back(criteria_table(run));
+  return chapter;
+}
+
+}  // namespace fingertip::studies::reporting
+
+namespace fingertip::studies {
+
+std::string verdict_text(const std::filesystem::path& run_folder) {
+  using namespace reporting;
+  const RunData run = read_run(run_folder);
+  std::string text = text_table(run);
+  for (const Criterion& criterion : run.criteria) {
+    text += fmt::format("{} {}: {} (limit {})\n", criterion.passed ? "met    " : "NOT MET",
+                        criterion.name, plain_number(criterion.value, "{:.3g}"),
+                        plain_number(criterion.limit, "{:.3g}"));
+  }
+  return text;
+}
+
+}  // namespace fingertip::studies

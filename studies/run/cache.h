@@ -1,0 +1,50 @@
+/// Finished jobs, kept by content for the next run that asks the same.
+#pragma once
+
+#include <filesystem>
+
+#include "studies/run/job.h"
+
+namespace fingertip::studies {
+
+/// Written last into a job's folder: its presence with the right key says that the job is done.
+inline constexpr const char* marker_name = "finished.json";
+
+/// Status of a job that went well.
+inline constexpr const char* finished = "finished";
+
+/// The status in the marker that `folder` holds for `job`; empty when the job has not run there to
+/// its end (or another one has).
+std::string marked_status(const Job& job, const std::filesystem::path& folder);
+
+/// Writes the marker. `status`: `finished`, or why the result is incomplete and will remain so.
+void mark(const Job& job, const std::filesystem::path& folder, const std::string& status,
+          double wall_time);
+
+/// A folder with one sub-folder per finished job, named by its key. Entries appear by renaming, so
+/// several programs may share it; a damaged or unwritable cache costs time, never a result.
+class Cache {
+ public:
+  /// $XDG_CACHE_HOME/fingertip, else ~/.cache/fingertip.
+  static std::filesystem::path default_folder();
+
+  explicit Cache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Copies the result of `job` into `target` (marker last). False when it is not there.
+  bool fetch(const Job& job, const std::filesystem::path& target) const;
+
+  /// Copies the finished `source` into the cache, leaving out what belongs to a run and not to a
+  /// job (is_run_file). False when that failed.
+  bool store(const Job& job, const std::filesystem::path& source) const;
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path entry(const Job& job) const;
+  std::filesystem::path folder_;
+};
+
+/// What belongs to the run itself: parameters.toml, manifest.json, log.txt and hidden files.
+bool is_run_file(const std::filesystem::path& file);
+
+}  // namespace fingertip::studies

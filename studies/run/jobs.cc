@@ -1,0 +1,160 @@
+#include "studies/run/jobs.h"
+
+#include <ostream>
+
+#include "calibration/cube_test.h"
+#include "calibration/result_io.h"
+#include "meshes/files.h"
+#include "source_hash.h"
+#include "studies/run/fem_process.h"
+#include "studies/run/json_file.h"
+#include "studies/run/provenance.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+using lattice::ModelKind;
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+void run_moduli(const meshes::Rubber& rubber, const calibration::ModuliFitOptions& options,
+                const fs::path& folder, const JobContext& context) {
+  context.report(0.0, "least squares");
+  const calibration::ModuliFit fit = calibration::fit_moduli(rubber, options);
+  calibration::write_calibration_json(fit, folder / "calibration.json");
+  calibration::write_material_toml(fit, folder / "material.toml");
+  write_json({{"model", lattice::name(fit.model)},
+              {"status", "finished"},
+              {"spacing", fit.spacing},
+              {"constants", to_json(fit.constants)},
+              {"moduli", to_json(fit.achieved)},
+              {"iterations", fit.iterations},
+              {"statement", fit.statement}},
+             folder / "summary.json");
+  context.log(fit.statement);
+}
+
+void run_cubes(const meshes::Rubber& rubber, const lattice::SpringConstants& central,
+               const lattice::SpringConstants& hookean, double spacing, const fs::path& folder,
+               const JobContext& context) {
+  const std::vector<std::pair<ModelKind, lattice::SpringConstants>> models = {
+      {ModelKind::published, lattice::published_constants(rubber, spacing)},
+      {ModelKind::central, central},
+      {ModelKind::hookean, hookean}};
+  std::string rows;
+  double done = 0.0;
+  for (const auto& [model, constants] : models) {
+    for (const int cells : {2, 4, 8}) {
+      const std::string stage = std::string(lattice::name(model)) + ", cells " +
+                                std::to_string(cells);
+      if (!context.report(done / 9.0, stage)) throw meshes::Interrupted("cube tests stopped");
+      const calibration::CubeModuli cube =
+          calibration::measure_cube(lattice::cube_lattice(model, constants, spacing, cells));
+      rows += std::string(lattice::name(model)) + "," + std::to_string(cells);
+      for (const double value :
+           {cube.youngs_modulus_100, cube.youngs_modulus_110, cube.youngs_modulus_111,
+            cube.shear_modulus, cube.poissons_ratio_100, cube.bulk_modulus}) {
+        rows += "," + meshes::to_text(value);
+      }
+      rows += "\n";
+      done += 1.0;
+    }
+  }
+  meshes::write_atomically(folder / "cubes.csv", [&](std::ostream& out) {
+    out << "model,cells_across,youngs_modulus_100 [Pa],youngs_modulus_110 [Pa],"
+           "youngs_modulus_111 [Pa],shear_modulus [Pa],poissons_ratio_100,bulk_modulus [Pa]\n"
+        << rows;
+  });
+}
+
+ordered_json inputs_of(const fem_reference::ReferenceJob& order) {
+  return {{"geometry", to_json(order.geometry)},
+          {"rubber", to_json(order.rubber)},
+          {"contact", meshes::name(order.contact)},
+          {"samples", order.samples},
+          {"degree", order.degree},
+          {"refinement", order.refinement},
+          {"tolerance", order.tolerance},
+          {"solver", fem_reference::name(order.solver)},
+          {"fields", order.write_fields},
+          {"estimate_error", order.estimate_error}};
+}
+
+}  // namespace
+
+ordered_json to_json(const meshes::Geometry& geometry) {
+  return {{"tip_radius", geometry.tip_radius},
+          {"rod_radius", geometry.rod_radius},
+          {"sleeve_length", geometry.sleeve_length},
+          {"rod_length", geometry.rod_length}};
+}
+
+ordered_json to_json(const meshes::Rubber& rubber) {
+  return {{"youngs_modulus", rubber.youngs_modulus},
+          {"shear_modulus", rubber.shear_modulus},
+          {"density", rubber.density},
+          {"retardation_time", rubber.retardation_time}};
+}
+
+ordered_json to_json(const lattice::SpringConstants& constants) {
+  return {{"k1", constants.k1}, {"k2", constants.k2}, {"k3", constants.k3},
+          {"kappa", constants.kappa}};
+}
+
+ordered_json to_json(const calibration::ElasticModuli& moduli) {
+  return {{"E_100", moduli.youngs_modulus_100}, {"E_110", moduli.youngs_modulus_110},
+          {"E_111", moduli.youngs_modulus_111}, {"G", moduli.shear_modulus},
+          {"nu_100", moduli.poissons_ratio_100}, {"K", moduli.bulk_modulus},
+          {"anisotropy", moduli.anisotropy}};
+}
+
+Job reference_job(const fem_reference::ReferenceJob& order) {
+  Job job;
+  job.kind = "reference";
+  job.inputs = inputs_of(order);
+  // Neither damping nor mass enters an equilibrium.
+  job.inputs["rubber"].erase("density");
+  job.inputs["rubber"].erase("retardation_time");
+  job.source_hash = source_hash::reference;
+  job.weight = 40.0;
+  job.run = [order](const fs::path& folder, const JobContext& context) {
+    fem_reference::write_job(order, folder / "job.json");
+    run_fem_process(reference_program(), folder, context);
+  };
+  return job;
+}
+
+Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions& options) {
+  Job job;
+  job.kind = "moduli";
+  job.inputs = {{"rubber", to_json(rubber)},
+                {"model", lattice::name(options.model)},
+                {"spacing", options.spacing},
+                {"starts", options.starts},
+                {"seed", options.seed}};
+  job.source_hash = source_hash::calibration;
+  job.weight = 0.1;
+  job.run = [rubber, options](const fs::path& folder, const JobContext& context) {
+    run_moduli(rubber, options, folder, context);
+  };
+  return job;
+}
+
+Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& central,
+              const lattice::SpringConstants& hookean, double spacing) {
+  Job job;
+  job.kind = "cubes";
+  job.inputs = {{"rubber", to_json(rubber)},
+                {"central", to_json(central)},
+                {"hookean", to_json(hookean)},
+                {"spacing", spacing}};
+  job.source_hash = source_hash::calibration;
+  job.weight = 1.0;
+  job.run = [=](const fs::path& folder, const JobContext& context) {
+    run_cubes(rubber, central, hookean, spacing, folder, context);
+  };
+  return job;
+}
+
+}  // namespace fingertip::studies

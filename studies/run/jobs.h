@@ -1,0 +1,32 @@
+/// The computations that studies are made of, as cacheable jobs.
+#pragma once
+
+#include "calibration/moduli_fit.h"
+#include "fem_reference/job.h"
+#include "lattice/settings.h"
+#include "studies/run/job.h"
+
+namespace fingertip::studies {
+
+/// A lattice press. Files: response.csv, trace.csv (rewritten twice a second while it runs, so
+/// that a killed run stays readable), boundary.csv, boundary_springs.csv, summary.json.
+Job press_job(const lattice::PressSetup& setup);
+
+/// The continuum by fingertip-fem. Files: job.json, response.csv, summary.json, tip.msh,
+/// section.csv, pressure.csv, fields/.
+Job reference_job(const fem_reference::ReferenceJob& order);
+
+/// A fit to the moduli. Files: calibration.json, material.toml, summary.json.
+Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions& options);
+
+/// Finite cubes of 2, 4 and 8 cells of the three models. File: cubes.csv.
+Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& central,
+              const lattice::SpringConstants& hookean, double spacing);
+
+/// SI values that define a specimen and a press, for `Job::inputs` and summaries.
+nlohmann::ordered_json to_json(const meshes::Geometry& geometry);
+nlohmann::ordered_json to_json(const meshes::Rubber& rubber);
+nlohmann::ordered_json to_json(const lattice::SpringConstants& constants);
+nlohmann::ordered_json to_json(const calibration::ElasticModuli& moduli);
+
+}  // namespace fingertip::studies

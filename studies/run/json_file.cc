@@ -1,0 +1,33 @@
+#include "studies/run/json_file.h"
+
+#include <cmath>
+#include <fstream>
+
+#include "meshes/errors.h"
+#include "meshes/files.h"
+
+namespace fingertip::studies {
+
+void write_json(const nlohmann::ordered_json& content, const std::filesystem::path& file) {
+  meshes::write_atomically(file, [&](std::ostream& out) { out << content.dump(2) << '\n'; });
+}
+
+nlohmann::ordered_json read_json(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) {
+    throw meshes::InvalidInput(
+        {file.string(), "", "the file cannot be read", "check that it exists and is complete"});
+  }
+  try {
+    return nlohmann::ordered_json::parse(in);
+  } catch (const nlohmann::json::exception& error) {
+    throw meshes::InvalidInput({file.string(), "", std::string("not valid JSON: ") + error.what(),
+                                "the file is damaged or truncated: run again"});
+  }
+}
+
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,19 @@
+/// JSON files: written atomically, read with a message that names the file.
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+namespace fingertip::studies {
+
+/// Throws std::runtime_error when the file cannot be written.
+void write_json(const nlohmann::ordered_json& content, const std::filesystem::path& file);
+
+/// Throws meshes::InvalidInput when the file cannot be read or is no JSON.
+nlohmann::ordered_json read_json(const std::filesystem::path& file);
+
+/// NaN and infinities, which JSON cannot hold, become null.
+nlohmann::ordered_json number_or_null(double value);
+
+}  // namespace fingertip::studies

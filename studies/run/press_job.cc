@@ -1,0 +1,198 @@
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <ostream>
+
+#include "calibration/moduli.h"
+#include "lattice/press.h"
+#include "meshes/files.h"
+#include "source_hash.h"
+#include "studies/run/jobs.h"
+#include "studies/run/json_file.h"
+#include "studies/run/tracking.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+ordered_json step_of(const lattice::StepReport& step) {
+  return {{"step", step.step},
+          {"omega0", step.omega0},
+          {"paper_bound", step.paper_bound},
+          {"spectral_bound", number_or_null(step.spectral_bound)},
+          {"explanation", step.explanation}};
+}
+
+ordered_json census_of(const lattice::LatticeCensus& census) {
+  return {{"particles", census.particles},
+          {"expected_particles", census.expected_particles},
+          {"springs", census.springs},
+          {"cells", census.cells},
+          {"boundary_particles", census.boundary_particles},
+          {"ligaments", census.ligaments},
+          {"mass", census.mass},
+          {"exact_mass", census.exact_mass}};
+}
+
+ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome,
+                        const std::string& status) {
+  ordered_json summary = {
+      {"model", lattice::name(setup.lattice.model)},
+      {"kinematics", lattice::name(setup.lattice.kinematics)},
+      {"mode", meshes::name(setup.protocol.mode)},
+      {"contact", meshes::name(setup.protocol.contact)},
+      {"status", status},
+      {"spacing", setup.lattice.spacing},
+      {"constants", to_json(setup.lattice.constants)},
+      {"moduli", to_json(calibration::homogenised_moduli(setup.lattice.constants,
+                                                      setup.lattice.spacing))},
+      {"step", step_of(outcome.step)},
+      {"census", census_of(outcome.census)},
+      {"simulated_time", outcome.simulated_time},
+      {"wall_time", outcome.wall_time},
+      {"real_time_factor", outcome.real_time_factor()},
+      {"first_touch_time", number_or_null(outcome.first_touch_time)},
+      {"momentum_defect", number_or_null(outcome.momentum_defect)}};
+  if (setup.protocol.mode == meshes::DriveMode::pid) {
+    const Tracking tracking = measure_tracking(outcome.trace, outcome.first_touch_time);
+    summary["tracking"] = {{"speed_deviation", number_or_null(tracking.speed_deviation)},
+                           {"speed_deviation_at_touch",
+                            number_or_null(tracking.speed_deviation_at_touch)},
+                           {"tilt_deg", number_or_null(tracking.tilt * 180.0 / std::numbers::pi)}};
+  }
+  return summary;
+}
+
+void write_boundary(const lattice::PressOutcome& outcome, const fs::path& folder) {
+  const auto put = [](std::ostream& out, const meshes::Vector3& point) {
+    for (int axis = 0; axis < 3; ++axis) out << meshes::to_text(point[axis]) << ',';
+  };
+  meshes::write_atomically(folder / "boundary.csv", [&](std::ostream& out) {
+    out << "x [m],y [m],z [m],deformed_x [m],deformed_y [m],deformed_z [m],anchored\n";
+    for (std::size_t i = 0; i < outcome.boundary_rest.size(); ++i) {
+      put(out, outcome.boundary_rest[i]);
+      put(out, outcome.boundary_deformed[i]);
+      out << int(outcome.boundary_anchored[i]) << '\n';
+    }
+  });
+  meshes::write_atomically(folder / "boundary_springs.csv", [&](std::ostream& out) {
+    out << "i,j\n";
+    for (const auto& [i, j] : outcome.boundary_springs) out << i << ',' << j << '\n';
+  });
+}
+
+/// Keeps the folder up to date while the press runs.
+class Recorder {
+ public:
+  Recorder(const lattice::PressSetup& setup, const fs::path& folder, const JobContext& context)
+      : setup_(setup), folder_(folder), context_(context) {}
+
+  bool observe(const lattice::PressOutcome& so_far, double fraction) {
+    const bool go_on = context_.report(fraction, "pressing");
+    // The last call before an end by force must be on disk whatever the time.
+    if (!go_on || Clock::now() - written_ > std::chrono::milliseconds(500)) {
+      write(so_far, go_on ? "running" : "interrupted");
+    }
+    return go_on;
+  }
+
+  void write(const lattice::PressOutcome& outcome, const std::string& status) {
+    outcome.response.write_csv(folder_ / "response.csv");
+    lattice::write_trace_csv(outcome.trace, folder_ / "trace.csv");
+    write_json(summary_of(setup_, outcome, status), folder_ / "summary.json");
+    written_ = Clock::now();
+  }
+
+ private:
+  const lattice::PressSetup& setup_;
+  fs::path folder_;
+  const JobContext& context_;
+  Clock::time_point written_;
+};
+
+void set_status(const fs::path& folder, const std::string& status) {
+  if (!fs::exists(folder / "summary.json")) return;
+  ordered_json summary = read_json(folder / "summary.json");
+  summary["status"] = status;
+  write_json(summary, folder / "summary.json");
+}
+
+void run_press_job(lattice::PressSetup setup, const fs::path& folder, const JobContext& context) {
+  setup.threads = context.threads;
+  Recorder recorder(setup, folder, context);
+  try {
+    const lattice::PressOutcome outcome = lattice::run_press(
+        setup, [&](const lattice::PressOutcome& so_far, double fraction) {
+          return recorder.observe(so_far, fraction);
+        });
+    recorder.write(outcome, "finished");
+    write_boundary(outcome, folder);
+    context.log("step " + meshes::to_text(outcome.step.step) + " s: " + outcome.step.explanation);
+  } catch (const meshes::NotConverged& error) {
+    set_status(folder, std::string("not converged: ") + error.what());
+    throw;
+  } catch (const meshes::Interrupted&) {
+    set_status(folder, "interrupted");
+    throw;
+  }
+}
+
+ordered_json protocol_of(const meshes::PressProtocol& protocol) {
+  return {{"mode", meshes::name(protocol.mode)},
+          {"contact", meshes::name(protocol.contact)},
+          {"depth", protocol.depth},
+          {"speed", protocol.speed},
+          {"clearance", protocol.clearance},
+          {"samples", protocol.samples}};
+}
+
+ordered_json lattice_of(const lattice::LatticeSettings& settings) {
+  return {{"model", lattice::name(settings.model)},
+          {"kinematics", lattice::name(settings.kinematics)},
+          {"spacing", settings.spacing},
+          {"offset", {settings.offset.x(), settings.offset.y(), settings.offset.z()}},
+          {"constants", to_json(settings.constants)},
+          {"ligament_stiffness", settings.ligament_stiffness}};
+}
+
+ordered_json inputs_of(const lattice::PressSetup& setup) {
+  ordered_json inputs = {
+      {"geometry", to_json(setup.geometry)},
+      {"rubber", to_json(setup.rubber)},
+      {"protocol", protocol_of(setup.protocol)},
+      {"lattice", lattice_of(setup.lattice)},
+      {"integrator", lattice::name(setup.integrator)},
+      {"time_step", setup.time_step ? ordered_json(*setup.time_step) : ordered_json()}};
+  if (setup.protocol.mode == meshes::DriveMode::pid) {
+    const lattice::PidSettings& pid = setup.controller;
+    inputs["rod_density"] = setup.rod.density;
+    inputs["controller"] = {{"period", pid.period},
+                            {"natural_frequency", pid.natural_frequency},
+                            {"derivative_filter", pid.derivative_filter},
+                            {"force_limit", pid.force_limit},
+                            {"torque_limit", pid.torque_limit}};
+  }
+  return inputs;
+}
+
+}  // namespace
+
+Job press_job(const lattice::PressSetup& setup) {
+  Job job;
+  job.kind = "press";
+  job.inputs = inputs_of(setup);
+  job.source_hash = source_hash::lattice;
+  // Masses ~ 1/a³, steps ~ 1/a: 10 units at R/12.
+  const double finer = setup.geometry.tip_radius / (12.0 * setup.lattice.spacing);
+  job.weight = 10.0 * std::pow(finer, 4);
+  job.run = [setup](const fs::path& folder, const JobContext& context) {
+    run_press_job(setup, folder, context);
+  };
+  return job;
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,111 @@
+#include "studies/run/press_setup.h"
+
+#include "calibration/result_io.h"
+#include "meshes/cubic_grid.h"
+#include "meshes/files.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+using lattice::ModelKind;
+
+/// Beyond this a press would need more memory than a workstation has.
+constexpr double most_particles = 2e7;
+
+void check_constants_source(const LoadedConfig& loaded) {
+  const bool published = loaded.config.press.lattice.model == ModelKind::published;
+  if (published && loaded.config.constants == ConstantsSource::calibrated) {
+    throw loaded.locate({{"lattice.constants", "calibrated",
+                          "the published model has a rule for its constants and is not calibrated",
+                          "use auto or rule, or the model central or hookean"}});
+  }
+}
+
+lattice::SpringConstants constants_from_file(const LoadedConfig& loaded) {
+  const Config& config = loaded.config;
+  calibration::Material material;
+  try {
+    material = calibration::read_material_toml(config.constants_file);
+  } catch (const meshes::InvalidInput& error) {
+    std::vector<meshes::Violation> broken = error.violations();
+    for (meshes::Violation& violation : broken) {
+      violation.rule = violation.key + ": " + violation.rule;
+      violation.key = "lattice.constants";
+    }
+    throw loaded.locate(broken);
+  }
+  if (material.model != config.press.lattice.model) {
+    throw loaded.locate({{"lattice.constants", config.constants_file.string(),
+                          "the file holds constants of the model " +
+                              std::string(lattice::name(material.model)) + ", not of " +
+                              std::string(lattice::name(config.press.lattice.model)),
+                          "calibrate this model, or change lattice.model"}});
+  }
+  return calibration::at_spacing(material, config.press.lattice.spacing);
+}
+
+lattice::SpringConstants resolve_constants(const LoadedConfig& loaded) {
+  const Config& config = loaded.config;
+  const ModelKind model = config.press.lattice.model;
+  const double spacing = config.press.lattice.spacing;
+  if (config.constants == ConstantsSource::file) return constants_from_file(loaded);
+  const bool fitted =
+      config.constants == ConstantsSource::calibrated ||
+      (config.constants == ConstantsSource::automatic && model == ModelKind::central);
+  if (fitted) return calibration::fit_moduli(config.press.rubber, fit_options(loaded, model)).constants;
+  return model == ModelKind::hookean ? lattice::hookean_constants(config.press.rubber, spacing)
+                                     : lattice::published_constants(config.press.rubber, spacing);
+}
+
+void check_spacing(const LoadedConfig& loaded) {
+  const Config& config = loaded.config;
+  const double spacing = config.press.lattice.spacing;
+  const std::string value = meshes::to_text(spacing) + " m";
+  std::vector<meshes::Violation> broken;
+  if (!(spacing <= 0.5 * config.press.geometry.thickness())) {
+    broken.push_back({"lattice.spacing", value,
+                      "the spacing must be at most (R - r)/2 = " +
+                          meshes::to_text(0.5 * config.press.geometry.thickness()) +
+                          " m, two cells through the rubber",
+                      "choose a finer lattice"});
+  } else if (meshes::expected_particle_count(config.press.geometry, spacing) > most_particles) {
+    broken.push_back({"lattice.spacing", value, "the tip would consist of more than 20 million masses",
+                      "choose a coarser lattice"});
+  }
+  if (!broken.empty()) throw loaded.locate(broken);
+}
+
+}  // namespace
+
+lattice::PressSetup press_setup(const LoadedConfig& loaded) {
+  check_spacing(loaded);
+  check_constants_source(loaded);
+  lattice::PressSetup setup = loaded.config.press;
+  setup.lattice.constants = resolve_constants(loaded);
+  const std::vector<meshes::Violation> broken = setup.violations();
+  if (!broken.empty()) throw loaded.locate(broken);
+  return setup;
+}
+
+fem_reference::ReferenceJob reference_order(const LoadedConfig& loaded) {
+  const std::vector<meshes::Violation> broken = loaded.config.reference.violations();
+  if (!broken.empty()) throw loaded.locate(broken);
+  return loaded.config.reference;
+}
+
+calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::ModelKind model) {
+  calibration::ModuliFitOptions options;
+  options.model = model;
+  options.spacing = loaded.config.press.lattice.spacing;
+  options.starts = loaded.config.fit_starts;
+  options.seed = loaded.config.fit_seed;
+  return options;
+}
+
+void check_all(const LoadedConfig& loaded) {
+  press_setup(loaded);
+  reference_order(loaded);
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,62 @@
+/// One run of a verb: its folder, progress and cache, and the jobs in it.
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "studies/run/cache.h"
+#include "studies/run/job.h"
+#include "studies/run/progress.h"
+#include "studies/run/run_folder.h"
+
+namespace fingertip::studies {
+
+/// A job with its place in the run folder.
+struct PlannedJob {
+  std::string name;       ///< shown to the user; also the sub-folder, "" for the run folder itself
+  Job job;
+  /// An exhibit may fail to converge without failing the run: its status says so.
+  bool exhibit = false;
+};
+
+struct JobResult {
+  std::string name;
+  std::string status;      ///< "finished", or "not converged: why" for an exhibit
+  bool reused = false;     ///< from the cache or from the resumed folder
+  double wall_time = 0.0;  ///< [s]
+  bool ok() const { return status == finished; }
+};
+
+class Session {
+ public:
+  /// `threads` > 0: cores the jobs may use together.
+  Session(RunFolder& folder, Progress& progress, Cache cache, int threads)
+      : folder_(folder), progress_(progress), cache_(std::move(cache)), threads_(threads) {}
+
+  /// Fetches or runs one job with all threads. Throws what the job throws (NotConverged not for an
+  /// exhibit); a failed job leaves what it had.
+  JobResult run(const PlannedJob& planned);
+
+  /// Runs all jobs, as many at a time as there are threads, one thread each, in the given order.
+  /// After the first failure no further job starts; it is thrown when the running ones have ended.
+  std::vector<JobResult> run_all(const std::vector<PlannedJob>& planned);
+
+  RunFolder& folder() { return folder_; }
+  std::filesystem::path path_of(const PlannedJob& planned) const {
+    return planned.name.empty() ? folder_.path() : folder_.path() / planned.name;
+  }
+
+ private:
+  JobResult run_with(const PlannedJob& planned, int threads);
+  bool reuse(const PlannedJob& planned, JobResult& result);
+  void compute(const PlannedJob& planned, JobResult& result, int threads);
+  void clear(const PlannedJob& planned) const;
+
+  RunFolder& folder_;
+  Progress& progress_;
+  Cache cache_;
+  int threads_;
+};
+
+}  // namespace fingertip::studies

@@ -1,0 +1,30 @@
+#include "studies/run/tracking.h"
+
+#include <cmath>
+
+namespace fingertip::studies {
+
+namespace {
+
+/// The larger one, where NaN means "none so far".
+double larger(double so_far, double value) {
+  return std::isnan(so_far) || value > so_far ? value : so_far;
+}
+
+}  // namespace
+
+Tracking measure_tracking(const std::vector<lattice::TraceRow>& trace, double first_touch) {
+  Tracking tracking;
+  for (const lattice::TraceRow& row : trace) {
+    tracking.tilt = larger(tracking.tilt, std::abs(row.tilt));
+    if (row.time < settling_time || row.commanded_speed == 0.0) continue;
+    const double deviation =
+        std::abs(row.speed - row.commanded_speed) / std::abs(row.commanded_speed);
+    const bool touching = row.time >= first_touch && row.time < first_touch + touch_time;
+    double& worst = touching ? tracking.speed_deviation_at_touch : tracking.speed_deviation;
+    worst = larger(worst, deviation);
+  }
+  return tracking;
+}
+
+}  // namespace fingertip::studies

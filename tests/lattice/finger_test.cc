@@ -1,0 +1,142 @@
+#include "lattice/finger.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fixtures.h"
+#include "lattice/energy.h"
+#include "lattice/reference_forces.h"
+#include "lattice/time_step.h"
+
+using namespace fingertip;
+using namespace fixtures;
+using lattice::Finger;
+using lattice::Integrator;
+using lattice::Kinematics;
+using lattice::LatticeModel;
+using lattice::ModelKind;
+using lattice::State;
+
+namespace {
+
+/// A finger far from any plane, with a random state.
+struct FreeFinger {
+  LatticeModel model;
+  lattice::RodBody rod = lattice::rod_body({}, {});
+  double stable;
+  Finger finger;
+
+  FreeFinger(ModelKind kind, Kinematics kinematics, Integrator integrator, double share,
+             double amplitude = 0.02, double speed = 0.05)
+      : model(tip(kind, kinematics, 5)),
+        stable(lattice::largest_stable_step(lattice::tightest_bounds(model, rod), integrator)),
+        finger(model, rod,
+               {model, meshes::Geometry{}, {Vector3(0, 0, 1.0), -Vector3::UnitZ()},
+                meshes::ContactMode::stick},
+               integrator, share * stable, 1) {
+    finger.state() = random_state(model, amplitude, speed, 9);
+  }
+  double energy() const {
+    return finger.elastic_energy() + lattice::kinetic_energy(model, finger.state()) +
+           finger.rod().kinetic_energy();
+  }
+};
+
+}  // namespace
+
+TEST(ExplicitEuler, TakesOneStepAsPrinted) {
+  FreeFinger f(ModelKind::published, Kinematics::finite, Integrator::explicit_euler, 0.5);
+  const State before = f.finger.state();
+  lattice::VectorField force = lattice::reference_forces(f.model, before);
+  lattice::add_ligament_forces(f.model, before, f.finger.rod(), force);
+  const double dt = f.finger.step();
+  f.finger.advance(lattice::Wrench{});
+  for (const std::size_t i : f.model.particles) {
+    const Vector3 x = before.displacement.at(i) + dt * before.velocity.at(i);
+    const Vector3 v = before.velocity.at(i) + dt / f.model.mass[i] * force.at(i);
+    EXPECT_NEAR((f.finger.state().displacement.at(i) - x).norm(), 0.0, 1e-17);
+    EXPECT_NEAR((f.finger.state().velocity.at(i) - v).norm(), 0.0, 1e-13);
+  }
+}
+
+TEST(SymplecticEuler, MovesWithTheNewVelocity) {
+  FreeFinger f(ModelKind::hookean, Kinematics::small, Integrator::symplectic_euler, 0.5);
+  const State before = f.finger.state();
+  lattice::VectorField force = lattice::reference_forces(f.model, before);
+  lattice::add_ligament_forces(f.model, before, f.finger.rod(), force);
+  const double dt = f.finger.step();
+  f.finger.advance(lattice::Wrench{});
+  for (const std::size_t i : f.model.particles) {
+    const Vector3 v = before.velocity.at(i) + dt / f.model.mass[i] * force.at(i);
+    const Vector3 x = before.displacement.at(i) + dt * v;
+    EXPECT_NEAR((f.finger.state().velocity.at(i) - v).norm(), 0.0, 1e-13);
+    EXPECT_NEAR((f.finger.state().displacement.at(i) - x).norm(), 0.0, 1e-17);
+  }
+}
+
+TEST(Finger, WithoutInputTheEnergyFallsUpToTheIntegratorsRipple) {
+  for (const ModelKind kind : all_models) {
+    for (const Kinematics kinematics : both_kinematics) {
+      double ripple[2];
+      for (int halved = 0; halved < 2; ++halved) {
+        FreeFinger f(kind, kinematics, Integrator::symplectic_euler, halved ? 0.2 : 0.4);
+        const double start = f.energy();
+        double lowest = start, rise = 0.0;
+        for (int n = 0; n < (halved ? 600 : 300); ++n) {
+          f.finger.advance(lattice::Wrench{});
+          const double now = f.energy();
+          rise = std::max(rise, now - lowest);
+          lowest = std::min(lowest, now);
+        }
+        EXPECT_LT(lowest, 0.5 * start) << name(kind) << name(kinematics);
+        ripple[halved] = rise / start;
+      }
+      EXPECT_LT(ripple[0], 0.02) << name(kind) << name(kinematics);
+      EXPECT_LE(ripple[1], 0.7 * ripple[0] + 1e-9) << name(kind) << name(kinematics);
+    }
+  }
+}
+
+TEST(Finger, AFreeFingerConservesMomentum) {
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::explicit_euler}) {
+    FreeFinger f(ModelKind::hookean, Kinematics::finite, integrator, 0.3);
+    const Vector3 before =
+        lattice::linear_momentum(f.model, f.finger.state()) + f.finger.rod().momentum();
+    for (int n = 0; n < 200; ++n) f.finger.advance(lattice::Wrench{});
+    const Vector3 after =
+        lattice::linear_momentum(f.model, f.finger.state()) + f.finger.rod().momentum();
+    EXPECT_LT((after - before).norm(), 1e-12 * f.finger.largest_impulse());
+    EXPECT_LT(f.finger.momentum_defect(), 1e-12 * f.finger.largest_impulse());
+  }
+}
+
+TEST(Finger, AnAppliedForceAcceleratesTheWholeFinger) {
+  FreeFinger f(ModelKind::central, Kinematics::small, Integrator::symplectic_euler, 0.3, 0.0, 0.0);
+  const Vector3 push(0.0, 0.0, 0.2);
+  const int steps = 500;
+  for (int n = 0; n < steps; ++n) f.finger.advance(lattice::Wrench{push, Vector3::Zero()});
+  const Vector3 momentum =
+      lattice::linear_momentum(f.model, f.finger.state()) + f.finger.rod().momentum();
+  EXPECT_LT((momentum - f.finger.time() * push).norm(), 1e-12 * momentum.norm());
+}
+
+TEST(Finger, GrowsAboveTheStableStepAndNotBelow) {
+  // The Lanczos margin keeps the reported limit up to 5 % below the true one.
+  for (const ModelKind kind : all_models) {
+    for (const double share : {1.0, 1.12}) {
+      FreeFinger f(kind, Kinematics::small, Integrator::symplectic_euler, share, 1e-3, 0.0);
+      const double start = f.energy();
+      double now = start;
+      for (int n = 0; n < 3000 && now < 1e3 * start; ++n) {
+        f.finger.advance(lattice::Wrench{});
+        if (n % 20 == 0) now = f.energy();
+      }
+      if (share <= 1.0) {
+        EXPECT_LT(now, start) << name(kind);
+      } else {
+        EXPECT_GT(now, 1e3 * start) << name(kind);
+      }
+    }
+  }
+}

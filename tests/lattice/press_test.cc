@@ -1,0 +1,225 @@
+#include "lattice/press.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "fixtures.h"
+
+using namespace fingertip;
+using namespace fixtures;
+using lattice::Kinematics;
+using lattice::ModelKind;
+using lattice::PressOutcome;
+using lattice::PressSetup;
+using meshes::ContactMode;
+using meshes::DriveMode;
+
+namespace {
+
+PressSetup setup_for(ModelKind kind, int per_radius, DriveMode mode, ContactMode contact) {
+  PressSetup setup;
+  setup.lattice.model = kind;
+  setup.lattice.kinematics =
+      kind == ModelKind::published ? Kinematics::finite : Kinematics::small;
+  setup.lattice.spacing = 0.01 / per_radius;
+  const double a = setup.lattice.spacing;
+  setup.lattice.constants = kind == ModelKind::published
+                                ? lattice::published_constants(setup.rubber, a)
+                                : lattice::hookean_constants(setup.rubber, a);
+  if (kind == ModelKind::central) setup.lattice.constants.k1 *= 1.5;
+  setup.protocol.mode = mode;
+  setup.protocol.contact = contact;
+  return setup;
+}
+
+/// Largest relative speed error from 50 ms on, outside the first 20 ms after first touch.
+double speed_error(const PressOutcome& outcome, double speed) {
+  double worst = 0.0;
+  for (const auto& row : outcome.trace) {
+    const double since_touch = row.time - outcome.first_touch_time;
+    if (row.time < 0.05 || (since_touch >= 0.0 && since_touch <= 0.02)) continue;
+    worst = std::max(worst, std::abs(row.speed - speed) / speed);
+  }
+  return worst;
+}
+
+double largest_tilt(const PressOutcome& outcome) {
+  double worst = 0.0;
+  for (const auto& row : outcome.trace) worst = std::max(worst, row.tilt);
+  return worst;
+}
+
+void expect_the_papers_task(ModelKind kind, ContactMode contact) {
+  const PressSetup setup = setup_for(kind, 8, DriveMode::pid, contact);
+  const PressOutcome outcome = lattice::run_press(setup);
+  EXPECT_LT(speed_error(outcome, setup.protocol.speed), 0.02) << name(kind);
+  EXPECT_LT(largest_tilt(outcome), 0.1 * 3.14159 / 180.0) << name(kind);
+  EXPECT_LT(outcome.momentum_defect, 1e-9) << name(kind);
+  EXPECT_GT(outcome.response.samples().back().normal_force, 0.05) << name(kind);
+  EXPECT_DOUBLE_EQ(outcome.response.depth(), setup.protocol.depth);
+  EXPECT_NEAR(outcome.census.expected_particles, 2748.0, 1.0);
+}
+
+}  // namespace
+
+TEST(PidPress, PublishedHoldsSpeedAndOrientationThroughContact) {
+  expect_the_papers_task(ModelKind::published, ContactMode::stick);
+}
+TEST(PidPress, CentralHoldsSpeedAndOrientationThroughContact) {
+  expect_the_papers_task(ModelKind::central, ContactMode::stick);
+}
+TEST(PidPress, HookeanHoldsSpeedAndOrientationThroughContact) {
+  expect_the_papers_task(ModelKind::hookean, ContactMode::stick);
+  expect_the_papers_task(ModelKind::hookean, ContactMode::frictionless);
+}
+
+TEST(QuasiStaticPress, HookeanComesCloseToTheContinuum) {
+  // Independent axisymmetric finite elements, frictionless, small strain (default specimen):
+  // indentation [cm], force [gf]. The staircase of R/8 costs up to 5 % (README).
+  const PressOutcome outcome = lattice::run_press(
+      setup_for(ModelKind::hookean, 8, DriveMode::quasi_static, ContactMode::frictionless));
+  const double gf = 9.80665e-3;
+  for (const auto& [depth, force] : {std::pair{0.05e-2, 1.02296}, {0.1e-2, 3.25628},
+                                     {0.2e-2, 10.22344}, {0.3e-2, 19.42179}}) {
+    EXPECT_NEAR(outcome.response.normal_force_at(depth) / gf / force, 1.0, 0.05) << depth;
+  }
+  EXPECT_LT(outcome.momentum_defect, 1e-9);
+}
+
+TEST(QuasiStaticPress, SymmetryLeavesNoLateralForceOrTorque) {
+  const PressOutcome outcome = lattice::run_press(
+      setup_for(ModelKind::hookean, 6, DriveMode::quasi_static, ContactMode::stick));
+  for (const auto& sample : outcome.response.samples()) {
+    EXPECT_LT(std::hypot(sample.lateral_force_x, sample.lateral_force_y),
+              1e-9 * (sample.normal_force + 1e-3));
+    EXPECT_LT(std::hypot(sample.torque_x, sample.torque_y, sample.torque_z),
+              1e-11 * (sample.normal_force + 1e-3));
+  }
+}
+
+TEST(QuasiStaticPress, PlaneAndBondCarryTheSameForce) {
+  const PressOutcome outcome = lattice::run_press(
+      setup_for(ModelKind::hookean, 6, DriveMode::quasi_static, ContactMode::stick));
+  const auto& row = outcome.trace[outcome.trace.size() - 10];
+  EXPECT_GT(row.normal_force, 0.05);
+  EXPECT_NEAR(row.plane_force, row.normal_force, 0.01 * row.normal_force);
+}
+
+TEST(Press, ResultDoesNotDependOnTheNumberOfThreads) {
+  for (const ModelKind kind : {ModelKind::published, ModelKind::hookean}) {
+    PressSetup setup = setup_for(kind, 6, DriveMode::pid, ContactMode::stick);
+    setup.protocol.depth = 1.5e-3;
+    setup.threads = 1;
+    const PressOutcome one = lattice::run_press(setup);
+    setup.threads = 3;
+    const PressOutcome three = lattice::run_press(setup);
+    ASSERT_EQ(one.trace.size(), three.trace.size());
+    for (std::size_t i = 0; i < one.response.samples().size(); ++i) {
+      EXPECT_EQ(one.response.samples()[i].normal_force, three.response.samples()[i].normal_force);
+    }
+    for (std::size_t b = 0; b < one.boundary_deformed.size(); ++b) {
+      EXPECT_EQ(one.boundary_deformed[b], three.boundary_deformed[b]);
+    }
+  }
+}
+
+TEST(Press, SamplesAreAtTheDepthsAskedForAndEvenlyBetween) {
+  PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::quasi_static, ContactMode::stick);
+  setup.protocol.depth = 1e-3;
+  setup.protocol.samples = {0.123e-3, 0.5e-3, 1e-3};
+  const PressOutcome outcome = lattice::run_press(setup);
+  const auto& rows = outcome.response.samples();
+  EXPECT_EQ(rows.size(), 61u);  // 60 even depths, two of which are samples, and 0.123 mm
+  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return a.indentation < b.indentation;
+  }));
+  EXPECT_TRUE(std::any_of(rows.begin(), rows.end(),
+                          [](const auto& row) { return row.indentation == 0.123e-3; }));
+  for (const auto& row : rows) EXPECT_FALSE(std::isnan(row.time));
+}
+
+TEST(Press, ASmallerStepChangesTheForceLittle) {
+  PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::quasi_static, ContactMode::stick);
+  const PressOutcome coarse = lattice::run_press(setup);
+  setup.time_step = 0.25 * coarse.step.step;
+  const PressOutcome fine = lattice::run_press(setup);
+  for (const double depth : {1e-3, 2e-3, 3e-3}) {
+    EXPECT_NEAR(coarse.response.normal_force_at(depth) / fine.response.normal_force_at(depth), 1.0,
+                2e-3);
+  }
+}
+
+TEST(Press, RefusesBrokenSetups) {
+  PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::pid, ContactMode::stick);
+  setup.time_step = 1e-3;
+  EXPECT_THROW(lattice::run_press(setup), meshes::InvalidInput);
+  setup.time_step.reset();
+  setup.lattice.constants = {};
+  setup.controller.period = 0.0;
+  setup.rod.density = -1.0;
+  setup.threads = -1;
+  setup.lattice.ligament_stiffness = std::nan("");
+  EXPECT_EQ(setup.violations().size(), 5u);
+  EXPECT_THROW(lattice::run_press(setup), meshes::InvalidInput);
+}
+
+TEST(Press, ExplicitEulerWithoutDampingIsRefused) {
+  PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::pid, ContactMode::stick);
+  setup.rubber.retardation_time = 0.0;
+  setup.integrator = lattice::Integrator::explicit_euler;
+  EXPECT_THROW(lattice::run_press(setup), meshes::InvalidInput);
+}
+
+TEST(Press, StopsWhenTheObserverAsksAndKeepsWhatItHas) {
+  const PressSetup setup =
+      setup_for(ModelKind::hookean, 5, DriveMode::quasi_static, ContactMode::stick);
+  std::size_t rows = 0;
+  EXPECT_THROW(lattice::run_press(setup,
+                                  [&](const PressOutcome& so_far, double done) {
+                                    rows = so_far.response.samples().size();
+                                    EXPECT_GE(done, 0.0);
+                                    return so_far.response.depth() < 1e-3;
+                                  }),
+               meshes::Interrupted);
+  EXPECT_GT(rows, 15u);
+}
+
+TEST(Press, AnActuatorTooWeakEndsAsNotConverged) {
+  PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::pid, ContactMode::stick);
+  setup.controller.force_limit = 0.02;
+  PressOutcome last;
+  EXPECT_THROW(lattice::run_press(setup,
+                                  [&](const PressOutcome& so_far, double) {
+                                    last = so_far;
+                                    return true;
+                                  }),
+               meshes::NotConverged);
+  EXPECT_GT(last.response.depth(), 0.0);
+  EXPECT_FALSE(last.trace.empty());
+}
+
+TEST(Press, AnUnstableControllerEndsAsNotConverged) {
+  PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::pid, ContactMode::stick);
+  setup.controller.natural_frequency = 250.0;
+  EXPECT_THROW(lattice::run_press(setup), meshes::NotConverged);
+}
+
+TEST(Press, WritesATraceWithNamesAndUnits) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "trace.csv";
+  lattice::TraceRow row;
+  row.time = 0.25;
+  row.anchored = 3;
+  lattice::write_trace_csv({row}, file);
+  std::ifstream in(file);
+  std::string names, values;
+  std::getline(in, names);
+  std::getline(in, values);
+  EXPECT_EQ(std::count(names.begin(), names.end(), ','), 12);
+  EXPECT_EQ(std::count(values.begin(), values.end(), ','), 12);
+  EXPECT_EQ(names.substr(0, 26), "time [s],indentation [m],c");
+  EXPECT_EQ(values.substr(0, 5), "0.25,");
+}

@@ -1,0 +1,148 @@
+#include "meshes/press_response.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "meshes/errors.h"
+
+namespace fingertip::meshes {
+namespace {
+
+class PressResponseFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("press_response_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path file(const std::string& text) const {
+    std::ofstream(folder_ / "response.csv") << text;
+    return folder_ / "response.csv";
+  }
+  std::string refusal(const std::string& text) const {
+    try {
+      PressResponse::read_csv(file(text));
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path folder_;
+};
+
+PressResponse power_law(double factor, double exponent, int samples, double depth) {
+  PressResponse response;
+  for (int i = 1; i <= samples; ++i) {
+    PressSample sample;
+    sample.indentation = depth * i / samples;
+    sample.normal_force = factor * std::pow(sample.indentation, exponent);
+    response.append(sample);
+  }
+  return response;
+}
+
+TEST_F(PressResponseFile, ReadsBackExactlyWhatItWrote) {
+  PressResponse written;
+  written.append({.indentation = 1.0 / 3.0, .normal_force = 0.1, .torque_y = -1e-300});
+  written.append({.indentation = 2.0 / 3.0, .normal_force = 0.7, .time = 12.5});
+  written.write_csv(folder_ / "response.csv");
+  const PressResponse read = PressResponse::read_csv(folder_ / "response.csv");
+  ASSERT_EQ(read.samples().size(), 2u);
+  EXPECT_EQ(read.samples()[0].indentation, 1.0 / 3.0);
+  EXPECT_EQ(read.samples()[0].torque_y, -1e-300);
+  EXPECT_TRUE(std::isnan(read.samples()[0].time));
+  EXPECT_EQ(read.samples()[1].time, 12.5);
+}
+
+TEST_F(PressResponseFile, FirstLineNamesEveryColumnWithItsUnit) {
+  PressResponse().write_csv(folder_ / "response.csv");
+  std::string line;
+  std::ifstream in(folder_ / "response.csv");
+  std::getline(in, line);
+  EXPECT_EQ(line,
+            "indentation [m],normal_force [N],lateral_force_x [N],lateral_force_y [N],"
+            "torque_x [N m],torque_y [N m],torque_z [N m],contact_radius [m],max_pressure [Pa],"
+            "force_error [N],time [s]");
+}
+
+TEST_F(PressResponseFile, AcceptsColumnsInAnyOrderAndUnknownOnes) {
+  const auto response = PressResponse::read_csv(
+      file("comment [1],normal_force [N],indentation [m]\n7,2.5,0.001\r\n,3.5,0.002\n"));
+  ASSERT_EQ(response.samples().size(), 2u);
+  EXPECT_EQ(response.samples()[1].normal_force, 3.5);
+}
+
+TEST_F(PressResponseFile, RefusesDamagedFilesWithFileAndLine) {
+  const std::string titles = "indentation [m],normal_force [N]\n";
+  EXPECT_NE(refusal("depth,normal_force [N]\n").find("response.csv:1"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,1\n0.2\n").find("response.csv:3"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,one\n").find("response.csv:2 = one"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,nan\n").find("finite"), std::string::npos);
+  EXPECT_NE(refusal(titles + ",1\n").find("response.csv:2"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.2,1\n0.1,2\n").find("increase"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,1\n0.2,2.0").find("truncated"), std::string::npos);
+  EXPECT_NE(refusal("").find("empty"), std::string::npos);
+  EXPECT_THROW(PressResponse::read_csv(folder_ / "absent.csv"), InvalidInput);
+}
+
+TEST_F(PressResponseFile, AnUnwritableFolderIsNamed) {
+  try {
+    PressResponse().write_csv(folder_ / "absent" / "response.csv");
+    FAIL() << "wrote into a folder that does not exist";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("absent"), std::string::npos);
+  }
+}
+
+TEST(PressResponse, InterpolationPassesThroughSamplesAndOrigin) {
+  const PressResponse response = power_law(2.0, 1.5, 10, 3e-3);
+  EXPECT_EQ(response.normal_force_at(0.0), 0.0);
+  for (const PressSample& sample : response.samples()) {
+    EXPECT_NEAR(response.normal_force_at(sample.indentation), sample.normal_force, 1e-15);
+  }
+  EXPECT_THROW(response.normal_force_at(3.1e-3), std::out_of_range);
+  EXPECT_THROW(response.normal_force_at(-1e-9), std::out_of_range);
+}
+
+TEST(PressResponse, InterpolationConvergesToASmoothForceLaw) {
+  const auto error = [](int samples) {
+    const PressResponse response = power_law(1.0, 1.5, samples, 1.0);
+    double worst = 0.0;
+    for (double at = 0.3; at < 1.0; at += 0.0137) {
+      worst = std::max(worst, std::abs(response.normal_force_at(at) - std::pow(at, 1.5)));
+    }
+    return worst;
+  };
+  EXPECT_LT(error(10), 2e-3);
+  EXPECT_GT(std::log2(error(10) / error(20)), 1.8);  // at least second order where monotone
+}
+
+TEST(PressResponse, InterpolationNeverOvershootsAStep) {
+  PressResponse response;
+  for (const auto& [at, force] : {std::pair{1.0, 0.0}, {2.0, 0.01}, {3.0, 5.0}, {4.0, 5.01}}) {
+    response.append({.indentation = at, .normal_force = force});
+  }
+  double previous = 0.0;
+  for (double at = 0.0; at <= 4.0; at += 0.01) {
+    const double force = response.normal_force_at(at);
+    EXPECT_GE(force, previous - 1e-14) << at;
+    previous = force;
+  }
+}
+
+TEST(PressResponse, ErrorNormsOfAConstantFactorAreThatFactor) {
+  const PressResponse reference = power_law(2.0, 1.5, 20, 3e-3);
+  const PressResponse response = power_law(2.2, 1.5, 20, 3e-3);
+  EXPECT_NEAR(relative_force_error(response, reference, 1.1e-3), 0.1, 1e-12);
+  EXPECT_NEAR(relative_l2_force_error(response, reference, 1e-4, 3e-3), 0.1, 1e-12);
+  EXPECT_EQ(relative_l2_force_error(reference, reference, 0.0, 3e-3), 0.0);
+}
+
+}  // namespace
+}  // namespace fingertip::meshes

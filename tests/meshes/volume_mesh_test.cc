@@ -1,0 +1,163 @@
+#include "meshes/volume_mesh.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+using namespace fingertip::meshes;
+
+namespace {
+
+class VolumeMesh : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    file_ = std::filesystem::temp_directory_path() /
+            ("volume_mesh_test." + std::to_string(::getpid()) + ".msh");
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  std::string text() const {
+    std::ifstream in(file_);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  /// The coordinates in the $Nodes section of an MSH 4.1 file.
+  std::vector<Vector3> nodes() const {
+    std::ifstream in(file_);
+    std::string line;
+    while (std::getline(in, line) && line != "$Nodes") {
+    }
+    std::size_t blocks = 0, total = 0, skip = 0;
+    in >> blocks >> total >> skip >> skip;
+    std::vector<Vector3> result;
+    for (std::size_t block = 0; block < blocks; ++block) {
+      std::size_t dimension = 0, entity = 0, parametric = 0, count = 0, tag = 0;
+      in >> dimension >> entity >> parametric >> count;
+      for (std::size_t i = 0; i < count; ++i) in >> tag;
+      for (std::size_t i = 0; i < count; ++i) {
+        Vector3 w;
+        in >> w.x() >> w.y() >> w.z();
+        result.push_back(w);
+      }
+    }
+    EXPECT_EQ(result.size(), total);
+    return result;
+  }
+
+  std::filesystem::path file_;
+};
+
+/// Nodes on one spherical or cylindrical layer of the block structure.
+std::size_t nodes_per_layer(const TipMeshOptions& o, bool sleeve) {
+  const std::size_t n = std::size_t(o.cap_elements);
+  const std::size_t rows = std::size_t(o.ring_elements + (sleeve ? o.sleeve_elements : 0));
+  return o.sector == Sector::quarter ? (n + 1) * (n + 1) + (2 * n + 1) * rows
+                                     : 4 * n * n + 4 * n + 1 + 8 * n * rows;
+}
+
+TEST_F(VolumeMesh, HasTheNodesOfItsBlocksAndSharesThem) {
+  for (const Sector sector : {Sector::quarter, Sector::full})
+    for (const double length : {0.015, 0.0}) {
+      Geometry geometry;
+      geometry.sleeve_length = length;
+      TipMeshOptions options;
+      options.sector = sector;
+      options = options.refined(0.5);
+      const MeshQuality quality = write_tip_mesh(geometry, options, file_);
+      const std::size_t layers = std::size_t(options.radial_elements) + 1;
+      const std::size_t per_layer = nodes_per_layer(options, length > 0);
+      EXPECT_EQ(quality.nodes, layers * per_layer);
+      std::size_t outer = 0, bond = 0;
+      const auto all = nodes();
+      EXPECT_EQ(all.size(), quality.nodes);
+      for (const Vector3& w : all) {
+        EXPECT_LE(geometry.signed_distance(w), 1e-14);
+        outer += std::abs(Geometry::radial_distance(w) - geometry.tip_radius) < 1e-15;
+        bond += std::abs(Geometry::radial_distance(w) - geometry.rod_radius) < 1e-15;
+        if (sector == Sector::quarter) {
+          EXPECT_GE(w.x(), -1e-17);
+          EXPECT_GE(w.y(), -1e-17);
+        }
+      }
+      EXPECT_EQ(outer, per_layer);
+      EXPECT_EQ(bond, per_layer);
+    }
+}
+
+TEST_F(VolumeMesh, IsOfGoodQualityAndFillsTheTip) {
+  const Geometry geometry;
+  double previous = 1.0;
+  for (const double refinement : {0.5, 1.0, 2.0}) {
+    const MeshQuality quality =
+        write_tip_mesh(geometry, TipMeshOptions{}.refined(refinement), file_);
+    EXPECT_GT(quality.min_jacobian, 0.0);
+    EXPECT_GT(quality.min_scaled_jacobian, 0.8);
+    // Straight sides cut the corners off: a deficit that falls like h².
+    const double missing = 1.0 - quality.volume / (geometry.tip_volume() / 4);
+    EXPECT_GT(missing, 0.0);
+    EXPECT_LT(missing, previous / 3);
+    previous = missing;
+  }
+  EXPECT_LT(previous, 1e-3);
+}
+
+TEST_F(VolumeMesh, FullTipIsFourQuarters) {
+  TipMeshOptions options = TipMeshOptions{}.refined(0.5);
+  const MeshQuality quarter = write_tip_mesh({}, options, file_);
+  EXPECT_NE(text().find("\"symmetry_x\""), std::string::npos);
+  options.sector = Sector::full;
+  const MeshQuality full = write_tip_mesh({}, options, file_);
+  EXPECT_EQ(text().find("symmetry"), std::string::npos);
+  EXPECT_EQ(full.hexahedra, 4 * quarter.hexahedra);
+  EXPECT_NEAR(full.volume / (4 * quarter.volume), 1.0, 1e-12);
+  EXPECT_NEAR(full.min_scaled_jacobian, quarter.min_scaled_jacobian, 1e-9);
+}
+
+TEST_F(VolumeMesh, NamesItsGroups) {
+  write_tip_mesh({}, TipMeshOptions{}.refined(0.5), file_);
+  const std::string mesh = text();
+  for (const char* group : {"3 1 \"tip\"", "2 2 \"outer\"", "2 3 \"bond\"", "2 4 \"end\"",
+                            "2 5 \"symmetry_x\"", "2 6 \"symmetry_y\""})
+    EXPECT_NE(mesh.find(group), std::string::npos) << group;
+}
+
+TEST_F(VolumeMesh, IsFineAtThePoleAndAtTheOuterSurface) {
+  TipMeshOptions options;
+  write_tip_mesh({}, options, file_);
+  const double R = Geometry{}.tip_radius, r = Geometry{}.rod_radius;
+  double next_to_pole = 1.0, next_to_outer = 1.0, next_to_bond = 1.0;
+  for (const Vector3& w : nodes()) {
+    const double lateral = std::hypot(w.x(), w.y());
+    if (std::abs(w.norm() - R) < 1e-12 && lateral > 1e-9)
+      next_to_pole = std::min(next_to_pole, lateral);
+    if (lateral > 1e-9) continue;  // on the axis, z runs through the rubber
+    if (R - w.z() > 1e-9) next_to_outer = std::min(next_to_outer, R - w.z());
+    if (w.z() - r > 1e-9) next_to_bond = std::min(next_to_bond, w.z() - r);
+  }
+  EXPECT_LT(next_to_pole, 0.75 * R * options.cap_angle / options.cap_elements);
+  EXPECT_NEAR(next_to_bond / next_to_outer, options.radial_grading, 1e-6);
+}
+
+TEST_F(VolumeMesh, RefusesBrokenOptions) {
+  const auto refuses = [&](auto&& spoil) {
+    TipMeshOptions options;
+    spoil(options);
+    EXPECT_THROW(write_tip_mesh({}, options, file_), InvalidInput);
+    EXPECT_FALSE(std::filesystem::exists(file_));
+  };
+  refuses([](TipMeshOptions& o) { o.cap_elements = 1; });
+  refuses([](TipMeshOptions& o) { o.radial_elements = 0; });
+  refuses([](TipMeshOptions& o) { o.cap_grading = 0.5; });
+  refuses([](TipMeshOptions& o) { o.radial_grading = std::nan(""); });
+  refuses([](TipMeshOptions& o) { o.cap_angle = 1.5; });
+  Geometry solid;
+  solid.rod_radius = 0.02;
+  EXPECT_THROW(write_tip_mesh(solid, {}, file_), InvalidInput);
+}
+
+}  // namespace

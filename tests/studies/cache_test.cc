@@ -1,0 +1,148 @@
+#include "studies/run/cache.h"
+
+#include <gtest/gtest.h>
+
+#include "meshes/errors.h"
+#include "studies/run/digest.h"
+#include "studies/run/session.h"
+#include "temporary_folder.h"
+
+using namespace fingertip::studies;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A job that counts how often it runs and writes one file into a sub-folder.
+Job counting_job(int& runs, int input, const std::string& code = "code 1") {
+  Job job;
+  job.kind = "test";
+  job.inputs = {{"input", input}};
+  job.source_hash = code;
+  job.run = [&runs, input](const fs::path& folder, const JobContext&) {
+    ++runs;
+    fs::create_directories(folder / "fields");
+    write_text(folder / "fields" / "value.txt", std::to_string(input));
+  };
+  return job;
+}
+
+class SessionTest : public testing::Test {
+ protected:
+  /// Runs `planned` in a fresh run folder and hands back its path.
+  fs::path run(const PlannedJob& planned, bool resume = false) {
+    RunFolderOptions options;
+    options.verb = "test";
+    options.resume = resume;
+    options.out = place_ / ("run" + std::to_string(resume ? folders_ : ++folders_));
+    RunFolder folder(options, load_config({}));
+    Progress progress(ProgressStyle::off);
+    Session session(folder, progress, Cache(place_ / "cache"), 2);
+    last_ = session.run(planned);
+    folder.finish("finished", 0);
+    return session.path_of(planned);
+  }
+
+  TemporaryFolder place_;
+  int folders_ = 0;
+  JobResult last_;
+};
+
+}  // namespace
+
+TEST(Digest, IsSha256) {
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST_F(SessionTest, EqualInputIsComputedOnce) {
+  int runs = 0;
+  run({"part", counting_job(runs, 7)});
+  EXPECT_FALSE(last_.reused);
+  const fs::path second = run({"part", counting_job(runs, 7)});
+  EXPECT_TRUE(last_.reused);
+  EXPECT_EQ(runs, 1);
+  EXPECT_EQ(read_text(second / "fields/value.txt"), "7");
+}
+
+TEST_F(SessionTest, OtherInputOrOtherCodeIsComputedAnew) {
+  int runs = 0;
+  run({"part", counting_job(runs, 7)});
+  run({"part", counting_job(runs, 8)});
+  run({"part", counting_job(runs, 7, "code 2")});
+  EXPECT_EQ(runs, 3);
+}
+
+TEST_F(SessionTest, ResumeKeepsFinishedPartsWithoutACache) {
+  int runs = 0;
+  run({"part", counting_job(runs, 7)});
+  fs::remove_all(place_ / "cache");
+  run({"part", counting_job(runs, 7)}, true);
+  EXPECT_EQ(runs, 1);
+  run({"part", counting_job(runs, 9)}, true);
+  EXPECT_EQ(runs, 2) << "another input must not find the old result";
+}
+
+TEST_F(SessionTest, ADamagedCacheEntryIsComputedAnew) {
+  int runs = 0;
+  const Job job = counting_job(runs, 7);
+  run({"part", job});
+  write_text(place_ / "cache" / ("test-" + job.key()) / marker_name, "{ trunca");
+  run({"part", job});
+  EXPECT_EQ(runs, 2);
+  run({"part", job});
+  EXPECT_EQ(runs, 2) << "and replaced";
+}
+
+TEST_F(SessionTest, AnUnwritableCacheCostsNoResult) {
+  int runs = 0;
+  write_text(place_ / "cache", "a file where the folder should be");
+  const fs::path result = run({"part", counting_job(runs, 7)});
+  EXPECT_EQ(read_text(result / "fields/value.txt"), "7");
+}
+
+TEST_F(SessionTest, AnExhibitMayFailToConvergeAndIsRemembered) {
+  int runs = 0;
+  Job job = counting_job(runs, 7);
+  job.run = [&runs](const fs::path& folder, const JobContext&) {
+    ++runs;
+    write_text(folder / "partial.txt", "half");
+    throw fingertip::meshes::NotConverged("blew up");
+  };
+  const fs::path folder = run({"part", job, true});
+  EXPECT_EQ(last_.status, "not converged: blew up");
+  EXPECT_EQ(read_text(folder / "partial.txt"), "half");
+  run({"part", job, true});
+  EXPECT_EQ(runs, 1);
+  EXPECT_EQ(last_.status, "not converged: blew up");
+  EXPECT_THROW(run({"part", job, false}), fingertip::meshes::NotConverged);
+}
+
+TEST_F(SessionTest, RunFilesStayOutOfTheCache) {
+  int runs = 0;
+  const Job job = counting_job(runs, 7);
+  run({"", job});
+  const fs::path entry = place_ / "cache" / ("test-" + job.key());
+  EXPECT_TRUE(fs::exists(entry / "fields/value.txt"));
+  EXPECT_FALSE(fs::exists(entry / "manifest.json"));
+}
+
+TEST(SessionLanes, RunAllKeepsTheOrderOfResultsAndThrowsTheFirstFailure) {
+  const TemporaryFolder place;
+  RunFolderOptions options;
+  options.verb = "test";
+  options.out = place / "run";
+  RunFolder folder(options, load_config({}));
+  Progress progress(ProgressStyle::off);
+  Session session(folder, progress, Cache(place / "cache"), 2);
+  int ignored[4] = {};
+  std::vector<PlannedJob> jobs;
+  for (int i = 0; i < 4; ++i) {
+    jobs.push_back({"part" + std::to_string(i), counting_job(ignored[i], i), false});
+  }
+  const auto results = session.run_all(jobs);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(results[std::size_t(i)].name, jobs[std::size_t(i)].name);
+  jobs[0].job.source_hash = "fails";
+  jobs[0].job.run = [](const fs::path&, const JobContext&) {
+    throw fingertip::meshes::NotConverged("no");
+  };
+  EXPECT_THROW(session.run_all(jobs), fingertip::meshes::NotConverged);
+}

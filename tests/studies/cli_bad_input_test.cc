@@ -1,0 +1,120 @@
+// Every kind of bad input, through the real program: exit code 2, one line that says where, what,
+// which rule and what to do, and nothing written.
+
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "temporary_folder.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct BadInput {
+  std::string set;                  ///< section.key=value
+  std::vector<std::string> told;    ///< what the message must contain
+};
+
+void expect_refused(const fs::path& folder, const std::vector<std::string>& arguments,
+                    const std::vector<std::string>& told) {
+  const std::vector<std::string> before = made_in(folder);
+  const ProgramResult result = run_program(folder, arguments);
+  EXPECT_EQ(result.code, 2) << result.err;
+  for (const std::string& part : told) {
+    EXPECT_NE(result.err.find(part), std::string::npos) << part << "\nin\n" << result.err;
+  }
+  EXPECT_NE(result.err.find("; "), std::string::npos) << "no remedy in " << result.err;
+  EXPECT_EQ(made_in(folder), before) << "something was written";
+}
+
+class BadSet : public testing::TestWithParam<BadInput> {};
+
+}  // namespace
+
+TEST_P(BadSet, IsRefusedByEveryVerbThatComputes) {
+  const TemporaryFolder folder;
+  std::vector<std::string> told = GetParam().told;
+  told.push_back("--set " + GetParam().set);
+  for (const char* verb : {"press", "reference", "calibrate", "validate"}) {
+    expect_refused(folder.path(), {verb, "--out", "run", "--set", GetParam().set}, told);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    MustShow, BadSet,
+    testing::Values(
+        BadInput{"rubber.yongs_modulus=40 gf/cm^2", {"unknown key", "rubber.youngs_modulus"}},
+        BadInput{"rubber.youngs_modulus=40 cm", {"40 cm", "wrong dimension", "Pa"}},
+        BadInput{"rubber.youngs_modulus=40", {"unit is missing", "40 gf/cm^2"}},
+        BadInput{"rubber.shear_modulus=13.3 gf/cm^2", {"13.3 gf/cm^2", "G must exceed E/3"}},
+        BadInput{"rubber.youngs_modulus=42 gf/cm^2", {"G must exceed E/3", "42 gf/cm^2"}},
+        BadInput{"geometry.rod_radius=1 cm", {"smaller than tip_radius"}},
+        BadInput{"geometry.tip_radius=0.4 cm", {"smaller than tip_radius", "0.4 cm"}},
+        BadInput{"geometry.rod_length=1 cm", {"sleeve_length"}},
+        BadInput{"lattice.spacing=0.26 cm", {"(R - r)/2"}},
+        BadInput{"lattice.spacing=tip_radius/3", {"(R - r)/2"}},
+        BadInput{"press.depth=0 cm", {"> 0"}}, BadInput{"press.depth=-1 mm", {"> 0"}},
+        BadInput{"press.depth=0.5 cm", {"R - r"}}, BadInput{"press.depth=nan cm", {"finite"}},
+        BadInput{"press.depth=nan", {"finite"}}, BadInput{"rubber.density=inf kg/m^3", {"finite"}},
+        BadInput{"press.contact=slippery", {"stick | frictionless"}},
+        BadInput{"reference.degree=7", {"<= 2"}},
+        BadInput{"lattice.constants=absent.toml", {"absent.toml"}}));
+
+TEST(BadInput, UnstableTimeStepIsRefusedWithItsBound) {
+  const TemporaryFolder folder;
+  expect_refused(folder.path(),
+                 {"press", "--out", "run", "--set", "run.time_step=1 ms", "--set",
+                  "lattice.spacing=tip_radius/5"},
+                 {"--set run.time_step=1 ms", "bound"});
+}
+
+TEST(BadInput, FilesAreNamedWithTheLine) {
+  const TemporaryFolder folder;
+  write_text(folder / "bad.toml", "[rubber]\n# a comment\nyoungs_modulus = \"40 N\"\nfoo = 1\n");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"press", "--config", "bad.toml"}, {"check", "bad.toml"},
+        {"validate", "--config", "bad.toml"}, {"validate", "bad.toml"}}) {
+    expect_refused(folder.path(), words, {"bad.toml:3: rubber.youngs_modulus = 40 N: ",
+                                          "bad.toml:4: rubber.foo = 1: unknown key"});
+  }
+  write_text(folder / "truncated.toml", "[rubber]\nyoungs_modulus = \"40 gf");
+  expect_refused(folder.path(), {"press", "--config", "truncated.toml"}, {"truncated.toml:2: "});
+  expect_refused(folder.path(), {"press", "--config", "absent.toml"}, {"absent.toml", "cannot be read"});
+}
+
+TEST(BadInput, OutputFoldersAreNotOverwritten) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "there");
+  write_text(folder / "there/note.txt", "mine");
+  expect_refused(folder.path(), {"press", "--out", "there"}, {"--out there", "exists already"});
+  expect_refused(folder.path(), {"calibrate", "--out", "there", "--force"}, {"no run", "--out there"});
+  EXPECT_EQ(read_text(folder / "there/note.txt"), "mine");
+  expect_refused(folder.path(), {"calibrate", "--out", "there/note.txt/x"}, {"cannot be written"});
+  expect_refused(folder.path(), {"calibrate", "--out", "/proc/run"}, {"cannot be written"});
+}
+
+TEST(BadInput, UnknownWordsOnTheCommandLine) {
+  const TemporaryFolder folder;
+  expect_refused(folder.path(), {"valdate"}, {"valdate", "validate"});
+  expect_refused(folder.path(), {"press", "--depth", "1"}, {"--depth"});
+  expect_refused(folder.path(), {"press", "--set", "press.depth"}, {"section.key=value"});
+  expect_refused(folder.path(), {"press", "--progress", "loud"}, {"loud"});
+  expect_refused(folder.path(), {"press", "--resume", "always"}, {"always"});
+  expect_refused(folder.path(), {"press", "--threads", "two"}, {"--threads two", "integer"});
+  expect_refused(folder.path(), {"validate", "99_nothing"}, {"99_nothing", "01_paper_rubber"});
+  expect_refused(folder.path(), {"explain", "rubber.densiti"}, {"rubber.density"});
+  expect_refused(folder.path(), {"compare", "nowhere", "nothing"}, {"nowhere"});
+  expect_refused(folder.path(), {"report", "nowhere"}, {"nowhere"});
+  expect_refused(folder.path(), {}, {"--help"});
+}
+
+TEST(BadInput, AllProblemsAreToldAtOnce) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program(folder.path(), {"press", "--set", "press.speed=1 cm", "--set", "rubber.foo=1",
+                                  "--set", "geometry.rod_radius=2 cm"});
+  EXPECT_EQ(result.code, 2);
+  for (const char* part : {"press.speed", "rubber.foo", "geometry.rod_radius"}) {
+    EXPECT_NE(result.err.find(part), std::string::npos) << part;
+  }
+}

@@ -1,0 +1,154 @@
+// Runs of the real program on a coarse lattice.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "meshes/press_response.h"
+#include "program.h"
+#include "temporary_folder.h"
+
+namespace fs = std::filesystem;
+using fingertip::meshes::PressResponse;
+using nlohmann::json;
+
+namespace {
+
+const std::vector<std::string> coarse_press = {"press", "--set", "lattice.spacing=tip_radius/6",
+                                               "--set", "press.depth=0.05 cm"};
+
+std::vector<std::string> with(std::vector<std::string> words, std::vector<std::string> more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+json json_of(const fs::path& file) { return json::parse(read_text(file)); }
+
+}  // namespace
+
+TEST(Run, PressWritesACompleteFolderThatCanBeRunAgain) {
+  const TemporaryFolder folder;
+  const ProgramResult first = run_program(folder.path(), with(coarse_press, {"--out", "one"}));
+  ASSERT_EQ(first.code, 0) << first.err;
+  for (const char* file : {"parameters.toml", "manifest.json", "log.txt", "summary.json",
+                           "response.csv", "trace.csv", "boundary.csv", "boundary_springs.csv"}) {
+    EXPECT_TRUE(fs::exists(folder / "one" / file)) << file;
+  }
+  const json manifest = json_of(folder / "one/manifest.json");
+  EXPECT_EQ(manifest["status"], "finished");
+  EXPECT_EQ(manifest["exit_code"], 0);
+  const json summary = json_of(folder / "one/summary.json");
+  EXPECT_EQ(summary["model"], "hookean");
+  EXPECT_LT(summary["momentum_defect"].get<double>(), 1e-9);
+  const PressResponse response = PressResponse::read_csv(folder / "one/response.csv");
+  EXPECT_NEAR(response.depth(), 0.0005, 1e-9);
+
+  fs::remove_all(folder / "cache");
+  const ProgramResult again = run_program(
+      folder.path(), {"press", "--config", "one/parameters.toml", "--out", "two", "--threads", "1"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(read_text(folder / "one/response.csv"), read_text(folder / "two/response.csv"));
+}
+
+TEST(Run, EqualInputComesFromTheCache) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(folder.path(), with(coarse_press, {"--out", "one"})).code, 0);
+  const ProgramResult again = run_program(folder.path(), with(coarse_press, {"--out", "two"}));
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.out.find("earlier run"), std::string::npos) << again.out;
+  EXPECT_EQ(read_text(folder / "one/trace.csv"), read_text(folder / "two/trace.csv"));
+  EXPECT_NE(read_text(folder / "two/log.txt").find("from the cache"), std::string::npos);
+}
+
+TEST(Run, ForceReplacesAndResumeKeeps) {
+  const TemporaryFolder folder;
+  const auto words = with(coarse_press, {"--out", "run"});
+  ASSERT_EQ(run_program(folder.path(), words).code, 0);
+  EXPECT_EQ(run_program(folder.path(), words).code, 2);
+  EXPECT_EQ(run_program(folder.path(), with(words, {"--force"})).code, 0);
+  EXPECT_EQ(run_program(folder.path(), with(words, {"--resume", "auto"})).code, 0);
+  // Bad input after --force costs nothing of what is there.
+  EXPECT_EQ(run_program(folder.path(), with(words, {"--force", "--set", "run.time_step=1 s"})).code, 2);
+  EXPECT_EQ(json_of(folder / "run/manifest.json")["status"], "finished");
+}
+
+TEST(Run, QuietAndJsonProgress) {
+  const TemporaryFolder folder;
+  ProgramResult result =
+      run_program(folder.path(), with(coarse_press, {"--out", "quiet", "--quiet"}));
+  EXPECT_EQ(result.out + result.err, "");
+  fs::remove_all(folder / "cache");
+  result = run_program(folder.path(), with(coarse_press, {"--out", "json", "--progress", "json"}));
+  std::istringstream lines(result.err);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const json entry = json::parse(line);
+    EXPECT_EQ(entry["job"], "press");
+    EXPECT_GE(entry["fraction"].get<double>(), 0.0);
+    EXPECT_LE(entry["fraction"].get<double>(), 1.0);
+  }
+  EXPECT_GT(count, 0);
+}
+
+TEST(Run, DefaultFolderLiesUnderRuns) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(folder.path(), {"calibrate"}).code, 0);
+  ASSERT_TRUE(fs::is_directory(folder / "runs"));
+  const fs::path made = fs::directory_iterator(folder / "runs")->path();
+  EXPECT_TRUE(made.filename().string().starts_with("calibrate-")) << made;
+  const json calibration = json_of(made / "calibration.json");
+  EXPECT_NEAR(calibration["achieved"]["youngs_modulus_110"].get<double>(), 3922.66, 1e-5);
+  EXPECT_TRUE(fs::exists(made / "material.toml"));
+}
+
+TEST(Run, CalibratedConstantsGoIntoAPress) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(folder.path(), {"calibrate", "--out", "fit"}).code, 0);
+  const ProgramResult result = run_program(
+      folder.path(), with(coarse_press, {"--set", "lattice.constants=fit/material.toml", "--out",
+                                         "pressed"}));
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json moduli = json_of(folder / "pressed/summary.json")["moduli"];
+  EXPECT_NEAR(moduli["E_100"].get<double>(), 3922.66, 1e-5);
+}
+
+TEST(Run, InterruptLeavesAReadableFolderThatCanBeResumed) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> words = {"press", "--set", "lattice.spacing=tip_radius/10", "--set",
+                                          "press.speed=0.3 cm/s", "--out", "run"};
+  Program program(folder.path(), words);
+  // Long enough for first results, far from long enough to finish.
+  for (int i = 0; i < 600 && !fs::exists(folder / "run/summary.json"); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  program.send(SIGINT);
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.code, 130) << result.err;
+  const json manifest = json_of(folder / "run/manifest.json");
+  EXPECT_EQ(manifest["status"], "interrupted");
+  EXPECT_EQ(json_of(folder / "run/summary.json")["status"], "interrupted");
+  EXPECT_NO_THROW(PressResponse::read_csv(folder / "run/response.csv"));
+  EXPECT_FALSE(fs::exists(folder / "run/finished.json"));
+  // What is half done is not mistaken for a result.
+  const ProgramResult resumed = run_program(
+      folder.path(), {"press", "--set", "lattice.spacing=tip_radius/6", "--set",
+                      "press.depth=0.02 cm", "--out", "run", "--resume", "auto"});
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(json_of(folder / "run/manifest.json")["status"], "finished");
+}
+
+TEST(Run, CompareTellsDifferences) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(folder.path(), with(coarse_press, {"--out", "hookean"})).code, 0);
+  ASSERT_EQ(run_program(folder.path(), with(coarse_press, {"--out", "central", "--set",
+                                                           "lattice.model=central"})).code, 0);
+  const ProgramResult result = run_program(folder.path(), {"compare", "hookean", "central"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("relative L2 difference"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "runs/comparison/comparison.html"));
+  EXPECT_EQ(run_program(folder.path(), {"compare", "hookean"}).code, 2);
+}

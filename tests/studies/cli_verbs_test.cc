@@ -1,0 +1,73 @@
+// The verbs that explain and check.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "temporary_folder.h"
+
+TEST(Verbs, HelpAndVersion) {
+  const TemporaryFolder folder;
+  const ProgramResult help = run_program(folder.path(), {"--help"});
+  EXPECT_EQ(help.code, 0);
+  for (const char* verb : {"validate", "press", "reference", "calibrate", "compare", "report",
+                           "check", "explain", "init", "doctor", "test"}) {
+    EXPECT_NE(help.out.find(verb), std::string::npos) << verb;
+  }
+  const ProgramResult version = run_program(folder.path(), {"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_EQ(version.out.rfind("fingertip ", 0), 0U);
+  EXPECT_EQ(run_program(folder.path(), {"press", "--help"}).code, 0);
+}
+
+TEST(Verbs, StartsInMilliseconds) {
+  const TemporaryFolder folder;
+  double best = 1.0;
+  for (int i = 0; i < 5; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    run_program(folder.path(), {"explain", "press.depth"});
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    best = std::min(best, taken.count());
+  }
+  EXPECT_LT(best, 0.25);
+}
+
+TEST(Verbs, InitWritesWhatCheckAccepts) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program(folder.path(), {"init", "all.toml"}).code, 0);
+  const ProgramResult check = run_program(folder.path(), {"check", "all.toml"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_NE(check.out.find("OK"), std::string::npos);
+  EXPECT_EQ(run_program(folder.path(), {"init", "all.toml"}).code, 2) << "it exists";
+  EXPECT_EQ(run_program(folder.path(), {"init", "--force", "all.toml"}).code, 0);
+  EXPECT_EQ(run_program(folder.path(), {"init"}).out, read_text(folder / "all.toml"));
+}
+
+TEST(Verbs, ExplainKnowsEveryKey) {
+  const TemporaryFolder folder;
+  const ProgramResult one = run_program(folder.path(), {"explain", "rubber.shear_modulus"});
+  EXPECT_EQ(one.code, 0);
+  EXPECT_NE(one.out.find("14 gf/cm^2"), std::string::npos);
+  EXPECT_NE(one.out.find("youngs_modulus/3"), std::string::npos);
+  EXPECT_NE(run_program(folder.path(), {"explain"}).out.find("press.depth"), std::string::npos);
+  EXPECT_NO_THROW(nlohmann::json::parse(run_program(folder.path(), {"explain", "--schema"}).out));
+  EXPECT_EQ(run_program(folder.path(), {"explain", "--markdown"}).out.rfind("# ", 0), 0U);
+}
+
+TEST(Verbs, OptionsMayFollowOrPrecedeWords) {
+  const TemporaryFolder folder;
+  run_program(folder.path(), {"init", "a.toml"});
+  EXPECT_EQ(run_program(folder.path(), {"check", "a.toml", "--set", "press.depth=0.1 cm"}).code, 0);
+  EXPECT_EQ(run_program(folder.path(), {"check", "--set", "press.depth=0.1 cm", "a.toml"}).code, 0);
+  EXPECT_EQ(run_program(folder.path(), {"check", "--set", "press.depth=9 cm", "a.toml"}).code, 2);
+}
+
+TEST(Verbs, DoctorTellsWhatIsThere) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(folder.path(), {"doctor"});
+  for (const char* part : {"fingertip-fem", "Eigen", "cores", "cache", "writable"}) {
+    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+  }
+}

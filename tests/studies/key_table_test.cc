@@ -1,0 +1,124 @@
+#include "studies/config/key_table.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <toml++/toml.h>
+
+#include "studies/config/documents.h"
+#include "studies/config/value_reader.h"
+
+using namespace fingertip::studies;
+
+TEST(KeyTable, NamesAreUniqueAndEverySectionIsDescribed) {
+  std::set<std::string> names;
+  std::set<std::string> described;
+  for (const Section& section : sections()) described.insert(section.name);
+  for (const Key& key : key_table()) {
+    EXPECT_TRUE(names.insert(key.full_name()).second) << key.full_name();
+    EXPECT_TRUE(described.count(key.section)) << key.section;
+    EXPECT_FALSE(key.help.empty()) << key.full_name();
+    EXPECT_EQ(key.help.find('\n'), std::string::npos) << key.full_name();
+    for (const std::string& related : key.related) EXPECT_NE(find_key(related), nullptr) << related;
+  }
+}
+
+TEST(KeyTable, HasTheContractsKeysWithItsDefaults) {
+  const std::pair<const char*, const char*> contract[] = {
+      {"geometry.tip_radius", "\"1 cm\""},       {"geometry.rod_radius", "\"0.5 cm\""},
+      {"geometry.sleeve_length", "\"1.5 cm\""},  {"geometry.rod_length", "\"3 cm\""},
+      {"rubber.youngs_modulus", "\"40 gf/cm^2\""}, {"rubber.shear_modulus", "\"14 gf/cm^2\""},
+      {"rubber.density", "\"0.5 g/cm^3\""},      {"rubber.retardation_time", "\"0.3 ms\""},
+      {"rod.density", "\"2.7 g/cm^3\""},         {"lattice.model", "\"hookean\""},
+      {"lattice.spacing", "\"tip_radius/12\""},  {"lattice.constants", "\"auto\""},
+      {"lattice.ligament_stiffness", "1.0"},     {"press.mode", "\"pid\""},
+      {"press.contact", "\"stick\""},            {"press.depth", "\"0.3 cm\""},
+      {"press.speed", "\"1 cm/s\""},             {"press.clearance", "\"0.05 cm\""},
+      {"press.samples", "[]"},                   {"controller.period", "\"1 ms\""}};
+  for (const auto& [name, preset] : contract) {
+    const Key* key = find_key(name);
+    ASSERT_NE(key, nullptr) << name;
+    EXPECT_EQ(key->preset, preset) << name;
+  }
+}
+
+TEST(KeyTable, EveryDefaultIsAValidValueOfItsKey) {
+  for (const Key& key : key_table()) {
+    const toml::table table = toml::parse("v = " + key.preset);
+    EXPECT_NO_THROW(read_value(key, *table.get("v"))) << key.full_name();
+  }
+}
+
+TEST(KeyTable, DefaultsAreThoseOfTheRooms) {
+  // The rooms' structs have defaults of their own: one truth only.
+  const Config resolved = load_config({}).config;
+  const fingertip::lattice::PressSetup rooms;
+  const fingertip::fem_reference::ReferenceJob job;
+  EXPECT_EQ(resolved.press.geometry.tip_radius, rooms.geometry.tip_radius);
+  EXPECT_EQ(resolved.press.geometry.rod_radius, rooms.geometry.rod_radius);
+  EXPECT_EQ(resolved.press.geometry.sleeve_length, rooms.geometry.sleeve_length);
+  EXPECT_EQ(resolved.press.geometry.rod_length, rooms.geometry.rod_length);
+  EXPECT_EQ(resolved.press.rubber.youngs_modulus, rooms.rubber.youngs_modulus);
+  EXPECT_EQ(resolved.press.rubber.shear_modulus, rooms.rubber.shear_modulus);
+  EXPECT_EQ(resolved.press.rubber.density, rooms.rubber.density);
+  EXPECT_EQ(resolved.press.rubber.retardation_time, rooms.rubber.retardation_time);
+  EXPECT_EQ(resolved.press.rod.density, rooms.rod.density);
+  EXPECT_EQ(resolved.press.protocol.depth, rooms.protocol.depth);
+  EXPECT_EQ(resolved.press.protocol.speed, rooms.protocol.speed);
+  EXPECT_EQ(resolved.press.protocol.clearance, rooms.protocol.clearance);
+  EXPECT_EQ(resolved.press.protocol.contact, rooms.protocol.contact);
+  EXPECT_EQ(resolved.press.protocol.mode, rooms.protocol.mode);
+  EXPECT_EQ(resolved.press.lattice.model, rooms.lattice.model);
+  EXPECT_EQ(resolved.press.lattice.kinematics, rooms.lattice.kinematics);
+  EXPECT_EQ(resolved.press.lattice.ligament_stiffness, rooms.lattice.ligament_stiffness);
+  EXPECT_EQ(resolved.press.controller.period, rooms.controller.period);
+  EXPECT_EQ(resolved.press.controller.natural_frequency, rooms.controller.natural_frequency);
+  EXPECT_EQ(resolved.press.controller.derivative_filter, rooms.controller.derivative_filter);
+  EXPECT_EQ(resolved.press.controller.force_limit, rooms.controller.force_limit);
+  EXPECT_EQ(resolved.press.controller.torque_limit, rooms.controller.torque_limit);
+  EXPECT_EQ(resolved.press.integrator, rooms.integrator);
+  EXPECT_EQ(resolved.press.time_step, rooms.time_step);
+  EXPECT_EQ(resolved.reference.degree, job.degree);
+  EXPECT_EQ(resolved.reference.refinement, job.refinement);
+  EXPECT_EQ(resolved.reference.tolerance, job.tolerance);
+  EXPECT_EQ(resolved.reference.solver, job.solver);
+  EXPECT_EQ(resolved.reference.write_fields, job.write_fields);
+  EXPECT_EQ(resolved.reference.estimate_error, job.estimate_error);
+}
+
+TEST(KeyTable, NearestKeyFindsSlips) {
+  EXPECT_EQ(nearest_key("rubber.yongs_modulus"), "rubber.youngs_modulus");
+  EXPECT_EQ(nearest_key("rubber.densty"), "rubber.density");
+  EXPECT_EQ(nearest_key("geometry.spacing"), "lattice.spacing");
+  EXPECT_EQ(nearest_key("press.detph"), "press.depth");
+}
+
+TEST(Documents, SchemaDescribesEveryKeyAndItsDefault) {
+  const auto schema = nlohmann::json::parse(json_schema());
+  EXPECT_FALSE(schema["additionalProperties"]);
+  for (const Key& key : key_table()) {
+    const auto& entry = schema["properties"][key.section]["properties"][key.name];
+    ASSERT_TRUE(entry.contains("default")) << key.full_name();
+    if (entry.contains("enum")) {
+      EXPECT_NE(std::find(entry["enum"].begin(), entry["enum"].end(), entry["default"]),
+                entry["enum"].end())
+          << key.full_name();
+    }
+  }
+}
+
+TEST(Documents, ExplanationsAndReferenceNameEveryKey) {
+  const std::string overview = key_overview();
+  const std::string page = markdown_reference();
+  for (const Key& key : key_table()) {
+    EXPECT_NE(overview.find(key.full_name()), std::string::npos);
+    EXPECT_NE(page.find("| `" + key.name + "` |"), std::string::npos);
+    const std::string text = explanation(key);
+    EXPECT_NE(text.find(key.help), std::string::npos);
+    EXPECT_NE(text.find(key.preset), std::string::npos);
+    for (const Choice& choice : key.choices) {
+      EXPECT_NE(text.find(choice.meaning), std::string::npos) << key.full_name();
+    }
+  }
+}

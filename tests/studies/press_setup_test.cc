@@ -1,0 +1,84 @@
+#include "studies/run/press_setup.h"
+
+#include <gtest/gtest.h>
+
+#include "calibration/moduli.h"
+#include "studies/run/jobs.h"
+#include "temporary_folder.h"
+
+using namespace fingertip::studies;
+namespace lattice = fingertip::lattice;
+
+namespace {
+
+lattice::PressSetup setup_of(std::vector<std::string> sets) {
+  return press_setup(load_config({{}, std::move(sets), {}}));
+}
+
+fingertip::calibration::ElasticModuli moduli_of(const lattice::PressSetup& setup) {
+  return fingertip::calibration::homogenised_moduli(setup.lattice.constants, setup.lattice.spacing);
+}
+
+}  // namespace
+
+TEST(PressSetup, AutoTakesEachModelsOwnConstants) {
+  const auto published = setup_of({"lattice.model=published"});
+  EXPECT_NEAR(published.lattice.constants.k1, 3922.66 * published.lattice.spacing, 1e-12);
+  EXPECT_EQ(published.lattice.kinematics, lattice::Kinematics::finite);
+  const auto hookean = moduli_of(setup_of({"lattice.model=hookean"}));
+  EXPECT_NEAR(hookean.youngs_modulus_100, 3922.66, 1e-8);
+  EXPECT_NEAR(hookean.poissons_ratio_100, 0.428571428571, 1e-10);
+  const auto central = moduli_of(setup_of({"lattice.model=central"}));
+  EXPECT_NEAR(central.youngs_modulus_100, 3922.66, 1e-5);
+  EXPECT_NEAR(central.shear_modulus, 1372.931, 1e-5);
+}
+
+TEST(PressSetup, CalibratedHookeanAgreesWithItsClosedForm) {
+  const auto fitted = moduli_of(setup_of({"lattice.constants=calibrated"}));
+  const auto closed = moduli_of(setup_of({"lattice.constants=rule"}));
+  EXPECT_NEAR(fitted.c11 / closed.c11, 1.0, 1e-8);
+  EXPECT_NEAR(fitted.c12 / closed.c12, 1.0, 1e-8);
+  EXPECT_NEAR(fitted.c44 / closed.c44, 1.0, 1e-8);
+}
+
+TEST(PressSetup, TakesConstantsFromAMaterialFileAtAnySpacing) {
+  const TemporaryFolder folder;
+  const LoadedConfig loaded = load_config({{}, {"lattice.model=central"}, {}});
+  const Job job = moduli_job(loaded.config.press.rubber,
+                             fit_options(loaded, lattice::ModelKind::central));
+  const JobContext context{[](double, const std::string&) { return true; },
+                           [](const std::string&) {}, 1};
+  job.run(folder.path(), context);
+  const std::string constants = "lattice.constants=" + (folder / "material.toml").string();
+  const auto finer =
+      setup_of({"lattice.model=central", "lattice.spacing=tip_radius/17", constants});
+  EXPECT_NEAR(moduli_of(finer).youngs_modulus_100, 3922.66, 1e-5);
+  EXPECT_THROW(setup_of({"lattice.model=hookean", constants}), ConfigError) << "another model";
+  EXPECT_THROW(setup_of({"lattice.constants=" + (folder / "absent.toml").string()}), ConfigError);
+}
+
+TEST(PressSetup, RefusesWhatTheLatticeCannotDo) {
+  EXPECT_THROW(setup_of({"lattice.spacing=0.26 cm"}), ConfigError);
+  EXPECT_NO_THROW(setup_of({"lattice.spacing=0.25 cm"}));
+  EXPECT_THROW(setup_of({"lattice.spacing=1 um"}), ConfigError);
+  EXPECT_THROW(setup_of({"lattice.model=published", "lattice.constants=calibrated"}), ConfigError);
+}
+
+TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
+  const auto key = [](std::vector<std::string> sets) { return press_job(setup_of(std::move(sets))).key(); };
+  EXPECT_EQ(key({}), key({"run.threads=1"}));
+  EXPECT_EQ(key({}), key({"rubber.youngs_modulus=3922.66 Pa"}));
+  EXPECT_EQ(key({}), key({"lattice.constants=rule"}));
+  EXPECT_EQ(key({}), key({"reference.degree=1"}));
+  EXPECT_NE(key({}), key({"press.speed=2 cm/s"}));
+  EXPECT_NE(key({}), key({"rod.density=1 g/cm^3"}));
+  EXPECT_EQ(key({"press.mode=quasi-static"}),
+            key({"press.mode=quasi-static", "controller.period=2 ms"}));
+  const auto continuum = [](std::vector<std::string> sets) {
+    return reference_job(reference_order(load_config({{}, std::move(sets), {}}))).key();
+  };
+  EXPECT_EQ(continuum({}), continuum({"rubber.density=1 g/cm^3"}));
+  EXPECT_EQ(continuum({}), continuum({"lattice.spacing=0.2 cm"}));
+  EXPECT_NE(continuum({}), continuum({"press.contact=frictionless"}));
+  EXPECT_NE(continuum({}), continuum({"reference.refinement=1.5"}));
+}

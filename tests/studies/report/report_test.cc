@@ -1,0 +1,272 @@
+#include "studies/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "meshes/errors.h"
+#include "page_check.h"
+#include "studies/report/chapters.h"
+#include "synthetic_run.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace fingertip;
+using report_testing::read_file;
+using report_testing::write_file;
+
+/// A complete run, with its report when asked.
+struct SyntheticRun {
+  report_testing::TemporaryFolder folder;
+  fs::path path = folder.path() / "run";
+  SyntheticRun() { report_testing::write_synthetic_run(path); }
+  std::string report() {
+    studies::write_report(path);
+    return read_file(path / "report.html");
+  }
+};
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string first_or_none(const std::vector<std::string>& faults) {
+  return faults.empty() ? "" : faults.front();
+}
+
+/// The cells of a CSV's row whose first cells are `panel` and `series`, closest to x.
+double csv_value(const fs::path& file, const std::string& series, double x, std::size_t x_column,
+                 std::size_t y_column) {
+  std::istringstream stream(read_file(file));
+  std::string line;
+  double best = 1e300, value = std::nan("");
+  while (std::getline(stream, line)) {
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    if (cells.size() <= std::max(x_column, y_column) || cells[1] != series ||
+        cells[x_column].empty())
+      continue;
+    const double distance = std::abs(std::stod(cells[x_column]) - x);
+    if (distance < best) best = distance, value = std::stod(cells[y_column]);
+  }
+  return value;
+}
+
+TEST(Report, HasEveryChapterOfACompleteRun) {
+  SyntheticRun run;
+  const std::string html = run.report();
+  for (const char* chapter : {"verdict", "force", "control", "elasticity", "pictures", "published",
+                              "reasons", "cost", "provenance"}) {
+    EXPECT_TRUE(has(html, "<section id=\"" + std::string(chapter) + "\">")) << chapter;
+  }
+  EXPECT_FALSE(has(html, "id=\"not-run\""))
+      << report_testing::visible_text(html.substr(html.find("id=\"not-run\"")));
+  for (const char* figure : {"force_indentation", "force_error", "tracking", "elastic_directions",
+                             "cubes", "shapes", "pressure", "published_study"}) {
+    EXPECT_TRUE(fs::exists(run.path / "figures" / (std::string(figure) + ".svg"))) << figure;
+    EXPECT_TRUE(fs::exists(run.path / "figures" / (std::string(figure) + ".csv"))) << figure;
+    EXPECT_TRUE(has(html, "figures/" + std::string(figure) + ".csv")) << figure;
+  }
+}
+
+TEST(Report, IsWellFormedAndSelfContained) {
+  SyntheticRun run;
+  const std::string html = run.report();
+  EXPECT_EQ(first_or_none(report_testing::structure_faults(html)), "");
+  EXPECT_EQ(first_or_none(report_testing::outside_references(html)), "");
+}
+
+TEST(Report, LeavesNothingButItsOwnFiles) {
+  SyntheticRun run;
+  run.report();
+  run.report();
+  for (const auto& entry : fs::directory_iterator(run.path)) {
+    EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+  }
+  for (const auto& entry : fs::directory_iterator(run.path / "figures")) {
+    EXPECT_TRUE(entry.path().extension() == ".svg" || entry.path().extension() == ".csv")
+        << entry.path();
+  }
+}
+
+// 3.18403 E and 1.47701 E are the paper's stiffnesses; 89.9, 124.5, 142.9 and 59.1 gf/cm² follow.
+TEST(Report, VerdictTableShowsTheModuliAndTheirDeviations) {
+  SyntheticRun run;
+  const std::string text = report_testing::visible_text(run.report());
+  for (const char* number : {"89.92", "124.5", "142.9", "59.08"})
+    EXPECT_TRUE(has(text, number)) << number;
+  EXPECT_TRUE(has(text, "+125 %")) << "E_100 of the published model against 40 gf/cm²";
+  EXPECT_TRUE(has(text, "24.83")) << "K of the central model";
+  EXPECT_TRUE(has(text, "−73.4 %")) << "its deviation from 93.33 gf/cm²";
+  EXPECT_TRUE(has(text, "+100 %")) << "force error of the published model";
+  EXPECT_TRUE(has(text, "−10.0 %"));
+  EXPECT_TRUE(has(text, "+2.0 %"));
+}
+
+TEST(Report, GradesErrorsWithoutRelyingOnColour) {
+  SyntheticRun run;
+  const std::string html = run.report();
+  EXPECT_TRUE(has(html, "class=\"wrong\">+100\u00a0%<span class=\"mark\">✕</span>"));
+  EXPECT_TRUE(has(html, "class=\"close\">+2.0\u00a0%<span class=\"mark\">●</span>"));
+}
+
+TEST(Report, ShowsHowWellTheControllerTracked) {
+  SyntheticRun run;
+  const std::string text = report_testing::visible_text(run.report());
+  for (const char* number : {"1.5 %", "12.3 %", "0.0020°"})
+    EXPECT_TRUE(has(text, number)) << number;
+  EXPECT_TRUE(has(text, "fingertip validate")) << "the command of the manifest";
+}
+
+TEST(Report, AnswersInWordsBestModelFirst) {
+  SyntheticRun run;
+  const std::string text = report_testing::visible_text(run.report());
+  const std::size_t hookean = text.find("hookean is off by +2.0 %"),
+                    published = text.find("published is off by +100 %");
+  ASSERT_NE(hookean, std::string::npos);
+  ASSERT_NE(published, std::string::npos);
+  EXPECT_LT(hookean, published);
+  EXPECT_TRUE(has(text, "All 2 criteria of the case are met."));
+  // 1200 N/m^1.5 (3 mm)^1.5 = 0.19718 N = 20.11 gf
+  EXPECT_TRUE(has(text, "20.11 gf (197.2 mN)"));
+}
+
+TEST(Report, FigureDataCarryUnitsAndTheMeasuredValues) {
+  SyntheticRun run;
+  run.report();
+  const fs::path forces = run.path / "figures" / "force_indentation.csv";
+  EXPECT_TRUE(has(read_file(forces), "panel,series,indentation [cm],normal force [gf]\n"));
+  EXPECT_NEAR(csv_value(forces, "reference", 0.3, 2, 3),
+              report_testing::continuum_force(0.003) / 9.80665e-3, 1e-9);
+  EXPECT_NEAR(csv_value(run.path / "figures" / "force_error.csv", "central", 0.3, 2, 3), -10.0,
+              1e-9);
+}
+
+// Along [110], the horizontal of the (1-10) plane, the polar plot must reach E_110: an independent
+// number, since the plot is drawn from E_100, nu_100 and G alone.
+TEST(Report, PolarPlotReachesTheModuliOfTheOtherDirections) {
+  SyntheticRun run;
+  run.report();
+  const double c = 40.0 * 98.0665;
+  const nlohmann::json published =
+      report_testing::cubic_moduli(3.18403 * c, 1.47701 * c, 1.47701 * c);
+  std::istringstream lines(read_file(run.path / "figures" / "elastic_directions.csv"));
+  double along = 0.0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string start = "(1-10) plane,published,";
+    if (line.compare(0, start.size(), start) != 0) continue;
+    const std::size_t comma = line.find(',', start.size());
+    if (std::abs(std::stod(line.substr(comma + 1))) < 1e-6)
+      along = std::max(along, std::stod(line.substr(start.size())));
+  }
+  EXPECT_NEAR(along, double(published["E_110"]) / 98.0665, 1e-6);
+}
+
+TEST(Report, MissingChaptersAreLeftOutAndNamed) {
+  SyntheticRun run;
+  for (const char* name :
+       {"reference", "calibration_central", "cubes.csv", "published_study.csv", "hookean"})
+    fs::remove_all(run.path / name);
+  for (const char* name : {"published", "central"}) fs::remove(run.path / name / "trace.csv");
+  const std::string html = run.report(), text = report_testing::visible_text(html);
+  EXPECT_FALSE(has(html, "<section id=\"control\">"));
+  EXPECT_FALSE(has(html, "<section id=\"published\">"));
+  EXPECT_TRUE(has(html, "<section id=\"not-run\">"));
+  for (const char* part :
+       {"Continuum reference", "Press of the hookean lattice", "Controller trace of published",
+        "Calibration of central", "Cubes: the surface effect", "grid and ligaments"}) {
+    EXPECT_TRUE(has(text, part)) << part;
+  }
+  EXPECT_FALSE(has(text, "Calibration of hookean (")) << "is there";
+  EXPECT_EQ(first_or_none(report_testing::structure_faults(html)), "");
+  EXPECT_FALSE(has(text, " nan")) << text.substr(text.find(" nan"), 80);
+}
+
+TEST(Report, EscapesWhatComesFromFiles) {
+  SyntheticRun run;
+  nlohmann::json summary = nlohmann::json::parse(read_file(run.path / "summary.json"));
+  const std::string hostile = "<script>alert('x')</script> & \"quoted\" {{page_title}}";
+  summary["title"] = hostile;
+  summary["criteria"][0]["name"] = hostile;
+  summary["models"]["<b>odd 'model'"] = summary["models"]["hookean"];
+  write_file(run.path / "summary.json", summary.dump());
+  write_file(run.path / "parameters.toml", "# " + hostile);
+  const std::string html = run.report();
+  EXPECT_FALSE(has(html, "<script"));
+  EXPECT_FALSE(has(html, "<b>odd"));
+  EXPECT_TRUE(has(html, "&lt;script&gt;"));
+  EXPECT_TRUE(has(report_testing::visible_text(html), hostile));
+  EXPECT_EQ(first_or_none(report_testing::structure_faults(html)), "");
+}
+
+TEST(Report, RefusesAFolderThatIsNoRun) {
+  report_testing::TemporaryFolder folder;
+  EXPECT_THROW(studies::write_report(folder.path()), meshes::InvalidInput);
+  EXPECT_THROW(studies::write_report(folder.path() / "absent"), meshes::InvalidInput);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Report, KeepsTheOldReportWhenAFileIsDamaged) {
+  SyntheticRun run;
+  const std::string before = run.report();
+  write_file(run.path / "cubes.csv", "model,cells_across\npublished\n");
+  try {
+    studies::write_report(run.path);
+    FAIL() << "a row with a missing cell was accepted";
+  } catch (const meshes::InvalidInput& error) {
+    EXPECT_TRUE(has(error.what(), "cubes.csv:2")) << error.what();
+  }
+  write_file(run.path / "cubes.csv", "");
+  write_file(run.path / "summary.json", "{\"models\": {");
+  EXPECT_THROW(studies::write_report(run.path), meshes::InvalidInput);
+  EXPECT_EQ(read_file(run.path / "report.html"), before);
+}
+
+TEST(Report, SaysSoWhenGnuplotIsMissingAndKeepsTheOldReport) {
+  SyntheticRun run;
+  const std::string before = run.report(), path = std::getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);
+  std::string message;
+  try {
+    studies::write_report(run.path);
+  } catch (const std::runtime_error& error) {
+    message = error.what();
+  }
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_TRUE(has(message, "gnuplot")) << message;
+  EXPECT_EQ(read_file(run.path / "report.html"), before);
+  EXPECT_TRUE(fs::exists(run.path / "figures" / "force_indentation.svg"));
+}
+
+TEST(VerdictText, IsPlainAsciiWithTheSameNumbers) {
+  SyntheticRun run;
+  const std::string text = studies::verdict_text(run.path);
+  for (char c : text) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << int(c);
+  for (const char* part : {"published", "central", "hookean", "89.92", "142.86", "+100.0 %",
+                           "-10.0 %", "20.11 gf", "met "}) {
+    EXPECT_TRUE(has(text, part)) << part << "\n" << text;
+  }
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 140U) << line;
+}
+
+TEST(Format, TurnsSiIntoGramForceAndCentimetre) {
+  using namespace studies::reporting;
+  EXPECT_NEAR(to_gf_per_cm2(3922.66), 40.0, 1e-12);
+  EXPECT_NEAR(to_gf(0.0980665), 10.0, 1e-12);
+  EXPECT_EQ(stress(3922.66), "40.00\u00a0gf/cm² (3.923\u00a0kPa)");
+  EXPECT_EQ(number(-1234567.0, 3), "−1.23×10⁶");
+  EXPECT_EQ(number(9.9996, 4), "10.00");
+  EXPECT_EQ(number(3.2e-13, 2), "3.2×10⁻¹³");
+  EXPECT_EQ(number(std::nan(""), 3), "–");
+  EXPECT_EQ(percent(-0.0314), "−3.1\u00a0%");
+  EXPECT_EQ(percent(1e-10), "0\u00a0%");
+  EXPECT_EQ(count(1234567.0), "1\u202f234\u202f567");
+  EXPECT_EQ(with_prefix(4.31e-5, "s"), "43.10\u00a0µs");
+}
+
+}  // namespace

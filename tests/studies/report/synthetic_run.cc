@@ -1,0 +1,332 @@
+#include "synthetic_run.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <random>
+#include <vector>
+
+namespace fingertip::report_testing {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double gf_per_cm2 = 98.0665;
+constexpr double radius = 0.01, rod = 0.005, sleeve = 0.015, depth = 0.003, clearance = 0.0005;
+constexpr double spacing = 0.01 / 12.0;
+const std::vector<double> depths{0.0005, 0.001, 0.0015, 0.002, 0.003};
+const std::map<std::string, double> force_factor{
+    {"published", 2.0}, {"central", 0.9}, {"hookean", 1.02}};
+
+json model_moduli(const std::string& name) {
+  const double E = 40.0 * gf_per_cm2, G = 14.0 * gf_per_cm2, K = 280.0 / 3.0 * gf_per_cm2;
+  if (name == "published") return cubic_moduli(3.18403 * E, 1.47701 * E, 1.47701 * E);
+  if (name == "central") return cubic_moduli(46.4807 * gf_per_cm2, G, G);
+  return cubic_moduli(K + 4.0 / 3.0 * G, K - 2.0 / 3.0 * G, G);
+}
+
+void write_response(const fs::path& file, double factor, bool reference) {
+  std::string text =
+      "indentation [m],normal_force [N],lateral_force_x [N],lateral_force_y [N],torque_x [N "
+      "m],torque_y [N m],"
+      "torque_z [N m],contact_radius [m],max_pressure [Pa],force_error [N],time [s]\n";
+  for (int i = 1; i <= 30; ++i) {
+    const double d = depth * i / 30.0, f = factor * continuum_force(d);
+    // A point contact misses the first layer and then jumps.
+    const double stair =
+        reference ? 1.0 : 1.0 + 0.15 * std::sin(d / spacing * 6.283) * spacing / (d + spacing);
+    text += reference ? fmt::format("{},{},0,0,0,0,0,{},{},{},\n", d, f,
+                                    std::sqrt(1.1 * d * radius), 1.5e6 * d, 0.003 * f)
+                      : fmt::format("{},{},0,0,0,0,0,,,,{}\n", d, i == 30 ? f : f * stair,
+                                    (d + clearance) / 0.01);
+  }
+  write_file(file, text);
+}
+
+/// A bump 5 ms after first touch, a 1.5 % error at 0.2 s, 50 % at the start.
+void write_trace(const fs::path& file, double factor) {
+  std::string text =
+      "time [s],indentation [m],commanded_speed [m/s],speed [m/s],tilt [rad],normal_force [N]\n";
+  for (int i = 0; i <= 350; ++i) {
+    const double t = 0.001 * i, d = 0.01 * t - clearance;
+    double error = -std::exp(-t / 0.008);
+    error -= 0.12 * std::exp(-std::pow((t - 0.055) / 0.004, 2));
+    error += 0.015 * factor * std::exp(-std::pow((t - 0.2) / 0.01, 2));
+    text += fmt::format("{},{},0.01,{},{},{}\n", t, d, 0.01 * (1.0 + error), 1e-4 * factor * t,
+                        d > 0.0 ? factor * continuum_force(d) : 0.0);
+  }
+  write_file(file, text);
+}
+
+/// Squeezes what lies above the pressed plane into the thickness of the rubber.
+double squeezed(double z, double plane) {
+  if (z <= rod * 0.6) return z;
+  const double bottom = rod * 0.6;
+  return std::min(
+      z, bottom + (z - bottom) * (plane - bottom) / (radius - bottom) + 0.15 * (radius - z));
+}
+
+void write_section(const fs::path& folder) {
+  std::string text =
+      "x1 [m],z1 [m],x2 [m],z2 [m],deformed_x1 [m],deformed_z1 [m],deformed_x2 [m],deformed_z2 "
+      "[m]\n";
+  const auto point = [](int ring, int along) -> std::array<double, 2> {
+    const double s = rod + (radius - rod) * ring / 6.0;
+    if (along > 16) return {s, -sleeve * (along - 16) / 12.0};
+    const double angle = std::acos(-1.0) / 2.0 * along / 16.0;
+    return {s * std::sin(angle), s * std::cos(angle)};
+  };
+  const auto edge = [&](std::array<double, 2> p, std::array<double, 2> q) {
+    const double plane = radius - depth;
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", p[0], p[1], q[0], q[1], p[0],
+                        std::min(plane, squeezed(p[1], plane)), q[0],
+                        std::min(plane, squeezed(q[1], plane)));
+  };
+  for (int ring = 0; ring <= 6; ++ring) {
+    for (int along = 0; along <= 28; ++along) {
+      if (ring < 6) edge(point(ring, along), point(ring + 1, along));
+      if (along < 28) edge(point(ring, along), point(ring, along + 1));
+    }
+  }
+  write_file(folder / "section.csv", text);
+}
+
+void write_pressure(const fs::path& folder) {
+  std::string text = "indentation [m],radius [m],pressure [Pa]\n";
+  for (double d : depths) {
+    const double a = std::sqrt(1.1 * d * radius);
+    for (int i = 0; i <= 20; ++i) {
+      text += fmt::format("{},{},{}\n", d, a * i / 20.0,
+                          1e6 * d * std::sqrt(std::max(0.0, 1.0 - i * i / 400.0)));
+    }
+  }
+  write_file(folder / "pressure.csv", text);
+}
+
+/// Outer particles of a voxelised tip and the axis springs between them; the deformed ones in the
+/// plane's frame, the rod having travelled clearance + depth.
+void write_boundary(const fs::path& folder) {
+  const auto inside = [](double x, double y, double z) {
+    const double across = std::hypot(x, y), s = z >= 0.0 ? std::hypot(across, z) : across;
+    return s <= radius + 1e-9 && z >= -sleeve - 1e-9;
+  };
+  std::map<std::array<int, 3>, int> index;
+  std::string points = "x [m],y [m],z [m],deformed_x [m],deformed_y [m],deformed_z [m],anchored\n",
+              springs = "i,j\n";
+  const double plane = radius - depth, travel = depth + clearance;
+  for (int k = -18; k <= 12; ++k) {
+    for (int j = -12; j <= 12; ++j) {
+      for (int i = -12; i <= 12; ++i) {
+        const double x = spacing * i, y = spacing * j, z = spacing * k;
+        const bool hidden = inside(x + spacing, y, z) && inside(x - spacing, y, z) &&
+                            inside(x, y + spacing, z) && inside(x, y - spacing, z) &&
+                            inside(x, y, z + spacing);
+        if (!inside(x, y, z) || hidden) continue;
+        const int me = int(index.size());
+        index[{i, j, k}] = me;
+        const double z_rod = std::min(plane, squeezed(z, plane));
+        points += fmt::format("{},{},{},{},{},{},{}\n", x, y, z, x, y, z_rod + travel,
+                              z_rod >= plane - 1e-9 ? 1 : 0);
+        for (const std::array<int, 3>& other :
+             {std::array<int, 3>{i - 1, j, k}, {i, j - 1, k}, {i, j, k - 1}}) {
+          if (index.count(other)) springs += fmt::format("{},{}\n", index[other], me);
+        }
+      }
+    }
+  }
+  write_file(folder / "boundary.csv", points);
+  write_file(folder / "boundary_springs.csv", springs);
+}
+
+json lattice_summary(const std::string& name) {
+  return {{"model", name},
+          {"kinematics", name == "published" ? "finite" : "small"},
+          {"spacing", spacing},
+          {"constants",
+           {{"k1", 1.14}, {"k2", 1.14}, {"k3", 0.0}, {"kappa", name == "hookean" ? 6864.0 : 0.0}}},
+          {"moduli", model_moduli(name)},
+          {"step",
+           {{"step", 4.3e-5},
+            {"omega0", 2230.0},
+            {"paper_bound", 4.5e-4},
+            {"spectral_bound", 4.9e-5},
+            {"explanation", "The spectral bound rules: 0.9 of it is used."}}},
+          {"census",
+           {{"particles", 9300},
+            {"springs", 98000},
+            {"cells", 8600},
+            {"boundary_particles", 1900},
+            {"ligaments", 1100},
+            {"expected_particles", 9274.0},
+            {"mass", 2.69e-3},
+            {"exact_mass", 2.683e-3}}},
+          {"real_time_factor", 0.31},
+          {"wall_time", 1.13},
+          {"simulated_time", 0.35},
+          {"first_touch_time", 0.05},
+          {"momentum_defect", 3.2e-13},
+          {"status", "ok"},
+          {"tracking",
+           {{"speed_deviation", 0.0153}, {"speed_deviation_at_touch", 0.123}, {"tilt_deg", 2e-3}}}};
+}
+
+json calibration(const std::string& name) {
+  const json moduli = model_moduli(name);
+  return {
+      {"model", name},
+      {"spacing", spacing},
+      {"constants",
+       {{"k1", 1.14}, {"k2", 1.14}, {"k3", 0.0}, {"kappa", name == "hookean" ? 6864.0 : 0.0}}},
+      {"target",
+       {{"youngs_modulus", 40.0 * gf_per_cm2},
+        {"shear_modulus", 14.0 * gf_per_cm2},
+        {"poissons_ratio", 3.0 / 7.0},
+        {"bulk_modulus", 280.0 / 3.0 * gf_per_cm2}}},
+      {"achieved", moduli},
+      {"covariance", nullptr},
+      {"unidentifiable", json::array({{{"k1", 0.5}, {"k2", -0.5}, {"k3", 0.375}, {"kappa", 0.0}}})},
+      {"residuals", {{"E_100", 0.0}}},
+      {"statement", "Statement about " + name + "."}};
+}
+
+void write_tables(const fs::path& folder) {
+  std::string cubes =
+      "model,cells_across,youngs_modulus_100 [Pa],youngs_modulus_110 [Pa],youngs_modulus_111 [Pa],"
+      "shear_modulus [Pa],poissons_ratio_100,bulk_modulus [Pa]\n";
+  for (const std::string name : {"published", "central", "hookean"}) {
+    const json m = model_moduli(name);
+    for (const auto& [cells, excess] : {std::pair{2, 1.66}, {4, 1.31}, {8, 1.15}}) {
+      const double f = name == "published" ? excess : 1.0;
+      cubes += fmt::format("{},{},{},{},{},{},{},{}\n", name, cells, f * double(m["E_100"]),
+                           f * double(m["E_110"]), f * double(m["E_111"]), f * double(m["G"]),
+                           double(m["nu_100"]), f * double(m["K"]));
+    }
+  }
+  write_file(folder / "cubes.csv", cubes);
+  std::string study =
+      "varied,spacing [m],offset_x,offset_y,offset_z,ligament_stiffness,indentation "
+      "[m],normal_force [N],relative_error\n";
+  const auto add = [&](const std::string& varied, double a, double offset, double ligament,
+                       double factor) {
+    for (double d : depths) {
+      const double error = factor - 1.0 - 0.3 * std::sin(d / a * 3.0);
+      study += fmt::format("{},{},0,0,{},{},{},{},{}\n", varied, a, offset, ligament, d,
+                           (1.0 + error) * continuum_force(d), error);
+    }
+  };
+  for (int n : {8, 10, 12, 16}) add("spacing", radius / n, 0.0, 1.0, 1.4 + 0.04 * n);
+  for (double offset : {0.25, 0.5}) add("offset", spacing, offset, 1.0, 1.6 + offset);
+  for (double ligament : {0.1, 10.0})
+    add("ligament_stiffness", spacing, 0.0, ligament, 1.9 + 0.2 * std::log10(ligament));
+  write_file(folder / "published_study.csv", study);
+}
+
+json run_summary() {
+  json models = json::object();
+  for (const auto& [name, factor] : force_factor) {
+    models[name] = model_moduli(name);
+    models[name]["force_error"] = std::vector<double>(depths.size(), factor - 1.0);
+    models[name]["relative_l2_force_error"] = std::abs(factor - 1.0);
+    models[name]["real_time_factor"] = 0.31;
+    models[name]["status"] = "ok";
+  }
+  return {{"case", "01_paper_rubber"},
+          {"title", "The paper's rubber"},
+          {"status", "ok"},
+          {"depths", depths},
+          {"description", "What this case is about."},
+          {"reference", {{"status", "ok"}}},
+          {"models", models},
+          {"criteria",
+           {{{"name", "hookean force error at 0.3 cm"},
+             {"value", 0.02},
+             {"limit", 0.05},
+             {"passed", true}},
+            {{"name", "momentum defect"}, {"value", 3.2e-13}, {"limit", 1e-9}, {"passed", true}}}}};
+}
+
+}  // namespace
+
+void write_file(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+std::string read_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+TemporaryFolder::TemporaryFolder()
+    : path_(fs::temp_directory_path() /
+            fmt::format("fingertip-report-test-{:08x}", std::random_device()())) {
+  fs::create_directories(path_);
+}
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+json cubic_moduli(double c11, double c12, double c44) {
+  const double s11 = (c11 + c12) / ((c11 - c12) * (c11 + 2.0 * c12));
+  const double s12 = -c12 / ((c11 - c12) * (c11 + 2.0 * c12));
+  const double lever = s11 - s12 - 0.5 / c44;
+  return {{"E_100", 1.0 / s11},
+          {"E_110", 1.0 / (s11 - 0.5 * lever)},
+          {"E_111", 1.0 / (s11 - 2.0 / 3.0 * lever)},
+          {"G", c44},
+          {"nu_100", -s12 / s11},
+          {"K", (c11 + 2.0 * c12) / 3.0}};
+}
+
+double continuum_force(double indentation) {
+  return 1200.0 * std::pow(indentation, 1.5);
+}
+
+void write_synthetic_run(const fs::path& folder) {
+  write_file(folder / "summary.json", run_summary().dump(2));
+  write_file(folder / "parameters.toml",
+             "[rubber]\nyoungs_modulus = \"40 gf/cm^2\"\nshear_modulus = \"14 gf/cm^2\"\n");
+  const json manifest{{"version", "0.1.0"},
+                      {"source_hash", "abc123"},
+                      {"input_hash", "def456"},
+                      {"command_line", {"fingertip", "validate"}},
+                      {"started", "2026-01-01T10:00:00Z"},
+                      {"finished", "2026-01-01T10:02:00Z"},
+                      {"packages", {{"Eigen", "3.4.0"}}},
+                      {"host", {{"cpu", "a processor"}, {"cores", 2}}}};
+  write_file(folder / "manifest.json", manifest.dump(2));
+  write_response(folder / "reference" / "response.csv", 1.0, true);
+  const json reference{{"contact", "stick"},
+                       {"degree", 2},
+                       {"cells", 5000},
+                       {"dofs", 140000},
+                       {"wall_time", 24.5},
+                       {"mesh",
+                        {{"hexahedra", 5000},
+                         {"nodes", 45000},
+                         {"min_jacobian", 1e-11},
+                         {"min_scaled_jacobian", 0.62},
+                         {"volume", 5.36e-6}}}};
+  write_file(folder / "reference" / "summary.json", reference.dump(2));
+  write_section(folder / "reference");
+  write_pressure(folder / "reference");
+  for (const auto& [name, factor] : force_factor) {
+    write_response(folder / name / "response.csv", factor, false);
+    write_trace(folder / name / "trace.csv", factor);
+    write_file(folder / name / "summary.json", lattice_summary(name).dump(2));
+    write_boundary(folder / name);
+    if (name != "published") {
+      write_file(folder / ("calibration_" + name) / "calibration.json", calibration(name).dump(2));
+    }
+  }
+  write_tables(folder);
+}
+
+}  // namespace fingertip::report_testing

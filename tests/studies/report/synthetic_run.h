@@ -1,0 +1,39 @@
+/// A run folder of `validate` made of formulas, so that every number in it is known.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace fingertip::report_testing {
+
+/// Writes `text` into a file, making its folders.
+void write_file(const std::filesystem::path& file, const std::string& text);
+std::string read_file(const std::filesystem::path& file);
+
+/// A folder under the system's temporary one that goes away with the scope.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Elastic constants of a cubic material from C11, C12, C44 [Pa] by the textbook compliances,
+/// in the names of summary.json.
+nlohmann::json cubic_moduli(double c11, double c12, double c44);
+
+/// Force of the synthetic continuum [N]: 120 N/m^1.5 times indentation^1.5, a smooth stiffening
+/// curve.
+double continuum_force(double indentation);
+
+/// Fills `folder` with everything a complete run has: 40 gf/cm² rubber, the published lattice at
+/// twice the continuum's force, central at 0.9, hookean at 1.02 of it.
+void write_synthetic_run(const std::filesystem::path& folder);
+
+}  // namespace fingertip::report_testing

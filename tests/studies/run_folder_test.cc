@@ -1,0 +1,100 @@
+#include "studies/run/run_folder.h"
+
+#include <gtest/gtest.h>
+
+#include "studies/run/json_file.h"
+#include "temporary_folder.h"
+
+using namespace fingertip::studies;
+namespace fs = std::filesystem;
+
+namespace {
+
+RunFolderOptions into(const fs::path& out) {
+  RunFolderOptions options;
+  options.verb = "press";
+  options.out = out;
+  options.command_line = {"fingertip", "press"};
+  return options;
+}
+
+}  // namespace
+
+TEST(RunFolder, TellsWhatItIsFromTheFirstMoment) {
+  const TemporaryFolder place;
+  const LoadedConfig loaded = load_config({{}, {"press.depth=0.2 cm"}, {}});
+  RunFolder folder(into(place / "a/b/run"), loaded);
+  const auto manifest = read_json(place / "a/b/run/manifest.json");
+  EXPECT_EQ(manifest["status"], "running");
+  EXPECT_EQ(manifest["command_line"][1], "press");
+  for (const char* entry : {"version", "source_hash", "input_hash", "packages", "host", "started"}) {
+    EXPECT_TRUE(manifest.contains(entry)) << entry;
+  }
+  EXPECT_EQ(load_config({folder.path() / "parameters.toml", {}, {}}).config.press.protocol.depth,
+            0.002);
+  folder.finish("finished", 0);
+  EXPECT_EQ(read_json(folder.path() / "manifest.json")["status"], "finished");
+  EXPECT_NE(read_text(folder.path() / "log.txt").find("exit code 0"), std::string::npos);
+}
+
+TEST(RunFolder, SaysFailedWhenItIsAbandoned) {
+  const TemporaryFolder place;
+  { const RunFolder folder(into(place / "run"), load_config({})); }
+  EXPECT_EQ(read_json(place / "run/manifest.json")["status"], "failed");
+}
+
+TEST(RunFolder, RefusesAnExistingFolderAndLeavesItAlone) {
+  const TemporaryFolder place;
+  write_text(place / "precious.txt", "keep me");
+  const LoadedConfig loaded = load_config({});
+  EXPECT_THROW(RunFolder(into(place.path()), loaded), ConfigError);
+  RunFolderOptions forced = into(place.path());
+  forced.force = true;
+  EXPECT_THROW(RunFolder(forced, loaded), ConfigError) << "it is no run folder";
+  EXPECT_EQ(read_text(place / "precious.txt"), "keep me");
+  EXPECT_FALSE(fs::exists(place / "manifest.json"));
+}
+
+TEST(RunFolder, ForceReplacesOnceTheRunGotThroughItsInput) {
+  const TemporaryFolder place;
+  const LoadedConfig loaded = load_config({});
+  RunFolder(into(place / "run"), loaded).finish("finished", 0);
+  write_text(place / "run/response.csv", "old");
+  RunFolderOptions forced = into(place / "run");
+  forced.force = true;
+  {
+    RunFolder folder(forced, loaded);
+    EXPECT_FALSE(fs::exists(place / "run/response.csv"));
+    folder.discard();
+  }
+  EXPECT_EQ(read_text(place / "run/response.csv"), "old") << "bad input must not cost old results";
+  EXPECT_EQ(read_json(place / "run/manifest.json")["status"], "finished");
+  RunFolder(forced, loaded).finish("finished", 0);
+  EXPECT_FALSE(fs::exists(place / "run/response.csv"));
+  EXPECT_FALSE(fs::exists(place / "run/.replaced"));
+}
+
+TEST(RunFolder, DiscardRemovesANewFolder) {
+  const TemporaryFolder place;
+  RunFolder folder(into(place / "run"), load_config({}));
+  folder.discard();
+  EXPECT_FALSE(fs::exists(place / "run"));
+}
+
+TEST(RunFolder, ResumeKeepsWhatIsThere) {
+  const TemporaryFolder place;
+  const LoadedConfig loaded = load_config({});
+  RunFolderOptions resumed = into(place / "run");
+  resumed.resume = true;
+  EXPECT_FALSE(RunFolder(resumed, loaded).resumed()) << "nothing there yet";
+  write_text(place / "run/response.csv", "old");
+  EXPECT_TRUE(RunFolder(resumed, loaded).resumed());
+  EXPECT_EQ(read_text(place / "run/response.csv"), "old");
+}
+
+TEST(RunFolder, RefusesAFolderThatCannotBeWritten) {
+  const TemporaryFolder place;
+  write_text(place / "file", "");
+  EXPECT_THROW(RunFolder(into(place / "file/run"), load_config({})), ConfigError);
+  EXPECT_THROW(RunFolder(into("/proc/fingertip/run"), load_config({})), ConfigError);
+}

@@ -1,0 +1,67 @@
+#include "studies/config/units.h"
+
+#include <gtest/gtest.h>
+
+using fingertip::studies::convert;
+using fingertip::studies::parse_quantity;
+using fingertip::studies::UnitError;
+
+namespace {
+
+double pressure(const std::string& text) { return parse_quantity(text, "Pa", "40 gf/cm^2"); }
+
+std::string rule_broken_by(const std::string& text, const std::string& unit) {
+  try {
+    parse_quantity(text, unit, "1 " + unit);
+  } catch (const UnitError& error) {
+    return error.rule;
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(Units, GramForceIsTheWeightOfAGram) {
+  // 1 gf/cm² = 1e-3 kg * 9.80665 m/s² / 1e-4 m² = 98.0665 Pa.
+  EXPECT_DOUBLE_EQ(pressure("40 gf/cm^2"), 3922.66);
+  EXPECT_DOUBLE_EQ(pressure("14 gf/cm^2"), 1372.931);
+  EXPECT_DOUBLE_EQ(parse_quantity("1 gf", "N", "1 N"), 9.80665e-3);
+}
+
+TEST(Units, SameQuantityInTwoUnitsIsTheSameNumber) {
+  EXPECT_EQ(pressure("40 gf/cm^2"), pressure("3.92266 kPa"));
+  EXPECT_EQ(pressure("3922.66 N/m^2"), pressure("40 gf/cm^2"));
+  EXPECT_EQ(parse_quantity("0.5 g/cm^3", "kg/m^3", "1"), 500.0);
+  EXPECT_EQ(parse_quantity("0.3 ms", "s", "1"), 3e-4);
+  EXPECT_EQ(parse_quantity("1 cm/s", "m/s", "1"), parse_quantity("10 mm/s", "m/s", "1"));
+  EXPECT_EQ(parse_quantity("0.1 kHz", "Hz", "1"), 100.0);
+}
+
+TEST(Units, AcceptsSpacesSignsAndExponents) {
+  EXPECT_EQ(parse_quantity("  +1e1mm ", "m", "1 m"), 0.01);
+  EXPECT_EQ(parse_quantity("-2.5 cm", "m", "1 m"), -0.025);
+}
+
+TEST(Units, RefusesWhatIsNoQuantityOfTheDimension) {
+  EXPECT_NE(rule_broken_by("40 cm", "Pa").find("wrong dimension"), std::string::npos);
+  EXPECT_NE(rule_broken_by("40", "Pa").find("unit is missing"), std::string::npos);
+  EXPECT_NE(rule_broken_by("nan Pa", "Pa").find("finite"), std::string::npos);
+  EXPECT_NE(rule_broken_by("inf Pa", "Pa").find("finite"), std::string::npos);
+  EXPECT_NE(rule_broken_by("1e999 Pa", "Pa"), "");
+  EXPECT_NE(rule_broken_by("1e300 Mm", "Pa"), "");
+  EXPECT_NE(rule_broken_by("Pa", "Pa"), "");
+  EXPECT_NE(rule_broken_by("", "Pa"), "");
+  EXPECT_NE(rule_broken_by("1 2 Pa", "Pa").find("not a unit"), std::string::npos);
+  EXPECT_NE(rule_broken_by("1 blub", "Pa").find("not a unit"), std::string::npos);
+}
+
+TEST(Units, RefusesWhatOnlyLooksConvertible) {
+  EXPECT_NE(rule_broken_by("10 s", "Hz"), "");         // the reciprocal
+  EXPECT_NE(rule_broken_by("377 rad/s", "Hz"), "");    // would be wrong by 2 pi
+  EXPECT_NE(rule_broken_by("20 degC", "K"), "");       // has an offset
+}
+
+TEST(Units, ConvertsBack) {
+  EXPECT_NEAR(convert(98.0665, "Pa", "gf/cm^2"), 1.0, 1e-14);
+  EXPECT_THROW(convert(1.0, "Pa", "m"), UnitError);
+}
