@@ -87,13 +87,12 @@ class CondensedSolver : public ContactSolver {
   }
 
   Eigen::VectorXd field() override {
-    auto load = workspace_.own(
-        cholmod_l_zeros(factor_->n, 1, CHOLMOD_REAL, &workspace_.common));
+    auto load = workspace_.own(cholmod_l_zeros(factor_->n, 1, CHOLMOD_REAL, &workspace_.common));
     double* entries = static_cast<double*>(load->x);
     for (std::size_t i = 0; i < contact_unknowns_.size(); ++i)
       entries[free_number_[std::size_t(contact_unknowns_[i])]] = reaction_[Eigen::Index(i)];
-    const auto solution = workspace_.own(
-        cholmod_l_solve(CHOLMOD_A, factor_.get(), load.get(), &workspace_.common));
+    const auto solution =
+        workspace_.own(cholmod_l_solve(CHOLMOD_A, factor_.get(), load.get(), &workspace_.common));
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(Eigen::Index(free_number_.size()));
     for (std::size_t i = 0; i < free_number_.size(); ++i)
       if (free_number_[i] >= 0)
@@ -169,20 +168,18 @@ class CondensedSolver : public ContactSolver {
     std::vector<char> in_contact(tip.fixed().size(), 0);
     for (const int unknown : contact_unknowns_) in_contact[std::size_t(unknown)] = 1;
     std::vector<Long> order = interior_order(tip, in_contact);
-    for (const int unknown : contact_unknowns_)
-      order.push_back(free_number_[std::size_t(unknown)]);
+    for (const int unknown : contact_unknowns_) order.push_back(free_number_[std::size_t(unknown)]);
 
     const auto matrix = free_stiffness(tip);
     cholmod_common& common = workspace_.common;
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_GIVEN;
-    factor_ = workspace_.own(
-        cholmod_l_analyze_p(matrix.get(), order.data(), nullptr, 0, &common));
+    factor_ = workspace_.own(cholmod_l_analyze_p(matrix.get(), order.data(), nullptr, 0, &common));
     if (!factor_ || !cholmod_l_factorize(matrix.get(), factor_.get(), &common) ||
         common.status != CHOLMOD_OK)
-      throw meshes::NotConverged(
-          "the stiffness matrix could not be factorised (CHOLMOD status " +
-          std::to_string(common.status) + "): too little memory, or a degenerate mesh");
+      throw meshes::NotConverged("the stiffness matrix could not be factorised (CHOLMOD status " +
+                                 std::to_string(common.status) +
+                                 "): too little memory, or a degenerate mesh");
   }
 
   /// With K = L L^T and the contact unknowns last, L's last block L_c belongs to the condensed
@@ -203,8 +200,8 @@ class CondensedSolver : public ContactSolver {
           lower(rows[row_start[s] + k] - interior, column - interior) =
               values[value_start[s] + (column - super[s]) * height + k];
     }
-    const Eigen::MatrixXd inverse = lower.triangularView<Eigen::Lower>().solve(
-        Eigen::MatrixXd::Identity(contacts, contacts));
+    const Eigen::MatrixXd inverse =
+        lower.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(contacts, contacts));
     Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(contacts, contacts);
     compliance.selfadjointView<Eigen::Lower>().rankUpdate(inverse.transpose());
     // CHOLMOD may reorder unknowns further while it keeps every subtree together.

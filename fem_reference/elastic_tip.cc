@@ -40,9 +40,8 @@ class ShellManifold : public dealii::Manifold<dim> {
     return std::make_unique<ShellManifold>(sphere_);
   }
 
-  dealii::Point<dim> get_new_point(
-      const dealii::ArrayView<const dealii::Point<dim>>& points,
-      const dealii::ArrayView<const double>& weights) const override {
+  dealii::Point<dim> get_new_point(const dealii::ArrayView<const dealii::Point<dim>>& points,
+                                   const dealii::ArrayView<const double>& weights) const override {
     double radius = 0.0, height = 0.0;
     dealii::Tensor<1, dim> direction;
     for (unsigned i = 0; i < points.size(); ++i) {
@@ -161,7 +160,9 @@ ElasticTip::ElasticTip(const meshes::Rubber& rubber, const std::filesystem::path
 ElasticTip::~ElasticTip() = default;
 ElasticTip::ElasticTip(ElasticTip&&) noexcept = default;
 
-std::size_t ElasticTip::cells() const { return discretisation_->triangulation.n_active_cells(); }
+std::size_t ElasticTip::cells() const {
+  return discretisation_->triangulation.n_active_cells();
+}
 
 void ElasticTip::assemble() {
   const Discretisation& d = *discretisation_;
@@ -300,9 +301,9 @@ meshes::Vector3 ElasticTip::bond_reaction(const Eigen::VectorXd& displacement) c
   const Discretisation& d = *discretisation_;
   const Eigen::VectorXd residual = stiffness_ * displacement;
   meshes::Vector3 force = meshes::Vector3::Zero();
-  for (const auto dof : dealii::DoFTools::extract_boundary_dofs(
-           d.dof_handler, dealii::ComponentMask(dim, true),
-           {dealii::types::boundary_id(PhysicalTag::bond)}))
+  for (const auto dof :
+       dealii::DoFTools::extract_boundary_dofs(d.dof_handler, dealii::ComponentMask(dim, true),
+                                               {dealii::types::boundary_id(PhysicalTag::bond)}))
     force[component_of_dof_[dof]] += residual[Eigen::Index(dof)];
   return force;
 }
@@ -322,10 +323,9 @@ std::vector<SectionEdge> ElasticTip::section(const Eigen::VectorXd& displacement
       for (unsigned l = 0; l < 4; ++l) {
         const auto line = cell->face(face)->line(l);
         if (!seen.insert({line->vertex_index(0), line->vertex_index(1)}).second) continue;
-        edges.push_back({{line->vertex(0)[0], line->vertex(0)[2], line->vertex(1)[0],
-                          line->vertex(1)[2]},
-                         {moved(line, 0, 0), moved(line, 0, 2), moved(line, 1, 0),
-                          moved(line, 1, 2)}});
+        edges.push_back(
+            {{line->vertex(0)[0], line->vertex(0)[2], line->vertex(1)[0], line->vertex(1)[2]},
+             {moved(line, 0, 0), moved(line, 0, 2), moved(line, 1, 0), moved(line, 1, 2)}});
       }
     }
   return edges;

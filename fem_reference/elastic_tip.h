@@ -17,9 +17,9 @@ namespace fingertip::fem_reference {
 
 /// A node of the outer surface, where the rubber may meet the plane.
 struct SurfaceNode {
-  meshes::Vector3 position;   ///< in the reference shape [m]
-  std::array<int, 3> dof{};   ///< unknowns of its displacement along x, y, z
-  double area = 0.0;          ///< its entry of the lumped (Gauss-Lobatto) surface mass [m²]
+  meshes::Vector3 position;  ///< in the reference shape [m]
+  std::array<int, 3> dof{};  ///< unknowns of its displacement along x, y, z
+  double area = 0.0;         ///< its entry of the lumped (Gauss-Lobatto) surface mass [m²]
 };
 
 /// A mesh edge in the plane y = 0, undeformed and deformed, as (x1, z1, x2, z2) [m].

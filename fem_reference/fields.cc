@@ -33,9 +33,7 @@ class StressOutput : public dealii::DataPostprocessor<dim> {
     kinds.push_back(component_is_scalar);
     return kinds;
   }
-  dealii::UpdateFlags get_needed_update_flags() const override {
-    return dealii::update_gradients;
-  }
+  dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_gradients; }
 
   void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<dim>& inputs,
                              std::vector<dealii::Vector<double>>& computed) const override {

@@ -31,8 +31,8 @@ struct ReferenceJob {
   double refinement = 1.0;      ///< factor on the element counts of the default mesh, 0.5 ... 4
   double tolerance = 1e-8;      ///< residual of the multigrid solver over the reactions
   LinearSolver solver = LinearSolver::automatic;
-  bool write_fields = true;     ///< VTU per sample and a PVD over them
-  bool estimate_error = true;   ///< solve on a mesh half as fine, too, and fill in force_error
+  bool write_fields = true;    ///< VTU per sample and a PVD over them
+  bool estimate_error = true;  ///< solve on two coarser meshes, too, and fill in force_error
 
   std::vector<meshes::Violation> violations() const;
 };

@@ -16,13 +16,15 @@ enum ExitCode { ok = 0, failure = 1, bad_input = 2, not_converged = 3, interrupt
 // The only state a signal handler may touch.
 volatile std::sig_atomic_t stop_flag = 0;
 
-extern "C" void request_stop(int) { stop_flag = 1; }
+extern "C" void request_stop(int) {
+  stop_flag = 1;
+}
 
 int carry_out(const char* folder) {
   using fingertip::fem_reference::RunOutcome;
   try {
-    const RunOutcome outcome = fingertip::fem_reference::run_job(
-        folder, std::cout, [] { return stop_flag != 0; });
+    const RunOutcome outcome =
+        fingertip::fem_reference::run_job(folder, std::cout, [] { return stop_flag != 0; });
     if (!outcome.message.empty()) std::cerr << outcome.message << '\n';
     switch (outcome.status) {
       case RunOutcome::Status::ok: return ok;
@@ -42,8 +44,9 @@ int carry_out(const char* folder) {
 
 int main(int argc, char** argv) {
   if (argc != 2 || std::strcmp(argv[1], "--help") == 0) {
-    std::cerr << "usage: fingertip-fem RUN_FOLDER\n"
-                 "Presses the continuum as RUN_FOLDER/job.json says and writes the results beside it.\n";
+    std::cerr
+        << "usage: fingertip-fem RUN_FOLDER\n"
+           "Presses the continuum as RUN_FOLDER/job.json says and writes the results beside it.\n";
     return argc == 2 ? ok : bad_input;
   }
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);

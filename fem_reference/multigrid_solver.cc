@@ -35,8 +35,7 @@ struct Projected {
 
 class MultigridSolver : public ContactSolver {
  public:
-  MultigridSolver(const ElasticTip& tip, const std::vector<int>& contact_unknowns,
-                  double tolerance)
+  MultigridSolver(const ElasticTip& tip, const std::vector<int>& contact_unknowns, double tolerance)
       : tip_(tip), contact_unknowns_(contact_unknowns), tolerance_(tolerance) {
     build_matrix();
     build_preconditioner();
@@ -123,8 +122,8 @@ class MultigridSolver : public ContactSolver {
     } catch (const dealii::SolverControl::NoConvergence&) {
       throw meshes::NotConverged("conjugate gradients stopped at a residual of " +
                                  std::to_string(control.last_value() / scale) +
-                                 " of the reactions after " +
-                                 std::to_string(control.last_step()) + " iterations");
+                                 " of the reactions after " + std::to_string(control.last_step()) +
+                                 " iterations");
     }
     displacement_ += correction;
     return int(control.last_step());

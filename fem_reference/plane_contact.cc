@@ -44,7 +44,9 @@ PlaneContact::PlaneContact(ContactUnknowns unknowns, double tip_radius, ContactS
       displacement_(Eigen::VectorXd::Zero(Eigen::Index(unknowns_.unknowns.size()))),
       reaction_(displacement_) {}
 
-int PlaneContact::active_nodes() const { return int(std::ranges::count(active_, 1)); }
+int PlaneContact::active_nodes() const {
+  return int(std::ranges::count(active_, 1));
+}
 
 meshes::Vector3 PlaneContact::reaction(std::size_t node) const {
   meshes::Vector3 force = meshes::Vector3::Zero();
@@ -55,7 +57,9 @@ meshes::Vector3 PlaneContact::reaction(std::size_t node) const {
   return force;
 }
 
-double PlaneContact::gap(std::size_t node) const { return gap(node, displacement_, indentation_); }
+double PlaneContact::gap(std::size_t node) const {
+  return gap(node, displacement_, indentation_);
+}
 
 double PlaneContact::gap(std::size_t node, const Eigen::VectorXd& displacement,
                          double indentation) const {

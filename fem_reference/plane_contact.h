@@ -12,9 +12,9 @@ namespace fingertip::fem_reference {
 
 /// The contact unknowns of a press: candidate nodes and which of their unknowns contact may hold.
 struct ContactUnknowns {
-  std::vector<SurfaceNode> nodes;                ///< candidates
-  std::vector<int> unknowns;                     ///< numbers in the tip's system
-  std::vector<std::array<int, 3>> of_node;       ///< per node: position in `unknowns`, -1 if none
+  std::vector<SurfaceNode> nodes;           ///< candidates
+  std::vector<int> unknowns;                ///< numbers in the tip's system
+  std::vector<std::array<int, 3>> of_node;  ///< per node: position in `unknowns`, -1 if none
 };
 
 /// Candidates are the nodes of the outer surface above `lowest` [m]. Frictionless contact holds

@@ -53,8 +53,8 @@ class ContinuumPress {
 
   /// Reads the mesh, assembles, and prepares contact down to `depth` [m].
   ContinuumPress(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
-                 meshes::ContactMode contact, double depth,
-                 const std::filesystem::path& mesh_file, const Options& options);
+                 meshes::ContactMode contact, double depth, const std::filesystem::path& mesh_file,
+                 const Options& options);
   ~ContinuumPress();
   ContinuumPress(const ContinuumPress&) = delete;
   ContinuumPress& operator=(const ContinuumPress&) = delete;

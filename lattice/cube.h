@@ -13,8 +13,8 @@ namespace fingertip::lattice {
 struct CubeLattice {
   /// Rest positions [m] of the (n+1)³ particles, x fastest; the cube is [0, n a]³.
   std::vector<Eigen::Vector3d> positions;
-  /// Symmetric K [N/m] of springs and cells, both triangles, 3 (n+1)³ square; degree of freedom 3 p + c is the
-  /// displacement of particle p along axis c, and the force on the particles is -K u.
+  /// Symmetric K [N/m] of springs and cells, both triangles, 3 (n+1)³ square; degree of freedom
+  /// 3 p + c is the displacement of particle p along axis c, the force on the particles is -K u.
   Eigen::SparseMatrix<double> stiffness;
   double spacing = 0.0;  ///< a [m]
   int cells = 0;         ///< n

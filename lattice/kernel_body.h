@@ -16,7 +16,7 @@ namespace fingertip::lattice::kernel {
 template <typename Pack>
 struct Body {
   static constexpr std::ptrdiff_t width = std::ptrdiff_t(Pack::size());
-  static constexpr std::ptrdiff_t block = 8;
+  static constexpr std::ptrdiff_t block = std::ptrdiff_t(lanes);
 
   struct Vector {
     Pack x, y, z;
@@ -56,8 +56,8 @@ struct Body {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
 
-  /// Small kinematics: f = k d̂ (d̂·(u_j - u_i)) + mu d̂ (d̂·(v_j - v_i)), d̂ at rest. The law is even
-  /// in d̂, so both ends of the line through i read alike.
+  /// Small kinematics: f = k d̂ (d̂·(u_j - u_i)) + mu d̂ (d̂·(v_j - v_i)), d̂ at rest. The law is
+  /// even in d̂, so both ends of the line through i read alike.
   template <int S, bool Rates>
   static void small_springs(const Arrays& a, std::ptrdiff_t i, const Vector& u, const Vector& v,
                             Vector& force) {

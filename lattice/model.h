@@ -25,9 +25,6 @@ struct Ligament {
   double damping = 0.0;      ///< mu [N s/m]
 };
 
-/// Points processed together by the kernel: eight neighbours along x, the width of AVX-512.
-inline constexpr std::size_t lanes = 8;
-
 /// Immutable after construction. All arrays named "per point" run over the grid's points, x
 /// fastest, plus `lanes` padding zeros at the end; the grid keeps one layer of empty points around
 /// the particles, so that every neighbour index of a particle exists.

@@ -36,7 +36,7 @@ struct StepReport {
   double step = 0.0;            ///< used [s]
   double omega0 = 0.0;          ///< the paper's estimate sqrt(2k/m) [rad/s]
   double paper_bound = 0.0;     ///< 1/omega0 [s]
-  double spectral_bound = 0.0;  ///< largest stable step from the computed bounds on stiffness and damping [s]
+  double spectral_bound = 0.0;  ///< largest stable step by the computed stiffness and damping [s]
   std::string explanation;
 };
 

@@ -1,4 +1,4 @@
-/// The rigid rod: six degrees of freedom, its inertia from its shape (paper, section III and Fig. 1).
+/// The rigid rod: six degrees of freedom, inertia from its shape (paper, section III and Fig. 1).
 #pragma once
 
 #include <Eigen/Core>

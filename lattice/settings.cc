@@ -57,6 +57,11 @@ void add_controller(std::vector<Violation>& found, const PidSettings& c) {
           "the closed loop's natural frequency must be finite and positive");
   require(c.derivative_filter, "controller.derivative_filter", "",
           "the derivative filter's N must be finite and positive");
+  if (!(c.bond_compensation >= 0.0 && c.bond_compensation <= 1.0)) {
+    found.push_back({"controller.bond_compensation", meshes::to_text(c.bond_compensation),
+                     "the share of the measured wrench fed forward must lie between 0 and 1",
+                     "1 cancels the tip's pull on the rod, 0 leaves it to the integrator"});
+  }
   require(c.force_limit, "controller.force_limit", " N",
           "the actuator's force limit must be finite and positive");
   require(c.torque_limit, "controller.torque_limit", " N m",

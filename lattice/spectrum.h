@@ -17,9 +17,9 @@ struct SpectralBounds {
   double longest_retardation = 0.0;   ///< largest mu/k [s]
 };
 
-/// Spring lattices (published): lambda <= max over particles of the largest eigenvalue of
-/// (2/m) Σ k d̂d̂ᵀ. Cells: the largest eigenvalue of one cell on its own corner masses. Ligaments are
-/// added particle by particle. `rod` null: bonded to a rod that cannot move.
+/// Rigorous upper bounds. Spring lattices (published): lambda <= max over particles of the largest
+/// eigenvalue of (2/m) Σ k d̂d̂ᵀ. Cells: the largest eigenvalue of one cell on its own corner masses.
+/// Ligaments are added particle by particle. `rod` null: bonded to a rod that cannot move.
 SpectralBounds spectral_bounds(const LatticeModel& model, const RodBody* rod);
 
 /// Largest eigenvalues by the Lanczos method with the rod held, from below; converged to a few

@@ -18,6 +18,9 @@ struct Direction {
 
 inline constexpr int directions = 13;
 
+/// Points processed together by the kernel: eight neighbours along x, the width of AVX-512.
+inline constexpr std::size_t lanes = 8;
+
 /// Every pair of neighbours occurs once: from the particle that comes first in the grid's order.
 inline constexpr std::array<Direction, directions> half_stencil{{
     {1, 0, 0, axis},           {-1, 1, 0, face_diagonal}, {0, 1, 0, axis},

@@ -16,7 +16,8 @@ std::vector<Violation> Rubber::violations() const {
           youngs_modulus, "Pa", "E must be finite and positive", "give Young's modulus");
   require(std::isfinite(shear_modulus) && shear_modulus > 0.0, "rubber.shear_modulus",
           shear_modulus, "Pa", "G must be finite and positive", "give the shear modulus");
-  require(!(shear_modulus <= youngs_modulus / 3.0), "rubber.shear_modulus", shear_modulus, "Pa",
+  // The margin keeps round-off (E = 42, G = 14 gf/cm²) from letting nu = 1/2 pass.
+  require(!(shear_modulus <= youngs_modulus / 3.0 * (1.0 + 1e-12)), "rubber.shear_modulus", shear_modulus, "Pa",
           "G must exceed E/3, or Poisson's ratio E/(2G) - 1 reaches 1/2 and the bulk modulus is "
           "infinite or negative",
           "raise shear_modulus above youngs_modulus/3, or lower youngs_modulus");

@@ -106,8 +106,7 @@ class BlockStructure {
     if (corner.ring == pole) {
       rho = 0, z = r;
     } else if (corner.ring == cap) {
-      const double angle =
-          options_.cap_angle * (corner.azimuth % 2 == 1 ? diagonal_stretch : 1.0);
+      const double angle = options_.cap_angle * (corner.azimuth % 2 == 1 ? diagonal_stretch : 1.0);
       rho = r * std::sin(angle), z = r * std::cos(angle);
     } else if (corner.ring == end_ring) {
       z = -geometry_.sleeve_length;
@@ -130,20 +129,23 @@ class BlockStructure {
 
   /// Sets the element count and grading of a curve.
   void divide(int tag, const Corner& a, const Corner& b) const {
-    int elements = options_.cap_elements;
-    double last_over_first = 1.0;
+    using gmsh::model::geo::mesh::setTransfiniteCurve;
     if (a.layer != b.layer) {
-      elements = options_.radial_elements;
-      last_over_first = 1.0 / options_.radial_grading;
-    } else if (a.ring == pole) {
-      last_over_first = options_.cap_grading;
-    } else if (a.ring == cap && b.ring == equator) {
-      elements = options_.ring_elements;
-    } else if (a.ring == equator && b.ring == end_ring) {
-      elements = options_.sleeve_elements;
+      // gmsh's "Bump" makes the ends finer by this coefficient.
+      setTransfiniteCurve(tag, options_.radial_elements + 1, "Bump", 1.0 / options_.radial_grading);
+      return;
     }
-    gmsh::model::geo::mesh::setTransfiniteCurve(tag, elements + 1, "Progression",
-                                                std::pow(last_over_first, 1.0 / (elements - 1)));
+    int elements = options_.cap_elements;
+    if (a.ring == cap && b.ring == equator) elements = options_.ring_elements;
+    if (a.ring == equator && b.ring == end_ring) elements = options_.sleeve_elements;
+    // gmsh interpolates a face from the division of two of its sides, so opposite sides must be
+    // divided alike: what the cap's grading does to its meridians it does to all arcs around.
+    double last_over_first = 1.0;
+    if (a.ring == pole) last_over_first = options_.cap_grading;
+    if (a.ring == b.ring)
+      last_over_first = a.azimuth % 2 == 0 ? options_.cap_grading : 1.0 / options_.cap_grading;
+    setTransfiniteCurve(tag, elements + 1, "Progression",
+                        std::pow(last_over_first, 1.0 / (elements - 1)));
   }
 
   int surface(const Quad& corners) {
@@ -330,14 +332,14 @@ std::vector<Violation> TipMeshOptions::violations() const {
                            const char* remedy) {
     if (!valid) broken.push_back({std::string("mesh.") + key, std::to_string(value), rule, remedy});
   };
-  for (const auto& [key, count] : {std::pair{"cap_elements", cap_elements},
-                                   std::pair{"ring_elements", ring_elements},
-                                   std::pair{"sleeve_elements", sleeve_elements},
-                                   std::pair{"radial_elements", radial_elements}})
+  for (const auto& [key, count] :
+       {std::pair{"cap_elements", cap_elements}, std::pair{"ring_elements", ring_elements},
+        std::pair{"sleeve_elements", sleeve_elements},
+        std::pair{"radial_elements", radial_elements}})
     require(count >= 2 && count <= 500, key, count, "must be between 2 and 500",
             "choose a count in this range");
-  for (const auto& [key, ratio] : {std::pair{"cap_grading", cap_grading},
-                                   std::pair{"radial_grading", radial_grading}})
+  for (const auto& [key, ratio] :
+       {std::pair{"cap_grading", cap_grading}, std::pair{"radial_grading", radial_grading}})
     require(ratio >= 1.0 && ratio <= 20.0, key, ratio, "must be between 1 and 20",
             "choose 1 for equal elements");
   require(cap_angle >= 0.2 && cap_angle <= 1.2, "cap_angle", cap_angle,

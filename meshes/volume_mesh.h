@@ -16,17 +16,18 @@ enum class Sector { quarter, full };
 /// Numbers of the physical groups in the mesh file, for readers that do not keep the names.
 enum class PhysicalTag { tip = 1, outer = 2, bond = 3, end = 4, symmetry_x = 5, symmetry_y = 6 };
 
-/// Element counts of the blocks. The quarter is five blocks, each spanning the rubber layer: a cap around the
-/// pole, two blocks from the cap to the equator, two blocks of the sleeve; the full tip is four quarters.
+/// Element counts of the blocks. The quarter is five blocks, each spanning the rubber layer: a cap
+/// around the pole, two blocks from the cap to the equator, two blocks of the sleeve; the full tip
+/// is four quarters.
 struct TipMeshOptions {
   Sector sector = Sector::quarter;
-  double cap_angle = 0.72;       ///< polar angle of the cap's edge on the meridians x = 0, y = 0 [rad]
-  int cap_elements = 12;         ///< along each side of the cap (and along each 45° of the equator)
-  double cap_grading = 2.0;      ///< largest over smallest element size in the cap; fine at the pole
-  int ring_elements = 7;         ///< from the cap to the equator
-  int sleeve_elements = 6;       ///< from the equator to the end of the sleeve
-  int radial_elements = 6;       ///< through the rubber
-  double radial_grading = 2.5;   ///< thickest over thinnest layer; fine at the outer surface
+  double cap_angle = 0.72;   ///< polar angle of the cap's edge on the meridians x = 0, y = 0 [rad]
+  int cap_elements = 12;     ///< along each side of the cap (and along each 45° of the equator)
+  double cap_grading = 2.0;  ///< largest over smallest element on the cap's sides; fine at the pole
+  int ring_elements = 7;     ///< from the cap to the equator
+  int sleeve_elements = 6;   ///< from the equator to the end of the sleeve
+  int radial_elements = 6;   ///< through the rubber
+  double radial_grading = 3.0;  ///< thickest over thinnest of many layers; fine at both surfaces
 
   /// The same mesh with every count multiplied by `factor` (rounded, at least 2).
   TipMeshOptions refined(double factor) const;

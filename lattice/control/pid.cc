@@ -18,11 +18,10 @@ Pid::Pid(const PidSettings& settings, const Eigen::Matrix<double, 6, 6>& inertia
       omega_(2.0 * std::numbers::pi * settings.natural_frequency) {}
 
 Pid::Vector6 Pid::limited(const Vector6& wrench) const {
-  Vector6 result = wrench;
-  const double force = wrench.head<3>().norm(), torque = wrench.tail<3>().norm();
-  if (force > settings_.force_limit) result.head<3>() *= settings_.force_limit / force;
-  if (torque > settings_.torque_limit) result.tail<3>() *= settings_.torque_limit / torque;
-  return result;
+  // Axis by axis: an actuator that can push no harder must still be able to steer.
+  Vector6 limit;
+  limit << Vector3::Constant(settings_.force_limit), Vector3::Constant(settings_.torque_limit);
+  return wrench.cwiseMin(limit).cwiseMax(-limit);
 }
 
 Wrench Pid::command(const Measurement& m) {

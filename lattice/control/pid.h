@@ -16,10 +16,11 @@ struct Target {
   meshes::Vector3 acceleration = meshes::Vector3::Zero();  ///< [m/s²]
 };
 
-/// W = I (a_ref + Kp e + Ki ∫e + Kd de/dt), with I the 6 x 6 inertia at the endpoint and gains that
-/// put all three closed-loop poles of the free rod at -omega: Kp = 3 omega², Ki = omega³, Kd = 3 omega.
-/// The derivative acts on the measured velocity, low-passed at N omega. Force and torque are
-/// limited; back-calculation then bleeds the integrator with time constant 1/omega (README).
+/// W = I (a_ref + Kp e + Ki ∫e + Kd de/dt) - share * bond, with I the 6 x 6 inertia at the
+/// endpoint, gains that put all three closed-loop poles of the free rod at -omega (Kp = 3 omega²,
+/// Ki = omega³, Kd = 3 omega), and the measured bond wrench fed forward. The derivative acts on the
+/// measured velocity, low-passed at N omega. Every axis of force and torque is limited;
+/// back-calculation then bleeds the integrator with time constant 1/omega (README).
 class Pid final : public Controller {
  public:
   /// `inertia`: 6 x 6 at the endpoint [kg, kg m, kg m²]; `target` as a function of time [s].

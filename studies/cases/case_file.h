@@ -17,12 +17,12 @@ struct CaseCriterion {
 };
 
 struct Case {
-  std::string name;   ///< of its folder, e.g. "01_paper_rubber"
+  std::string name;  ///< of its folder, e.g. "01_paper_rubber"
   std::string title;
   std::string description;
   std::vector<CaseCriterion> criteria;
   LoadedConfig loaded;
-  std::string text;   ///< the table [case] as TOML, to be kept in parameters.toml
+  std::string text;  ///< the table [case] as TOML, to be kept in parameters.toml
 };
 
 /// The folder with all cases: $FINGERTIP_CASES, else studies/cases of the sources this program

@@ -57,9 +57,9 @@ std::map<std::string, double> take_measures(const ordered_json& summary,
   for (const std::string& model : validated_models()) {
     const ordered_json& entry = summary["models"][model];
     const std::string prefix = model + ".";
-    taken[prefix + "youngs_modulus_error"] =
-        std::max({relative(number(entry, "E_100"), youngs), relative(number(entry, "E_110"), youngs),
-                  relative(number(entry, "E_111"), youngs)});
+    taken[prefix + "youngs_modulus_error"] = std::max({relative(number(entry, "E_100"), youngs),
+                                                       relative(number(entry, "E_110"), youngs),
+                                                       relative(number(entry, "E_111"), youngs)});
     taken[prefix + "shear_modulus_error"] =
         relative(number(entry, "G"), number(target, "shear_modulus"));
     taken[prefix + "poissons_ratio_error"] =

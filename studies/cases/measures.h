@@ -18,8 +18,8 @@ std::vector<std::string> measure_names();
 /// The measures' values for a validate run: `summary` is its summary.json so far, `press` the
 /// summary.json of each model's press, `cubes` the largest relative deviation of the hookean cubes
 /// from the rubber's E, G, nu. A measure that could not be taken is absent.
-std::map<std::string, double> take_measures(const nlohmann::ordered_json& summary,
-                                            const std::map<std::string, nlohmann::ordered_json>& press,
-                                            double cubes);
+std::map<std::string, double> take_measures(
+    const nlohmann::ordered_json& summary,
+    const std::map<std::string, nlohmann::ordered_json>& press, double cubes);
 
 }  // namespace fingertip::studies

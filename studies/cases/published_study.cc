@@ -71,9 +71,9 @@ PublishedStudy::PublishedStudy(const lattice::PressSetup& base) {
 
 void PublishedStudy::add(const std::string& varied, const std::string& label,
                          const lattice::PressSetup& setup, bool is_base) {
-  variants_.push_back(
-      {varied, is_base ? "published" : fmt::format("published_study/{}_{}", varied, label), setup,
-       is_base});
+  variants_.push_back({varied,
+                       is_base ? "published" : fmt::format("published_study/{}_{}", varied, label),
+                       setup, is_base});
 }
 
 std::vector<PlannedJob> PublishedStudy::jobs() const {

@@ -63,8 +63,7 @@ std::vector<PlannedJob> Validation::plan() {
   }
   jobs.push_back({"cubes",
                   cubes_job(rubber, setups["central"].lattice.constants,
-                            setups["hookean"].lattice.constants,
-                            config().press.lattice.spacing),
+                            setups["hookean"].lattice.constants, config().press.lattice.spacing),
                   false});
   return jobs;
 }
@@ -93,7 +92,8 @@ ordered_json Validation::model_entry(const std::string& model, const std::string
     entry["real_time_factor"] = summary["real_time_factor"];
   }
   PressResponse response;
-  if (fs::exists(press / "response.csv")) response = PressResponse::read_csv(press / "response.csv");
+  if (fs::exists(press / "response.csv"))
+    response = PressResponse::read_csv(press / "response.csv");
   entry["force_error"] = force_errors(response, reference_, config().press.protocol.depth);
   const double reached = std::min(response.depth(), reference_.depth());
   entry["relative_l2_force_error"] =
@@ -154,18 +154,17 @@ Verdict Validation::run() {
   study_.write_table(folder(), reference_);
 
   const meshes::Rubber& rubber = config().press.rubber;
-  ordered_json summary = {
-      {"case", case_.name},
-      {"title", case_.title},
-      {"description", case_.description},
-      {"status", "ok"},
-      {"target",
-       {{"youngs_modulus", rubber.youngs_modulus},
-        {"shear_modulus", rubber.shear_modulus},
-        {"poissons_ratio", rubber.poissons_ratio()},
-        {"bulk_modulus", rubber.bulk_modulus()}}},
-      {"depths", verdict_depths(config().press.protocol.depth)},
-      {"reference", reference_entry()}};
+  ordered_json summary = {{"case", case_.name},
+                          {"title", case_.title},
+                          {"description", case_.description},
+                          {"status", "ok"},
+                          {"target",
+                           {{"youngs_modulus", rubber.youngs_modulus},
+                            {"shear_modulus", rubber.shear_modulus},
+                            {"poissons_ratio", rubber.poissons_ratio()},
+                            {"bulk_modulus", rubber.bulk_modulus()}}},
+                          {"depths", verdict_depths(config().press.protocol.depth)},
+                          {"reference", reference_entry()}};
   for (const std::string& model : validated_models()) {
     const auto result = std::ranges::find(results, model, &JobResult::name);
     summary["models"][model] = model_entry(model, result->status);
@@ -181,6 +180,8 @@ Verdict Validation::run() {
 
 }  // namespace
 
-Verdict validate(Session& session, const Case& one) { return Validation(session, one).run(); }
+Verdict validate(Session& session, const Case& one) {
+  return Validation(session, one).run();
+}
 
 }  // namespace fingertip::studies

@@ -1,8 +1,8 @@
 #include "studies/cli/command_line.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include "studies/config/key_table.h"
 #include "studies/run/provenance.h"
@@ -52,7 +52,8 @@ constexpr const char* footer =
 void add_config(CLI::App& app, CommandLine& line) {
   app.add_option("--config", line.config.file, "TOML file (fingertip init writes one)")
       ->type_name("FILE");
-  app.add_option("--set", line.config.sets, "one key, e.g. --set press.depth=\"0.2 cm\"; repeatable")
+  app.add_option("--set", line.config.sets,
+                 "one key, e.g. --set press.depth=\"0.2 cm\"; repeatable")
       ->type_name("section.key=value")
       ->allow_extra_args(false);
 }
@@ -109,12 +110,15 @@ std::variant<CommandLine, int> parse_command_line(int argc, char** argv) {
   line.words.assign(argv, argv + argc);
   const std::vector<std::string> words(line.words.begin() + (argc > 0 ? 1 : 0), line.words.end());
   if (const auto nearest = misspelt_verb(words)) {
-    fmt::print(stderr, "fingertip: error: {}: there is no such verb; the nearest one is {} "
-               "(fingertip --help lists them)\n", words.front(), *nearest);
+    fmt::print(stderr,
+               "fingertip: error: {}: there is no such verb; the nearest one is {} "
+               "(fingertip --help lists them)\n",
+               words.front(), *nearest);
     return 2;
   }
   if (!words.empty() && words.front() == "test") {
-    fmt::print(stderr, "fingertip: error: test: belongs to the launcher script; run ./fingertip "
+    fmt::print(stderr,
+               "fingertip: error: test: belongs to the launcher script; run ./fingertip "
                "test in the source folder\n");
     return 2;
   }

@@ -24,7 +24,7 @@ struct CommandLine {
   bool schema = false;    ///< explain --schema
   bool markdown = false;  ///< explain --markdown
   ProgressStyle progress = ProgressStyle::off;
-  std::vector<std::string> words;      ///< everything as typed, for the manifest
+  std::vector<std::string> words;  ///< everything as typed, for the manifest
 };
 
 /// Either what to do or, after help, version or a refusal (already printed), the exit code.

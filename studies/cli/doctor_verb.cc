@@ -42,8 +42,8 @@ int run_doctor(const CommandLine&) {
   };
   row("fingertip", program_version() + " in " + executable_folder().string());
   const bool continuum = ::access(reference_program().c_str(), X_OK) == 0;
-  row("fingertip-fem", continuum ? reference_program().string()
-                                 : "MISSING: reference and validate cannot run");
+  row("fingertip-fem",
+      continuum ? reference_program().string() : "MISSING: reference and validate cannot run");
   const bool plots = on_path("gnuplot");
   row("gnuplot", plots ? "found" : "MISSING: reports cannot be drawn (package gnuplot-nox)");
   const nlohmann::ordered_json packages = package_versions();

@@ -30,7 +30,8 @@ std::vector<fs::path> expand(const std::string& run) {
     if (fs::exists(folder / name / "response.csv")) inside.push_back(folder / name);
   }
   if (inside.empty()) {
-    refuse("RUN " + run, "holds no response.csv", "give the folder of a press, reference or "
+    refuse("RUN " + run, "holds no response.csv",
+           "give the folder of a press, reference or "
            "validate run");
   }
   return inside;
@@ -51,12 +52,11 @@ void print_comparison(const std::vector<fs::path>& runs) {
   for (std::size_t i = 1; i < runs.size(); ++i) fmt::print("{:>22}", label(runs[i]).substr(0, 21));
   fmt::print("\n");
   for (const double depth : meshes::default_samples(first.depth())) {
-    fmt::print("{:12.4f}{:24.4f}", 100.0 * depth,
-               first.normal_force_at(depth) / 9.80665e-3);
+    fmt::print("{:12.4f}{:24.4f}", 100.0 * depth, first.normal_force_at(depth) / 9.80665e-3);
     for (std::size_t i = 1; i < curves.size(); ++i) {
       const bool reached = depth <= curves[i].depth();
       fmt::print("{:>22}", reached ? fmt::format("{:+.2f} %", 100.0 * relative_force_error(
-                                                                  curves[i], first, depth))
+                                                                          curves[i], first, depth))
                                    : "");
     }
     fmt::print("\n");
@@ -64,8 +64,8 @@ void print_comparison(const std::vector<fs::path>& runs) {
   fmt::print("{:>36}", "relative L2 difference");
   for (std::size_t i = 1; i < curves.size(); ++i) {
     const double to = std::min(first.depth(), curves[i].depth());
-    fmt::print("{:>22}", fmt::format("{:.2f} %", 100.0 * relative_l2_force_error(curves[i], first,
-                                                                                 0.0, to)));
+    fmt::print("{:>22}",
+               fmt::format("{:.2f} %", 100.0 * relative_l2_force_error(curves[i], first, 0.0, to)));
   }
   fmt::print("\n");
 }
@@ -81,7 +81,8 @@ int run_compare(const CommandLine& line) {
     refuse("compare", "at least two runs are needed", "give two run folders, or one of validate");
   }
   // The continuum is what the others are measured against, wherever it was named.
-  std::ranges::stable_partition(runs, [](const fs::path& run) { return fs::exists(run / "job.json"); });
+  std::ranges::stable_partition(runs,
+                                [](const fs::path& run) { return fs::exists(run / "job.json"); });
   const fs::path out = line.out.empty() ? fs::path("runs/comparison") : line.out;
   if (!line.out.empty() && fs::exists(out) && !line.force) {
     refuse("--out " + out.string(), "the output folder exists already",

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "meshes/errors.h"
 #include "studies/cases/validation.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
@@ -15,9 +18,9 @@ namespace fs = std::filesystem;
 std::vector<fs::path> wanted_cases(const CommandLine& line) {
   if (!line.config.file.empty()) {
     if (line.all || !line.arguments.empty()) {
-      throw ConfigError({{"--config " + line.config.file.string(), "", "",
-                          "validate takes either cases or a configuration, not both",
-                          "leave out one of them"}});
+      throw ConfigError(
+          {{"--config " + line.config.file.string(), "", "",
+            "validate takes either cases or a configuration, not both", "leave out one of them"}});
     }
     return {line.config.file};
   }
@@ -36,6 +39,17 @@ CommandLine line_for(const CommandLine& line, const Case& one, bool several) {
   return own;
 }
 
+int validate_one(const CommandLine& line, const Case& one) {
+  return run_in_folder(line, one.loaded, one.text, [&](Session& session) {
+    const Verdict verdict = validate(session, one);
+    if (!line.quiet) {
+      fmt::print("{}\nreport: {}\n", verdict_text(session.folder().path()),
+                 (session.folder().path() / "report.html").string());
+    }
+    return verdict == Verdict::passed ? 0 : 4;
+  });
+}
+
 }  // namespace
 
 int run_validate(const CommandLine& line) {
@@ -46,16 +60,14 @@ int run_validate(const CommandLine& line) {
   }
   int worst = 0;
   for (const Case& one : cases) {
-    const CommandLine own = line_for(line, one, cases.size() > 1);
-    const int code = run_in_folder(own, one.loaded, one.text, [&](Session& session) {
-      const Verdict verdict = validate(session, one);
-      if (!line.quiet) {
-        fmt::print("{}\nreport: {}\n", verdict_text(session.folder().path()),
-                   (session.folder().path() / "report.html").string());
-      }
-      return verdict == Verdict::passed ? 0 : 4;
-    });
-    worst = std::max(worst, code);
+    try {
+      worst = std::max(worst, validate_one(line_for(line, one, cases.size() > 1), one));
+    } catch (const meshes::NotConverged& error) {
+      if (cases.size() == 1) throw;
+      // The other cases still have something to say.
+      fmt::print(stderr, "fingertip: error: {}: {}\n", one.name, error.what());
+      worst = std::max(worst, 3);
+    }
   }
   return worst;
 }

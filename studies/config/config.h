@@ -24,9 +24,9 @@ enum class ConstantsSource {
 struct Config {
   lattice::PressSetup press;
   ConstantsSource constants = ConstantsSource::automatic;
-  std::filesystem::path constants_file;            ///< absolute; only for ConstantsSource::file
-  std::optional<lattice::Kinematics> kinematics;   ///< as asked for; empty: the model's default
-  std::optional<double> spacing_divisor;           ///< a = R/divisor when given so
+  std::filesystem::path constants_file;           ///< absolute; only for ConstantsSource::file
+  std::optional<lattice::Kinematics> kinematics;  ///< as asked for; empty: the model's default
+  std::optional<double> spacing_divisor;          ///< a = R/divisor when given so
   fem_reference::ReferenceJob reference;
   int fit_starts = 10;
   unsigned fit_seed = 1;

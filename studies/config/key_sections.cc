@@ -127,8 +127,8 @@ std::vector<Key> specimen_keys() {
   using meshes::Geometry;
   using meshes::Rubber;
   return {
-      quantity("geometry", "tip_radius", "1 cm", "m", positive,
-               "R, outer radius of the rubber", geometry(&Geometry::tip_radius)),
+      quantity("geometry", "tip_radius", "1 cm", "m", positive, "R, outer radius of the rubber",
+               geometry(&Geometry::tip_radius)),
       with_rule(quantity("geometry", "rod_radius", "0.5 cm", "m", positive,
                          "r, radius of the rod; the rubber is bonded to it",
                          geometry(&Geometry::rod_radius)),
@@ -158,12 +158,12 @@ std::vector<Key> specimen_keys() {
 }
 
 std::vector<Key> lattice_keys() {
-  Key spacing = with_rule(
-      quantity("lattice", "spacing", "tip_radius/12", "m", positive,
-               "a, distance of neighbouring masses along the axes",
-               [](Config& config) -> double& { return config.press.lattice.spacing; }),
-      "at most (tip_radius - rod_radius)/2, and no more than 20 million masses",
-      {"geometry.tip_radius", "geometry.rod_radius"});
+  Key spacing =
+      with_rule(quantity("lattice", "spacing", "tip_radius/12", "m", positive,
+                         "a, distance of neighbouring masses along the axes",
+                         [](Config& config) -> double& { return config.press.lattice.spacing; }),
+                "at most (tip_radius - rod_radius)/2, and no more than 20 million masses",
+                {"geometry.tip_radius", "geometry.rod_radius"});
   spacing.word = "tip_radius/N";
   spacing.assign = assign_spacing;
   Key constants = with_rule(
@@ -171,8 +171,7 @@ std::vector<Key> lattice_keys() {
              {{"auto", "published: rule; central: calibrated; hookean: rule"},
               {"rule", "published, central: k = E a^2/l0; hookean: its exact closed form"},
               {"calibrated", "least-squares fit to the rubber's moduli (central, hookean)"}},
-             "spring constants: a word, or a material.toml written by calibrate",
-             assign_constants),
+             "spring constants: a word, or a material.toml written by calibrate", assign_constants),
       "a file must be for the same model; published has a rule and is never calibrated",
       {"lattice.model"});
   constants.kind = Kind::source;
@@ -192,7 +191,7 @@ std::vector<Key> lattice_keys() {
             }),
       constants,
       plain("lattice", "ligament_stiffness", Kind::number, "1.0", positive,
-            "multiplies the stiffness E a of the ligaments between tip and rod",
+            "multiplies the stiffness of the ligaments between tip and rod",
             [](Config& config, const Value& value) {
               config.press.lattice.ligament_stiffness = value.number;
             }),
@@ -259,10 +258,15 @@ std::vector<Key> press_keys() {
             [](Config& config, const Value& value) {
               config.press.controller.derivative_filter = value.number;
             }),
+      plain("controller", "bond_compensation", Kind::number, "1.0", {0.0, 1.0, true},
+            "share of the measured bond force and torque that is fed forward",
+            [](Config& config, const Value& value) {
+              config.press.controller.bond_compensation = value.number;
+            }),
       quantity("controller", "force_limit", "20 N", "N", positive,
-               "largest force of the actuator", pid(&PidSettings::force_limit)),
+               "largest force of the actuator along each axis", pid(&PidSettings::force_limit)),
       quantity("controller", "torque_limit", "1 N m", "N m", positive,
-               "largest torque of the actuator", pid(&PidSettings::torque_limit)),
+               "largest torque of the actuator about each axis", pid(&PidSettings::torque_limit)),
   };
 }
 
@@ -278,9 +282,10 @@ std::vector<Key> solver_keys() {
              "continuum theory", nothing),
       choice("reference", "mode", "static", {{"static", "one equilibrium per output depth"}},
              "what is solved", nothing),
-      plain("reference", "degree", Kind::integer, "2", {1, 2, true},
-            "polynomial degree of the elements",
-            [](Config& config, const Value& value) { config.reference.degree = int(value.number); }),
+      plain(
+          "reference", "degree", Kind::integer, "2", {1, 2, true},
+          "polynomial degree of the elements",
+          [](Config& config, const Value& value) { config.reference.degree = int(value.number); }),
       plain("reference", "refinement", Kind::number, "1.0", {0.5, 4, true},
             "factor on the element counts of the mesh",
             [](Config& config, const Value& value) { config.reference.refinement = value.number; }),

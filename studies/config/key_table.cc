@@ -27,7 +27,9 @@ int edit_distance(std::string_view a, std::string_view b) {
   return cost[a.size()][b.size()];
 }
 
-std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+std::string_view last_part(std::string_view name) {
+  return name.substr(name.rfind('.') + 1);
+}
 
 }  // namespace
 
@@ -43,7 +45,8 @@ std::string Key::allowed() const {
   const std::string suffix = unit.empty() ? "" : " " + unit;
   const bool below = range.minimum > -std::numeric_limits<double>::infinity();
   const bool above = range.maximum < std::numeric_limits<double>::infinity();
-  if (below) text = (range.minimum_allowed ? ">= " : "> ") + meshes::to_text(range.minimum) + suffix;
+  if (below)
+    text = (range.minimum_allowed ? ">= " : "> ") + meshes::to_text(range.minimum) + suffix;
   if (above) text += (below ? " and <= " : "<= ") + meshes::to_text(range.maximum) + suffix;
   for (const Choice& choice : choices) text += (text.empty() ? "" : " | ") + choice.word;
   if (kind == Kind::source) text += " | path of a material.toml";

@@ -48,13 +48,13 @@ struct Key {
   std::string section;
   std::string name;
   Kind kind = Kind::quantity;
-  std::string preset;           ///< default as a TOML literal
-  std::string unit;             ///< SI unit; empty for what is no quantity
-  Range range;                  ///< in SI
+  std::string preset;  ///< default as a TOML literal
+  std::string unit;    ///< SI unit; empty for what is no quantity
+  Range range;         ///< in SI
   std::vector<Choice> choices;
-  std::string word;             ///< word accepted instead of a quantity: "auto", "tip_radius/N"
-  std::string help;             ///< one line
-  std::string rule;             ///< further rule in words, may be empty
+  std::string word;  ///< word accepted instead of a quantity: "auto", "tip_radius/N"
+  std::string help;  ///< one line
+  std::string rule;  ///< further rule in words, may be empty
   std::vector<std::string> related;  ///< keys its rule also depends on
   std::function<void(Config&, const Value&)> assign;
 

@@ -15,6 +15,8 @@ namespace fingertip::studies {
 
 namespace {
 
+constexpr const char* default_place = "default";
+
 std::string joined(const std::vector<Problem>& problems) {
   std::string text;
   for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + to_string(problem);
@@ -27,28 +29,26 @@ class Reader {
   Reader() {
     for (const Key& key : key_table()) {
       const toml::table defaults = toml::parse("v = " + key.preset);
-      take(key, *defaults.get("v"), {key.preset, "default", false}, {});
+      take(key, *defaults.get("v"), {toml_literal(*defaults.get("v")), default_place, false}, {});
     }
   }
 
   void read_file(const std::filesystem::path& file);
   void read_set(const std::string& text);
   /// One assignment outside of a file. `place` is how the user wrote it.
-  void read_assignment(const std::string& place, const std::string& name,
-                       const std::string& value);
+  void read_assignment(const std::string& place, const std::string& name, const std::string& value);
 
   LoadedConfig finish();
 
  private:
   /// Files named by a value are relative to `base`: the configuration file's folder.
-  void take(const Key& key, const toml::node& node, Entry entry,
-            const std::filesystem::path& base);
+  void take(const Key& key, const toml::node& node, Entry entry, const std::filesystem::path& base);
   void read_section(const std::string& section, const toml::node& node,
                     const std::filesystem::path& file);
   void unknown(const std::string& place, const std::string& name, const std::string& value,
                const std::string& what) {
-    problems_.push_back({place, name, value, "unknown " + what,
-                         "the nearest valid key is " + nearest_key(name)});
+    problems_.push_back(
+        {place, name, value, "unknown " + what, "the nearest valid key is " + nearest_key(name)});
   }
 
   LoadedConfig loaded_;
@@ -213,17 +213,14 @@ ConfigError LoadedConfig::locate(const std::vector<meshes::Violation>& violation
       problem.place = entry->second.place;
       problem.value = unquoted(entry->second.literal);
     }
+    // The culprit may be a key that the rule also depends on; certainly when this one is a default.
     const Key* key = find_key(violation.key);
-    // When the named key has its default, the culprit is a key that the rule also depends on.
-    if (key != nullptr && !entries.at(violation.key).given) {
-      for (const std::string& other : key->related) {
-        const Entry& related = entries.at(other);
-        if (related.given) {
-          problem.place = related.place;
-          problem.rule += " (here " + other + " = " + unquoted(related.literal) + ")";
-          break;
-        }
-      }
+    for (const std::string& other : key != nullptr ? key->related : std::vector<std::string>{}) {
+      const Entry& related = entries.at(other);
+      if (!related.given) continue;
+      problem.rule +=
+          " (here " + other + " = " + unquoted(related.literal) + ", " + related.place + ")";
+      if (problem.place == default_place) problem.place = related.place;
     }
     if (problem.place.empty()) problem.place = "input";
     problems.push_back(std::move(problem));

@@ -15,9 +15,9 @@ namespace fingertip::studies {
 
 /// One thing that is wrong with the input, and where it was written.
 struct Problem {
-  std::string place;   ///< "file.toml:12", "--set rubber.density=1 m" or "default"
-  std::string key;     ///< configuration key; may be empty for a file that cannot be read
-  std::string value;   ///< as the user wrote it
+  std::string place;  ///< "file.toml:12", "--set rubber.density=1 m" or "default"
+  std::string key;    ///< configuration key; may be empty for a file that cannot be read
+  std::string value;  ///< as the user wrote it
   std::string rule;
   std::string remedy;
 };
@@ -37,8 +37,8 @@ class ConfigError : public std::runtime_error {
 
 /// What the user gave, in the order of precedence: defaults < file < sets < threads.
 struct ConfigSource {
-  std::filesystem::path file;       ///< TOML; empty for none
-  std::vector<std::string> sets;    ///< "section.key=value"
+  std::filesystem::path file;          ///< TOML; empty for none
+  std::vector<std::string> sets;       ///< "section.key=value"
   std::optional<std::string> threads;  ///< option --threads, as written
 };
 

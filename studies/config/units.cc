@@ -100,8 +100,7 @@ double parse_quantity(std::string_view text, const std::string& unit, const std:
   }
   const std::optional<double> scale = factor(given, unit);
   if (!scale) {
-    throw UnitError("\"" + given + "\" has the wrong dimension, a unit like " + unit +
-                        " is needed",
+    throw UnitError("\"" + given + "\" has the wrong dimension, a unit like " + unit + " is needed",
                     advice);
   }
   const double value = number * *scale;

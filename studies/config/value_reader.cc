@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
+#include <nlohmann/json.hpp>
 
+#include "meshes/files.h"
 #include "studies/config/units.h"
 
 namespace fingertip::studies {
@@ -15,7 +16,9 @@ namespace {
   throw UnitError(std::move(rule), std::move(remedy));
 }
 
-std::string preset_advice(const Key& key) { return "write e.g. " + key.name + " = " + key.preset; }
+std::string preset_advice(const Key& key) {
+  return "write e.g. " + key.name + " = " + key.preset;
+}
 
 void check_range(const Key& key, double value) {
   if (!std::isfinite(value)) refuse("must be a finite number", preset_advice(key));
@@ -60,7 +63,8 @@ Value read_quantity(const Key& key, const toml::node& node) {
 
 Value read_quantities(const Key& key, const toml::node& node) {
   const auto* list = node.as_array();
-  if (list == nullptr) refuse("must be a list of quantities", "write e.g. [\"0.1 cm\", \"0.2 cm\"]");
+  if (list == nullptr)
+    refuse("must be a list of quantities", "write e.g. [\"0.1 cm\", \"0.2 cm\"]");
   Value value;
   for (const toml::node& element : *list) {
     value.numbers.push_back(read_quantity(key, element).number);
@@ -78,7 +82,8 @@ Value read_number(const Key& key, const toml::node& node) {
 
 Value read_numbers(const Key& key, const toml::node& node) {
   const auto* list = node.as_array();
-  if (list == nullptr || list->size() != 3) refuse("must be a list of 3 numbers", preset_advice(key));
+  if (list == nullptr || list->size() != 3)
+    refuse("must be a list of 3 numbers", preset_advice(key));
   Value value;
   for (const toml::node& element : *list) {
     value.numbers.push_back(read_number(key, element).number);
@@ -124,21 +129,27 @@ Value read_value(const Key& key, const toml::node& node) {
 }
 
 std::string toml_literal(const toml::node& node) {
-  if (node.is_table()) return "{...}";
-  std::ostringstream text;
-  node.visit([&](const auto& value) {
-    using Node = std::decay_t<decltype(value)>;
-    if constexpr (toml::is_array<Node>) {
-      for (const toml::node& element : value) {
-        text << (text.tellp() > 0 ? ", " : "") << toml_literal(element);
-      }
-    } else if constexpr (!toml::is_table<Node>) {
-      text << toml::toml_formatter{toml::table{{"v", value}}};
+  if (const auto* text = node.as_string()) {
+    // JSON's escapes are a subset of those of TOML's basic strings.
+    return nlohmann::json(text->get())
+        .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
+  if (const auto* number = node.as_floating_point()) {
+    const double value = number->get();
+    if (std::isnan(value)) return "nan";
+    const std::string text = meshes::to_text(value);
+    return text.find_first_of(".ein") == text.npos ? text + ".0" : text;
+  }
+  if (const auto* list = node.as_array()) {
+    std::string text;
+    for (const toml::node& element : *list) {
+      text += (text.empty() ? "" : ", ") + toml_literal(element);
     }
-  });
-  if (node.is_array()) return "[" + text.str() + "]";
-  const std::string assignment = text.str();
-  return assignment.substr(assignment.find('=') + 2);
+    return "[" + text + "]";
+  }
+  if (const auto* number = node.as_integer()) return std::to_string(number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  return node.is_table() ? "{...}" : "a date or time";
 }
 
 std::string unquoted(const std::string& literal) {

@@ -49,7 +49,9 @@ fs::path Cache::default_folder() {
   return fs::temp_directory_path() / "fingertip-cache";
 }
 
-fs::path Cache::entry(const Job& job) const { return folder_ / (job.kind + "-" + job.key()); }
+fs::path Cache::entry(const Job& job) const {
+  return folder_ / (job.kind + "-" + job.key());
+}
 
 bool Cache::fetch(const Job& job, const fs::path& target) const {
   const fs::path source = entry(job);

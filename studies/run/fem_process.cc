@@ -94,8 +94,8 @@ pid_t start(const std::string& program, const std::string& folder, int threads, 
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("cannot start another process");
   if (child == 0) {
-    ::setpgid(0, 0);                      // Ctrl-C reaches it through us, once
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);   // and it does not outlive us
+    ::setpgid(0, 0);                     // Ctrl-C reaches it through us, once
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // and it does not outlive us
     ::dup2(out.writing_end(), STDOUT_FILENO);
     ::dup2(err.writing_end(), STDERR_FILENO);
     ::execve(arguments[0], arguments.data(), environment.data());
@@ -174,7 +174,8 @@ int wait_for(pid_t child) {
 [[noreturn]] void raise(int code, const Watch& watch, const std::filesystem::path& program) {
   const std::string words = watch.last_words();
   if (code == 130 || watch.asked_to_stop()) throw meshes::Interrupted("the continuum was stopped");
-  if (code == 3) throw meshes::NotConverged(words.empty() ? "the continuum did not converge" : words);
+  if (code == 3)
+    throw meshes::NotConverged(words.empty() ? "the continuum did not converge" : words);
   if (code == 2) {
     throw meshes::InvalidInput({"reference", "", words.empty() ? "refused by fingertip-fem" : words,
                                 "correct the configuration"});

@@ -19,11 +19,11 @@ struct JobContext {
 
 /// `inputs` holds only what the result depends on, so that equal inputs mean equal results.
 struct Job {
-  std::string kind;                ///< "press", "reference", "moduli", "cubes"
-  nlohmann::ordered_json inputs;   ///< SI
-  std::string source_hash;         ///< of the rooms whose code makes the result
+  std::string kind;               ///< "press", "reference", "moduli", "cubes"
+  nlohmann::ordered_json inputs;  ///< SI
+  std::string source_hash;        ///< of the rooms whose code makes the result
   std::function<void(const std::filesystem::path& folder, const JobContext& context)> run;
-  double weight = 1.0;             ///< expected share of the work, for the progress bar
+  double weight = 1.0;  ///< expected share of the work, for the progress bar
 
   /// SHA-256 over kind, inputs and source hash.
   std::string key() const;

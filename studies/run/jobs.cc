@@ -46,8 +46,8 @@ void run_cubes(const meshes::Rubber& rubber, const lattice::SpringConstants& cen
   double done = 0.0;
   for (const auto& [model, constants] : models) {
     for (const int cells : {2, 4, 8}) {
-      const std::string stage = std::string(lattice::name(model)) + ", cells " +
-                                std::to_string(cells);
+      const std::string stage =
+          std::string(lattice::name(model)) + ", cells " + std::to_string(cells);
       if (!context.report(done / 9.0, stage)) throw meshes::Interrupted("cube tests stopped");
       const calibration::CubeModuli cube =
           calibration::measure_cube(lattice::cube_lattice(model, constants, spacing, cells));
@@ -98,13 +98,13 @@ ordered_json to_json(const meshes::Rubber& rubber) {
 }
 
 ordered_json to_json(const lattice::SpringConstants& constants) {
-  return {{"k1", constants.k1}, {"k2", constants.k2}, {"k3", constants.k3},
-          {"kappa", constants.kappa}};
+  return {
+      {"k1", constants.k1}, {"k2", constants.k2}, {"k3", constants.k3}, {"kappa", constants.kappa}};
 }
 
 ordered_json to_json(const calibration::ElasticModuli& moduli) {
-  return {{"E_100", moduli.youngs_modulus_100}, {"E_110", moduli.youngs_modulus_110},
-          {"E_111", moduli.youngs_modulus_111}, {"G", moduli.shear_modulus},
+  return {{"E_100", moduli.youngs_modulus_100},  {"E_110", moduli.youngs_modulus_110},
+          {"E_111", moduli.youngs_modulus_111},  {"G", moduli.shear_modulus},
           {"nu_100", moduli.poissons_ratio_100}, {"K", moduli.bulk_modulus},
           {"anisotropy", moduli.anisotropy}};
 }

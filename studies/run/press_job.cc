@@ -40,29 +40,28 @@ ordered_json census_of(const lattice::LatticeCensus& census) {
 
 ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome,
                         const std::string& status) {
-  ordered_json summary = {
-      {"model", lattice::name(setup.lattice.model)},
-      {"kinematics", lattice::name(setup.lattice.kinematics)},
-      {"mode", meshes::name(setup.protocol.mode)},
-      {"contact", meshes::name(setup.protocol.contact)},
-      {"status", status},
-      {"spacing", setup.lattice.spacing},
-      {"constants", to_json(setup.lattice.constants)},
-      {"moduli", to_json(calibration::homogenised_moduli(setup.lattice.constants,
-                                                      setup.lattice.spacing))},
-      {"step", step_of(outcome.step)},
-      {"census", census_of(outcome.census)},
-      {"simulated_time", outcome.simulated_time},
-      {"wall_time", outcome.wall_time},
-      {"real_time_factor", outcome.real_time_factor()},
-      {"first_touch_time", number_or_null(outcome.first_touch_time)},
-      {"momentum_defect", number_or_null(outcome.momentum_defect)}};
+  ordered_json summary = {{"model", lattice::name(setup.lattice.model)},
+                          {"kinematics", lattice::name(setup.lattice.kinematics)},
+                          {"mode", meshes::name(setup.protocol.mode)},
+                          {"contact", meshes::name(setup.protocol.contact)},
+                          {"status", status},
+                          {"spacing", setup.lattice.spacing},
+                          {"constants", to_json(setup.lattice.constants)},
+                          {"moduli", to_json(calibration::homogenised_moduli(
+                                         setup.lattice.constants, setup.lattice.spacing))},
+                          {"step", step_of(outcome.step)},
+                          {"census", census_of(outcome.census)},
+                          {"simulated_time", outcome.simulated_time},
+                          {"wall_time", outcome.wall_time},
+                          {"real_time_factor", outcome.real_time_factor()},
+                          {"first_touch_time", number_or_null(outcome.first_touch_time)},
+                          {"momentum_defect", number_or_null(outcome.momentum_defect)}};
   if (setup.protocol.mode == meshes::DriveMode::pid) {
     const Tracking tracking = measure_tracking(outcome.trace, outcome.first_touch_time);
-    summary["tracking"] = {{"speed_deviation", number_or_null(tracking.speed_deviation)},
-                           {"speed_deviation_at_touch",
-                            number_or_null(tracking.speed_deviation_at_touch)},
-                           {"tilt_deg", number_or_null(tracking.tilt * 180.0 / std::numbers::pi)}};
+    summary["tracking"] = {
+        {"speed_deviation", number_or_null(tracking.speed_deviation)},
+        {"speed_deviation_at_touch", number_or_null(tracking.speed_deviation_at_touch)},
+        {"tilt_deg", number_or_null(tracking.tilt * 180.0 / std::numbers::pi)}};
   }
   return summary;
 }
@@ -125,8 +124,8 @@ void run_press_job(lattice::PressSetup setup, const fs::path& folder, const JobC
   setup.threads = context.threads;
   Recorder recorder(setup, folder, context);
   try {
-    const lattice::PressOutcome outcome = lattice::run_press(
-        setup, [&](const lattice::PressOutcome& so_far, double fraction) {
+    const lattice::PressOutcome outcome =
+        lattice::run_press(setup, [&](const lattice::PressOutcome& so_far, double fraction) {
           return recorder.observe(so_far, fraction);
         });
     recorder.write(outcome, "finished");
@@ -173,6 +172,7 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
     inputs["controller"] = {{"period", pid.period},
                             {"natural_frequency", pid.natural_frequency},
                             {"derivative_filter", pid.derivative_filter},
+                            {"bond_compensation", pid.bond_compensation},
                             {"force_limit", pid.force_limit},
                             {"torque_limit", pid.torque_limit}};
   }

@@ -36,11 +36,11 @@ lattice::SpringConstants constants_from_file(const LoadedConfig& loaded) {
     throw loaded.locate(broken);
   }
   if (material.model != config.press.lattice.model) {
-    throw loaded.locate({{"lattice.constants", config.constants_file.string(),
-                          "the file holds constants of the model " +
-                              std::string(lattice::name(material.model)) + ", not of " +
-                              std::string(lattice::name(config.press.lattice.model)),
-                          "calibrate this model, or change lattice.model"}});
+    throw loaded.locate(
+        {{"lattice.constants", config.constants_file.string(),
+          "the file holds constants of the model " + std::string(lattice::name(material.model)) +
+              ", not of " + std::string(lattice::name(config.press.lattice.model)),
+          "calibrate this model, or change lattice.model"}});
   }
   return calibration::at_spacing(material, config.press.lattice.spacing);
 }
@@ -53,7 +53,8 @@ lattice::SpringConstants resolve_constants(const LoadedConfig& loaded) {
   const bool fitted =
       config.constants == ConstantsSource::calibrated ||
       (config.constants == ConstantsSource::automatic && model == ModelKind::central);
-  if (fitted) return calibration::fit_moduli(config.press.rubber, fit_options(loaded, model)).constants;
+  if (fitted)
+    return calibration::fit_moduli(config.press.rubber, fit_options(loaded, model)).constants;
   return model == ModelKind::hookean ? lattice::hookean_constants(config.press.rubber, spacing)
                                      : lattice::published_constants(config.press.rubber, spacing);
 }
@@ -70,7 +71,8 @@ void check_spacing(const LoadedConfig& loaded) {
                           " m, two cells through the rubber",
                       "choose a finer lattice"});
   } else if (meshes::expected_particle_count(config.press.geometry, spacing) > most_particles) {
-    broken.push_back({"lattice.spacing", value, "the tip would consist of more than 20 million masses",
+    broken.push_back({"lattice.spacing", value,
+                      "the tip would consist of more than 20 million masses",
                       "choose a coarser lattice"});
   }
   if (!broken.empty()) throw loaded.locate(broken);

@@ -20,7 +20,9 @@ double seconds_since(Clock::time_point start) {
 
 Progress::Progress(ProgressStyle style) : style_(style), start_(Clock::now()), drawn_(start_) {}
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+  clear();
+}
 
 void Progress::expect(const std::string& job, double weight) {
   const std::lock_guard lock(mutex_);
@@ -55,11 +57,11 @@ void Progress::draw(const std::string& job, const std::string& stage) {
   }
   constexpr int width = 30;
   const int filled = all > 0.0 ? int(width * done / all) : 0;
-  const std::string bar = std::string(std::size_t(filled), '#') +
-                          std::string(std::size_t(width - filled), '.');
-  const std::string line = fmt::format("[{}] {:3.0f} %  {:4.0f} s  {}: {}", bar,
-                                       all > 0.0 ? 100.0 * done / all : 0.0,
-                                       seconds_since(start_), job, stage);
+  const std::string bar =
+      std::string(std::size_t(filled), '#') + std::string(std::size_t(width - filled), '.');
+  const std::string line =
+      fmt::format("[{}] {:3.0f} %  {:4.0f} s  {}: {}", bar, all > 0.0 ? 100.0 * done / all : 0.0,
+                  seconds_since(start_), job, stage);
   fmt::print(stderr, "\r\033[K{}", line.substr(0, 110));
 }
 

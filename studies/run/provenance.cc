@@ -1,7 +1,5 @@
 #include "studies/run/provenance.h"
 
-#include <CLI/Version.hpp>
-#include <Eigen/Core>
 #include <ceres/version.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -10,6 +8,8 @@
 #include <sys/utsname.h>
 #include <toml++/toml.h>
 #include <unistd.h>
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
 
 #include <chrono>
 #include <fstream>
@@ -34,21 +34,29 @@ std::string field(const char* file, const std::string& label, char separator) {
 
 }  // namespace
 
-std::string program_version() { return FINGERTIP_VERSION; }
+std::string program_version() {
+  return FINGERTIP_VERSION;
+}
 
 nlohmann::ordered_json package_versions() {
-  return {{"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
-                                EIGEN_MINOR_VERSION)},
-          {"Ceres", CERES_VERSION_STRING},
-          {"CLI11", CLI11_VERSION},
-          {"toml++", fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
-          {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
-                                        NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
-          {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
-          {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
-                              FMT_VERSION % 100)},
-          {"OpenSSL", OpenSSL_version(OPENSSL_VERSION_STRING)},
-          {"compiler", fmt::format("{} {}", FINGERTIP_COMPILER, __VERSION__)}};
+  nlohmann::ordered_json versions = {
+      {"Eigen",
+       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"Ceres", CERES_VERSION_STRING},
+      {"CLI11", CLI11_VERSION},
+      {"toml++", fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+      {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
+                                    NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+      {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
+      {"fmt",
+       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"OpenSSL", OpenSSL_version(OPENSSL_VERSION_STRING)},
+      {"compiler", fmt::format("{} {}", FINGERTIP_COMPILER, __VERSION__)}};
+#ifdef FINGERTIP_DEALII
+  versions["deal.II"] = FINGERTIP_DEALII;
+  versions["gmsh"] = FINGERTIP_GMSH;
+#endif
+  return versions;
 }
 
 nlohmann::ordered_json host_description() {
@@ -63,14 +71,17 @@ nlohmann::ordered_json host_description() {
 }
 
 std::string utc_now() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(
-                                                  std::chrono::system_clock::now())));
+  return fmt::format(
+      "{:%Y-%m-%dT%H:%M:%SZ}",
+      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
 }
 
 std::filesystem::path executable_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
-std::filesystem::path reference_program() { return executable_folder() / "fingertip-fem"; }
+std::filesystem::path reference_program() {
+  return executable_folder() / "fingertip-fem";
+}
 
 }  // namespace fingertip::studies

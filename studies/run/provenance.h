@@ -10,7 +10,7 @@ namespace fingertip::studies {
 /// The program's version, e.g. "0.1.0".
 std::string program_version();
 
-/// Versions of the libraries this program was compiled with.
+/// Versions of the libraries this program and fingertip-fem (when built) were compiled with.
 nlohmann::ordered_json package_versions();
 
 /// {"cpu", "cores", "memory [B]", "os", "kernel"} of this machine.

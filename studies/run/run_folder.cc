@@ -93,9 +93,10 @@ class RunFolder::Log {
 RunFolder::RunFolder(const RunFolderOptions& options, const LoadedConfig& loaded,
                      const std::string& case_text)
     : path_(options.out.empty() ? fresh_default(options.verb) : options.out) {
-  const std::string head = fmt::format("fingertip {} {}: resolved parameters, to be used again with"
-                                       " --config",
-                                       program_version(), options.verb);
+  const std::string head = fmt::format(
+      "fingertip {} {}: resolved parameters, to be used again with"
+      " --config",
+      program_version(), options.verb);
   const std::string parameters = parameters_toml(loaded, head) + case_text;
   manifest_ = {{"program", "fingertip"},
                {"version", program_version()},
@@ -149,7 +150,9 @@ void RunFolder::discard() {
   }
 }
 
-void RunFolder::log(const std::string& line) { log_->write(line); }
+void RunFolder::log(const std::string& line) {
+  log_->write(line);
+}
 
 void RunFolder::finish(const std::string& status, int exit_code,
                        const nlohmann::ordered_json& further) {

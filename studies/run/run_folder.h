@@ -14,9 +14,9 @@ namespace fingertip::studies {
 
 struct RunFolderOptions {
   std::string verb;
-  std::filesystem::path out;   ///< empty: runs/<verb>-<YYYYmmdd-HHMMSS> in the current folder
-  bool force = false;          ///< replace an existing run folder
-  bool resume = false;         ///< keep the finished parts of an existing run folder
+  std::filesystem::path out;  ///< empty: runs/<verb>-<YYYYmmdd-HHMMSS> in the current folder
+  bool force = false;         ///< replace an existing run folder
+  bool resume = false;        ///< keep the finished parts of an existing run folder
   std::vector<std::string> command_line;
 };
 

@@ -14,7 +14,9 @@ namespace fingertip::studies {
 
 namespace fs = std::filesystem;
 
-JobResult Session::run(const PlannedJob& planned) { return run_with(planned, threads_); }
+JobResult Session::run(const PlannedJob& planned) {
+  return run_with(planned, threads_);
+}
 
 void Session::clear(const PlannedJob& planned) const {
   const fs::path folder = path_of(planned);

@@ -124,8 +124,8 @@ TEST(ElasticTip, HollowSphereFollowsLame) {
   const double C = 0.01, r = geometry.rod_radius, R = geometry.tip_radius;
   const auto radial = [&](double rho) { return C * (rho - r * r * r / (rho * rho)); };
   // sigma_rr = 3 K C + 4 G C r³/rho³, pushing on a quarter of the disc π R².
-  const double stress = 3 * rubber.bulk_modulus() * C +
-                        4 * rubber.shear_modulus * C * std::pow(r / R, 3);
+  const double stress =
+      3 * rubber.bulk_modulus() * C + 4 * rubber.shear_modulus * C * std::pow(r / R, 3);
   const double exact_force = stress * std::numbers::pi * R * R / 4;
 
   std::array<double, 2> field_error{}, force_error{};
@@ -148,14 +148,16 @@ TEST(ElasticTip, HollowSphereFollowsLame) {
     double force = 0.0;
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       const auto i = std::size_t(unknowns[k]);
-      if (tip.component_of_dof()[i] == 2 && tip.nodes()[std::size_t(tip.node_of_dof()[i])].z() > 1e-12)
+      if (tip.component_of_dof()[i] == 2 &&
+          tip.nodes()[std::size_t(tip.node_of_dof()[i])].z() > 1e-12)
         force += solution.reaction[Eigen::Index(k)];
     }
     force_error[level] = std::abs(force / exact_force - 1);
     const Eigen::VectorXd u = solver->field();
     for (int i = 0; i < tip.dofs(); ++i) {
       const Vector3& w = tip.nodes()[std::size_t(tip.node_of_dof()[std::size_t(i)])];
-      const double exact_u = radial(w.norm()) * w[tip.component_of_dof()[std::size_t(i)]] / w.norm();
+      const double exact_u =
+          radial(w.norm()) * w[tip.component_of_dof()[std::size_t(i)]] / w.norm();
       field_error[level] = std::max(field_error[level], std::abs(u[i] - exact_u) / radial(R));
     }
   }

@@ -119,8 +119,8 @@ TEST(PlaneContact, FrictionlessFindsTheOnlyAdmissibleSet) {
       const HeldSolution trial = body.hold(held, values);
       bool good = true;
       for (int i = 0; i < n; ++i)
-        good = good && (held[std::size_t(i)] ? trial.reaction[i] <= 0
-                                             : trial.displacement[i] <= values[i]);
+        good = good &&
+               (held[std::size_t(i)] ? trial.reaction[i] <= 0 : trial.displacement[i] <= values[i]);
       if (!good) continue;
       ++admissible;
       EXPECT_EQ(held, contact.active()) << "seed " << seed;

@@ -11,9 +11,9 @@ class ScratchFolder {
  public:
   ScratchFolder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            (std::string(test->test_suite_name()) + "." + test->name() + "." +
-             std::to_string(::getpid()));
+    path_ =
+        std::filesystem::temp_directory_path() / (std::string(test->test_suite_name()) + "." +
+                                                  test->name() + "." + std::to_string(::getpid()));
     std::filesystem::create_directories(path_);
   }
   ~ScratchFolder() { std::filesystem::remove_all(path_); }

@@ -39,7 +39,9 @@ struct ControlledRod {
 
   ControlledRod(const PidSettings& settings, const Vector3& shift)
       : pid(settings, rod.body().inertia_at_endpoint(),
-            [at = Vector3(rod.body().endpoint + shift)](double) { return Target{at, {0, 0, 0}, {0, 0, 0}}; }) {}
+            [at = Vector3(rod.body().endpoint + shift)](double) {
+              return Target{at, Vector3::Zero(), Vector3::Zero()};
+            }) {}
 
   void run(double duration, const Wrench& disturbance, double dt = 1e-6) {
     for (const double end = time + duration; time < end - 0.5 * dt; time += dt) {

@@ -49,9 +49,11 @@ inline lattice::State random_state(const lattice::LatticeModel& model, double am
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   lattice::State state(model);
   for (const std::size_t i : model.particles) {
-    const auto draw = [&] { return Vector3(uniform(generator), uniform(generator), uniform(generator)); };
-    state.displacement.set(i, amplitude * model.spacing() * draw());
-    state.velocity.set(i, speed * draw());
+    Vector3 shift, velocity;
+    for (int c = 0; c < 3; ++c) shift[c] = uniform(generator);
+    for (int c = 0; c < 3; ++c) velocity[c] = uniform(generator);
+    state.displacement.set(i, amplitude * model.spacing() * shift);
+    state.velocity.set(i, speed * velocity);
   }
   return state;
 }

@@ -21,7 +21,7 @@ RodBody rod_by_quadrature(const meshes::Geometry& g, double density, int slices)
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // about the origin
   for (int s = 0; s < slices; ++s) {
     const double z = from + (s + 0.5) * height;
-    const double radius2 = z > 0.0 ? g.rod_radius * g.rod_radius - z * z : g.rod_radius * g.rod_radius;
+    const double radius2 = g.rod_radius * g.rod_radius - (z > 0.0 ? z * z : 0.0);
     const double mass = density * std::numbers::pi * radius2 * height;
     body.mass += mass;
     moment += mass * z;

@@ -62,10 +62,12 @@ double power(const LatticeModel& model, const VectorField& force, const VectorFi
   return sum;
 }
 
+/// Sum of the forces' magnitudes, plus the round-off that even a body at rest has.
 double size_of(const LatticeModel& model, const VectorField& field) {
   double sum = 0.0;
   for (const std::size_t i : model.particles) sum += field.at(i).norm();
-  return sum;
+  const double stiffest = model.stiffness[0] + model.stiffness[1] + model.stiffness[2];
+  return sum + 1e-3 * stiffest * model.spacing();
 }
 
 bool kernel_equals_edge_list() {

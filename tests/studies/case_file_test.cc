@@ -70,11 +70,19 @@ TEST(Cases, RefusesCriteriaThatCannotBeJudged) {
 
 TEST(Measures, AreTakenFromTheSummaries) {
   using nlohmann::ordered_json;
-  const ordered_json perfect = {{"E_100", 3.0}, {"E_110", 3.0}, {"E_111", 3.03}, {"G", 1.1},
-                                {"nu_100", 0.25}, {"K", 2.0}, {"force_error", {0.01, -0.2}},
+  const ordered_json perfect = {{"E_100", 3.0},
+                                {"E_110", 3.0},
+                                {"E_111", 3.03},
+                                {"G", 1.1},
+                                {"nu_100", 0.25},
+                                {"K", 2.0},
+                                {"force_error", {0.01, -0.2}},
                                 {"relative_l2_force_error", 0.1}};
-  ordered_json summary = {{"target", {{"youngs_modulus", 3.0}, {"shear_modulus", 1.0},
-                                      {"poissons_ratio", 0.5}, {"bulk_modulus", 2.0}}},
+  ordered_json summary = {{"target",
+                           {{"youngs_modulus", 3.0},
+                            {"shear_modulus", 1.0},
+                            {"poissons_ratio", 0.5},
+                            {"bulk_modulus", 2.0}}},
                           {"reference", {{"relative_force_error", {0.001, nullptr}}}}};
   std::map<std::string, ordered_json> press;
   for (const std::string& model : validated_models()) {

@@ -11,8 +11,8 @@ namespace fs = std::filesystem;
 namespace {
 
 struct BadInput {
-  std::string set;                  ///< section.key=value
-  std::vector<std::string> told;    ///< what the message must contain
+  std::string set;                ///< section.key=value
+  std::vector<std::string> told;  ///< what the message must contain
 };
 
 void expect_refused(const fs::path& folder, const std::vector<std::string>& arguments,
@@ -72,14 +72,18 @@ TEST(BadInput, FilesAreNamedWithTheLine) {
   const TemporaryFolder folder;
   write_text(folder / "bad.toml", "[rubber]\n# a comment\nyoungs_modulus = \"40 N\"\nfoo = 1\n");
   for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"press", "--config", "bad.toml"}, {"check", "bad.toml"},
-        {"validate", "--config", "bad.toml"}, {"validate", "bad.toml"}}) {
-    expect_refused(folder.path(), words, {"bad.toml:3: rubber.youngs_modulus = 40 N: ",
-                                          "bad.toml:4: rubber.foo = 1: unknown key"});
+       {std::vector<std::string>{"press", "--config", "bad.toml"},
+        {"check", "bad.toml"},
+        {"validate", "--config", "bad.toml"},
+        {"validate", "bad.toml"}}) {
+    expect_refused(
+        folder.path(), words,
+        {"bad.toml:3: rubber.youngs_modulus = 40 N: ", "bad.toml:4: rubber.foo = 1: unknown key"});
   }
   write_text(folder / "truncated.toml", "[rubber]\nyoungs_modulus = \"40 gf");
   expect_refused(folder.path(), {"press", "--config", "truncated.toml"}, {"truncated.toml:2: "});
-  expect_refused(folder.path(), {"press", "--config", "absent.toml"}, {"absent.toml", "cannot be read"});
+  expect_refused(folder.path(), {"press", "--config", "absent.toml"},
+                 {"absent.toml", "cannot be read"});
 }
 
 TEST(BadInput, OutputFoldersAreNotOverwritten) {
@@ -87,7 +91,8 @@ TEST(BadInput, OutputFoldersAreNotOverwritten) {
   fs::create_directory(folder / "there");
   write_text(folder / "there/note.txt", "mine");
   expect_refused(folder.path(), {"press", "--out", "there"}, {"--out there", "exists already"});
-  expect_refused(folder.path(), {"calibrate", "--out", "there", "--force"}, {"no run", "--out there"});
+  expect_refused(folder.path(), {"calibrate", "--out", "there", "--force"},
+                 {"not the folder of a run", "--out there"});
   EXPECT_EQ(read_text(folder / "there/note.txt"), "mine");
   expect_refused(folder.path(), {"calibrate", "--out", "there/note.txt/x"}, {"cannot be written"});
   expect_refused(folder.path(), {"calibrate", "--out", "/proc/run"}, {"cannot be written"});

@@ -25,7 +25,9 @@ std::vector<std::string> with(std::vector<std::string> words, std::vector<std::s
   return words;
 }
 
-json json_of(const fs::path& file) { return json::parse(read_text(file)); }
+json json_of(const fs::path& file) {
+  return json::parse(read_text(file));
+}
 
 }  // namespace
 
@@ -47,8 +49,9 @@ TEST(Run, PressWritesACompleteFolderThatCanBeRunAgain) {
   EXPECT_NEAR(response.depth(), 0.0005, 1e-9);
 
   fs::remove_all(folder / "cache");
-  const ProgramResult again = run_program(
-      folder.path(), {"press", "--config", "one/parameters.toml", "--out", "two", "--threads", "1"});
+  const ProgramResult again =
+      run_program(folder.path(),
+                  {"press", "--config", "one/parameters.toml", "--out", "two", "--threads", "1"});
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(read_text(folder / "one/response.csv"), read_text(folder / "two/response.csv"));
 }
@@ -71,7 +74,8 @@ TEST(Run, ForceReplacesAndResumeKeeps) {
   EXPECT_EQ(run_program(folder.path(), with(words, {"--force"})).code, 0);
   EXPECT_EQ(run_program(folder.path(), with(words, {"--resume", "auto"})).code, 0);
   // Bad input after --force costs nothing of what is there.
-  EXPECT_EQ(run_program(folder.path(), with(words, {"--force", "--set", "run.time_step=1 s"})).code, 2);
+  EXPECT_EQ(run_program(folder.path(), with(words, {"--force", "--set", "run.time_step=1 s"})).code,
+            2);
   EXPECT_EQ(json_of(folder / "run/manifest.json")["status"], "finished");
 }
 
@@ -108,8 +112,8 @@ TEST(Run, CalibratedConstantsGoIntoAPress) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program(folder.path(), {"calibrate", "--out", "fit"}).code, 0);
   const ProgramResult result = run_program(
-      folder.path(), with(coarse_press, {"--set", "lattice.constants=fit/material.toml", "--out",
-                                         "pressed"}));
+      folder.path(),
+      with(coarse_press, {"--set", "lattice.constants=fit/material.toml", "--out", "pressed"}));
   ASSERT_EQ(result.code, 0) << result.err;
   const json moduli = json_of(folder / "pressed/summary.json")["moduli"];
   EXPECT_NEAR(moduli["E_100"].get<double>(), 3922.66, 1e-5);
@@ -117,8 +121,9 @@ TEST(Run, CalibratedConstantsGoIntoAPress) {
 
 TEST(Run, InterruptLeavesAReadableFolderThatCanBeResumed) {
   const TemporaryFolder folder;
-  const std::vector<std::string> words = {"press", "--set", "lattice.spacing=tip_radius/10", "--set",
-                                          "press.speed=0.3 cm/s", "--out", "run"};
+  const std::vector<std::string> words = {
+      "press", "--set", "lattice.spacing=tip_radius/10", "--set", "press.speed=0.3 cm/s",
+      "--out", "run"};
   Program program(folder.path(), words);
   // Long enough for first results, far from long enough to finish.
   for (int i = 0; i < 600 && !fs::exists(folder / "run/summary.json"); ++i) {
@@ -134,9 +139,9 @@ TEST(Run, InterruptLeavesAReadableFolderThatCanBeResumed) {
   EXPECT_NO_THROW(PressResponse::read_csv(folder / "run/response.csv"));
   EXPECT_FALSE(fs::exists(folder / "run/finished.json"));
   // What is half done is not mistaken for a result.
-  const ProgramResult resumed = run_program(
-      folder.path(), {"press", "--set", "lattice.spacing=tip_radius/6", "--set",
-                      "press.depth=0.02 cm", "--out", "run", "--resume", "auto"});
+  const ProgramResult resumed =
+      run_program(folder.path(), {"press", "--set", "lattice.spacing=tip_radius/6", "--set",
+                                  "press.depth=0.02 cm", "--out", "run", "--resume", "auto"});
   EXPECT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_EQ(json_of(folder / "run/manifest.json")["status"], "finished");
 }
@@ -144,8 +149,10 @@ TEST(Run, InterruptLeavesAReadableFolderThatCanBeResumed) {
 TEST(Run, CompareTellsDifferences) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program(folder.path(), with(coarse_press, {"--out", "hookean"})).code, 0);
-  ASSERT_EQ(run_program(folder.path(), with(coarse_press, {"--out", "central", "--set",
-                                                           "lattice.model=central"})).code, 0);
+  ASSERT_EQ(run_program(folder.path(),
+                        with(coarse_press, {"--out", "central", "--set", "lattice.model=central"}))
+                .code,
+            0);
   const ProgramResult result = run_program(folder.path(), {"compare", "hookean", "central"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("relative L2 difference"), std::string::npos);

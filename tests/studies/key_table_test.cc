@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <toml++/toml.h>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <toml++/toml.h>
 
 #include "studies/config/documents.h"
 #include "studies/config/value_reader.h"
@@ -26,16 +26,26 @@ TEST(KeyTable, NamesAreUniqueAndEverySectionIsDescribed) {
 
 TEST(KeyTable, HasTheContractsKeysWithItsDefaults) {
   const std::pair<const char*, const char*> contract[] = {
-      {"geometry.tip_radius", "\"1 cm\""},       {"geometry.rod_radius", "\"0.5 cm\""},
-      {"geometry.sleeve_length", "\"1.5 cm\""},  {"geometry.rod_length", "\"3 cm\""},
-      {"rubber.youngs_modulus", "\"40 gf/cm^2\""}, {"rubber.shear_modulus", "\"14 gf/cm^2\""},
-      {"rubber.density", "\"0.5 g/cm^3\""},      {"rubber.retardation_time", "\"0.3 ms\""},
-      {"rod.density", "\"2.7 g/cm^3\""},         {"lattice.model", "\"hookean\""},
-      {"lattice.spacing", "\"tip_radius/12\""},  {"lattice.constants", "\"auto\""},
-      {"lattice.ligament_stiffness", "1.0"},     {"press.mode", "\"pid\""},
-      {"press.contact", "\"stick\""},            {"press.depth", "\"0.3 cm\""},
-      {"press.speed", "\"1 cm/s\""},             {"press.clearance", "\"0.05 cm\""},
-      {"press.samples", "[]"},                   {"controller.period", "\"1 ms\""}};
+      {"geometry.tip_radius", "\"1 cm\""},
+      {"geometry.rod_radius", "\"0.5 cm\""},
+      {"geometry.sleeve_length", "\"1.5 cm\""},
+      {"geometry.rod_length", "\"3 cm\""},
+      {"rubber.youngs_modulus", "\"40 gf/cm^2\""},
+      {"rubber.shear_modulus", "\"14 gf/cm^2\""},
+      {"rubber.density", "\"0.5 g/cm^3\""},
+      {"rubber.retardation_time", "\"0.3 ms\""},
+      {"rod.density", "\"2.7 g/cm^3\""},
+      {"lattice.model", "\"hookean\""},
+      {"lattice.spacing", "\"tip_radius/12\""},
+      {"lattice.constants", "\"auto\""},
+      {"lattice.ligament_stiffness", "1.0"},
+      {"press.mode", "\"pid\""},
+      {"press.contact", "\"stick\""},
+      {"press.depth", "\"0.3 cm\""},
+      {"press.speed", "\"1 cm/s\""},
+      {"press.clearance", "\"0.05 cm\""},
+      {"press.samples", "[]"},
+      {"controller.period", "\"1 ms\""}};
   for (const auto& [name, preset] : contract) {
     const Key* key = find_key(name);
     ASSERT_NE(key, nullptr) << name;
@@ -75,6 +85,7 @@ TEST(KeyTable, DefaultsAreThoseOfTheRooms) {
   EXPECT_EQ(resolved.press.controller.period, rooms.controller.period);
   EXPECT_EQ(resolved.press.controller.natural_frequency, rooms.controller.natural_frequency);
   EXPECT_EQ(resolved.press.controller.derivative_filter, rooms.controller.derivative_filter);
+  EXPECT_EQ(resolved.press.controller.bond_compensation, rooms.controller.bond_compensation);
   EXPECT_EQ(resolved.press.controller.force_limit, rooms.controller.force_limit);
   EXPECT_EQ(resolved.press.controller.torque_limit, rooms.controller.torque_limit);
   EXPECT_EQ(resolved.press.integrator, rooms.integrator);

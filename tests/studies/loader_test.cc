@@ -49,16 +49,24 @@ TEST(Loader, ParametersFileReproducesEveryKey) {
   const TemporaryFolder folder;
   write_text(folder / "material.toml", "");
   write_text(folder / "in.toml", "[lattice]\nconstants = 'material.toml'\n");
-  const std::vector<std::string> sets = {
-      "geometry.tip_radius=12 mm",  "rubber.youngs_modulus=3.92 kPa", "lattice.model=central",
-      "lattice.spacing=tip_radius/9", "lattice.offset=[0.25, 0, -0.5]", "press.contact=frictionless",
-      "press.samples=[\"0.1 cm\", \"0.05 cm\"]", "run.time_step=1e-5 s", "reference.degree=1",
-      "reference.estimate_error=false", "lattice.kinematics=finite", "run.integrator=explicit-euler"};
+  const std::vector<std::string> sets = {"geometry.tip_radius=12 mm",
+                                         "rubber.youngs_modulus=3.92 kPa",
+                                         "lattice.model=central",
+                                         "lattice.spacing=tip_radius/9",
+                                         "lattice.offset=[0.25, 0, -0.5]",
+                                         "press.contact=frictionless",
+                                         "press.samples=[\"0.1 cm\", \"0.05 cm\"]",
+                                         "run.time_step=1e-5 s",
+                                         "reference.degree=1",
+                                         "reference.estimate_error=false",
+                                         "lattice.kinematics=finite",
+                                         "run.integrator=explicit-euler"};
   const LoadedConfig first = load_config({folder / "in.toml", sets, "3"});
   write_text(folder / "parameters.toml", parameters_toml(first, "test"));
   const LoadedConfig second = load_config({folder / "parameters.toml", {}, {}});
   for (const Key& key : key_table()) {
-    EXPECT_EQ(first.entries.at(key.full_name()).literal, second.entries.at(key.full_name()).literal);
+    EXPECT_EQ(first.entries.at(key.full_name()).literal,
+              second.entries.at(key.full_name()).literal);
   }
   EXPECT_EQ(second.config.press.geometry.tip_radius, 0.012);
   EXPECT_EQ(second.config.press.lattice.spacing, 0.012 / 9.0);
@@ -94,24 +102,25 @@ TEST(Loader, LaterSourcesWin) {
 }
 
 TEST(Loader, SamplesSetTheDepthAndSaySo) {
-  const LoadedConfig loaded = load_config(
-      {{}, {"press.samples=[\"0.2 cm\", \"0.1 cm\"]", "press.depth=0.3 cm"}, {}});
+  const LoadedConfig loaded =
+      load_config({{}, {"press.samples=[\"0.2 cm\", \"0.1 cm\"]", "press.depth=0.3 cm"}, {}});
   EXPECT_EQ(loaded.config.press.protocol.depth, 0.002);
   EXPECT_EQ(loaded.config.reference.samples, (std::vector<double>{0.001, 0.002}));
   ASSERT_EQ(loaded.notes.size(), 1U);
 }
 
 TEST(Loader, CollectsAllProblemsWithTheirLines) {
-  const auto problems = problems_of(
-      "[rubber]\nyoungs_modulus = \"40 N\"\ndensty = \"1 g/cm^3\"\n[latice]\nx = 1\n", {"press.speed=0 m/s"});
+  const auto problems =
+      problems_of("[rubber]\nyoungs_modulus = \"40 N\"\ndensty = \"1 g/cm^3\"\n[latice]\nx = 1\n",
+                  {"press.speed=0 m/s"});
   ASSERT_EQ(problems.size(), 4U);
   std::string all;
   for (const Problem& problem : problems) all += to_string(problem) + "\n";
-  for (const char* part : {"case.toml:2: rubber.youngs_modulus = 40 N: ", "wrong dimension",
-                           "case.toml:3: rubber.densty = 1 g/cm^3: unknown key",
-                           "nearest valid key is rubber.density", "case.toml:4: latice",
-                           "nearest valid section is [lattice]",
-                           "--set press.speed=0 m/s: press.speed = 0 m/s: must be > 0 m/s"}) {
+  for (const char* part :
+       {"case.toml:2: rubber.youngs_modulus = 40 N: ", "wrong dimension",
+        "case.toml:3: rubber.densty = 1 g/cm^3: unknown key", "nearest valid key is rubber.density",
+        "case.toml:4: latice", "nearest valid section is [lattice]",
+        "--set press.speed=0 m/s: press.speed = 0 m/s: must be > 0 m/s"}) {
     EXPECT_NE(all.find(part), std::string::npos) << part << "\nin\n" << all;
   }
 }
@@ -131,25 +140,42 @@ TEST(Loader, DomainRulesNameTheValueThatWasWritten) {
 TEST(Loader, AnUnreadableValueDoesNotBreakFurtherRules) {
   // rod_radius keeps its default 0.5 cm, which tip_radius = 0.4 cm would violate.
   const auto problems = problems_of(
-      "[geometry]\ntip_radius = \"0.4 cm\"\nrod_radius = \"0.2 gf\"\n[press]\ndepth = \"0.1 cm\"\n");
+      "[geometry]\ntip_radius = \"0.4 cm\"\nrod_radius = \"0.2 gf\"\n[press]\ndepth = \"0.1 "
+      "cm\"\n");
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].key, "geometry.rod_radius");
 }
 
 TEST(Loader, RefusesWrongKindsOfValues) {
-  for (const char* set :
-       {"press.depth=nan", "press.depth=3", "press.depth=true", "press.samples=0.1 cm",
-        "press.samples=[1, 2]", "lattice.offset=[0, 0]", "lattice.offset=[0, 0, inf]",
-        "lattice.offset=[0, 0, 1.5]", "reference.degree=2.0", "reference.degree=3",
-        "reference.fields=yes", "lattice.model=3", "lattice.model=network", "lattice.constants=",
-        "lattice.spacing=tip_radius/0", "lattice.spacing=tip_radius/x", "run.time_step=soon",
-        "run.threads=-1", "press.depth", "depth=0.1 cm", "press=1", "press.depth=\n[x]\ny=1"}) {
+  for (const char* set : {"press.depth=nan",
+                          "press.depth=3",
+                          "press.depth=true",
+                          "press.samples=0.1 cm",
+                          "press.samples=[1, 2]",
+                          "lattice.offset=[0, 0]",
+                          "lattice.offset=[0, 0, inf]",
+                          "lattice.offset=[0, 0, 1.5]",
+                          "reference.degree=2.0",
+                          "reference.degree=3",
+                          "reference.fields=yes",
+                          "lattice.model=3",
+                          "lattice.model=network",
+                          "lattice.constants=",
+                          "lattice.spacing=tip_radius/0",
+                          "lattice.spacing=tip_radius/x",
+                          "run.time_step=soon",
+                          "run.threads=-1",
+                          "press.depth",
+                          "depth=0.1 cm",
+                          "press=1",
+                          "press.depth=\n[x]\ny=1"}) {
     EXPECT_EQ(problems_of_set(set).size(), 1U) << set;
   }
 }
 
 TEST(Loader, RefusesFilesThatAreNoConfiguration) {
-  EXPECT_EQ(problems_of("[rubber]\nyoungs_modulus = \"40 gf").at(0).rule.find("not valid TOML"), 0U);
+  EXPECT_EQ(problems_of("[rubber]\nyoungs_modulus = \"40 gf").at(0).rule.find("not valid TOML"),
+            0U);
   EXPECT_EQ(problems_of("rubber = 3").size(), 1U);
   EXPECT_EQ(problems_of("[rubber.density]\nx = 1").size(), 1U);
   EXPECT_THROW(load_config({"/nowhere/at/all.toml", {}, {}}), ConfigError);

@@ -44,8 +44,8 @@ TEST(PressSetup, CalibratedHookeanAgreesWithItsClosedForm) {
 TEST(PressSetup, TakesConstantsFromAMaterialFileAtAnySpacing) {
   const TemporaryFolder folder;
   const LoadedConfig loaded = load_config({{}, {"lattice.model=central"}, {}});
-  const Job job = moduli_job(loaded.config.press.rubber,
-                             fit_options(loaded, lattice::ModelKind::central));
+  const Job job =
+      moduli_job(loaded.config.press.rubber, fit_options(loaded, lattice::ModelKind::central));
   const JobContext context{[](double, const std::string&) { return true; },
                            [](const std::string&) {}, 1};
   job.run(folder.path(), context);
@@ -65,7 +65,9 @@ TEST(PressSetup, RefusesWhatTheLatticeCannotDo) {
 }
 
 TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
-  const auto key = [](std::vector<std::string> sets) { return press_job(setup_of(std::move(sets))).key(); };
+  const auto key = [](std::vector<std::string> sets) {
+    return press_job(setup_of(std::move(sets))).key();
+  };
   EXPECT_EQ(key({}), key({"run.threads=1"}));
   EXPECT_EQ(key({}), key({"rubber.youngs_modulus=3922.66 Pa"}));
   EXPECT_EQ(key({}), key({"lattice.constants=rule"}));

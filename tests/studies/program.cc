@@ -17,7 +17,8 @@ Program::Program(const fs::path& folder, const std::vector<std::string>& argumen
   const std::string err = (folder / "stderr").string();
   const std::string cache = (folder / "cache").string();
   std::vector<char*> words = {const_cast<char*>(program.c_str())};
-  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
   process_ = ::fork();
   if (process_ != 0) return;
@@ -28,7 +29,9 @@ Program::Program(const fs::path& folder, const std::vector<std::string>& argumen
   ::_exit(127);
 }
 
-void Program::send(int signal) const { ::kill(process_, signal); }
+void Program::send(int signal) const {
+  ::kill(process_, signal);
+}
 
 ProgramResult Program::wait() {
   int status = 0;

@@ -27,7 +27,8 @@ TEST(RunFolder, TellsWhatItIsFromTheFirstMoment) {
   const auto manifest = read_json(place / "a/b/run/manifest.json");
   EXPECT_EQ(manifest["status"], "running");
   EXPECT_EQ(manifest["command_line"][1], "press");
-  for (const char* entry : {"version", "source_hash", "input_hash", "packages", "host", "started"}) {
+  for (const char* entry :
+       {"version", "source_hash", "input_hash", "packages", "host", "started"}) {
     EXPECT_TRUE(manifest.contains(entry)) << entry;
   }
   EXPECT_EQ(load_config({folder.path() / "parameters.toml", {}, {}}).config.press.protocol.depth,

@@ -22,9 +22,9 @@ std::vector<fingertip::lattice::TraceRow> steady_trace() {
 
 TEST(Tracking, IgnoresTheStartAndSeparatesTheTouch) {
   auto trace = steady_trace();
-  trace[10].speed = 0.0;      // settling
-  trace[75].speed = 0.009;    // within 20 ms after first touch
-  trace[85].speed = 0.0101;   // after them
+  trace[10].speed = 0.0;     // settling
+  trace[75].speed = 0.009;   // within 20 ms after first touch
+  trace[95].speed = 0.0101;  // after them
   trace[60].tilt = -0.001;
   const Tracking tracking = measure_tracking(trace, 0.070);
   EXPECT_NEAR(tracking.speed_deviation_at_touch, 0.1, 1e-12);

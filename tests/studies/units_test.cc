@@ -8,7 +8,9 @@ using fingertip::studies::UnitError;
 
 namespace {
 
-double pressure(const std::string& text) { return parse_quantity(text, "Pa", "40 gf/cm^2"); }
+double pressure(const std::string& text) {
+  return parse_quantity(text, "Pa", "40 gf/cm^2");
+}
 
 std::string rule_broken_by(const std::string& text, const std::string& unit) {
   try {
@@ -56,9 +58,9 @@ TEST(Units, RefusesWhatIsNoQuantityOfTheDimension) {
 }
 
 TEST(Units, RefusesWhatOnlyLooksConvertible) {
-  EXPECT_NE(rule_broken_by("10 s", "Hz"), "");         // the reciprocal
-  EXPECT_NE(rule_broken_by("377 rad/s", "Hz"), "");    // would be wrong by 2 pi
-  EXPECT_NE(rule_broken_by("20 degC", "K"), "");       // has an offset
+  EXPECT_NE(rule_broken_by("10 s", "Hz"), "");       // the reciprocal
+  EXPECT_NE(rule_broken_by("377 rad/s", "Hz"), "");  // would be wrong by 2 pi
+  EXPECT_NE(rule_broken_by("20 degC", "K"), "");     // has an offset
 }
 
 TEST(Units, ConvertsBack) {

@@ -1,0 +1,104 @@
+// The whole path from rubber to report, on meshes coarse enough for a test.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "meshes/press_response.h"
+#include "program.h"
+#include "temporary_folder.h"
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* coarse_case = R"(
+[lattice]
+spacing = "tip_radius/6"
+[press]
+depth = "0.03 cm"
+speed = "2 cm/s"
+[reference]
+refinement = 0.5
+[case]
+title = "Coarse"
+[[case.criteria]]
+name = "nu of hookean"
+measure = "hookean.poissons_ratio_error"
+limit = 1e-9
+)";
+
+constexpr const char* impossible_criterion = R"(
+[[case.criteria]]
+name = "central springs reach the bulk modulus"
+measure = "central.bulk_modulus_error"
+limit = 0.1
+)";
+
+}  // namespace
+
+TEST(Validate, GoesFromRubberToReportAndComesFromTheCacheAfterwards) {
+  const TemporaryFolder folder;
+  write_text(folder / "coarse.toml", coarse_case);
+  const ProgramResult first =
+      run_program(folder.path(), {"validate", "coarse.toml", "--out", "one"});
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_NE(first.out.find("hookean"), std::string::npos);
+  EXPECT_NE(first.out.find("one/report.html"), std::string::npos);
+  for (const char* file :
+       {"report.html", "summary.json", "cubes.csv", "published_study.csv", "parameters.toml",
+        "reference/response.csv", "reference/fields/press.pvd", "published/trace.csv",
+        "central/response.csv", "hookean/boundary.csv", "calibration_hookean/material.toml"}) {
+    EXPECT_TRUE(fs::exists(folder / "one" / file)) << file;
+  }
+  const json summary = json::parse(read_text(folder / "one/summary.json"));
+  EXPECT_EQ(summary["depths"].size(), 5U);
+  for (const char* model : {"published", "central", "hookean"}) {
+    const json& entry = summary["models"][model];
+    for (const char* key : {"E_100", "E_110", "E_111", "G", "nu_100", "K", "real_time_factor"}) {
+      EXPECT_TRUE(entry[key].is_number()) << model << " " << key;
+    }
+    EXPECT_EQ(entry["force_error"].size(), 5U);
+    EXPECT_EQ(entry["status"], "ok");
+  }
+  EXPECT_EQ(summary["criteria"][0]["passed"], true);
+
+  const auto start = std::chrono::steady_clock::now();
+  const ProgramResult second =
+      run_program(folder.path(), {"validate", "--config", "one/parameters.toml", "--out", "two"});
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_LT(taken.count(), 5.0);
+  EXPECT_EQ(read_text(folder / "two/log.txt").find(": started\n"), std::string::npos);
+  json again = json::parse(read_text(folder / "two/summary.json"));
+  again["case"] = summary["case"];
+  EXPECT_EQ(again, summary);
+
+  // Criteria only judge: nothing is computed anew, and 4 says that one has failed.
+  write_text(folder / "strict.toml", std::string(coarse_case) + impossible_criterion);
+  const ProgramResult strict =
+      run_program(folder.path(), {"validate", "strict.toml", "--out", "three"});
+  EXPECT_EQ(strict.code, 4) << strict.err;
+  EXPECT_TRUE(fs::exists(folder / "three/report.html"));
+  EXPECT_EQ(json::parse(read_text(folder / "three/manifest.json"))["status"], "criteria failed");
+
+  EXPECT_EQ(run_program(folder.path(), {"report", "three"}).code, 0);
+  EXPECT_EQ(run_program(folder.path(), {"compare", "one", "--out", "compared"}).code, 0);
+  EXPECT_TRUE(fs::exists(folder / "compared/comparison.csv"));
+}
+
+TEST(Validate, ReferenceHasExactlyTheSamples) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(
+      folder.path(), {"reference", "--out", "run", "--set", "reference.refinement=0.5", "--set",
+                      "reference.estimate_error=false", "--set", "press.contact=frictionless",
+                      "--set", "press.samples=[\"0.01 cm\", \"0.04 cm\"]"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto response = fingertip::meshes::PressResponse::read_csv(folder / "run/response.csv");
+  ASSERT_EQ(response.samples().size(), 2U);
+  EXPECT_EQ(response.samples()[0].indentation, 1e-4);
+  EXPECT_EQ(response.samples()[1].indentation, 4e-4);
+  EXPECT_TRUE(fs::exists(folder / "run/fields/press.pvd"));
+}
