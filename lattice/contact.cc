@@ -43,8 +43,8 @@ PlaneContact::PlaneContact(const LatticeModel& model, const meshes::Geometry& ge
       c.eligible = true;
     } else {
       const double reach = distance_to_surface(rest, -normal_, geometry.tip_radius);
-      c.eligible = std::isfinite(reach) && -normal_.dot(rest) > 0.0 &&
-                   !covered(model, particle, -normal_);
+      c.eligible =
+          std::isfinite(reach) && -normal_.dot(rest) > 0.0 && !covered(model, particle, -normal_);
       if (c.eligible) c.rest_gap -= reach;
     }
     candidates_.push_back(c);

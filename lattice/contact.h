@@ -40,10 +40,10 @@ class PlaneContact {
  private:
   struct Candidate {
     std::uint32_t particle = 0;
-    bool eligible = false;     ///< may touch: the model's contact rule
+    bool eligible = false;  ///< may touch: the model's contact rule
     bool held = false;
-    double rest_gap = 0.0;     ///< of its contact point [m]
-    double lateral = 0.0;      ///< distance from the axis at rest [m]
+    double rest_gap = 0.0;                                   ///< of its contact point [m]
+    double lateral = 0.0;                                    ///< distance from the axis at rest [m]
     meshes::Vector3 displacement = meshes::Vector3::Zero();  ///< at the last step, or held at [m]
   };
 

@@ -101,8 +101,7 @@ void Finger::close_step(const Vector3& applied_impulse) {
 }
 
 double Finger::elastic_energy() const {
-  return lattice::elastic_energy(*model_, state_) +
-         ligament_energy(*model_, state_, rod_.pose());
+  return lattice::elastic_energy(*model_, state_) + ligament_energy(*model_, state_, rod_.pose());
 }
 
 }  // namespace fingertip::lattice

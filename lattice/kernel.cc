@@ -25,9 +25,17 @@ int supported_width() {
   return __builtin_cpu_supports("avx2") ? 4 : 2;
 }
 
-Kernel select(const Variant& variant, int width) { return offer(width).select(variant); }
-Kernel select(const Variant& variant) { return select(variant, supported_width()); }
-MoveParticles select_move(int width) { return offer(width).move; }
-MoveParticles select_move() { return select_move(supported_width()); }
+Kernel select(const Variant& variant, int width) {
+  return offer(width).select(variant);
+}
+Kernel select(const Variant& variant) {
+  return select(variant, supported_width());
+}
+MoveParticles select_move(int width) {
+  return offer(width).move;
+}
+MoveParticles select_move() {
+  return select_move(supported_width());
+}
 
 }  // namespace fingertip::lattice::kernel

@@ -13,8 +13,8 @@ struct Arrays {
   const double* velocity[3];
   const double* weight[13];
   const double* cell_weight;
-  double* force[3];      ///< written at every point of the blocks [N]
-  double* cell_force[9]; ///< scratch per cell: small kinematics use the first one only
+  double* force[3];       ///< written at every point of the blocks [N]
+  double* cell_force[9];  ///< scratch per cell: small kinematics use the first one only
   std::ptrdiff_t neighbour[13];
   std::ptrdiff_t row, plane;  ///< offsets to the next point along y and z
   double spacing;

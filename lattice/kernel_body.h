@@ -241,8 +241,8 @@ struct Body {
     }
   }
 
-  static void move(const Motion& m, const std::uint32_t* blocks, std::size_t begin,
-                   std::size_t end, double momentum[3]) {
+  static void move(const Motion& m, const std::uint32_t* blocks, std::size_t begin, std::size_t end,
+                   double momentum[3]) {
     const Pack step = m.step;
     for (int c = 0; c < 3; ++c) {
       // Summed lane by lane first, so that the sum does not depend on the register width.

@@ -6,6 +6,8 @@ namespace fingertip::lattice::kernel {
 using Pack = std::experimental::native_simd<double>;
 static_assert(Pack::size() == 4, "wrong compiler flags");
 
-Offer offer_width4() { return {Body<Pack>::select, Body<Pack>::move}; }
+Offer offer_width4() {
+  return {Body<Pack>::select, Body<Pack>::move};
+}
 
 }  // namespace fingertip::lattice::kernel

@@ -112,8 +112,7 @@ void connect_particles(LatticeModel& model, std::vector<std::uint8_t> is_particl
 }
 
 /// Central and hookean: every cell adds its share of springs and mass.
-void assemble_cells(LatticeModel& model, const std::vector<std::uint8_t>& is_cell,
-                    double density) {
+void assemble_cells(LatticeModel& model, const std::vector<std::uint8_t>& is_cell, double density) {
   allocate(model);
   model.cells = marked_points(is_cell);
   const double corner_mass = density * std::pow(model.spacing(), 3) / 8.0;
@@ -186,9 +185,8 @@ void hang_on_ligaments(LatticeModel& model, const Geometry& geometry, double lay
   const double reach = geometry.rod_radius + model.spacing() + 1e-9 * geometry.tip_radius;
   for (const std::uint32_t i : model.particles) {
     if (Geometry::radial_distance(model.rest_position(i)) > reach) continue;
-    model.ligaments.push_back(
-        {i, model.rest_position(i), layer_stiffness,
-         2.0 * std::sqrt(model.mass[i] * layer_stiffness)});
+    model.ligaments.push_back({i, model.rest_position(i), layer_stiffness,
+                               2.0 * std::sqrt(model.mass[i] * layer_stiffness)});
   }
 }
 

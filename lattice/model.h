@@ -19,10 +19,10 @@ namespace fingertip::lattice {
 /// rigid rod (extended beyond its surface) that coincides with the particle at rest.
 /// Energy ½ k |x_p - T(X_p)|², T the rod's pose (README: bond).
 struct Ligament {
-  std::size_t particle = 0;  ///< grid index
+  std::size_t particle = 0;                        ///< grid index
   meshes::Vector3 rest = meshes::Vector3::Zero();  ///< X_p [m]
-  double stiffness = 0.0;    ///< k [N/m]
-  double damping = 0.0;      ///< mu [N s/m]
+  double stiffness = 0.0;                          ///< k [N/m]
+  double damping = 0.0;                            ///< mu [N s/m]
 };
 
 /// Immutable after construction. All arrays named "per point" run over the grid's points, x

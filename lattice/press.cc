@@ -81,9 +81,9 @@ Press::Press(const PressSetup& setup, const PressObserver& observer)
   outcome_.census = take_census(setup, model_);
   outcome_.step =
       choose_step(model_, rod_, setup.integrator, setup.time_step, setup.controller.period);
-  finger_ = std::make_unique<Finger>(
-      model_, rod_, PlaneContact(model_, setup.geometry, plane_, protocol.contact),
-      setup.integrator, outcome_.step.step, setup.threads);
+  finger_ = std::make_unique<Finger>(model_, rod_,
+                                     PlaneContact(model_, setup.geometry, plane_, protocol.contact),
+                                     setup.integrator, outcome_.step.step, setup.threads);
   recorder_ = std::make_unique<PressRecorder>(protocol, plane_, *finger_, outcome_);
   if (protocol.mode == meshes::DriveMode::pid) {
     const Vector3 start = rod_.endpoint;
@@ -98,8 +98,7 @@ Press::Press(const PressSetup& setup, const PressObserver& observer)
 }
 
 double Press::indentation() const {
-  return (rod_.endpoint - finger_->rod().endpoint()).dot(plane_.normal) -
-         setup_.protocol.clearance;
+  return (rod_.endpoint - finger_->rod().endpoint()).dot(plane_.normal) - setup_.protocol.clearance;
 }
 
 void Press::sample_controller() {

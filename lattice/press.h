@@ -49,20 +49,20 @@ struct LatticeCensus {
 };
 
 struct PressOutcome {
-  meshes::PressResponse response;   ///< at the sample depths and evenly in between
+  meshes::PressResponse response;  ///< at the sample depths and evenly in between
   std::vector<TraceRow> trace;
   StepReport step;
   LatticeCensus census;
-  double simulated_time = 0.0;      ///< [s]
-  double wall_time = 0.0;           ///< of the step loop alone [s]
+  double simulated_time = 0.0;                ///< [s]
+  double wall_time = 0.0;                     ///< of the step loop alone [s]
   double first_touch_time = meshes::unknown;  ///< [s]
   /// Largest defect of the momentum balance of rod, tip and plane over a step, relative to the
   /// largest impulse exchanged.
   double momentum_defect = 0.0;
-  std::vector<meshes::Vector3> boundary_rest;      ///< boundary particles at rest [m] ...
-  std::vector<meshes::Vector3> boundary_deformed;  ///< ... and at the end [m]
-  std::vector<std::array<int, 2>> boundary_springs;///< pairs of them joined by axis springs
-  std::vector<std::uint8_t> boundary_anchored;     ///< 1 where held by the plane
+  std::vector<meshes::Vector3> boundary_rest;        ///< boundary particles at rest [m] ...
+  std::vector<meshes::Vector3> boundary_deformed;    ///< ... and at the end [m]
+  std::vector<std::array<int, 2>> boundary_springs;  ///< pairs of them joined by axis springs
+  std::vector<std::uint8_t> boundary_anchored;       ///< 1 where held by the plane
 
   /// Simulated over wall time.
   double real_time_factor() const { return wall_time > 0.0 ? simulated_time / wall_time : 0.0; }

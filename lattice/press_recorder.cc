@@ -53,8 +53,8 @@ void PressRecorder::find_boundary() {
 
 meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
                                                   double indentation) const {
-  const double fraction = (indentation - previous_.indentation) /
-                          (end.indentation - previous_.indentation);
+  const double fraction =
+      (indentation - previous_.indentation) / (end.indentation - previous_.indentation);
   const auto between = [fraction](const auto& from, const auto& to) {
     return (from + fraction * (to - from));
   };

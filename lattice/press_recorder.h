@@ -41,12 +41,12 @@ class PressRecorder {
   meshes::Vector3 normal_;
   const Finger* finger_;
   PressOutcome* outcome_;
-  std::vector<double> depths_;          ///< increasing [m]
-  std::vector<std::uint8_t> is_sample_; ///< whether the protocol asked for the depth
+  std::vector<double> depths_;           ///< increasing [m]
+  std::vector<std::uint8_t> is_sample_;  ///< whether the protocol asked for the depth
   std::size_t next_ = 0;
   PressInstant previous_;
-  double plane_impulse_ = 0.0;          ///< along the normal since the last trace row [N s]
-  double plane_since_ = 0.0;            ///< time of the last trace row [s]
+  double plane_impulse_ = 0.0;  ///< along the normal since the last trace row [N s]
+  double plane_since_ = 0.0;    ///< time of the last trace row [s]
 };
 
 }  // namespace fingertip::lattice

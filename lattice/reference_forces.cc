@@ -27,17 +27,15 @@ Vector3 spring_force(const LatticeModel& model, const State& state, std::size_t 
   return (k * (d.norm() - rest.norm()) + mu * rate.dot(direction)) * direction;
 }
 
-void add_cell(const LatticeModel& model, const State& state, std::size_t cell,
-              VectorField& force) {
+void add_cell(const LatticeModel& model, const State& state, std::size_t cell, VectorField& force) {
   const double a = model.spacing();
   Eigen::Matrix3d edges = a * Eigen::Matrix3d::Identity();
   if (model.kinematics == Kinematics::finite) edges += mean_edges(model, state.displacement, cell);
   // dV/d(edge k) is the face vector spanned by the other two edges.
   const Eigen::Matrix3d faces = edges.inverse().transpose() * edges.determinant();
   const Eigen::Matrix3d rates = mean_edges(model, state.velocity, cell);
-  const double pressure =
-      model.volume_stiffness * volume_change(model, state.displacement, cell) +
-      model.volume_damping * faces.cwiseProduct(rates).sum() / (a * a * a);
+  const double pressure = model.volume_stiffness * volume_change(model, state.displacement, cell) +
+                          model.volume_damping * faces.cwiseProduct(rates).sum() / (a * a * a);
   for (int c = 0; c < 8; ++c) {
     Vector3 face = Vector3::Zero();
     for (int k = 0; k < 3; ++k) face += (c >> k & 1 ? 0.25 : -0.25) * faces.col(k);

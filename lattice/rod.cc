@@ -60,7 +60,9 @@ Eigen::Quaterniond rotation_by(const Vector3& turn) {
 
 RodState::RodState(const RodBody& body) : body_(body), centre_(body.centre) {}
 
-Pose RodState::pose() const { return {centre_ - orientation_ * body_.centre, orientation_}; }
+Pose RodState::pose() const {
+  return {centre_ - orientation_ * body_.centre, orientation_};
+}
 
 Matrix3d RodState::world_inertia() const {
   const Matrix3d turn = orientation_.toRotationMatrix();

@@ -17,7 +17,7 @@ struct Wrench {
 
 /// Where a rigid body is: x = position + orientation * X for a body-frame point X.
 struct Pose {
-  meshes::Vector3 position = meshes::Vector3::Zero();                    ///< [m]
+  meshes::Vector3 position = meshes::Vector3::Zero();  ///< [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 
   meshes::Vector3 operator*(const meshes::Vector3& body_point) const {
@@ -28,10 +28,10 @@ struct Pose {
 /// Mass properties of the cylinder (radius r, from z = 0 to -l) with the hemisphere on top, in the
 /// finger's frame.
 struct RodBody {
-  double mass = 0.0;                                          ///< M [kg]
-  meshes::Vector3 centre = meshes::Vector3::Zero();           ///< centre of mass [m]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();          ///< about the centre of mass [kg m²]
-  meshes::Vector3 endpoint = meshes::Vector3::Zero();         ///< (0, 0, -l) [m]
+  double mass = 0.0;                                   ///< M [kg]
+  meshes::Vector3 centre = meshes::Vector3::Zero();    ///< centre of mass [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   ///< about the centre of mass [kg m²]
+  meshes::Vector3 endpoint = meshes::Vector3::Zero();  ///< (0, 0, -l) [m]
 
   /// 6 x 6 inertia about the endpoint: (force, torque) = I (acceleration, angular acceleration)
   /// for a body at rest in its starting orientation.
@@ -47,15 +47,15 @@ class RodState {
   /// At rest where the geometry puts it.
   explicit RodState(const RodBody& body);
 
-  Pose pose() const;                               ///< of the finger's frame
+  Pose pose() const;  ///< of the finger's frame
   meshes::Vector3 endpoint() const { return pose() * body_.endpoint; }
-  const meshes::Vector3& centre() const { return centre_; }  ///< centre of mass [m]
+  const meshes::Vector3& centre() const { return centre_; }            ///< centre of mass [m]
   meshes::Vector3 velocity() const { return momentum_ / body_.mass; }  ///< of the centre [m/s]
-  meshes::Vector3 angular_velocity() const;        ///< [rad/s], world axes
+  meshes::Vector3 angular_velocity() const;                            ///< [rad/s], world axes
   meshes::Vector3 velocity_at(const meshes::Vector3& point) const;  ///< of the rod at a world point
-  const meshes::Vector3& momentum() const { return momentum_; }             ///< [N s]
+  const meshes::Vector3& momentum() const { return momentum_; }     ///< [N s]
   const meshes::Vector3& angular_momentum() const { return spin_; }  ///< about the centre [N m s]
-  double kinetic_energy() const;                   ///< [J]
+  double kinetic_energy() const;                                     ///< [J]
   const RodBody& body() const { return body_; }
 
   /// Changes the momenta by `wrench` about world point `at` acting for `duration` [s].

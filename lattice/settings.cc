@@ -14,8 +14,12 @@ std::string_view name(Integrator integrator) {
 
 namespace {
 
-bool positive(double value) { return std::isfinite(value) && value > 0.0; }
-bool not_negative(double value) { return std::isfinite(value) && value >= 0.0; }
+bool positive(double value) {
+  return std::isfinite(value) && value > 0.0;
+}
+bool not_negative(double value) {
+  return std::isfinite(value) && value >= 0.0;
+}
 
 void add_lattice(std::vector<Violation>& found, const PressSetup& setup) {
   const LatticeSettings& l = setup.lattice;

@@ -24,10 +24,10 @@ std::string_view name(Integrator integrator);
 struct LatticeSettings {
   ModelKind model = ModelKind::hookean;
   Kinematics kinematics = Kinematics::small;
-  double spacing = 0.01 / 12.0;                        ///< a [m], at most (R - r)/2
-  meshes::Vector3 offset = meshes::Vector3::Zero();    ///< shift of the grid in units of a
-  SpringConstants constants;                           ///< for this spacing
-  double ligament_stiffness = 1.0;                     ///< multiplies the ligaments' stiffness (README: bond)
+  double spacing = 0.01 / 12.0;                      ///< a [m], at most (R - r)/2
+  meshes::Vector3 offset = meshes::Vector3::Zero();  ///< shift of the grid in units of a
+  SpringConstants constants;                         ///< for this spacing
+  double ligament_stiffness = 1.0;  ///< multiplies the ligaments' stiffness (README: bond)
 };
 
 /// The rigid rod: its shape comes from the geometry.
@@ -38,12 +38,12 @@ struct RodSettings {
 /// The 6-degree-of-freedom PID at the rod's endpoint. Gains follow from the rod's inertia and a
 /// triple closed-loop pole at the natural frequency (README of control/).
 struct PidSettings {
-  double period = 1.0e-3;             ///< sampling period, zero-order hold in between [s]
-  double natural_frequency = 60.0;    ///< of the closed loop with the bare rod [Hz]
-  double derivative_filter = 10.0;    ///< N: the derivative's low-pass over the natural frequency
-  double bond_compensation = 1.0;     ///< share of the measured bond wrench fed forward, 0 to 1
-  double force_limit = 20.0;          ///< largest force along each axis [N]
-  double torque_limit = 1.0;          ///< largest torque about each axis [N m]
+  double period = 1.0e-3;           ///< sampling period, zero-order hold in between [s]
+  double natural_frequency = 60.0;  ///< of the closed loop with the bare rod [Hz]
+  double derivative_filter = 10.0;  ///< N: the derivative's low-pass over the natural frequency
+  double bond_compensation = 1.0;   ///< share of the measured bond wrench fed forward, 0 to 1
+  double force_limit = 20.0;        ///< largest force along each axis [N]
+  double torque_limit = 1.0;        ///< largest torque about each axis [N m]
 };
 
 /// The complete order for one press.

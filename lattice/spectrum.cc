@@ -93,9 +93,9 @@ double lattice_bound(const LatticeModel& model, Quantity quantity, double ligame
     return particle_bound(model, stiffness ? model.stiffness : model.damping, ligament);
   }
   const auto& k = stiffness ? model.stiffness : model.damping;
-  return cell_bound(
-      model, {k[0], k[1], k[2], stiffness ? model.volume_stiffness : model.volume_damping},
-      ligament);
+  return cell_bound(model,
+                    {k[0], k[1], k[2], stiffness ? model.volume_stiffness : model.volume_damping},
+                    ligament);
 }
 
 /// Largest eigenvalue of the rod's own block: ligaments on a rod whose particles stand still.
@@ -180,9 +180,9 @@ double lanczos(const ScaledOperator& apply, int steps) {
   }
   const Eigen::Index count = Eigen::Index(diagonal.size());
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(
-      Eigen::Map<const Eigen::VectorXd>(diagonal.data(), count),
-      Eigen::Map<const Eigen::VectorXd>(beside.data(), count - 1), Eigen::EigenvaluesOnly);
+  solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), count),
+                                Eigen::Map<const Eigen::VectorXd>(beside.data(), count - 1),
+                                Eigen::EigenvaluesOnly);
   return solver.eigenvalues().maxCoeff();
 }
 
@@ -219,9 +219,8 @@ SpectralBounds spectral_estimate(const LatticeModel& model) {
   SpectralBounds estimate;
   find_retardation_times(model, estimate);
   estimate.stiffness = lanczos({model, Quantity::stiffness}, steps);
-  estimate.damping = uniformly_damped(estimate)
-                         ? estimate.longest_retardation * estimate.stiffness
-                         : lanczos({model, Quantity::damping}, steps);
+  estimate.damping = uniformly_damped(estimate) ? estimate.longest_retardation * estimate.stiffness
+                                                : lanczos({model, Quantity::damping}, steps);
   return estimate;
 }
 

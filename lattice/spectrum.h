@@ -11,8 +11,8 @@ namespace fingertip::lattice {
 
 /// What limits the step, over all motions of particles and rod (README: stable steps).
 struct SpectralBounds {
-  double stiffness = 0.0;         ///< lambda: largest eigenvalue of M⁻¹K is at most this [1/s²]
-  double damping = 0.0;           ///< c: largest eigenvalue of M⁻¹C is at most this [1/s]
+  double stiffness = 0.0;  ///< lambda: largest eigenvalue of M⁻¹K is at most this [1/s²]
+  double damping = 0.0;    ///< c: largest eigenvalue of M⁻¹C is at most this [1/s]
   double shortest_retardation = 0.0;  ///< smallest mu/k of any spring, cell or ligament [s]
   double longest_retardation = 0.0;   ///< largest mu/k [s]
 };

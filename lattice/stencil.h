@@ -23,10 +23,18 @@ inline constexpr std::size_t lanes = 8;
 
 /// Every pair of neighbours occurs once: from the particle that comes first in the grid's order.
 inline constexpr std::array<Direction, directions> half_stencil{{
-    {1, 0, 0, axis},           {-1, 1, 0, face_diagonal}, {0, 1, 0, axis},
-    {1, 1, 0, face_diagonal},  {-1, -1, 1, body_diagonal}, {0, -1, 1, face_diagonal},
-    {1, -1, 1, body_diagonal}, {-1, 0, 1, face_diagonal}, {0, 0, 1, axis},
-    {1, 0, 1, face_diagonal},  {-1, 1, 1, body_diagonal}, {0, 1, 1, face_diagonal},
+    {1, 0, 0, axis},
+    {-1, 1, 0, face_diagonal},
+    {0, 1, 0, axis},
+    {1, 1, 0, face_diagonal},
+    {-1, -1, 1, body_diagonal},
+    {0, -1, 1, face_diagonal},
+    {1, -1, 1, body_diagonal},
+    {-1, 0, 1, face_diagonal},
+    {0, 0, 1, axis},
+    {1, 0, 1, face_diagonal},
+    {-1, 1, 1, body_diagonal},
+    {0, 1, 1, face_diagonal},
     {1, 1, 1, body_diagonal},
 }};
 

@@ -33,7 +33,9 @@ CellVector volume_gradient(double spacing) {
   return gradient;
 }
 
-Vector3 corner_position(int c) { return Vector3(c & 1, c >> 1 & 1, c >> 2 & 1); }
+Vector3 corner_position(int c) {
+  return Vector3(c & 1, c >> 1 & 1, c >> 2 & 1);
+}
 
 }  // namespace
 
@@ -70,8 +72,7 @@ Eigen::SparseMatrix<double> small_strain_stiffness(const LatticeModel& model) {
     for (const std::size_t point : model.particles) {
       const double weight = model.weight[std::size_t(s)][point];
       if (weight == 0.0) continue;
-      const Matrix3d block =
-          weight * model.stiffness[d.family] * direction * direction.transpose();
+      const Matrix3d block = weight * model.stiffness[d.family] * direction * direction.transpose();
       const Eigen::Index i = number[point], j = number[point + step];
       add_block(entries, i, i, block);
       add_block(entries, j, j, block);

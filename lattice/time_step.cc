@@ -11,7 +11,9 @@ namespace fingertip::lattice {
 
 namespace {
 
-double safety(Kinematics kinematics) { return kinematics == Kinematics::small ? 0.95 : 0.8; }
+double safety(Kinematics kinematics) {
+  return kinematics == Kinematics::small ? 0.95 : 0.8;
+}
 
 /// Which of the bounds decides, in words.
 std::string ruling(const SpectralBounds& bounds, Integrator integrator, double stable) {
@@ -94,8 +96,9 @@ StepReport choose_step(const LatticeModel& model, const RodBody& rod, Integrator
   std::ostringstream text;
   text.precision(3);
   text << "step " << report.step * 1e6 << " us = " << report.step / report.spectral_bound
-       << " of the spectral bound " << report.spectral_bound * 1e6 << " us = "
-       << report.step * report.omega0 << "/omega0 with the paper's omega0 = " << report.omega0
+       << " of the spectral bound " << report.spectral_bound * 1e6
+       << " us = " << report.step * report.omega0
+       << "/omega0 with the paper's omega0 = " << report.omega0
        << " rad/s, whose bound 1/omega0 = " << report.paper_bound * 1e6
        << " us does not see the 26 springs of a particle; " << why;
   report.explanation = text.str();

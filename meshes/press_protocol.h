@@ -29,10 +29,10 @@ std::string_view name(DriveMode mode);
 struct PressProtocol {
   DriveMode mode = DriveMode::pid;
   ContactMode contact = ContactMode::stick;
-  double depth = 3.0e-3;       ///< final indentation [m], 0 < depth < R - r
-  double speed = 1.0e-2;       ///< approach speed [m/s], > 0
-  double clearance = 0.5e-3;   ///< initial gap between pole and plane [m], > 0; starts at rest
-  std::vector<double> samples; ///< output indentations [m], increasing, last one = depth
+  double depth = 3.0e-3;        ///< final indentation [m], 0 < depth < R - r
+  double speed = 1.0e-2;        ///< approach speed [m/s], > 0
+  double clearance = 0.5e-3;    ///< initial gap between pole and plane [m], > 0; starts at rest
+  std::vector<double> samples;  ///< output indentations [m], increasing, last one = depth
 
   std::vector<Violation> violations(const Geometry& geometry) const;
 };

@@ -54,8 +54,8 @@ std::vector<std::string> cells_of(std::string line) {
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::size_t line, std::string value,
                          std::string rule, std::string remedy) {
-  throw InvalidInput({file.string() + ":" + std::to_string(line), std::move(value),
-                      std::move(rule), std::move(remedy)});
+  throw InvalidInput({file.string() + ":" + std::to_string(line), std::move(value), std::move(rule),
+                      std::move(remedy)});
 }
 
 /// For every column of the file the member it fills, or nullptr for a column not known here.
@@ -81,7 +81,8 @@ double read_number(const std::filesystem::path& file, std::size_t line, const st
   double value = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) {
-    refuse(file, line, cell, "every cell must be a finite number (or empty, except indentation and force)",
+    refuse(file, line, cell,
+           "every cell must be a finite number (or empty, except indentation and force)",
            "correct the cell");
   }
   return value;

@@ -15,17 +15,17 @@ inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 /// >= 0 in compression with F the sum of bond forces on the rod; torque about the rod's endpoint
 /// in the rod's starting axes, right-handed; indentation > 0 when pressed.
 struct PressSample {
-  double indentation = 0.0;        ///< [m]
-  double normal_force = 0.0;       ///< [N]
-  double lateral_force_x = unknown;///< along t1 [N]
-  double lateral_force_y = unknown;///< along t2 [N]
-  double torque_x = unknown;       ///< [N m]
-  double torque_y = unknown;       ///< [N m]
-  double torque_z = unknown;       ///< [N m]
-  double contact_radius = unknown; ///< [m]
-  double max_pressure = unknown;   ///< [Pa]
-  double force_error = unknown;    ///< estimated error of normal_force [N]
-  double time = unknown;           ///< since the start of the press [s]; empty for static runs
+  double indentation = 0.0;          ///< [m]
+  double normal_force = 0.0;         ///< [N]
+  double lateral_force_x = unknown;  ///< along t1 [N]
+  double lateral_force_y = unknown;  ///< along t2 [N]
+  double torque_x = unknown;         ///< [N m]
+  double torque_y = unknown;         ///< [N m]
+  double torque_z = unknown;         ///< [N m]
+  double contact_radius = unknown;   ///< [m]
+  double max_pressure = unknown;     ///< [Pa]
+  double force_error = unknown;      ///< estimated error of normal_force [N]
+  double time = unknown;             ///< since the start of the press [s]; empty for static runs
 };
 
 /// A curve of samples by increasing indentation.

@@ -17,7 +17,8 @@ std::vector<Violation> Rubber::violations() const {
   require(std::isfinite(shear_modulus) && shear_modulus > 0.0, "rubber.shear_modulus",
           shear_modulus, "Pa", "G must be finite and positive", "give the shear modulus");
   // The margin keeps round-off (E = 42, G = 14 gf/cm²) from letting nu = 1/2 pass.
-  require(!(shear_modulus <= youngs_modulus / 3.0 * (1.0 + 1e-12)), "rubber.shear_modulus", shear_modulus, "Pa",
+  require(!(shear_modulus <= youngs_modulus / 3.0 * (1.0 + 1e-12)), "rubber.shear_modulus",
+          shear_modulus, "Pa",
           "G must exceed E/3, or Poisson's ratio E/(2G) - 1 reaches 1/2 and the bulk modulus is "
           "infinite or negative",
           "raise shear_modulus above youngs_modulus/3, or lower youngs_modulus");
@@ -33,6 +34,8 @@ double Rubber::longitudinal_wave_speed() const {
   return std::sqrt(longitudinal_modulus() / density);
 }
 
-double Rubber::shear_wave_speed() const { return std::sqrt(shear_modulus / density); }
+double Rubber::shear_wave_speed() const {
+  return std::sqrt(shear_modulus / density);
+}
 
 }  // namespace fingertip::meshes

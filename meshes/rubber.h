@@ -9,10 +9,10 @@ namespace fingertip::meshes {
 
 /// SI units. Valid for E > 0, G > E/3 (equivalently -1 < nu < 1/2), rho > 0, tau >= 0.
 struct Rubber {
-  double youngs_modulus = 3922.66;    ///< E [Pa]; default 40 gf/cm²
-  double shear_modulus = 1372.931;    ///< G [Pa]; default 14 gf/cm²
-  double density = 500.0;             ///< rho [kg/m³]
-  double retardation_time = 0.3e-3;   ///< tau of the Kelvin-Voigt damping [s], tan d = omega tau
+  double youngs_modulus = 3922.66;   ///< E [Pa]; default 40 gf/cm²
+  double shear_modulus = 1372.931;   ///< G [Pa]; default 14 gf/cm²
+  double density = 500.0;            ///< rho [kg/m³]
+  double retardation_time = 0.3e-3;  ///< tau of the Kelvin-Voigt damping [s], tan d = omega tau
 
   std::vector<Violation> violations() const;
 

@@ -19,8 +19,7 @@ SetPoint Approach::at(double time) const {
   if (time >= rise_time_) return {speed_ * (time - 0.5 * rise_time_), speed_, 0.0};
   const double s = time / rise_time_;
   return {speed_ * rise_time_ * (0.5 * s * s + (std::cos(tau * s) - 1.0) / (tau * tau)),
-          speed_ * (s - std::sin(tau * s) / tau),
-          speed_ / rise_time_ * (1.0 - std::cos(tau * s))};
+          speed_ * (s - std::sin(tau * s) / tau), speed_ / rise_time_ * (1.0 - std::cos(tau * s))};
 }
 
 }  // namespace fingertip::lattice

@@ -11,11 +11,11 @@ namespace fingertip::lattice {
 
 /// What the robot feels at the rod's endpoint (0, 0, -l), world axes = the rod's starting axes.
 struct Measurement {
-  double time = 0.0;                                                       ///< [s]
-  meshes::Vector3 position = meshes::Vector3::Zero();                      ///< of the endpoint [m]
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();         ///< since the start
-  meshes::Vector3 velocity = meshes::Vector3::Zero();                      ///< [m/s]
-  meshes::Vector3 angular_velocity = meshes::Vector3::Zero();              ///< [rad/s]
+  double time = 0.0;                                                ///< [s]
+  meshes::Vector3 position = meshes::Vector3::Zero();               ///< of the endpoint [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< since the start
+  meshes::Vector3 velocity = meshes::Vector3::Zero();               ///< [m/s]
+  meshes::Vector3 angular_velocity = meshes::Vector3::Zero();       ///< [rad/s]
   Wrench bond;  ///< of the tip on the rod, about the endpoint [N, N m]
 };
 

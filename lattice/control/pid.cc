@@ -36,8 +36,8 @@ Wrench Pid::command(const Measurement& m) {
   derivative_ += (first_ ? 1.0 : filter) * (rate - derivative_);
   first_ = false;
 
-  const Vector6 acceleration = feed_forward + 3.0 * omega_ * omega_ * error + integral_ +
-                               3.0 * omega_ * derivative_;
+  const Vector6 acceleration =
+      feed_forward + 3.0 * omega_ * omega_ * error + integral_ + 3.0 * omega_ * derivative_;
   Vector6 bond;
   bond << m.bond.force, m.bond.torque;
   const Vector6 wanted = inertia_ * acceleration - settings_.bond_compensation * bond;

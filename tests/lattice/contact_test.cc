@@ -20,7 +20,9 @@ namespace {
 
 constexpr double clearance = 0.5e-3;
 
-Plane plane_above() { return {Vector3(0.0, 0.0, 0.01 + clearance), -Vector3::UnitZ()}; }
+Plane plane_above() {
+  return {Vector3(0.0, 0.0, 0.01 + clearance), -Vector3::UnitZ()};
+}
 
 std::size_t pole(const LatticeModel& model) {
   std::size_t best = model.particles.front();

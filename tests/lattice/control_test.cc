@@ -112,8 +112,9 @@ TEST(Pid, FeedsTheMeasuredBondWrenchForward) {
   PidSettings settings;
   settings.bond_compensation = 0.5;
   const RodState rod(lattice::rod_body({}, {}));
-  Pid pid(settings, rod.body().inertia_at_endpoint(),
-          [&](double) { return Target{rod.endpoint(), {0, 0, 0}, {0, 0, 0}}; });
+  Pid pid(settings, rod.body().inertia_at_endpoint(), [&](double) {
+    return Target{rod.endpoint(), {0, 0, 0}, {0, 0, 0}};
+  });
   const Wrench answer =
       pid.command(measure(rod, 0.0, {Vector3(0.1, 0.2, -0.3), Vector3(0.01, 0.0, -0.02)}));
   EXPECT_LT((answer.force - Vector3(-0.05, -0.1, 0.15)).norm(), 1e-15);

@@ -32,7 +32,9 @@ struct FreeFinger {
       : model(tip(kind, kinematics, 5)),
         stable(lattice::largest_stable_step(lattice::tightest_bounds(model, rod), integrator)),
         finger(model, rod,
-               {model, meshes::Geometry{}, {Vector3(0, 0, 1.0), -Vector3::UnitZ()},
+               {model,
+                meshes::Geometry{},
+                {Vector3(0, 0, 1.0), -Vector3::UnitZ()},
                 meshes::ContactMode::stick},
                integrator, share * stable, 1) {
     finger.state() = random_state(model, amplitude, speed, 9);

@@ -56,8 +56,8 @@ TEST(Forces, OneSpringObeysEquationOne) {
   model.weight[0][i] = 1.0;
   State state(model);
   const double a = model.spacing();
-  state.displacement.set(j, {-a, 2.0 * a, 0.0});       // d = (0, 2a, 0): length 2a, turned to y
-  state.velocity.set(j, {0.3, 0.5, -0.2});             // only 0.5 along d
+  state.displacement.set(j, {-a, 2.0 * a, 0.0});  // d = (0, 2a, 0): length 2a, turned to y
+  state.velocity.set(j, {0.3, 0.5, -0.2});        // only 0.5 along d
   const VectorField f = kernel_forces(model, state);
   const double pull = model.stiffness[0] * a + model.damping[0] * 0.5;
   EXPECT_NEAR((f.at(i) - Vector3(0.0, pull, 0.0)).norm(), 0.0, 1e-12 * pull);

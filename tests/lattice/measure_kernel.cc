@@ -12,7 +12,9 @@ using namespace fixtures;
 
 namespace {
 
-double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+double processor_seconds() {
+  return double(std::clock()) / CLOCKS_PER_SEC;
+}
 
 template <typename Work>
 double milliseconds(int repeats, const Work& work) {

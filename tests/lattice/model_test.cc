@@ -49,8 +49,9 @@ TEST(PublishedModel, JoinsEveryTwoParticlesNoFartherThanTheBodyDiagonal) {
   std::size_t pairs = 0;
   for (std::size_t a = 0; a < model.particles.size(); ++a) {
     for (std::size_t b = a + 1; b < model.particles.size(); ++b) {
-      const double distance = (model.rest_position(model.particles[a]) -
-                               model.rest_position(model.particles[b])).norm();
+      const double distance =
+          (model.rest_position(model.particles[a]) - model.rest_position(model.particles[b]))
+              .norm();
       pairs += distance < 1.8 * model.spacing();
     }
   }
@@ -154,8 +155,7 @@ TEST(CubeLattice, UniformStrainOfTheHookeanCubeStoresTheContinuumsEnergy) {
   const double a = 1e-3;
   const int n = 3;
   for (const double share : {0.0, 0.3, 0.7}) {
-    const auto constants =
-        lattice::hookean_constants(rubber, a, share * a * rubber.shear_modulus);
+    const auto constants = lattice::hookean_constants(rubber, a, share * a * rubber.shear_modulus);
     const auto cube = lattice::cube_lattice(ModelKind::hookean, constants, a, n);
     Eigen::Matrix3d strain;
     strain << 1.0, 0.4, -0.3, 0.4, -0.5, 0.7, -0.3, 0.7, 0.2;
@@ -164,9 +164,9 @@ TEST(CubeLattice, UniformStrainOfTheHookeanCubeStoresTheContinuumsEnergy) {
       u.segment<3>(3 * Eigen::Index(p)) = strain * cube.positions[p];
     }
     const double stored = 0.5 * u.dot(cube.stiffness * u);
-    const double exact = std::pow(n * a, 3) *
-                         (0.5 * rubber.lame_lambda() * strain.trace() * strain.trace() +
-                          rubber.shear_modulus * strain.squaredNorm());
+    const double exact =
+        std::pow(n * a, 3) * (0.5 * rubber.lame_lambda() * strain.trace() * strain.trace() +
+                              rubber.shear_modulus * strain.squaredNorm());
     EXPECT_NEAR(stored, exact, 1e-12 * exact);
   }
 }

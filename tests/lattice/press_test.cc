@@ -23,8 +23,7 @@ namespace {
 PressSetup setup_for(ModelKind kind, int per_radius, DriveMode mode, ContactMode contact) {
   PressSetup setup;
   setup.lattice.model = kind;
-  setup.lattice.kinematics =
-      kind == ModelKind::published ? Kinematics::finite : Kinematics::small;
+  setup.lattice.kinematics = kind == ModelKind::published ? Kinematics::finite : Kinematics::small;
   setup.lattice.spacing = 0.01 / per_radius;
   const double a = setup.lattice.spacing;
   setup.lattice.constants = kind == ModelKind::published
@@ -83,8 +82,8 @@ TEST(QuasiStaticPress, HookeanComesCloseToTheContinuum) {
   const PressOutcome outcome = lattice::run_press(
       setup_for(ModelKind::hookean, 8, DriveMode::quasi_static, ContactMode::frictionless));
   const double gf = 9.80665e-3;
-  for (const auto& [depth, force] : {std::pair{0.05e-2, 1.02296}, {0.1e-2, 3.25628},
-                                     {0.2e-2, 10.22344}, {0.3e-2, 19.42179}}) {
+  for (const auto& [depth, force] :
+       {std::pair{0.05e-2, 1.02296}, {0.1e-2, 3.25628}, {0.2e-2, 10.22344}, {0.3e-2, 19.42179}}) {
     EXPECT_NEAR(outcome.response.normal_force_at(depth) / gf / force, 1.0, 0.05) << depth;
   }
   EXPECT_LT(outcome.momentum_defect, 1e-9);

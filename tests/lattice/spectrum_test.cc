@@ -159,7 +159,8 @@ TEST(StableStep, SeparatesBoundedFromGrowingMotionWithoutDamping) {
   const LatticeModel model = block(ModelKind::hookean, Kinematics::small, {4, 4, 4}, 0.0);
   const double limit = 2.0 / std::sqrt(exact_stiffness(model));
   EXPECT_NEAR(lattice::largest_stable_step({exact_stiffness(model), 0.0, 0.0, 0.0},
-                                           Integrator::symplectic_euler), limit, 1e-12 * limit);
+                                           Integrator::symplectic_euler),
+              limit, 1e-12 * limit);
   EXPECT_LT(free_growth(model, 0.99 * limit, 5000), 100.0);
   EXPECT_GT(free_growth(model, 1.005 * limit, 5000), 1e5);
 }
@@ -168,8 +169,8 @@ TEST(StableStep, SeparatesBoundedFromGrowingMotionWithDamping) {
   const double tau = 3e-4;
   const LatticeModel model = block(ModelKind::hookean, Kinematics::small, {4, 4, 4}, tau);
   const double lambda = exact_stiffness(model);
-  const double limit = lattice::largest_stable_step({lambda, tau * lambda, tau, tau},
-                                                    Integrator::symplectic_euler);
+  const double limit =
+      lattice::largest_stable_step({lambda, tau * lambda, tau, tau}, Integrator::symplectic_euler);
   EXPECT_LT(free_growth(model, 0.99 * limit, 3000), 10.0);
   EXPECT_GT(free_growth(model, 1.01 * limit, 3000), 1e5);
 }

@@ -21,7 +21,8 @@ TEST(VolumetricSampling, CountApproachesVolumeOverCubedSpacing) {
   const auto excess = [&](int cells) {
     const double spacing = geometry.tip_radius / cells;
     return double(particles(geometry, spacing, Vector3::Zero())) /
-               expected_particle_count(geometry, spacing) - 1.0;
+               expected_particle_count(geometry, spacing) -
+           1.0;
   };
   EXPECT_LT(std::abs(excess(7)), 0.12);
   EXPECT_LT(std::abs(excess(24)), 0.015);

@@ -78,7 +78,8 @@ TEST(Geometry, GradientOfSignedDistanceHasUnitLength) {
   Vector3 gradient;
   for (int d = 0; d < 3; ++d) {
     const Vector3 step = h * Vector3::Unit(d);
-    gradient[d] = (geometry.signed_distance(w + step) - geometry.signed_distance(w - step)) / (2 * h);
+    gradient[d] =
+        (geometry.signed_distance(w + step) - geometry.signed_distance(w - step)) / (2 * h);
   }
   EXPECT_NEAR(gradient.norm(), 1.0, 1e-6);
 }
