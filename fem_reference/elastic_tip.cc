@@ -226,8 +226,8 @@ void ElasticTip::find_constraints() {
     for (unsigned i = 0; i < dofs.size(); ++i)
       node_of_dof_[dofs[i]] = node_of_local[d.element.system_to_component_index(i).second];
   }
-  const auto fix = [&](PhysicalTag tag, std::vector<bool> components) {
-    const dealii::ComponentMask mask(std::move(components));
+  const auto fix = [&](PhysicalTag tag, const std::vector<bool>& components) {
+    const dealii::ComponentMask mask(components);
     for (const auto dof : dealii::DoFTools::extract_boundary_dofs(
              d.dof_handler, mask, {dealii::types::boundary_id(tag)}))
       fixed_[dof] = 1;

@@ -33,11 +33,12 @@ struct SpringConstants {
 };
 
 /// The published rule k = E/l0 in its lattice reading, k = E a²/l0: read literally it is a
-/// stiffness per area, and the effective modulus would grow like 1/a².
+/// stiffness per area, and the effective modulus would grow like 1/a². `spacing` a > 0 [m].
 SpringConstants published_constants(const meshes::Rubber& rubber, double spacing);
 
 /// Constants of the hookean model: kappa = lambda - G, k1 = aG + 4/3 k3, k2 = aG - 4/3 k3, exact
-/// and isotropic for every -1 < nu < 1/2 and 0 <= k3 < 3aG/4 (derivation: README).
+/// and isotropic for every -1 < nu < 1/2 and 0 <= k3 < 3aG/4 [N/m] (derivation:
+/// calibration/README.md). `spacing` a > 0 [m]; the rubber must be valid, which is not checked.
 SpringConstants hookean_constants(const meshes::Rubber& rubber, double spacing, double k3 = 0.0);
 
 }  // namespace fingertip::lattice

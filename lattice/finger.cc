@@ -86,7 +86,8 @@ void Finger::check_momentum(const Vector3& rod_momentum) {
   Vector3 momentum = rod_momentum;
   for (const Vector3& p : partial_momentum_) momentum += p;
   if (balance_started_) {
-    momentum_defect_ = std::max(momentum_defect_, (momentum - expected_momentum_).norm());
+    const double defect = (momentum - expected_momentum_).norm();
+    if (!(defect <= momentum_defect_)) momentum_defect_ = defect;  // keeps a NaN visible
   }
   expected_momentum_ = momentum;
   balance_started_ = true;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lattice/rod.h"
 #include "meshes/files.h"
 
 namespace fingertip::lattice {
@@ -72,6 +73,25 @@ void add_controller(std::vector<Violation>& found, const PidSettings& c) {
           "the actuator's torque limit must be finite and positive");
 }
 
+/// The controller scales its gains with the bare rod and answers the tip's pull a period late: with
+/// a rod much lighter than the tip that loop is unstable (control/README.md).
+void add_rod(std::vector<Violation>& found, const PressSetup& setup) {
+  const std::string density = meshes::to_text(setup.rod.density) + " kg/m^3";
+  if (!positive(setup.rod.density)) {
+    found.push_back({"rod.density", density, "the rod's density must be finite and positive",
+                     "aluminium has 2700"});
+    return;
+  }
+  if (!found.empty() || setup.protocol.mode != meshes::DriveMode::pid) return;
+  const double tip_mass = setup.rubber.density * setup.geometry.tip_volume();
+  if (rod_body(setup.geometry, setup.rod).mass < tip_mass) {
+    found.push_back({"rod.density", density,
+                     "under the controller the rod must weigh at least as much as the rubber (" +
+                         meshes::to_text(tip_mass) + " kg), or the loop is unstable",
+                     "take a denser or longer rod, or press.mode = quasi-static"});
+  }
+}
+
 }  // namespace
 
 std::vector<Violation> PressSetup::violations() const {
@@ -82,11 +102,8 @@ std::vector<Violation> PressSetup::violations() const {
   append(rubber.violations());
   append(protocol.violations(geometry));
   add_lattice(found, *this);
-  if (!positive(rod.density)) {
-    found.push_back({"rod.density", meshes::to_text(rod.density) + " kg/m^3",
-                     "the rod's density must be finite and positive", "aluminium has 2700"});
-  }
   add_controller(found, controller);
+  add_rod(found, *this);
   if (threads < 0) {
     found.push_back({"run.threads", std::to_string(threads),
                      "the number of threads must not be negative", "0 takes all cores"});

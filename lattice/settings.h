@@ -32,18 +32,18 @@ struct LatticeSettings {
 
 /// The rigid rod: its shape comes from the geometry.
 struct RodSettings {
-  double density = 2700.0;  ///< [kg/m³]
+  double density = 2700.0;  ///< [kg/m³], > 0
 };
 
 /// The 6-degree-of-freedom PID at the rod's endpoint. Gains follow from the rod's inertia and a
 /// triple closed-loop pole at the natural frequency (README of control/).
 struct PidSettings {
-  double period = 1.0e-3;           ///< sampling period, zero-order hold in between [s]
-  double natural_frequency = 60.0;  ///< of the closed loop with the bare rod [Hz]
-  double derivative_filter = 10.0;  ///< N: the derivative's low-pass over the natural frequency
+  double period = 1.0e-3;           ///< sampling period, zero-order hold in between [s], > 0
+  double natural_frequency = 60.0;  ///< of the closed loop with the bare rod [Hz], > 0
+  double derivative_filter = 10.0;  ///< N > 0: the derivative's low-pass over the natural frequency
   double bond_compensation = 1.0;   ///< share of the measured bond wrench fed forward, 0 to 1
-  double force_limit = 20.0;        ///< largest force along each axis [N]
-  double torque_limit = 1.0;        ///< largest torque about each axis [N m]
+  double force_limit = 20.0;        ///< largest force along each axis [N], > 0
+  double torque_limit = 1.0;        ///< largest torque about each axis [N m], > 0
 };
 
 /// The complete order for one press.

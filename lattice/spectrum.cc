@@ -214,6 +214,13 @@ SpectralBounds spectral_bounds(const LatticeModel& model, const RodBody* rod) {
   return bounds;
 }
 
+SpectralBounds rod_bounds(const LatticeModel& model, const RodBody& rod) {
+  SpectralBounds bounds;
+  bounds.stiffness = rod_bound(model, Quantity::stiffness, rod);
+  bounds.damping = rod_bound(model, Quantity::damping, rod);
+  return bounds;
+}
+
 SpectralBounds spectral_estimate(const LatticeModel& model) {
   constexpr int steps = 60;
   SpectralBounds estimate;

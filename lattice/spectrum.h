@@ -22,6 +22,9 @@ struct SpectralBounds {
 /// Ligaments are added particle by particle. `rod` null: bonded to a rod that cannot move.
 SpectralBounds spectral_bounds(const LatticeModel& model, const RodBody* rod);
 
+/// Largest eigenvalues of the rod alone on its ligaments, the particles held; no retardation times.
+SpectralBounds rod_bounds(const LatticeModel& model, const RodBody& rod);
+
 /// Largest eigenvalues by the Lanczos method with the rod held, from below; converged to a few
 /// parts in 10⁴. Retardation times as in spectral_bounds.
 SpectralBounds spectral_estimate(const LatticeModel& model);

@@ -61,16 +61,18 @@ double paper_frequency(const LatticeModel& model) {
   return std::sqrt(2.0 * k / mass);
 }
 
-SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody& rod) {
+SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod) {
   constexpr double margin = 1.05;
-  SpectralBounds bounds = spectral_bounds(model, &rod);
-  const SpectralBounds estimate = spectral_estimate(model);
-  bounds.stiffness = std::min(bounds.stiffness, margin * estimate.stiffness);
-  bounds.damping = std::min(bounds.damping, margin * estimate.damping);
+  SpectralBounds bounds = spectral_bounds(model, rod);
+  const SpectralBounds held = spectral_estimate(model);
+  const SpectralBounds own = rod != nullptr ? rod_bounds(model, *rod) : SpectralBounds{};
+  // The largest eigenvalue of a positive matrix is at most the sum of those of its diagonal blocks.
+  bounds.stiffness = std::min(bounds.stiffness, margin * held.stiffness + own.stiffness);
+  bounds.damping = std::min(bounds.damping, margin * held.damping + own.damping);
   return bounds;
 }
 
-StepReport choose_step(const LatticeModel& model, const RodBody& rod, Integrator integrator,
+StepReport choose_step(const LatticeModel& model, const RodBody* rod, Integrator integrator,
                        std::optional<double> wanted, double period) {
   const SpectralBounds bounds = tightest_bounds(model, rod);
   StepReport report;

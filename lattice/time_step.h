@@ -20,14 +20,16 @@ double largest_stable_step(const SpectralBounds& bounds, Integrator integrator);
 double paper_frequency(const LatticeModel& model);
 
 /// The bounds that the step is chosen from: the rigorous ones, or where that is smaller the Lanczos
-/// estimate with a margin of 5 % (README: stable steps).
-SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody& rod);
+/// estimate with a margin of 5 % plus the free rod's own block (README: stable steps). `rod` null:
+/// its motion is prescribed.
+SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod);
 
 /// The step to use. Absent `wanted`: the stable step times a safety factor (small kinematics 0.95,
 /// finite 0.8, for springs turn and cells grow stiffer as the tip deforms), rounded down so that
 /// a whole number of steps makes `period`. Throws InvalidInput (key run.time_step) when `wanted`
-/// is not positive or exceeds the stable step, or when no step is stable.
-StepReport choose_step(const LatticeModel& model, const RodBody& rod, Integrator integrator,
+/// is not positive or exceeds the stable step, or when no step is stable. `rod` null: its motion is
+/// prescribed.
+StepReport choose_step(const LatticeModel& model, const RodBody* rod, Integrator integrator,
                        std::optional<double> wanted, double period);
 
 }  // namespace fingertip::lattice

@@ -32,7 +32,7 @@ struct CubicGrid {
 /// The grid of the paper's points w_ijk = (A i, A j, A k - L) + offset A, with i and j over both
 /// signs, large enough to hold the whole tip and `margin` further layers of points on every side.
 /// (The printed formula subtracts R/2 from the first two coordinates; with i, j >= 0 that keeps
-/// only 60 % of the tip, so it is read as a misprint.)
+/// little more than half of the tip, so it is read as a misprint.)
 /// Throws InvalidInput unless 0 < spacing <= (R - r)/2 and every |offset| <= 1.
 CubicGrid covering_grid(const Geometry& geometry, double spacing, const Vector3& offset,
                         int margin);

@@ -37,8 +37,8 @@ struct PressProtocol {
   std::vector<Violation> violations(const Geometry& geometry) const;
 };
 
-/// Ten output depths for a press to `depth`: 1, 2, 3, 5, 7.5, 10, 15, 20, 25 and 30 thirtieths of
-/// it, denser where the force is still strongly curved.
+/// Ten output depths [m] for a press to `depth` [m] > 0: 1, 2, 3, 5, 7.5, 10, 15, 20, 25 and 30
+/// thirtieths of it, denser where the force is still strongly curved.
 std::vector<double> default_samples(double depth);
 
 }  // namespace fingertip::meshes

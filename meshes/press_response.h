@@ -58,11 +58,13 @@ class PressResponse {
   std::vector<PressSample> samples_;
 };
 
-/// (F(indentation) - F_ref(indentation)) / F_ref(indentation), dimensionless.
+/// (F(indentation) - F_ref(indentation)) / F_ref(indentation), dimensionless, for
+/// 0 < indentation <= both depths [m]. Throws std::out_of_range beyond; NaN where F_ref vanishes.
 double relative_force_error(const PressResponse& response, const PressResponse& reference,
                             double indentation);
 
-/// sqrt(∫(F - F_ref)² / ∫F_ref²) over [from, to] [m], by the trapezoidal rule on 200 intervals.
+/// sqrt(∫(F - F_ref)² / ∫F_ref²), dimensionless, over 0 <= from < to <= both depths [m], by the
+/// trapezoidal rule on 200 intervals. Throws std::out_of_range beyond the depths.
 double relative_l2_force_error(const PressResponse& response, const PressResponse& reference,
                                double from, double to);
 

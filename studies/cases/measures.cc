@@ -13,7 +13,9 @@ using nlohmann::ordered_json;
 double largest(const ordered_json& list) {
   double worst = list.empty() ? std::nan("") : 0.0;
   for (const ordered_json& value : list) {
-    worst = value.is_number() ? std::max(worst, std::abs(value.get<double>())) : std::nan("");
+    const double size = value.is_number() ? std::abs(value.get<double>()) : std::nan("");
+    if (std::isnan(size)) return size;
+    worst = std::max(worst, size);
   }
   return worst;
 }
@@ -57,9 +59,9 @@ std::map<std::string, double> take_measures(const ordered_json& summary,
   for (const std::string& model : validated_models()) {
     const ordered_json& entry = summary["models"][model];
     const std::string prefix = model + ".";
-    taken[prefix + "youngs_modulus_error"] = std::max({relative(number(entry, "E_100"), youngs),
-                                                       relative(number(entry, "E_110"), youngs),
-                                                       relative(number(entry, "E_111"), youngs)});
+    taken[prefix + "youngs_modulus_error"] =
+        largest({relative(number(entry, "E_100"), youngs), relative(number(entry, "E_110"), youngs),
+                 relative(number(entry, "E_111"), youngs)});
     taken[prefix + "shear_modulus_error"] =
         relative(number(entry, "G"), number(target, "shear_modulus"));
     taken[prefix + "poissons_ratio_error"] =

@@ -74,11 +74,11 @@ ordered_json Validation::reference_entry() const {
   for (const double depth : verdict_depths(config().press.protocol.depth)) {
     const double value = reference_.normal_force_at(depth);
     force.push_back(value);
-    // The error is known at the samples; in between take that of the nearest one.
+    // The error is known at the samples; in between take the share of the nearest one.
     const auto nearest = std::ranges::min_element(
         reference_.samples(), {},
         [&](const meshes::PressSample& sample) { return std::abs(sample.indentation - depth); });
-    error.push_back(number_or_null(nearest->force_error / value));
+    error.push_back(number_or_null(nearest->force_error / nearest->normal_force));
   }
   return {{"status", finished}, {"force", force}, {"relative_force_error", error}};
 }
@@ -119,6 +119,7 @@ double Validation::cube_error() const {
     for (const double target : wanted) {
       std::getline(cells, cell, ',');
       const double error = std::abs(std::stod(cell) - target) / std::max(std::abs(target), 1e-3);
+      if (std::isnan(error)) return error;
       worst = std::isnan(worst) ? error : std::max(worst, error);
     }
   }

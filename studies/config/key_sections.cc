@@ -290,7 +290,7 @@ std::vector<Key> solver_keys() {
             "factor on the element counts of the mesh",
             [](Config& config, const Value& value) { config.reference.refinement = value.number; }),
       plain("reference", "tolerance", Kind::number, "1e-8", {1e-12, 1e-4, true},
-            "relative residual of the linear solver",
+            "relative residual of the multigrid solver (the condensed one is direct)",
             [](Config& config, const Value& value) { config.reference.tolerance = value.number; }),
       choice("reference", "solver", "automatic",
              {{"automatic", "condensed while it fits into memory, else multigrid"},
@@ -298,7 +298,7 @@ std::vector<Key> solver_keys() {
               {"multigrid", "conjugate gradients with algebraic multigrid"}},
              "linear solver", assign_solver),
       plain("reference", "estimate_error", Kind::boolean, "true", any,
-            "solve on a coarser mesh, too, and fill in the column force_error",
+            "solve on two coarser meshes, too, and fill in the column force_error",
             [](Config& config, const Value& value) {
               config.reference.estimate_error = value.number != 0.0;
             }),

@@ -144,9 +144,10 @@ Chapter published_chapter(const RunData& run) {
   if (variants.empty()) return chapter;
   chapter.blocks.push_back(
       Paragraph{"No particular force should be expected from it.",
-                "Its contact is made of particles: a single one at the pole carries everything "
-                "until the next layer of the grid reaches the "
-                "plane, and a few ligaments of unspecified stiffness hand the load to the rod. The "
+                "Its contact is made of particles. Where a grid point lies on the pole, that one "
+                "carries everything until the next layer of the grid reaches the plane; elsewhere "
+                "nothing touches until a layer does. A few ligaments of unspecified stiffness hand "
+                "the load to the rod. The "
                 "force is a property of the grid as much as of "
                 "the rubber. " +
                     spread(variants)});
@@ -160,14 +161,14 @@ Chapter published_chapter(const RunData& run) {
                 "a²/l₀ (k1 = E a, k2 = E a/√2, k3 = E a/√3) "
                 "makes the lattice a material of its own, the same at every spacing, though not "
                 "the rubber it was meant to be."});
-  chapter.blocks.push_back(
-      Paragraph{"Misprints that are not copied.",
-                "AccumulateForces subtracts u_j although u_j = −u_i already, which would push both "
-                "ends the same way. With i, j ≥ 0 the offset "
-                "−R/2 in w_ijk keeps only 60 % of the tip, so i and j run over both signs here. "
-                "The paper leaves the ligaments open: here every "
-                "particle closer than one spacing to the rod gets an isotropic spring k = E a to "
-                "its radial projection, with zero force at rest."});
+  chapter.blocks.push_back(Paragraph{
+      "Misprints that are not copied.",
+      "AccumulateForces subtracts u_j although u_j = −u_i already, which would push both "
+      "ends the same way. With i, j ≥ 0 the offset "
+      "−R/2 in w_ijk keeps little more than half of the tip, so i and j run over both signs here. "
+      "The paper leaves the ligaments open: here every "
+      "particle closer than one spacing to the rod gets an isotropic spring to the rod, k = E a "
+      "times the factor in the table, with zero force at rest."});
   return chapter;
 }
 

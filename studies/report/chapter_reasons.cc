@@ -23,6 +23,13 @@ double confined_ratio(const RunData& run, const ModelData& model) {
          confined_modulus(run.target.youngs_modulus, run.target.poissons_ratio);
 }
 
+/// The caveat that a model of finite kinematics needs beside a linear continuum; else empty.
+std::string kinematics_caveat(const ModelData& model) {
+  if (text_at(model.summary, "kinematics") != "finite") return "";
+  return " It measures finite deformation while the continuum here is linear, so part of the "
+         "difference at large depth is geometry.";
+}
+
 std::string published_reason(const RunData& run, const ModelData& model) {
   const Moduli& m = model.moduli;
   const double along = m.E_100 / run.target.youngs_modulus;
@@ -50,11 +57,6 @@ std::string published_reason(const RunData& run, const ModelData& model) {
           "particles.";
     }
   }
-  if (text_at(model.summary, "kinematics") == "finite") {
-    text +=
-        " Its springs see their true length (finite kinematics) while the continuum here is "
-        "linear, so part of the difference at large depth is geometry.";
-  }
   return text;
 }
 
@@ -69,18 +71,20 @@ std::string central_reason(const RunData& run, const ModelData& model) {
       number(run.target.poissons_ratio, 3), percent(bulk),
       percent_magnitude(confined_ratio(run, model)));
   const double error = model.last_force_error();
-  if (bulk < 0.0 && error < 0.0) {
+  if (!std::isfinite(error)) return text;
+  if (std::abs(bulk) < 1e-3) {
+    text += " For this rubber, ν = 1/4, Cauchy's relation costs nothing.";
+  } else if (bulk < 0.0 && error < 0.0) {
     text += fmt::format(
         " Rubber squeezed between rod and plane can hardly escape sideways and resists by its "
-        "volume; a material that is "
-        "too easy to compress answers with too little force, here {} at full depth.",
+        "volume; a material that is too easy to compress answers with too little force, here {} "
+        "at full depth.",
         percent(error));
-  } else if (std::isfinite(error)) {
+  } else {
     text += fmt::format(
-        " That its force at full depth is only {} off is no merit of the material: the staircase "
-        "of whole cells at rod "
-        "and surface adds stiffness that the missing volume resistance takes away.",
-        percent(error));
+        " At full depth its force is {} off, the sum of a material too {} to compress and of a "
+        "surface made of whole cells.",
+        percent(error), bulk < 0.0 ? "easy" : "hard");
   }
   return text;
 }
@@ -97,15 +101,17 @@ std::string hookean_reason(const RunData& run, const ModelData& model) {
                          : fmt::format("Its elastic constants are within {} of the rubber.",
                                        percent_magnitude(worst));
   text +=
-      " What remains is shape: a body of whole cells ends in a staircase at the surface and at the "
+      " What remains is mainly shape: a body of whole cells ends in a staircase at the surface and "
+      "at the "
       "rod";
   const double spacing = number_at(model.summary, "spacing");
   if (std::isfinite(spacing)) text += fmt::format(" (steps of {} cm)", number(to_cm(spacing), 3));
   text += ", and contact is made point by point.";
-  std::size_t worst_depth = 0;
-  for (std::size_t i = 1; i < model.force_error.size(); ++i) {
+  std::size_t worst_depth = model.force_error.size() - 1;
+  for (std::size_t i = 0; i < model.force_error.size(); ++i) {
     const double error = std::abs(model.force_error[i]);
-    if (!(error <= std::abs(model.force_error[worst_depth]))) worst_depth = i;
+    const double worst_so_far = std::abs(model.force_error[worst_depth]);
+    if (std::isfinite(error) && !(error <= worst_so_far)) worst_depth = i;
   }
   if (std::isfinite(model.last_force_error())) {
     text += fmt::format(" At the depths of the verdict it amounts to {} at most, at {}.",
@@ -140,7 +146,8 @@ Chapter reasons_chapter(const RunData& run) {
     if (model.name == "published") text = published_reason(run, model);
     if (model.name == "central") text = central_reason(run, model);
     if (model.name == "hookean") text = hookean_reason(run, model);
-    if (!text.empty()) chapter.blocks.push_back(Paragraph{model_label(model.name) + ".", text});
+    text += kinematics_caveat(model);
+    chapter.blocks.push_back(Paragraph{model_label(model.name) + ".", text});
   }
   const std::string dynamics = dynamics_reason(run);
   if (!dynamics.empty() && !chapter.blocks.empty())

@@ -132,8 +132,7 @@ Table verdict_table(const RunData& run) {
 
 Table criteria_table(const RunData& run) {
   Table table;
-  table.caption =
-      "What this case demands. The published and central models are exhibits, never criteria.";
+  table.caption = "What this case demands.";
   table.header = {{"Criterion", "", Grade::none},
                   {"Value", "", Grade::none},
                   {"Limit", "", Grade::none},

@@ -166,6 +166,15 @@ TEST(Press, RefusesBrokenSetups) {
   EXPECT_THROW(lattice::run_press(setup), meshes::InvalidInput);
 }
 
+TEST(Press, ARodLighterThanTheRubberIsRefusedUnderTheController) {
+  PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::pid, ContactMode::stick);
+  setup.rod.density = 300.0;
+  ASSERT_EQ(setup.violations().size(), 1u);
+  EXPECT_EQ(setup.violations()[0].key, "rod.density");
+  setup.protocol.mode = DriveMode::quasi_static;  // nothing is fed back
+  EXPECT_TRUE(setup.violations().empty());
+}
+
 TEST(Press, ExplicitEulerWithoutDampingIsRefused) {
   PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::pid, ContactMode::stick);
   setup.rubber.retardation_time = 0.0;

@@ -194,19 +194,19 @@ TEST(ChooseStep, RefusesAnUnstableStepWithTheReason) {
   const LatticeModel model = tip(ModelKind::hookean, Kinematics::small, 5);
   const auto rod = lattice::rod_body({}, {});
   const auto report =
-      lattice::choose_step(model, rod, Integrator::symplectic_euler, std::nullopt, 1e-3);
+      lattice::choose_step(model, &rod, Integrator::symplectic_euler, std::nullopt, 1e-3);
   EXPECT_LT(report.step, report.spectral_bound);
   EXPECT_NEAR(1e-3 / report.step, std::round(1e-3 / report.step), 1e-9);
   EXPECT_NEAR(report.paper_bound * report.omega0, 1.0, 1e-12);
   EXPECT_NE(report.explanation.find("rules"), std::string::npos);
   try {
-    lattice::choose_step(model, rod, Integrator::symplectic_euler, 1.01 * report.spectral_bound,
+    lattice::choose_step(model, &rod, Integrator::symplectic_euler, 1.01 * report.spectral_bound,
                          1e-3);
     FAIL() << "an unstable step was accepted";
   } catch (const meshes::InvalidInput& refusal) {
     EXPECT_EQ(refusal.violations().at(0).key, "run.time_step");
     EXPECT_FALSE(refusal.violations().at(0).remedy.empty());
   }
-  EXPECT_THROW(lattice::choose_step(model, rod, Integrator::symplectic_euler, -1.0, 1e-3),
+  EXPECT_THROW(lattice::choose_step(model, &rod, Integrator::symplectic_euler, -1.0, 1e-3),
                meshes::InvalidInput);
 }

@@ -73,7 +73,7 @@ TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
   EXPECT_EQ(key({}), key({"lattice.constants=rule"}));
   EXPECT_EQ(key({}), key({"reference.degree=1"}));
   EXPECT_NE(key({}), key({"press.speed=2 cm/s"}));
-  EXPECT_NE(key({}), key({"rod.density=1 g/cm^3"}));
+  EXPECT_NE(key({}), key({"rod.density=2 g/cm^3"}));
   EXPECT_EQ(key({"press.mode=quasi-static"}),
             key({"press.mode=quasi-static", "controller.period=2 ms"}));
   const auto continuum = [](std::vector<std::string> sets) {
