@@ -2,8 +2,8 @@
 /// hemisphere of radius r) inside a rubber tip (hemispherical shell and sleeve, outer radius R).
 ///
 /// Frame: the common centre of both hemispheres is the origin, the axis is z, the pole of the tip
-/// is (0, 0, R), the sleeve ends at z = -L and the rod's endpoint, held by the robot, is (0, 0,
-/// -l).
+/// is (0, 0, R), the sleeve ends at z = -L and the rod's endpoint, held by the robot, is
+/// (0, 0, -l).
 #pragma once
 
 #include <Eigen/Core>

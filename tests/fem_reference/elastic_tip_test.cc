@@ -7,7 +7,7 @@
 
 #include "fem_reference/contact_solver.h"
 #include "meshes/volume_mesh.h"
-#include "scratch_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip;
 using fem_reference::ElasticTip;
@@ -17,7 +17,7 @@ namespace {
 
 ElasticTip make_tip(const meshes::Geometry& geometry, double refinement, int degree,
                     const meshes::Rubber& rubber = {}) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto file = folder / "tip.msh";
   meshes::write_tip_mesh(geometry, meshes::TipMeshOptions{}.refined(refinement), file);
   return ElasticTip(rubber, file, degree);

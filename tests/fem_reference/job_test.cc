@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 
-#include "scratch_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip;
 using fem_reference::LinearSolver;
@@ -13,10 +12,6 @@ using fem_reference::read_job;
 using fem_reference::ReferenceJob;
 
 namespace {
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file) << text;
-}
 
 /// The violations of a job file, joined.
 std::string refusal(const std::filesystem::path& file, const std::string& text) {
@@ -32,7 +27,7 @@ std::string refusal(const std::filesystem::path& file, const std::string& text) 
 }
 
 TEST(ReferenceJob, SurvivesTheFile) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   ReferenceJob job;
   job.geometry = {0.02, 0.012, 0.0, 0.05};
   job.rubber = {5000.0, 2000.0 / 3.0 * 3.1, 900.0, 1e-3};
@@ -65,7 +60,7 @@ TEST(ReferenceJob, SurvivesTheFile) {
 }
 
 TEST(ReferenceJob, AbsentEntriesKeepTheirDefaults) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_text(folder / "job.json", R"({"samples": [0.001]})");
   const ReferenceJob job = read_job(folder / "job.json");
   EXPECT_EQ(job.degree, 2);
@@ -74,7 +69,7 @@ TEST(ReferenceJob, AbsentEntriesKeepTheirDefaults) {
 }
 
 TEST(ReferenceJob, RefusesBadFilesNamingTheEntry) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto file = folder / "job.json";
   EXPECT_NE(refusal(file, R"({"samples": [0.001], "degre": 2})").find("degre"), std::string::npos);
   EXPECT_NE(refusal(file, R"({"samples": "deep"})").find("samples"), std::string::npos);

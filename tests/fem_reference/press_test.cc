@@ -8,7 +8,7 @@
 
 #include "meshes/errors.h"
 #include "meshes/volume_mesh.h"
-#include "scratch_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip;
 using fem_reference::ContactPoint;
@@ -55,7 +55,7 @@ class Pressing {
                            folder_ / "tip.msh");
     return folder_ / "tip.msh";
   }
-  ScratchFolder folder_;
+  TemporaryFolder folder_;
   std::filesystem::path mesh_;
 
  public:
@@ -152,7 +152,7 @@ TEST(ContinuumPress, IsHomogeneousInLengthAndStiffness) {
   const meshes::Rubber rubber;
   const meshes::Rubber stiffer{3 * rubber.youngs_modulus, 3 * rubber.shear_modulus, 500, 0};
   const meshes::Geometry larger{0.02, 0.01, 0.03, 0.06};
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   meshes::write_tip_mesh(larger, meshes::TipMeshOptions{}.refined(0.5), folder / "tip.msh");
   ContinuumPress press(larger, stiffer, c.contact, 2 * c.depth, folder / "tip.msh", {});
   EXPECT_NEAR(press.advance(2 * c.depth).sample.normal_force / (12 * force), 1.0, 1e-6);

@@ -13,7 +13,7 @@
 #include "fem_reference/job.h"
 #include "meshes/errors.h"
 #include "meshes/press_response.h"
-#include "scratch_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip;
 using fem_reference::RunOutcome;
@@ -63,7 +63,7 @@ TEST(ReferenceRun, AgreesWithTheReferenceTable) {
   constexpr double gram_force = 9.80665e-3, centimetre = 1e-2;
   const std::vector<TableRow> table = reference_table();
   ASSERT_EQ(table.size(), 10u);
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   fem_reference::ReferenceJob job;
   job.contact = meshes::ContactMode::frictionless;
   job.write_fields = false;
@@ -91,7 +91,7 @@ TEST(ReferenceRun, AgreesWithTheReferenceTable) {
 }
 
 TEST(ReferenceRun, LeavesACompleteFolder) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_job(small_job(), folder / "job.json");
   std::stringstream progress;
   const RunOutcome outcome = fem_reference::run_job(folder.path(), progress, {});
@@ -133,7 +133,7 @@ TEST(ReferenceRun, LeavesACompleteFolder) {
 }
 
 TEST(ReferenceRun, KeepsWhatWasFinishedWhenStopped) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_job(small_job(), folder / "job.json");
   std::stringstream progress;
   const auto first_sample_is_written = [&] { return exists(folder / "response.csv"); };
@@ -145,7 +145,7 @@ TEST(ReferenceRun, KeepsWhatWasFinishedWhenStopped) {
 }
 
 TEST(ReferenceRun, RefusesABadJobAndWritesNothing) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto job = small_job();
   job.geometry.rod_radius = 0.02;
   write_job(job, folder / "job.json");
@@ -162,7 +162,7 @@ int exit_code(const std::string& arguments) {
 }
 
 TEST(FingertipFem, TellsItsOutcomeByTheExitCode) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(exit_code(""), 2);
   EXPECT_EQ(exit_code(folder.path().string()), 2);  // no job
   auto job = small_job();

@@ -5,7 +5,7 @@
 #include "meshes/errors.h"
 #include "studies/run/digest.h"
 #include "studies/run/session.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
 namespace fs = std::filesystem;

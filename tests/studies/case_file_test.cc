@@ -6,7 +6,7 @@
 
 #include "studies/cases/measures.h"
 #include "studies/config/documents.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
 namespace fs = std::filesystem;

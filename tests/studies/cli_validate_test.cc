@@ -7,7 +7,7 @@
 
 #include "meshes/press_response.h"
 #include "program.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 TEST(Verbs, HelpAndVersion) {
   const TemporaryFolder folder;

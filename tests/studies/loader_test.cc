@@ -4,7 +4,7 @@
 
 #include "studies/config/documents.h"
 #include "studies/config/key_table.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
 

@@ -4,7 +4,7 @@
 
 #include "calibration/moduli.h"
 #include "studies/run/jobs.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
 namespace lattice = fingertip::lattice;

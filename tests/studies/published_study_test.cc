@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
 using fingertip::meshes::PressResponse;

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "studies/run/json_file.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
 namespace fs = std::filesystem;

@@ -2,14 +2,11 @@
 /// programs share no code beyond the specimen, so that agreement is evidence for each of them, also
 /// where no published number exists: other Poisson's ratios, sticking contact, another geometry.
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <string>
 
 #include "fem_reference/press.h"
 #include "lattice/press.h"
 #include "meshes/volume_mesh.h"
+#include "tests/temporary_folder.h"
 
 using namespace fingertip;
 using meshes::ContactMode;
@@ -25,11 +22,10 @@ meshes::Rubber rubber_with(double poissons_ratio) {
 meshes::PressResponse press_continuum(const meshes::Geometry& geometry,
                                       const meshes::Rubber& rubber, ContactMode contact,
                                       double depth) {
-  const auto mesh = std::filesystem::temp_directory_path() /
-                    ("verification_" + std::to_string(::getpid()) + ".msh");
+  const TemporaryFolder folder;
+  const auto mesh = folder / "tip.msh";
   meshes::write_tip_mesh(geometry, meshes::TipMeshOptions{}.refined(0.6), mesh);
   fem_reference::ContinuumPress press(geometry, rubber, contact, depth, mesh, {});
-  std::filesystem::remove(mesh);
   meshes::PressResponse response;
   for (const double sample : meshes::default_samples(depth)) {
     response.append(press.advance(sample).sample);
@@ -79,10 +75,8 @@ TEST(LatticeAgainstContinuum, AgreesWhenItSticks) {
 }
 
 TEST(LatticeAgainstContinuum, AgreesOnAnotherFinger) {
-  const meshes::Geometry thinner{.tip_radius = 0.008,
-                                 .rod_radius = 0.003,
-                                 .sleeve_length = 0.010,
-                                 .rod_length = 0.030};
+  const meshes::Geometry thinner{
+      .tip_radius = 0.008, .rod_radius = 0.003, .sleeve_length = 0.010, .rod_length = 0.030};
   EXPECT_LT(error_of_lattice(thinner, 0.4, ContactMode::frictionless), staircase);
 }
 
