@@ -18,7 +18,13 @@ using meshes::ContactMode;
 using meshes::InvalidInput;
 using meshes::Violation;
 
-constexpr std::array contact_modes{ContactMode::stick, ContactMode::frictionless};
+constexpr std::array contact_modes{ContactMode::stick, ContactMode::frictionless,
+                                   ContactMode::coulomb};
+constexpr std::array strains{Strain::linear, Strain::finite};
+constexpr std::array analyses{Analysis::static_press, Analysis::transient, Analysis::modes,
+                              Analysis::verification};
+constexpr std::array volumetrics{Volumetric::pointwise, Volumetric::projected};
+constexpr std::array laws{StrainEnergy::law_a, StrainEnergy::law_b, StrainEnergy::law_c};
 constexpr std::array solvers{LinearSolver::automatic, LinearSolver::condensed,
                              LinearSolver::multigrid};
 
@@ -26,6 +32,8 @@ template <class T>
 void get(const Json& value, T& target) {
   if constexpr (std::is_same_v<T, double>)
     if (!value.is_number()) throw std::invalid_argument("must be a number");
+  if constexpr (std::is_same_v<T, bool>)
+    if (!value.is_boolean()) throw std::invalid_argument("must be true or false");
   if constexpr (std::is_same_v<T, int>)
     if (!value.is_number_integer()) throw std::invalid_argument("must be an integer");
   target = value.get<T>();
@@ -106,12 +114,23 @@ void read_entries(const Json& json, const std::string& file, ReferenceJob& job,
     section.value("density", job.rubber.density);
     section.value("retardation_time", job.rubber.retardation_time);
   });
+  top.read("analysis", [&](const Json& j) { get_name(j, analyses, job.analysis); });
+  top.read("strain", [&](const Json& j) { get_name(j, strains, job.strain); });
+  top.read("law", [&](const Json& j) { get_name(j, laws, job.law); });
+  top.read("volumetric", [&](const Json& j) { get_name(j, volumetrics, job.volumetric); });
   top.read("contact", [&](const Json& j) { get_name(j, contact_modes, job.contact); });
   top.read("solver", [&](const Json& j) { get_name(j, solvers, job.solver); });
   top.value("samples", job.samples);
   top.value("degree", job.degree);
   top.value("refinement", job.refinement);
   top.value("tolerance", job.tolerance);
+  top.value("max_unknowns", job.max_unknowns);
+  top.value("solver_tolerance", job.solver_tolerance);
+  top.value("friction", job.friction);
+  top.value("tilt", job.tilt);
+  top.value("lateral", job.lateral);
+  top.value("speed", job.speed);
+  top.value("modes", job.modes);
   top.value("write_fields", job.write_fields);
   top.value("estimate_error", job.estimate_error);
 }
@@ -127,27 +146,91 @@ std::string_view name(LinearSolver solver) {
   return "";
 }
 
+std::string_view name(Strain strain) {
+  return strain == Strain::linear ? "linear" : "finite";
+}
+
+std::string_view name(Analysis analysis) {
+  switch (analysis) {
+    case Analysis::static_press: return "static";
+    case Analysis::transient: return "transient";
+    case Analysis::modes: return "modes";
+    case Analysis::verification: return "verification";
+  }
+  return "";
+}
+
+std::string_view name(Volumetric volumetric) {
+  return volumetric == Volumetric::pointwise ? "pointwise" : "projected";
+}
+
+std::string_view name(StrainEnergy law) {
+  switch (law) {
+    case StrainEnergy::law_a: return "A";
+    case StrainEnergy::law_b: return "B";
+    case StrainEnergy::law_c: return "C";
+  }
+  return "";
+}
+
 std::vector<Violation> ReferenceJob::violations() const {
   std::vector<Violation> broken = geometry.violations();
   for (const Violation& violation : rubber.violations()) broken.push_back(violation);
+  const bool press = analysis == Analysis::static_press || analysis == Analysis::transient;
   meshes::PressProtocol protocol;
   protocol.depth = samples.empty() ? 0.0 : samples.back();
   protocol.samples = samples;
-  for (const Violation& violation : protocol.violations(geometry)) broken.push_back(violation);
-  if (degree != 1 && degree != 2)
-    broken.push_back({"reference.degree", std::to_string(degree), "must be 1 or 2",
-                      "choose linear (1) or quadratic (2) elements"});
-  if (!(refinement >= 0.5 && refinement <= 4.0))
-    broken.push_back({"reference.refinement", meshes::to_text(refinement),
-                      "must lie between 0.5 and 4", "choose 1 for the default mesh"});
-  if (!(tolerance >= 1e-12 && tolerance <= 1e-4))
-    broken.push_back({"reference.tolerance", meshes::to_text(tolerance),
-                      "must lie between 1e-12 and 1e-4", "choose 1e-8"});
+  protocol.contact = contact;
+  protocol.friction = friction;
+  protocol.tilt = tilt;
+  protocol.lateral = lateral;
+  if (press)
+    for (const Violation& violation : protocol.violations(geometry)) broken.push_back(violation);
+  const auto require = [&](bool valid, const char* key, double value, const char* rule,
+                           const char* remedy) {
+    if (!valid) broken.push_back({key, meshes::to_text(value), rule, remedy});
+  };
+  require(degree >= 1 && degree <= 3, "reference.degree", degree, "must be 1, 2 or 3",
+          "choose 2, quadratic elements");
+  require(refinement >= 0.25 && refinement <= 4.0, "reference.refinement", refinement,
+          "must lie between 0.25 and 4", "choose 0.5 and let the tolerance refine");
+  require(tolerance >= 1e-5 && tolerance <= 0.5, "reference.tolerance", tolerance,
+          "must lie between 1e-5 and 0.5", "choose 0.005 for half a percent");
+  require(max_unknowns >= 1e3 && max_unknowns <= 1e9, "reference.max_unknowns", max_unknowns,
+          "must lie between 1e3 and 1e9", "choose what your memory holds: 4e5 needs about 8 GB");
+  require(solver_tolerance >= 1e-14 && solver_tolerance <= 1e-4, "reference.solver_tolerance",
+          solver_tolerance, "must lie between 1e-14 and 1e-4", "choose 1e-10");
+  require(speed > 0.0 && std::isfinite(speed), "press.speed", speed, "must be positive",
+          "choose for instance 1 cm/s");
+  require(modes >= 1 && modes <= 1000, "reference.modes", modes, "must lie between 1 and 1000",
+          "choose 10");
+  if (strain == Strain::finite)
+    require(rubber.lame_lambda() >= 0.0, "rubber", rubber.lame_lambda(),
+            "finite strain needs nu >= 0: with a negative Lame constant lambda the energy falls "
+            "without bound as the volume goes to zero",
+            "choose G <= E/2, or reference.strain = \"linear\"");
+  if (analysis == Analysis::transient)
+    require(strain == Strain::linear && tilt == 0.0 && lateral == 0.0 &&
+                contact != ContactMode::coulomb,
+            "reference.mode", 0.0,
+            "a transient press is small-strain, along the axis, and frictionless or stick",
+            "choose reference.strain = \"linear\", press.contact = \"stick\", no tilt");
   return broken;
 }
 
 void write_job(const ReferenceJob& job, const std::filesystem::path& file) {
-  const Json json{{"geometry",
+  const Json json{{"analysis", name(job.analysis)},
+                  {"strain", name(job.strain)},
+                  {"law", name(job.law)},
+                  {"volumetric", name(job.volumetric)},
+                  {"friction", job.friction},
+                  {"tilt", job.tilt},
+                  {"lateral", job.lateral},
+                  {"speed", job.speed},
+                  {"modes", job.modes},
+                  {"max_unknowns", job.max_unknowns},
+                  {"solver_tolerance", job.solver_tolerance},
+                  {"geometry",
                    {{"tip_radius", job.geometry.tip_radius},
                     {"rod_radius", job.geometry.rod_radius},
                     {"sleeve_length", job.geometry.sleeve_length},

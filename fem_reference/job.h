@@ -14,25 +14,63 @@ namespace fingertip::fem_reference {
 
 /// How the linear systems are solved.
 enum class LinearSolver {
-  automatic,  ///< condensed while it fits into memory, multigrid beyond
+  automatic,  ///< condensed on one process while it fits into memory, multigrid beyond
   condensed,  ///< one sparse Cholesky factorisation, condensed to the contact unknowns
   multigrid,  ///< conjugate gradients preconditioned by algebraic multigrid
 };
 
-std::string_view name(LinearSolver solver);
+/// Which continuum.
+enum class Strain {
+  linear,  ///< small strain, Hooke's law, gap and moments at reference positions
+  finite,  ///< large strain, `StrainEnergy`, gap and moments at current positions
+};
 
-/// One press of the continuum, SI. Small-strain linear elasticity, static.
+/// What is computed.
+enum class Analysis {
+  static_press,  ///< one equilibrium per sample
+  transient,     ///< the press at constant speed, with inertia and Kelvin-Voigt damping
+  modes,         ///< natural frequencies and shapes of the tip bonded to a fixed rod
+  verification,  ///< the code against analytic solutions; ignores the press
+};
+
+/// How the volumetric part of the energy is integrated.
+enum class Volumetric {
+  pointwise,  ///< at every quadrature point: the plain displacement element
+  projected,  ///< its dilatation projected, element by element, on polynomials one degree lower
+};
+
+/// Strain energies of large strain; see material/strain_energy.h.
+enum class StrainEnergy { law_a, law_b, law_c };
+
+std::string_view name(LinearSolver solver);
+std::string_view name(Strain strain);
+std::string_view name(Analysis analysis);
+std::string_view name(Volumetric volumetric);
+std::string_view name(StrainEnergy law);
+
+/// One order to the continuum, SI.
 struct ReferenceJob {
+  Analysis analysis = Analysis::static_press;
   meshes::Geometry geometry;
   meshes::Rubber rubber;
   meshes::ContactMode contact = meshes::ContactMode::stick;
+  double friction = 0.5;        ///< Coulomb's coefficient, for contact coulomb alone, > 0
+  double tilt = 0.0;            ///< of the rod against the plane's normal, about y [rad], |.| < pi/4
+  double lateral = 0.0;         ///< displacement of the plane along t1 at the last sample [m]
   std::vector<double> samples;  ///< indentations to solve for [m], increasing
-  int degree = 2;               ///< polynomial degree of the elements, 1 or 2
-  double refinement = 1.0;      ///< factor on the element counts of the default mesh, 0.5 ... 4
-  double tolerance = 1e-8;      ///< residual of the multigrid solver over the reactions
+  double speed = 0.01;          ///< of the rod, transient only [m/s], > 0
+  Strain strain = Strain::linear;
+  StrainEnergy law = StrainEnergy::law_a;  ///< finite strain only
+  int modes = 10;                          ///< how many, lowest first
+  int degree = 2;                          ///< polynomial degree of the elements, 1, 2 or 3
+  Volumetric volumetric = Volumetric::projected;
+  double refinement = 0.5;       ///< factor on the element counts of the first mesh, 0.25 ... 4
+  double tolerance = 5e-3;       ///< wanted force_error over normal_force, at every sample
+  double max_unknowns = 4e5;     ///< no mesh beyond this many is tried
+  bool estimate_error = true;    ///< refine until `tolerance` is met; otherwise the first mesh alone
   LinearSolver solver = LinearSolver::automatic;
-  bool write_fields = true;    ///< VTU per sample and a PVD over them
-  bool estimate_error = true;  ///< solve on two coarser meshes, too, and fill in force_error
+  double solver_tolerance = 1e-10;  ///< relative residual of the multigrid solver
+  bool write_fields = true;         ///< VTU per sample and a PVD over them
 
   std::vector<meshes::Violation> violations() const;
 };

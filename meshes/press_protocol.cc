@@ -6,8 +6,18 @@
 
 namespace fingertip::meshes {
 
+namespace {
+/// Beyond it the sleeve's end may come near the plane [rad].
+constexpr double largest_tilt = 0.7854;
+}  // namespace
+
 std::string_view name(ContactMode mode) {
-  return mode == ContactMode::stick ? "stick" : "frictionless";
+  switch (mode) {
+    case ContactMode::stick: return "stick";
+    case ContactMode::frictionless: return "frictionless";
+    case ContactMode::coulomb: return "coulomb";
+  }
+  return "";
 }
 
 std::string_view name(DriveMode mode) {
@@ -29,6 +39,14 @@ std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const
   require(positive(clearance), "press.clearance", to_text(clearance) + " m",
           "the clearance must be finite and positive",
           "give the gap between pole and plane at the start");
+  if (contact == ContactMode::coulomb)
+    require(positive(friction), "press.friction", to_text(friction),
+            "the coefficient of friction must be finite and positive",
+            "choose press.contact = \"frictionless\" for none");
+  require(std::abs(tilt) <= largest_tilt, "press.tilt", to_text(tilt) + " rad",
+          "the tilt must lie between -45 and 45 degrees", "tilt less");
+  require(std::abs(lateral) <= geometry.tip_radius, "press.lateral", to_text(lateral) + " m",
+          "the lateral motion must not exceed the tip's radius", "move less far");
   bool increasing = true;
   double previous = 0.0;
   for (const double sample : samples) {

@@ -13,6 +13,7 @@ namespace fingertip::meshes {
 enum class ContactMode {
   stick,         ///< infinite friction: a surface point is anchored where it first touched
   frictionless,  ///< only the normal gap is held, compressive only
+  coulomb,       ///< sticks until the shear force exceeds friction times the push, then slides
 };
 
 /// What moves the rod.
@@ -29,6 +30,9 @@ std::string_view name(DriveMode mode);
 struct PressProtocol {
   DriveMode mode = DriveMode::pid;
   ContactMode contact = ContactMode::stick;
+  double friction = 0.5;        ///< Coulomb's coefficient, contact coulomb only, > 0
+  double tilt = 0.0;            ///< of the rod against the plane's normal, about y [rad]
+  double lateral = 0.0;         ///< displacement of the plane along t1 at full depth [m]
   double depth = 3.0e-3;        ///< final indentation [m], 0 < depth < R - r
   double speed = 1.0e-2;        ///< approach speed [m/s], > 0
   double clearance = 0.5e-3;    ///< initial gap between pole and plane [m], > 0; starts at rest
