@@ -15,7 +15,7 @@ namespace fingertip::fem_reference {
 /// How the linear systems are solved.
 enum class LinearSolver {
   automatic,  ///< condensed on one process while it fits into memory, multigrid beyond
-  condensed,  ///< one sparse Cholesky factorisation, condensed to the contact unknowns
+  condensed,  ///< sparse Cholesky factorisation; small strain: one, condensed to the contact
   multigrid,  ///< conjugate gradients preconditioned by algebraic multigrid
 };
 
@@ -54,9 +54,9 @@ struct ReferenceJob {
   meshes::Geometry geometry;
   meshes::Rubber rubber;
   meshes::ContactMode contact = meshes::ContactMode::stick;
-  double friction = 0.5;        ///< Coulomb's coefficient, for contact coulomb alone, > 0
-  double tilt = 0.0;            ///< of the rod against the plane's normal, about y [rad], |.| < pi/4
-  double lateral = 0.0;         ///< displacement of the plane along t1 at the last sample [m]
+  double friction = 0.5;  ///< Coulomb's coefficient, for contact coulomb alone, > 0
+  double tilt = 0.0;      ///< of the rod against the plane's normal, about y [rad], |.| < pi/4
+  double lateral = 0.0;   ///< displacement of the plane along t1 at the last sample [m]
   std::vector<double> samples;  ///< indentations to solve for [m], increasing
   double speed = 0.01;          ///< of the rod, transient only [m/s], > 0
   Strain strain = Strain::linear;
@@ -64,10 +64,10 @@ struct ReferenceJob {
   int modes = 10;                          ///< how many, lowest first
   int degree = 2;                          ///< polynomial degree of the elements, 1, 2 or 3
   Volumetric volumetric = Volumetric::projected;
-  double refinement = 0.5;       ///< factor on the element counts of the first mesh, 0.25 ... 4
-  double tolerance = 5e-3;       ///< wanted force_error over normal_force, at every sample
-  double max_unknowns = 4e5;     ///< no mesh beyond this many is tried
-  bool estimate_error = true;    ///< refine until `tolerance` is met; otherwise the first mesh alone
+  double refinement = 0.5;     ///< factor on the element counts of the first mesh, 0.25 ... 4
+  double tolerance = 5e-3;     ///< wanted force_error over normal_force, at every sample
+  double max_unknowns = 4e5;   ///< no mesh beyond this many is tried
+  bool estimate_error = true;  ///< refine until `tolerance` is met; otherwise the first mesh alone
   LinearSolver solver = LinearSolver::automatic;
   double solver_tolerance = 1e-10;  ///< relative residual of the multigrid solver
   bool write_fields = true;         ///< VTU per sample and a PVD over them

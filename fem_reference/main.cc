@@ -1,10 +1,13 @@
 /// fingertip-fem RUN_FOLDER: carries out the reference job in RUN_FOLDER/job.json.
 #include <deal.II/base/mpi.h>
 
+#include <malloc.h>
+
 #include <csignal>
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <sstream>
 
 #include "fem_reference/run.h"
 #include "meshes/errors.h"
@@ -20,29 +23,42 @@ extern "C" void request_stop(int) {
   stop_flag = 1;
 }
 
+/// Runs on every process; the first one speaks for all.
 int carry_out(const char* folder) {
   using fingertip::fem_reference::RunOutcome;
+  const bool first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  std::ostringstream words;
+  int code = failure;
   try {
     const RunOutcome outcome =
         fingertip::fem_reference::run_job(folder, std::cout, [] { return stop_flag != 0; });
-    if (!outcome.message.empty()) std::cerr << outcome.message << '\n';
-    switch (outcome.status) {
-      case RunOutcome::Status::ok: return ok;
-      case RunOutcome::Status::interrupted: return interrupted;
-      case RunOutcome::Status::not_converged: return not_converged;
-    }
+    if (!outcome.message.empty()) words << outcome.message << '\n';
+    code = outcome.status == RunOutcome::Status::ok            ? ok
+           : outcome.status == RunOutcome::Status::interrupted ? interrupted
+                                                               : not_converged;
   } catch (const fingertip::meshes::InvalidInput& error) {
-    for (const auto& violation : error.violations()) std::cerr << to_string(violation) << '\n';
-    return bad_input;
+    for (const auto& violation : error.violations()) words << to_string(violation) << '\n';
+    code = bad_input;
   } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
+    words << error.what() << '\n';
   }
-  return failure;
+  if (first) std::cerr << words.str();
+  // All wait for one another, because mpirun ends the rest as soon as one has left with an error.
+  MPI_Barrier(MPI_COMM_WORLD);
+  return code;
 }
 
 }  // namespace
 
+/// Matrices come and go in every Newton iteration; giving their pages back to the system and taking
+/// them again cost a third of the time.
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+}
+
 int main(int argc, char** argv) {
+  keep_freed_memory();
   if (argc != 2 || std::strcmp(argv[1], "--help") == 0) {
     std::cerr
         << "usage: fingertip-fem RUN_FOLDER\n"

@@ -1,124 +1,106 @@
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/solver_cg.h>
-#include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "fem_reference/contact_solver.h"
+#include "fem_reference/field_solver.h"
+#include "fem_reference/two_level.h"
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {
 namespace {
 
-using Vector = dealii::Vector<double>;
+constexpr unsigned most_iterations = 1000;
+/// The coarse hierarchy is built anew when more than this share of the held unknowns has changed.
+constexpr double worth_rebuilding = 0.02;
 
-/// Zeroes the entries of the held unknowns: the projection P.
-void project(const std::vector<char>& held, Vector& v) {
-  for (unsigned i = 0; i < v.size(); ++i)
-    if (held[i]) v[i] = 0.0;
-}
-
-/// P A P for an operator A that leaves its argument alone.
-template <class Operator>
-struct Projected {
-  const Operator& apply;
-  const std::vector<char>& held;
-  void vmult(Vector& result, const Vector& v) const {
-    apply.vmult(result, v);  // v is already projected: CG never leaves the range of P
-    project(held, result);
-  }
-};
-
-class MultigridSolver : public ContactSolver {
+class MultigridSolver : public FieldSolver {
  public:
-  MultigridSolver(const ElasticTip& tip, const std::vector<int>& contact_unknowns, double tolerance)
-      : tip_(tip), contact_unknowns_(contact_unknowns), tolerance_(tolerance) {
-    build_matrix();
-    build_preconditioner();
-    displacement_.reinit(unsigned(tip.dofs()));
+  MultigridSolver(const Body& body, const std::vector<long>& contact_unknowns, double tolerance)
+      : body_(body),
+        contact_unknowns_(contact_unknowns),
+        tolerance_(tolerance),
+        displacement_(body.fine.vector()),
+        load_(displacement_) {
+    for (const long unknown : contact_unknowns)
+      contact_local_.push_back(body.fine.owned.is_element(unsigned(unknown))
+                                   ? long(body.fine.owned.index_within_set(unsigned(unknown)))
+                                   : -1);
+    constrained_.assign(body.fine.owned.n_elements(), 0);
+    for (const auto i : body.fine.owned)
+      if (body.fine.constraints.is_constrained(i))
+        constrained_[body.fine.owned.index_within_set(i)] = 1;
   }
 
-  HeldSolution hold(const std::vector<char>& held, const Eigen::VectorXd& values) override {
-    std::vector<char> constrained = tip_.fixed();
-    for (std::size_t i = 0; i < held.size(); ++i)
-      if (held[i]) {
-        const auto unknown = std::size_t(contact_unknowns_[i]);
-        constrained[unknown] = 1;
-        displacement_[unsigned(unknown)] = values[Eigen::Index(i)];
-      }
-    HeldSolution solution;
-    solution.cg_iterations = relax(constrained);
-    Vector force(displacement_.size());
-    matrix_.vmult(force, displacement_);
-    solution.displacement.resize(values.size());
-    solution.reaction = Eigen::VectorXd::Zero(values.size());
+  void set_matrix(const LinearSystem& system) override {
+    system_ = &system;
+    preconditioner_ = std::make_unique<TwoLevelPreconditioner>(body_, system);
+    built_for_.clear();
+  }
+
+  void set_load(const Vector& load) override { load_ = load; }
+
+  HeldSolution hold(const std::vector<char>& held, const Eigen::VectorXd& values,
+                    const Eigen::VectorXd& loads) override {
+    held_ = constrained_;
+    Vector load = load_;
     for (std::size_t i = 0; i < held.size(); ++i) {
-      const auto unknown = unsigned(contact_unknowns_[i]);
-      solution.displacement[Eigen::Index(i)] = displacement_[unknown];
-      if (held[i]) solution.reaction[Eigen::Index(i)] = force[unknown];
+      const long local = contact_local_[i];
+      if (local < 0) continue;
+      if (held[i]) {
+        held_[std::size_t(local)] = 1;
+        displacement_.begin()[local] = values[Eigen::Index(i)];
+      } else {
+        load.begin()[local] += loads[Eigen::Index(i)];
+      }
     }
+    for (std::size_t i = 0; i < constrained_.size(); ++i)
+      if (constrained_[i]) displacement_.begin()[i] = load.begin()[i] = 0.0;
+    prepare(held);
+    HeldSolution solution;
+    solution.cg_iterations = relax(load);
+    Vector force = body_.fine.vector();
+    system_->matrix.vmult(force, displacement_);
+    force -= load_;
+    solution.displacement = gather(displacement_);
+    solution.reaction = gather(force);
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (!held[i]) solution.reaction[Eigen::Index(i)] = loads[Eigen::Index(i)];
     return solution;
   }
 
-  Eigen::VectorXd field() override {
-    return Eigen::Map<const Eigen::VectorXd>(displacement_.data(),
-                                             Eigen::Index(displacement_.size()));
-  }
+  Vector field() override { return displacement_; }
 
   double noise() const override { return std::max(1e-10, 100 * tolerance_); }
 
  private:
-  /// Stiffness with the rows and columns of fixed unknowns replaced by the identity, scaled like
-  /// their own diagonal.
-  void build_matrix() {
-    const ElasticTip::Matrix& k = tip_.stiffness();
-    const std::vector<char>& fixed = tip_.fixed();
-    dealii::DynamicSparsityPattern pattern{unsigned(k.rows()), unsigned(k.cols())};
-    const auto kept = [&](int i, int j) {
-      return i == j || (!fixed[std::size_t(i)] && !fixed[std::size_t(j)]);
-    };
-    const auto visit = [&](auto&& action) {
-      for (int j = 0; j < k.cols(); ++j)
-        for (ElasticTip::Matrix::InnerIterator it(k, j); it; ++it)
-          if (kept(int(it.row()), j)) action(unsigned(it.row()), unsigned(j), it.value());
-    };
-    visit([&](unsigned i, unsigned j, double) { pattern.add(j, i); });
-    matrix_.reinit(pattern);
-    visit([&](unsigned i, unsigned j, double value) { matrix_.set(j, i, value); });
-    matrix_.compress(dealii::VectorOperation::insert);
+  void prepare(const std::vector<char>& held) {
+    std::size_t changed = held.size();
+    if (built_for_.size() == held.size()) {
+      changed = 0;
+      for (std::size_t i = 0; i < held.size(); ++i) changed += held[i] != built_for_[i];
+    }
+    if (double(changed) <= worth_rebuilding * double(std::ranges::count(held, 1)) &&
+        built_for_.size() == held.size())
+      return;
+    preconditioner_->hold(held_);
+    built_for_ = held;
   }
 
-  void build_preconditioner() {
-    dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
-    data.elliptic = true;
-    data.higher_order_elements = true;
-    data.smoother_sweeps = 2;
-    data.aggregation_threshold = 0.02;
-    data.constant_modes.assign(3, std::vector<bool>(tip_.fixed().size(), false));
-    for (std::size_t i = 0; i < tip_.fixed().size(); ++i)
-      data.constant_modes[std::size_t(tip_.component_of_dof()[i])][i] = true;
-    preconditioner_.initialize(matrix_, data);
-  }
-
-  /// Solves K u = 0 for the unknowns that are not constrained; returns the CG iterations.
-  int relax(const std::vector<char>& constrained) {
-    Vector residual(displacement_.size()), correction(displacement_.size());
-    matrix_.vmult(residual, displacement_);
-    const double scale = residual.l2_norm();  // dominated by the reactions
-    residual *= -1.0;
-    project(constrained, residual);
+  /// Solves for the unknowns that are not held; returns the CG iterations.
+  int relax(const Vector& load) {
+    const ProjectedMatrix matrix(system_->matrix, held_);
+    Vector residual = load, correction = body_.fine.vector();
+    system_->matrix.vmult(residual, displacement_);
+    const double scale = std::max(residual.l2_norm(), load.l2_norm());  // mostly the reactions
+    residual.sadd(-1.0, 1.0, load);
+    matrix.project(residual);
     if (residual.l2_norm() <= tolerance_ * scale) return 0;
-    dealii::SolverControl control(1000, tolerance_ * scale);
+    dealii::SolverControl control(most_iterations, tolerance_ * scale);
     dealii::SolverCG<Vector> cg(control);
-    const Projected<dealii::TrilinosWrappers::SparseMatrix> stiffness{matrix_, constrained};
-    const Projected<dealii::TrilinosWrappers::PreconditionAMG> multigrid{preconditioner_,
-                                                                         constrained};
     try {
-      cg.solve(stiffness, correction, residual, multigrid);
+      cg.solve(matrix, correction, residual, *preconditioner_);
     } catch (const dealii::SolverControl::NoConvergence&) {
       throw meshes::NotConverged("conjugate gradients stopped at a residual of " +
                                  std::to_string(control.last_value() / scale) +
@@ -129,20 +111,27 @@ class MultigridSolver : public ContactSolver {
     return int(control.last_step());
   }
 
-  const ElasticTip& tip_;
-  std::vector<int> contact_unknowns_;
+  Eigen::VectorXd gather(const Vector& v) const {
+    const std::vector<double> all = body_.fine.gather(v, contact_unknowns_);
+    return Eigen::Map<const Eigen::VectorXd>(all.data(), Eigen::Index(all.size()));
+  }
+
+  const Body& body_;
+  std::vector<long> contact_unknowns_;
+  std::vector<long> contact_local_;  ///< index among the owned unknowns, -1 for other processes'
+  std::vector<char> constrained_, held_, built_for_;
   double tolerance_;
-  dealii::TrilinosWrappers::SparseMatrix matrix_;
-  dealii::TrilinosWrappers::PreconditionAMG preconditioner_;
-  Vector displacement_;
+  const LinearSystem* system_ = nullptr;
+  std::unique_ptr<TwoLevelPreconditioner> preconditioner_;
+  Vector displacement_, load_;
 };
 
 }  // namespace
 
-std::unique_ptr<ContactSolver> make_multigrid_solver(const ElasticTip& tip,
-                                                     const std::vector<int>& contact_unknowns,
-                                                     double tolerance) {
-  return std::make_unique<MultigridSolver>(tip, contact_unknowns, tolerance);
+std::unique_ptr<FieldSolver> make_multigrid_solver(const Body& body,
+                                                   const std::vector<long>& contact_unknowns,
+                                                   double tolerance) {
+  return std::make_unique<MultigridSolver>(body, contact_unknowns, tolerance);
 }
 
 }  // namespace fingertip::fem_reference

@@ -1,6 +1,7 @@
 #include "fem_reference/plane_contact.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -10,152 +11,206 @@
 namespace fingertip::fem_reference {
 namespace {
 
+using meshes::ContactMode;
+
 constexpr int max_rounds = 400;
 /// Rounds without progress after which offenders are changed one at a time.
 constexpr int patience = 8;
-/// Penetration below this fraction of the tip's radius is round-off.
+/// Penetration below this length [m] is round-off: a picometre.
 constexpr double gap_noise = 1e-12;
+/// Friction forces have settled when a round changes none by more than this, over the largest push.
+constexpr double friction_settled = 1e-9;
+/// Rounds after which friction forces are changed by half of what they should be.
+constexpr int friction_patience = 60;
 
 }  // namespace
 
-ContactUnknowns contact_unknowns(const ElasticTip& tip, meshes::ContactMode mode, double lowest) {
-  ContactUnknowns result;
-  for (const SurfaceNode& node : tip.outer_nodes()) {
-    if (node.position.z() < lowest) continue;
-    std::array<int, 3> positions{-1, -1, -1};
-    for (std::size_t c = mode == meshes::ContactMode::stick ? 0 : 2; c < 3; ++c) {
-      if (tip.fixed()[std::size_t(node.dof[c])]) continue;
-      positions[c] = int(result.unknowns.size());
-      result.unknowns.push_back(node.dof[c]);
-    }
-    if (positions[2] < 0) continue;  // bonded as well: it cannot move toward the plane
-    result.nodes.push_back(node);
-    result.of_node.push_back(positions);
-  }
-  return result;
+PlaneContact::PlaneContact(ContactUnknowns unknowns, ContactMode mode, const PlanePose& start,
+                           double friction, double shear_modulus)
+    : unknowns_(std::move(unknowns)),
+      mode_(mode),
+      friction_(friction),
+      shear_modulus_(shear_modulus) {
+  const std::size_t nodes = unknowns_.nodes.size();
+  const auto zero = Eigen::VectorXd::Zero(Eigen::Index(unknowns_.unknowns.size()));
+  committed_ = {start, std::vector<NodeStatus>(nodes, NodeStatus::open),
+                std::vector<std::array<double, 2>>(nodes, {0.0, 0.0}), zero, zero};
+  trial_ = committed_;
 }
 
-PlaneContact::PlaneContact(ContactUnknowns unknowns, double tip_radius, ContactSolver& solver)
-    : unknowns_(std::move(unknowns)),
-      tip_radius_(tip_radius),
-      solver_(solver),
-      active_(unknowns_.nodes.size(), 0),
-      anchors_(unknowns_.nodes.size(), {0.0, 0.0}),
-      displacement_(Eigen::VectorXd::Zero(Eigen::Index(unknowns_.unknowns.size()))),
-      reaction_(displacement_) {}
+void PlaneContact::restore(State state) {
+  committed_ = std::move(state);
+  trial_ = committed_;
+}
+
+void PlaneContact::commit() {
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    if (trial_.status[node] == NodeStatus::slide) {  // the next slip starts here
+      anchor(node, trial_.displacement, 1.0);
+    }
+  committed_ = trial_;
+}
 
 int PlaneContact::active_nodes() const {
-  return int(std::ranges::count(active_, 1));
+  return int(trial_.status.size()) - int(std::ranges::count(trial_.status, NodeStatus::open));
 }
 
 meshes::Vector3 PlaneContact::reaction(std::size_t node) const {
   meshes::Vector3 force = meshes::Vector3::Zero();
   for (int c = 0; c < 3; ++c) {
     const int position = unknowns_.of_node[node][std::size_t(c)];
-    if (position >= 0) force[c] = reaction_[position];
+    if (position >= 0) force[c] = trial_.reaction[position];
   }
   return force;
 }
 
-double PlaneContact::gap(std::size_t node) const {
-  return gap(node, displacement_, indentation_);
+std::vector<char> PlaneContact::held() const {
+  std::vector<char> result(unknowns_.unknowns.size(), 0);
+  for (std::size_t node = 0; node < trial_.status.size(); ++node) {
+    if (trial_.status[node] == NodeStatus::open) continue;
+    for (std::size_t c = trial_.status[node] == NodeStatus::stick ? 0 : 2; c < 3; ++c) {
+      const int position = unknowns_.of_node[node][c];
+      if (position >= 0) result[std::size_t(position)] = 1;
+    }
+  }
+  return result;
 }
 
 double PlaneContact::gap(std::size_t node, const Eigen::VectorXd& displacement,
-                         double indentation) const {
-  return tip_radius_ - indentation - unknowns_.nodes[node].position.z() -
+                         const PlanePose& pose) const {
+  return pose.height - unknowns_.nodes[node].position.z() -
          displacement[unknowns_.of_node[node][2]];
 }
 
-HeldSolution PlaneContact::solve(const std::vector<char>& active, double indentation) const {
-  std::vector<char> held(unknowns_.unknowns.size(), 0);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(displacement_.size());
-  for (std::size_t node = 0; node < active.size(); ++node) {
-    if (!active[node]) continue;
-    const double height = tip_radius_ - indentation - unknowns_.nodes[node].position.z();
-    const std::array<double, 3> wanted{anchors_[node][0], anchors_[node][1], height};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const int position = unknowns_.of_node[node][c];
-      if (position < 0) continue;
-      held[std::size_t(position)] = 1;
-      values[position] = wanted[c];
+HeldSolution PlaneContact::solve(ContactSolver& solver) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(trial_.displacement.size());
+  Eigen::VectorXd loads = values;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node) {
+    if (trial_.status[node] == NodeStatus::open) continue;
+    const auto& of_node = unknowns_.of_node[node];
+    values[of_node[2]] = trial_.pose.height - unknowns_.nodes[node].position.z();
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (of_node[c] < 0) continue;
+      values[of_node[c]] = trial_.anchors[node][c] + (c == 0 ? trial_.pose.shift : 0.0);
+      if (trial_.status[node] == NodeStatus::slide) loads[of_node[c]] = trial_.reaction[of_node[c]];
     }
   }
-  return solver_.hold(held, values);
+  return solver.hold(held(), values, loads);
 }
 
-std::vector<std::size_t> PlaneContact::offenders(const std::vector<char>& active,
-                                                 const HeldSolution& trial,
-                                                 double indentation) const {
+std::vector<std::size_t> PlaneContact::offenders(const HeldSolution& solution, double noise) const {
   // Both thresholds sit above the solver's noise, or nodes that barely touch would flicker.
-  const double largest = trial.reaction.size() ? trial.reaction.cwiseAbs().maxCoeff() : 0.0;
-  const double pull = solver_.noise() * largest;
-  const double depth = std::max(gap_noise * tip_radius_, solver_.noise() * indentation);
+  const double pull =
+      solution.reaction.size() ? noise * solution.reaction.cwiseAbs().maxCoeff() : 0.0;
+  const double depth = std::max(gap_noise, solution.displacement.size()
+                                               ? noise * solution.displacement.cwiseAbs().maxCoeff()
+                                               : 0.0);
   std::vector<std::size_t> result;
-  for (std::size_t node = 0; node < active.size(); ++node) {
-    const bool wrong = active[node] ? trial.reaction[unknowns_.of_node[node][2]] > pull
-                                    : gap(node, trial.displacement, indentation) < -depth;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node) {
+    const bool wrong = trial_.status[node] != NodeStatus::open
+                           ? solution.reaction[unknowns_.of_node[node][2]] > pull
+                           : gap(node, solution.displacement, trial_.pose) < -depth;
     if (wrong) result.push_back(node);
   }
   return result;
 }
 
-double PlaneContact::touch_time(std::size_t node, const Eigen::VectorXd& trial,
-                                double indentation) const {
-  const double before = std::max(0.0, gap(node));
-  return before / (before - gap(node, trial, indentation));
-}
-
 void PlaneContact::anchor(std::size_t node, const Eigen::VectorXd& trial, double time) {
+  const double shift = (1.0 - time) * committed_.pose.shift + time * trial_.pose.shift;
   for (std::size_t c = 0; c < 2; ++c) {
     const int position = unknowns_.of_node[node][c];
-    if (position >= 0)
-      anchors_[node][c] =
-          displacement_[position] + time * (trial[position] - displacement_[position]);
+    if (position < 0) continue;
+    const double start = committed_.displacement[position];
+    trial_.anchors[node][c] = start + time * (trial[position] - start) - (c == 0 ? shift : 0.0);
   }
 }
 
-ContactStep PlaneContact::advance(double indentation) {
-  ContactStep step;
-  std::vector<char> active = active_;
-  const auto anchors = anchors_;
+void PlaneContact::change(std::size_t node, const HeldSolution& solution) {
+  const auto& of_node = unknowns_.of_node[node];
+  NodeStatus& status = trial_.status[node];
+  for (std::size_t c = 0; c < 2; ++c)
+    if (of_node[c] >= 0) trial_.reaction[of_node[c]] = 0.0;
+  if (status != NodeStatus::open) {
+    status = NodeStatus::open;
+    return;
+  }
+  const double before = std::max(0.0, gap(node, committed_.displacement, committed_.pose));
+  const double after = gap(node, solution.displacement, trial_.pose);
+  anchor(node, solution.displacement, before / (before - after));
+  status = mode_ == ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
+}
+
+void PlaneContact::touch_at_start() {
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    if (trial_.status[node] == NodeStatus::open &&
+        gap(node, committed_.displacement, committed_.pose) <= gap_noise) {
+      trial_.status[node] =
+          mode_ == ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
+      anchor(node, committed_.displacement, 0.0);
+    }
+}
+
+double PlaneContact::update_friction(const HeldSolution& solution, double relaxation) {
+  double largest_push = 0.0, largest_change = 0.0;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node) {
+    if (trial_.status[node] == NodeStatus::open) continue;
+    const auto& of_node = unknowns_.of_node[node];
+    const double push = std::max(0.0, -solution.reaction[of_node[2]]);
+    largest_push = std::max(largest_push, push);
+    const bool sliding = trial_.status[node] == NodeStatus::slide;
+    const double rho = shear_modulus_ * std::sqrt(unknowns_.nodes[node].area);
+    Eigen::Vector2d force = Eigen::Vector2d::Zero(), wanted = force;
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (of_node[c] < 0) continue;
+      force[Eigen::Index(c)] = wanted[Eigen::Index(c)] = solution.reaction[of_node[c]];
+      const double slip = solution.displacement[of_node[c]] - trial_.anchors[node][c] -
+                          (c == 0 ? trial_.pose.shift : 0.0);
+      if (sliding) wanted[Eigen::Index(c)] -= rho * slip;
+    }
+    if (wanted.norm() <= friction_ * push * (1.0 + friction_settled)) {
+      if (sliding) largest_change = std::numeric_limits<double>::infinity();
+      trial_.status[node] = NodeStatus::stick;
+      continue;
+    }
+    if (!sliding) largest_change = std::numeric_limits<double>::infinity();
+    trial_.status[node] = NodeStatus::slide;
+    const Eigen::Vector2d limit = friction_ * push * wanted.normalized();
+    const Eigen::Vector2d next =
+        sliding ? Eigen::Vector2d(force + relaxation * (limit - force)) : limit;
+    largest_change = std::max(largest_change, (next - force).norm());
+    for (std::size_t c = 0; c < 2; ++c)
+      if (of_node[c] >= 0) trial_.reaction[of_node[c]] = next[Eigen::Index(c)];
+  }
+  return largest_push > 0.0 ? largest_change / largest_push : 0.0;
+}
+
+ContactEffort PlaneContact::settle(ContactSolver& solver, const PlanePose& pose) {
+  ContactEffort effort;
+  trial_.pose = pose;
+  touch_at_start();
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int stalled = 0;
-  // A node that already touches when the step begins belongs to its very first trial state.
-  for (std::size_t node = 0; node < active.size(); ++node)
-    if (!active[node] && gap(node) <= gap_noise * tip_radius_) {
-      active[node] = 1;
-      anchor(node, displacement_, 0.0);
+  while (effort.rounds < max_rounds) {
+    const HeldSolution solution = solve(solver);
+    ++effort.rounds;
+    effort.cg_iterations += solution.cg_iterations;
+    std::vector<std::size_t> wrong = offenders(solution, solver.noise());
+    const double change =
+        mode_ == ContactMode::coulomb
+            ? update_friction(solution, effort.rounds > friction_patience ? 0.5 : 1.0)
+            : 0.0;
+    if (wrong.empty() && change <= std::max(friction_settled, solver.noise())) {
+      trial_.displacement = solution.displacement;
+      trial_.reaction = solution.reaction;
+      return effort;
     }
-  try {
-    while (step.active_set_iterations < max_rounds) {
-      HeldSolution trial = solve(active, indentation);
-      ++step.active_set_iterations;
-      step.cg_iterations += trial.cg_iterations;
-      std::vector<std::size_t> wrong = offenders(active, trial, indentation);
-      if (wrong.empty()) {
-        active_ = std::move(active);
-        displacement_ = std::move(trial.displacement);
-        reaction_ = std::move(trial.reaction);
-        indentation_ = indentation;
-        return step;
-      }
-      stalled = wrong.size() < fewest ? 0 : stalled + 1;
-      fewest = std::min(fewest, wrong.size());
-      if (stalled > patience) wrong.resize(1);
-      for (const std::size_t node : wrong) {
-        active[node] = !active[node];
-        if (active[node])
-          anchor(node, trial.displacement, touch_time(node, trial.displacement, indentation));
-      }
-    }
-    throw meshes::NotConverged("the active set did not settle within " +
-                               std::to_string(max_rounds) + " rounds at an indentation of " +
-                               std::to_string(indentation) + " m");
-  } catch (...) {
-    anchors_ = anchors;
-    throw;
+    stalled = wrong.size() < fewest ? 0 : stalled + 1;
+    fewest = std::min(fewest, wrong.size());
+    if (stalled > patience && wrong.size() > 1) wrong.resize(1);
+    for (const std::size_t node : wrong) this->change(node, solution);
   }
+  throw meshes::NotConverged("the contact state did not settle within " +
+                             std::to_string(max_rounds) + " rounds");
 }
 
 }  // namespace fingertip::fem_reference

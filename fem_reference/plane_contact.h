@@ -1,4 +1,5 @@
-/// Unilateral contact of the elastic tip with the rigid plane, by a primal-dual active set.
+/// Contact of the tip with the rigid plane, node by node, by a primal-dual active set. Free of
+/// deal.II.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,73 +7,100 @@
 #include <vector>
 
 #include "fem_reference/contact_solver.h"
+#include "fem_reference/contact_surface.h"
 #include "meshes/press_protocol.h"
 
 namespace fingertip::fem_reference {
 
-/// The contact unknowns of a press: candidate nodes and which of their unknowns contact may hold.
-struct ContactUnknowns {
-  std::vector<SurfaceNode> nodes;           ///< candidates
-  std::vector<int> unknowns;                ///< numbers in the tip's system
-  std::vector<std::array<int, 3>> of_node;  ///< per node: position in `unknowns`, -1 if none
+/// Where the plane is: z >= height is behind it; it has moved along x by `shift`. Plane axes [m].
+struct PlanePose {
+  double height = 0.0;
+  double shift = 0.0;
 };
 
-/// Candidates are the nodes of the outer surface above `lowest` [m]. Frictionless contact holds
-/// their z unknowns only; stick all that symmetry leaves free.
-ContactUnknowns contact_unknowns(const ElasticTip& tip, meshes::ContactMode mode, double lowest);
+enum class NodeStatus : char {
+  open,   ///< away from the plane
+  stick,  ///< on the plane, moves with it
+  slide,  ///< on the plane, under the friction that its push allows (none when frictionless)
+};
 
-struct ContactStep {
-  int active_set_iterations = 0;
+struct ContactEffort {
+  int rounds = 0;
   int cg_iterations = 0;
 };
 
-/// Marches the plane z = R - indentation toward the rod. The gap of a node is taken on the
-/// reference surface: reference z + u_z <= R - indentation, with a push, never a pull.
+/// Finds which nodes touch. The gap of a node is height - (reference z + u_z): small and large
+/// strain differ in the solver behind, not here, because the plane is flat and the gap is linear
+/// in u. A push, never a pull.
 ///
-/// In a step every node belongs to the active set (held on the plane) or is free. A free node that
-/// penetrates joins the set and an active one that is pulled leaves it, all at once, until nothing
-/// changes (Hintermüller, Ito & Kunisch 2002). This can cycle when the condensed stiffness is no
-/// M-matrix. When the number of offenders has not fallen for some rounds, they are therefore
-/// changed one at a time, smallest index first, which for frictionless contact ends after finitely
-/// many rounds (Júdice & Pires 1994, following Murty 1974).
+/// In a round every node is on the plane (its z held) or open. An open node that penetrates is put
+/// on the plane and one that is pulled comes off, all at once, until nothing changes (Hintermüller,
+/// Ito & Kunisch 2002). This can cycle when the condensed stiffness is no M-matrix. When the number
+/// of offenders has not fallen for some rounds, they are therefore changed one at a time, smallest
+/// index first, which for frictionless contact ends after finitely many rounds (Júdice & Pires
+/// 1994, following Murty 1974).
 ///
-/// Stick: a node that joins is anchored at its lateral position at first touch, interpolated
+/// Stick: a node put on the plane is anchored at its lateral position at first touch, interpolated
 /// linearly between the start of the step and the trial state in which it was found penetrating.
-/// The error of the anchor is of second order in the step.
+/// The error of the anchor is of second order in the step. Anchors move with the plane.
+///
+/// Coulomb: a node sticks while |t| <= mu p; beyond, it slides under t = mu p d. In each round the
+/// force of a sliding node is projected anew, t <- mu p (t - rho s)/|t - rho s| with its slip s
+/// since the start of the step and rho = G sqrt(area), and it sticks again when |t - rho s| <= mu p
+/// (Alart & Curnier 1991): a fixed point satisfies Coulomb's law whatever rho.
 class PlaneContact {
  public:
-  PlaneContact(ContactUnknowns unknowns, double tip_radius, ContactSolver& solver);
+  /// The first step starts from the tip at rest under the plane at `start`. `friction` is mu
+  /// (contact coulomb only), `shear_modulus` [Pa] scales rho.
+  PlaneContact(ContactUnknowns unknowns, meshes::ContactMode mode, const PlanePose& start,
+               double friction, double shear_modulus);
 
-  /// Advances from the present indentation to `indentation` [m] in one step. Throws NotConverged
-  /// and leaves the state as it was.
-  ContactStep advance(double indentation);
+  /// Finds the contact state under the plane at `pose` for the solver's present linear system.
+  /// Newton's method calls it repeatedly, each time starting from the last answer; the state stays
+  /// a trial until `commit`. Throws NotConverged.
+  ContactEffort settle(ContactSolver& solver, const PlanePose& pose);
+  /// The trial becomes the state from which the next step starts.
+  void commit();
+  /// Back to the last committed state.
+  void abandon() { trial_ = committed_; }
 
-  double indentation() const { return indentation_; }
   const ContactUnknowns& unknowns() const { return unknowns_; }
-  const std::vector<char>& active() const { return active_; }  ///< one flag per candidate node
+  /// Of the trial, one per candidate node.
+  const std::vector<NodeStatus>& status() const { return trial_.status; }
   int active_nodes() const;
   /// Force of the plane on a candidate node [N].
   meshes::Vector3 reaction(std::size_t node) const;
-  /// Gap of a candidate node, negative when it penetrates [m].
-  double gap(std::size_t node) const;
+  /// One flag per contact unknown that the trial holds.
+  std::vector<char> held() const;
+  /// Forces of the plane on all contact unknowns [N].
+  const Eigen::VectorXd& reactions() const { return trial_.reaction; }
+  double gap(std::size_t node) const { return gap(node, trial_.displacement, trial_.pose); }
+
+  /// What a checkpoint needs to restore the committed state.
+  struct State {
+    PlanePose pose;
+    std::vector<NodeStatus> status;
+    std::vector<std::array<double, 2>> anchors;  ///< lateral displacement relative to the plane [m]
+    Eigen::VectorXd displacement, reaction;      ///< of the contact unknowns
+  };
+  const State& committed() const { return committed_; }
+  void restore(State state);
 
  private:
-  double gap(std::size_t node, const Eigen::VectorXd& displacement, double indentation) const;
-  HeldSolution solve(const std::vector<char>& active, double indentation) const;
-  std::vector<std::size_t> offenders(const std::vector<char>& active, const HeldSolution& trial,
-                                     double indentation) const;
-  /// When in the step, 0 ... 1, a node that penetrates in the trial state touched the plane.
-  double touch_time(std::size_t node, const Eigen::VectorXd& trial, double indentation) const;
-  /// Anchors a node where it was at `time` between the start of the step and the trial state.
+  double gap(std::size_t node, const Eigen::VectorXd& displacement, const PlanePose& pose) const;
+  HeldSolution solve(ContactSolver& solver) const;
+  void touch_at_start();
+  std::vector<std::size_t> offenders(const HeldSolution& solution, double noise) const;
+  void change(std::size_t node, const HeldSolution& solution);
+  /// Anchors a node where it was at `time`, 0 ... 1, between the start of the step and `trial`.
   void anchor(std::size_t node, const Eigen::VectorXd& trial, double time);
+  /// One round of Coulomb's law; the largest change of a friction force over the largest push.
+  double update_friction(const HeldSolution& solution, double relaxation);
 
   ContactUnknowns unknowns_;
-  double tip_radius_;
-  ContactSolver& solver_;
-  double indentation_ = 0.0;
-  std::vector<char> active_;
-  std::vector<std::array<double, 2>> anchors_;  ///< lateral displacement at first touch [m]
-  Eigen::VectorXd displacement_, reaction_;     ///< of the contact unknowns
+  meshes::ContactMode mode_;
+  double friction_, shear_modulus_;
+  State committed_, trial_;
 };
 
 }  // namespace fingertip::fem_reference

@@ -1,23 +1,23 @@
 /// A static press of the elastic tip on the rigid plane, sample by sample. Free of deal.II.
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <vector>
 
-#include "fem_reference/elastic_tip.h"
 #include "fem_reference/job.h"
-#include "fem_reference/plane_contact.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::fem_reference {
 
 /// A node that the plane pushes.
 struct ContactPoint {
-  double radius = 0.0;    ///< distance from the axis in the reference shape [m]
-  double pressure = 0.0;  ///< nodal force over lumped area [Pa]
+  double radius =
+      0.0;  ///< distance from the axis: small strain reference, large strain current [m]
+  double pressure = 0.0;  ///< nodal force over lumped area (large strain: current area) [Pa]
 };
 
 /// What one sample yields, and what it cost.
@@ -25,64 +25,88 @@ struct PressState {
   meshes::PressSample sample;
   std::vector<ContactPoint> contact;  ///< by increasing radius
   double node_spacing = 0.0;          ///< of the candidate nodes around the contact edge [m]
+  double min_jacobian = 1.0;          ///< smallest det F at a quadrature point; 1 at small strain
+  double energy = 0.0;                ///< stored in the rubber [J]
   int steps = 0;
+  int newton_iterations = 0;
   int active_set_iterations = 0;
   int cg_iterations = 0;
   int active_nodes = 0;
+  int sliding_nodes = 0;   ///< Coulomb's friction only
   double wall_time = 0.0;  ///< [s]
 };
 
+/// The mesh on which a press is computed.
+struct MeshSummary {
+  std::size_t cells = 0;
+  std::size_t unknowns = 0;
+  std::size_t contact_unknowns = 0;
+  LinearSolver solver = LinearSolver::automatic;
+};
+
+/// A mesh edge in the plane y = 0, undeformed and deformed, as (x1, z1, x2, z2) in plane axes [m].
+struct SectionEdge {
+  std::array<double, 4> undeformed{};
+  std::array<double, 4> deformed{};
+};
+
 /// Radius of the contact edge [m]. Pressure vanishes at the edge like the square root of the
-/// distance from it, as in Hertz's p² ∝ a² - r²: the zero of a straight line fitted to p² against
-/// r² over the outer part of the contact, kept between the outermost node that is pushed and one
-/// node spacing beyond. `contact` is sorted by radius.
+/// distance from it, as in Hertz's p² ∝ a² - r²: the zero of a parabola in r² fitted to p² over the
+/// outer half of the contact, kept within one node spacing of the outermost node that is pushed.
+/// `contact` is sorted by radius.
 double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing);
 
-/// The quarter of a tip under a plane that comes nearer.
+/// A tip under a plane that comes nearer. A quarter of it when nothing breaks the symmetry, a half
+/// (y >= 0) when it is tilted or moved laterally. All processes of MPI_COMM_WORLD take part in
+/// every call.
 class ContinuumPress {
  public:
-  struct Options {
-    int degree = 2;
-    LinearSolver solver = LinearSolver::automatic;
-    double tolerance = 1e-8;
-    /// Longest step of a stick press, in units of R - r. Frictionless presses take one step from
-    /// sample to sample, for they do not depend on the path.
-    double step = 0.01;
-    std::function<bool()> stop_requested;  ///< asked between steps; may be empty
-  };
-
-  /// Reads the mesh, assembles, and prepares contact down to `depth` [m].
-  ContinuumPress(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
-                 meshes::ContactMode contact, double depth, const std::filesystem::path& mesh_file,
-                 const Options& options);
+  /// Reads the first mesh, which must be of the sector that `sector(job)` names. Throws
+  /// InvalidInput for a mesh that cannot be read.
+  ContinuumPress(const ReferenceJob& job, const std::filesystem::path& mesh_file,
+                 std::function<bool()> stop_requested = {});
   ~ContinuumPress();
   ContinuumPress(const ContinuumPress&) = delete;
   ContinuumPress& operator=(const ContinuumPress&) = delete;
 
+  MeshSummary mesh() const;
+
+  /// Longest step of a press whose path matters, in units of R - r; 0.01 at first.
+  void set_longest_step(double step);
+
   /// Presses on to `indentation` [m], at least the present one and at most the depth. Throws
-  /// NotConverged; Interrupted between steps once `Options::stop_requested` says so.
+  /// NotConverged, which leaves the press at the last step that converged; Interrupted between
+  /// steps once `stop_requested` says so.
   PressState advance(double indentation);
 
-  const ElasticTip& tip() const { return tip_; }
-  LinearSolver solver() const { return solver_kind_; }
-  int contact_unknowns() const;
-  /// Displacement of all unknowns [m] and forces of the plane on them [N] at the last sample.
-  const Eigen::VectorXd& displacement() const { return displacement_; }
-  Eigen::VectorXd plane_force() const;
+  /// Refines the mesh and starts anew from rest. `wanted` has one flag per sample so far; empty
+  /// means all. Refined are the elements with the largest error indicators of the wanted samples,
+  /// which together carry `share` of the squared error (Kelly's estimate: jumps of the
+  /// displacement's normal derivative across faces; each sample's normalised by its sum), and those
+  /// at contact edges: all that are too coarse for the contact's radius, and of samples wanted by
+  /// name every one.
+  void refine(double share, const std::vector<char>& wanted = {});
+
+  /// VTU of the last sample: displacement [m], stress, von Mises stress [Pa], and on the contact
+  /// surface pressure and shear of the plane [Pa] and status (0 open, 1 stick, 2 slide).
+  void write_fields(const std::filesystem::path& file) const;
+  /// The mesh's edges in the plane y = 0 at the last sample, complete on the first process.
+  std::vector<SectionEdge> section() const;
+
+  /// Force with which the rod holds the sector's bond surface at the last sample, from the residual
+  /// there, in plane axes [N].
+  meshes::Vector3 bond_reaction() const;
+
+  /// Saves or restores mesh, solution and contact state; `folder` must exist.
+  void save(const std::filesystem::path& folder) const;
+  void load(const std::filesystem::path& folder);
 
  private:
-  double next_step(double target) const;
-  void check_other_nodes() const;
-  PressState evaluate() const;
-
-  meshes::Geometry geometry_;
-  meshes::ContactMode mode_;
-  Options options_;
-  ElasticTip tip_;
-  LinearSolver solver_kind_;
-  std::unique_ptr<ContactSolver> solver_;
-  std::unique_ptr<PlaneContact> contact_;
-  Eigen::VectorXd displacement_;
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
+
+/// Whether a quarter of the tip tells everything; otherwise a half does.
+bool has_two_symmetry_planes(const ReferenceJob& job);
 
 }  // namespace fingertip::fem_reference

@@ -15,12 +15,12 @@ struct RunOutcome {
   std::string message;  ///< empty when ok
 };
 
-/// Reads `folder`/job.json and writes into `folder`: tip.msh, response.csv, pressure.csv,
-/// section.csv, fields/press_NNNN.vtu with fields/press.pvd, and summary.json (README). Everything
-/// is rewritten after each sample, so that a run that ends early keeps what it has. `progress`
-/// receives one JSON object per line. `stop_requested` is asked between the steps of the press.
-/// Throws InvalidInput, having written nothing, for a bad job; std::runtime_error for a folder that
-/// cannot be written. MPI must be initialised.
+/// Reads `folder`/job.json and writes the results into `folder` (README lists the files).
+/// Everything is rewritten after each sample, so that a run that ends early keeps what it has, and
+/// `folder`/checkpoint lets the same job go on where it stopped. `progress` receives one JSON
+/// object per line. `stop_requested` is asked between the steps of the press. All processes of
+/// MPI_COMM_WORLD call it together; MPI must be initialised. Throws InvalidInput, having written
+/// nothing, for a bad job; std::runtime_error for a folder that cannot be written.
 RunOutcome run_job(const std::filesystem::path& folder, std::ostream& progress,
                    const std::function<bool()>& stop_requested);
 

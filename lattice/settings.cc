@@ -94,6 +94,26 @@ void add_rod(std::vector<Violation>& found, const PressSetup& setup) {
 
 }  // namespace
 
+std::vector<Violation> beyond_the_lattice(const meshes::PressProtocol& protocol) {
+  std::vector<Violation> found;
+  if (protocol.contact == meshes::ContactMode::coulomb) {
+    found.push_back({"press.contact", "coulomb",
+                     "the lattice knows stick and frictionless contact only",
+                     "choose one of them, or compute Coulomb friction with `reference`"});
+  }
+  if (protocol.tilt != 0.0) {
+    found.push_back({"press.tilt", meshes::to_text(protocol.tilt) + " rad",
+                     "the lattice presses along the plane's normal only",
+                     "leave the tilt at 0, or compute a tilted press with `reference`"});
+  }
+  if (protocol.lateral != 0.0) {
+    found.push_back({"press.lateral", meshes::to_text(protocol.lateral) + " m",
+                     "the plane of the lattice does not move sideways",
+                     "leave the lateral motion at 0, or compute it with `reference`"});
+  }
+  return found;
+}
+
 std::vector<Violation> PressSetup::violations() const {
   std::vector<Violation> found = geometry.violations();
   const auto append = [&found](const std::vector<Violation>& more) {
@@ -101,6 +121,7 @@ std::vector<Violation> PressSetup::violations() const {
   };
   append(rubber.violations());
   append(protocol.violations(geometry));
+  append(beyond_the_lattice(protocol));
   add_lattice(found, *this);
   add_controller(found, controller);
   add_rod(found, *this);

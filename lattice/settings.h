@@ -46,6 +46,10 @@ struct PidSettings {
   double torque_limit = 1.0;        ///< largest torque about each axis [N m], > 0
 };
 
+/// What of a valid protocol the lattice cannot do: so far it presses straight along the plane's
+/// normal, and a touching point sticks for good or slides freely.
+std::vector<meshes::Violation> beyond_the_lattice(const meshes::PressProtocol& protocol);
+
 /// The complete order for one press.
 struct PressSetup {
   meshes::Geometry geometry;
@@ -58,7 +62,8 @@ struct PressSetup {
   std::optional<double> time_step;  ///< [s]; the largest safe one when absent
   int threads = 0;                  ///< 0: all cores. The result does not depend on it.
 
-  /// Every broken rule of specimen, protocol, lattice, rod and controller.
+  /// Every broken rule of specimen, protocol, lattice, rod and controller, and what is
+  /// beyond_the_lattice.
   std::vector<meshes::Violation> violations() const;
 };
 

@@ -204,9 +204,14 @@ void name_groups(const BlockStructure& blocks, bool sleeve, Sector sector) {
   group(2, blocks.surfaces_where([last](const Corner& c) { return c.ring == last; }),
         PhysicalTag::end, "end");
   if (sector == Sector::full) return;
-  group(2, blocks.surfaces_where([](const Corner& c) { return c.ring == pole || c.azimuth == 2; }),
-        PhysicalTag::symmetry_x, "symmetry_x");
-  group(2, blocks.surfaces_where([](const Corner& c) { return c.ring == pole || c.azimuth == 0; }),
+  const bool half = sector == Sector::half;
+  if (!half)
+    group(2, blocks.surfaces_where([](const Corner& c) { return c.ring == pole || c.azimuth == 2; }),
+          PhysicalTag::symmetry_x, "symmetry_x");
+  group(2,
+        blocks.surfaces_where([half](const Corner& c) {
+          return c.ring == pole || c.azimuth == 0 || (half && c.azimuth == 4);
+        }),
         PhysicalTag::symmetry_y, "symmetry_y");
 }
 
@@ -299,8 +304,8 @@ MeshQuality mesh_tip(const Geometry& geometry, const TipMeshOptions& options,
   const GmshSession session;
   const bool sleeve = geometry.sleeve_length > 0.0;
   BlockStructure blocks(geometry, options);
-  for (int azimuth = 0; azimuth < (options.sector == Sector::full ? 8 : 2); azimuth += 2)
-    add_quarter(blocks, azimuth, sleeve);
+  const int azimuths = options.sector == Sector::full ? 8 : options.sector == Sector::half ? 4 : 2;
+  for (int azimuth = 0; azimuth < azimuths; azimuth += 2) add_quarter(blocks, azimuth, sleeve);
   gmsh::model::geo::synchronize();
   name_groups(blocks, sleeve, options.sector);
   gmsh::model::mesh::generate(3);

@@ -10,8 +10,8 @@
 namespace fingertip::meshes {
 
 /// How much of the tip is meshed. A press along the axis has two symmetry planes, so its quarter
-/// x >= 0, y >= 0 tells everything.
-enum class Sector { quarter, full };
+/// x >= 0, y >= 0 tells everything; a tilt about y or a motion along x leaves one, y >= 0.
+enum class Sector { quarter, half, full };
 
 /// Numbers of the physical groups in the mesh file, for readers that do not keep the names.
 enum class PhysicalTag { tip = 1, outer = 2, bond = 3, end = 4, symmetry_x = 5, symmetry_y = 6 };
@@ -45,7 +45,8 @@ struct MeshQuality {
 };
 
 /// Writes the mesh in MSH 4.1 format with the physical volume `tip` and the physical surfaces
-/// `outer`, `bond`, `end` and, for the quarter, `symmetry_x` (the plane x = 0) and `symmetry_y`.
+/// `outer`, `bond`, `end` and, for quarter and half, `symmetry_y` (the plane y = 0), for the quarter
+/// `symmetry_x` (x = 0), too.
 /// Lengths in metres. Throws InvalidInput for a broken option, NotConverged when gmsh fails or
 /// when an element has a non-positive Jacobian.
 MeshQuality write_tip_mesh(const Geometry& geometry, const TipMeshOptions& options,

@@ -31,6 +31,7 @@ class Validation {
  private:
   std::vector<PlannedJob> plan();
   ordered_json reference_entry() const;
+  ordered_json verification_entry() const;
   ordered_json model_entry(const std::string& model, const std::string& status) const;
   ordered_json judge(const ordered_json& summary) const;
   double cube_error() const;
@@ -49,6 +50,7 @@ std::vector<PlannedJob> Validation::plan() {
   std::vector<PlannedJob> jobs;
   // The longest first, so that the lanes end together.
   jobs.push_back({"reference", reference_job(reference_order(case_.loaded)), false});
+  jobs.push_back({"verification", verification_job(), false});
   std::map<std::string, lattice::PressSetup> setups;
   for (const std::string& model : validated_models()) {
     setups[model] =
@@ -81,6 +83,14 @@ ordered_json Validation::reference_entry() const {
     error.push_back(number_or_null(nearest->force_error / nearest->normal_force));
   }
   return {{"status", finished}, {"force", force}, {"relative_force_error", error}};
+}
+
+ordered_json Validation::verification_entry() const {
+  const ordered_json verification = read_json(folder() / "verification" / "verification.json");
+  const ordered_json& checks = verification["checks"];
+  const auto failed = std::ranges::count_if(
+      checks, [](const ordered_json& check) { return !check["passed"].get<bool>(); });
+  return {{"checks", checks.size()}, {"failed_checks", failed}};
 }
 
 ordered_json Validation::model_entry(const std::string& model, const std::string& status) const {
@@ -165,7 +175,8 @@ Verdict Validation::run() {
                             {"poissons_ratio", rubber.poissons_ratio()},
                             {"bulk_modulus", rubber.bulk_modulus()}}},
                           {"depths", verdict_depths(config().press.protocol.depth)},
-                          {"reference", reference_entry()}};
+                          {"reference", reference_entry()},
+                          {"verification", verification_entry()}};
   for (const std::string& model : validated_models()) {
     const auto result = std::ranges::find(results, model, &JobResult::name);
     summary["models"][model] = model_entry(model, result->status);

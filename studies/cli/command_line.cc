@@ -44,6 +44,8 @@ constexpr Verb verbs[] = {
     {"doctor", "tell versions, programs, folders and cores", "", "", 0U},
 };
 
+constexpr int most_ranks = 1024;
+
 constexpr const char* footer =
     "`./fingertip test` runs the tests; it belongs to the launcher script beside README.md.\n"
     "Exit codes: 0 done, 1 internal error, 2 bad input, 3 not converged, 4 a criterion failed,\n"
@@ -62,7 +64,8 @@ void add_run(CLI::App& app, CommandLine& line, std::string& progress, std::strin
   app.add_option("--threads", line.config.threads, "threads to use; 0: all cores")->type_name("N");
   app.add_option("--progress", progress, "how to show progress on stderr")
       ->check(CLI::IsMember({"tty", "json", "off"}));
-  app.add_option("--resume", resume, "auto: keep what is finished in an existing --out")
+  app.add_option("--resume", resume,
+                 "auto: keep what is finished in an existing --out and compute the rest")
       ->check(CLI::IsMember({"auto"}));
 }
 
@@ -77,6 +80,11 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
     sub.add_option("--out", line.out, name == "init" ? "file to write" : "folder to write")
         ->type_name(name == "init" ? "FILE" : "DIR");
     sub.add_flag("--force", line.force, "replace what exists");
+  }
+  if (name == "reference") {
+    sub.add_option("--ranks", line.ranks, "MPI processes to share the work (mpirun); default 1")
+        ->type_name("N")
+        ->check(CLI::Range(1, most_ranks));
   }
   if (name == "validate") sub.add_flag("--all", line.all, "every case in studies/cases");
   if (name == "explain") {

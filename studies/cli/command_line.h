@@ -20,6 +20,7 @@ struct CommandLine {
   bool force = false;
   bool resume = false;
   bool quiet = false;
+  int ranks = 1;          ///< MPI processes of reference
   bool all = false;       ///< validate --all
   bool schema = false;    ///< explain --schema
   bool markdown = false;  ///< explain --markdown

@@ -23,17 +23,6 @@ std::string writability(const fs::path& folder) {
   return ::access(existing_part(folder).c_str(), W_OK) == 0 ? "writable" : "NOT WRITABLE";
 }
 
-bool on_path(const std::string& program) {
-  const char* const path = std::getenv("PATH");
-  std::string rest = path == nullptr ? "" : path;
-  while (!rest.empty()) {
-    const auto colon = rest.find(':');
-    if (::access((fs::path(rest.substr(0, colon)) / program).c_str(), X_OK) == 0) return true;
-    rest = colon == rest.npos ? "" : rest.substr(colon + 1);
-  }
-  return false;
-}
-
 }  // namespace
 
 int run_doctor(const CommandLine&) {
@@ -44,7 +33,10 @@ int run_doctor(const CommandLine&) {
   const bool continuum = ::access(reference_program().c_str(), X_OK) == 0;
   row("fingertip-fem",
       continuum ? reference_program().string() : "MISSING: reference and validate cannot run");
-  const bool plots = on_path("gnuplot");
+  row("mpirun", program_on_path("mpirun").empty()
+                    ? "MISSING: reference --ranks N cannot run (package openmpi-bin)"
+                    : "found");
+  const bool plots = !program_on_path("gnuplot").empty();
   row("gnuplot", plots ? "found" : "MISSING: reports cannot be drawn (package gnuplot-nox)");
   const nlohmann::ordered_json packages = package_versions();
   for (const auto& [name, version] : packages.items()) {

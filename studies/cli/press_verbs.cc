@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "meshes/press_response.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/config/units.h"
+#include "studies/report/run_data.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_setup.h"
@@ -45,6 +47,48 @@ void print_folder(const Session& session, const JobResult& result) {
   fmt::print("run folder: {}\n", session.path_of({}).string());
 }
 
+/// "continuum, finite strain (law A), stick contact, static"
+std::string heading(const fem_reference::ReferenceJob& order) {
+  const bool finite = order.strain == fem_reference::Strain::finite;
+  std::string text = finite ? fmt::format("continuum, finite strain (law {})", name(order.law))
+                            : std::string("continuum, small strain");
+  if (order.analysis == fem_reference::Analysis::modes) return text + ", natural frequencies";
+  return fmt::format("{}, {} contact, {}", text, meshes::name(order.contact),
+                     fem_reference::name(order.analysis));
+}
+
+void print_frequencies(const std::filesystem::path& folder) {
+  const reporting::CsvTable modes = reporting::read_csv(folder / "modes.csv");
+  const std::vector<std::string> names = modes.texts("mode");
+  const std::vector<double> frequencies = modes.numbers("frequency [Hz]");
+  fmt::print("{:>8}{:>18}\n", "mode", "frequency [Hz]");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    fmt::print("{:>8}{:18.4f}\n", names[i], frequencies[i]);
+  }
+}
+
+/// How many meshes it took, and whether the error is as small as wanted.
+void print_accuracy(const std::filesystem::path& folder, double tolerance) {
+  double worst = 0.0;
+  const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+  for (const meshes::PressSample& sample : response.samples()) {
+    const double error = sample.force_error / sample.normal_force;
+    if (std::isnan(error)) return;
+    worst = std::max(worst, error);
+  }
+  fmt::print("estimated error of the force: at most {:.3g} % ({:.3g} % wanted{})", 100.0 * worst,
+             100.0 * tolerance,
+             worst <= tolerance ? "" : ", NOT REACHED within reference.max_unknowns");
+  if (std::filesystem::exists(folder / "convergence.csv")) {
+    const reporting::CsvTable meshes = reporting::read_csv(folder / "convergence.csv");
+    const std::vector<double> unknowns = meshes.numbers("unknowns");
+    if (!unknowns.empty()) {
+      fmt::print("; finest mesh: {:.0f} unknowns", *std::ranges::max_element(unknowns));
+    }
+  }
+  fmt::print("\n");
+}
+
 void print_press_facts(const std::filesystem::path& folder) {
   const auto summary = read_json(folder / "summary.json");
   fmt::print("time step {:.3g} s: {}\n", summary["step"]["step"].get<double>(),
@@ -80,11 +124,16 @@ int run_reference(const CommandLine& line) {
   const fem_reference::ReferenceJob order = reference_order(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const JobResult result = session.run({"", reference_job(order), false});
-    if (!line.quiet) {
-      fmt::print("continuum, small strain, {} contact\n", meshes::name(order.contact));
-      print_response(session.folder().path(), order.samples);
-      print_folder(session, result);
+    if (line.quiet) return 0;
+    const std::filesystem::path& folder = session.folder().path();
+    fmt::print("{}\n", heading(order));
+    if (order.analysis == fem_reference::Analysis::modes) {
+      print_frequencies(folder);
+    } else {
+      print_response(folder, order.samples);
+      if (order.estimate_error) print_accuracy(folder, order.tolerance);
     }
+    print_folder(session, result);
     return 0;
   });
 }

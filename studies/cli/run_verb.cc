@@ -17,6 +17,14 @@ int cores_for(const LoadedConfig& loaded) {
   return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
+/// What to do with a run that ended early.
+std::string kept_in(const std::filesystem::path& folder) {
+  return fmt::format(
+      "\nfingertip: {} is kept; the same command with --out {} --resume auto computes the "
+      "rest",
+      folder.string(), folder.string());
+}
+
 }  // namespace
 
 LoadedConfig load_checked(const CommandLine& line) {
@@ -33,32 +41,38 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
     for (const std::string& note : loaded.notes) fmt::print(stderr, "fingertip: note: {}\n", note);
   }
   Progress progress(line.progress);
-  Session session(folder, progress, Cache(Cache::default_folder()), cores_for(loaded));
-  const auto end = [&](const std::string& status, int code, const std::string& why) {
+  Session session(folder, progress, Cache(Cache::default_folder()), cores_for(loaded), line.ranks);
+  const auto end = [&](const std::string& status, int code, const std::exception& why) {
     progress.clear();
-    folder.finish(status, code, {{"error", why}});
+    folder.finish(status, code, {{"error", why.what()}});
+    return why.what() + kept_in(folder.path());
+  };
+  const auto refuse = [&](const std::exception& why) {
+    progress.clear();
+    if (folder.resumed()) {
+      folder.finish("bad input", 2, {{"error", why.what()}});
+    } else {
+      folder.discard();
+    }
   };
   try {
     const int code = body(session);
     folder.finish(code == 0 ? "finished" : "criteria failed", code);
     return code;
+  } catch (const ProcessLost& error) {
+    throw ProcessLost(end("process lost", 3, error));
   } catch (const meshes::NotConverged& error) {
-    end("not converged", 3, error.what());
-    throw;
+    throw meshes::NotConverged(end("not converged", 3, error));
   } catch (const meshes::Interrupted& error) {
-    end("interrupted", 130, error.what());
-    throw;
+    throw meshes::Interrupted(end("interrupted", 130, error));
   } catch (const meshes::InvalidInput& error) {
-    if (folder.resumed()) {
-      end("bad input", 2, error.what());
-    } else {
-      progress.clear();
-      folder.discard();
-    }
+    refuse(error);
     throw loaded.locate(error.violations());
-  } catch (const std::exception& error) {
-    end("failed", 1, error.what());
+  } catch (const ConfigError& error) {
+    refuse(error);
     throw;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(end("failed", 1, error));
   }
 }
 

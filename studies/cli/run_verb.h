@@ -11,7 +11,8 @@ namespace fingertip::studies {
 
 /// Prepares the run folder, runs `body` in it and completes the manifest whatever happens. Bad
 /// input that only shows during the run (an unstable time step) takes a new folder away again.
-/// Returns body's exit code; rethrows what it throws, with violations located in the user's input.
+/// Returns body's exit code; rethrows what it throws, with violations located in the user's input
+/// or, when the folder was kept, with a word on where it is and how to go on.
 int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std::string& case_text,
                   const std::function<int(Session&)>& body);
 

@@ -56,7 +56,7 @@ int run_validate(const CommandLine& line) {
   std::vector<Case> cases;
   for (const fs::path& file : wanted_cases(line)) {
     cases.push_back(load_case(file, line.config));
-    check_all(cases.back().loaded);
+    check_validation(cases.back().loaded);
   }
   int worst = 0;
   for (const Case& one : cases) {

@@ -93,11 +93,22 @@ void assign_time_step(Config& config, const Value& value) {
   if (value.word.empty()) config.press.time_step = value.number;
 }
 
-void assign_solver(Config& config, const Value& value) {
-  using fem_reference::LinearSolver;
-  config.reference.solver = value.word == "condensed"   ? LinearSolver::condensed
-                            : value.word == "multigrid" ? LinearSolver::multigrid
-                                                        : LinearSolver::automatic;
+/// Stores the one of `values` that is called as the key's value says; they have the names that the
+/// rooms give them, so that a choice cannot mean one thing here and another in a job file.
+template <typename Enum>
+auto assign_named(Enum fem_reference::ReferenceJob::*member, std::vector<Enum> values) {
+  return [member, values = std::move(values)](Config& config, const Value& value) {
+    for (const Enum one : values) {
+      if (name(one) == value.word) config.reference.*member = one;
+    }
+  };
+}
+
+void assign_contact(Config& config, const Value& value) {
+  using meshes::ContactMode;
+  for (const auto mode : {ContactMode::stick, ContactMode::frictionless, ContactMode::coulomb}) {
+    if (meshes::name(mode) == value.word) config.press.protocol.contact = mode;
+  }
 }
 
 }  // namespace
@@ -229,18 +240,30 @@ std::vector<Key> press_keys() {
              }),
       choice("press", "contact", "stick",
              {{"stick", "infinite friction: anchored where it first touched"},
-              {"frictionless", "only the normal gap is held, compressive only"}},
-             "how tip and plane interact",
-             [](Config& config, const Value& value) {
-               config.press.protocol.contact = value.word == "stick"
-                                                   ? meshes::ContactMode::stick
-                                                   : meshes::ContactMode::frictionless;
-             }),
+              {"frictionless", "only the normal gap is held, compressive only"},
+              {"coulomb",
+               "sticks until the shear exceeds friction times the push, then slides "
+               "(reference only)"}},
+             "how tip and plane interact", assign_contact),
+      plain("press", "friction", Kind::number, "0.5", positive,
+            "Coulomb's coefficient of friction, for contact coulomb",
+            [](Config& config, const Value& value) {
+              config.press.protocol.friction = value.number;
+            }),
+      with_rule(quantity("press", "tilt", "0 deg", "rad", any,
+                         "of the rod against the plane's normal, about y (reference only)",
+                         protocol(&PressProtocol::tilt)),
+                "between -45 and 45 degrees", {}),
+      with_rule(quantity("press", "lateral", "0 cm", "m", any,
+                         "how far the plane has moved along t1 at full depth (reference only)",
+                         protocol(&PressProtocol::lateral)),
+                "at most tip_radius either way", {"geometry.tip_radius"}),
       with_rule(quantity("press", "depth", "0.3 cm", "m", positive, "final indentation",
                          protocol(&PressProtocol::depth)),
                 "less than tip_radius - rod_radius",
                 {"press.samples", "geometry.tip_radius", "geometry.rod_radius"}),
-      quantity("press", "speed", "1 cm/s", "m/s", positive, "approach speed of the rod",
+      quantity("press", "speed", "1 cm/s", "m/s", positive,
+               "approach speed of the rod; the continuum's, too, when reference.mode is transient",
                protocol(&PressProtocol::speed)),
       quantity("press", "clearance", "0.05 cm", "m", positive,
                "gap between pole and plane at the start, where the rod is at rest",
@@ -270,6 +293,104 @@ std::vector<Key> press_keys() {
   };
 }
 
+namespace {
+
+/// What the continuum computes.
+std::vector<Key> continuum_model_keys() {
+  using namespace fem_reference;
+  using Job = ReferenceJob;
+  return {
+      with_rule(choice("reference", "strain", "linear",
+                       {{"linear", "small strain, Hooke's law"},
+                        {"finite", "large strain, the law of reference.law"}},
+                       "continuum theory",
+                       assign_named(&Job::strain, std::vector{Strain::linear, Strain::finite})),
+                "finite needs a Poisson's ratio of 0 or more",
+                {"rubber.youngs_modulus", "rubber.shear_modulus"}),
+      choice("reference", "law", "A",
+             {{"A", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (ln J)^2, the project's standard"},
+              {"B", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (J - 1)^2"},
+              {"C", "W = G/2 (J^(-2/3) I1 - 3) + K/2 (ln J)^2"}},
+             "strain energy at finite strain (neo-Hookean, same E and G at small strain)",
+             assign_named(&Job::law, std::vector{StrainEnergy::law_a, StrainEnergy::law_b,
+                                                 StrainEnergy::law_c})),
+      with_rule(
+          choice("reference", "mode", "static",
+                 {{"static", "one equilibrium per output depth"},
+                  {"transient", "the press at press.speed, with inertia and damping"},
+                  {"modes", "natural frequencies of the tip bonded to a fixed rod"}},
+                 "what is solved",
+                 assign_named(&Job::analysis, std::vector{Analysis::static_press,
+                                                          Analysis::transient, Analysis::modes})),
+          "transient: linear strain, stick or frictionless, no tilt, no lateral motion",
+          {"reference.strain", "press.contact", "press.tilt", "press.lateral"}),
+      plain("reference", "modes", Kind::integer, "10", {1, 1000, true},
+            "how many natural frequencies, lowest first, for mode modes",
+            [](Config& config, const Value& value) { config.reference.modes = int(value.number); }),
+  };
+}
+
+/// How the continuum computes it.
+std::vector<Key> continuum_solver_keys() {
+  using namespace fem_reference;
+  using Job = ReferenceJob;
+  const auto number = [](double Job::*member) {
+    return
+        [member](Config& config, const Value& value) { config.reference.*member = value.number; };
+  };
+  const auto flag = [](bool Job::*member) {
+    return [member](Config& config, const Value& value) {
+      config.reference.*member = value.number != 0.0;
+    };
+  };
+  return {
+      plain(
+          "reference", "degree", Kind::integer, "2", {1, 3, true},
+          "polynomial degree of the elements",
+          [](Config& config, const Value& value) { config.reference.degree = int(value.number); }),
+      choice("reference", "volumetric", "projected",
+             {{"pointwise", "at every quadrature point: the plain displacement element"},
+              {"projected", "its dilatation projected, per element, on one degree lower"}},
+             "how the volumetric part of the energy is integrated",
+             assign_named(&Job::volumetric,
+                          std::vector{Volumetric::pointwise, Volumetric::projected})),
+      plain("reference", "refinement", Kind::number, "0.5", {0.25, 4, true},
+            "factor on the element counts of the first mesh", number(&Job::refinement)),
+      plain("reference", "tolerance", Kind::number, "0.005", {1e-5, 0.5, true},
+            "wanted force_error over normal_force at every output depth; the mesh is refined until "
+            "it is met",
+            number(&Job::tolerance)),
+      plain("reference", "max_unknowns", Kind::number, "4e5", {1e3, 1e9, true},
+            "no mesh with more unknowns is tried; 4e5 needs about 8 GB",
+            number(&Job::max_unknowns)),
+      choice(
+          "reference", "solver", "automatic",
+          {{"automatic", "condensed while it fits into memory, else multigrid"},
+           {"condensed", "sparse Cholesky factors, condensed to the contact patch"},
+           {"multigrid", "conjugate gradients with algebraic multigrid"}},
+          "linear solver",
+          assign_named(&Job::solver, std::vector{LinearSolver::automatic, LinearSolver::condensed,
+                                                 LinearSolver::multigrid})),
+      plain("reference", "solver_tolerance", Kind::number, "1e-10", {1e-14, 1e-4, true},
+            "relative residual of the multigrid solver (the condensed one is direct)",
+            number(&Job::solver_tolerance)),
+      plain("reference", "estimate_error", Kind::boolean, "true", any,
+            "refine until the tolerance is met and fill in the column force_error; false: the "
+            "first mesh alone",
+            flag(&Job::estimate_error)),
+      plain("reference", "fields", Kind::boolean, "true", any,
+            "write displacement, stress and pressure for ParaView", flag(&Job::write_fields)),
+  };
+}
+
+}  // namespace
+
+std::vector<Key> reference_keys() {
+  std::vector<Key> keys = continuum_model_keys();
+  for (Key& key : continuum_solver_keys()) keys.push_back(std::move(key));
+  return keys;
+}
+
 std::vector<Key> solver_keys() {
   const auto nothing = [](Config&, const Value&) {};
   Key time_step = quantity("run", "time_step", "auto", "s", positive,
@@ -278,35 +399,6 @@ std::vector<Key> solver_keys() {
   time_step.word = "auto";
   time_step.assign = assign_time_step;
   return {
-      choice("reference", "strain", "linear", {{"linear", "small strain, Hooke's law"}},
-             "continuum theory", nothing),
-      choice("reference", "mode", "static", {{"static", "one equilibrium per output depth"}},
-             "what is solved", nothing),
-      plain(
-          "reference", "degree", Kind::integer, "2", {1, 2, true},
-          "polynomial degree of the elements",
-          [](Config& config, const Value& value) { config.reference.degree = int(value.number); }),
-      plain("reference", "refinement", Kind::number, "1.0", {0.5, 4, true},
-            "factor on the element counts of the mesh",
-            [](Config& config, const Value& value) { config.reference.refinement = value.number; }),
-      plain("reference", "tolerance", Kind::number, "1e-8", {1e-12, 1e-4, true},
-            "relative residual of the multigrid solver (the condensed one is direct)",
-            [](Config& config, const Value& value) { config.reference.tolerance = value.number; }),
-      choice("reference", "solver", "automatic",
-             {{"automatic", "condensed while it fits into memory, else multigrid"},
-              {"condensed", "sparse Cholesky factors, condensed to the contact patch"},
-              {"multigrid", "conjugate gradients with algebraic multigrid"}},
-             "linear solver", assign_solver),
-      plain("reference", "estimate_error", Kind::boolean, "true", any,
-            "solve on two coarser meshes, too, and fill in the column force_error",
-            [](Config& config, const Value& value) {
-              config.reference.estimate_error = value.number != 0.0;
-            }),
-      plain("reference", "fields", Kind::boolean, "true", any,
-            "write displacement, stress and pressure for ParaView",
-            [](Config& config, const Value& value) {
-              config.reference.write_fields = value.number != 0.0;
-            }),
       choice("calibration", "problem", "moduli", {{"moduli", "fit to Young's and shear modulus"}},
              "what is fitted to what", nothing),
       plain("calibration", "starts", Kind::integer, "10", {1, 1000, true},

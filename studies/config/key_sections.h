@@ -7,9 +7,10 @@
 
 namespace fingertip::studies {
 
-std::vector<Key> specimen_keys();  ///< [geometry] [rubber] [rod]
-std::vector<Key> lattice_keys();   ///< [lattice]
-std::vector<Key> press_keys();     ///< [press] [controller]
-std::vector<Key> solver_keys();    ///< [reference] [calibration] [run]
+std::vector<Key> specimen_keys();   ///< [geometry] [rubber] [rod]
+std::vector<Key> lattice_keys();    ///< [lattice]
+std::vector<Key> press_keys();      ///< [press] [controller]
+std::vector<Key> reference_keys();  ///< [reference]
+std::vector<Key> solver_keys();     ///< [calibration] [run]
 
 }  // namespace fingertip::studies

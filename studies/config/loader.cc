@@ -171,6 +171,10 @@ LoadedConfig Reader::finish() {
   config.reference.geometry = press.geometry;
   config.reference.rubber = press.rubber;
   config.reference.contact = protocol.contact;
+  config.reference.friction = protocol.friction;
+  config.reference.tilt = protocol.tilt;
+  config.reference.lateral = protocol.lateral;
+  config.reference.speed = protocol.speed;
   config.reference.samples = protocol.samples;
 
   std::vector<meshes::Violation> broken = press.geometry.violations();

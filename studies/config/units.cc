@@ -46,13 +46,21 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+/// Whether the two differ by an angle. UDUNITS counts the radian as a mere number, so that 5 %
+/// would pass for an angle and 377 rad/s for 377 Hz.
+bool differ_by_an_angle(const ut_unit* one, const ut_unit* other) {
+  const Unit quotient(ut_divide(one, other));
+  std::array<char, 128> text{};
+  ut_format(quotient.get(), text.data(), text.size(), UT_ASCII);
+  return std::string_view(text.data()).find("rad") != std::string_view::npos;
+}
+
 /// The factor between two units; empty when they differ in dimension.
 std::optional<double> factor(const std::string& from, const std::string& to) {
   const Unit source = parse_unit(from);
   const Unit target = parse_unit(to);
   if (!source || !target || !ut_are_convertible(source.get(), target.get())) return {};
-  const bool angular = from.find("rad") != from.npos || from.find("deg") != from.npos;
-  if (to == "Hz" && angular) return {};
+  if (differ_by_an_angle(source.get(), target.get())) return {};
   const std::unique_ptr<cv_converter, decltype(&cv_free)> converter(
       ut_get_converter(source.get(), target.get()), &cv_free);
   if (!converter) return {};

@@ -21,8 +21,9 @@ class UnitError : public std::runtime_error {
 /// Reads "40 gf/cm^2" into the SI unit `unit` ("Pa", "m", "kg/m^3", "s", "Hz", ...), using
 /// UDUNITS-2 plus the unit gf (gram-force, 9.80665e-3 N). `example` is quoted in the advice.
 /// Throws UnitError when there is no finite number, no unit, an unknown unit, or a unit of another
-/// dimension. Reciprocal units (s for Hz), units with an offset (degC) and angles for plain
-/// frequencies (rad/s for Hz, a silent factor 2 pi) count as another dimension.
+/// dimension. Reciprocal units (s for Hz), units with an offset (degC), angles for plain
+/// frequencies (rad/s for Hz, a silent factor 2 pi) and plain numbers for angles (5 %) count as
+/// another dimension.
 double parse_quantity(std::string_view text, const std::string& unit, const std::string& example);
 
 /// `value`, given in the SI unit `from`, expressed in `to`: convert(1, "Pa", "gf/cm^2") = 0.0102.

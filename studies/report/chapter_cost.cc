@@ -86,25 +86,53 @@ Table lattice_table(const RunData& run) {
   return table;
 }
 
-Table mesh_table(const RunData& run) {
-  const json& summary = run.reference_summary;
-  const json mesh = object_at(summary, "mesh");
-  Table table;
-  table.caption = "The continuum's mesh and solution.";
-  table.header = {plain("Continuum"), plain("Value")};
-  table.rows = {
-      {plain("Status"), plain(text_at(summary, "status"))},
-      {plain("Contact"), plain(text_at(summary, "contact"))},
-      {plain("Polynomial degree"), plain(count(number_at(summary, "degree")))},
-      {plain("Hexahedra"), plain(count(number_at(mesh, "hexahedra")))},
-      {plain("Degrees of freedom"), plain(count(number_at(summary, "dofs")))},
-      {plain("Smallest scaled Jacobian", "1 for a cube"),
-       plain(number(number_at(mesh, "min_scaled_jacobian"), 3))},
-      {plain("Smallest Jacobian", "m³"), plain(number(number_at(mesh, "min_jacobian"), 3))},
-      {plain("Volume of the mesh", "straight-sided elements, meshed sector"),
-       plain(number(1e6 * number_at(mesh, "volume")) + gap + "cm³")},
-      {plain("Wall time"), plain(with_prefix(number_at(summary, "wall_time"), "s"))},
+/// What a row tells and its value, "" or "–" when summary.json does not have it.
+using MeshRow = std::pair<Cell, std::string>;
+
+std::vector<MeshRow> problem_rows(const json& summary) {
+  const auto number_of = [&](const char* key, int digits) {
+    return number(number_at(summary, key), digits);
   };
+  const std::string law = text_at(summary, "law");
+  return {{plain("Status"), text_at(summary, "status")},
+          {plain("Contact"), text_at(summary, "contact")},
+          {plain("Strain"), text_at(summary, "strain") + (law.empty() ? "" : ", law " + law)},
+          {plain("Polynomial degree"), number_of("degree", 1)},
+          {plain("Volumetric part", "of the energy"), text_at(summary, "volumetric")},
+          {plain("Linear solver"), text_at(summary, "solver")},
+          {plain("Processes"), count(number_at(summary, "ranks"))},
+          {plain("Wanted force error"), percent_magnitude(number_at(summary, "tolerance"))},
+          {plain("Wall time", "of all meshes"), with_prefix(number_at(summary, "wall_time"), "s")},
+          {plain("Peak memory", "of one process"),
+           with_prefix(number_at(summary, "peak_memory"), "B")}};
+}
+
+std::vector<MeshRow> mesh_rows(const json& summary) {
+  const json first = object_at(summary, "mesh");
+  const double volume = number_at(first, "volume");
+  return {
+      {plain("Cells", "finest mesh"), count(number_at(summary, "cells"))},
+      {plain("Degrees of freedom", "finest mesh"), count(number_at(summary, "dofs"))},
+      {plain("Of these in the contact zone"), count(number_at(summary, "contact_unknowns"))},
+      {plain("Hexahedra", "first mesh"), count(number_at(first, "hexahedra"))},
+      {plain("Smallest scaled Jacobian", "first mesh; 1 for a cube"),
+       number(number_at(first, "min_scaled_jacobian"), 3)},
+      {plain("Smallest Jacobian", "first mesh, m³"), number(number_at(first, "min_jacobian"), 3)},
+      {plain("Volume", "first mesh: straight-sided elements, meshed sector"),
+       std::isfinite(volume) ? number(1e6 * volume) + gap + "cm³" : ""}};
+}
+
+Table mesh_table(const RunData& run) {
+  Table table;
+  table.caption = "The continuum's problem, mesh and cost.";
+  table.header = {plain("Continuum"), plain("Value")};
+  for (const std::vector<MeshRow>& rows :
+       {problem_rows(run.reference_summary), mesh_rows(run.reference_summary)}) {
+    for (const auto& [label, value] : rows) {
+      // Runs of other programs, modes or versions do not tell everything.
+      if (!value.empty() && value != "–") table.rows.push_back({label, plain(value)});
+    }
+  }
   return table;
 }
 

@@ -261,7 +261,7 @@ FigureBlock cubes_figure(const RunData& run) {
   Panel panel;
   panel.x_label = "cells across the cube";
   panel.y_label = "E along [100] [gf/cm²]";
-  panel.log_x = true;
+  panel.log_x = 2;
   panel.key = "top right";
   const std::vector<std::string> models = run.cubes.texts("model");
   const std::vector<double> across = run.cubes.numbers("cells_across");

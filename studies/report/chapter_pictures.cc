@@ -1,10 +1,11 @@
-/// Pictures of mesh and lattices, and the contact pressure.
+/// Pictures of mesh and lattices.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "studies/report/chapters.h"
+#include "studies/report/continuum_figures.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -56,29 +57,6 @@ void add_plane(Panel& panel, const Frame& frame, double z) {
       {"", "plane", {frame.x.from, frame.x.to}, {z, z}, {}, {"#333333", "", 2.4, 0, true}});
 }
 
-/// Line segments with breaks between them.
-void add_segment(Series& series, double x1, double z1, double x2, double z2) {
-  series.x.insert(series.x.end(), {x1, x2, meshes::unknown});
-  series.y.insert(series.y.end(), {z1, z2, meshes::unknown});
-}
-
-Series section_series(const RunData& run, const std::string& prefix, const Style& style) {
-  Series series{"", prefix.empty() ? "mesh undeformed" : "mesh deformed", {}, {}, {}, style};
-  const std::vector<double> x1 = run.section.numbers(prefix + "x1 [m]"),
-                            z1 = run.section.numbers(prefix + "z1 [m]");
-  const std::vector<double> x2 = run.section.numbers(prefix + "x2 [m]"),
-                            z2 = run.section.numbers(prefix + "z2 [m]");
-  double least = 0.0;
-  for (double x : x1) least = std::fmin(least, x);
-  for (std::size_t i = 0; i < x1.size(); ++i) {
-    add_segment(series, to_cm(x1[i]), to_cm(z1[i]), to_cm(x2[i]), to_cm(z2[i]));
-    // A quarter model shows its mirror image, too.
-    if (least > -1e-6)
-      add_segment(series, -to_cm(x1[i]), to_cm(z1[i]), -to_cm(x2[i]), to_cm(z2[i]));
-  }
-  return series;
-}
-
 /// How far the rod has travelled from rest to the end of the trace [m].
 double rod_travel(const ModelData& model) {
   const std::vector<double> indentation = model.trace.numbers("indentation [m]");
@@ -117,19 +95,15 @@ Series anchored_series(const ModelData& model) {
   return series;
 }
 
-Style thin(const std::string& colour) {
-  return {colour, "", 0.7, 0, true};
-}
-
 FigureBlock shapes_figure(const RunData& run) {
   const Frame frame = common_frame(run);
   Figure figure{"shapes", 900, 700, 3, {}};
   if (!run.section.empty()) {
     Panel rest = frame_panel(frame, "continuum mesh, y = 0, at first touch");
-    rest.series.push_back(section_series(run, "", thin("#444444")));
+    rest.series.push_back(section_series(run, false, thin("#444444")));
     add_plane(rest, frame, frame.plane_at_touch);
     Panel pressed = frame_panel(frame, "continuum mesh, pressed");
-    pressed.series.push_back(section_series(run, "deformed_", thin("#444444")));
+    pressed.series.push_back(section_series(run, true, thin("#444444")));
     add_plane(pressed, frame, frame.plane_at_end);
     figure.panels = {rest, pressed};
   }
@@ -163,43 +137,12 @@ FigureBlock shapes_figure(const RunData& run) {
       "it, which touches in its place, so that its dot need not lie on the line."};
 }
 
-FigureBlock pressure_figure(const RunData& run) {
-  // From pale to dark with increasing indentation.
-  static const char* const shades[] = {"#a0d939", "#74d055", "#4ac16d", "#29af7f", "#1f978b",
-                                       "#287d8e", "#32648e", "#3d4a89", "#472c7a", "#440154"};
-  const std::vector<double> depth = run.pressure.numbers("indentation [m]");
-  const std::vector<double> radius = run.pressure.numbers("radius [m]");
-  const std::vector<double> pressure = run.pressure.numbers("pressure [Pa]");
-  Panel panel;
-  panel.x_label = "radius [cm]";
-  panel.y_label = "contact pressure [gf/cm²]";
-  panel.key = "outside right top";
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    if (panel.series.empty() || depth[i] != depth[i - 1]) {
-      const std::string label = fmt::format("{:.4g} cm", to_cm(depth[i]));
-      panel.series.push_back({label, label, {}, {}, {}, {"", "", 2.0, 7, false, 0.3}});
-    }
-    panel.series.back().x.push_back(to_cm(radius[i]));
-    panel.series.back().y.push_back(to_gf_per_cm2(pressure[i]));
-  }
-  const std::size_t last = std::max<std::size_t>(1, panel.series.size() - 1);
-  for (std::size_t i = 0; i < panel.series.size(); ++i)
-    panel.series[i].style.colour = shades[9 * i / last];
-  panel.y_range = Range{0.0, meshes::unknown};
-  return {{"pressure", 760, 400, 1, {panel}},
-          "Contact pressure of the continuum",
-          "One colour per indentation, darker is deeper; every dot is a node of the surface. The "
-          "pressure "
-          "falls to zero at the edge of contact."};
-}
-
 }  // namespace
 
 Chapter pictures_chapter(const RunData& run) {
-  Chapter chapter{"pictures", "Shapes and pressure", {}};
+  Chapter chapter{"pictures", "Shapes", {}};
   FigureBlock shapes = shapes_figure(run);
   if (!shapes.figure.panels.empty()) chapter.blocks.push_back(std::move(shapes));
-  if (!run.pressure.empty()) chapter.blocks.push_back(pressure_figure(run));
   return chapter;
 }
 

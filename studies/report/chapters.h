@@ -21,12 +21,16 @@ Chapter force_chapter(const RunData& run);
 Chapter control_chapter(const RunData& run);
 /// Elastic constants against direction, the calibrations and the cubes.
 Chapter elasticity_chapter(const RunData& run);
-/// The mesh, the lattices and the contact pressure.
+/// The mesh and the lattices.
 Chapter pictures_chapter(const RunData& run);
 /// How the published model's force depends on grid and ligaments.
 Chapter published_chapter(const RunData& run);
 /// Why the models differ, in words.
 Chapter reasons_chapter(const RunData& run);
+/// The continuum's discretisation error, its meshes, and its contact beside Hertz's.
+Chapter continuum_chapter(const RunData& run);
+/// The continuum's code against solutions from elsewhere: orders, checks, locking.
+Chapter verification_chapter(const RunData& run);
 /// Time step, cost, mesh quality, momentum balance.
 Chapter cost_chapter(const RunData& run);
 /// Versions, host, times, parameters.

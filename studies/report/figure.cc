@@ -14,7 +14,9 @@
 #include <stdexcept>
 
 #include "meshes/files.h"
+#include "meshes/press_response.h"
 #include "studies/report/document.h"
+#include "studies/report/format.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -48,7 +50,7 @@ std::string data_block(const Series& series, const std::string& name) {
       continue;
     }
     const double error = i < series.error.size() ? series.error[i] : 0.0;
-    text += fmt::format("{:.8g} {:.8g} {:.8g}\n", series.x[i], series.y[i],
+    text += fmt::format("{:.8g} {:.8g} {:.8g}\n", series.shift * series.x[i], series.y[i],
                         std::isfinite(error) ? error : 0.0);
   }
   return text + "EOD\n";
@@ -57,7 +59,8 @@ std::string data_block(const Series& series, const std::string& name) {
 std::string plot_item(const Series& series, const std::string& block) {
   const Style& style = series.style;
   const std::string with = !style.line ? "points" : style.point ? "linespoints" : "lines";
-  std::string item = fmt::format("{} using 1:2 with {} lc rgb '{}'", block, with, style.colour);
+  const std::string data = series.legend_only ? "keyentry" : block + " using 1:2";
+  std::string item = fmt::format("{} with {} lc rgb '{}'", data, with, style.colour);
   if (style.line)
     item += fmt::format(" lw {} dt {}", style.width, style.dash.empty() ? "solid" : style.dash);
   if (style.point) item += fmt::format(" pt {} ps {}", style.point, style.point_size);
@@ -101,25 +104,78 @@ std::string axis_range(const char* axis, const std::optional<Range>& range) {
   return fmt::format("set {}range [{}:{}]\n", axis, end(range->from), end(range->to));
 }
 
+/// What a logarithmic axis must show: its range where one is given, else the positive data, else
+/// {1, 1}.
+Range positive_extent(const Panel& panel, bool vertical) {
+  if (const auto& range = vertical ? panel.y_range : panel.x_range)
+    return {std::fmin(range->from, range->to), std::fmax(range->from, range->to)};
+  Range extent{meshes::unknown, meshes::unknown};
+  for (const Series& series : panel.series) {
+    for (double value : vertical ? series.y : series.x) {
+      if (!(value > 0.0 && std::isfinite(value))) continue;
+      extent = {std::fmin(extent.from, value), std::fmax(extent.to, value)};
+    }
+  }
+  return std::isnan(extent.from) ? Range{1.0, 1.0} : extent;
+}
+
+/// Tics of a logarithmic axis at powers of ten, over few decades at 2 and 5 times them, too.
+/// gnuplot's own labels would need its enhanced text, which texts from files must not reach.
+std::string decade_tics(const char* axis, const Range& extent) {
+  const int first = int(std::floor(std::log10(extent.from)));
+  const int last = int(std::ceil(std::log10(extent.to)));
+  const bool few = last - first <= 2;
+  const int step = last - first > 8 ? 2 : 1;
+  std::string tics;
+  for (int exponent = first; exponent <= last; exponent += step) {
+    for (int mantissa : {1, 2, 5}) {
+      if (mantissa > 1 && !few) continue;
+      const double value = mantissa * std::pow(10.0, exponent);
+      const std::string label = std::abs(exponent) <= 3 ? fmt::format("{:.4g}", value)
+                                : mantissa == 1
+                                    ? power_of_ten(exponent)
+                                    : fmt::format("{}×{}", mantissa, power_of_ten(exponent));
+      tics += fmt::format("{}{} {:.8g}", tics.empty() ? "" : ", ", quoted(label), value);
+    }
+  }
+  return fmt::format("set {}tics ({})\n", axis, tics);
+}
+
+/// Range, scale and tics of one axis.
+std::string axis(const Panel& panel, bool vertical) {
+  const char* name = vertical ? "y" : "x";
+  const int base = vertical ? panel.log_y : panel.log_x;
+  std::optional<Range> range = vertical ? panel.y_range : panel.x_range;
+  std::string text = fmt::format("set {}tics autofreq\n", name);
+  if (base != 0) text += fmt::format("set logscale {} {}\n", name, base);
+  if (base == 10) {
+    const Range extent = positive_extent(panel, vertical);
+    const double room = std::pow(extent.to / extent.from, 0.06) * 1.1;
+    if (!range) range = Range{extent.from / room, extent.to * room};
+    text += decade_tics(name, extent);
+  }
+  return text + axis_range(name, range);
+}
+
 std::string panel_script(const Panel& panel, std::size_t index) {
   std::string text = "unset object\nunset arrow\nunset label\nunset logscale\n";
   text += "set title " + quoted(panel.title) + " offset 0,-0.5\n";
   text += "set xlabel " + quoted(panel.x_label) + "\nset ylabel " + quoted(panel.y_label) + "\n";
-  text += axis_range("x", panel.x_range) + axis_range("y", panel.y_range);
+  text += axis(panel, false) + axis(panel, true);
   text += panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n";
   text += panel.key.empty() ? "unset key\n" : "set key " + panel.key + " Left reverse samplen 3\n";
-  if (panel.log_x) text += "set logscale x 2\n";
   text += decorations(panel);
+  if (std::none_of(panel.series.begin(), panel.series.end(), has_points)) {
+    // An empty panel keeps its place in the layout.
+    return text + "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\n";
+  }
   std::string plot;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
-    if (!has_points(panel.series[i])) continue;
+    const bool legend_only = panel.series[i].legend_only;
+    if (!legend_only && !has_points(panel.series[i])) continue;
     const std::string block = fmt::format("$p{}s{}", index, i);
-    text += data_block(panel.series[i], block);
+    if (!legend_only) text += data_block(panel.series[i], block);
     plot += (plot.empty() ? "plot " : ", \\\n  ") + plot_item(panel.series[i], block);
-  }
-  if (plot.empty()) {
-    // An empty panel keeps its place in the layout.
-    plot = "set xrange [0:1]\nset yrange [0:1]\nplot NaN notitle";
   }
   return text + plot + "\n";
 }
@@ -132,8 +188,8 @@ std::string layout(const Figure& figure, int columns, int rows) {
   return fmt::format(
       "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen "
       "{:.4f},{:.4f}\n",
-      rows, columns, 78 / w, 1.0 - 18 / w, 66 / h, 1.0 - (shared ? 14 : 46) / h, 84 / w,
-      (shared ? 34 : 92) / h);
+      rows, columns, 78 / w, 1.0 - figure.right_margin / w, 66 / h, 1.0 - (shared ? 14 : 46) / h,
+      84 / w, (shared ? 34 : 92) / h);
 }
 
 std::string script(const Figure& figure, const fs::path& svg) {
@@ -271,6 +327,18 @@ Style numbered_style(std::size_t i) {
   static const std::array<int, 7> points{7, 5, 9, 13, 6, 4, 8};
   return {colours[i % colours.size()], dashes[i % dashes.size()], 2.0, points[i % points.size()],
           true};
+}
+
+std::string depth_shade(std::size_t i, std::size_t n) {
+  static const std::array<const char*, 10> shades{"#a0d939", "#74d055", "#4ac16d", "#29af7f",
+                                                  "#1f978b", "#287d8e", "#32648e", "#3d4a89",
+                                                  "#472c7a", "#440154"};
+  return shades[n > 1 ? (shades.size() - 1) * i / (n - 1) : 0];
+}
+
+std::string Figure::beside_panels() const {
+  return fmt::format("at screen {:.4f}, screen {:.4f} left top",
+                     1.0 - (right_margin - 12.0) / width, 1.0 - 14.0 / height);
 }
 
 std::string model_label(const std::string& name) {

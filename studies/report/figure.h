@@ -24,6 +24,8 @@ struct Style {
 Style model_style(const std::string& name);
 /// The i-th of a row of styles without meaning of their own.
 Style numbered_style(std::size_t i);
+/// The colour of the i-th of n curves for increasing indentation: from pale to dark.
+std::string depth_shade(std::size_t i, std::size_t n);
 /// The name of a model as the reader sees it.
 std::string model_label(const std::string& name);
 
@@ -34,6 +36,9 @@ struct Series {
   std::vector<double> x, y;
   std::vector<double> error;  ///< half-height of error bars, empty for none
   Style style;
+  /// Drawn at so many times x, lest error bars cover each other; the CSV has x itself.
+  double shift = 1.0;
+  bool legend_only = false;  ///< an entry of the legend without a curve
 };
 
 /// A NaN end follows the data.
@@ -63,7 +68,8 @@ struct Panel {
   std::vector<Marker> markers;
   std::vector<Text> texts;
   bool equal_scales = false;     ///< one unit is as long on x as on y
-  bool log_x = false;            ///< logarithmic to base 2
+  int log_x = 0, log_y = 0;      ///< base of a logarithmic axis, 2 or 10; 0 for a linear one.
+                                 ///< A range given for base 10 must be finite and positive.
   std::string key = "top left";  ///< gnuplot's place of the legend, "" for none
 };
 
@@ -72,6 +78,10 @@ struct Figure {
   int width = 760, height = 430;  ///< [px]
   int columns = 1;
   std::vector<Panel> panels;
+  int right_margin = 18;  ///< room right of several panels, e.g. for beside_panels() [px]
+
+  /// Panel::key of a legend in the right margin.
+  std::string beside_panels() const;
 };
 
 /// Draws the figure with gnuplot (started as a process) into `folder`/NAME.svg and writes what is

@@ -18,13 +18,6 @@ std::string typeset(std::string text) {
   return text;
 }
 
-std::string superscript(int exponent) {
-  static const std::array<std::string, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "⁻" : "";
-  for (char digit : std::to_string(std::abs(exponent))) text += digits[std::size_t(digit - '0')];
-  return text;
-}
-
 std::string percent_digits(double fraction) {
   const double magnitude = std::abs(100.0 * fraction);
   if (magnitude < 1e-6) return "0";
@@ -33,6 +26,13 @@ std::string percent_digits(double fraction) {
 }
 
 }  // namespace
+
+std::string power_of_ten(int exponent) {
+  static const std::array<std::string, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (char digit : std::to_string(std::abs(exponent))) text += digits[std::size_t(digit - '0')];
+  return text;
+}
 
 std::string number(double value, int digits) {
   if (!std::isfinite(value)) return "–";
@@ -43,7 +43,7 @@ std::string number(double value, int digits) {
   if (exponent >= -3 && exponent < 6) {
     return typeset(fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent)));
   }
-  return typeset(scientific.substr(0, e)) + "×10" + superscript(exponent);
+  return typeset(scientific.substr(0, e)) + "×" + power_of_ten(exponent);
 }
 
 std::string count(double value) {

@@ -23,6 +23,9 @@ inline double to_cm(double metre) {
 /// of ten as "1.2×10⁻⁹" outside.
 std::string number(double value, int digits = 4);
 
+/// "10⁻⁹"
+std::string power_of_ten(int exponent);
+
 /// A whole number with thin spaces between thousands.
 std::string count(double value);
 

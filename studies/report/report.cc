@@ -13,8 +13,13 @@ std::vector<NotRun> missing_parts(const RunData& run) {
     if (!there) missing.push_back({what, files});
   };
   need(!run.reference.empty(), "Continuum reference", "reference/response.csv");
+  need(!run.convergence.empty(), "Forces of the continuum on its sequence of meshes",
+       "reference/convergence.csv");
   need(!run.section.empty(), "Picture of the continuum's mesh", "reference/section.csv");
   need(!run.pressure.empty(), "Contact pressure of the continuum", "reference/pressure.csv");
+  need(!run.reference_job.empty(), "Hertz's contact beside the continuum's", "reference/job.json");
+  need(!run.verification.empty(), "Verification of the continuum's code",
+       "verification/verification.json");
   for (const char* name : {"published", "central", "hookean"}) {
     const ModelData* model = run.model(name);
     const std::string folder = name;
@@ -50,9 +55,10 @@ Page report_page(const RunData& run) {
       text_at(run.manifest, "started").empty() ? "" : ", " + text_at(run.manifest, "started"));
   if (!run.status.empty() && run.status != "ok") page.status = "Status of the run: " + run.status;
   page.answer = answer(run);
-  page.chapters = {verdict_chapter(run),    force_chapter(run),    control_chapter(run),
-                   elasticity_chapter(run), pictures_chapter(run), published_chapter(run),
-                   reasons_chapter(run),    cost_chapter(run),     provenance_chapter(run)};
+  page.chapters = {verdict_chapter(run),    force_chapter(run),     control_chapter(run),
+                   elasticity_chapter(run), pictures_chapter(run),  published_chapter(run),
+                   reasons_chapter(run),    continuum_chapter(run), verification_chapter(run),
+                   cost_chapter(run),       provenance_chapter(run)};
   page.not_run = missing_parts(run);
   return page;
 }

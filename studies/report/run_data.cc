@@ -210,6 +210,13 @@ json object_at(const json& object, const std::string& key) {
   return object.at(key);
 }
 
+json array_at(const json& object, const std::string& key) {
+  if (!object.is_object() || !object.contains(key) || !object.at(key).is_array()) {
+    return json::array();
+  }
+  return object.at(key);
+}
+
 const ModelData* RunData::model(const std::string& name) const {
   for (const ModelData& candidate : models) {
     if (candidate.name == name) return &candidate;
@@ -236,6 +243,9 @@ RunData read_run(const fs::path& folder) {
   run.parameters = read_text(folder / "parameters.toml");
   run.reference_summary = read_json(folder / "reference" / "summary.json");
   run.reference = read_response(folder / "reference" / "response.csv");
+  run.reference_job = read_json(folder / "reference" / "job.json");
+  run.verification = read_json(folder / "verification" / "verification.json");
+  run.convergence = read_csv(folder / "reference" / "convergence.csv");
   run.section = read_csv(folder / "reference" / "section.csv");
   run.pressure = read_csv(folder / "reference" / "pressure.csv");
   run.cubes = read_csv(folder / "cubes.csv");

@@ -73,11 +73,14 @@ struct RunData {
   std::vector<double> depths;  ///< where force errors are given [m]
   Target target;
   std::vector<Criterion> criteria;
-  nlohmann::json manifest;           ///< an empty object when absent
-  std::string parameters;            ///< parameters.toml as text
-  nlohmann::json reference_summary;  ///< reference/summary.json, likewise
-  meshes::PressResponse reference;   ///< empty when the continuum was not run
-  CsvTable section, pressure, cubes, published_study;
+  nlohmann::json manifest;                  ///< an empty object when absent
+  std::string parameters;                   ///< parameters.toml as text
+  nlohmann::json reference_summary;         ///< reference/summary.json, likewise
+  nlohmann::json reference_job;             ///< reference/job.json, likewise
+  nlohmann::json verification;              ///< verification/verification.json, likewise
+  meshes::PressResponse reference;          ///< empty when the continuum was not run
+  CsvTable convergence, section, pressure;  ///< of the continuum
+  CsvTable cubes, published_study;
   std::vector<ModelData> models;  ///< published, central, hookean, then any others
 
   const ModelData* model(const std::string& name) const;
@@ -97,5 +100,7 @@ double number_at(const nlohmann::json& json, const std::string& key);
 std::string text_at(const nlohmann::json& json, const std::string& key);
 /// `json[key]` if it is an object, else an empty object.
 nlohmann::json object_at(const nlohmann::json& json, const std::string& key);
+/// `json[key]` if it is an array, else an empty array.
+nlohmann::json array_at(const nlohmann::json& json, const std::string& key);
 
 }  // namespace fingertip::studies::reporting

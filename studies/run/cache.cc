@@ -15,14 +15,35 @@ std::string Job::key() const {
   return sha256(kind + "\n" + inputs.dump() + "\n" + source_hash);
 }
 
-std::string marked_status(const Job& job, const fs::path& folder) {
-  if (!fs::exists(folder / marker_name)) return {};
+namespace {
+
+/// An entry of the file `note` when that one is about `job`, else nothing.
+std::string noted(const Job& job, const fs::path& note, const char* entry) {
+  if (!fs::exists(note)) return {};
   try {
-    const auto marker = read_json(folder / marker_name);
-    return marker.value("key", "") == job.key() ? marker.value("status", "") : "";
+    const auto content = read_json(note);
+    return content.value("key", "") == job.key() ? content.value(entry, "") : "";
   } catch (const std::exception&) {
-    return {};  // a damaged marker: the job has to run again
+    return {};  // damaged: the job has to run again
   }
+}
+
+}  // namespace
+
+std::string marked_status(const Job& job, const fs::path& folder) {
+  return noted(job, folder / marker_name, "status");
+}
+
+bool attempted(const Job& job, const fs::path& folder) {
+  return !noted(job, folder / attempt_name, "key").empty();
+}
+
+void mark_attempt(const Job& job, const fs::path& folder) {
+  write_json({{"kind", job.kind},
+              {"key", job.key()},
+              {"source_hash", job.source_hash},
+              {"inputs", job.inputs}},
+             folder / attempt_name);
 }
 
 void mark(const Job& job, const fs::path& folder, const std::string& status, double wall_time) {
@@ -33,6 +54,7 @@ void mark(const Job& job, const fs::path& folder, const std::string& status, dou
               {"wall_time", wall_time},
               {"inputs", job.inputs}},
              folder / marker_name);
+  fs::remove(folder / attempt_name);
 }
 
 bool is_run_file(const fs::path& file) {
@@ -53,10 +75,14 @@ fs::path Cache::entry(const Job& job) const {
   return folder_ / (job.kind + "-" + job.key());
 }
 
+bool Cache::holds(const Job& job) const {
+  return !marked_status(job, entry(job)).empty();
+}
+
 bool Cache::fetch(const Job& job, const fs::path& target) const {
   const fs::path source = entry(job);
   std::error_code failed;
-  if (marked_status(job, source).empty()) return false;
+  if (!holds(job)) return false;
   fs::create_directories(target, failed);
   constexpr auto how = fs::copy_options::recursive | fs::copy_options::overwrite_existing;
   for (const auto& item : fs::directory_iterator(source, failed)) {

@@ -10,12 +10,21 @@ namespace fingertip::studies {
 /// Written last into a job's folder: its presence with the right key says that the job is done.
 inline constexpr const char* marker_name = "finished.json";
 
+/// Written first: names the job that is, or was when it ended early, at work in a folder.
+inline constexpr const char* attempt_name = "unfinished.json";
+
 /// Status of a job that went well.
 inline constexpr const char* finished = "finished";
 
 /// The status in the marker that `folder` holds for `job`; empty when the job has not run there to
 /// its end (or another one has).
 std::string marked_status(const Job& job, const std::filesystem::path& folder);
+
+/// Whether `folder` holds what an attempt at the equal job left when it ended early.
+bool attempted(const Job& job, const std::filesystem::path& folder);
+
+/// Notes that `job` is at work in `folder`; `mark` takes the note away.
+void mark_attempt(const Job& job, const std::filesystem::path& folder);
 
 /// Writes the marker. `status`: `finished`, or why the result is incomplete and will remain so.
 void mark(const Job& job, const std::filesystem::path& folder, const std::string& status,
@@ -29,6 +38,9 @@ class Cache {
   static std::filesystem::path default_folder();
 
   explicit Cache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Whether there is a result of `job`.
+  bool holds(const Job& job) const;
 
   /// Copies the result of `job` into `target` (marker last). False when it is not there.
   bool fetch(const Job& job, const std::filesystem::path& target) const;

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,16 +10,21 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <string_view>
-#include <vector>
+#include <set>
 
 #include "meshes/errors.h"
+#include "studies/run/fem_launch.h"
 
 namespace fingertip::studies {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Above it an exit code tells the signal that ended a process, as in shells and mpirun.
+constexpr int signal_base = 128;
+constexpr auto patience = std::chrono::seconds(10);       ///< from SIGINT to the end by force
+constexpr auto more_patience = std::chrono::seconds(15);  ///< the same for mpirun itself
 
 /// The reading end of a pipe whose writing end a child holds.
 class Pipe {
@@ -65,57 +69,29 @@ class Pipe {
   std::string rest_;
 };
 
-/// The environment plus `further`. Built before fork: afterwards a process with threads may only
-/// make async-signal-safe calls.
-std::vector<char*> environment_with(std::vector<std::string>& further) {
-  std::vector<char*> all;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    bool replaced = false;
-    for (const std::string& own : further) {
-      replaced |= std::string_view(*entry).starts_with(own.substr(0, own.find('=') + 1));
-    }
-    if (!replaced) all.push_back(*entry);
+/// How far a run is that presses on one mesh after the other, until an error is small enough: each
+/// mesh counts half of what was left.
+class FemProgress {
+ public:
+  void take(const std::string& stage, double done) {
+    const double within = stage == "mesh"       ? 0.05 * done
+                          : stage == "assemble" ? 0.05 + 0.15 * done
+                                                : 0.2 + 0.8 * done;
+    if (within < within_) left_ *= 0.5;  // from the start again: the next mesh
+    within_ = within;
   }
-  for (std::string& own : further) all.push_back(own.data());
-  all.push_back(nullptr);
-  return all;
-}
+  double fraction() const { return 1.0 - left_ * (1.0 - 0.5 * within_); }
 
-pid_t start(const std::string& program, const std::string& folder, int threads, const Pipe& out,
-            const Pipe& err) {
-  // BLAS and OpenMP would otherwise start a thread per core beside the lattice jobs.
-  const std::string count = std::to_string(threads);
-  std::vector<std::string> limits = {"DEAL_II_NUM_THREADS=" + count, "OMP_NUM_THREADS=" + count,
-                                     "OPENBLAS_NUM_THREADS=1"};
-  const std::vector<char*> environment = environment_with(limits);
-  std::string program_text = program;
-  std::string folder_text = folder;
-  std::array<char*, 3> arguments = {program_text.data(), folder_text.data(), nullptr};
-  const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error("cannot start another process");
-  if (child == 0) {
-    ::setpgid(0, 0);                     // Ctrl-C reaches it through us, once
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // and it does not outlive us
-    ::dup2(out.writing_end(), STDOUT_FILENO);
-    ::dup2(err.writing_end(), STDERR_FILENO);
-    ::execve(arguments[0], arguments.data(), environment.data());
-    ::_exit(127);
-  }
-  return child;
-}
-
-/// The share of a stage in the whole.
-struct Stage {
-  std::string_view name;
-  double begin, end;
+ private:
+  double within_ = 0.0;  ///< done of this mesh
+  double left_ = 1.0;    ///< share of this mesh and all later ones
 };
-constexpr Stage stages[] = {
-    {"mesh", 0.0, 0.05}, {"assemble", 0.05, 0.35}, {"press", 0.35, 0.8}, {"error mesh", 0.8, 1.0}};
 
 /// Watches the child until it ends; asks it to stop when the user wants to.
 class Watch {
  public:
-  Watch(pid_t child, const JobContext& context) : child_(child), context_(context) {}
+  Watch(pid_t child, bool under_mpirun, const JobContext& context)
+      : child_(child), under_mpirun_(under_mpirun), context_(context) {}
 
   void take_output(const std::string& line) {
     const auto json = nlohmann::json::parse(line, nullptr, false);
@@ -126,9 +102,7 @@ class Watch {
     stage_ = json.value("stage", stage_);
     const double total = json.value("total", 1.0);
     const double done = total > 0.0 ? json.value("done", 0.0) / total : 0.0;
-    for (const Stage& stage : stages) {
-      if (stage_ == stage.name) fraction_ = stage.begin + (stage.end - stage.begin) * done;
-    }
+    progress_.take(stage_, done);
     const std::string message = json.value("message", "");
     if (!message.empty()) context_.log("fem: " + stage_ + ": " + message);
   }
@@ -142,25 +116,38 @@ class Watch {
 
   /// Called about ten times a second.
   void tick() {
-    const bool go_on = context_.report(fraction_, stage_);
+    const bool go_on = context_.report(progress_.fraction(), stage_);
     if (!go_on && !asked_) {
       asked_ = true;
       asked_at_ = Clock::now();
-      ::kill(child_, SIGINT);
     }
-    if (asked_ && Clock::now() - asked_at_ > std::chrono::seconds(10)) ::kill(child_, SIGKILL);
+    if (asked_) ask_to_stop(Clock::now() - asked_at_);
   }
 
   bool asked_to_stop() const { return asked_; }
   const std::string& last_words() const { return last_words_; }
 
  private:
+  /// SIGINT once to each worker, wherever it has come from by now. mpirun would answer it, and
+  /// SIGTERM, by killing the ranks within a second; so it is left alone, and ends after them.
+  void ask_to_stop(Clock::duration since) {
+    const std::vector<pid_t> workers =
+        under_mpirun_ ? children_of(child_) : std::vector<pid_t>{child_};
+    for (const pid_t worker : workers) {
+      if (asked_workers_.insert(worker).second) ::kill(worker, SIGINT);
+    }
+    if (since > patience) ::kill(child_, under_mpirun_ ? SIGTERM : SIGKILL);
+    if (since > more_patience) ::kill(child_, SIGKILL);
+  }
+
   pid_t child_;
+  bool under_mpirun_;
   const JobContext& context_;
-  double fraction_ = 0.0;
+  FemProgress progress_;
   std::string stage_ = "continuum";
   std::string last_words_;
   bool asked_ = false;
+  std::set<pid_t> asked_workers_;
   Clock::time_point asked_at_;
 };
 
@@ -168,12 +155,27 @@ int wait_for(pid_t child) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : signal_base + WTERMSIG(status);
 }
 
-[[noreturn]] void raise(int code, const Watch& watch, const std::filesystem::path& program) {
+std::string lost_message(int signal, const std::filesystem::path& folder,
+                         const std::string& last_words) {
+  std::string text = fmt::format("a process of the continuum was lost: signal {} ({})", signal,
+                                 ::strsignal(signal));
+  if (signal == SIGKILL) {
+    text += "; when nobody killed it, memory ran out: lower reference.max_unknowns";
+  }
+  text += std::filesystem::exists(folder / "response.csv")
+              ? "; the finished samples are in " + (folder / "response.csv").string()
+              : "; no sample had been finished";
+  return last_words.empty() ? text : text + "\n" + last_words;
+}
+
+[[noreturn]] void raise(int code, const Watch& watch, const std::filesystem::path& program,
+                        const std::filesystem::path& folder) {
   const std::string words = watch.last_words();
   if (code == 130 || watch.asked_to_stop()) throw meshes::Interrupted("the continuum was stopped");
+  if (code > signal_base) throw ProcessLost(lost_message(code - signal_base, folder, words));
   if (code == 3)
     throw meshes::NotConverged(words.empty() ? "the continuum did not converge" : words);
   if (code == 2) {
@@ -191,17 +193,13 @@ int wait_for(pid_t child) {
 
 void run_fem_process(const std::filesystem::path& program, const std::filesystem::path& folder,
                      const JobContext& context) {
-  if (!std::filesystem::exists(program)) {
-    throw meshes::InvalidInput({"fingertip-fem", program.string(),
-                                "the continuum's program must stand beside fingertip",
-                                "build with FINGERTIP_FEM=ON (./fingertip does)"});
-  }
+  const FemCommand command = fem_command(program, folder, context.threads, context.ranks);
   Pipe out;
   Pipe err;
-  const pid_t child = start(program.string(), folder.string(), context.threads, out, err);
+  const pid_t child = start_process(command, out.writing_end(), err.writing_end());
   out.close_writing_end();
   err.close_writing_end();
-  Watch watch(child, context);
+  Watch watch(child, command.under_mpirun, context);
   std::array<pollfd, 2> streams = {pollfd{out.reading_end(), POLLIN, 0},
                                    pollfd{err.reading_end(), POLLIN, 0}};
   while (streams[0].fd >= 0 || streams[1].fd >= 0) {
@@ -216,7 +214,7 @@ void run_fem_process(const std::filesystem::path& program, const std::filesystem
     watch.tick();
   }
   const int code = wait_for(child);
-  if (code != 0) raise(code, watch, program);
+  if (code != 0) raise(code, watch, program, folder);
 }
 
 }  // namespace fingertip::studies

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "meshes/errors.h"
+
 namespace fingertip::studies {
 
 /// What a job may use while it runs.
@@ -15,6 +17,14 @@ struct JobContext {
   std::function<bool(double fraction, const std::string& stage)> report;
   std::function<void(const std::string& line)> log;
   int threads = 1;
+  int ranks = 1;  ///< MPI processes of the continuum
+};
+
+/// A process that did the work was lost (killed, out of memory, crashed). Ends a program like
+/// NotConverged, with 3, but says nothing about the problem that was to be solved: never remembered
+/// as a result.
+class ProcessLost : public meshes::NotConverged {
+  using meshes::NotConverged::NotConverged;
 };
 
 /// `inputs` holds only what the result depends on, so that equal inputs mean equal results.
@@ -24,6 +34,8 @@ struct Job {
   std::string source_hash;        ///< of the rooms whose code makes the result
   std::function<void(const std::filesystem::path& folder, const JobContext& context)> run;
   double weight = 1.0;  ///< expected share of the work, for the progress bar
+  /// `run` goes on from what an earlier attempt at the equal job left in the folder.
+  bool resumable = false;
 
   /// SHA-256 over kind, inputs and source hash.
   std::string key() const;

@@ -68,17 +68,43 @@ void run_cubes(const meshes::Rubber& rubber, const lattice::SpringConstants& cen
   });
 }
 
+/// Only what the result depends on: neither mass nor damping enters an equilibrium, no press enters
+/// the natural frequencies.
 ordered_json inputs_of(const fem_reference::ReferenceJob& order) {
-  return {{"geometry", to_json(order.geometry)},
-          {"rubber", to_json(order.rubber)},
-          {"contact", meshes::name(order.contact)},
-          {"samples", order.samples},
-          {"degree", order.degree},
-          {"refinement", order.refinement},
-          {"tolerance", order.tolerance},
-          {"solver", fem_reference::name(order.solver)},
-          {"fields", order.write_fields},
-          {"estimate_error", order.estimate_error}};
+  using fem_reference::Analysis;
+  const bool has_press =
+      order.analysis == Analysis::static_press || order.analysis == Analysis::transient;
+  ordered_json inputs = {{"analysis", fem_reference::name(order.analysis)},
+                         {"geometry", to_json(order.geometry)},
+                         {"rubber", to_json(order.rubber)},
+                         {"strain", fem_reference::name(order.strain)},
+                         {"degree", order.degree},
+                         {"volumetric", fem_reference::name(order.volumetric)},
+                         {"refinement", order.refinement},
+                         {"tolerance", order.tolerance},
+                         {"max_unknowns", order.max_unknowns},
+                         {"solver", fem_reference::name(order.solver)},
+                         {"solver_tolerance", order.solver_tolerance},
+                         {"fields", order.write_fields},
+                         {"estimate_error", order.estimate_error}};
+  if (order.strain == fem_reference::Strain::finite) inputs["law"] = fem_reference::name(order.law);
+  if (order.analysis == Analysis::static_press) {
+    inputs["rubber"].erase("density");
+    inputs["rubber"].erase("retardation_time");
+  }
+  if (order.analysis == Analysis::modes) {
+    inputs["rubber"].erase("retardation_time");
+    inputs["modes"] = order.modes;
+  }
+  if (order.analysis == Analysis::transient) inputs["speed"] = order.speed;
+  if (has_press) {
+    inputs["contact"] = meshes::name(order.contact);
+    inputs["tilt"] = order.tilt;
+    inputs["lateral"] = order.lateral;
+    inputs["samples"] = order.samples;
+    if (order.contact == meshes::ContactMode::coulomb) inputs["friction"] = order.friction;
+  }
+  return inputs;
 }
 
 }  // namespace
@@ -113,15 +139,22 @@ Job reference_job(const fem_reference::ReferenceJob& order) {
   Job job;
   job.kind = "reference";
   job.inputs = inputs_of(order);
-  // Neither damping nor mass enters an equilibrium.
-  job.inputs["rubber"].erase("density");
-  job.inputs["rubber"].erase("retardation_time");
   job.source_hash = source_hash::reference;
   job.weight = 40.0;
+  job.resumable = true;
   job.run = [order](const fs::path& folder, const JobContext& context) {
     fem_reference::write_job(order, folder / "job.json");
     run_fem_process(reference_program(), folder, context);
+    fs::remove_all(folder / "checkpoint");  // of use to an unfinished job alone
   };
+  return job;
+}
+
+Job verification_job() {
+  fem_reference::ReferenceJob order;
+  order.analysis = fem_reference::Analysis::verification;
+  Job job = reference_job(order);
+  job.kind = "verification";
   return job;
 }
 

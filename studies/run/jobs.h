@@ -12,9 +12,15 @@ namespace fingertip::studies {
 /// that a killed run stays readable), boundary.csv, boundary_springs.csv, summary.json.
 Job press_job(const lattice::PressSetup& setup);
 
-/// The continuum by fingertip-fem. Files: job.json, response.csv, summary.json, tip.msh,
-/// section.csv, pressure.csv, fields/.
+/// The continuum by fingertip-fem. Files: job.json, summary.json, convergence.csv, tip.msh,
+/// section.csv, pressure.csv, fields/, and by analysis response.csv (static press), also
+/// transient.csv (transient), or modes.csv (modes). While it is unfinished, checkpoint/, from which
+/// it goes on when it is run again in the same folder.
 Job reference_job(const fem_reference::ReferenceJob& order);
+
+/// The continuum's code against analytic solutions. Files: job.json, summary.json,
+/// verification.json.
+Job verification_job();
 
 /// A fit to the moduli. Files: calibration.json, material.toml, summary.json.
 Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions& options);

@@ -18,7 +18,11 @@ fem_reference::ReferenceJob reference_order(const LoadedConfig& loaded);
 /// Options of the fit for `model` at the configuration's spacing.
 calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::ModelKind model);
 
-/// Checks everything that does not depend on the verb: press_setup and reference_order.
+/// Checks everything that does not depend on the verb: press_setup and reference_order, but not
+/// whether the lattice can do what the continuum is asked for. Throws ConfigError.
 void check_all(const LoadedConfig& loaded);
+
+/// What `validate` needs beyond check_all: a press that both can do. Throws ConfigError.
+void check_validation(const LoadedConfig& loaded);
 
 }  // namespace fingertip::studies

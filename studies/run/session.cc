@@ -36,10 +36,18 @@ bool Session::reuse(const PlannedJob& planned, JobResult& result) {
     folder_.log(result.name + ": kept from the resumed run");
     return true;
   }
-  clear(planned);
-  if (cache_.fetch(planned.job, target) && usable()) {
-    folder_.log(result.name + ": from the cache, " + planned.job.key().substr(0, 16));
-    return true;
+  if (cache_.holds(planned.job)) {
+    clear(planned);
+    if (cache_.fetch(planned.job, target) && usable()) {
+      folder_.log(result.name + ": from the cache, " + planned.job.key().substr(0, 16));
+      return true;
+    }
+  }
+  const bool goes_on = planned.job.resumable && attempted(planned.job, target);
+  if (goes_on) {
+    folder_.log(result.name + ": goes on from an attempt that ended early");
+  } else {
+    clear(planned);
   }
   return false;
 }
@@ -52,10 +60,14 @@ void Session::compute(const PlannedJob& planned, JobResult& result, int threads)
                              return !interrupted();
                            },
                            [&](const std::string& line) { folder_.log(result.name + ": " + line); },
-                           threads};
+                           threads, ranks_};
   result.status = finished;
+  mark_attempt(planned.job, target);
   try {
     planned.job.run(target, context);
+  } catch (const ProcessLost& error) {
+    folder_.log(result.name + ": " + error.what());
+    throw;
   } catch (const meshes::NotConverged& error) {
     result.status = std::string("not converged: ") + error.what();
     if (!planned.exhibit) {

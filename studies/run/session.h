@@ -30,11 +30,16 @@ struct JobResult {
 
 class Session {
  public:
-  /// `threads` > 0: cores the jobs may use together.
-  Session(RunFolder& folder, Progress& progress, Cache cache, int threads)
-      : folder_(folder), progress_(progress), cache_(std::move(cache)), threads_(threads) {}
+  /// `threads` > 0: cores the jobs may use together. `ranks` > 0: MPI processes of a continuum.
+  Session(RunFolder& folder, Progress& progress, Cache cache, int threads, int ranks = 1)
+      : folder_(folder),
+        progress_(progress),
+        cache_(std::move(cache)),
+        threads_(threads),
+        ranks_(ranks) {}
 
-  /// Fetches or runs one job with all threads. Throws what the job throws (NotConverged not for an
+  /// Fetches or runs one job with all threads. A resumable job that ended early in this folder goes
+  /// on from there. Throws what the job throws (NotConverged not for an
   /// exhibit); a failed job leaves what it had.
   JobResult run(const PlannedJob& planned);
 
@@ -51,12 +56,14 @@ class Session {
   JobResult run_with(const PlannedJob& planned, int threads);
   bool reuse(const PlannedJob& planned, JobResult& result);
   void compute(const PlannedJob& planned, JobResult& result, int threads);
+  /// Empties the job's folder, apart from what belongs to the run.
   void clear(const PlannedJob& planned) const;
 
   RunFolder& folder_;
   Progress& progress_;
   Cache cache_;
   int threads_;
+  int ranks_;
 };
 
 }  // namespace fingertip::studies

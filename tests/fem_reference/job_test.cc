@@ -3,13 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
+using fem_reference::Analysis;
 using fem_reference::LinearSolver;
 using fem_reference::read_job;
 using fem_reference::ReferenceJob;
+using fem_reference::Strain;
+using fem_reference::StrainEnergy;
+using fem_reference::Volumetric;
 
 namespace {
 
@@ -31,12 +36,22 @@ TEST(ReferenceJob, SurvivesTheFile) {
   ReferenceJob job;
   job.geometry = {0.02, 0.012, 0.0, 0.05};
   job.rubber = {5000.0, 2000.0 / 3.0 * 3.1, 900.0, 1e-3};
-  job.contact = meshes::ContactMode::frictionless;
+  job.contact = meshes::ContactMode::coulomb;
+  job.friction = 0.3;
+  job.tilt = -0.2;
+  job.lateral = 1e-3;
   job.samples = {1e-4, 1.0 / 3000.0, 2e-3};
-  job.degree = 1;
+  job.speed = 0.02;
+  job.strain = Strain::finite;
+  job.law = StrainEnergy::law_c;
+  job.modes = 17;
+  job.degree = 3;
+  job.volumetric = Volumetric::pointwise;
   job.refinement = 0.7;
-  job.tolerance = 1e-9;
+  job.tolerance = 1.0 / 300.0;
+  job.max_unknowns = 123456;
   job.solver = LinearSolver::multigrid;
+  job.solver_tolerance = 3e-12;
   job.write_fields = false;
   job.estimate_error = false;
   write_job(job, folder / "job.json");
@@ -50,13 +65,45 @@ TEST(ReferenceJob, SurvivesTheFile) {
   EXPECT_EQ(read.rubber.density, job.rubber.density);
   EXPECT_EQ(read.rubber.retardation_time, job.rubber.retardation_time);
   EXPECT_EQ(read.contact, job.contact);
+  EXPECT_EQ(read.friction, job.friction);
+  EXPECT_EQ(read.tilt, job.tilt);
+  EXPECT_EQ(read.lateral, job.lateral);
   EXPECT_EQ(read.samples, job.samples);  // to the last bit
+  EXPECT_EQ(read.speed, job.speed);
+  EXPECT_EQ(read.analysis, job.analysis);
+  EXPECT_EQ(read.strain, job.strain);
+  EXPECT_EQ(read.law, job.law);
+  EXPECT_EQ(read.modes, job.modes);
+  EXPECT_EQ(read.volumetric, job.volumetric);
+  EXPECT_EQ(read.max_unknowns, job.max_unknowns);
+  EXPECT_EQ(read.solver_tolerance, job.solver_tolerance);
   EXPECT_EQ(read.degree, job.degree);
   EXPECT_EQ(read.refinement, job.refinement);
   EXPECT_EQ(read.tolerance, job.tolerance);
   EXPECT_EQ(read.solver, job.solver);
   EXPECT_EQ(read.write_fields, job.write_fields);
   EXPECT_EQ(read.estimate_error, job.estimate_error);
+}
+
+TEST(ReferenceJob, EveryNameSurvivesTheFile) {
+  const TemporaryFolder folder;
+  ReferenceJob job;
+  job.samples = {1e-3};
+  const auto survives = [&](auto member, auto... values) {
+    for (const auto value : {values...}) {
+      job.*member = value;
+      write_job(job, folder / "job.json");
+      EXPECT_EQ(read_job(folder / "job.json").*member, value);
+    }
+  };
+  survives(&ReferenceJob::analysis, Analysis::modes, Analysis::verification, Analysis::transient,
+           Analysis::static_press);
+  survives(&ReferenceJob::law, StrainEnergy::law_b, StrainEnergy::law_c, StrainEnergy::law_a);
+  survives(&ReferenceJob::solver, LinearSolver::condensed, LinearSolver::multigrid,
+           LinearSolver::automatic);
+  survives(&ReferenceJob::contact, meshes::ContactMode::frictionless,
+           meshes::ContactMode::coulomb, meshes::ContactMode::stick);
+  survives(&ReferenceJob::volumetric, Volumetric::pointwise, Volumetric::projected);
 }
 
 TEST(ReferenceJob, AbsentEntriesKeepTheirDefaults) {
@@ -74,6 +121,10 @@ TEST(ReferenceJob, RefusesBadFilesNamingTheEntry) {
   EXPECT_NE(refusal(file, R"({"samples": [0.001], "degre": 2})").find("degre"), std::string::npos);
   EXPECT_NE(refusal(file, R"({"samples": "deep"})").find("samples"), std::string::npos);
   EXPECT_NE(refusal(file, R"({"samples": [0.001], "contact": "glue"})").find("frictionless"),
+            std::string::npos);
+  EXPECT_NE(refusal(file, R"({"samples": [0.001], "law": "D"})").find("A, B, C"),
+            std::string::npos);
+  EXPECT_NE(refusal(file, R"({"samples": [0.001], "analysis": "fast"})").find("modes"),
             std::string::npos);
   EXPECT_NE(refusal(file, R"({"samples": [0.001], "degree": 1.5})").find("integer"),
             std::string::npos);
@@ -99,12 +150,71 @@ TEST(ReferenceJob, RefusesValuesOutOfRange) {
   rejects([](ReferenceJob& job) { job.samples.clear(); }, "press.depth");
   rejects([](ReferenceJob& job) { job.samples = {2e-3, 1e-3}; }, "press.samples");
   rejects([](ReferenceJob& job) { job.samples = {5e-3}; }, "press.depth");
-  rejects([](ReferenceJob& job) { job.degree = 3; }, "reference.degree");
+  rejects([](ReferenceJob& job) { job.degree = 4; }, "reference.degree");
+  rejects([](ReferenceJob& job) { job.degree = 0; }, "reference.degree");
+  rejects([](ReferenceJob& job) { job.tolerance = 0.6; }, "reference.tolerance");
+  rejects([](ReferenceJob& job) { job.max_unknowns = 10; }, "reference.max_unknowns");
+  rejects([](ReferenceJob& job) { job.solver_tolerance = 1e-2; }, "reference.solver_tolerance");
+  rejects([](ReferenceJob& job) { job.modes = 0; }, "reference.modes");
+  rejects([](ReferenceJob& job) { job.speed = 0.0; }, "press.speed");
+  rejects([](ReferenceJob& job) { job.tilt = 1.0; }, "press.tilt");
+  rejects([](ReferenceJob& job) { job.tilt = std::nan(""); }, "press.tilt");
+  rejects([](ReferenceJob& job) { job.lateral = 0.02; }, "press.lateral");
+  rejects(
+      [](ReferenceJob& job) {
+        job.contact = meshes::ContactMode::coulomb;
+        job.friction = 0.0;
+      },
+      "press.friction");
   rejects([](ReferenceJob& job) { job.refinement = 0.1; }, "reference.refinement");
   rejects([](ReferenceJob& job) { job.refinement = std::nan(""); }, "reference.refinement");
   rejects([](ReferenceJob& job) { job.tolerance = 0.0; }, "reference.tolerance");
   rejects([](ReferenceJob& job) { job.geometry.rod_radius = 0.02; }, "geometry.rod_radius");
   rejects([](ReferenceJob& job) { job.rubber.shear_modulus = 1000; }, "rubber.shear_modulus");
+}
+
+/// Laws A and B have no minimum for lambda < 0; law C and small strain do.
+TEST(ReferenceJob, FiniteStrainNeedsAPositivePoissonRatio) {
+  ReferenceJob job;
+  job.samples = {1e-3};
+  job.rubber.shear_modulus = 0.6 * job.rubber.youngs_modulus;
+  EXPECT_TRUE(job.violations().empty());
+  job.strain = Strain::finite;
+  for (const StrainEnergy law : {StrainEnergy::law_a, StrainEnergy::law_b}) {
+    job.law = law;
+    ASSERT_EQ(job.violations().size(), 1u);
+    EXPECT_NE(job.violations()[0].rule.find("nu >= 0"), std::string::npos);
+  }
+  job.law = StrainEnergy::law_c;
+  EXPECT_TRUE(job.violations().empty());
+  job.law = StrainEnergy::law_a;
+  job.rubber.shear_modulus = 0.5 * job.rubber.youngs_modulus;  // nu = 0 is valid
+  EXPECT_TRUE(job.violations().empty());
+}
+
+TEST(ReferenceJob, TransientPressesAreUprightAndLinear) {
+  const auto refused = [](auto&& spoil) {
+    ReferenceJob job;
+    job.samples = {1e-3};
+    job.analysis = Analysis::transient;
+    EXPECT_TRUE(job.violations().empty());
+    spoil(job);
+    return !job.violations().empty();
+  };
+  EXPECT_TRUE(refused([](ReferenceJob& job) { job.tilt = 0.1; }));
+  EXPECT_TRUE(refused([](ReferenceJob& job) { job.lateral = 1e-4; }));
+  EXPECT_TRUE(refused([](ReferenceJob& job) { job.strain = Strain::finite; }));
+  EXPECT_TRUE(refused([](ReferenceJob& job) { job.contact = meshes::ContactMode::coulomb; }));
+}
+
+/// Modes and verification do not press: they need no samples.
+TEST(ReferenceJob, OnlyAPressNeedsSamples) {
+  ReferenceJob job;
+  EXPECT_FALSE(job.violations().empty());
+  job.analysis = Analysis::modes;
+  EXPECT_TRUE(job.violations().empty());
+  job.analysis = Analysis::verification;
+  EXPECT_TRUE(job.violations().empty());
 }
 
 }  // namespace

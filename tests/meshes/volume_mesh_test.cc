@@ -57,12 +57,13 @@ class VolumeMesh : public ::testing::Test {
 std::size_t nodes_per_layer(const TipMeshOptions& o, bool sleeve) {
   const std::size_t n = std::size_t(o.cap_elements);
   const std::size_t rows = std::size_t(o.ring_elements + (sleeve ? o.sleeve_elements : 0));
-  return o.sector == Sector::quarter ? (n + 1) * (n + 1) + (2 * n + 1) * rows
-                                     : 4 * n * n + 4 * n + 1 + 8 * n * rows;
+  if (o.sector == Sector::quarter) return (n + 1) * (n + 1) + (2 * n + 1) * rows;
+  if (o.sector == Sector::half) return (n + 1) * (2 * n + 1) + (4 * n + 1) * rows;
+  return 4 * n * n + 4 * n + 1 + 8 * n * rows;
 }
 
 TEST_F(VolumeMesh, HasTheNodesOfItsBlocksAndSharesThem) {
-  for (const Sector sector : {Sector::quarter, Sector::full})
+  for (const Sector sector : {Sector::quarter, Sector::half, Sector::full})
     for (const double length : {0.015, 0.0}) {
       Geometry geometry;
       geometry.sleeve_length = length;
@@ -82,6 +83,8 @@ TEST_F(VolumeMesh, HasTheNodesOfItsBlocksAndSharesThem) {
         bond += std::abs(Geometry::radial_distance(w) - geometry.rod_radius) < 1e-15;
         if (sector == Sector::quarter) {
           EXPECT_GE(w.x(), -1e-17);
+        }
+        if (sector != Sector::full) {
           EXPECT_GE(w.y(), -1e-17);
         }
       }
@@ -120,16 +123,48 @@ TEST_F(VolumeMesh, FullTipIsFourQuarters) {
   EXPECT_NEAR(full.min_scaled_jacobian, quarter.min_scaled_jacobian, 1e-9);
 }
 
+/// Largest distance of a node's mirror image from the nearest node [m].
+template <class Mirror>
+double asymmetry(const std::vector<Vector3>& nodes, Mirror mirror) {
+  double farthest = 0.0;
+  for (const Vector3& w : nodes) {
+    double nearest = 1.0;
+    for (const Vector3& other : nodes) nearest = std::min(nearest, (other - mirror(w)).norm());
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
 /// The tip is symmetric about x = y, and so must be its mesh.
 TEST_F(VolumeMesh, IsItsOwnMirrorImage) {
   write_tip_mesh({}, TipMeshOptions{}.refined(0.5), file_);
+  EXPECT_LT(asymmetry(nodes(), [](const Vector3& w) { return Vector3(w.y(), w.x(), w.z()); }),
+            1e-9);
+}
+
+TEST_F(VolumeMesh, HalfTipIsTwoQuartersAndSymmetricAboutX) {
+  TipMeshOptions options = TipMeshOptions{}.refined(0.5);
+  const MeshQuality quarter = write_tip_mesh({}, options, file_);
+  options.sector = Sector::half;
+  const MeshQuality half = write_tip_mesh({}, options, file_);
+  EXPECT_EQ(half.hexahedra, 2 * quarter.hexahedra);
+  EXPECT_NEAR(half.volume / (2 * quarter.volume), 1.0, 1e-9);
+  EXPECT_NEAR(half.min_scaled_jacobian, quarter.min_scaled_jacobian, 1e-9);
   const auto all = nodes();
-  for (const Vector3& w : all) {
-    const Vector3 mirrored(w.y(), w.x(), w.z());
-    double nearest = 1.0;
-    for (const Vector3& other : all) nearest = std::min(nearest, (other - mirrored).norm());
-    EXPECT_LT(nearest, 1e-9);
-  }
+  EXPECT_LT(asymmetry(all, [](const Vector3& w) { return Vector3(-w.x(), w.y(), w.z()); }), 1e-9);
+  EXPECT_TRUE(std::ranges::any_of(all, [](const Vector3& w) { return w.x() < -1e-3; }));
+}
+
+/// The half keeps y = 0 as a boundary, on both sides of the axis, and loses x = 0.
+TEST_F(VolumeMesh, HalfTipNamesOneSymmetryPlane) {
+  TipMeshOptions options = TipMeshOptions{}.refined(0.5);
+  options.sector = Sector::half;
+  write_tip_mesh({}, options, file_);
+  const std::string mesh = text();
+  for (const char* group :
+       {"3 1 \"tip\"", "2 2 \"outer\"", "2 3 \"bond\"", "2 4 \"end\"", "2 6 \"symmetry_y\""})
+    EXPECT_NE(mesh.find(group), std::string::npos) << group;
+  EXPECT_EQ(mesh.find("symmetry_x"), std::string::npos);
 }
 
 TEST_F(VolumeMesh, NamesItsGroups) {

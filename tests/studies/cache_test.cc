@@ -116,6 +116,88 @@ TEST_F(SessionTest, AnExhibitMayFailToConvergeAndIsRemembered) {
   EXPECT_THROW(run({"part", job, false}), fingertip::meshes::NotConverged);
 }
 
+namespace {
+
+/// A job in two halves, of which the first attempt ends with `Failure` after the first.
+template <typename Failure>
+Job interrupted_job(int& runs, int input, bool resumable = true) {
+  Job job = counting_job(runs, input);
+  job.resumable = resumable;
+  job.run = [&runs](const fs::path& folder, const JobContext&) {
+    ++runs;
+    if (fs::exists(folder / "half.txt")) return write_text(folder / "whole.txt", "");
+    write_text(folder / "half.txt", std::to_string(runs));
+    throw Failure("stopped half way");
+  };
+  return job;
+}
+
+}  // namespace
+
+TEST_F(SessionTest, ResumeGoesOnInsideAResumableJob) {
+  int runs = 0;
+  const Job job = interrupted_job<fingertip::meshes::Interrupted>(runs, 7);
+  EXPECT_THROW(run({"part", job}), fingertip::meshes::Interrupted);
+  const fs::path folder = run({"part", job}, true);
+  EXPECT_EQ(runs, 2);
+  EXPECT_EQ(read_text(folder / "half.txt"), "1") << "of the first attempt";
+  EXPECT_TRUE(fs::exists(folder / "whole.txt"));
+  EXPECT_FALSE(fs::exists(folder / attempt_name));
+  run({"part", job}, true);
+  EXPECT_EQ(runs, 2) << "now it is finished";
+  EXPECT_FALSE(fs::exists(place_ / "cache" / ("test-" + job.key()) / attempt_name));
+}
+
+TEST_F(SessionTest, ResumeStartsOtherInputOrAnUnresumableJobAnew) {
+  using fingertip::meshes::NotConverged;
+  int runs = 0;
+  EXPECT_THROW(run({"part", interrupted_job<NotConverged>(runs, 7)}), NotConverged);
+  EXPECT_THROW(run({"part", interrupted_job<NotConverged>(runs, 8)}, true), NotConverged)
+      << "the half of another job must not be taken";
+  EXPECT_NO_THROW(run({"part", interrupted_job<NotConverged>(runs, 8)}, true));
+  EXPECT_THROW(run({"part", interrupted_job<NotConverged>(runs, 9, false)}), NotConverged);
+  EXPECT_THROW(run({"part", interrupted_job<NotConverged>(runs, 9, false)}, true), NotConverged);
+}
+
+TEST_F(SessionTest, AResultInTheCacheReplacesAHalfDoneJob) {
+  int runs = 0;
+  const Job job = counting_job(runs, 7);
+  Job half = interrupted_job<fingertip::meshes::Interrupted>(runs, 7);
+  EXPECT_THROW(run({"part", half}), fingertip::meshes::Interrupted);
+  const int first = folders_;
+  run({"part", job});
+  folders_ = first;
+  const fs::path folder = run({"part", half}, true);
+  EXPECT_TRUE(last_.reused);
+  EXPECT_EQ(read_text(folder / "fields/value.txt"), "7");
+  EXPECT_FALSE(fs::exists(folder / "half.txt"));
+}
+
+TEST_F(SessionTest, ALostProcessIsNoResultNotEvenOfAnExhibit) {
+  int runs = 0;
+  const Job job = interrupted_job<ProcessLost>(runs, 7);
+  EXPECT_THROW(run({"part", job, true}), ProcessLost);
+  EXPECT_FALSE(fs::exists(place_ / "cache" / ("test-" + job.key())));
+  run({"part", job, true}, true);
+  EXPECT_TRUE(last_.ok());
+}
+
+TEST_F(SessionTest, RanksReachTheJobAndNotItsKey) {
+  int runs = 0;
+  int ranks = 0;
+  Job job = counting_job(runs, 7);
+  const std::string key = job.key();
+  job.run = [&ranks](const fs::path&, const JobContext& context) { ranks = context.ranks; };
+  RunFolderOptions options;
+  options.verb = "test";
+  options.out = place_ / "run";
+  RunFolder folder(options, load_config({}));
+  Progress progress(ProgressStyle::off);
+  Session(folder, progress, Cache(place_ / "cache"), 2, 3).run({"part", job});
+  EXPECT_EQ(ranks, 3);
+  EXPECT_EQ(job.key(), key);
+}
+
 TEST_F(SessionTest, RunFilesStayOutOfTheCache) {
   int runs = 0;
   const Job job = counting_job(runs, 7);

@@ -56,9 +56,42 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"press.depth=0 cm", {"> 0"}}, BadInput{"press.depth=-1 mm", {"> 0"}},
         BadInput{"press.depth=0.5 cm", {"R - r"}}, BadInput{"press.depth=nan cm", {"finite"}},
         BadInput{"press.depth=nan", {"finite"}}, BadInput{"rubber.density=inf kg/m^3", {"finite"}},
-        BadInput{"press.contact=slippery", {"stick | frictionless"}},
-        BadInput{"reference.degree=7", {"<= 2"}},
+        BadInput{"press.contact=slippery", {"stick | frictionless | coulomb"}},
+        BadInput{"reference.degree=7", {"<= 3"}},
         BadInput{"lattice.constants=absent.toml", {"absent.toml"}}));
+
+TEST(BadInput, WhatTheLatticeCannotDoIsRefusedToItAndGoesToTheContinuum) {
+  const TemporaryFolder folder;
+  write_text(folder / "tilted.toml", "[press]\ncontact = \"coulomb\"\ntilt = \"5 deg\"\n");
+  for (const char* verb : {"press", "validate"}) {
+    expect_refused(folder.path(), {verb, "--config", "tilted.toml", "--out", "run"},
+                   {"tilted.toml:2: press.contact = coulomb: ", "stick and frictionless",
+                    "tilted.toml:3: press.tilt = 5 deg: ", "`reference`"});
+  }
+  const ProgramResult check = run_program(folder.path(), {"check", "tilted.toml"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_NE(check.out.find("note: for press and validate: tilted.toml:3: press.tilt = 5 deg"),
+            std::string::npos);
+}
+
+TEST(BadInput, RulesOfTheContinuumNameFileAndLine) {
+  const TemporaryFolder folder;
+  write_text(folder / "finite.toml",
+             "[rubber]\nshear_modulus = \"25 gf/cm^2\"\n[reference]\nstrain = \"finite\"\n");
+  write_text(folder / "transient.toml",
+             "[press]\nlateral = \"1 mm\"\n[reference]\nmode = \"transient\"\n");
+  for (const char* verb : {"check", "reference", "calibrate"}) {
+    const std::string option = verb == std::string("check") ? "--quiet" : "--progress=off";
+    expect_refused(folder.path(), {verb, "--config", "finite.toml", option},
+                   {"finite.toml:4: reference.strain = finite: ", "nu >= 0", "finite.toml:2",
+                    "without bound"});
+    expect_refused(folder.path(), {verb, "--config", "transient.toml", option},
+                   {"transient.toml:4: reference.mode = transient: ", "along the axis",
+                    "press.lateral = 1 mm, transient.toml:2"});
+  }
+  expect_refused(folder.path(), {"validate", "--set", "reference.mode=modes"},
+                 {"--set reference.mode=modes", "compares forces"});
+}
 
 TEST(BadInput, UnstableTimeStepIsRefusedWithItsBound) {
   const TemporaryFolder folder;
@@ -105,6 +138,9 @@ TEST(BadInput, UnknownWordsOnTheCommandLine) {
   expect_refused(folder.path(), {"press", "--set", "press.depth"}, {"section.key=value"});
   expect_refused(folder.path(), {"press", "--progress", "loud"}, {"loud"});
   expect_refused(folder.path(), {"press", "--resume", "always"}, {"always"});
+  expect_refused(folder.path(), {"reference", "--ranks", "0"}, {"--ranks", "1 to 1024"});
+  expect_refused(folder.path(), {"reference", "--ranks", "two"}, {"--ranks", "two"});
+  expect_refused(folder.path(), {"press", "--ranks", "2"}, {"--ranks"});
   expect_refused(folder.path(), {"press", "--threads", "two"}, {"--threads two", "integer"});
   expect_refused(folder.path(), {"validate", "99_nothing"}, {"99_nothing", "01_paper_rubber"});
   expect_refused(folder.path(), {"explain", "rubber.densiti"}, {"rubber.density"});

@@ -45,6 +45,15 @@ TEST(KeyTable, HasTheContractsKeysWithItsDefaults) {
       {"press.speed", "\"1 cm/s\""},
       {"press.clearance", "\"0.05 cm\""},
       {"press.samples", "[]"},
+      {"press.friction", "0.5"},
+      {"press.tilt", "\"0 deg\""},
+      {"press.lateral", "\"0 cm\""},
+      {"reference.strain", "\"linear\""},
+      {"reference.law", "\"A\""},
+      {"reference.mode", "\"static\""},
+      {"reference.degree", "2"},
+      {"reference.refinement", "0.5"},
+      {"reference.tolerance", "0.005"},
       {"controller.period", "\"1 ms\""}};
   for (const auto& [name, preset] : contract) {
     const Key* key = find_key(name);
@@ -94,8 +103,70 @@ TEST(KeyTable, DefaultsAreThoseOfTheRooms) {
   EXPECT_EQ(resolved.reference.refinement, job.refinement);
   EXPECT_EQ(resolved.reference.tolerance, job.tolerance);
   EXPECT_EQ(resolved.reference.solver, job.solver);
+  EXPECT_EQ(resolved.reference.solver_tolerance, job.solver_tolerance);
+  EXPECT_EQ(resolved.reference.max_unknowns, job.max_unknowns);
+  EXPECT_EQ(resolved.reference.analysis, job.analysis);
+  EXPECT_EQ(resolved.reference.strain, job.strain);
+  EXPECT_EQ(resolved.reference.law, job.law);
+  EXPECT_EQ(resolved.reference.volumetric, job.volumetric);
+  EXPECT_EQ(resolved.reference.modes, job.modes);
+  EXPECT_EQ(resolved.reference.contact, job.contact);
+  EXPECT_EQ(resolved.reference.friction, job.friction);
+  EXPECT_EQ(resolved.reference.tilt, job.tilt);
+  EXPECT_EQ(resolved.reference.lateral, job.lateral);
+  EXPECT_EQ(resolved.reference.speed, job.speed);
+  EXPECT_EQ(resolved.press.protocol.friction, rooms.protocol.friction);
+  EXPECT_EQ(resolved.press.protocol.tilt, rooms.protocol.tilt);
+  EXPECT_EQ(resolved.press.protocol.lateral, rooms.protocol.lateral);
   EXPECT_EQ(resolved.reference.write_fields, job.write_fields);
   EXPECT_EQ(resolved.reference.estimate_error, job.estimate_error);
+}
+
+TEST(KeyTable, EveryWordOfAContinuumKeyReachesTheJob) {
+  using fingertip::fem_reference::name;
+  const auto with = [](const std::string& set) { return load_config({{}, {set}, {}}).config; };
+  const auto words = [](const char* key) {
+    std::vector<std::string> all;
+    for (const Choice& choice : find_key(key)->choices) all.push_back(choice.word);
+    return all;
+  };
+  for (const std::string& word : words("reference.strain"))
+    EXPECT_EQ(name(with("reference.strain=" + word).reference.strain), word);
+  for (const std::string& word : words("reference.law"))
+    EXPECT_EQ(name(with("reference.law=" + word).reference.law), word);
+  for (const std::string& word : words("reference.mode"))
+    EXPECT_EQ(name(with("reference.mode=" + word).reference.analysis), word);
+  for (const std::string& word : words("reference.volumetric"))
+    EXPECT_EQ(name(with("reference.volumetric=" + word).reference.volumetric), word);
+  for (const std::string& word : words("reference.solver"))
+    EXPECT_EQ(name(with("reference.solver=" + word).reference.solver), word);
+  for (const std::string& word : words("press.contact"))
+    EXPECT_EQ(name(with("press.contact=" + word).reference.contact), word);
+}
+
+TEST(KeyTable, RangesOfTheContinuumAreThoseOfItsJob) {
+  // A key just inside its range must pass the job's own rules, one just outside must not.
+  using Job = fingertip::fem_reference::ReferenceJob;
+  const std::pair<const char*, void (*)(Job&, double)> numbers[] = {
+      {"reference.degree", [](Job& job, double value) { job.degree = int(value); }},
+      {"reference.modes", [](Job& job, double value) { job.modes = int(value); }},
+      {"reference.refinement", [](Job& job, double value) { job.refinement = value; }},
+      {"reference.tolerance", [](Job& job, double value) { job.tolerance = value; }},
+      {"reference.max_unknowns", [](Job& job, double value) { job.max_unknowns = value; }},
+      {"reference.solver_tolerance", [](Job& job, double value) { job.solver_tolerance = value; }}};
+  for (const auto& [name, set] : numbers) {
+    const Key& key = *find_key(name);
+    const double step = key.kind == Kind::integer ? 1.0 : 0.01 * key.range.minimum;
+    const auto violations = [&](double value) {
+      Job job = load_config({}).config.reference;
+      set(job, value);
+      return job.violations().size();
+    };
+    EXPECT_EQ(violations(key.range.minimum), 0U) << name;
+    EXPECT_EQ(violations(key.range.maximum), 0U) << name;
+    EXPECT_EQ(violations(key.range.minimum - step), 1U) << name;
+    EXPECT_EQ(violations(key.range.maximum + std::max(step, 0.01 * key.range.maximum)), 1U) << name;
+  }
 }
 
 TEST(KeyTable, NearestKeyFindsSlips) {

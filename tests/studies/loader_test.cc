@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "studies/config/documents.h"
 #include "studies/config/key_table.h"
 #include "tests/temporary_folder.h"
@@ -59,6 +61,12 @@ TEST(Loader, ParametersFileReproducesEveryKey) {
                                          "run.time_step=1e-5 s",
                                          "reference.degree=1",
                                          "reference.estimate_error=false",
+                                         "reference.strain=finite",
+                                         "reference.law=C",
+                                         "reference.max_unknowns=50000",
+                                         "press.friction=0.25",
+                                         "press.tilt=-9 deg",
+                                         "press.lateral=2 mm",
                                          "lattice.kinematics=finite",
                                          "run.integrator=explicit-euler"};
   const LoadedConfig first = load_config({folder / "in.toml", sets, "3"});
@@ -78,6 +86,12 @@ TEST(Loader, ParametersFileReproducesEveryKey) {
   EXPECT_EQ(second.config.press.threads, 3);
   EXPECT_EQ(second.config.constants_file, folder / "material.toml");
   EXPECT_FALSE(second.config.reference.estimate_error);
+  EXPECT_EQ(second.config.reference.strain, fingertip::fem_reference::Strain::finite);
+  EXPECT_EQ(second.config.reference.law, fingertip::fem_reference::StrainEnergy::law_c);
+  EXPECT_EQ(second.config.reference.max_unknowns, 50000.0);
+  EXPECT_EQ(second.config.reference.friction, 0.25);
+  EXPECT_NEAR(second.config.reference.tilt, -std::atan(1.0) / 5.0, 1e-14);
+  EXPECT_EQ(second.config.reference.lateral, 0.002);
 }
 
 TEST(Loader, SetIsALiteralOrElseBareText) {
@@ -89,6 +103,15 @@ TEST(Loader, SetIsALiteralOrElseBareText) {
   EXPECT_EQ(with("lattice.ligament_stiffness=10").press.lattice.ligament_stiffness, 10.0);
   EXPECT_EQ(with("press.contact=frictionless").press.protocol.contact,
             fingertip::meshes::ContactMode::frictionless);
+}
+
+TEST(Loader, ThePressGoesToTheContinuumToo) {
+  const Config config =
+      load_config({{}, {"press.speed=2 cm/s", "press.contact=coulomb", "press.tilt=45 deg"}, {}})
+          .config;
+  EXPECT_EQ(config.reference.speed, 0.02);
+  EXPECT_EQ(config.reference.contact, fingertip::meshes::ContactMode::coulomb);
+  EXPECT_NEAR(config.reference.tilt, std::atan(1.0), 1e-14);
 }
 
 TEST(Loader, LaterSourcesWin) {
@@ -156,7 +179,18 @@ TEST(Loader, RefusesWrongKindsOfValues) {
                           "lattice.offset=[0, 0, inf]",
                           "lattice.offset=[0, 0, 1.5]",
                           "reference.degree=2.0",
-                          "reference.degree=3",
+                          "reference.degree=4",
+                          "reference.tolerance=1e-8",
+                          "reference.max_unknowns=many",
+                          "reference.mode=verification",
+                          "reference.law=D",
+                          "press.contact=coulombe",
+                          "press.friction=0",
+                          "press.tilt=3",
+                          "press.tilt=5 %",
+                          "press.tilt=46 deg",
+                          "press.lateral=1.1 cm",
+                          "press.lateral=1 deg",
                           "reference.fields=yes",
                           "lattice.model=3",
                           "lattice.model=network",

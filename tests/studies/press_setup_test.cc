@@ -64,6 +64,53 @@ TEST(PressSetup, RefusesWhatTheLatticeCannotDo) {
   EXPECT_THROW(setup_of({"lattice.model=published", "lattice.constants=calibrated"}), ConfigError);
 }
 
+namespace {
+
+/// What `check` says to a configuration with these settings; empty when it is fine.
+std::string refusal(void (*check)(const LoadedConfig&), std::vector<std::string> sets) {
+  try {
+    check(load_config({{}, std::move(sets), {}}));
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST(Checks, WhatOnlyTheContinuumCanDoIsRefusedToThePressAndTheValidation) {
+  for (const char* set : {"press.contact=coulomb", "press.tilt=5 deg", "press.lateral=1 mm"}) {
+    EXPECT_EQ(refusal(check_all, {set}), "") << set;
+    EXPECT_NO_THROW(reference_order(load_config({{}, {set}, {}}))) << set;
+    EXPECT_THROW(setup_of({set}), ConfigError) << set;
+    EXPECT_EQ(refusal(check_validation, {set}).find("--set " + std::string(set)), 0U) << set;
+  }
+  EXPECT_EQ(refusal(check_validation, {}), "");
+  EXPECT_EQ(refusal(check_validation, {"reference.mode=transient"}), "");
+  EXPECT_NE(refusal(check_validation, {"reference.mode=modes"}), "");
+}
+
+TEST(Checks, FiniteStrainNeedsAPositivePoissonsRatioAndSaysWhy) {
+  // nu = E/(2G) - 1 = -0.2
+  const std::string negative = "rubber.shear_modulus=25 gf/cm^2";
+  EXPECT_EQ(refusal(check_all, {negative}), "");
+  EXPECT_EQ(refusal(check_all, {"reference.strain=finite"}), "");
+  const std::string text = refusal(check_all, {"reference.strain=finite", negative});
+  for (const char* part :
+       {"--set reference.strain=finite", "nu >= 0", "--set rubber.shear_modulus=25 gf/cm^2"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+  }
+}
+
+TEST(Checks, ATransientPressHasItsLimits) {
+  for (const char* set : {"reference.strain=finite", "press.contact=coulomb", "press.tilt=5 deg",
+                          "press.lateral=1 mm"}) {
+    const std::string text = refusal(check_all, {"reference.mode=transient", set});
+    EXPECT_EQ(text.find("--set reference.mode=transient"), 0U) << text;
+    EXPECT_NE(text.find("--set " + std::string(set)), std::string::npos) << text;
+  }
+}
+
 TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
   const auto key = [](std::vector<std::string> sets) {
     return press_job(setup_of(std::move(sets))).key();
@@ -83,4 +130,33 @@ TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
   EXPECT_EQ(continuum({}), continuum({"lattice.spacing=0.2 cm"}));
   EXPECT_NE(continuum({}), continuum({"press.contact=frictionless"}));
   EXPECT_NE(continuum({}), continuum({"reference.refinement=1.5"}));
+  for (const char* matters :
+       {"reference.strain=finite", "reference.tolerance=0.01", "reference.max_unknowns=1e5",
+        "reference.volumetric=pointwise", "reference.solver_tolerance=1e-9", "press.tilt=1 deg",
+        "press.lateral=1 mm", "press.contact=coulomb", "reference.mode=transient"}) {
+    EXPECT_NE(continuum({}), continuum({matters})) << matters;
+  }
+  EXPECT_EQ(continuum({}), continuum({"reference.law=B"})) << "small strain has no law";
+  EXPECT_EQ(continuum({}), continuum({"press.friction=0.1"})) << "stick has no coefficient";
+  EXPECT_EQ(continuum({}), continuum({"press.speed=9 cm/s"}));
+  const std::string coulomb = "press.contact=coulomb", transient = "reference.mode=transient",
+                    finite = "reference.strain=finite", modes = "reference.mode=modes";
+  EXPECT_NE(continuum({coulomb}), continuum({coulomb, "press.friction=0.1"}));
+  EXPECT_NE(continuum({finite}), continuum({finite, "reference.law=B"}));
+  EXPECT_NE(continuum({transient}), continuum({transient, "press.speed=9 cm/s"}));
+  EXPECT_NE(continuum({transient}), continuum({transient, "rubber.density=1 g/cm^3"}));
+  EXPECT_NE(continuum({modes}), continuum({modes, "rubber.density=1 g/cm^3"}));
+  EXPECT_NE(continuum({modes}), continuum({modes, "reference.modes=3"}));
+  EXPECT_EQ(continuum({modes}), continuum({modes, "press.depth=0.1 cm"}));
+}
+
+TEST(Jobs, TheContinuumsOwnVerificationIsAJob) {
+  const Job job = verification_job();
+  EXPECT_EQ(job.kind, "verification");
+  EXPECT_TRUE(job.resumable);
+  EXPECT_EQ(job.inputs["analysis"], "verification");
+  EXPECT_FALSE(job.inputs.contains("samples"));
+  fingertip::fem_reference::ReferenceJob order;
+  order.analysis = fingertip::fem_reference::Analysis::verification;
+  EXPECT_TRUE(order.violations().empty()) << "fingertip-fem would refuse it";
 }

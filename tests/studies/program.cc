@@ -10,9 +10,10 @@
 
 namespace fs = std::filesystem;
 
-Program::Program(const fs::path& folder, const std::vector<std::string>& arguments)
+Program::Program(const fs::path& folder, const std::vector<std::string>& arguments,
+                 const std::string& other)
     : folder_(folder) {
-  const std::string program = FINGERTIP_PROGRAM;
+  const std::string program = other.empty() ? FINGERTIP_PROGRAM : other;
   const std::string out = (folder / "stdout").string();
   const std::string err = (folder / "stderr").string();
   const std::string cache = (folder / "cache").string();
@@ -43,8 +44,9 @@ ProgramResult Program::wait() {
   return result;
 }
 
-ProgramResult run_program(const fs::path& folder, const std::vector<std::string>& arguments) {
-  return Program(folder, arguments).wait();
+ProgramResult run_program(const fs::path& folder, const std::vector<std::string>& arguments,
+                          const std::string& program) {
+  return Program(folder, arguments, program).wait();
 }
 
 std::vector<std::string> made_in(const fs::path& folder) {

@@ -14,11 +14,13 @@ struct ProgramResult {
 };
 
 /// A running `fingertip` with `folder` as current folder, `folder`/cache as cache, and its
-/// output in files there.
+/// output in files there. `program`: another executable than the one that was built.
 class Program {
  public:
-  Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+  Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+          const std::string& program = {});
   void send(int signal) const;
+  pid_t process() const { return process_; }
   ProgramResult wait();
 
  private:
@@ -28,7 +30,8 @@ class Program {
 
 /// Runs it to its end.
 ProgramResult run_program(const std::filesystem::path& folder,
-                          const std::vector<std::string>& arguments);
+                          const std::vector<std::string>& arguments,
+                          const std::string& program = {});
 
 /// Everything in `folder` apart from the captured output and the cache, as relative names.
 std::vector<std::string> made_in(const std::filesystem::path& folder);

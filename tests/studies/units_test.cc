@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using fingertip::studies::convert;
 using fingertip::studies::parse_quantity;
 using fingertip::studies::UnitError;
@@ -61,6 +63,18 @@ TEST(Units, RefusesWhatOnlyLooksConvertible) {
   EXPECT_NE(rule_broken_by("10 s", "Hz"), "");       // the reciprocal
   EXPECT_NE(rule_broken_by("377 rad/s", "Hz"), "");  // would be wrong by 2 pi
   EXPECT_NE(rule_broken_by("20 degC", "K"), "");     // has an offset
+}
+
+TEST(Units, AnglesAreNoPlainNumbers) {
+  const double right_angle = 2.0 * std::atan(1.0);
+  EXPECT_NEAR(parse_quantity("90 deg", "rad", "1 deg"), right_angle, 1e-14);
+  EXPECT_NEAR(parse_quantity("-5400 arcmin", "rad", "1 deg"), -right_angle, 1e-14);
+  EXPECT_EQ(parse_quantity("0.1 rad", "rad", "1 deg"), 0.1);
+  EXPECT_EQ(parse_quantity("0 deg", "rad", "1 deg"), 0.0);
+  for (const char* text : {"5 %", "0.1 m/m", "1 rad^2", "0.1", "1 Hz", "1 s"}) {
+    EXPECT_NE(rule_broken_by(text, "rad"), "") << text;
+  }
+  EXPECT_NE(rule_broken_by("20 deg/s", "Hz"), "");
 }
 
 TEST(Units, ConvertsBack) {

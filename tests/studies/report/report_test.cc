@@ -60,13 +60,14 @@ TEST(Report, HasEveryChapterOfACompleteRun) {
   SyntheticRun run;
   const std::string html = run.report();
   for (const char* chapter : {"verdict", "force", "control", "elasticity", "pictures", "published",
-                              "reasons", "cost", "provenance"}) {
+                              "reasons", "continuum", "verification", "cost", "provenance"}) {
     EXPECT_TRUE(has(html, "<section id=\"" + std::string(chapter) + "\">")) << chapter;
   }
   EXPECT_FALSE(has(html, "id=\"not-run\""))
       << report_testing::visible_text(html.substr(html.find("id=\"not-run\"")));
   for (const char* figure : {"force_indentation", "force_error", "tracking", "elastic_directions",
-                             "cubes", "shapes", "pressure", "published_study"}) {
+                             "cubes", "shapes", "pressure", "published_study", "mesh_convergence",
+                             "adaptive_mesh", "verification_orders", "locking"}) {
     EXPECT_TRUE(fs::exists(run.path / "figures" / (std::string(figure) + ".svg"))) << figure;
     EXPECT_TRUE(fs::exists(run.path / "figures" / (std::string(figure) + ".csv"))) << figure;
     EXPECT_TRUE(has(html, "figures/" + std::string(figure) + ".csv")) << figure;
@@ -177,8 +178,9 @@ TEST(Report, MissingChaptersAreLeftOutAndNamed) {
   EXPECT_FALSE(has(html, "<section id=\"published\">"));
   EXPECT_TRUE(has(html, "<section id=\"not-run\">"));
   for (const char* part :
-       {"Continuum reference", "Press of the hookean lattice", "Controller trace of published",
-        "Calibration of central", "Cubes: the surface effect", "grid and ligaments"}) {
+       {"Continuum reference", "sequence of meshes", "Press of the hookean lattice",
+        "Controller trace of published", "Calibration of central", "Cubes: the surface effect",
+        "grid and ligaments"}) {
     EXPECT_TRUE(has(text, part)) << part;
   }
   EXPECT_FALSE(has(text, "Calibration of hookean (")) << "is there";

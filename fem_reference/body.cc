@@ -1,0 +1,99 @@
+#include "fem_reference/body.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+namespace fingertip::fem_reference {
+
+Space::Space(const Triangulation& triangulation, int degree)
+    : communicator(triangulation.get_communicator()),
+      element(dealii::FE_Q<dim>(unsigned(degree)), dim),
+      dofs(triangulation) {}
+
+void Space::number(const std::vector<FixedComponent>& fixed) {
+  dofs.distribute_dofs(element);
+  owned = dofs.locally_owned_dofs();
+  dealii::DoFTools::extract_locally_relevant_dofs(dofs, relevant);
+  constraints.clear();
+  constraints.reinit(relevant);
+  dealii::DoFTools::make_hanging_node_constraints(dofs, constraints);
+  for (const FixedComponent& entry : fixed) {
+    std::vector<bool> component(dim, false);
+    component[std::size_t(entry.component)] = true;
+    dealii::DoFTools::make_zero_boundary_constraints(dofs, entry.boundary, constraints,
+                                                     dealii::ComponentMask(component));
+  }
+  constraints.close();
+}
+
+SparseMatrix Space::matrix() const {
+  dealii::DynamicSparsityPattern pattern(relevant);
+  dealii::DoFTools::make_sparsity_pattern(dofs, pattern, constraints, false);
+  dealii::SparsityTools::distribute_sparsity_pattern(pattern, owned, communicator, relevant);
+  SparseMatrix result;
+  result.reinit(owned, owned, pattern, communicator);
+  return result;
+}
+
+Vector Space::ghosted(const Vector& owned_values) const {
+  Vector complete = owned_values;
+  constraints.distribute(complete);
+  Vector result(owned, relevant, communicator);
+  result = complete;
+  return result;
+}
+
+std::vector<double> Space::gather(const Vector& owned_values,
+                                  const std::vector<long>& unknowns) const {
+  std::vector<double> own(unknowns.size(), 0.0), all(own);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (owned.is_element(unsigned(unknowns[i]))) own[i] = owned_values[unsigned(unknowns[i])];
+  dealii::Utilities::MPI::sum(own, communicator, all);
+  return all;
+}
+
+Body::Body(MPI_Comm communicator, int degree)
+    : triangulation(communicator),
+      mapping(unsigned(degree)),
+      fine(triangulation, degree),
+      coarse(triangulation, 1) {}
+
+void Body::number(const std::vector<FixedComponent>& fixed) {
+  fine.number(fixed);
+  coarse.number(fixed);
+}
+
+double volume(const Body& body) {
+  dealii::FEValues<dim> values(body.mapping, body.fine.element,
+                               dealii::QGauss<dim>(unsigned(body.degree()) + 2),
+                               dealii::update_JxW_values);
+  double sum = 0.0;
+  for (const auto& cell : body.fine.dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    values.reinit(cell);
+    for (const unsigned q : values.quadrature_point_indices()) sum += values.JxW(q);
+  }
+  return dealii::Utilities::MPI::sum(sum, body.fine.communicator);
+}
+
+double area(const Body& body, dealii::types::boundary_id boundary) {
+  dealii::FEFaceValues<dim> values(body.mapping, body.fine.element,
+                                   dealii::QGauss<dim - 1>(unsigned(body.degree()) + 2),
+                                   dealii::update_JxW_values);
+  double sum = 0.0;
+  for (const auto& cell : body.fine.dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    for (const auto& face : cell->face_iterators()) {
+      if (!face->at_boundary() || face->boundary_id() != boundary) continue;
+      values.reinit(cell, face);
+      for (const unsigned q : values.quadrature_point_indices()) sum += values.JxW(q);
+    }
+  }
+  return dealii::Utilities::MPI::sum(sum, body.fine.communicator);
+}
+
+}  // namespace fingertip::fem_reference

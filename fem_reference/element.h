@@ -1,0 +1,80 @@
+/// Element matrices: what one element of a given material contributes. Rows and columns are
+/// ordered node by node, 3 a + i for component i of node a.
+#pragma once
+
+#include <deal.II/fe/fe_values.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fem_reference/job.h"
+#include "fem_reference/material/strain_energy.h"
+#include "meshes/rubber.h"
+
+namespace fingertip::fem_reference {
+
+/// Stiffness (or mass) and internal force of an element.
+struct ElementSystem {
+  Eigen::MatrixXd matrix;     ///< (3 n, 3 n)
+  Eigen::VectorXd force;      ///< (3 n), zero where a kernel has none
+  double min_jacobian = 1.0;  ///< smallest J = det F at the quadrature points
+  double energy = 0.0;        ///< [J]
+};
+
+/// Integrates one element. `values` is of the scalar element, with gradients, values, points and
+/// JxW; `displacement` holds the element's 3 n nodal displacements [m].
+class ElementKernel {
+ public:
+  virtual ~ElementKernel() = default;
+  virtual void integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd& displacement,
+                         ElementSystem& result) = 0;
+};
+
+/// Hooke's law at small strain: K_ai,bj = ∫ lambda da_i db_j + G (da_j db_i + delta_ij da·db).
+/// With the projected volumetric term the first part is lambda ∫ P(da_i) P(db_j), P the L2
+/// projection on the element onto polynomials of one degree less in the coordinates; quadratic
+/// elements with it are the Q2/P1 pair, free of locking as nu -> 1/2 (Boffi, Brezzi & Fortin,
+/// Mixed Finite Element Methods and Applications, section 8.6).
+class HookeKernel : public ElementKernel {
+ public:
+  HookeKernel(const meshes::Rubber& rubber, Volumetric volumetric);
+  void integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd& displacement,
+                 ElementSystem& result) override;
+
+ private:
+  double lambda_, shear_;
+  Volumetric volumetric_;
+  Eigen::MatrixXd gradients_, products_;
+};
+
+/// Large strain, total Lagrangian, exact tangent. The volumetric term m/2 h(J)² becomes
+/// m/2 (P h(J))² when projected; energy, force and tangent stay derivatives of one another.
+/// Throws NotConverged for an inverted element.
+class HyperelasticKernel : public ElementKernel {
+ public:
+  HyperelasticKernel(const HyperelasticLaw& law, Volumetric volumetric);
+  void integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd& displacement,
+                 ElementSystem& result) override;
+
+ private:
+  HyperelasticLaw law_;
+  Volumetric volumetric_;
+  Eigen::MatrixXd strain_operator_, stressed_operator_;
+};
+
+/// Consistent mass, rho ∫ phi_a phi_b delta_ij.
+class MassKernel : public ElementKernel {
+ public:
+  explicit MassKernel(double density) : density_(density) {}
+  void integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd& displacement,
+                 ElementSystem& result) override;
+
+ private:
+  double density_;
+};
+
+/// Values at the element's quadrature points of polynomials of total degree `degree` in the
+/// coordinates, orthonormal in L2 of the element: (points, polynomials).
+Eigen::MatrixXd orthonormal_polynomials(const dealii::FEValues<3>& values, int degree);
+
+}  // namespace fingertip::fem_reference

@@ -1,0 +1,45 @@
+/// ContactSolver for a body's system A u = f + forces on the contact unknowns; deal.II's side.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fem_reference/assembly.h"
+#include "fem_reference/contact_solver.h"
+
+namespace fingertip::fem_reference {
+
+class FieldSolver : public ContactSolver {
+ public:
+  /// Takes over a (new) matrix; it must stay alive and unchanged until the next call. Throws
+  /// NotConverged when it cannot be factorised.
+  virtual void set_matrix(const LinearSystem& system) = 0;
+  /// f [N]; zero at first. Constrained entries are ignored.
+  virtual void set_load(const Vector& load) = 0;
+  /// Displacement of all unknowns at the last `hold` [m].
+  virtual Vector field() = 0;
+};
+
+/// Condenses the stiffness to the contact unknowns once, by a sparse Cholesky factorisation in
+/// which they come last; every `hold` is then a small dense problem. Memory grows like n^(4/3).
+/// One process only.
+std::unique_ptr<FieldSolver> make_condensed_solver(const Body& body,
+                                                   const std::vector<long>& contact_unknowns);
+
+/// Factorises the matrix anew, without the held unknowns, whenever these change. At large strain,
+/// where the matrix changes in every iteration anyway, this costs little more than condensation,
+/// and it needs no stable tip without contact: under the dead load of the plane's forces alone a
+/// strongly compressed tip is not. One process only.
+std::unique_ptr<FieldSolver> make_eliminating_solver(const Body& body,
+                                                     const std::vector<long>& contact_unknowns);
+
+/// Conjugate gradients to the relative residual `tolerance`, preconditioned by two levels: the
+/// unknowns themselves, smoothed by a Chebyshev polynomial, and linear elements on the same mesh,
+/// where Trilinos ML (smoothed aggregation with the six rigid-body modes as near-null space) does
+/// one V-cycle. Held unknowns are projected out of both; ML's hierarchy is built anew only when
+/// contact has changed. Starts from the previous solution.
+std::unique_ptr<FieldSolver> make_multigrid_solver(const Body& body,
+                                                   const std::vector<long>& contact_unknowns,
+                                                   double tolerance);
+
+}  // namespace fingertip::fem_reference

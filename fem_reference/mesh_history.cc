@@ -1,0 +1,144 @@
+#include "fem_reference/mesh_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace fingertip::fem_reference {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Meshes whose spacing at a sample's contact edge differs by less than this factor count as one.
+constexpr double least_refinement = 1.2;
+
+/// JSON has no NaN; an unknown quantity is null.
+Json known(double value) {
+  return std::isnan(value) ? Json() : Json(value);
+}
+
+double value_of(const Json& json) {
+  return json.is_null() ? meshes::unknown : json.get<double>();
+}
+
+constexpr std::pair<const char*, double meshes::PressSample::*> sample_entries[] = {
+    {"indentation", &meshes::PressSample::indentation},
+    {"normal_force", &meshes::PressSample::normal_force},
+    {"lateral_force_x", &meshes::PressSample::lateral_force_x},
+    {"lateral_force_y", &meshes::PressSample::lateral_force_y},
+    {"torque_x", &meshes::PressSample::torque_x},
+    {"torque_y", &meshes::PressSample::torque_y},
+    {"torque_z", &meshes::PressSample::torque_z},
+    {"contact_radius", &meshes::PressSample::contact_radius},
+    {"max_pressure", &meshes::PressSample::max_pressure},
+    {"time", &meshes::PressSample::time}};
+constexpr std::pair<const char*, double PressState::*> real_entries[] = {
+    {"node_spacing", &PressState::node_spacing},
+    {"min_jacobian", &PressState::min_jacobian},
+    {"energy", &PressState::energy},
+    {"wall_time", &PressState::wall_time}};
+constexpr std::pair<const char*, int PressState::*> whole_entries[] = {
+    {"steps", &PressState::steps},
+    {"newton_iterations", &PressState::newton_iterations},
+    {"active_set_iterations", &PressState::active_set_iterations},
+    {"cg_iterations", &PressState::cg_iterations},
+    {"active_nodes", &PressState::active_nodes},
+    {"sliding_nodes", &PressState::sliding_nodes}};
+
+Json state_to_json(const PressState& state) {
+  Json json;
+  for (const auto& [key, member] : sample_entries) json[key] = known(state.sample.*member);
+  for (const auto& [key, member] : real_entries) json[key] = known(state.*member);
+  for (const auto& [key, member] : whole_entries) json[key] = state.*member;
+  Json points = Json::array();
+  for (const ContactPoint& point : state.contact) points.push_back({point.radius, point.pressure});
+  json["contact"] = points;
+  return json;
+}
+
+PressState state_from_json(const Json& json) {
+  PressState state;
+  for (const auto& [key, member] : sample_entries) state.sample.*member = value_of(json.at(key));
+  for (const auto& [key, member] : real_entries) state.*member = value_of(json.at(key));
+  for (const auto& [key, member] : whole_entries) state.*member = json.at(key).get<int>();
+  for (const Json& point : json.at("contact"))
+    state.contact.push_back({point.at(0).get<double>(), point.at(1).get<double>()});
+  return state;
+}
+
+}  // namespace
+
+void MeshHistory::add(PressState state) {
+  finest().wall_time += state.wall_time;
+  finest().states.push_back(std::move(state));
+}
+
+ForceError MeshHistory::error(std::size_t index) const {
+  std::vector<MeshForce> sequence;
+  for (const MeshRecord& record : meshes_) {
+    if (index >= record.states.size()) continue;
+    const PressState& state = record.states[index];
+    const MeshForce next{std::pow(state.node_spacing, -3.0), state.sample.normal_force};
+    const bool finer =
+        sequence.empty() || std::cbrt(next.unknowns / sequence.back().unknowns) > least_refinement;
+    if (finer)
+      sequence.push_back(next);
+    else
+      sequence.back().force = next.force;  // better elsewhere, no finer here
+  }
+  return estimate_force_error(sequence);
+}
+
+std::vector<PressState> MeshHistory::best() const {
+  std::vector<PressState> result;
+  for (const MeshRecord& record : meshes_)
+    for (std::size_t i = 0; i < record.states.size(); ++i) {
+      if (i == result.size()) result.emplace_back();
+      result[i] = record.states[i];
+    }
+  for (std::size_t i = 0; i < result.size(); ++i) result[i].sample.force_error = error(i).value;
+  return result;
+}
+
+double MeshHistory::worst_relative_error() const {
+  double worst = 0.0;
+  for (const PressState& state : best()) {
+    const double relative = state.sample.force_error / state.sample.normal_force;
+    if (std::isnan(relative)) return meshes::unknown;
+    worst = std::max(worst, relative);
+  }
+  return worst;
+}
+
+Json MeshHistory::to_json() const {
+  Json all = Json::array();
+  for (const MeshRecord& record : meshes_) {
+    Json states = Json::array();
+    for (const PressState& state : record.states) states.push_back(state_to_json(state));
+    all.push_back({{"cells", record.mesh.cells},
+                   {"unknowns", record.mesh.unknowns},
+                   {"contact_unknowns", record.mesh.contact_unknowns},
+                   {"solver", int(record.mesh.solver)},
+                   {"wall_time", record.wall_time},
+                   {"states", states}});
+  }
+  return all;
+}
+
+MeshHistory MeshHistory::from_json(const Json& json) {
+  MeshHistory history;
+  for (const Json& entry : json) {
+    MeshRecord record;
+    record.mesh = {entry.at("cells").get<std::size_t>(), entry.at("unknowns").get<std::size_t>(),
+                   entry.at("contact_unknowns").get<std::size_t>(),
+                   LinearSolver(entry.at("solver").get<int>())};
+    record.wall_time = entry.at("wall_time").get<double>();
+    for (const Json& state : entry.at("states")) record.states.push_back(state_from_json(state));
+    history.meshes_.push_back(std::move(record));
+  }
+  return history;
+}
+
+}  // namespace fingertip::fem_reference

@@ -1,0 +1,46 @@
+/// What a press yielded on each mesh of a sequence, and how far the finest may be off. Free of
+/// deal.II.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "fem_reference/force_error.h"
+#include "fem_reference/press.h"
+
+namespace fingertip::fem_reference {
+
+/// A mesh and the samples computed on it so far, by increasing indentation.
+struct MeshRecord {
+  MeshSummary mesh;
+  std::vector<PressState> states;
+  double wall_time = 0.0;  ///< of mesh, matrices and samples [s]
+};
+
+/// The sequence of meshes, coarse to fine.
+class MeshHistory {
+ public:
+  void start_mesh(const MeshSummary& mesh) { meshes_.push_back({mesh, {}, 0.0}); }
+  /// Appends the next sample of the finest mesh and estimates its error.
+  void add(PressState state);
+
+  const std::vector<MeshRecord>& meshes() const { return meshes_; }
+  MeshRecord& finest() { return meshes_.back(); }
+  /// Each sample from the finest mesh on which it has been computed, with its `force_error`.
+  std::vector<PressState> best() const;
+  /// Error of sample `index` on the finest mesh that has it, from `estimate_force_error` with the
+  /// node spacing at this sample's contact edge as the measure of a mesh: adaptive meshes are
+  /// refined here for one sample and there for another, and a mesh that is no finer at the edge
+  /// tells nothing about it. NaN while there is one such spacing only.
+  ForceError error(std::size_t index) const;
+  /// Largest force_error over normal_force; NaN before there is an estimate for every sample.
+  double worst_relative_error() const;
+
+  nlohmann::json to_json() const;
+  static MeshHistory from_json(const nlohmann::json& json);
+
+ private:
+  std::vector<MeshRecord> meshes_;
+};
+
+}  // namespace fingertip::fem_reference

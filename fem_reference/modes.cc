@@ -1,0 +1,230 @@
+#include "fem_reference/modes.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <ostream>
+
+#include "fem_reference/force_error.h"
+#include "fem_reference/run_progress.h"
+#include "meshes/errors.h"
+#include "meshes/files.h"
+
+namespace fingertip::fem_reference {
+namespace {
+
+namespace fs = std::filesystem;
+using meshes::to_text;
+
+/// Meshes before the error of the finest can be told. Frequencies are free of the noise of contact,
+/// for which a press takes three.
+constexpr std::size_t fewest_meshes = 2;
+/// From mesh to mesh the element counts grow by about this factor, the unknowns by its cube.
+constexpr double growth = std::numbers::sqrt2;
+
+/// Element counts are whole numbers. A direction in which two meshes are alike would hide its error
+/// from their difference, so that every count must grow.
+double next_refinement(double refinement) {
+  const auto counts = [](double factor) {
+    const meshes::TipMeshOptions o = meshes::TipMeshOptions{}.refined(factor);
+    return std::array{o.cap_elements, o.ring_elements, o.sleeve_elements, o.radial_elements};
+  };
+  const auto before = counts(refinement);
+  for (double next = refinement * growth;; next *= growth) {
+    const auto after = counts(next);
+    bool all_grow = true;
+    for (std::size_t i = 0; i < after.size(); ++i) all_grow = all_grow && after[i] > before[i];
+    if (all_grow) return next;
+  }
+}
+
+struct ModesOnMesh {
+  MeshSummary mesh;
+  std::array<std::vector<NaturalMode>, 4> classes;
+  double wall_time = 0.0;
+};
+
+std::string field_name(std::size_t index) {
+  char text[32];
+  std::snprintf(text, sizeof text, "mode_%04zu.vtu", index + 1);
+  return text;
+}
+
+class ModesRun {
+ public:
+  ModesRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
+           const std::function<bool()>& stop_requested)
+      : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
+
+  RunOutcome carry_out() {
+    RunOutcome outcome;
+    try {
+      compute();
+    } catch (const meshes::Interrupted& stop) {
+      outcome = {RunOutcome::Status::interrupted, stop.what()};
+    } catch (const meshes::NotConverged& failure) {
+      outcome = {RunOutcome::Status::not_converged, failure.what()};
+    }
+    write_tables(outcome);
+    return outcome;
+  }
+
+ private:
+  /// Meshes ever finer, until one is good enough or the next would be too large.
+  void compute() {
+    for (double refinement = job_.refinement;; refinement = next_refinement(refinement)) {
+      solve_on(refinement);
+      const bool estimable = meshes_.size() >= fewest_meshes;
+      const double worst = worst_relative_error();
+      if (!job_.estimate_error || (estimable && worst <= job_.tolerance)) return;
+      const double next = std::pow(next_refinement(refinement) / refinement, 3) *
+                          double(meshes_.back().mesh.unknowns);
+      if (next > job_.max_unknowns) refuse(worst, next);
+    }
+  }
+
+  [[noreturn]] void refuse(double worst, double unknowns) const {
+    const std::string error =
+        std::isnan(worst) ? "one mesh does not tell how far a natural frequency is off"
+                          : "a natural frequency may be off by " + to_text(worst) +
+                                " of itself, more than the tolerance of " + to_text(job_.tolerance);
+    throw meshes::NotConverged(error + ", and a finer mesh would have about " +
+                               to_text(std::round(unknowns)) +
+                               " unknowns; allow more unknowns or a larger tolerance");
+  }
+
+  void solve_on(double refinement) {
+    const double start = progress_.wall_time();
+    const std::size_t number = meshes_.size() + 1;
+    progress_.report("mesh", number - 1, number, "meshing the tip");
+    write_mesh_once(job_.geometry, meshes::TipMeshOptions{}.refined(refinement),
+                    folder_ / "tip.msh");
+    TipModes tip(job_, folder_ / "tip.msh");
+    ModesOnMesh found;
+    found.mesh = tip.mesh();
+    for (std::size_t i = 0; i < symmetry_classes.size(); ++i) {
+      stop_if_asked();
+      progress_.report("modes", i, symmetry_classes.size(),
+                       "mesh " + std::to_string(number) + ": " +
+                           std::to_string(found.mesh.unknowns) + " unknowns, symmetry " +
+                           name(symmetry_classes[i]));
+      found.classes[i] = tip.solve(symmetry_classes[i], job_.modes);
+    }
+    found.wall_time = progress_.wall_time() - start;
+    meshes_.push_back(std::move(found));
+    progress_.report("modes", symmetry_classes.size(), symmetry_classes.size(),
+                     "mesh " + std::to_string(number) + ": lowest frequency " +
+                         to_text(lowest().front().frequency) + " Hz");
+    write_tables({RunOutcome::Status::interrupted, ""});
+    if (job_.write_fields && (!job_.estimate_error || meshes_.size() >= fewest_meshes))
+      write_fields(tip);
+  }
+
+  void stop_if_asked() const {
+    const int own = stop_requested_ && stop_requested_() ? 1 : 0;
+    int any = 0;
+    MPI_Allreduce(&own, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    if (any != 0) throw meshes::Interrupted("stopped on request");
+  }
+
+  /// Of all classes on the finest mesh.
+  std::vector<NaturalMode> lowest() const {
+    std::vector<NaturalMode> all;
+    for (const auto& of_class : meshes_.back().classes)
+      all.insert(all.end(), of_class.begin(), of_class.end());
+    std::ranges::stable_sort(all, {}, &NaturalMode::frequency);
+    all.resize(std::size_t(job_.modes));
+    return all;
+  }
+
+  /// [Hz]. The k-th frequency of a class on one mesh belongs to the k-th on another.
+  double error(const NaturalMode& mode) const {
+    const auto place =
+        std::size_t(std::ranges::find(symmetry_classes, mode.symmetry) - symmetry_classes.begin());
+    std::vector<MeshForce> sequence;
+    for (const ModesOnMesh& mesh : meshes_)
+      sequence.push_back(
+          {double(mesh.mesh.unknowns), mesh.classes[place].at(mode.number).frequency});
+    return estimate_force_error(sequence).value;
+  }
+
+  double worst_relative_error() const {
+    double worst = 0.0;
+    for (const NaturalMode& mode : lowest()) {
+      const double relative = error(mode) / mode.frequency;
+      if (std::isnan(relative)) return relative;
+      worst = std::max(worst, relative);
+    }
+    return worst;
+  }
+
+  void write_fields(const TipModes& tip) {
+    const std::vector<NaturalMode> modes = lowest();
+    if (first_process()) fs::create_directories(folder_ / "fields");
+    MPI_Barrier(MPI_COMM_WORLD);
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      stop_if_asked();
+      tip.write_fields(modes[i], folder_ / "fields" / field_name(i));
+      progress_.report("fields", i + 1, modes.size(), field_name(i));
+    }
+    if (!first_process()) return;
+    meshes::write_atomically(folder_ / "fields" / "modes.pvd", [&](std::ostream& out) {
+      out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
+             "  <Collection>\n";
+      for (std::size_t i = 0; i < modes.size(); ++i)
+        out << "    <DataSet timestep=\"" << i + 1 << "\" part=\"0\" file=\"" << field_name(i)
+            << "\"/>\n";
+      out << "  </Collection>\n</VTKFile>\n";
+    });
+  }
+
+  void write_tables(const RunOutcome& outcome) const {
+    if (!first_process()) return;
+    nlohmann::ordered_json summary = summary_head(outcome, job_);
+    summary["meshes"] = nlohmann::ordered_json::array();
+    for (const ModesOnMesh& mesh : meshes_)
+      summary["meshes"].push_back(mesh_summary(mesh.mesh, mesh.wall_time));
+    if (!meshes_.empty()) {
+      summary["cells"] = meshes_.back().mesh.cells;
+      summary["dofs"] = meshes_.back().mesh.unknowns;
+      summary["worst_relative_error"] = known(worst_relative_error());
+      write_modes(lowest());
+    }
+    write_summary(std::move(summary), progress_, folder_);
+  }
+
+  void write_modes(const std::vector<NaturalMode>& modes) const {
+    meshes::write_atomically(folder_ / "modes.csv", [&](std::ostream& out) {
+      out << "mode,frequency [Hz],frequency_error [Hz],symmetry,multiplicity\n";
+      int number = 0;
+      for (const NaturalMode& mode : modes)
+        out << ++number << ',' << to_text(mode.frequency) << ',' << to_text(error(mode)) << ','
+            << name(mode.symmetry) << ',' << mode.multiplicity << '\n';
+    });
+  }
+
+  const fs::path folder_;
+  const ReferenceJob& job_;
+  RunProgress progress_;
+  const std::function<bool()>& stop_requested_;
+  std::vector<ModesOnMesh> meshes_;  ///< coarse to fine
+};
+
+}  // namespace
+
+std::string name(SymmetryClass symmetry) {
+  const auto letter = [](Parity parity) { return parity == Parity::symmetric ? 'S' : 'A'; };
+  return {letter(symmetry.x), letter(symmetry.y)};
+}
+
+RunOutcome run_modes(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
+                     const std::function<bool()>& stop_requested) {
+  return ModesRun(folder, job, progress, stop_requested).carry_out();
+}
+
+}  // namespace fingertip::fem_reference

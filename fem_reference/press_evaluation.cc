@@ -1,0 +1,211 @@
+/// What is read off a converged state: forces, contact, error indicators, refinement.
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/grid_refinement.h>
+#include <deal.II/numerics/error_estimator.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "fem_reference/press_model.h"
+#include "meshes/volume_mesh.h"
+
+namespace fingertip::fem_reference {
+namespace {
+
+/// A contact edge asks for nodes at least this many to its radius: the radius jumps from node to
+/// node, and the force with it.
+constexpr double nodes_per_edge_radius = 10.0;
+
+/// Contact points that a parabola needs to say more than the outermost of them does.
+constexpr int fewest_edge_points = 12;
+
+double radius(const meshes::Vector3& position) {
+  return std::hypot(position.x(), position.y());
+}
+
+/// Distance to the nearest other node, averaged over the candidates next to `edge`.
+double spacing_around(const std::vector<SurfaceNode>& nodes, double edge) {
+  double sum = 0.0;
+  int count = 0;
+  for (double band = 0.05; count < 3 && band < 10.0; band *= 2) {
+    sum = 0.0, count = 0;
+    for (const SurfaceNode& node : nodes) {
+      if (std::abs(radius(node.position) - edge) > band * edge) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const SurfaceNode& other : nodes)
+        if (&other != &node) nearest = std::min(nearest, (other.position - node.position).norm());
+      sum += nearest, ++count;
+    }
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+}  // namespace
+
+double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing) {
+  if (contact.empty()) return 0.0;
+  const double outermost = contact.back().radius;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (const ContactPoint& point : contact) {
+    if (point.radius < 0.5 * outermost) continue;
+    const double s = std::pow(point.radius / outermost, 2);
+    const Eigen::Vector3d basis(1.0, s, s * s);
+    normal += basis * basis.transpose();
+    right += point.pressure * point.pressure * basis;
+    ++count;
+  }
+  if (count < fewest_edge_points) return outermost;
+  const Eigen::Vector3d c = normal.ldlt().solve(right);
+  const double discriminant = c[1] * c[1] - 4 * c[2] * c[0];
+  if (!(discriminant >= 0.0)) return outermost;
+  // The root that a straight line has, too.
+  const double root = 2 * c[0] / (-c[1] + std::sqrt(discriminant));
+  if (!(root > 0.0)) return outermost;
+  return std::clamp(outermost * std::sqrt(root), outermost - node_spacing,
+                    outermost + node_spacing);
+}
+
+PressState PressModel::evaluate() {
+  PressState state;
+  state.sample.indentation = indentation_;
+  state.active_nodes = contact_->active_nodes();
+  state.sliding_nodes = job_.contact == meshes::ContactMode::coulomb
+                            ? int(std::ranges::count(contact_->status(), NodeStatus::slide))
+                            : 0;
+  if (job_.strain == Strain::finite) {
+    state.min_jacobian = system_->min_jacobian;
+    state.energy = system_->energy;
+  } else {
+    Vector force = body_->fine.vector();
+    system_->matrix.vmult(force, displacement_);
+    state.energy = 0.5 * (force * displacement_);
+  }
+  add_resultant(state);
+  note_indicators();
+  return state;
+}
+
+void PressModel::add_resultant(PressState& state) const {
+  const bool quarter = has_two_symmetry_planes(job_);
+  const double sectors = quarter ? 4.0 : 2.0;
+  state.energy *= sectors;
+  const std::vector<SurfaceNode>& nodes = contact_->unknowns().nodes;
+  const bool finite = job_.strain == Strain::finite;
+  // Large strain: true pressure on the deformed surface, moments at deformed positions.
+  std::vector<std::array<double, 4>> now(nodes.size());  // displacement, area
+  if (finite) {
+    const Vector area = outer_area(*body_, &displacement_);
+    for (std::size_t c = 0; c < 4; ++c) {
+      std::vector<long> unknowns;
+      for (const SurfaceNode& node : nodes)
+        unknowns.push_back(node.unknown[std::min<std::size_t>(c, 2)]);
+      const auto values = body_->fine.gather(c < 3 ? displacement_ : area, unknowns);
+      for (std::size_t i = 0; i < nodes.size(); ++i) now[i][c] = values[i];
+    }
+  }
+  const double s = std::sin(job_.tilt), c = std::cos(job_.tilt), l = job_.geometry.rod_length;
+  const meshes::Vector3 endpoint(s * l, 0.0, -c * l);  // (0, 0, -l) in plane axes
+  meshes::Vector3 force = meshes::Vector3::Zero(), torque = force;
+  double touched = 0.0, edge = 0.0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (contact_->status()[i] == NodeStatus::open) continue;
+    meshes::Vector3 position = nodes[i].position;
+    if (finite) position += meshes::Vector3(now[i][0], now[i][1], now[i][2]);
+    const double area = finite ? now[i][3] : nodes[i].area;
+    const meshes::Vector3 push = contact_->reaction(i);
+    force += push;
+    torque += (position - endpoint).cross(push);
+    touched += area;
+    edge = std::max(edge, radius(nodes[i].position));
+    state.contact.push_back({radius(position), -push.z() / area});
+  }
+  std::ranges::sort(state.contact, {}, &ContactPoint::radius);
+
+  meshes::PressSample& sample = state.sample;
+  sample.normal_force = -sectors * force.z();
+  // What breaks no symmetry vanishes.
+  sample.lateral_force_x = quarter ? 0.0 : sectors * force.x();
+  sample.torque_y = quarter ? 0.0 : sectors * torque.y();
+  sample.lateral_force_y = sample.torque_x = sample.torque_z = 0.0;
+  if (state.contact.empty()) return;
+  sample.max_pressure = std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
+  state.node_spacing = spacing_around(nodes, edge);
+  if (quarter) {
+    sample.contact_radius = contact_edge(state.contact, state.node_spacing);
+  } else {
+    sample.contact_radius = std::sqrt(sectors * touched / std::numbers::pi);
+  }
+}
+
+void PressModel::note_indicators() {
+  Marks marks;
+  dealii::Vector<float>& now = marks.indicators;
+  now.reinit(body_->triangulation.n_active_cells());
+  marks.edge.reinit(now.size());
+  dealii::KellyErrorEstimator<dim>::estimate(
+      body_->mapping, body_->fine.dofs, dealii::QGauss<dim - 1>(unsigned(job_.degree) + 1), {},
+      body_->fine.ghosted(displacement_), now, dealii::ComponentMask(), nullptr, 1,
+      body_->triangulation.locally_owned_subdomain());
+  double sum = 0.0;
+  for (float& value : now) sum += double(value *= value);
+  sum = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+  if (sum > 0.0) now *= float(1.0 / sum);
+
+  std::map<long, bool> touches;
+  double edge = 0.0;
+  for (std::size_t i = 0; i < contact_->status().size(); ++i) {
+    const SurfaceNode& node = contact_->unknowns().nodes[i];
+    const bool active = contact_->status()[i] != NodeStatus::open;
+    touches[node.unknown[2]] = active;
+    if (active) edge = std::max(edge, radius(node.position));
+  }
+  std::vector<dealii::types::global_dof_index> indices(body_->fine.element.n_dofs_per_cell());
+  for (const auto& cell : body_->fine.dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned() || !cell->at_boundary()) continue;
+    cell->get_dof_indices(indices);
+    bool active = false, open = false;
+    for (const auto index : indices) {
+      const auto found = touches.find(long(index));
+      if (found != touches.end()) (found->second ? active : open) = true;
+    }
+    if (!active || !open) continue;
+    for (const auto& face : cell->face_iterators()) {
+      if (!face->at_boundary() ||
+          face->boundary_id() != dealii::types::boundary_id(meshes::PhysicalTag::outer))
+        continue;
+      const double spacing = face->diameter() / std::numbers::sqrt2 / job_.degree;
+      marks.edge[cell->active_cell_index()] = spacing > edge / nodes_per_edge_radius ? 1.0F : 0.5F;
+    }
+  }
+  marks_.push_back(std::move(marks));
+}
+
+void PressModel::refine(double share, const std::vector<char>& wanted) {
+  const bool all = wanted.empty();
+  dealii::Vector<float> indicators(body_->triangulation.n_active_cells());
+  std::vector<char> at_edge(indicators.size(), 0);
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    if (!all && !wanted[i]) continue;
+    for (unsigned k = 0; k < indicators.size(); ++k) {
+      indicators[k] = std::max(indicators[k], marks_[i].indicators[k]);
+      // A sample whose force is not known well enough needs a finer edge, however fine it is.
+      if (marks_[i].edge[k] > (all ? 0.75F : 0.25F)) at_edge[k] = 1;
+    }
+  }
+  dealii::parallel::distributed::GridRefinement::refine_and_coarsen_fixed_fraction(
+      body_->triangulation, indicators, share, 0.0);
+  for (const auto& cell : body_->triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && at_edge[cell->active_cell_index()]) cell->set_refine_flag();
+  body_->triangulation.execute_coarsening_and_refinement();
+  prepare();
+}
+
+}  // namespace fingertip::fem_reference

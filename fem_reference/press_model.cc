@@ -1,0 +1,217 @@
+#include "fem_reference/press_model.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "meshes/errors.h"
+
+namespace fingertip::fem_reference {
+namespace {
+
+using meshes::ContactMode;
+
+/// Above this many unknowns the factor outgrows a desktop's memory (4.4 GB peak at 240 000), and
+/// multigrid takes over.
+constexpr unsigned largest_condensed = 300000;
+/// Candidates for contact reach this many depths below the pole, because thin rubber rises beside
+/// the contact before it meets the plane, the more the larger the strain.
+constexpr double linear_bulge = 1.2, finite_bulge = 2.0;
+constexpr int most_newton_iterations = 25;
+constexpr int most_backtracks = 6;
+/// Equilibrium: out-of-balance forces over the contact forces.
+constexpr double balanced = 1e-9;
+
+std::unique_ptr<ElementKernel> make_kernel(const ReferenceJob& job) {
+  if (job.strain == Strain::linear)
+    return std::make_unique<HookeKernel>(job.rubber, job.volumetric);
+  return std::make_unique<HyperelasticKernel>(HyperelasticLaw(job.law, job.rubber), job.volumetric);
+}
+
+std::size_t processes() {
+  return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+}
+
+/// Component (0, 1, 2) of every owned unknown.
+std::vector<unsigned char> components_of(const Space& space) {
+  std::vector<unsigned char> result(space.owned.n_elements());
+  for (unsigned c = 0; c < dim; ++c) {
+    std::vector<bool> mask(dim, false);
+    mask[c] = true;
+    for (const auto i : dealii::DoFTools::extract_dofs(space.dofs, dealii::ComponentMask(mask)))
+      if (space.owned.is_element(i))
+        result[space.owned.index_within_set(i)] = static_cast<unsigned char>(c);
+  }
+  return result;
+}
+
+}  // namespace
+
+PressModel::PressModel(const ReferenceJob& job, const std::filesystem::path& mesh_file)
+    : job_(job),
+      body_(read_tip(MPI_COMM_WORLD, mesh_file, job.degree, job.tilt)),
+      kernel_(make_kernel(job)) {
+  prepare();
+}
+
+LinearSolver PressModel::choose_solver() const {
+  if (job_.solver == LinearSolver::condensed && processes() > 1)
+    throw meshes::InvalidInput({"reference.solver", "condensed",
+                                "the condensed solver runs on one process",
+                                "choose multigrid or automatic, or --ranks 1"});
+  if (job_.solver != LinearSolver::automatic) return job_.solver;
+  return processes() == 1 && body_->unknowns() <= largest_condensed ? LinearSolver::condensed
+                                                                    : LinearSolver::multigrid;
+}
+
+void PressModel::prepare() {
+  body_->number(tip_supports());
+  solver_kind_ = choose_solver();
+  outer_nodes_ = outer_nodes(*body_);
+  const double bulge = job_.strain == Strain::finite ? finite_bulge : linear_bulge;
+  ContactUnknowns candidates =
+      contact_unknowns(outer_nodes_, job_.contact != ContactMode::frictionless,
+                       job_.geometry.tip_radius - bulge * job_.samples.back());
+  if (solver_kind_ == LinearSolver::multigrid)
+    solver_ = make_multigrid_solver(*body_, candidates.unknowns, job_.solver_tolerance);
+  else if (job_.strain == Strain::finite)
+    solver_ = make_eliminating_solver(*body_, candidates.unknowns);
+  else
+    solver_ = make_condensed_solver(*body_, candidates.unknowns);
+  contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.contact, pose(0.0),
+                                            job_.friction, job_.rubber.shear_modulus);
+  indentation_ = 0.0;
+  displacement_.reinit(body_->fine.vector());
+  system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);
+  assemble(*body_, *kernel_, displacement_, *system_);
+  if (job_.strain == Strain::linear) solver_->set_matrix(*system_);
+  marks_.clear();
+}
+
+MeshSummary PressModel::mesh() const {
+  return {std::size_t(body_->triangulation.n_global_active_cells()), std::size_t(body_->unknowns()),
+          contact_->unknowns().unknowns.size(), solver_kind_};
+}
+
+PlanePose PressModel::pose(double indentation) const {
+  return {job_.geometry.tip_radius - indentation, job_.lateral * indentation / job_.samples.back()};
+}
+
+void PressModel::abandon() {
+  contact_->abandon();
+}
+
+void PressModel::step(double indentation, PressState& effort) {
+  const PlanePose target = pose(indentation);
+  if (job_.strain == Strain::linear)
+    linear_step(target, effort);
+  else
+    newton_step(target, effort);
+  contact_->commit();
+  indentation_ = indentation;
+  check_other_nodes();
+}
+
+void PressModel::linear_step(const PlanePose& target, PressState& effort) {
+  const ContactEffort spent = contact_->settle(*solver_, target);
+  effort.active_set_iterations += spent.rounds;
+  effort.cg_iterations += spent.cg_iterations;
+  displacement_ = solver_->field();
+}
+
+double PressModel::residual(const Vector& displacement) {
+  assemble(*body_, *kernel_, displacement, *system_);
+  Vector out_of_balance = system_->force;
+  const std::vector<char> held = contact_->held();
+  const std::vector<long>& unknowns = contact_->unknowns().unknowns;
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    if (!body_->fine.owned.is_element(unsigned(unknowns[i]))) continue;
+    double& entry =
+        out_of_balance.begin()[body_->fine.owned.index_within_set(unsigned(unknowns[i]))];
+    entry = held[i] ? 0.0 : entry - contact_->reactions()[Eigen::Index(i)];
+  }
+  const double scale = contact_->reactions().norm();
+  return scale > 0.0 ? out_of_balance.l2_norm() / scale : 0.0;
+}
+
+void PressModel::newton_step(const PlanePose& target, PressState& effort) {
+  Vector u = displacement_;
+  assemble(*body_, *kernel_, u, *system_);
+  double last = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
+    ++effort.newton_iterations;
+    solver_->set_matrix(*system_);
+    Vector load = u;  // of the system linearised at u, for the whole displacement
+    system_->matrix.vmult(load, u);
+    load -= system_->force;
+    solver_->set_load(load);
+    const std::vector<NodeStatus> before = contact_->status();
+    const ContactEffort spent = contact_->settle(*solver_, target);
+    effort.active_set_iterations += spent.rounds;
+    effort.cg_iterations += spent.cg_iterations;
+    const bool same_contact = iteration > 0 && contact_->status() == before;
+
+    const Vector start = u, full_step = [&] {
+      Vector step = solver_->field();
+      step -= start;
+      return step;
+    }();
+    double factor = 1.0, norm = 0.0;
+    for (int backtracks = 0;; ++backtracks, factor /= 2) {
+      if (backtracks > most_backtracks)
+        throw meshes::NotConverged("Newton's method found no step that brings equilibrium nearer");
+      u = start;
+      u.add(factor, full_step);
+      try {
+        norm = residual(u);
+      } catch (const meshes::NotConverged&) {  // an element turned inside out
+        continue;
+      }
+      if (!same_contact || norm < last || norm < balanced) break;
+    }
+    last = norm;
+    if (factor == 1.0 && same_contact && norm < balanced) {
+      displacement_ = u;
+      return;
+    }
+  }
+  throw meshes::NotConverged("Newton's method did not converge within " +
+                             std::to_string(most_newton_iterations) + " iterations");
+}
+
+void PressModel::check_other_nodes() const {
+  std::vector<long> unknowns;
+  for (const SurfaceNode& node : outer_nodes_) unknowns.push_back(node.unknown[2]);
+  const std::vector<double> lift = body_->fine.gather(displacement_, unknowns);
+  const double plane = pose(indentation_).height + 1e-6 * job_.geometry.tip_radius;
+  for (std::size_t i = 0; i < lift.size(); ++i)
+    if (outer_nodes_[i].position.z() + lift[i] > plane)
+      throw meshes::NotConverged(
+          "the rubber rises through the plane far beside the contact at an indentation of " +
+          std::to_string(indentation_) + " m; press less deep");
+}
+
+meshes::Vector3 PressModel::bond_reaction() const {
+  const Vector force = unconstrained_force(*body_, *kernel_, displacement_);
+  const dealii::IndexSet bond = dealii::DoFTools::extract_boundary_dofs(
+      body_->fine.dofs, dealii::ComponentMask(dim, true),
+      {dealii::types::boundary_id(meshes::PhysicalTag::bond)});
+  const std::vector<dealii::types::global_dof_index> all = [&] {
+    std::vector<dealii::types::global_dof_index> own;
+    for (const auto i : bond)
+      if (body_->fine.owned.is_element(i)) own.push_back(i);
+    return own;
+  }();
+  const std::vector<unsigned char> component = components_of(body_->fine);
+  meshes::Vector3 sum = meshes::Vector3::Zero();
+  for (const auto i : all) sum[component[body_->fine.owned.index_within_set(i)]] += force[i];
+  for (double& entry : sum) entry = dealii::Utilities::MPI::sum(entry, MPI_COMM_WORLD);
+  return sum;
+}
+
+}  // namespace fingertip::fem_reference

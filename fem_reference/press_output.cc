@@ -1,0 +1,270 @@
+/// Files for ParaView, the section, and checkpoints of a press.
+#include <deal.II/base/mpi.h>
+#include <deal.II/distributed/solution_transfer.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_dgq.h>
+#include <deal.II/numerics/data_out.h>
+#include <deal.II/numerics/data_postprocessor.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "fem_reference/press_model.h"
+#include "fem_reference/run_progress.h"
+#include "meshes/errors.h"
+#include "meshes/files.h"
+
+namespace fingertip::fem_reference {
+namespace {
+
+using Json = nlohmann::json;
+using namespace dealii::DataComponentInterpretation;
+
+/// Cauchy stress and von Mises' equivalent stress at the points of the output.
+class StressOutput : public dealii::DataPostprocessor<dim> {
+ public:
+  explicit StressOutput(const ReferenceJob& job)
+      : lambda_(job.rubber.lame_lambda()), shear_(job.rubber.shear_modulus) {
+    if (job.strain == Strain::finite) law_.emplace(job.law, job.rubber);
+  }
+
+  std::vector<std::string> get_names() const override {
+    std::vector<std::string> names(9, "stress");
+    names.emplace_back("von_mises_stress");
+    return names;
+  }
+  std::vector<DataComponentInterpretation> get_data_component_interpretation() const override {
+    std::vector<DataComponentInterpretation> kinds(9, component_is_part_of_tensor);
+    kinds.push_back(component_is_scalar);
+    return kinds;
+  }
+  dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_gradients; }
+
+  void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<dim>& inputs,
+                             std::vector<dealii::Vector<double>>& computed) const override {
+    for (std::size_t p = 0; p < computed.size(); ++p) {
+      Eigen::Matrix3d gradient;
+      for (unsigned i = 0; i < dim; ++i)
+        for (unsigned j = 0; j < dim; ++j) gradient(i, j) = inputs.solution_gradients[p][i][j];
+      const Eigen::Matrix3d sigma = stress(gradient);
+      for (unsigned i = 0; i < dim; ++i)
+        for (unsigned j = 0; j < dim; ++j) computed[p](3 * i + j) = sigma(i, j);
+      const Eigen::Matrix3d deviator = sigma - sigma.trace() / 3 * Eigen::Matrix3d::Identity();
+      computed[p](9) = std::sqrt(1.5) * deviator.norm();
+    }
+  }
+
+ private:
+  Eigen::Matrix3d stress(const Eigen::Matrix3d& gradient) const {
+    const auto one = Eigen::Matrix3d::Identity();
+    if (!law_) return lambda_ * gradient.trace() * one + shear_ * (gradient + gradient.transpose());
+    const Eigen::Matrix3d f = one + gradient;
+    // Points of the output are not quadrature points; an element may be inverted there alone.
+    if (!(f.determinant() > 0.0)) return Eigen::Matrix3d::Constant(std::nan(""));
+    return law_->cauchy_stress(f);
+  }
+
+  double lambda_, shear_;
+  std::optional<HyperelasticLaw> law_;
+};
+
+/// Pressure [Pa], shear [Pa] and status of the contact nodes as the three components of a field.
+Vector contact_field(const Body& body, const PlaneContact& contact) {
+  Vector own = body.fine.vector();
+  const std::vector<SurfaceNode>& nodes = contact.unknowns().nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const meshes::Vector3 traction = contact.reaction(i) / nodes[i].area;
+    const double values[] = {-traction.z(), traction.head<2>().norm(), double(contact.status()[i])};
+    for (std::size_t c = 0; c < 3; ++c)
+      if (body.fine.owned.is_element(unsigned(nodes[i].unknown[c])))
+        own[unsigned(nodes[i].unknown[c])] = values[c];
+  }
+  own.compress(dealii::VectorOperation::insert);
+  dealii::AffineConstraints<double> hanging(body.fine.relevant);
+  dealii::DoFTools::make_hanging_node_constraints(body.fine.dofs, hanging);
+  hanging.close();
+  hanging.distribute(own);
+  Vector result(body.fine.owned, body.fine.relevant, body.fine.communicator);
+  result = own;
+  return result;
+}
+
+/// The error indicators as fields with one value per cell, so that they travel with the mesh.
+class CellFields {
+ public:
+  explicit CellFields(const Triangulation& triangulation) : element_(0), dofs_(triangulation) {
+    dofs_.distribute_dofs(element_);
+  }
+  Vector from(const dealii::Vector<float>& values) const {
+    Vector result(dofs_.locally_owned_dofs(), MPI_COMM_WORLD);
+    for_each([&](unsigned cell, auto unknown) { result[unknown] = double(values[cell]); });
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+  void copy(const Vector& field, dealii::Vector<float>& values) const {
+    for_each([&](unsigned cell, auto unknown) { values[cell] = float(double(field[unknown])); });
+  }
+  Vector ghosted(const Vector& owned) const {
+    dealii::IndexSet relevant;
+    dealii::DoFTools::extract_locally_relevant_dofs(dofs_, relevant);
+    Vector result(dofs_.locally_owned_dofs(), relevant, MPI_COMM_WORLD);
+    result = owned;
+    return result;
+  }
+  const dealii::DoFHandler<dim>& dofs() const { return dofs_; }
+
+ private:
+  template <class Action>
+  void for_each(Action action) const {
+    std::vector<dealii::types::global_dof_index> unknown(1);
+    for (const auto& cell : dofs_.active_cell_iterators()) {
+      if (!cell->is_locally_owned()) continue;
+      cell->get_dof_indices(unknown);
+      action(cell->active_cell_index(), unknown[0]);
+    }
+  }
+
+  dealii::FE_DGQ<dim> element_;
+  dealii::DoFHandler<dim> dofs_;
+};
+
+Json to_json(const Eigen::VectorXd& v) {
+  return std::vector<double>(v.data(), v.data() + v.size());
+}
+
+Eigen::VectorXd vector_from(const Json& json) {
+  const auto values = json.get<std::vector<double>>();
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(values.size()));
+}
+
+}  // namespace
+
+void PressModel::write_fields(const std::filesystem::path& file) const {
+  const Vector u = body_->fine.ghosted(displacement_);
+  const Vector contact = contact_field(*body_, *contact_);
+  const StressOutput stress(job_);
+  dealii::DataOut<dim> out;
+  out.add_data_vector(body_->fine.dofs, u, std::vector<std::string>(dim, "displacement"),
+                      std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
+  out.add_data_vector(body_->fine.dofs, u, stress);
+  out.add_data_vector(body_->fine.dofs, contact,
+                      {"contact_pressure", "contact_shear", "contact_status"},
+                      std::vector<DataComponentInterpretation>(dim, component_is_scalar));
+  out.build_patches(body_->mapping, unsigned(job_.degree),
+                    dealii::DataOut<dim>::curved_inner_cells);
+  dealii::DataOutBase::VtkFlags flags;
+  flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+  out.set_flags(flags);
+  const std::filesystem::path partial = file.string() + ".partial";
+  out.write_vtu_in_parallel(partial.string(), MPI_COMM_WORLD);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (first_process()) std::filesystem::rename(partial, file);
+}
+
+std::vector<SectionEdge> PressModel::section() const {
+  const Vector u = body_->fine.ghosted(displacement_);
+  std::vector<std::array<double, 8>> own;
+  for (const auto& cell : body_->fine.dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    for (const auto& face : cell->face_iterators()) {
+      if (!face->at_boundary() ||
+          face->boundary_id() != dealii::types::boundary_id(meshes::PhysicalTag::symmetry_y))
+        continue;
+      for (unsigned l = 0; l < 4; ++l) {
+        const auto line = face->line(l);
+        std::array<double, 8> edge{};
+        for (unsigned end = 0; end < 2; ++end)
+          for (unsigned k = 0; k < 2; ++k) {
+            const unsigned component = 2 * k;  // x and z
+            edge[2 * end + k] = line->vertex(end)[component];
+            edge[4 + 2 * end + k] =
+                line->vertex(end)[component] + u[line->vertex_dof_index(end, component)];
+          }
+        own.push_back(edge);
+      }
+    }
+  }
+  std::vector<SectionEdge> edges;
+  for (const auto& part : dealii::Utilities::MPI::gather(MPI_COMM_WORLD, own))
+    for (const auto& e : part)
+      edges.push_back({{e[0], e[1], e[2], e[3]}, {e[4], e[5], e[6], e[7]}});
+  return edges;
+}
+
+void PressModel::save(const std::filesystem::path& folder) const {
+  const CellFields cells(body_->triangulation);
+  const Vector u = body_->fine.ghosted(displacement_);
+  std::vector<Vector> marks;
+  for (const Marks& sample : marks_) {
+    marks.push_back(cells.ghosted(cells.from(sample.indicators)));
+    marks.push_back(cells.ghosted(cells.from(sample.edge)));
+  }
+  std::vector<const Vector*> mark_list;
+  for (const Vector& field : marks) mark_list.push_back(&field);
+  dealii::parallel::distributed::SolutionTransfer<dim, Vector> displacement_transfer(
+      body_->fine.dofs);
+  dealii::parallel::distributed::SolutionTransfer<dim, Vector> cell_transfer(cells.dofs());
+  displacement_transfer.prepare_for_serialization(u);
+  if (!mark_list.empty()) cell_transfer.prepare_for_serialization(mark_list);
+  body_->triangulation.save((folder / "mesh").string());
+  if (!first_process()) return;
+  const PlaneContact::State& state = contact_->committed();
+  std::vector<int> status;
+  for (const NodeStatus node : state.status) status.push_back(int(node));
+  const Json json{{"indentation", indentation_},
+                  {"status", status},
+                  {"anchors", state.anchors},
+                  {"displacement", to_json(state.displacement)},
+                  {"reaction", to_json(state.reaction)}};
+  meshes::write_atomically(folder / "contact.json", [&](std::ostream& out) { out << json; });
+}
+
+void PressModel::load_marks(std::size_t samples) {
+  marks_.assign(samples, {});
+  if (samples == 0) return;
+  const CellFields cells(body_->triangulation);
+  dealii::Vector<float> empty(body_->triangulation.n_active_cells());
+  std::vector<Vector> fields(2 * samples, cells.from(empty));
+  std::vector<Vector*> list;
+  for (Vector& field : fields) list.push_back(&field);
+  dealii::parallel::distributed::SolutionTransfer<dim, Vector> transfer(cells.dofs());
+  transfer.deserialize(list);
+  for (std::size_t i = 0; i < samples; ++i) {
+    marks_[i] = {empty, empty};
+    cells.copy(fields[2 * i], marks_[i].indicators);
+    cells.copy(fields[2 * i + 1], marks_[i].edge);
+  }
+}
+
+void PressModel::load(const std::filesystem::path& folder) {
+  body_->triangulation.load((folder / "mesh").string());
+  prepare();
+  std::ifstream in(folder / "contact.json");
+  const Json json = Json::parse(in);
+  dealii::parallel::distributed::SolutionTransfer<dim, Vector> displacement_transfer(
+      body_->fine.dofs);
+  displacement_transfer.deserialize(displacement_);
+  load_marks(json.at("samples").get<std::size_t>());
+
+  indentation_ = json.at("indentation").get<double>();
+  PlaneContact::State state;
+  state.pose = pose(indentation_);
+  for (const int node : json.at("status").get<std::vector<int>>())
+    state.status.push_back(NodeStatus(node));
+  state.anchors = json.at("anchors").get<std::vector<std::array<double, 2>>>();
+  state.displacement = vector_from(json.at("displacement"));
+  state.reaction = vector_from(json.at("reaction"));
+  if (state.status.size() != contact_->unknowns().nodes.size() ||
+      state.displacement.size() != Eigen::Index(contact_->unknowns().unknowns.size()))
+    throw meshes::InvalidInput({"checkpoint", folder.string(), "must belong to the same job",
+                                "delete it and start the run anew"});
+  contact_->restore(std::move(state));
+}
+
+}  // namespace fingertip::fem_reference

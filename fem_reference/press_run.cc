@@ -1,0 +1,285 @@
+#include "fem_reference/press_run.h"
+
+#include <mpi.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
+#include <string>
+
+#include "fem_reference/mesh_history.h"
+#include "fem_reference/press.h"
+#include "fem_reference/run_files.h"
+#include "fem_reference/run_progress.h"
+#include "meshes/errors.h"
+#include "meshes/files.h"
+#include "meshes/volume_mesh.h"
+
+namespace fingertip::fem_reference {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using meshes::to_text;
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+/// Meshes before the error of the finest can be told.
+constexpr std::size_t fewest_meshes = 3;
+/// The cells that carry this share of the squared error indicators are refined.
+constexpr double refined_share = 0.5;
+/// A finer mesh has at least this many times the unknowns; decides whether one is worth a try.
+constexpr double least_growth = 1.5;
+/// A checkpoint is written when the last one is older than this [s].
+constexpr double checkpoint_interval = 10.0;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+std::string_view name(MeshConvergence convergence) {
+  switch (convergence) {
+    case MeshConvergence::monotone: return "monotone";
+    case MeshConvergence::oscillatory: return "oscillatory";
+    case MeshConvergence::irregular: return "irregular";
+    case MeshConvergence::unknown: return "unknown";
+  }
+  return "";
+}
+
+std::string percent(double fraction) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g %%", 100 * fraction);
+  return text;
+}
+
+class PressRun {
+ public:
+  PressRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
+           const std::function<bool()>& stop_requested)
+      : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
+
+  RunOutcome carry_out() {
+    RunOutcome outcome;
+    try {
+      compute();
+    } catch (const meshes::Interrupted& stop) {
+      outcome = {RunOutcome::Status::interrupted, stop.what()};
+    } catch (const meshes::NotConverged& failure) {
+      outcome = {RunOutcome::Status::not_converged, failure.what()};
+    }
+    write_tables(outcome);
+    if (outcome.status == RunOutcome::Status::ok && first_process())
+      fs::remove_all(folder_ / "checkpoint");
+    return outcome;
+  }
+
+ private:
+  /// Every mesh in turn, until one is good enough.
+  void compute() {
+    progress_.report("mesh", 0, 1, "meshing the tip");
+    make_mesh();
+    progress_.report("assemble", 0, 1, "assembling the first mesh");
+    ContinuumPress press(job_, folder_ / "tip.msh", stop_requested_);
+    if (!resume(press)) start_mesh(press);
+    for (;;) {
+      press_on(press);
+      if (!job_.estimate_error) return;
+      const double worst = history_.worst_relative_error();
+      if (history_.meshes().size() >= fewest_meshes && worst <= job_.tolerance) return;
+      refuse_beyond_limit(press, worst);
+      progress_.report("refine", history_.meshes().size(), history_.meshes().size() + 1,
+                       std::isnan(worst)
+                           ? "refining the mesh"
+                           : "refining the mesh: the force may be off by " + percent(worst));
+      press.refine(refined_share, samples_to_improve());
+      start_mesh(press);
+    }
+  }
+
+  /// Empty, for all, until every sample has an estimate.
+  std::vector<char> samples_to_improve() const {
+    if (history_.meshes().size() < fewest_meshes) return {};
+    std::vector<char> wanted;
+    for (const PressState& state : history_.best()) {
+      const double error = state.sample.force_error;
+      wanted.push_back(!(error <= job_.tolerance * state.sample.normal_force));
+    }
+    return wanted;
+  }
+
+  void make_mesh() {
+    meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(job_.refinement);
+    options.sector = has_two_symmetry_planes(job_) ? meshes::Sector::quarter : meshes::Sector::half;
+    mesh_quality_ = write_mesh_once(job_.geometry, options, folder_ / "tip.msh");
+  }
+
+  void start_mesh(const ContinuumPress& press) {
+    history_.start_mesh(press.mesh());
+    const MeshSummary mesh = press.mesh();
+    progress_.report("assemble", 1, 1,
+                     "mesh " + std::to_string(history_.meshes().size()) + ": " +
+                         std::to_string(mesh.unknowns) + " unknowns, " +
+                         std::string(fem_reference::name(mesh.solver)) + " solver");
+  }
+
+  void press_on(ContinuumPress& press) {
+    const std::size_t total = job_.samples.size();
+    for (std::size_t i = history_.finest().states.size(); i < total; ++i) {
+      history_.add(press.advance(job_.samples[i]));
+      write_sample(press, i);
+      progress_.report("press", i + 1, total,
+                       "mesh " + std::to_string(history_.meshes().size()) +
+                           ": F = " + to_text(history_.finest().states[i].sample.normal_force) +
+                           " N at " + to_text(job_.samples[i]) + " m");
+    }
+  }
+
+  void refuse_beyond_limit(const ContinuumPress& press, double worst) {
+    if (double(press.mesh().unknowns) * least_growth <= job_.max_unknowns) return;
+    throw meshes::NotConverged(
+        "the force error of " + percent(worst) + " is above the tolerance of " +
+        percent(job_.tolerance) + " after " + std::to_string(history_.meshes().size()) +
+        " meshes, and a finer one would exceed reference.max_unknowns = " +
+        to_text(job_.max_unknowns) + "; allow more unknowns or a larger reference.tolerance");
+  }
+
+  void write_sample(const ContinuumPress& press, std::size_t index) {
+    const bool may_be_last = !job_.estimate_error || history_.meshes().size() >= fewest_meshes;
+    if (job_.write_fields && may_be_last) {
+      if (first_process()) fs::create_directories(folder_ / "fields");
+      MPI_Barrier(MPI_COMM_WORLD);
+      press.write_fields(folder_ / "fields" / field_name(index));
+      progress_.report("fields", index + 1, job_.samples.size(), field_name(index));
+    }
+    const std::vector<SectionEdge> section = press.section();
+    if (first_process()) {
+      write_section(section, folder_);
+      if (job_.write_fields && may_be_last)
+        write_field_series(history_.finest().states, false, folder_);
+      write_tables({RunOutcome::Status::interrupted, ""});
+    }
+    save(press);
+  }
+
+  /// The folder is complete at any time: a new checkpoint replaces the old one by renaming.
+  void save(const ContinuumPress& press) {
+    int due = seconds_since(last_checkpoint_) > checkpoint_interval;
+    MPI_Bcast(&due, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    if (!due) return;
+    const fs::path next = folder_ / "checkpoint.next", place = folder_ / "checkpoint";
+    if (first_process()) {
+      fs::remove_all(next);
+      fs::create_directories(next);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    press.save(next);
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (first_process()) {
+      std::ofstream(next / "run.json")
+          << Json{{"job", text_of(folder_ / "job.json")}, {"history", history_.to_json()}};
+      fs::remove_all(place);
+      fs::rename(next, place);
+    }
+    last_checkpoint_ = Clock::now();
+  }
+
+  bool resume(ContinuumPress& press) {
+    // `checkpoint` is missing for an instant while a new one takes its place.
+    fs::path place = folder_ / "checkpoint";
+    if (!fs::exists(place / "run.json")) place = folder_ / "checkpoint.next";
+    if (!fs::exists(place / "run.json")) return false;
+    const auto json = Json::parse(std::ifstream(place / "run.json"), nullptr, false);
+    if (!json.is_object() || json.value("job", "") != text_of(folder_ / "job.json")) return false;
+    press.load(place);
+    history_ = MeshHistory::from_json(json.at("history"));
+    progress_.report("press", history_.finest().states.size(), job_.samples.size(),
+                     "resumed on mesh " + std::to_string(history_.meshes().size()) + " after " +
+                         std::to_string(history_.finest().states.size()) + " samples");
+    return true;
+  }
+
+  void write_tables(const RunOutcome& outcome) {
+    if (!first_process()) return;
+    const std::vector<PressState> best = history_.best();
+    write_samples(best, folder_);
+    write_convergence(history_, folder_);
+    write_summary(summarise(best, outcome), progress_, folder_);
+  }
+
+  Json summarise(const std::vector<PressState>& best, const RunOutcome& outcome) const {
+    Json summary = summary_head(outcome, job_);
+    summary["contact"] = meshes::name(job_.contact);
+    summary["strain"] = fem_reference::name(job_.strain);
+    if (job_.strain == Strain::finite) summary["law"] = fem_reference::name(job_.law);
+    summary["worst_relative_error"] = known(history_.worst_relative_error());
+    if (!history_.meshes().empty()) {
+      const MeshSummary& mesh = history_.meshes().back().mesh;
+      summary["solver"] = fem_reference::name(mesh.solver);
+      summary["cells"] = mesh.cells;
+      summary["dofs"] = mesh.unknowns;
+      summary["contact_unknowns"] = mesh.contact_unknowns;
+    }
+    summary["mesh"] = {{"hexahedra", mesh_quality_.hexahedra},
+                       {"nodes", mesh_quality_.nodes},
+                       {"min_jacobian", mesh_quality_.min_jacobian},
+                       {"min_scaled_jacobian", mesh_quality_.min_scaled_jacobian},
+                       {"volume", mesh_quality_.volume}};
+    summary["meshes"] = Json::array();
+    for (const MeshRecord& record : history_.meshes())
+      summary["meshes"].push_back({{"cells", record.mesh.cells},
+                                   {"dofs", record.mesh.unknowns},
+                                   {"samples", record.states.size()},
+                                   {"wall_time", record.wall_time}});
+    summary["contact_node_spacing"] = best.empty() ? Json() : Json(best.back().node_spacing);
+    summary["samples"] = Json::array();
+    for (std::size_t i = 0; i < best.size(); ++i)
+      summary["samples"].push_back(sample_summary(best[i], history_.error(i)));
+    return summary;
+  }
+
+  static Json sample_summary(const PressState& state, const ForceError& error) {
+    return {{"indentation", state.sample.indentation},
+            {"normal_force", state.sample.normal_force},
+            {"contact_radius", known(state.sample.contact_radius)},
+            {"max_pressure", known(state.sample.max_pressure)},
+            {"force_error", known(error.value)},
+            {"convergence", name(error.convergence)},
+            {"order", known(error.order)},
+            {"min_jacobian", state.min_jacobian},
+            {"energy", state.energy},
+            {"steps", state.steps},
+            {"newton_iterations", state.newton_iterations},
+            {"active_set_iterations", state.active_set_iterations},
+            {"cg_iterations", state.cg_iterations},
+            {"active_nodes", state.active_nodes},
+            {"sliding_nodes", state.sliding_nodes},
+            {"node_spacing", state.node_spacing},
+            {"wall_time", state.wall_time}};
+  }
+
+  const fs::path folder_;
+  const ReferenceJob& job_;
+  RunProgress progress_;
+  const std::function<bool()>& stop_requested_;
+  Clock::time_point last_checkpoint_ = Clock::now();
+  meshes::MeshQuality mesh_quality_;
+  MeshHistory history_;
+};
+
+}  // namespace
+
+RunOutcome run_press(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
+                     const std::function<bool()>& stop_requested) {
+  return PressRun(folder, job, progress, stop_requested).carry_out();
+}
+
+}  // namespace fingertip::fem_reference

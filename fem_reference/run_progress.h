@@ -1,0 +1,52 @@
+/// What every run of this program tells while and after it works. Free of deal.II; MPI inside.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <iosfwd>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "fem_reference/job.h"
+#include "fem_reference/press.h"
+#include "fem_reference/run.h"
+#include "meshes/volume_mesh.h"
+
+namespace fingertip::fem_reference {
+
+/// The first process of MPI_COMM_WORLD speaks and writes for all.
+bool first_process();
+
+/// One JSON object per line, {"stage", "done", "total", "message"}, and the wall time since its
+/// construction [s].
+class RunProgress {
+ public:
+  explicit RunProgress(std::ostream& out) : out_(out) {}
+  void report(const char* stage, std::size_t done, std::size_t total, const std::string& message);
+  double wall_time() const;
+
+ private:
+  std::ostream& out_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The first process writes the mesh; NotConverged on it becomes NotConverged on all.
+meshes::MeshQuality write_mesh_once(const meshes::Geometry& geometry,
+                                    const meshes::TipMeshOptions& options,
+                                    const std::filesystem::path& file);
+
+/// The entries of summary.json with which every run's summary starts: program, status, message,
+/// the discretisation that the job asked for, and the number of processes.
+nlohmann::ordered_json summary_head(const RunOutcome& outcome, const ReferenceJob& job);
+
+/// {"cells", "dofs", "wall_time"} of one mesh.
+nlohmann::ordered_json mesh_summary(const MeshSummary& mesh, double wall_time);
+
+/// Appends wall_time [s] and peak_memory [byte] and writes `folder`/summary.json.
+void write_summary(nlohmann::ordered_json summary, const RunProgress& progress,
+                   const std::filesystem::path& folder);
+
+/// null for NaN.
+nlohmann::ordered_json known(double value);
+
+}  // namespace fingertip::fem_reference

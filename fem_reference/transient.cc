@@ -1,0 +1,250 @@
+#include "fem_reference/transient.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <string>
+
+#include "fem_reference/mesh_history.h"
+#include "fem_reference/run_files.h"
+#include "fem_reference/run_progress.h"
+#include "meshes/errors.h"
+#include "meshes/files.h"
+
+namespace fingertip::fem_reference {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using meshes::to_text;
+
+/// Meshes before the static error can be told, and how they grow: as in a static press.
+constexpr std::size_t fewest_meshes = 3;
+constexpr double refined_share = 0.7, least_growth = 1.5;
+/// The transient's mesh may differ from the finest static one by this many tolerances.
+constexpr double allowed_tolerances = 2.0;
+constexpr std::size_t most_rows = 2000;
+
+class TransientRun {
+ public:
+  TransientRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
+               const std::function<bool()>& stop_requested)
+      : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
+
+  RunOutcome carry_out() {
+    RunOutcome outcome;
+    try {
+      progress_.report("mesh", 0, 1, "meshing the tip");
+      quality_ = write_mesh_once(job_.geometry, meshes::TipMeshOptions{}.refined(job_.refinement),
+                                 folder_ / "tip.msh");
+      if (job_.estimate_error) adapt();
+      press();
+      if (job_.estimate_error) repeat_with_doubled_steps();
+      if (!shortfall_.empty()) throw meshes::NotConverged(shortfall_);
+    } catch (const meshes::Interrupted& stop) {
+      outcome = {RunOutcome::Status::interrupted, stop.what()};
+    } catch (const meshes::NotConverged& failure) {
+      outcome = {RunOutcome::Status::not_converged, failure.what()};
+    }
+    write_tables(outcome);
+    if (first_process()) fs::remove_all(folder_ / "meshes");
+    return outcome;
+  }
+
+ private:
+  fs::path mesh_folder(std::size_t number) const {
+    return folder_ / "meshes" / std::to_string(number);
+  }
+
+  /// Static presses on ever finer meshes, each of which is kept, until the tolerance is met.
+  void adapt() {
+    ReferenceJob still = job_;
+    still.analysis = Analysis::static_press;
+    still.contact = meshes::ContactMode::frictionless;
+    ContinuumPress press(still, folder_ / "tip.msh", stop_requested_);
+    for (;;) {
+      static_presses_.start_mesh(press.mesh());
+      progress_.report("refine", static_presses_.meshes().size(), fewest_meshes,
+                       "static press on mesh " + std::to_string(static_presses_.meshes().size()) +
+                           ": " + std::to_string(press.mesh().unknowns) + " unknowns");
+      for (const double sample : job_.samples) static_presses_.add(press.advance(sample));
+      keep_mesh(press);
+      const bool estimable = static_presses_.meshes().size() >= fewest_meshes;
+      if (estimable && static_presses_.worst_relative_error() <= job_.tolerance) break;
+      if (double(press.mesh().unknowns) * least_growth > job_.max_unknowns) {
+        shortfall_ =
+            "the static force may be off by more than the tolerance of " + to_text(job_.tolerance) +
+            " on the finest mesh that reference.max_unknowns = " + to_text(job_.max_unknowns) +
+            " allows; allow more or a larger tolerance";
+        break;
+      }
+      press.refine(refined_share);
+    }
+    choose_mesh();
+  }
+
+  void keep_mesh(const ContinuumPress& press) const {
+    const fs::path place = mesh_folder(static_presses_.meshes().size());
+    if (first_process()) fs::create_directories(place);
+    MPI_Barrier(MPI_COMM_WORLD);
+    press.save(place);
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+
+  void choose_mesh() {
+    const std::size_t meshes = static_presses_.meshes().size();
+    for (chosen_ = 1; chosen_ < meshes; ++chosen_) {
+      double worst = 0.0;
+      for (std::size_t i = 0; i < job_.samples.size(); ++i)
+        worst = std::max(worst, difference_to_finest(i));
+      if (worst <= allowed_tolerances * job_.tolerance) return;
+    }
+  }
+
+  double static_force(std::size_t mesh, std::size_t sample) const {
+    return static_presses_.meshes()[mesh - 1].states.at(sample).sample.normal_force;
+  }
+  /// Of the chosen mesh's static force, over the finest mesh's.
+  double difference_to_finest(std::size_t sample) const {
+    const std::size_t finest = static_presses_.meshes().size();
+    return std::abs(static_force(chosen_, sample) / static_force(finest, sample) - 1.0);
+  }
+  /// Of the chosen mesh, as a fraction of the force.
+  double mesh_error(std::size_t sample) const {
+    const double of_finest = static_presses_.error(sample).value;
+    return difference_to_finest(sample) +
+           of_finest / static_force(static_presses_.meshes().size(), sample);
+  }
+
+  std::unique_ptr<TransientPress> make_press() const {
+    return std::make_unique<TransientPress>(job_, folder_ / "tip.msh",
+                                            chosen_ > 0 ? mesh_folder(chosen_) : fs::path(),
+                                            stop_requested_);
+  }
+
+  void press() {
+    const double start = progress_.wall_time();
+    progress_.report("assemble", 0, 1, "mass and stiffness");
+    const auto press = make_press();
+    mesh_ = press->mesh();
+    progress_.report("assemble", 1, 1,
+                     std::to_string(mesh_.unknowns) + " unknowns, " +
+                         std::string(fem_reference::name(mesh_.solver)) + " solver");
+    for (std::size_t i = 0; i < job_.samples.size(); ++i) {
+      try {
+        states_.push_back(press->advance(job_.samples[i]));
+      } catch (...) {
+        steps_ = press->steps();
+        throw;
+      }
+      steps_ = press->steps();
+      write_sample(*press, i);
+    }
+    press_time_ = progress_.wall_time() - start;
+  }
+
+  void write_sample(const TransientPress& press, std::size_t index) {
+    if (job_.write_fields) {
+      if (first_process()) fs::create_directories(folder_ / "fields");
+      MPI_Barrier(MPI_COMM_WORLD);
+      press.write_fields(folder_ / "fields" / field_name(index));
+      if (first_process()) write_field_series(states_, true, folder_);
+    }
+    write_tables({RunOutcome::Status::interrupted, ""});
+    progress_.report("press", index + 1, job_.samples.size(),
+                     "F = " + to_text(states_.back().sample.normal_force) + " N at " +
+                         to_text(states_.back().sample.indentation) + " m, " +
+                         to_text(states_.back().sample.time) + " s");
+  }
+
+  void repeat_with_doubled_steps() {
+    const auto press = make_press();
+    press->set_step_factor(2.0);
+    for (std::size_t i = 0; i < job_.samples.size(); ++i) {
+      const double force = press->advance(job_.samples[i]).sample.normal_force;
+      meshes::PressSample& sample = states_[i].sample;
+      sample.force_error =
+          std::abs(sample.normal_force - force) + mesh_error(i) * std::abs(sample.normal_force);
+      progress_.report("error", i + 1, job_.samples.size(),
+                       "doubled steps: F = " + to_text(force) + " N");
+    }
+  }
+
+  void write_tables(const RunOutcome& outcome) const {
+    if (!first_process()) return;
+    write_samples(states_, folder_);
+    write_convergence(static_presses_, folder_);
+    write_steps();
+    Json summary = summary_head(outcome, job_);
+    summary["contact"] = meshes::name(job_.contact);
+    summary["strain"] = fem_reference::name(job_.strain);
+    summary["speed"] = job_.speed;
+    summary["solver"] = fem_reference::name(mesh_.solver);
+    summary["cells"] = mesh_.cells;
+    summary["dofs"] = mesh_.unknowns;
+    summary["contact_unknowns"] = mesh_.contact_unknowns;
+    summary["time_steps"] = steps_.empty() ? 0 : steps_.size() - 1;
+    summary["transient_wall_time"] = press_time_;
+    summary["mesh"] = {{"hexahedra", quality_.hexahedra},
+                       {"min_scaled_jacobian", quality_.min_scaled_jacobian},
+                       {"volume", quality_.volume}};
+    summary["static_meshes"] = Json::array();
+    for (const MeshRecord& record : static_presses_.meshes())
+      summary["static_meshes"].push_back(mesh_summary(record.mesh, record.wall_time));
+    summary["static_mesh_of_transient"] = chosen_ > 0 ? Json(chosen_) : Json();
+    summary["samples"] = Json::array();
+    for (const PressState& state : states_) summary["samples"].push_back(sample_summary(state));
+    write_summary(std::move(summary), progress_, folder_);
+  }
+
+  static Json sample_summary(const PressState& state) {
+    return {{"indentation", state.sample.indentation},
+            {"time", state.sample.time},
+            {"normal_force", state.sample.normal_force},
+            {"contact_radius", known(state.sample.contact_radius)},
+            {"max_pressure", known(state.sample.max_pressure)},
+            {"force_error", known(state.sample.force_error)},
+            {"energy", state.energy},
+            {"steps", state.steps},
+            {"active_set_iterations", state.active_set_iterations},
+            {"cg_iterations", state.cg_iterations},
+            {"active_nodes", state.active_nodes},
+            {"wall_time", state.wall_time}};
+  }
+
+  void write_steps() const {
+    meshes::write_atomically(folder_ / "transient.csv", [&](std::ostream& out) {
+      out << "time [s],indentation [m],normal_force [N],contact_force [N]\n";
+      const std::size_t stride = (steps_.size() + most_rows - 1) / most_rows;
+      for (std::size_t i = 0; i < steps_.size(); i += stride)
+        out << to_text(steps_[i].time) << ',' << to_text(steps_[i].indentation) << ','
+            << to_text(steps_[i].normal_force) << ',' << to_text(steps_[i].contact_force) << '\n';
+    });
+  }
+
+  const fs::path folder_;
+  const ReferenceJob& job_;
+  RunProgress progress_;
+  const std::function<bool()>& stop_requested_;
+  meshes::MeshQuality quality_;
+  MeshHistory static_presses_;
+  std::size_t chosen_ = 0;  ///< number of the transient's mesh, from 1; 0: the one in the file
+  std::string shortfall_;   ///< why the tolerance was not met; empty if it was
+  MeshSummary mesh_;
+  std::vector<PressState> states_;
+  std::vector<TransientStep> steps_;
+  double press_time_ = 0.0;
+};
+
+}  // namespace
+
+RunOutcome run_transient(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
+                         const std::function<bool()>& stop_requested) {
+  return TransientRun(folder, job, progress, stop_requested).carry_out();
+}
+
+}  // namespace fingertip::fem_reference

@@ -1,0 +1,88 @@
+/// A press at constant speed, with the rubber's inertia and damping. Free of deal.II.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <vector>
+
+#include "fem_reference/job.h"
+#include "fem_reference/press.h"
+#include "fem_reference/run.h"
+
+namespace fingertip::fem_reference {
+
+/// The state of the whole tip at the end of a time step.
+struct TransientStep {
+  double time = 0.0;            ///< since first touch [s]
+  double indentation = 0.0;     ///< speed times time [m]
+  double normal_force = 0.0;    ///< of the bond on the rod, against the plane's normal [N]
+  double contact_force = 0.0;   ///< of the plane on the rubber [N]
+  double momentum = 0.0;        ///< of the rubber away from the plane, in the rod's frame [kg m/s]
+  double kinetic_energy = 0.0;  ///< in the rod's frame [J]
+  double elastic_energy = 0.0;  ///< [J]
+  double work = 0.0;            ///< of the plane on the rubber so far [J]
+  double dissipated_energy = 0.0;  ///< by the rubber's damping so far [J]
+};
+
+/// The press of ContinuumPress at the job's speed: small strain, frictionless or stick, along the
+/// axis, Kelvin-Voigt damping C = tau K, consistent mass M. In the rod's frame, which is inertial
+/// because the rod's speed is constant, the tip starts at rest and the plane comes at that speed,
+/// first touching at time 0. No gravity.
+///
+/// The force on the rod is the resultant of the bond, including what damping adds; by the balance
+/// of momentum it is the plane's force less the rate of the rubber's momentum.
+///
+/// Time steps: generalised-alpha with rho_inf = 0 (generalised_alpha.h), contact enforced at the
+/// end of every step by PlaneContact. Within the interval before a sample all steps have one length
+/// and end at the sample; none is longer than 1/400 of R - r over the speed or 1/32 of the sample's
+/// time. All processes of MPI_COMM_WORLD take part in every call.
+class TransientPress {
+ public:
+  /// On the mesh of a quarter, or on one that `ContinuumPress::save` left in `adapted` for the same
+  /// `mesh_file` (empty: none). Throws InvalidInput.
+  TransientPress(const ReferenceJob& job, const std::filesystem::path& mesh_file,
+                 const std::filesystem::path& adapted = {},
+                 std::function<bool()> stop_requested = {});
+  ~TransientPress();
+  TransientPress(const TransientPress&) = delete;
+  TransientPress& operator=(const TransientPress&) = delete;
+
+  MeshSummary mesh() const;
+
+  /// Multiplies the longest time step, > 0; 1 at first.
+  void set_step_factor(double factor);
+
+  /// Presses on to `indentation` [m], more than the present one and at most the depth. Throws
+  /// NotConverged; Interrupted between steps once `stop_requested` says so.
+  PressState advance(double indentation);
+
+  /// normal_force of the last step once more, from the residual at the bond instead of the balance
+  /// of momentum [N].
+  double bond_force() const;
+
+  /// Every step so far.
+  const std::vector<TransientStep>& steps() const;
+
+  /// VTU of the last step: displacement [m], velocity [m/s] in the rod's frame.
+  void write_fields(const std::filesystem::path& file) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Carries out a job with Analysis::transient; the contract is that of `run_job`. Writes
+/// response.csv, pressure.csv, transient.csv (`time [s],indentation [m],normal_force [N],
+/// contact_force [N]`, at most 2000 rows), convergence.csv, fields and summary.json.
+///
+/// The mesh comes from a static frictionless press to the same samples, refined until its force
+/// error meets `tolerance`; the transient takes the coarsest of its meshes whose static forces are
+/// all within twice the tolerance of the finest one's. `force_error` is the sum of that mesh's
+/// static error, relative to the force, and of the change of the transient force when the steps are
+/// doubled. Without `estimate_error` the first mesh is taken and `force_error` is empty.
+RunOutcome run_transient(const std::filesystem::path& folder, const ReferenceJob& job,
+                         std::ostream& progress, const std::function<bool()>& stop_requested);
+
+}  // namespace fingertip::fem_reference

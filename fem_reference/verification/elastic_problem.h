@@ -1,0 +1,92 @@
+/// A linear elastic boundary value problem on a test body, solved with the parts of which a press
+/// is made: Body, HookeKernel, assemble, the condensed solver. Free of deal.II.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "fem_reference/analytic/elastic_field.h"
+#include "fem_reference/job.h"
+#include "fem_reference/verification/body_mesh.h"
+#include "meshes/rubber.h"
+
+namespace fingertip::fem_reference {
+
+/// Polynomial degree and volumetric treatment.
+struct ElementType {
+  int degree = 2;
+  Volumetric volumetric = Volumetric::projected;
+};
+
+/// A displacement component (0, 1, 2) prescribed on a boundary.
+struct Prescribed {
+  int boundary = 0;
+  int component = 0;
+};
+
+/// All three components on each boundary of the list.
+std::vector<Prescribed> whole(const std::vector<int>& boundaries);
+
+/// Loads and supports. Functions that are not set are zero. A component of the traction that is
+/// prescribed as a displacement has no effect.
+struct Loading {
+  using Field = std::function<meshes::Vector3(const meshes::Vector3& position)>;
+  using Traction = std::function<meshes::Vector3(int boundary, const meshes::Vector3& position,
+                                                 const meshes::Vector3& outward_normal)>;
+  std::vector<Prescribed> prescribed;
+  Field displacement;  ///< [m]
+  Field body_force;    ///< [N/m³]
+  Traction traction;   ///< [Pa]
+};
+
+/// The loading under which `exact` is the solution: its displacement on what is prescribed, its
+/// traction on all other boundaries, its body force. Keeps a reference to `exact`.
+Loading loading_of(const analytic::ElasticField& exact, std::vector<Prescribed> prescribed);
+
+/// Relative errors over the body: of the displacement in L2 and of its gradient in L2 (the H1
+/// seminorm).
+struct FieldError {
+  double l2 = 0.0, h1 = 0.0;
+};
+
+/// One process solves it by itself, whatever their number.
+class ElasticProblem {
+ public:
+  ElasticProblem(const BodyMesh& body, const ElementType& element, const meshes::Rubber& rubber);
+  ~ElasticProblem();
+  ElasticProblem(const ElasticProblem&) = delete;
+  ElasticProblem& operator=(const ElasticProblem&) = delete;
+
+  std::size_t unknowns() const;
+  double volume() const;  ///< of the meshed body [m³]
+
+  /// Throws NotConverged when the supports leave a rigid motion free.
+  void solve(const Loading& loading);
+
+  // Of the last solution:
+  FieldError error(const analytic::ElasticField& exact) const;
+  /// The same of the stress, in L2; its lambda div u is projected where the element projects it.
+  double stress_error(const analytic::ElasticField& exact) const;
+  /// Largest nodal distance from `exact` over the largest nodal |exact|; hanging nodes included.
+  double nodal_error(const Loading::Field& exact) const;
+  meshes::Vector3 mean_displacement(int boundary) const;  ///< over its area [m]
+  /// Force of the supports on the boundary's nodes, loads on them deducted; forces of hanging nodes
+  /// are passed on to those they follow [N].
+  meshes::Vector3 reaction(int boundary) const;
+  double energy() const;  ///< stored [J]
+
+  /// Stiffness of all unknowns but hanging ones, without supports, dense; rows and columns in the
+  /// order of nodes(): 3 a + i [N/m].
+  Eigen::MatrixXd stiffness() const;
+  /// Places of the nodes that do not hang [m].
+  std::vector<meshes::Vector3> nodes() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace fingertip::fem_reference

@@ -1,0 +1,220 @@
+// The verification as a run: its parts one after the other, the table written after each.
+#include <mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <utility>
+
+#include "fem_reference/run_progress.h"
+#include "fem_reference/verification/check.h"
+#include "fem_reference/verification/verification.h"
+#include "meshes/errors.h"
+#include "meshes/files.h"
+
+namespace fingertip::fem_reference {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using enum Volumetric;
+namespace fs = std::filesystem;
+
+constexpr double paper_ratio = 3.0 / 7.0, nearly_incompressible = 0.4999;
+const std::vector<double> swept_ratios{0.0, 0.25, 0.4, paper_ratio, 0.45, 0.49, 0.499, 0.4999};
+constexpr std::array element_types{ElementType{1, pointwise}, ElementType{1, projected},
+                                   ElementType{2, pointwise}, ElementType{2, projected},
+                                   ElementType{3, pointwise}, ElementType{3, projected}};
+/// Divisions that show the order and stay cheap, by degree.
+const std::array<std::vector<int>, 4> block_divisions{{{}, {4, 8, 16}, {2, 4, 8}, {1, 2, 4}}};
+const std::array<std::vector<int>, 4> sphere_divisions{{{}, {2, 4, 8}, {2, 4, 8}, {1, 2, 4}}};
+const std::array<std::vector<int>, 4> cylinder_divisions{{{}, {4, 8, 16}, {4, 8, 16}, {2, 4, 8}}};
+const std::array<std::vector<int>, 4> plate_divisions{{{}, {2, 4, 8}, {2, 4, 8}, {}}};
+
+struct Tables {
+  std::vector<ConvergenceStudy> studies;
+  std::vector<Check> checks;
+  std::vector<LockingPoint> locking;
+};
+
+template <class T>
+void append(std::vector<T>& table, std::vector<T> more) {
+  std::ranges::move(more, std::back_inserter(table));
+}
+
+Json to_json(const ConvergenceStudy& study) {
+  Json grids = Json::array();
+  for (const auto& mesh : study.meshes)
+    grids.push_back({{"h", mesh.h},
+                     {"unknowns", mesh.unknowns},
+                     {"error_l2", mesh.error_l2},
+                     {"error_h1", mesh.error_h1}});
+  return {{"problem", study.problem},
+          {"degree", study.degree},
+          {"volumetric", name(study.volumetric)},
+          {"poissons_ratio", study.poissons_ratio},
+          {"meshes", grids},
+          {"order_l2", study.order_l2},
+          {"order_h1", study.order_h1},
+          {"expected_l2", study.expected_l2},
+          {"expected_h1", study.expected_h1}};
+}
+
+Json to_json(const Check& check) {
+  return {{"name", check.name},           {"quantity", check.quantity},
+          {"source", check.source},       {"value", check.value},
+          {"expected", check.expected},   {"relative_error", check.relative_error},
+          {"tolerance", check.tolerance}, {"passed", check.passed}};
+}
+
+Json to_json(const LockingPoint& point) {
+  return {{"problem", point.problem},
+          {"element", point.element},
+          {"poissons_ratio", point.poissons_ratio},
+          {"value", point.value},
+          {"reference", point.reference},
+          {"relative_error", point.relative_error}};
+}
+
+template <class T>
+Json to_json(const std::vector<T>& table) {
+  Json rows = Json::array();
+  for (const T& row : table) rows.push_back(to_json(row));
+  return rows;
+}
+
+struct Part {
+  std::string name;
+  std::function<void(Tables&, const fs::path& folder)> compute;
+};
+
+void add_convergence(std::vector<Part>& parts) {
+  for (const ElementType& element : element_types) {
+    const auto degree = std::size_t(element.degree);
+    parts.push_back({"manufactured solutions, " + name(element), [=](Tables& t, const fs::path&) {
+                       for (const ManufacturedCase& problem :
+                            {ManufacturedCase{true, false, paper_ratio},
+                             ManufacturedCase{false, false, paper_ratio},
+                             ManufacturedCase{true, true, nearly_incompressible}})
+                         t.studies.push_back(
+                             study_manufactured(problem, element, block_divisions[degree]));
+                     }});
+  }
+  for (int degree = 1; degree <= 3; ++degree)
+    parts.push_back(
+        {"sphere, cylinder, cantilever, degree " + std::to_string(degree),
+         [=](Tables& t, const fs::path&) {
+           const ElementType element{degree, projected};
+           const auto d = std::size_t(degree);
+           t.studies.push_back(study_sphere(element, paper_ratio, sphere_divisions[d]));
+           t.studies.push_back(study_cylinder(element, paper_ratio, cylinder_divisions[d]));
+           if (!plate_divisions[d].empty())
+             t.studies.push_back(study_cantilever(element, paper_ratio, plate_divisions[d]));
+           append(t.checks, check_fields(element, 4));
+         }});
+}
+
+std::vector<Part> all_parts() {
+  std::vector<Part> parts;
+  parts.push_back({"patch tests and rigid modes", [](Tables& t, const fs::path&) {
+                     for (const ElementType& element : element_types) {
+                       append(t.checks, check_patch(element));
+                       append(t.checks, check_rigid_modes(element));
+                     }
+                   }});
+  add_convergence(parts);
+  parts.push_back({"bonded disc", [](Tables& t, const fs::path&) {
+                     for (const double thickness : {0.005, 0.01})
+                       for (const double nu : {paper_ratio, 0.25})
+                         append(t.checks, check_disc(thickness, nu, {2, projected}, 2));
+                   }});
+  parts.push_back({"symmetry and balance of the press", [](Tables& t, const fs::path& folder) {
+                     append(t.checks, check_press(folder));
+                   }});
+  parts.push_back({"Hertz", [](Tables& t, const fs::path& folder) {
+                     for (const double rod : {0.1, 0.3})
+                       append(t.checks, check_hertz(press_towards_hertz(
+                                            rod, {1e-6, 2e-6, 4e-6, 8e-6}, 3, folder)));
+                   }});
+  parts.push_back({"locking of the cantilever", [](Tables& t, const fs::path&) {
+                     append(t.locking, lock_cantilever(swept_ratios));
+                   }});
+  parts.push_back({"locking of the disc",
+                   [](Tables& t, const fs::path&) { append(t.locking, lock_disc(swept_ratios)); }});
+  parts.push_back({"locking of the press", [](Tables& t, const fs::path& folder) {
+                     append(t.locking, lock_press(swept_ratios, folder));
+                   }});
+  return parts;
+}
+
+class VerificationRun {
+ public:
+  VerificationRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
+                  const std::function<bool()>& stop_requested)
+      : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
+
+  RunOutcome carry_out() {
+    RunOutcome outcome;
+    const std::vector<Part> parts = all_parts();
+    try {
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        stop_if_asked();
+        progress_.report("verify", i, parts.size(), parts[i].name);
+        parts[i].compute(tables_, folder_);
+        write({RunOutcome::Status::interrupted, ""});
+      }
+      progress_.report("verify", parts.size(), parts.size(),
+                       std::to_string(tables_.checks.size() - failed()) + " of " +
+                           std::to_string(tables_.checks.size()) + " checks passed");
+    } catch (const meshes::Interrupted& stop) {
+      outcome = {RunOutcome::Status::interrupted, stop.what()};
+    } catch (const meshes::NotConverged& failure) {
+      outcome = {RunOutcome::Status::not_converged, failure.what()};
+    }
+    write(outcome);
+    if (first_process()) fs::remove(folder_ / mesh_file);
+    return outcome;
+  }
+
+ private:
+  void stop_if_asked() const {
+    const int own = stop_requested_ && stop_requested_() ? 1 : 0;
+    int any = 0;
+    MPI_Allreduce(&own, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    if (any != 0) throw meshes::Interrupted("stopped on request");
+  }
+
+  std::size_t failed() const {
+    return std::size_t(
+        std::ranges::count_if(tables_.checks, [](const Check& check) { return !check.passed; }));
+  }
+
+  void write(const RunOutcome& outcome) const {
+    if (!first_process()) return;
+    const Json result{{"studies", to_json(tables_.studies)},
+                      {"checks", to_json(tables_.checks)},
+                      {"locking", to_json(tables_.locking)}};
+    meshes::write_atomically(folder_ / "verification.json",
+                             [&](std::ostream& out) { out << result.dump(2) << '\n'; });
+    Json summary = summary_head(outcome, job_);
+    summary["checks"] = tables_.checks.size();
+    summary["failed_checks"] = failed();
+    write_summary(std::move(summary), progress_, folder_);
+  }
+
+  const fs::path folder_;
+  const ReferenceJob& job_;
+  RunProgress progress_;
+  const std::function<bool()>& stop_requested_;
+  Tables tables_;
+};
+
+}  // namespace
+
+RunOutcome run_verification(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
+                            const std::function<bool()>& stop_requested) {
+  return VerificationRun(folder, job, progress, stop_requested).carry_out();
+}
+
+}  // namespace fingertip::fem_reference

@@ -1,0 +1,434 @@
+/// The continuum's code against solutions from elsewhere.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "studies/report/chapters.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+using nlohmann::json;
+
+/// So far below the theory's order an observed one still counts as it, and as near to it.
+constexpr double order_slack = 0.2, order_near = 0.5;
+/// Below so much [%] it does not matter how far an element is off.
+constexpr double least_shown = 1e-3;
+
+Cell plain(const std::string& text, const std::string& note = "") {
+  return {text, note, Grade::none};
+}
+
+Cell words(const std::string& text) {
+  return {text, "", Grade::none, true};
+}
+
+std::string element_of(const json& study) {
+  return fmt::format("Q{} {}", count(number_at(study, "degree")), text_at(study, "volumetric"));
+}
+
+/// Colour by degree; dashed and hollow for the plain displacement element.
+Style element_style(const std::string& element) {
+  static const std::map<char, Style> by_degree{{'1', {"#D55E00", "", 1.8, 7, true, 0.55}},
+                                               {'2', {"#0072B2", "", 1.8, 5, true, 0.55}},
+                                               {'3', {"#009E73", "", 1.8, 9, true, 0.65}}};
+  const auto found = by_degree.find(element.size() > 1 ? element[1] : ' ');
+  Style style = found == by_degree.end() ? Style{"#CC79A7", "", 1.8, 13, true} : found->second;
+  if (element.find("pointwise") != std::string::npos) style.dash = "(5,3)", --style.point;
+  return style;
+}
+
+/// An entry of the legend per element.
+std::vector<Series> element_legend(const std::set<std::string>& elements) {
+  std::vector<Series> legend;
+  for (const std::string& element : elements) {
+    Series entry{element, "", {}, {}, {}, element_style(element)};
+    entry.legend_only = true;
+    legend.push_back(std::move(entry));
+  }
+  return legend;
+}
+
+/// The different values of `key` in the order of their first appearance.
+std::vector<std::string> distinct(const json& entries, const char* key) {
+  std::vector<std::string> values;
+  for (const json& entry : entries) {
+    const std::string value = text_at(entry, key);
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  }
+  return values;
+}
+
+/// The entries with those of one problem side by side.
+json by_problem(const json& entries) {
+  json sorted = json::array();
+  for (const std::string& problem : distinct(entries, "problem"))
+    for (const json& entry : entries)
+      if (text_at(entry, "problem") == problem) sorted.push_back(entry);
+  return sorted;
+}
+
+/// An error norm of the convergence studies.
+struct Norm {
+  const char *label, *error, *order, *expected;
+};
+constexpr Norm norms[] = {
+    {"error of u", "error_l2", "order_l2", "expected_l2"},
+    {"error of grad u", "error_h1", "order_h1", "expected_h1"},
+};
+
+bool order_holds(const json& study) {
+  return std::all_of(std::begin(norms), std::end(norms), [&](const Norm& norm) {
+    return number_at(study, norm.order) >= number_at(study, norm.expected) - order_slack;
+  });
+}
+
+Cell order_cell(const json& study, const Norm& norm) {
+  const double order = number_at(study, norm.order), expected = number_at(study, norm.expected);
+  Cell cell = plain(number(order, 3), "theory " + number(expected, 1));
+  const double missing = expected - order;
+  if (std::isfinite(missing))
+    cell.grade = missing <= order_slack  ? Grade::close
+                 : missing <= order_near ? Grade::fair
+                                         : Grade::wrong;
+  return cell;
+}
+
+Table order_table(const json& studies) {
+  Table table;
+  table.caption = fmt::format(
+      "Orders of convergence between the two finest meshes, and the relative errors on the "
+      "finest. ● at most {:g} below the theory's order, ◐ at most {:g}, ✕ more.",
+      order_slack, order_near);
+  table.header = {plain("Problem"),
+                  plain("Element"),
+                  plain("ν"),
+                  plain("Meshes", "unknowns"),
+                  plain("Error of u", "L2"),
+                  plain("Order"),
+                  plain("Error of grad u", "L2"),
+                  plain("Order")};
+  for (const json& study : studies) {
+    const json meshes = array_at(study, "meshes");
+    const json finest = meshes.empty() ? json::object() : meshes.back();
+    std::vector<Cell> row{
+        plain(text_at(study, "problem")), plain(element_of(study)),
+        plain(number(number_at(study, "poissons_ratio"), 4)),
+        plain(std::to_string(meshes.size()), "to " + count(number_at(finest, "unknowns")))};
+    for (const Norm& norm : norms) {
+      row.push_back(plain(number(number_at(finest, norm.error), 2)));
+      row.push_back(order_cell(study, norm));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// The slope h^order below the best curve of that order, so that it can be compared by eye.
+Series slope_guide(const std::vector<Series>& curves, double order) {
+  const auto best =
+      std::min_element(curves.begin(), curves.end(),
+                       [](const Series& a, const Series& b) { return a.y.back() < b.y.back(); });
+  Series guide{"", fmt::format("h^{:g}", order), {}, {}, {}, {"#777777", "(2,3)", 1.5, 0, true}};
+  const double h = best->x.back(), e = 0.6 * best->y.back();
+  for (double x : {best->x.front(), h}) {
+    guide.x.push_back(x);
+    guide.y.push_back(e * std::pow(x / h, order));
+  }
+  return guide;
+}
+
+Panel study_panel(const json& studies, const std::string& problem, const Norm& norm) {
+  Panel panel;
+  panel.title = problem;
+  panel.x_label = "element size h [cm]";
+  panel.y_label = std::string("relative ") + norm.label;
+  panel.log_x = panel.log_y = 10;
+  panel.key = "";
+  std::map<double, std::vector<Series>> by_order;
+  for (const json& study : studies) {
+    if (text_at(study, "problem") != problem) continue;
+    Series series{"", element_of(study), {}, {}, {}, element_style(element_of(study))};
+    for (const json& mesh : array_at(study, "meshes")) {
+      const double h = number_at(mesh, "h"), error = number_at(mesh, norm.error);
+      if (!(h > 0.0 && error > 0.0)) continue;
+      series.x.push_back(to_cm(h));
+      series.y.push_back(error);
+    }
+    if (series.x.empty()) continue;
+    const double order = number_at(study, norm.expected);
+    if (std::isfinite(order)) by_order[order].push_back(series);
+    panel.series.push_back(std::move(series));
+  }
+  for (const auto& [order, curves] : by_order) panel.series.push_back(slope_guide(curves, order));
+  return panel;
+}
+
+FigureBlock orders_figure(const json& studies) {
+  Figure figure{"verification_orders", 960, 0, 2, {}, 150};
+  const std::vector<std::string> problems = distinct(studies, "problem");
+  figure.height = 90 + 290 * int(problems.size());
+  std::set<std::string> elements;
+  for (const json& study : studies) elements.insert(element_of(study));
+  for (const std::string& problem : problems)
+    for (const Norm& norm : norms) figure.panels.push_back(study_panel(studies, problem, norm));
+  Panel& first = figure.panels.front();
+  first.key = figure.beside_panels();
+  for (Series& entry : element_legend(elements)) first.series.push_back(std::move(entry));
+  Series guide{"theory's slope", "", {}, {}, {}, {"#777777", "(2,3)", 1.5, 0, true}};
+  guide.legend_only = true;
+  first.series.push_back(guide);
+  return {figure, "Error against element size",
+          "Left the displacement, right its gradient, both in L2 over the body. A dotted slope "
+          "below the best element of each degree falls with the theory's order, degree + 1 on the "
+          "left and degree on the right: curves should run parallel to theirs. Elements: Q1, Q2, "
+          "Q3 of degree 1, 2, 3; pointwise is the plain displacement element, projected the one "
+          "whose volume change is projected on polynomials of one degree less."};
+}
+
+/// A value with the unit that its quantity names in brackets, e.g. "deflection [m]", for people.
+Cell value_cell(double value, const std::string& quantity) {
+  struct Unit {
+    const char *si, *name;
+    double scale;
+  };
+  static constexpr Unit units[] = {{"m", "cm", 100.0},
+                                   {"N", "gf", 1.0 / newton_per_gf},
+                                   {"N/m", "gf/cm", 0.01 / newton_per_gf},
+                                   {"Pa", "gf/cm²", 1.0 / pascal_per_gf_per_cm2}};
+  for (const Unit& unit : units) {
+    if (!quantity.ends_with(fmt::format("[{}]", unit.si)) || !std::isfinite(value)) continue;
+    return plain(number(unit.scale * value, 5) + gap + unit.name, with_prefix(value, unit.si));
+  }
+  return plain(number(value, std::abs(value) < 1e-3 ? 2 : 5));
+}
+
+/// The quantity without its unit, which the value carries.
+std::string without_unit(const std::string& quantity) {
+  const std::size_t bracket = quantity.rfind(" [");
+  return bracket != std::string::npos && quantity.ends_with("]") ? quantity.substr(0, bracket)
+                                                                 : quantity;
+}
+
+bool passed(const json& check) {
+  return check.is_object() && check.contains("passed") && check.at("passed") == true;
+}
+
+/// How much of its tolerance a check uses; beyond 1 it fails.
+double share_of_tolerance(const json& check) {
+  const double deviation = number_at(check, "relative_error");
+  return deviation == 0.0 ? 0.0 : deviation / number_at(check, "tolerance");
+}
+
+/// Passed checks of one kind: of the same quantity and source, their names alike up to a comma.
+struct CheckGroup {
+  std::string kind, quantity, source;
+  json worst;  ///< the check nearest to its tolerance
+  int count = 0;
+};
+
+/// The failed checks each by itself, then the passed ones by kind.
+std::vector<CheckGroup> check_groups(const json& checks) {
+  std::vector<CheckGroup> failed, groups;
+  for (const json& check : checks) {
+    const std::string name = text_at(check, "name");
+    CheckGroup group{name.substr(0, name.find(',')), text_at(check, "quantity"),
+                     text_at(check, "source"), check, 1};
+    if (!passed(check)) {
+      failed.push_back(std::move(group));
+      continue;
+    }
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const CheckGroup& other) {
+      return other.kind == group.kind && other.quantity == group.quantity &&
+             other.source == group.source;
+    });
+    if (same == groups.end()) {
+      groups.push_back(std::move(group));
+      continue;
+    }
+    ++same->count;
+    if (share_of_tolerance(check) > share_of_tolerance(same->worst)) same->worst = check;
+  }
+  failed.insert(failed.end(), groups.begin(), groups.end());
+  return failed;
+}
+
+Table check_table(const json& checks) {
+  Table table;
+  table.caption =
+      "Single figures against what is known otherwise, failed ones first. Of several checks of "
+      "one kind that passed, the one that used most of its tolerance is shown; all are in "
+      "verification/verification.json. The deviation is relative to the expected value, or the "
+      "value itself where zero is expected.";
+  table.header = {plain("Check"),     plain("Passed"),    plain("Value"), plain("Expected"),
+                  plain("Deviation"), plain("Tolerance"), plain("Source")};
+  for (const CheckGroup& group : check_groups(checks)) {
+    const bool good = passed(group.worst);
+    Cell deviation = plain(number(number_at(group.worst, "relative_error"), 2));
+    deviation.grade = good ? Grade::close : Grade::wrong;
+    table.rows.push_back({plain(text_at(group.worst, "name"), without_unit(group.quantity)),
+                          plain(!good              ? "failed"
+                                : group.count == 1 ? "passed"
+                                                   : fmt::format("all {}", group.count)),
+                          value_cell(number_at(group.worst, "value"), group.quantity),
+                          value_cell(number_at(group.worst, "expected"), group.quantity), deviation,
+                          plain(number(number_at(group.worst, "tolerance"), 2)),
+                          words(group.source)});
+  }
+  return table;
+}
+
+/// |relative error| against 0.5 - nu for one problem; NaN where the error is exactly zero.
+Panel locking_panel(const json& locking, const std::string& problem) {
+  Panel panel;
+  panel.x_label = "0.5 − ν   (incompressible to the right)";
+  panel.y_label = problem + ": off by [%]";
+  panel.log_x = panel.log_y = 10;
+  panel.key = "";
+  std::map<std::string, Series> curves;
+  double least = 0.5, most = 0.0;
+  for (const json& point : locking) {
+    if (text_at(point, "problem") != problem) continue;
+    const std::string element = text_at(point, "element");
+    const double compressible = 0.5 - number_at(point, "poissons_ratio");
+    const double error = std::abs(number_at(point, "relative_error"));
+    if (!(compressible > 0.0)) continue;
+    Series& series = curves.try_emplace(element, Series{"", element, {}, {}, {}, {}}).first->second;
+    series.x.push_back(compressible);
+    series.y.push_back(error > 0.0 ? 100.0 * error : meshes::unknown);
+    least = std::fmin(least, compressible), most = std::fmax(most, compressible);
+  }
+  for (auto& [element, series] : curves) {
+    series.style = element_style(element);
+    panel.series.push_back(std::move(series));
+  }
+  if (curves.empty()) return panel;
+  panel.x_range = Range{1.4 * most, least / 1.4};
+  double lowest = meshes::unknown, highest = least_shown;
+  for (const Series& series : panel.series)
+    for (double y : series.y) lowest = std::fmin(lowest, y), highest = std::fmax(highest, y);
+  panel.y_range = Range{std::fmax(lowest / 2.0, least_shown), 2.0 * highest};
+  return panel;
+}
+
+FigureBlock locking_figure(const json& locking) {
+  Figure figure{"locking", 860, 0, 1, {}, 150};
+  const std::vector<std::string> problems = distinct(locking, "problem");
+  figure.height = 80 + 230 * int(problems.size());
+  for (const std::string& problem : problems)
+    figure.panels.push_back(locking_panel(locking, problem));
+  const std::vector<std::string> elements = distinct(locking, "element");
+  Panel& first = figure.panels.front();
+  first.key = figure.beside_panels();
+  for (Series& entry : element_legend({elements.begin(), elements.end()}))
+    first.series.push_back(std::move(entry));
+  return {figure, "Locking: how far each element is off as ν → 1/2",
+          "Magnitude of the relative error of a stiffness, all elements on the same mesh. An "
+          "element that locks climbs towards the right; one that does not stays level. Below 0.001 "
+          "% nothing "
+          "is drawn."};
+}
+
+Table locking_table(const json& locking) {
+  Table table;
+  table.caption =
+      "The same numbers with their sign: positive is too stiff. Columns: Poisson's ratio.";
+  table.graded = true;
+  table.header = {plain("Problem, element")};
+  std::set<double> ratios;
+  for (const json& point : locking) {
+    const double nu = number_at(point, "poissons_ratio");
+    if (std::isfinite(nu)) ratios.insert(nu);
+  }
+  for (double nu : ratios) table.header.push_back(plain(number(nu, 4)));
+  std::vector<std::pair<std::string, std::string>> names;
+  std::map<std::pair<std::string, std::string>, std::map<double, double>> errors;
+  for (const json& point : locking) {
+    const std::pair name{text_at(point, "problem"), text_at(point, "element")};
+    if (errors.try_emplace(name).second) names.push_back(name);
+    // A NaN has no place in the order of a map.
+    const double nu = number_at(point, "poissons_ratio");
+    if (std::isfinite(nu)) errors[name][nu] = number_at(point, "relative_error");
+  }
+  for (const auto& name : names) {
+    std::vector<Cell> row{plain(name.first, name.second)};
+    for (double nu : ratios) {
+      const auto found = errors[name].find(nu);
+      const double error = found == errors[name].end() ? meshes::unknown : found->second;
+      row.push_back({percent(error), "", grade(error)});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string answer_of(const json& studies, const json& checks) {
+  const auto kept = std::count_if(studies.begin(), studies.end(), order_holds);
+  const auto right = std::count_if(checks.begin(), checks.end(), passed);
+  std::string text;
+  if (!checks.empty())
+    text += fmt::format("{} of {} checks against known solutions passed. ", right, checks.size());
+  if (!studies.empty())
+    text += fmt::format(
+        "In {} of {} convergence studies the errors of displacement and gradient fall as fast as "
+        "theory asks of the element. ",
+        kept, studies.size());
+  for (const std::string& problem : distinct(studies, "problem")) {
+    std::set<std::string> slow;
+    for (const json& study : studies)
+      if (text_at(study, "problem") == problem && !order_holds(study))
+        slow.insert(element_of(study));
+    if (!slow.empty())
+      text += fmt::format("Slower in \u201c{}\u201d: {}. ", problem, enumerate(slow));
+  }
+  std::vector<std::string> failed;
+  for (const json& check : checks)
+    if (!passed(check)) failed.push_back(text_at(check, "name"));
+  if (!failed.empty()) text += fmt::format("Failed: {}. ", enumerate(failed));
+  return text;
+}
+
+/// How the element of this run's press did.
+std::string used_element(const RunData& run, const json& studies) {
+  if (!run.reference_summary.contains("volumetric")) return "";
+  // summary.json names degree and volumetric part like a study does.
+  const std::string used = element_of(run.reference_summary);
+  std::size_t count = 0, kept = 0;
+  for (const json& study : studies) {
+    if (element_of(study) != used) continue;
+    ++count;
+    if (order_holds(study)) ++kept;
+  }
+  std::string text = fmt::format("The press of this report was computed with {}", used);
+  if (count > 0) text += fmt::format(", which keeps its order in {} of {} studies", kept, count);
+  return text + ".";
+}
+
+}  // namespace
+
+Chapter verification_chapter(const RunData& run) {
+  Chapter chapter{"verification", "Does the code solve its equations?", {}};
+  const json studies = by_problem(array_at(run.verification, "studies"));
+  const json checks = array_at(run.verification, "checks");
+  const json locking = by_problem(array_at(run.verification, "locking"));
+  if (studies.empty() && checks.empty() && locking.empty()) return chapter;
+  const std::string text = answer_of(studies, checks);
+  if (!text.empty()) chapter.blocks.push_back(Paragraph{"", text});
+  const std::string used = used_element(run, studies);
+  if (!used.empty()) chapter.blocks.push_back(Paragraph{"", used});
+  if (!studies.empty()) {
+    chapter.blocks.push_back(orders_figure(studies));
+    chapter.blocks.push_back(order_table(studies));
+  }
+  if (!checks.empty()) chapter.blocks.push_back(check_table(checks));
+  if (!locking.empty()) {
+    chapter.blocks.push_back(locking_figure(locking));
+    chapter.blocks.push_back(locking_table(locking));
+  }
+  return chapter;
+}
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,281 @@
+#include "studies/report/continuum_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "meshes/geometry.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+constexpr std::size_t most_shown = 6;  ///< curves that a reader tells apart
+constexpr int rings = 80;              ///< into which a contact is divided for drawing
+constexpr int curve_points = 80;
+
+/// The ends of a mesh edge in cm, undeformed or deformed.
+struct Edge {
+  double x1, z1, x2, z2;
+};
+
+std::vector<Edge> section_edges(const CsvTable& section, bool deformed) {
+  const std::string prefix = deformed ? "deformed_" : "";
+  const auto column = [&](const char* name) { return section.numbers(prefix + name); };
+  const auto x1 = column("x1 [m]"), z1 = column("z1 [m]");
+  const auto x2 = column("x2 [m]"), z2 = column("z2 [m]");
+  std::vector<Edge> edges;
+  // Neighbouring elements both report the edge between them.
+  std::set<std::array<long, 4>> seen;
+  for (std::size_t i = 0; i < x1.size(); ++i) {
+    std::array<long, 2> first{std::lround(1e9 * x1[i]), std::lround(1e9 * z1[i])};
+    std::array<long, 2> second{std::lround(1e9 * x2[i]), std::lround(1e9 * z2[i])};
+    if (second < first) std::swap(first, second);
+    if (!seen.insert({first[0], first[1], second[0], second[1]}).second) continue;
+    edges.push_back({to_cm(x1[i]), to_cm(z1[i]), to_cm(x2[i]), to_cm(z2[i])});
+  }
+  return edges;
+}
+
+bool touches(const Edge& edge, const Window& window) {
+  return !(std::max(edge.x1, edge.x2) < window.x_from || std::min(edge.x1, edge.x2) > window.x_to ||
+           std::max(edge.z1, edge.z2) < window.z_from || std::min(edge.z1, edge.z2) > window.z_to);
+}
+
+/// The nodes' pressures at one indentation.
+struct PressureProfile {
+  double depth;                          ///< [m]
+  std::vector<double> radius, pressure;  ///< [m], [Pa]
+};
+
+std::vector<PressureProfile> pressure_profiles(const RunData& run) {
+  const std::vector<double> depth = run.pressure.numbers("indentation [m]");
+  const std::vector<double> radius = run.pressure.numbers("radius [m]");
+  const std::vector<double> pressure = run.pressure.numbers("pressure [Pa]");
+  std::vector<PressureProfile> profiles;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (profiles.empty() || !same_depth(profiles.back().depth, depth[i]))
+      profiles.push_back({depth[i], {}, {}});
+    profiles.back().radius.push_back(radius[i]);
+    profiles.back().pressure.push_back(pressure[i]);
+  }
+  return profiles;
+}
+
+/// A page cannot hold a dot per node of a fine mesh: of every ring those of the highest and of the
+/// lowest pressure, so that peaks and scatter stay.
+Series thinned(const PressureProfile& profile, const std::string& colour) {
+  Series series{
+      depth_label(profile.depth),       depth_label(profile.depth) + " continuum", {}, {}, {},
+      {colour, "", 2.0, 7, false, 0.32}};
+  const double outermost = *std::max_element(profile.radius.begin(), profile.radius.end());
+  std::map<int, std::pair<std::size_t, std::size_t>> extremes;
+  for (std::size_t i = 0; i < profile.radius.size(); ++i) {
+    const int ring = outermost > 0.0 ? int(rings * profile.radius[i] / outermost) : 0;
+    const auto [found, fresh] = extremes.try_emplace(ring, i, i);
+    if (fresh) continue;
+    auto& [lowest, highest] = found->second;
+    if (profile.pressure[i] < profile.pressure[lowest]) lowest = i;
+    if (profile.pressure[i] > profile.pressure[highest]) highest = i;
+  }
+  for (const auto& [ring, pair] : extremes) {
+    for (const std::size_t i : std::set<std::size_t>{pair.first, pair.second}) {
+      series.x.push_back(to_cm(profile.radius[i]));
+      series.y.push_back(to_gf_per_cm2(profile.pressure[i]));
+    }
+  }
+  return series;
+}
+
+Series hertz_series(const fem_reference::analytic::Hertz& hertz, double depth,
+                    const std::string& colour) {
+  Series series{"", depth_label(depth) + " Hertz", {}, {}, {}, {colour, "(7,4)", 1.3, 0, true}};
+  const double a = hertz.contact_radius(depth);
+  for (int i = 0; i <= curve_points; ++i) {
+    // Denser towards the edge, where the curve is steep.
+    const double r = i == curve_points ? a : a * std::sin(std::acos(-1.0) / 2 * i / curve_points);
+    series.x.push_back(to_cm(r));
+    series.y.push_back(to_gf_per_cm2(hertz.pressure(r, depth)));
+  }
+  return series;
+}
+
+Panel section_panel(const std::string& title) {
+  Panel panel;
+  panel.title = title;
+  panel.x_label = "x [cm]";
+  panel.y_label = "z [cm]";
+  panel.equal_scales = true;
+  panel.key = "";
+  return panel;
+}
+
+/// Everything, at first touch.
+Panel whole_section(const RunData& run) {
+  Panel panel = section_panel("the whole section, at first touch");
+  panel.series.push_back(section_series(run, false, thin("#333333", 0.5)));
+  double width = 0.0, top = -1e9, bottom = 1e9;
+  for (std::size_t i = 0; i < panel.series[0].x.size(); ++i) {
+    width = std::fmax(width, std::abs(panel.series[0].x[i]));
+    top = std::fmax(top, panel.series[0].y[i]);
+    bottom = std::fmin(bottom, panel.series[0].y[i]);
+  }
+  panel.x_range = Range{-1.15 * width, 1.15 * width};
+  // Pole down.
+  panel.y_range = Range{top + 0.1 * width, bottom - 0.1 * width};
+  panel.series.push_back(
+      {"", "plane", {-1.15 * width, 1.15 * width}, {top, top}, {}, {"#333333", "", 2.4, 0, true}});
+  return panel;
+}
+
+/// The contact, pressed to the end.
+Panel contact_section(const RunData& run) {
+  Panel panel = section_panel("near the contact, pressed");
+  const double a = to_cm(run.reference.samples().back().contact_radius);
+  double top = -1e9;
+  for (const Edge& edge : section_edges(run.section, false))
+    top = std::fmax(top, std::fmax(edge.z1, edge.z2));
+  const double plane = top - to_cm(run.reference.depth());
+  const bool half = is_half_section(run);
+  // A mirrored picture shows nothing new: one half, twice as large.
+  const double from = half ? -0.05 * a : -1.6 * a, to = 1.6 * a, height = 0.95 * (to - from);
+  panel.x_range = Range{from, to};
+  panel.y_range = Range{plane + 0.06 * height, plane - 0.94 * height};
+  panel.series.push_back(section_series(run, true, thin("#333333", 0.6),
+                                        {from, to, plane - 0.94 * height, meshes::unknown}));
+  panel.series.push_back(
+      {"", "plane", {from, to}, {plane, plane}, {}, {"#333333", "", 2.4, 0, true}});
+  panel.markers.push_back({a, "#D55E00"});
+  return panel;
+}
+
+}  // namespace
+
+void add_segment(Series& series, double x1, double z1, double x2, double z2) {
+  series.x.insert(series.x.end(), {x1, x2, meshes::unknown});
+  series.y.insert(series.y.end(), {z1, z2, meshes::unknown});
+}
+
+Style thin(const std::string& colour, double width) {
+  return {colour, "", width, 0, true};
+}
+
+bool is_half_section(const RunData& run) {
+  const std::vector<double> x = run.section.numbers("x1 [m]");
+  return std::none_of(x.begin(), x.end(), [](double value) { return value < -1e-8; });
+}
+
+Series section_series(const RunData& run, bool deformed, const Style& style, const Window& window) {
+  Series series{"", deformed ? "mesh deformed" : "mesh undeformed", {}, {}, {}, style};
+  const bool mirror = is_half_section(run);
+  for (const Edge& edge : section_edges(run.section, deformed)) {
+    const Edge mirrored{-edge.x1, edge.z1, -edge.x2, edge.z2};
+    if (touches(edge, window)) add_segment(series, edge.x1, edge.z1, edge.x2, edge.z2);
+    if (mirror && touches(mirrored, window))
+      add_segment(series, mirrored.x1, mirrored.z1, mirrored.x2, mirrored.z2);
+  }
+  return series;
+}
+
+bool same_depth(double a, double b) {
+  return std::abs(a - b) <= 1e-6 * std::max(a, b);
+}
+
+std::string depth_label(double depth) {
+  return fmt::format("{:.4g} cm", to_cm(depth));
+}
+
+std::vector<double> shown_depths(const RunData& run, const std::vector<double>& computed) {
+  const auto among = [](const std::vector<double>& depths, double depth) {
+    return std::any_of(depths.begin(), depths.end(),
+                       [depth](double other) { return same_depth(depth, other); });
+  };
+  std::vector<double> wanted = run.depths;
+  const bool of_verdict = std::any_of(computed.begin(), computed.end(),
+                                      [&](double depth) { return among(wanted, depth); });
+  if (!of_verdict || wanted.size() > most_shown) {
+    const std::size_t count = std::min(most_shown, computed.size());
+    wanted.clear();
+    for (std::size_t i = 0; i < count; ++i)
+      wanted.push_back(computed[count > 1 ? i * (computed.size() - 1) / (count - 1) : 0]);
+  }
+  double worst = 0.0;
+  for (const meshes::PressSample& sample : run.reference.samples())
+    worst = std::fmax(worst, sample.force_error / sample.normal_force);
+  for (const meshes::PressSample& sample : run.reference.samples())
+    if (worst > 0.0 && sample.force_error / sample.normal_force == worst)
+      wanted.push_back(sample.indentation);
+  std::vector<double> shown;
+  std::copy_if(computed.begin(), computed.end(), std::back_inserter(shown),
+               [&](double depth) { return among(wanted, depth); });
+  return shown;
+}
+
+double tip_radius(const RunData& run) {
+  if (run.reference_job.empty()) return meshes::unknown;
+  // What a job leaves out has its default.
+  const double radius = number_at(object_at(run.reference_job, "geometry"), "tip_radius");
+  return std::isfinite(radius) ? radius : meshes::Geometry{}.tip_radius;
+}
+
+std::optional<fem_reference::analytic::Hertz> hertz_contact(const RunData& run) {
+  const double radius = tip_radius(run);
+  meshes::Rubber rubber;
+  const nlohmann::json given = object_at(run.reference_job, "rubber");
+  for (const auto& [key, value] : {std::pair{"youngs_modulus", &rubber.youngs_modulus},
+                                   std::pair{"shear_modulus", &rubber.shear_modulus}}) {
+    if (std::isfinite(number_at(given, key))) *value = number_at(given, key);
+  }
+  if (!(radius > 0.0) || !rubber.violations().empty()) return std::nullopt;
+  return fem_reference::analytic::Hertz(rubber, radius);
+}
+
+FigureBlock mesh_figure(const RunData& run) {
+  return {{"adaptive_mesh", 900, 460, 2, {whole_section(run), contact_section(run)}},
+          "The finest mesh in the section y = 0",
+          "Where an element is halved beside one that is not, the nodes between them hang on the "
+          "larger one; edges are drawn straight from corner to corner. The heavy line is the "
+          "plane, the dotted one the contact radius. Elements "
+          "were halved where the error indicators of the mesh before were largest."};
+}
+
+FigureBlock pressure_figure(const RunData& run) {
+  Panel panel;
+  panel.x_label = "radius [cm]";
+  panel.y_label = "contact pressure [gf/cm²]";
+  panel.key = "outside right top";
+  panel.y_range = Range{0.0, meshes::unknown};
+  const std::vector<PressureProfile> profiles = pressure_profiles(run);
+  std::vector<double> computed;
+  for (const PressureProfile& profile : profiles) computed.push_back(profile.depth);
+  const std::vector<double> shown = shown_depths(run, computed);
+  const auto hertz = hertz_contact(run);
+  std::vector<Series> dots;
+  for (const PressureProfile& profile : profiles) {
+    const auto found = std::find(shown.begin(), shown.end(), profile.depth);
+    if (found == shown.end()) continue;
+    const std::string colour = depth_shade(std::size_t(found - shown.begin()), shown.size());
+    if (hertz) panel.series.push_back(hertz_series(*hertz, profile.depth, colour));
+    dots.push_back(thinned(profile, colour));
+  }
+  panel.series.insert(panel.series.end(), dots.begin(), dots.end());
+  std::string caption =
+      "One colour per indentation, darker is deeper. Dots: nodes of the surface, of each of 80 "
+      "rings those of the highest and of the lowest pressure (all of them: "
+      "reference/pressure.csv).";
+  if (hertz) {
+    Series entry{"Hertz", "", {}, {}, {}, {"#555555", "(7,4)", 1.3, 0, true}};
+    entry.legend_only = true;
+    panel.series.push_back(entry);
+    caption +=
+        " Dashed: Hertz's p₀√(1 − r²/a²) with a² = Rδ, for the same rubber, radius and "
+        "indentation.";
+  }
+  return {{"pressure", 760, 430, 1, {panel}}, "Contact pressure of the continuum", caption};
+}
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,44 @@
+/// A press of the default specimen on a mesh of its own.
+#pragma once
+
+#include "fem_reference/press.h"
+#include "tests/fem_reference/shared_mesh.h"
+
+/// A press to 1 mm on one coarse mesh; change what the test is about.
+inline fingertip::fem_reference::ReferenceJob small_press() {
+  fingertip::fem_reference::ReferenceJob job;
+  job.contact = fingertip::meshes::ContactMode::frictionless;
+  job.samples = {1e-3};
+  job.refinement = 0.3;
+  job.estimate_error = false;
+  job.write_fields = false;
+  return job;
+}
+
+/// Mesh and press; collective.
+class Pressing {
+ public:
+  explicit Pressing(const fingertip::fem_reference::ReferenceJob& job,
+                    std::function<bool()> stop_requested = {})
+      : mesh_(job.refinement,
+              has_two_symmetry_planes(job) ? fingertip::meshes::Sector::quarter
+                                           : fingertip::meshes::Sector::half,
+              job.geometry),
+        press(job, mesh_.file(), std::move(stop_requested)) {}
+
+  const SharedFolder& folder() const { return mesh_.folder(); }
+
+ private:
+  SharedMesh mesh_;
+
+ public:
+  fingertip::fem_reference::ContinuumPress press;
+};
+
+/// The state at the job's last sample, reached in steps of at most `longest_step` (R - r).
+inline fingertip::fem_reference::PressState pressed(
+    const fingertip::fem_reference::ReferenceJob& job, double longest_step = 0.01) {
+  Pressing pressing(job);
+  pressing.press.set_longest_step(longest_step);
+  return pressing.press.advance(job.samples.back());
+}

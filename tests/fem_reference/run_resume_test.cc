@@ -1,0 +1,53 @@
+/// fingertip-fem interrupted: it keeps what it has, and the job can be done again.
+#include <gtest/gtest.h>
+
+#include "tests/fem_reference/fem_program.h"
+#include "tests/fem_reference/run_results.h"
+
+using fingertip::fem_reference::ReferenceJob;
+namespace fs = std::filesystem;
+
+namespace {
+
+ReferenceJob small_job() {
+  ReferenceJob job;
+  for (int i = 1; i <= 6; ++i) job.samples.push_back(2e-4 * i);
+  job.refinement = 0.3;
+  job.tolerance = 0.5;
+  job.write_fields = false;
+  return job;
+}
+
+/// Both signals ask it to stop; the same job done again in the folder ends as if undisturbed.
+TEST(Interrupted, KeepsItsSamplesAndCanBeDoneAgain) {
+  const TemporaryFolder parent;
+  const fs::path undisturbed = run_folder(parent, "undisturbed", small_job());
+  ASSERT_EQ(carry_out(undisturbed), 0);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const fs::path folder = run_folder(parent, std::to_string(signal), small_job());
+    FemProgram program(folder, {folder.string()});
+    ASSERT_TRUE(program.runs_until([&] { return samples_of(folder).size() >= 2; }));
+    program.send(signal);
+    EXPECT_EQ(program.wait(), 130);
+    EXPECT_GE(samples_of(folder).size(), 2u);
+    EXPECT_EQ(summary_of(folder).at("status"), "interrupted");
+    ASSERT_EQ(carry_out(folder), 0);
+    expect_same_results(undisturbed, folder);
+  }
+}
+
+/// What is left of another job, or damaged, is not resumed.
+TEST(Resume, PassesOverAForeignCheckpoint) {
+  const TemporaryFolder parent;
+  ReferenceJob job = small_job();
+  job.estimate_error = false;
+  const fs::path folder = run_folder(parent, "run", job);
+  for (const char* text : {R"({"job": "another", "history": []})", R"({"job": )", "[]"}) {
+    fs::create_directories(folder / "checkpoint");
+    write_text(folder / "checkpoint/run.json", text);
+    EXPECT_EQ(carry_out(folder), 0) << text;
+    EXPECT_EQ(samples_of(folder).size(), job.samples.size());
+  }
+}
+
+}  // namespace

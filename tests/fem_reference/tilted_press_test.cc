@@ -1,0 +1,155 @@
+/// Presses that break the symmetry: tilt, lateral motion, and Coulomb's friction between.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/fem_reference/pressing.h"
+
+using namespace fingertip;
+using fem_reference::PressState;
+using fem_reference::ReferenceJob;
+using meshes::ContactMode;
+
+namespace {
+
+/// Nothing left of what breaks the symmetry, yet on the half mesh.
+constexpr double hardly = 1e-13;
+
+TEST(TiltedPress, UprightHalfEqualsQuarter) {
+  for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
+    ReferenceJob job = small_press();
+    job.contact = mode;
+    const PressState quarter = pressed(job, 0.05);
+    job.tilt = hardly;
+    const PressState half = pressed(job, 0.05);
+    EXPECT_NEAR(half.sample.normal_force / quarter.sample.normal_force, 1.0, 1e-7);
+    EXPECT_NEAR(half.energy / quarter.energy, 1.0, 1e-7);
+    EXPECT_NEAR(half.sample.max_pressure / quarter.sample.max_pressure, 1.0, 1e-6);
+    EXPECT_NEAR(half.sample.lateral_force_x / half.sample.normal_force, 0.0, 1e-7);
+    EXPECT_NEAR(half.sample.torque_y / half.sample.normal_force, 0.0, 1e-9);
+    EXPECT_NEAR(half.sample.contact_radius, quarter.sample.contact_radius, quarter.node_spacing);
+  }
+}
+
+TEST(TiltedPress, MirrorsWithItsTilt) {
+  for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
+    ReferenceJob job = small_press();
+    job.contact = mode;
+    job.tilt = 0.3;
+    const meshes::PressSample one = pressed(job, 0.05).sample;
+    job.tilt = -0.3;
+    const meshes::PressSample two = pressed(job, 0.05).sample;
+    EXPECT_NEAR(two.normal_force / one.normal_force, 1.0, 1e-6);
+    EXPECT_NEAR(two.torque_y / one.torque_y, -1.0, 1e-6);
+    EXPECT_NEAR(two.lateral_force_x, -one.lateral_force_x, 1e-6 * one.normal_force);
+    if (mode == ContactMode::stick) {
+      EXPECT_GT(std::abs(one.lateral_force_x), 1e-4 * one.normal_force);
+    }
+  }
+}
+
+/// The moment about the endpoint is the push times its arm, which ends within the contact, plus
+/// the lateral force times the height of the contact.
+TEST(TiltedPress, TorqueIsTheMomentOfTheContactForces) {
+  for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
+    ReferenceJob job = small_press();
+    job.contact = mode;
+    for (const double tilt : {0.15, 0.4}) {
+      job.tilt = tilt;
+      const meshes::PressSample sample = pressed(job, 0.05).sample;
+      const double R = job.geometry.tip_radius, l = job.geometry.rod_length;
+      const double height = R + l * std::cos(tilt);
+      const double arm =
+          (sample.torque_y - height * sample.lateral_force_x) / sample.normal_force;
+      // Centre of pressure against the plane's foot under the sphere's centre.
+      EXPECT_LT(std::abs(arm + l * std::sin(tilt)), 0.1 * sample.contact_radius);
+      EXPECT_LT(sample.torque_y, 0.0);
+    }
+  }
+}
+
+TEST(TiltedPress, RodTakesWhatThePlaneGives) {
+  ReferenceJob job = small_press();
+  job.contact = ContactMode::stick;
+  job.tilt = 0.2;
+  job.lateral = 3e-4;
+  Pressing pressing(job);
+  pressing.press.set_longest_step(0.05);
+  const meshes::PressSample sample = pressing.press.advance(1e-3).sample;
+  const meshes::Vector3 bond = pressing.press.bond_reaction();
+  EXPECT_NEAR(2 * bond.z() / sample.normal_force, 1.0, 1e-9);
+  EXPECT_NEAR(-2 * bond.x() / sample.lateral_force_x, 1.0, 1e-8);
+}
+
+TEST(LateralPress, StickDragsTheTipAlong) {
+  ReferenceJob job = small_press();
+  job.contact = ContactMode::stick;
+  job.lateral = 2e-4;
+  const meshes::PressSample one = pressed(job, 0.05).sample;
+  EXPECT_GT(one.lateral_force_x, 0.05 * one.normal_force);
+  // Its moment about the endpoint, but for the shift of the pressure.
+  const double height = job.geometry.tip_radius + job.geometry.rod_length;
+  EXPECT_NEAR(one.torque_y, height * one.lateral_force_x,
+              0.5 * one.contact_radius * one.normal_force);
+
+  job.lateral = -2e-4;
+  const meshes::PressSample two = pressed(job, 0.05).sample;
+  EXPECT_NEAR(two.lateral_force_x / one.lateral_force_x, -1.0, 1e-6);
+  EXPECT_NEAR(two.torque_y / one.torque_y, -1.0, 1e-6);
+  EXPECT_NEAR(two.normal_force / one.normal_force, 1.0, 1e-6);
+
+  // The force is linear in the motion while the same nodes touch.
+  job.lateral = 1e-4;
+  EXPECT_NEAR(pressed(job, 0.05).sample.lateral_force_x / one.lateral_force_x, 0.5, 0.02);
+}
+
+TEST(LateralPress, FrictionlessFeelsNothing) {
+  ReferenceJob job = small_press();
+  const double still = pressed(job).sample.normal_force;
+  job.lateral = 5e-4;
+  const meshes::PressSample sample = pressed(job).sample;
+  EXPECT_EQ(sample.lateral_force_x, 0.0);
+  EXPECT_NEAR(sample.normal_force / still, 1.0, 1e-7);
+  EXPECT_NEAR(sample.torque_y / sample.normal_force, 0.0, 1e-9);
+}
+
+TEST(CoulombPress, LiesBetweenFrictionlessAndStick) {
+  ReferenceJob job = small_press();
+  job.samples = {2e-3};
+  const auto force = [&](ContactMode mode, double friction) {
+    job.contact = mode;
+    job.friction = friction;
+    return pressed(job, 0.04).sample.normal_force;
+  };
+  const double none = force(ContactMode::frictionless, 0.5);
+  const double stuck = force(ContactMode::stick, 0.5);
+  double last = none;
+  for (const double friction : {0.1, 0.3}) {
+    const double now = force(ContactMode::coulomb, friction);
+    EXPECT_GT(now, last) << friction;
+    last = now;
+  }
+  EXPECT_LT(last, stuck);
+  EXPECT_NEAR(force(ContactMode::coulomb, 1e-5) / none, 1.0, 1e-5);
+  EXPECT_NEAR(force(ContactMode::coulomb, 1e3) / stuck, 1.0, 1e-6);
+}
+
+TEST(CoulombPress, GrossSlidingPullsWithFrictionTimesPush) {
+  ReferenceJob job = small_press();
+  job.contact = ContactMode::coulomb;
+  job.friction = 0.2;
+  job.lateral = 3e-3;
+  const PressState state = pressed(job, 0.02);
+  const meshes::PressSample& sample = state.sample;
+  EXPECT_LE(sample.lateral_force_x, 0.2 * sample.normal_force * (1 + 1e-9));
+  EXPECT_GT(sample.lateral_force_x, 0.198 * sample.normal_force);
+  EXPECT_EQ(state.sliding_nodes, state.active_nodes);
+
+  job.lateral = 3e-5;
+  const PressState partial = pressed(job, 0.02);
+  EXPECT_LT(partial.sample.lateral_force_x, 0.15 * partial.sample.normal_force);
+  EXPECT_GT(partial.sample.lateral_force_x, 0.0);
+  EXPECT_LT(partial.sliding_nodes, partial.active_nodes);
+}
+
+}  // namespace
