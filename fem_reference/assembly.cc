@@ -5,7 +5,7 @@
 #include <deal.II/fe/fe_tools.h>
 
 #include <algorithm>
-#include <exception>
+#include <stdexcept>
 
 #include "meshes/errors.h"
 
@@ -64,6 +64,9 @@ void for_each_element(
     } catch (const meshes::NotConverged& error) {
       failure = error.what();
       continue;
+    } catch (const std::domain_error& error) {  // of the material law, at the edge of J = 0
+      failure = error.what();
+      continue;
     }
     for (unsigned i = 0; i < order.size(); ++i) {
       for (unsigned j = 0; j < order.size(); ++j) matrix(i, j) = element.matrix(order[i], order[j]);
@@ -77,6 +80,7 @@ void for_each_element(
 void assemble(const Body& body, ElementKernel& kernel, const Vector& displacement,
               LinearSystem& system) {
   system.matrix = 0.0;
+  system.force.compress(dealii::VectorOperation::add);  // what a failed assembly left behind
   system.force = 0.0;
   const bool with_coarse = system.coarse_matrix.m() > 0;
   if (with_coarse) system.coarse_matrix = 0.0;

@@ -41,6 +41,12 @@ int carry_out(const char* folder) {
     code = bad_input;
   } catch (const std::exception& error) {
     words << error.what() << '\n';
+    // Unlike the others this one may have struck one process alone, and the rest would wait for
+    // ever.
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) {
+      std::cerr << words.str() << std::flush;
+      MPI_Abort(MPI_COMM_WORLD, failure);
+    }
   }
   if (first) std::cerr << words.str();
   // All wait for one another, because mpirun ends the rest as soon as one has left with an error.

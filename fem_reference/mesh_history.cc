@@ -78,7 +78,7 @@ void MeshHistory::add(PressState state) {
 ForceError MeshHistory::error(std::size_t index) const {
   std::vector<MeshForce> sequence;
   for (const MeshRecord& record : meshes_) {
-    if (index >= record.states.size()) continue;
+    if (index >= record.states.size() || !(record.states[index].node_spacing > 0.0)) continue;
     const PressState& state = record.states[index];
     const MeshForce next{std::pow(state.node_spacing, -3.0), state.sample.normal_force};
     const bool finer =

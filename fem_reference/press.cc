@@ -92,8 +92,8 @@ PressState ContinuumPress::advance(double indentation) {
   return state;
 }
 
-void ContinuumPress::refine(double share, const std::vector<char>& wanted) {
-  implementation_->model.refine(share, wanted);
+bool ContinuumPress::refine(double share, const std::vector<char>& wanted) {
+  return implementation_->model.refine(share, wanted);
 }
 
 void ContinuumPress::write_fields(const std::filesystem::path& file) const {

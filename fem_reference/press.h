@@ -85,7 +85,8 @@ class ContinuumPress {
   /// displacement's normal derivative across faces; each sample's normalised by its sum), and those
   /// at contact edges: all that are too coarse for the contact's radius, and of samples wanted by
   /// name every one.
-  void refine(double share, const std::vector<char>& wanted = {});
+  /// False, and the press cannot go on, when the mesh would exceed the job's `max_unknowns`.
+  bool refine(double share, const std::vector<char>& wanted = {});
 
   /// VTU of the last sample: displacement [m], stress, von Mises stress [Pa], and on the contact
   /// surface pressure and shear of the plane [Pa] and status (0 open, 1 stick, 2 slide).

@@ -188,7 +188,7 @@ void PressModel::note_indicators() {
   marks_.push_back(std::move(marks));
 }
 
-void PressModel::refine(double share, const std::vector<char>& wanted) {
+bool PressModel::refine(double share, const std::vector<char>& wanted) {
   const bool all = wanted.empty();
   dealii::Vector<float> indicators(body_->triangulation.n_active_cells());
   std::vector<char> at_edge(indicators.size(), 0);
@@ -205,7 +205,10 @@ void PressModel::refine(double share, const std::vector<char>& wanted) {
   for (const auto& cell : body_->triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && at_edge[cell->active_cell_index()]) cell->set_refine_flag();
   body_->triangulation.execute_coarsening_and_refinement();
+  body_->number(tip_supports());
+  if (double(body_->unknowns()) > job_.max_unknowns) return false;
   prepare();
+  return true;
 }
 
 }  // namespace fingertip::fem_reference

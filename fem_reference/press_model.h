@@ -30,7 +30,7 @@ class PressModel {
 
   /// Reads the sample off the present state and remembers where its error is large.
   PressState evaluate();
-  void refine(double share, const std::vector<char>& wanted);
+  bool refine(double share, const std::vector<char>& wanted);
 
   void write_fields(const std::filesystem::path& file) const;
   std::vector<SectionEdge> section() const;
@@ -48,7 +48,7 @@ class PressModel {
   /// Assembles at `displacement`; force of the system minus the plane's forces, where nothing is
   /// held, over the largest nodal force.
   double residual(const Vector& displacement);
-  void check_other_nodes() const;
+  void check_other_nodes(double indentation) const;
   void add_resultant(PressState& state) const;
   void note_indicators();
   void load_marks(std::size_t samples);

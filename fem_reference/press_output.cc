@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -75,11 +76,15 @@ class StressOutput : public dealii::DataPostprocessor<dim> {
 };
 
 /// Pressure [Pa], shear [Pa] and status of the contact nodes as the three components of a field.
-Vector contact_field(const Body& body, const PlaneContact& contact) {
+/// `area` is the lumped area of the surface on which they act.
+Vector contact_field(const Body& body, const PlaneContact& contact, const Vector& area) {
   Vector own = body.fine.vector();
   const std::vector<SurfaceNode>& nodes = contact.unknowns().nodes;
+  std::vector<long> unknowns;
+  for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[2]);
+  const std::vector<double> areas = body.fine.gather(area, unknowns);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const meshes::Vector3 traction = contact.reaction(i) / nodes[i].area;
+    const meshes::Vector3 traction = contact.reaction(i) / areas[i];
     const double values[] = {-traction.z(), traction.head<2>().norm(), double(contact.status()[i])};
     for (std::size_t c = 0; c < 3; ++c)
       if (body.fine.owned.is_element(unsigned(nodes[i].unknown[c])))
@@ -147,7 +152,9 @@ Eigen::VectorXd vector_from(const Json& json) {
 
 void PressModel::write_fields(const std::filesystem::path& file) const {
   const Vector u = body_->fine.ghosted(displacement_);
-  const Vector contact = contact_field(*body_, *contact_);
+  const bool finite = job_.strain == Strain::finite;  // then pressure is per deformed area
+  const Vector contact =
+      contact_field(*body_, *contact_, outer_area(*body_, finite ? &displacement_ : nullptr));
   const StressOutput stress(job_);
   dealii::DataOut<dim> out;
   out.add_data_vector(body_->fine.dofs, u, std::vector<std::string>(dim, "displacement"),
@@ -218,6 +225,7 @@ void PressModel::save(const std::filesystem::path& folder) const {
   std::vector<int> status;
   for (const NodeStatus node : state.status) status.push_back(int(node));
   const Json json{{"indentation", indentation_},
+                  {"samples", marks_.size()},
                   {"status", status},
                   {"anchors", state.anchors},
                   {"displacement", to_json(state.displacement)},
@@ -245,8 +253,9 @@ void PressModel::load_marks(std::size_t samples) {
 void PressModel::load(const std::filesystem::path& folder) {
   body_->triangulation.load((folder / "mesh").string());
   prepare();
-  std::ifstream in(folder / "contact.json");
-  const Json json = Json::parse(in);
+  std::ostringstream text;
+  if (first_process()) text << std::ifstream(folder / "contact.json").rdbuf();
+  const Json json = Json::parse(dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, text.str()));
   dealii::parallel::distributed::SolutionTransfer<dim, Vector> displacement_transfer(
       body_->fine.dofs);
   displacement_transfer.deserialize(displacement_);

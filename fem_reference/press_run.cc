@@ -30,8 +30,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t fewest_meshes = 3;
 /// The cells that carry this share of the squared error indicators are refined.
 constexpr double refined_share = 0.5;
-/// A finer mesh has at least this many times the unknowns; decides whether one is worth a try.
-constexpr double least_growth = 1.5;
 /// A checkpoint is written when the last one is older than this [s].
 constexpr double checkpoint_interval = 10.0;
 
@@ -53,6 +51,15 @@ std::string_view name(MeshConvergence convergence) {
     case MeshConvergence::unknown: return "unknown";
   }
   return "";
+}
+
+/// The first process's text, on all.
+std::string from_first_process(std::string text) {
+  unsigned long size = text.size();
+  MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, MPI_COMM_WORLD);
+  text.resize(size);
+  MPI_Bcast(text.data(), int(size), MPI_CHAR, 0, MPI_COMM_WORLD);
+  return text;
 }
 
 std::string percent(double fraction) {
@@ -77,8 +84,10 @@ class PressRun {
       outcome = {RunOutcome::Status::not_converged, failure.what()};
     }
     write_tables(outcome);
-    if (outcome.status == RunOutcome::Status::ok && first_process())
+    if (outcome.status == RunOutcome::Status::ok && first_process()) {
       fs::remove_all(folder_ / "checkpoint");
+      fs::remove_all(folder_ / "checkpoint.next");
+    }
     return outcome;
   }
 
@@ -91,16 +100,24 @@ class PressRun {
     ContinuumPress press(job_, folder_ / "tip.msh", stop_requested_);
     if (!resume(press)) start_mesh(press);
     for (;;) {
-      press_on(press);
+      try {
+        press_on(press);
+      } catch (const meshes::Interrupted&) {
+        save(press, true);
+        throw;
+      }
       if (!job_.estimate_error) return;
       const double worst = history_.worst_relative_error();
       if (history_.meshes().size() >= fewest_meshes && worst <= job_.tolerance) return;
-      refuse_beyond_limit(press, worst);
       progress_.report("refine", history_.meshes().size(), history_.meshes().size() + 1,
                        std::isnan(worst)
                            ? "refining the mesh"
                            : "refining the mesh: the force may be off by " + percent(worst));
-      press.refine(refined_share, samples_to_improve());
+      const std::size_t cells = press.mesh().cells;
+      if (!press.refine(refined_share, samples_to_improve())) give_up(worst);
+      if (press.mesh().cells == cells)
+        throw meshes::NotConverged(
+            "the error estimate asks for no finer element; the force error is " + percent(worst));
       start_mesh(press);
     }
   }
@@ -143,8 +160,7 @@ class PressRun {
     }
   }
 
-  void refuse_beyond_limit(const ContinuumPress& press, double worst) {
-    if (double(press.mesh().unknowns) * least_growth <= job_.max_unknowns) return;
+  [[noreturn]] void give_up(double worst) const {
     throw meshes::NotConverged(
         "the force error of " + percent(worst) + " is above the tolerance of " +
         percent(job_.tolerance) + " after " + std::to_string(history_.meshes().size()) +
@@ -171,8 +187,8 @@ class PressRun {
   }
 
   /// The folder is complete at any time: a new checkpoint replaces the old one by renaming.
-  void save(const ContinuumPress& press) {
-    int due = seconds_since(last_checkpoint_) > checkpoint_interval;
+  void save(const ContinuumPress& press, bool always = false) {
+    int due = always || seconds_since(last_checkpoint_) > checkpoint_interval;
     MPI_Bcast(&due, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (!due) return;
     const fs::path next = folder_ / "checkpoint.next", place = folder_ / "checkpoint";
@@ -184,8 +200,9 @@ class PressRun {
     press.save(next);
     MPI_Barrier(MPI_COMM_WORLD);
     if (first_process()) {
-      std::ofstream(next / "run.json")
-          << Json{{"job", text_of(folder_ / "job.json")}, {"history", history_.to_json()}};
+      meshes::write_atomically(next / "run.json", [&](std::ostream& out) {
+        out << Json{{"job", text_of(folder_ / "job.json")}, {"history", history_.to_json()}};
+      });
       fs::remove_all(place);
       fs::rename(next, place);
     }
@@ -193,13 +210,21 @@ class PressRun {
   }
 
   bool resume(ContinuumPress& press) {
-    // `checkpoint` is missing for an instant while a new one takes its place.
-    fs::path place = folder_ / "checkpoint";
-    if (!fs::exists(place / "run.json")) place = folder_ / "checkpoint.next";
-    if (!fs::exists(place / "run.json")) return false;
-    const auto json = Json::parse(std::ifstream(place / "run.json"), nullptr, false);
-    if (!json.is_object() || json.value("job", "") != text_of(folder_ / "job.json")) return false;
-    press.load(place);
+    // The first process decides: file systems of other nodes may lag behind. `checkpoint` is
+    // missing for an instant while a new one takes its place.
+    std::string place, text;
+    if (first_process())
+      for (const char* candidate : {"checkpoint", "checkpoint.next"}) {
+        const auto json = Json::parse(text_of(folder_ / candidate / "run.json"), nullptr, false);
+        if (!json.is_object() || json.value("job", "") != text_of(folder_ / "job.json")) continue;
+        place = candidate;
+        text = json.dump();
+        break;
+      }
+    place = from_first_process(place);
+    if (place.empty()) return false;
+    const auto json = Json::parse(from_first_process(text));
+    press.load(folder_ / place);
     history_ = MeshHistory::from_json(json.at("history"));
     progress_.report("press", history_.finest().states.size(), job_.samples.size(),
                      "resumed on mesh " + std::to_string(history_.meshes().size()) + " after " +

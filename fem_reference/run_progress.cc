@@ -59,7 +59,7 @@ meshes::MeshQuality write_mesh_once(const meshes::Geometry& geometry,
   if (first_process()) {
     try {
       quality = meshes::write_tip_mesh(geometry, options, file);
-    } catch (const meshes::NotConverged& error) {
+    } catch (const std::exception& error) {
       failure = error.what();
       failed = 1;
     }

@@ -64,17 +64,14 @@ class ShellManifold : public dealii::Manifold<dim> {
 }
 
 void read_mesh(const std::filesystem::path& file, Triangulation& triangulation) {
+  meshes::inspect_tip_mesh(file);  // deal.II's reader crashes on a damaged file
   std::ifstream in(file);
-  if (!in) refuse(file, "the mesh file must exist and be readable");
   dealii::GridIn<dim> reader(triangulation);
   try {
     reader.read_msh(in);
-  } catch (const dealii::Triangulation<dim>::DistortedCellList&) {
-    refuse(file, "no element of the mesh may be inverted");
   } catch (const std::exception& error) {
     refuse(file, std::string("the mesh file must be complete: ") + error.what());
   }
-  if (triangulation.n_global_active_cells() == 0) refuse(file, "the mesh must have elements");
 }
 
 }  // namespace

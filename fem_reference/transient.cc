@@ -24,7 +24,7 @@ using meshes::to_text;
 
 /// Meshes before the static error can be told, and how they grow: as in a static press.
 constexpr std::size_t fewest_meshes = 3;
-constexpr double refined_share = 0.7, least_growth = 1.5;
+constexpr double refined_share = 0.7;
 /// The transient's mesh may differ from the finest static one by this many tolerances.
 constexpr double allowed_tolerances = 2.0;
 constexpr std::size_t most_rows = 2000;
@@ -75,14 +75,13 @@ class TransientRun {
       keep_mesh(press);
       const bool estimable = static_presses_.meshes().size() >= fewest_meshes;
       if (estimable && static_presses_.worst_relative_error() <= job_.tolerance) break;
-      if (double(press.mesh().unknowns) * least_growth > job_.max_unknowns) {
+      if (!press.refine(refined_share)) {
         shortfall_ =
             "the static force may be off by more than the tolerance of " + to_text(job_.tolerance) +
             " on the finest mesh that reference.max_unknowns = " + to_text(job_.max_unknowns) +
             " allows; allow more or a larger tolerance";
         break;
       }
-      press.refine(refined_share);
     }
     choose_mesh();
   }

@@ -206,12 +206,12 @@ void name_groups(const BlockStructure& blocks, bool sleeve, Sector sector) {
   if (sector == Sector::full) return;
   const bool half = sector == Sector::half;
   if (!half)
-    group(2, blocks.surfaces_where([](const Corner& c) { return c.ring == pole || c.azimuth == 2; }),
+    group(2,
+          blocks.surfaces_where([](const Corner& c) { return c.ring == pole || c.azimuth == 2; }),
           PhysicalTag::symmetry_x, "symmetry_x");
-  group(2,
-        blocks.surfaces_where([half](const Corner& c) {
-          return c.ring == pole || c.azimuth == 0 || (half && c.azimuth == 4);
-        }),
+  group(2, blocks.surfaces_where([half](const Corner& c) {
+    return c.ring == pole || c.azimuth == 0 || (half && c.azimuth == 4);
+  }),
         PhysicalTag::symmetry_y, "symmetry_y");
 }
 
@@ -321,7 +321,28 @@ MeshQuality mesh_tip(const Geometry& geometry, const TipMeshOptions& options,
   return quality;
 }
 
+[[noreturn]] void refuse_mesh(const std::filesystem::path& file, const std::string& rule) {
+  throw InvalidInput({"mesh", file.string(), rule, "delete the file and run again"});
+}
+
 }  // namespace
+
+MeshQuality inspect_tip_mesh(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) refuse_mesh(file, "the mesh file must exist");
+  MeshQuality quality;
+  try {
+    const GmshSession session;
+    gmsh::open(file.string());
+    quality = measure();
+  } catch (const std::string& message) {  // gmsh's way of failing
+    refuse_mesh(file, "the mesh file must be complete: " + message);
+  } catch (const std::exception&) {
+    refuse_mesh(file, "the elements of the mesh must refer to its nodes");
+  }
+  if (quality.hexahedra == 0) refuse_mesh(file, "the mesh must have hexahedra");
+  if (!(quality.min_jacobian > 0.0)) refuse_mesh(file, "no element of the mesh may be inverted");
+  return quality;
+}
 
 TipMeshOptions TipMeshOptions::refined(double factor) const {
   TipMeshOptions result = *this;

@@ -45,11 +45,14 @@ struct MeshQuality {
 };
 
 /// Writes the mesh in MSH 4.1 format with the physical volume `tip` and the physical surfaces
-/// `outer`, `bond`, `end` and, for quarter and half, `symmetry_y` (the plane y = 0), for the quarter
-/// `symmetry_x` (x = 0), too.
-/// Lengths in metres. Throws InvalidInput for a broken option, NotConverged when gmsh fails or
-/// when an element has a non-positive Jacobian.
+/// `outer`, `bond`, `end` and, for quarter and half, `symmetry_y` (the plane y = 0), for the
+/// quarter `symmetry_x` (x = 0), too. Lengths in metres. Throws InvalidInput for a broken option,
+/// NotConverged when gmsh fails or when an element has a non-positive Jacobian.
 MeshQuality write_tip_mesh(const Geometry& geometry, const TipMeshOptions& options,
                            const std::filesystem::path& file);
+
+/// Reads a mesh file and measures it. Throws InvalidInput when the file is missing or damaged,
+/// holds no hexahedra, or one with a non-positive Jacobian.
+MeshQuality inspect_tip_mesh(const std::filesystem::path& file);
 
 }  // namespace fingertip::meshes

@@ -107,8 +107,8 @@ double force_inside(const Body& body, double energy_tolerance) {
 
 /// Linear displacement is in equilibrium on curved elements: no force on nodes inside, and the
 /// exact energy. The integrand of the forces, cofactors of the mapping times a shape function's
-/// gradient, is of degree 3k - 1 in each coordinate, and k + 1 Gauss points integrate degree 2k + 1:
-/// exact for k = 1 and 2, nearly so for k = 3.
+/// gradient, is of degree 3k - 1 in each coordinate, and k + 1 Gauss points integrate degree 2k +
+/// 1: exact for k = 1 and 2, nearly so for k = 3.
 TEST_P(Assembly, PassesThePatchTest) {
   EXPECT_LT(force_inside(*make_body(GetParam(), {}, false), 1e-12), GetParam() < 3 ? 1e-11 : 1e-6);
 }
@@ -128,8 +128,8 @@ double energy_of_rotation(const Body& body) {
 
 /// Where an element meets smaller ones, their curved faces differ by a little, and with them the
 /// nodes from where the constraints put them: by h^(k+1), thus in energy by h^(2k) in a layer of
-/// thickness h. For degree 3 the exponent stays at 5, because the manifold divides an arc by the mean
-/// of directions, which is not the same for an arc and for its halves.
+/// thickness h. For degree 3 the exponent stays at 5, because the manifold divides an arc by the
+/// mean of directions, which is not the same for an arc and for its halves.
 TEST_P(Assembly, HangingNodesMissRigidRotationsByLittle) {
   const auto coarse = make_body(GetParam(), {}), fine = make_body(GetParam(), {}, true, 1);
   EXPECT_TRUE(coarse->triangulation.has_hanging_nodes());

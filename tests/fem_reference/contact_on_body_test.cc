@@ -39,13 +39,14 @@ struct Tip {
     const bool serial = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
     system = std::make_unique<LinearSystem>(*body, !serial);
     assemble(*body, kernel, body->fine.vector(), *system);
-    auto unknowns = contact_unknowns(outer_nodes(*body), mode != ContactMode::frictionless, 0.8 * R);
+    auto unknowns =
+        contact_unknowns(outer_nodes(*body), mode != ContactMode::frictionless, 0.8 * R);
     solver = serial ? make_condensed_solver(*body, unknowns.unknowns)
                     : make_multigrid_solver(*body, unknowns.unknowns, 1e-12);
     solver->set_matrix(*system);
-    contact = std::make_unique<PlaneContact>(std::move(unknowns), mode,
-                                             fem_reference::PlanePose{R, 0.0}, friction,
-                                             rubber.shear_modulus);
+    contact =
+        std::make_unique<PlaneContact>(std::move(unknowns), mode, fem_reference::PlanePose{R, 0.0},
+                                       friction, rubber.shear_modulus);
   }
 
   void press(double indentation, double shift) {
@@ -103,7 +104,8 @@ void expect_coulomb(const PlaneContact& contact, const PlaneContact::State& befo
     const auto& of = contact.unknowns().of_node[i];
     for (std::size_t c = 0; c < 2; ++c) {
       if (of[c] < 0) slip[Eigen::Index(c)] = 0.0;
-      if (of[c] >= 0) slip[Eigen::Index(c)] += after.displacement[of[c]] - before.displacement[of[c]];
+      if (of[c] >= 0)
+        slip[Eigen::Index(c)] += after.displacement[of[c]] - before.displacement[of[c]];
     }
     if (after.status[i] == NodeStatus::stick) {
       EXPECT_LT(slip.norm(), 1e-10);
@@ -116,9 +118,8 @@ void expect_coulomb(const PlaneContact& contact, const PlaneContact::State& befo
 TEST(ContactOnBody, FrictionFollowsCoulombAtEveryNode) {
   const double mu = 0.25;
   Tip tip(ContactMode::coulomb, mu);
-  const double path[][2] = {{3e-4, 0},      {6e-4, 0},    {1e-3, 0},
-                            {1e-3, 2e-5},   {1e-3, 6e-5}, {1e-3, 4e-4},
-                            {1e-3, 1.5e-3}, {1e-3, 3e-3}, {1e-3, 2.9e-3}};
+  const double path[][2] = {{3e-4, 0},    {6e-4, 0},      {1e-3, 0},    {1e-3, 2e-5},  {1e-3, 6e-5},
+                            {1e-3, 4e-4}, {1e-3, 1.5e-3}, {1e-3, 3e-3}, {1e-3, 2.9e-3}};
   int sliding = 0, sticking = 0;
   for (const auto& [indentation, shift] : path) {
     SCOPED_TRACE(shift);

@@ -78,7 +78,8 @@ class CurvedElement {
     for (std::size_t a = 0; a < nodes_.size(); ++a) {
       const Eigen::Vector3d x = nodes_[a] / 0.01;
       u.segment<3>(3 * Index(a)) =
-          0.01 * Eigen::Vector3d(0.2 * x.y() * x.z() + 0.1 * x.x(), 0.15 * x.x() * x.x() - 0.1 * x.z(),
+          0.01 * Eigen::Vector3d(0.2 * x.y() * x.z() + 0.1 * x.x(),
+                                 0.15 * x.x() * x.x() - 0.1 * x.z(),
                                  0.2 * x.x() * x.y() - 0.12 * x.z() * x.z());
     }
     return u;
@@ -114,8 +115,7 @@ template <class Check>
 void for_every_hyperelastic_kernel(Check check) {
   for (const StrainEnergy law : laws)
     for (const Volumetric volumetric : volumetrics) {
-      const std::string what =
-          std::string(name(law)) + " " + std::string(name(volumetric));
+      const std::string what = std::string(name(law)) + " " + std::string(name(volumetric));
       SCOPED_TRACE(what);
       HyperelasticKernel kernel(HyperelasticLaw(law, meshes::Rubber{}), volumetric);
       check(kernel);
@@ -209,7 +209,8 @@ TEST_P(Element, HyperelasticEnergyOfAnAffineDeformationIsExact) {
     EXPECT_NEAR(b.energy / exact, 1.0, 1e-12) << name(law);
     EXPECT_LT((a.force - b.force).norm(), 1e-11 * a.force.norm());
     EXPECT_NEAR(a.min_jacobian, F.determinant(), 1e-12);
-    const Eigen::VectorXd stretch = element.affine(Eigen::Vector3d(1, 2, -1).asDiagonal(), Eigen::Vector3d::Zero());
+    const Eigen::VectorXd stretch =
+        element.affine(Eigen::Vector3d(1, 2, -1).asDiagonal(), Eigen::Vector3d::Zero());
     EXPECT_LT(((a.matrix - b.matrix) * stretch).norm(), 1e-10 * (a.matrix * stretch).norm());
   }
 }
@@ -225,7 +226,8 @@ TEST_P(Element, ForceIsTheEnergysDerivative) {
       const double slope = (integrate(kernel, element, u + h * direction).energy -
                             integrate(kernel, element, u - h * direction).energy) /
                            (2 * h);
-      EXPECT_NEAR(slope, system.force.dot(direction), 1e-6 * system.force.norm() * direction.norm());
+      EXPECT_NEAR(slope, system.force.dot(direction),
+                  1e-6 * system.force.norm() * direction.norm());
     }
   });
 }
@@ -247,7 +249,8 @@ TEST_P(Element, TangentIsTheForcesDerivative) {
 }
 
 /// One small strain for all laws. Law C projects the dilatation of K, not of lambda, so that with
-/// H the stiffness of Hooke's law its own is H_projected + 2G/(3 lambda) (H_projected - H_pointwise).
+/// H the stiffness of Hooke's law its own is H_projected + 2G/(3 lambda) (H_projected -
+/// H_pointwise).
 TEST_P(Element, AtRestEveryLawIsHookes) {
   const meshes::Rubber rubber;
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(element.unknowns());

@@ -1,5 +1,5 @@
-/// The program fingertip-fem as its users start it: in a folder, under mpirun if wanted, and stopped
-/// by signals. Needs FINGERTIP_FEM_PROGRAM and MPIRUN as macros.
+/// The program fingertip-fem as its users start it: in a folder, under mpirun if wanted, and
+/// stopped by signals. Needs FINGERTIP_FEM_PROGRAM and MPIRUN as macros.
 #pragma once
 
 #include <fcntl.h>
@@ -18,7 +18,8 @@
 #include "fem_reference/job.h"
 #include "tests/temporary_folder.h"
 
-/// One run. A process that waits for another yields its core, which tests share with others. Standard output goes to `folder`.out, standard error to `folder`.err.
+/// One run. A process that waits for another yields its core, which tests share with others.
+/// Standard output goes to `folder`.out, standard error to `folder`.err.
 class FemProgram {
  public:
   /// Starts it with these arguments; `ranks` > 1 under mpirun.
@@ -26,8 +27,16 @@ class FemProgram {
       : output_(folder.string() + ".out"), errors_(folder.string() + ".err") {
     std::vector<std::string> words;
     if (ranks > 1)
-      words = {MPIRUN, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none",
-               "--mca", "mpi_yield_when_idle", "1", "-n", std::to_string(ranks)};
+      words = {MPIRUN,
+               "--allow-run-as-root",
+               "--oversubscribe",
+               "--bind-to",
+               "none",
+               "--mca",
+               "mpi_yield_when_idle",
+               "1",
+               "-n",
+               std::to_string(ranks)};
     words.emplace_back(FINGERTIP_FEM_PROGRAM);
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> raw;

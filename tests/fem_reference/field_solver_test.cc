@@ -34,7 +34,7 @@ struct Problem {
   Vector load;
 
   Problem(int degree, bool hanging) {
-    const SharedMesh mesh(degree == 1 ? 0.6 : degree == 2 ? 0.4 : 0.3);
+    const SharedMesh mesh(degree == 1 ? 0.6 : degree == 2 ? 0.4 : 0.25);
     body = fem_reference::read_tip(MPI_COMM_WORLD, mesh.file(), degree, 0.0);
     if (hanging) refine_pole();
     body->number(fem_reference::tip_supports());
@@ -76,7 +76,8 @@ Request request(const ContactUnknowns& contact, double radius, bool stick) {
       if (k < 0) continue;
       const bool hold = c == 2 || stick;
       result.held[std::size_t(k)] = hold;
-      result.values[k] = c == 2 ? -1e-3 + 1e-4 * std::sin(1e3 * w.x()) : 1e-4 * std::cos(7e2 * w.y());
+      result.values[k] =
+          c == 2 ? -1e-3 + 1e-4 * std::sin(1e3 * w.x()) : 1e-4 * std::cos(7e2 * w.y());
       if (!hold) result.loads[k] = 1e-4 * std::cos(1e3 * w.x());
     }
   }
@@ -189,8 +190,8 @@ class HollowSphere {
   /// sigma_rr = 3 K C + 4 G C r³/rho³, pushing on a quarter of the disc π R².
   double force_error() const {
     const double R = geometry_.tip_radius, ratio = geometry_.rod_radius / R;
-    const double stress = 3 * rubber_.bulk_modulus() * C +
-                          4 * rubber_.shear_modulus * C * std::pow(ratio, 3);
+    const double stress =
+        3 * rubber_.bulk_modulus() * C + 4 * rubber_.shear_modulus * C * std::pow(ratio, 3);
     return std::abs(force_ / (stress * std::numbers::pi * R * R / 4) - 1);
   }
 

@@ -40,6 +40,21 @@ TEST(FinitePress, BecomesLinearForSmallDepths) {
   }
 }
 
+/// A micrometre: one node touches, its force near the round-off of the stresses.
+TEST(FinitePress, ReachesTinyDepths) {
+  ReferenceJob job = finite_press();
+  job.samples = {1e-6};
+  const PressState finite = pressed(job, 0.05);
+  job.strain = Strain::linear;
+  const PressState linear = pressed(job, 0.05);
+  EXPECT_EQ(linear.active_nodes, 1);
+  EXPECT_NEAR(finite.sample.normal_force / linear.sample.normal_force, 1.0, 1e-3);
+  for (const PressState& state : {finite, linear}) {
+    EXPECT_GT(state.node_spacing, 1e-5);
+    EXPECT_LT(state.node_spacing, 1e-3);
+  }
+}
+
 /// An axisymmetric program outside this repository has law A +1.5 % and +8 % above small strain.
 TEST(FinitePress, LawAStiffensAsItShould) {
   ReferenceJob job = small_press();
@@ -87,25 +102,25 @@ TEST(FinitePress, FrictionlessForceDoesNotDependOnTheSteps) {
 /// the sphere's centre, at the deformed positions.
 TEST(FinitePress, TorqueIsTheEnergysDerivativeByTheTilt) {
   ReferenceJob job = finite_press();
-  job.samples = {8e-4};
+  job.samples = {5e-4};
   const double tilt = 0.3, h = 0.02;
   const auto at = [&](double angle) {
     job.tilt = angle;
-    return pressed(job, 0.08);
+    return pressed(job, 0.1);
   };
   const PressState centre = at(tilt);
   const double slope = (at(tilt + h).energy - at(tilt - h).energy) / (2 * h);
-  const double about_centre =
-      centre.sample.torque_y +
-      job.geometry.rod_length * std::sin(tilt) * centre.sample.normal_force;
-  EXPECT_NEAR(slope, about_centre, 0.01 * centre.sample.contact_radius * centre.sample.normal_force);
+  const double about_centre = centre.sample.torque_y +
+                              job.geometry.rod_length * std::sin(tilt) * centre.sample.normal_force;
+  EXPECT_NEAR(slope, about_centre,
+              0.01 * centre.sample.contact_radius * centre.sample.normal_force);
   EXPECT_EQ(centre.sample.lateral_force_x, 0.0);
 }
 
 TEST(FinitePress, FrictionHoldsTheTip) {
   ReferenceJob job = finite_press();
-  job.samples = {6e-4};
-  job.lateral = 1e-4;
+  job.samples = {4e-4};
+  job.lateral = 7e-5;
   job.contact = ContactMode::stick;
   const PressState stick = pressed(job, 0.05);
   EXPECT_GT(stick.sample.lateral_force_x, 0.05 * stick.sample.normal_force);

@@ -101,8 +101,8 @@ TEST(ReferenceJob, EveryNameSurvivesTheFile) {
   survives(&ReferenceJob::law, StrainEnergy::law_b, StrainEnergy::law_c, StrainEnergy::law_a);
   survives(&ReferenceJob::solver, LinearSolver::condensed, LinearSolver::multigrid,
            LinearSolver::automatic);
-  survives(&ReferenceJob::contact, meshes::ContactMode::frictionless,
-           meshes::ContactMode::coulomb, meshes::ContactMode::stick);
+  survives(&ReferenceJob::contact, meshes::ContactMode::frictionless, meshes::ContactMode::coulomb,
+           meshes::ContactMode::stick);
   survives(&ReferenceJob::volumetric, Volumetric::pointwise, Volumetric::projected);
 }
 

@@ -187,7 +187,8 @@ TEST(PlaneContact, AnchorsMoveWithThePlane) {
 
 /// A push, never a pull: drawn back, the plane lets go and the body is at rest again.
 TEST(PlaneContact, LetsGoWhenPulled) {
-  for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick, ContactMode::coulomb}) {
+  for (const ContactMode mode :
+       {ContactMode::frictionless, ContactMode::stick, ContactMode::coulomb}) {
     DenseBody body(dragging_springs());
     PlaneContact contact(nodes_at({1.0, 0.9}, true), mode, start, 0.5, 0.2);
     press(contact, body, 0.2);
@@ -288,8 +289,7 @@ TEST(Coulomb, ForceOpposesTheSlip) {
   press(contact, body, 0.1, 0.3);
   ASSERT_EQ(contact.status()[0], NodeStatus::slide);
   const Eigen::Vector2d force = contact.reaction(0).head<2>();
-  const Eigen::Vector2d slip =
-      compliance.topLeftCorner<2, 2>() * force - Eigen::Vector2d(0.3, 0.0);
+  const Eigen::Vector2d slip = compliance.topLeftCorner<2, 2>() * force - Eigen::Vector2d(0.3, 0.0);
   EXPECT_NEAR(force.norm(), limit, 1e-9);
   EXPECT_NEAR((force + limit * slip.normalized()).norm(), 0.0, 1e-7);
   EXPECT_LT(force.y(), -0.05 * limit);

@@ -29,9 +29,8 @@ double force_of(const ReferenceJob& job, double longest_step = 0.01) {
 }
 
 /// The force [gf] that two independent programs give; tests/fem_reference/data has all of them.
-constexpr std::pair<double, double> table[] = {
-    {1e-4, 0.07573}, {3e-4, 0.44099}, {5e-4, 1.02296}, {1e-3, 3.25628}, {2e-3, 10.22344},
-    {3e-3, 19.42179}};
+constexpr std::pair<double, double> table[] = {{1e-4, 0.07573}, {3e-4, 0.44099},  {5e-4, 1.02296},
+                                               {1e-3, 3.25628}, {2e-3, 10.22344}, {3e-3, 19.42179}};
 
 TEST(ContinuumPress, FrictionlessForceIsThatOfTheTable) {
   ReferenceJob job = small_press();

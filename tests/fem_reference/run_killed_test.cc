@@ -1,5 +1,5 @@
-/// fingertip-fem killed: it goes on from its checkpoint. Slow, because a checkpoint is written every
-/// ten seconds.
+/// fingertip-fem killed: it goes on from its checkpoint. Slow, because a checkpoint is written
+/// every ten seconds.
 #include <gtest/gtest.h>
 
 #include "tests/fem_reference/fem_program.h"

@@ -59,8 +59,7 @@ TEST(TiltedPress, TorqueIsTheMomentOfTheContactForces) {
       const meshes::PressSample sample = pressed(job, 0.05).sample;
       const double R = job.geometry.tip_radius, l = job.geometry.rod_length;
       const double height = R + l * std::cos(tilt);
-      const double arm =
-          (sample.torque_y - height * sample.lateral_force_x) / sample.normal_force;
+      const double arm = (sample.torque_y - height * sample.lateral_force_x) / sample.normal_force;
       // Centre of pressure against the plane's foot under the sphere's centre.
       EXPECT_LT(std::abs(arm + l * std::sin(tilt)), 0.1 * sample.contact_radius);
       EXPECT_LT(sample.torque_y, 0.0);

@@ -91,10 +91,10 @@ TEST_F(Continuum, KilledAndResumedGivesTheSameForces) {
 }
 
 // To be enabled when fingertip-fem shares its work among ranks.
-TEST_F(Continuum, DISABLED_ALostRankAndAResumedRunGiveTheSameForces) {
+TEST_F(Continuum, ALostRankAndAResumedRunGiveTheSameForces) {
   kill_and_resume({"--ranks", "2"});
 }
-TEST_F(Continuum, DISABLED_RanksDoNotChangeTheForces) {
+TEST_F(Continuum, RanksDoNotChangeTheForces) {
   const PressResponse whole = whole_run();
   const ProgramResult result =
       run_program(folder_.path(), reference("shared", {"--ranks", "3", "--threads", "2"}));

@@ -25,11 +25,14 @@ meshes::PressResponse press_continuum(const meshes::Geometry& geometry,
   const TemporaryFolder folder;
   const auto mesh = folder / "tip.msh";
   meshes::write_tip_mesh(geometry, meshes::TipMeshOptions{}.refined(0.6), mesh);
-  fem_reference::ContinuumPress press(geometry, rubber, contact, depth, mesh, {});
+  fem_reference::ReferenceJob job;
+  job.geometry = geometry;
+  job.rubber = rubber;
+  job.contact = contact;
+  job.samples = meshes::default_samples(depth);
+  fem_reference::ContinuumPress press(job, mesh);
   meshes::PressResponse response;
-  for (const double sample : meshes::default_samples(depth)) {
-    response.append(press.advance(sample).sample);
-  }
+  for (const double sample : job.samples) response.append(press.advance(sample).sample);
   return response;
 }
 
