@@ -137,7 +137,7 @@ void PressModel::add_resultant(PressState& state) const {
   sample.lateral_force_y = sample.torque_x = sample.torque_z = 0.0;
   if (state.contact.empty()) return;
   sample.max_pressure = std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
-  state.node_spacing = spacing_around(nodes, edge);
+  state.node_spacing = spacing_around(outer_nodes_, edge);
   if (quarter) {
     sample.contact_radius = contact_edge(state.contact, state.node_spacing);
   } else {

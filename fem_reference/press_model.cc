@@ -26,6 +26,8 @@ constexpr int most_newton_iterations = 25;
 constexpr int most_backtracks = 6;
 /// Equilibrium: out-of-balance forces over the contact forces.
 constexpr double balanced = 1e-9;
+/// Contact forces below this many G R² are not resolved to the full tolerance.
+constexpr double least_force = 1e-4;
 
 std::unique_ptr<ElementKernel> make_kernel(const ReferenceJob& job) {
   if (job.strain == Strain::linear)
@@ -137,8 +139,10 @@ double PressModel::residual(const Vector& displacement) {
         out_of_balance.begin()[body_->fine.owned.index_within_set(unsigned(unknowns[i]))];
     entry = held[i] ? 0.0 : entry - contact_->reactions()[Eigen::Index(i)];
   }
-  const double scale = contact_->reactions().norm();
-  return scale > 0.0 ? out_of_balance.l2_norm() / scale : 0.0;
+  // Round-off of the stresses, some 1e-16 G R² a node, must stay below the tolerance.
+  const double floor =
+      least_force * job_.rubber.shear_modulus * job_.geometry.tip_radius * job_.geometry.tip_radius;
+  return out_of_balance.l2_norm() / std::max(contact_->reactions().norm(), floor);
 }
 
 void PressModel::newton_step(const PlanePose& target, PressState& effort) {

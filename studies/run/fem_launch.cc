@@ -55,6 +55,8 @@ std::vector<std::string> mpirun_words(int ranks) {
   // Containers often forbid reading another process's memory, on which Open MPI relies by default
   // (its issue 4948).
   words.insert(words.end(), {"--mca", "btl_vader_single_copy_mechanism", "none"});
+  // Waiting ranks otherwise spin; on a machine with other work that made a run five times as long.
+  words.insert(words.end(), {"--mca", "mpi_yield_when_idle", "1"});
   return words;
 }
 
