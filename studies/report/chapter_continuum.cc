@@ -111,7 +111,8 @@ std::string method(const RunData& run, const std::vector<Sample>& samples) {
                     "against the two meshes before it";
   std::string text = fmt::format(
       "The press was repeated on {} meshes, each with smaller elements where the error indicators "
-      "of the one before were largest. {}, scaled as if the error fell with h to the power 1.5 (a "
+      "of the one before were largest. {}, scaled as if the error fell with the power "
+      "1.5 of the node spacing at that depth's contact edge (a "
       "cautious relative of Roache's grid convergence index). In simulated sequences this rule "
       "reached the true error in about 19 of 20 cases.",
       meshes, rule);
