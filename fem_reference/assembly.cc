@@ -1,7 +1,6 @@
 #include "fem_reference/assembly.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_tools.h>
 
 #include <algorithm>
@@ -115,21 +114,22 @@ void assemble(const Body& body, ElementKernel& kernel, const Vector& displacemen
   system.energy = dealii::Utilities::MPI::sum(system.energy, body.fine.communicator);
 }
 
-Vector unconstrained_force(const Body& body, ElementKernel& kernel, const Vector& displacement) {
-  // What acts on a hanging node acts on the nodes it follows.
-  dealii::AffineConstraints<double> hanging(body.fine.relevant);
-  dealii::DoFTools::make_hanging_node_constraints(body.fine.dofs, hanging);
-  hanging.close();
+Vector condensed_force(const Body& body, ElementKernel& kernel, const Vector& displacement,
+                       const dealii::AffineConstraints<double>& constraints) {
   Vector result = body.fine.vector();
   std::vector<global_dof_index> indices(body.fine.element.n_dofs_per_cell());
   for_each_element(body, kernel, displacement,
                    [&](const CellIterator& cell, const dealii::FullMatrix<double>&,
                        const dealii::Vector<double>& force, const ElementSystem&) {
                      cell->get_dof_indices(indices);
-                     hanging.distribute_local_to_global(force, indices, result);
+                     constraints.distribute_local_to_global(force, indices, result);
                    });
   result.compress(dealii::VectorOperation::add);
   return result;
+}
+
+Vector unconstrained_force(const Body& body, ElementKernel& kernel, const Vector& displacement) {
+  return condensed_force(body, kernel, displacement, body.fine.hanging_nodes());
 }
 
 }  // namespace fingertip::fem_reference

@@ -23,6 +23,10 @@ struct LinearSystem {
 void assemble(const Body& body, ElementKernel& kernel, const Vector& displacement,
               LinearSystem& system);
 
+/// Internal force of the elements at `displacement`, passed through `constraints` [N].
+Vector condensed_force(const Body& body, ElementKernel& kernel, const Vector& displacement,
+                       const dealii::AffineConstraints<double>& constraints);
+
 /// Internal force of all unknowns, fixed ones included: what boundaries exert [N]. Hanging nodes
 /// hand their share on.
 Vector unconstrained_force(const Body& body, ElementKernel& kernel, const Vector& displacement);

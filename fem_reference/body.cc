@@ -39,6 +39,13 @@ SparseMatrix Space::matrix() const {
   return result;
 }
 
+dealii::AffineConstraints<double> Space::hanging_nodes() const {
+  dealii::AffineConstraints<double> result(relevant);
+  dealii::DoFTools::make_hanging_node_constraints(dofs, result);
+  result.close();
+  return result;
+}
+
 Vector Space::ghosted(const Vector& owned_values) const {
   Vector complete = owned_values;
   constraints.distribute(complete);
@@ -94,6 +101,20 @@ double area(const Body& body, dealii::types::boundary_id boundary) {
     }
   }
   return dealii::Utilities::MPI::sum(sum, body.fine.communicator);
+}
+
+meshes::Vector3 resultant(const Body& body, const Vector& forces,
+                          dealii::types::boundary_id boundary) {
+  meshes::Vector3 sum = meshes::Vector3::Zero();
+  for (unsigned c = 0; c < dim; ++c) {
+    dealii::ComponentMask component(dim, false);
+    component.set(c, true);
+    for (const auto i :
+         dealii::DoFTools::extract_boundary_dofs(body.fine.dofs, component, {boundary}))
+      if (body.fine.owned.is_element(i)) sum[c] += forces[i];
+    sum[c] = dealii::Utilities::MPI::sum(sum[c], body.fine.communicator);
+  }
+  return sum;
 }
 
 }  // namespace fingertip::fem_reference

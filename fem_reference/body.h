@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "meshes/geometry.h"
+
 namespace fingertip::fem_reference {
 
 inline constexpr int dim = 3;
@@ -47,6 +49,9 @@ struct Space {
   /// Entries of some unknowns, in their order, on every process.
   std::vector<double> gather(const Vector& owned_values, const std::vector<long>& unknowns) const;
 
+  /// What ties hanging nodes to the nodes they follow, without anything that holds the body.
+  dealii::AffineConstraints<double> hanging_nodes() const;
+
   MPI_Comm communicator;
   dealii::FESystem<dim> element;
   dealii::DoFHandler<dim> dofs;
@@ -76,5 +81,9 @@ class Body {
 /// Volume of the body [m³] and area of one boundary [m²], of the curved mesh by Gauss quadrature.
 double volume(const Body& body);
 double area(const Body& body, dealii::types::boundary_id boundary);
+
+/// Sum of nodal forces (owned entries) over the nodes of one boundary [N], on every process.
+meshes::Vector3 resultant(const Body& body, const Vector& forces,
+                          dealii::types::boundary_id boundary);
 
 }  // namespace fingertip::fem_reference

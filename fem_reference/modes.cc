@@ -11,6 +11,7 @@
 #include <ostream>
 
 #include "fem_reference/force_error.h"
+#include "fem_reference/run_files.h"
 #include "fem_reference/run_progress.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
@@ -62,14 +63,7 @@ class ModesRun {
       : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
 
   RunOutcome carry_out() {
-    RunOutcome outcome;
-    try {
-      compute();
-    } catch (const meshes::Interrupted& stop) {
-      outcome = {RunOutcome::Status::interrupted, stop.what()};
-    } catch (const meshes::NotConverged& failure) {
-      outcome = {RunOutcome::Status::not_converged, failure.what()};
-    }
+    const RunOutcome outcome = outcome_of([&] { compute(); });
     write_tables(outcome);
     return outcome;
   }
@@ -108,7 +102,7 @@ class ModesRun {
     ModesOnMesh found;
     found.mesh = tip.mesh();
     for (std::size_t i = 0; i < symmetry_classes.size(); ++i) {
-      stop_if_asked();
+      stop_if_asked(stop_requested_);
       progress_.report("modes", i, symmetry_classes.size(),
                        "mesh " + std::to_string(number) + ": " +
                            std::to_string(found.mesh.unknowns) + " unknowns, symmetry " +
@@ -123,13 +117,6 @@ class ModesRun {
     write_tables({RunOutcome::Status::interrupted, ""});
     if (job_.write_fields && (!job_.estimate_error || meshes_.size() >= fewest_meshes))
       write_fields(tip);
-  }
-
-  void stop_if_asked() const {
-    const int own = stop_requested_ && stop_requested_() ? 1 : 0;
-    int any = 0;
-    MPI_Allreduce(&own, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-    if (any != 0) throw meshes::Interrupted("stopped on request");
   }
 
   /// Of all classes on the finest mesh.
@@ -168,19 +155,15 @@ class ModesRun {
     if (first_process()) fs::create_directories(folder_ / "fields");
     MPI_Barrier(MPI_COMM_WORLD);
     for (std::size_t i = 0; i < modes.size(); ++i) {
-      stop_if_asked();
+      stop_if_asked(stop_requested_);
       tip.write_fields(modes[i], folder_ / "fields" / field_name(i));
       progress_.report("fields", i + 1, modes.size(), field_name(i));
     }
     if (!first_process()) return;
-    meshes::write_atomically(folder_ / "fields" / "modes.pvd", [&](std::ostream& out) {
-      out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
-             "  <Collection>\n";
-      for (std::size_t i = 0; i < modes.size(); ++i)
-        out << "    <DataSet timestep=\"" << i + 1 << "\" part=\"0\" file=\"" << field_name(i)
-            << "\"/>\n";
-      out << "  </Collection>\n</VTKFile>\n";
-    });
+    std::vector<std::pair<std::string, std::string>> series;
+    for (std::size_t i = 0; i < modes.size(); ++i)
+      series.emplace_back(std::to_string(i + 1), field_name(i));
+    write_series(folder_ / "fields" / "modes.pvd", series);
   }
 
   void write_tables(const RunOutcome& outcome) const {

@@ -1,7 +1,5 @@
 #include "fem_reference/press.h"
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "fem_reference/press_model.h"
+#include "fem_reference/run_progress.h"
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {
@@ -70,9 +69,7 @@ PressState ContinuumPress::advance(double indentation) {
   PressState effort;
   double limit = 1.0;  // shrinks after a failure, recovers after successes
   while (self.model.indentation() < indentation) {
-    const int stop = self.stop_requested && self.stop_requested();
-    if (dealii::Utilities::MPI::max(stop, MPI_COMM_WORLD))
-      throw meshes::Interrupted("stopped on request");
+    stop_if_asked(self.stop_requested);
     try {
       self.model.step(self.next_step(indentation, limit), effort);
       ++effort.steps;

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "fem_reference/solver_choice.h"
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {
@@ -16,9 +17,6 @@ namespace {
 
 using meshes::ContactMode;
 
-/// Above this many unknowns the factor outgrows a desktop's memory (4.4 GB peak at 240 000), and
-/// multigrid takes over.
-constexpr unsigned largest_condensed = 300000;
 /// Candidates for contact reach this many depths below the pole, because thin rubber rises beside
 /// the contact before it meets the plane, the more the larger the strain.
 constexpr double linear_bulge = 1.2, finite_bulge = 2.0;
@@ -35,41 +33,18 @@ std::unique_ptr<ElementKernel> make_kernel(const ReferenceJob& job) {
   return std::make_unique<HyperelasticKernel>(HyperelasticLaw(job.law, job.rubber), job.volumetric);
 }
 
-std::size_t processes() {
-  return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-}
-
-/// Component (0, 1, 2) of every owned unknown.
-std::vector<unsigned char> components_of(const Space& space) {
-  std::vector<unsigned char> result(space.owned.n_elements());
-  for (unsigned c = 0; c < dim; ++c) {
-    std::vector<bool> mask(dim, false);
-    mask[c] = true;
-    for (const auto i : dealii::DoFTools::extract_dofs(space.dofs, dealii::ComponentMask(mask)))
-      if (space.owned.is_element(i))
-        result[space.owned.index_within_set(i)] = static_cast<unsigned char>(c);
-  }
-  return result;
-}
-
 }  // namespace
 
 PressModel::PressModel(const ReferenceJob& job, const std::filesystem::path& mesh_file)
     : job_(job),
       body_(read_tip(MPI_COMM_WORLD, mesh_file, job.degree, job.tilt)),
       kernel_(make_kernel(job)) {
+  body_->number(tip_supports());
   prepare();
 }
 
-LinearSolver PressModel::choose_solver() const {
-  if (job_.solver != LinearSolver::automatic) return job_.solver;
-  return processes() == 1 && body_->unknowns() <= largest_condensed ? LinearSolver::condensed
-                                                                    : LinearSolver::multigrid;
-}
-
 void PressModel::prepare() {
-  body_->number(tip_supports());
-  solver_kind_ = choose_solver();
+  solver_kind_ = choose_solver(job_.solver, double(body_->unknowns()));
   outer_nodes_ = outer_nodes(*body_);
   const double bulge = job_.strain == Strain::finite ? finite_bulge : linear_bulge;
   ContactUnknowns candidates =
@@ -207,21 +182,8 @@ void PressModel::check_other_nodes(double indentation) const {
 }
 
 meshes::Vector3 PressModel::bond_reaction() const {
-  const Vector force = unconstrained_force(*body_, *kernel_, displacement_);
-  const dealii::IndexSet bond = dealii::DoFTools::extract_boundary_dofs(
-      body_->fine.dofs, dealii::ComponentMask(dim, true),
-      {dealii::types::boundary_id(meshes::PhysicalTag::bond)});
-  const std::vector<dealii::types::global_dof_index> all = [&] {
-    std::vector<dealii::types::global_dof_index> own;
-    for (const auto i : bond)
-      if (body_->fine.owned.is_element(i)) own.push_back(i);
-    return own;
-  }();
-  const std::vector<unsigned char> component = components_of(body_->fine);
-  meshes::Vector3 sum = meshes::Vector3::Zero();
-  for (const auto i : all) sum[component[body_->fine.owned.index_within_set(i)]] += force[i];
-  for (double& entry : sum) entry = dealii::Utilities::MPI::sum(entry, MPI_COMM_WORLD);
-  return sum;
+  return resultant(*body_, unconstrained_force(*body_, *kernel_, displacement_),
+                   dealii::types::boundary_id(meshes::PhysicalTag::bond));
 }
 
 }  // namespace fingertip::fem_reference

@@ -39,9 +39,8 @@ class PressModel {
   void load(const std::filesystem::path& folder);
 
  private:
-  /// Numbers the mesh's unknowns, chooses the solver, and puts the tip at rest under the plane.
+  /// Chooses the solver of the numbered mesh, and puts the tip at rest under the plane.
   void prepare();
-  LinearSolver choose_solver() const;
   PlanePose pose(double indentation) const;
   void linear_step(const PlanePose& target, PressState& effort);
   void newton_step(const PlanePose& target, PressState& effort);

@@ -18,6 +18,7 @@
 
 #include "fem_reference/press_model.h"
 #include "fem_reference/run_progress.h"
+#include "fem_reference/vtu_output.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 
@@ -91,10 +92,7 @@ Vector contact_field(const Body& body, const PlaneContact& contact, const Vector
         own[unsigned(nodes[i].unknown[c])] = values[c];
   }
   own.compress(dealii::VectorOperation::insert);
-  dealii::AffineConstraints<double> hanging(body.fine.relevant);
-  dealii::DoFTools::make_hanging_node_constraints(body.fine.dofs, hanging);
-  hanging.close();
-  hanging.distribute(own);
+  body.fine.hanging_nodes().distribute(own);
   Vector result(body.fine.owned, body.fine.relevant, body.fine.communicator);
   result = own;
   return result;
@@ -165,13 +163,7 @@ void PressModel::write_fields(const std::filesystem::path& file) const {
                       std::vector<DataComponentInterpretation>(dim, component_is_scalar));
   out.build_patches(body_->mapping, unsigned(job_.degree),
                     dealii::DataOut<dim>::curved_inner_cells);
-  dealii::DataOutBase::VtkFlags flags;
-  flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
-  out.set_flags(flags);
-  const std::filesystem::path partial = file.string() + ".partial";
-  out.write_vtu_in_parallel(partial.string(), MPI_COMM_WORLD);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (first_process()) std::filesystem::rename(partial, file);
+  write_vtu(out, file);
 }
 
 std::vector<SectionEdge> PressModel::section() const {
@@ -252,6 +244,7 @@ void PressModel::load_marks(std::size_t samples) {
 
 void PressModel::load(const std::filesystem::path& folder) {
   body_->triangulation.load((folder / "mesh").string());
+  body_->number(tip_supports());
   prepare();
   std::ostringstream text;
   if (first_process()) text << std::ifstream(folder / "contact.json").rdbuf();

@@ -75,14 +75,7 @@ class PressRun {
       : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
 
   RunOutcome carry_out() {
-    RunOutcome outcome;
-    try {
-      compute();
-    } catch (const meshes::Interrupted& stop) {
-      outcome = {RunOutcome::Status::interrupted, stop.what()};
-    } catch (const meshes::NotConverged& failure) {
-      outcome = {RunOutcome::Status::not_converged, failure.what()};
-    }
+    const RunOutcome outcome = outcome_of([&] { compute(); });
     write_tables(outcome);
     if (outcome.status == RunOutcome::Status::ok && first_process()) {
       fs::remove_all(folder_ / "checkpoint");

@@ -56,18 +56,25 @@ std::string field_name(std::size_t index) {
   return name;
 }
 
-void write_field_series(const std::vector<PressState>& states, bool by_time,
-                        const std::filesystem::path& folder) {
-  meshes::write_atomically(folder / "fields" / "press.pvd", [&](std::ostream& out) {
+void write_series(const std::filesystem::path& file,
+                  const std::vector<std::pair<std::string, std::string>>& entries) {
+  meshes::write_atomically(file, [&](std::ostream& out) {
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
            "  <Collection>\n";
-    for (std::size_t i = 0; i < states.size(); ++i)
-      if (std::filesystem::exists(folder / "fields" / field_name(i)))
-        out << "    <DataSet timestep=\""
-            << to_text(by_time ? states[i].sample.time : states[i].sample.indentation)
-            << "\" part=\"0\" file=\"" << field_name(i) << "\"/>\n";
+    for (const auto& [time, name] : entries)
+      out << "    <DataSet timestep=\"" << time << "\" part=\"0\" file=\"" << name << "\"/>\n";
     out << "  </Collection>\n</VTKFile>\n";
   });
+}
+
+void write_field_series(const std::vector<PressState>& states, bool by_time,
+                        const std::filesystem::path& folder) {
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (std::filesystem::exists(folder / "fields" / field_name(i)))
+      entries.emplace_back(to_text(by_time ? states[i].sample.time : states[i].sample.indentation),
+                           field_name(i));
+  write_series(folder / "fields" / "press.pvd", entries);
 }
 
 }  // namespace fingertip::fem_reference

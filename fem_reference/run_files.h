@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "fem_reference/mesh_history.h"
@@ -17,6 +19,10 @@ void write_convergence(const MeshHistory& history, const std::filesystem::path& 
 
 /// section.csv: ends of the mesh's edges in y = 0, undeformed and deformed [m].
 void write_section(const std::vector<SectionEdge>& edges, const std::filesystem::path& folder);
+
+/// ParaView's list of files (.pvd), pairs of time and file name.
+void write_series(const std::filesystem::path& file,
+                  const std::vector<std::pair<std::string, std::string>>& entries);
 
 /// fields/press.pvd over fields/press_NNNN.vtu, with the indentation [m] (`by_time`: the time [s])
 /// in the place of ParaView's time.

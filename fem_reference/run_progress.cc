@@ -71,6 +71,24 @@ meshes::MeshQuality write_mesh_once(const meshes::Geometry& geometry,
   return quality;
 }
 
+void stop_if_asked(const std::function<bool()>& stop_requested) {
+  const int own = stop_requested && stop_requested() ? 1 : 0;
+  int any = 0;
+  MPI_Allreduce(&own, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  if (any != 0) throw meshes::Interrupted("stopped on request");
+}
+
+RunOutcome outcome_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const meshes::Interrupted& stop) {
+    return {RunOutcome::Status::interrupted, stop.what()};
+  } catch (const meshes::NotConverged& failure) {
+    return {RunOutcome::Status::not_converged, failure.what()};
+  }
+  return {};
+}
+
 Json summary_head(const RunOutcome& outcome, const ReferenceJob& job) {
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);

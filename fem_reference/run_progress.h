@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -16,6 +17,13 @@ namespace fingertip::fem_reference {
 
 /// The first process of MPI_COMM_WORLD speaks and writes for all.
 bool first_process();
+
+/// Throws Interrupted on all processes when `stop_requested` (may be empty) says so on any.
+void stop_if_asked(const std::function<bool()>& stop_requested);
+
+/// Does the work of a run, and tells how it ended: Interrupted and NotConverged are outcomes, which
+/// all processes see together; anything else is passed on.
+RunOutcome outcome_of(const std::function<void()>& work);
 
 /// One JSON object per line, {"stage", "done", "total", "message"}, and the wall time since its
 /// construction [s].

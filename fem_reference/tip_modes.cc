@@ -13,6 +13,7 @@
 #include "fem_reference/eigen_solver.h"
 #include "fem_reference/modes.h"
 #include "fem_reference/tip_body.h"
+#include "fem_reference/vtu_output.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -185,14 +186,7 @@ void TipModes::write_fields(const NaturalMode& mode, const std::filesystem::path
   out.build_patches(body.mapping, unsigned(body.degree()),
                     dealii::DataOut<dim>::curved_inner_cells);
   out.complete(mode.symmetry);
-  dealii::DataOutBase::VtkFlags flags;
-  flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
-  out.set_flags(flags);
-  const std::filesystem::path partial = file.string() + ".partial";
-  out.write_vtu_in_parallel(partial.string(), MPI_COMM_WORLD);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    std::filesystem::rename(partial, file);
+  write_vtu(out, file);
 }
 
 }  // namespace fingertip::fem_reference

@@ -36,8 +36,7 @@ class TransientRun {
       : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
 
   RunOutcome carry_out() {
-    RunOutcome outcome;
-    try {
+    const RunOutcome outcome = outcome_of([&] {
       progress_.report("mesh", 0, 1, "meshing the tip");
       quality_ = write_mesh_once(job_.geometry, meshes::TipMeshOptions{}.refined(job_.refinement),
                                  folder_ / "tip.msh");
@@ -45,11 +44,7 @@ class TransientRun {
       press();
       if (job_.estimate_error) repeat_with_doubled_steps();
       if (!shortfall_.empty()) throw meshes::NotConverged(shortfall_);
-    } catch (const meshes::Interrupted& stop) {
-      outcome = {RunOutcome::Status::interrupted, stop.what()};
-    } catch (const meshes::NotConverged& failure) {
-      outcome = {RunOutcome::Status::not_converged, failure.what()};
-    }
+    });
     write_tables(outcome);
     if (first_process()) fs::remove_all(folder_ / "meshes");
     return outcome;

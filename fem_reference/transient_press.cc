@@ -12,8 +12,11 @@
 
 #include "fem_reference/generalised_alpha.h"
 #include "fem_reference/plane_contact.h"
+#include "fem_reference/run_progress.h"
+#include "fem_reference/solver_choice.h"
 #include "fem_reference/tip_body.h"
 #include "fem_reference/transient.h"
+#include "fem_reference/vtu_output.h"
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {
@@ -25,21 +28,8 @@ constexpr double longest_step = 1.0 / 400.0, longest_step_to_sample = 1.0 / 32.0
 /// Candidates for contact reach this many depths below the pole, because thin rubber rises beside
 /// the contact.
 constexpr double bulge = 1.2;
-/// The factor of a matrix beyond outgrows a desktop's memory, and multigrid takes over.
-constexpr unsigned largest_condensed = 300000;
 /// The quarter counts four times.
 constexpr double sectors = 4.0;
-
-LinearSolver choose_solver(const ReferenceJob& job, const Body& body) {
-  const bool alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
-  if (job.solver == LinearSolver::condensed && !alone)
-    throw meshes::InvalidInput({"reference.solver", "condensed",
-                                "the condensed solver runs on one process",
-                                "choose multigrid or automatic, or --ranks 1"});
-  if (job.solver != LinearSolver::automatic) return job.solver;
-  return alone && body.unknowns() <= largest_condensed ? LinearSolver::condensed
-                                                       : LinearSolver::multigrid;
-}
 
 std::unique_ptr<Body> read_body(const ReferenceJob& job, const std::filesystem::path& mesh_file,
                                 const std::filesystem::path& adapted) {
@@ -75,7 +65,7 @@ struct TransientPress::Implementation {
         body(std::move(the_body)),
         stiffness(job.rubber, job.volumetric),
         mass(job.rubber.density),
-        solver_kind(choose_solver(job, *body)),
+        solver_kind(choose_solver(job.solver, double(body->unknowns()))),
         motion(*body, stiffness, mass, job.rubber.retardation_time,
                solver_kind == LinearSolver::multigrid) {
     ContactUnknowns candidates =
@@ -188,9 +178,7 @@ PressState TransientPress::advance(double indentation) {
   const double duration = way / count / self.job.speed;
   PressState effort;
   for (int i = 1; i <= count; ++i) {
-    const int stop = self.stop_requested && self.stop_requested() ? 1 : 0;
-    if (dealii::Utilities::MPI::max(stop, MPI_COMM_WORLD) != 0)
-      throw meshes::Interrupted("stopped on request");
+    stop_if_asked(self.stop_requested);
     self.step_to(i == count ? indentation : first + way * i / count, duration, effort);
   }
   PressState state = self.evaluate();
@@ -203,14 +191,9 @@ PressState TransientPress::advance(double indentation) {
 
 double TransientPress::bond_force() const {
   const Implementation& self = *implementation_;
-  const Vector residual = self.motion.residual();
-  const dealii::IndexSet bond = dealii::DoFTools::extract_boundary_dofs(
-      self.body->fine.dofs, dealii::ComponentMask({false, false, true}),
-      {dealii::types::boundary_id(meshes::PhysicalTag::bond)});
-  double sum = 0.0;
-  for (const auto i : bond)
-    if (self.body->fine.owned.is_element(i)) sum += residual[i];
-  return sectors * dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+  return sectors * resultant(*self.body, self.motion.residual(),
+                             dealii::types::boundary_id(meshes::PhysicalTag::bond))
+                       .z();
 }
 
 const std::vector<TransientStep>& TransientPress::steps() const {
@@ -229,14 +212,7 @@ void TransientPress::write_fields(const std::filesystem::path& file) const {
   out.add_data_vector(space.dofs, v, std::vector<std::string>(dim, "velocity"), vector);
   out.build_patches(self.body->mapping, unsigned(self.job.degree),
                     dealii::DataOut<dim>::curved_inner_cells);
-  dealii::DataOutBase::VtkFlags flags;
-  flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
-  out.set_flags(flags);
-  const std::filesystem::path partial = file.string() + ".partial";
-  out.write_vtu_in_parallel(partial.string(), MPI_COMM_WORLD);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    std::filesystem::rename(partial, file);
+  write_vtu(out, file);
 }
 
 }  // namespace fingertip::fem_reference

@@ -97,28 +97,6 @@ Vector external_load(const Body& body, const Loading& loading,
   return load;
 }
 
-/// Internal force at `displacement`, hanging nodes passed on to the nodes they follow.
-Vector condensed_force(const Body& body, HookeKernel& kernel, const Vector& displacement,
-                       const dealii::AffineConstraints<double>& constraints) {
-  Vector result = body.fine.vector();
-  std::vector<global_dof_index> indices(body.fine.element.n_dofs_per_cell());
-  for_each_element(body, kernel, displacement,
-                   [&](const CellIterator& cell, const dealii::FullMatrix<double>&,
-                       const dealii::Vector<double>& force, const ElementSystem&) {
-                     cell->get_dof_indices(indices);
-                     constraints.distribute_local_to_global(force, indices, result);
-                   });
-  result.compress(dealii::VectorOperation::add);
-  return result;
-}
-
-dealii::AffineConstraints<double> hanging_nodes(const Space& space) {
-  dealii::AffineConstraints<double> constraints(space.relevant);
-  dealii::DoFTools::make_hanging_node_constraints(space.dofs, constraints);
-  constraints.close();
-  return constraints;
-}
-
 }  // namespace
 
 std::vector<Prescribed> whole(const std::vector<int>& boundaries) {
@@ -261,7 +239,7 @@ void ElasticProblem::solve(const Loading& loading) {
     self.displacement = solver->field();
   }
   body.fine.constraints.distribute(self.displacement);
-  self.load = external_load(body, loading, hanging_nodes(body.fine));
+  self.load = external_load(body, loading, body.fine.hanging_nodes());
 }
 
 FieldError ElasticProblem::error(const analytic::ElasticField& exact) const {
@@ -329,18 +307,9 @@ Vector3 ElasticProblem::mean_displacement(int boundary) const {
 
 Vector3 ElasticProblem::reaction(int boundary) const {
   const Implementation& self = *implementation_;
-  const Space& space = self.body.fine;
-  Vector force = condensed_force(self.body, self.kernel, self.displacement, hanging_nodes(space));
+  Vector force = unconstrained_force(self.body, self.kernel, self.displacement);
   force -= self.load;
-  Vector3 sum = Vector3::Zero();
-  for (unsigned c = 0; c < dim; ++c) {
-    dealii::ComponentMask mask(dim, false);
-    mask.set(c, true);
-    for (const auto i :
-         dealii::DoFTools::extract_boundary_dofs(space.dofs, mask, {boundary_id(boundary)}))
-      sum[c] += force[i];
-  }
-  return sum;
+  return resultant(self.body, force, boundary_id(boundary));
 }
 
 double ElasticProblem::energy() const {
@@ -356,7 +325,7 @@ double ElasticProblem::energy() const {
 Eigen::MatrixXd ElasticProblem::stiffness() const {
   const Implementation& self = *implementation_;
   const Space& space = self.body.fine;
-  const auto constraints = hanging_nodes(space);
+  const auto constraints = space.hanging_nodes();
   const auto count = unsigned(space.dofs.n_dofs());
   dealii::FullMatrix<double> matrix(count, count);
   std::vector<global_dof_index> indices(space.element.n_dofs_per_cell());
@@ -380,7 +349,7 @@ Eigen::MatrixXd ElasticProblem::stiffness() const {
 
 std::vector<Vector3> ElasticProblem::nodes() const {
   const Implementation& self = *implementation_;
-  const auto constraints = hanging_nodes(self.body.fine);
+  const auto constraints = self.body.fine.hanging_nodes();
   std::vector<Vector3> places;
   self.for_each_node([&](const std::array<global_dof_index, dim>& unknowns, const Vector3& x) {
     if (!constraints.is_constrained(unknowns[0])) places.push_back(x);

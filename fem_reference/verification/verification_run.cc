@@ -155,11 +155,10 @@ class VerificationRun {
       : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
 
   RunOutcome carry_out() {
-    RunOutcome outcome;
     const std::vector<Part> parts = all_parts();
-    try {
+    const RunOutcome outcome = outcome_of([&] {
       for (std::size_t i = 0; i < parts.size(); ++i) {
-        stop_if_asked();
+        stop_if_asked(stop_requested_);
         progress_.report("verify", i, parts.size(), parts[i].name);
         parts[i].compute(tables_, folder_);
         write({RunOutcome::Status::interrupted, ""});
@@ -167,24 +166,13 @@ class VerificationRun {
       progress_.report("verify", parts.size(), parts.size(),
                        std::to_string(tables_.checks.size() - failed()) + " of " +
                            std::to_string(tables_.checks.size()) + " checks passed");
-    } catch (const meshes::Interrupted& stop) {
-      outcome = {RunOutcome::Status::interrupted, stop.what()};
-    } catch (const meshes::NotConverged& failure) {
-      outcome = {RunOutcome::Status::not_converged, failure.what()};
-    }
+    });
     write(outcome);
     if (first_process()) fs::remove(folder_ / mesh_file);
     return outcome;
   }
 
  private:
-  void stop_if_asked() const {
-    const int own = stop_requested_ && stop_requested_() ? 1 : 0;
-    int any = 0;
-    MPI_Allreduce(&own, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-    if (any != 0) throw meshes::Interrupted("stopped on request");
-  }
-
   std::size_t failed() const {
     return std::size_t(
         std::ranges::count_if(tables_.checks, [](const Check& check) { return !check.passed; }));

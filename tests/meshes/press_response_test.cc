@@ -1,27 +1,20 @@
 #include "meshes/press_response.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
 
 #include "meshes/errors.h"
+#include "tests/temporary_folder.h"
 
 namespace fingertip::meshes {
 namespace {
 
 class PressResponseFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() / ("press_response_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path file(const std::string& text) const {
-    std::ofstream(folder_ / "response.csv") << text;
+    write_text(folder_ / "response.csv", text);
     return folder_ / "response.csv";
   }
   std::string refusal(const std::string& text) const {
@@ -33,7 +26,7 @@ class PressResponseFile : public ::testing::Test {
     return "accepted";
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 PressResponse power_law(double factor, double exponent, int samples, double depth) {

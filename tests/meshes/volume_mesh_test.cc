@@ -1,7 +1,6 @@
 #include "meshes/volume_mesh.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,22 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "tests/temporary_folder.h"
+
 using namespace fingertip::meshes;
 
 namespace {
 
 class VolumeMesh : public ::testing::Test {
  protected:
-  void SetUp() override {
-    file_ = std::filesystem::temp_directory_path() /
-            ("volume_mesh_test." + std::to_string(::getpid()) + ".msh");
-  }
-  void TearDown() override { std::filesystem::remove(file_); }
-
-  std::string text() const {
-    std::ifstream in(file_);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string text() const { return read_text(file_); }
 
   /// The coordinates in the $Nodes section of an MSH 4.1 file.
   std::vector<Vector3> nodes() const {
@@ -50,7 +42,8 @@ class VolumeMesh : public ::testing::Test {
     return result;
   }
 
-  std::filesystem::path file_;
+  TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_ / "tip.msh";
 };
 
 /// Nodes on one spherical or cylindrical layer of the block structure.

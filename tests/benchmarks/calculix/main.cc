@@ -27,7 +27,7 @@ struct Settings {
   std::string fem = FINGERTIP_FEM_PROGRAM;
   std::string truth = FINGERTIP_TRUTH;
   std::string json, folder;
-  std::vector<double> meshes, ccx_meshes, fem_meshes;
+  std::vector<double> ccx_meshes, fem_unknowns;
   double limit = 900.0, target = 0.01;
   int repeat = 1, ccx_threads = 1, fem_threads = 1;
   bool quick = false;
@@ -51,9 +51,9 @@ const std::map<std::string, Solver> solvers{{"spooles", Solver::spooles},
 void declare(CLI::App& app, Settings& settings) {
   app.add_option("--json", settings.json, "write all figures to this file");
   app.add_flag("--quick", settings.quick, "two small meshes only");
-  app.add_option("--meshes", settings.meshes, "refinements for both programs")->delimiter(',');
   app.add_option("--ccx-meshes", settings.ccx_meshes, "refinements for CalculiX")->delimiter(',');
-  app.add_option("--fem-meshes", settings.fem_meshes, "refinements for fingertip-fem")
+  app.add_option("--fem-unknowns", settings.fem_unknowns,
+                 "most unknowns of the adaptive meshes of fingertip-fem")
       ->delimiter(',');
   app.add_option("--timeout", settings.limit, "seconds per run")->check(CLI::PositiveNumber);
   app.add_option("--target", settings.target, "worst relative error to reach")
@@ -86,9 +86,9 @@ Measurement quickest(int repeat, const std::function<Measurement()>& run) {
 }
 
 std::filesystem::path fresh_folder(const Settings& settings, const std::string& program,
-                                   double refinement) {
+                                   double mesh) {
   const auto folder = std::filesystem::path(settings.folder) /
-                      (program + "_" + fingertip::meshes::to_text(refinement));
+                      (program + "_" + fingertip::meshes::to_text(mesh));
   std::filesystem::remove_all(folder);
   return folder;
 }
@@ -103,11 +103,11 @@ Measurement measure_calculix(const Settings& settings, const benchmarks::Truth& 
 }
 
 Measurement measure_fem(const Settings& settings, const benchmarks::Truth& truth,
-                        double refinement) {
+                        double max_unknowns) {
   const auto run =
-      benchmarks::run_fem(settings.fem, refinement, truth.depths, settings.fem_threads,
-                          settings.limit, fresh_folder(settings, "fingertip-fem", refinement));
-  return {refinement, run.unknowns, 0, run.cost, benchmarks::relative_errors(run.forces, truth)};
+      benchmarks::run_fem(settings.fem, max_unknowns, truth.depths, settings.fem_threads,
+                          settings.limit, fresh_folder(settings, "fingertip-fem", max_unknowns));
+  return {max_unknowns, run.unknowns, 0, run.cost, benchmarks::relative_errors(run.forces, truth)};
 }
 
 std::string describe(const benchmarks::DeckOptions& deck) {
@@ -125,14 +125,14 @@ std::string describe(const benchmarks::DeckOptions& deck) {
 void compare(const Settings& settings) {
   const benchmarks::Truth truth = benchmarks::read_truth(settings.truth);
   benchmarks::ProgramRuns calculix{"CalculiX", describe(settings.deck), settings.ccx_threads, {}};
-  benchmarks::ProgramRuns fem{"fingertip-fem", "as its user gets it", settings.fem_threads, {}};
+  benchmarks::ProgramRuns fem{"fingertip-fem", "adaptive, from its default first mesh", settings.fem_threads, {}};
   for (const double refinement : settings.ccx_meshes)
     calculix.runs.push_back(
         quickest(settings.repeat, [&] { return measure_calculix(settings, truth, refinement); }));
   print_runs(std::cout, calculix, truth);
-  for (const double refinement : settings.fem_meshes)
+  for (const double max_unknowns : settings.fem_unknowns)
     fem.runs.push_back(
-        quickest(settings.repeat, [&] { return measure_fem(settings, truth, refinement); }));
+        quickest(settings.repeat, [&] { return measure_fem(settings, truth, max_unknowns); }));
   print_runs(std::cout, fem, truth);
   print_times_to_error(std::cout, calculix, fem, settings.target);
   if (settings.json.empty()) return;
@@ -147,10 +147,10 @@ bool complete(Settings& settings) {
   const auto choose = [&](std::vector<double>& meshes, std::vector<double> usual) {
     if (!meshes.empty()) return;
     if (settings.quick) usual.resize(2);
-    meshes = settings.meshes.empty() ? usual : settings.meshes;
+    meshes = usual;
   };
   choose(settings.ccx_meshes, {0.25, 0.35, 0.42, 0.5, 0.7});
-  choose(settings.fem_meshes, {0.5, 0.6, 0.7, 0.85, 1.0});
+  choose(settings.fem_unknowns, {1.2e4, 2.2e4, 4e4, 8e4});
   if (!settings.folder.empty()) {
     settings.folder = std::filesystem::absolute(settings.folder);
     return false;

@@ -41,7 +41,7 @@ Json to_json(const ProgramRuns& program) {
   Json runs = Json::array();
   for (const Measurement& run : program.runs) {
     const auto worst = run.worst_error();
-    runs.push_back({{"refinement", run.refinement},
+    runs.push_back({{"mesh", run.mesh},
                     {"unknowns", run.unknowns},
                     {"iterations", run.iterations},
                     {"state", state(run.cost)},
@@ -73,7 +73,7 @@ void print_runs(std::ostream& out, const ProgramRuns& program, const Truth& trut
   for (const double depth : truth.depths) out << fmt::format(" {:>6.3f}", depth / centimetre);
   out << fmt::format(" cm | {:>7} {:>9} {:>9} {:>7}\n", "worst", "wall", "cpu", "memory");
   for (const Measurement& run : program.runs) {
-    out << fmt::format("{:>6} {:>9} {:>6} |", run.refinement, run.unknowns, run.iterations);
+    out << fmt::format("{:>6} {:>9} {:>6} |", run.mesh, run.unknowns, run.iterations);
     for (const double error : run.errors) out << fmt::format(" {:>+6.2f}", 100.0 * error);
     if (run.errors.empty()) out << fmt::format(" {:<{}}", "", 7 * truth.depths.size() - 1);
     const auto worst = run.worst_error();

@@ -38,18 +38,18 @@ std::vector<std::vector<std::string>> cells(const std::string& csv) {
 }
 
 TEST(Comparison, GivesDifferencesRelativeToTheFirstRun) {
-  report_testing::TemporaryFolder folder;
+  TemporaryFolder folder;
   write_line(folder.path() / "soft", 1.0, 0.002);
   write_line(folder.path() / "stiff", 1.25, 0.002);
   studies::write_comparison({folder.path() / "soft", folder.path() / "stiff"},
                             folder.path() / "out");
-  const auto rows = cells(report_testing::read_file(folder.path() / "out" / "comparison.csv"));
+  const auto rows = cells(read_text(folder.path() / "out" / "comparison.csv"));
   ASSERT_EQ(rows.size(), 11U);
   EXPECT_EQ(rows[0][1], "soft normal_force [N]");
   EXPECT_EQ(rows[0][3], "stiff relative_difference");
   for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_NEAR(std::stod(rows[i][3]), 0.25, 1e-12);
   EXPECT_TRUE(fs::exists(folder.path() / "out" / "figures" / "comparison_force.svg"));
-  const std::string html = report_testing::read_file(folder.path() / "out" / "comparison.html");
+  const std::string html = read_text(folder.path() / "out" / "comparison.html");
   EXPECT_TRUE(report_testing::structure_faults(html).empty())
       << report_testing::structure_faults(html).front();
   EXPECT_TRUE(report_testing::outside_references(html).empty());
@@ -57,12 +57,12 @@ TEST(Comparison, GivesDifferencesRelativeToTheFirstRun) {
 }
 
 TEST(Comparison, LeavesCellsEmptyBeyondTheDepthOfARun) {
-  report_testing::TemporaryFolder folder;
+  TemporaryFolder folder;
   write_line(folder.path() / "deep", 1.0, 0.002);
   write_line(folder.path() / "shallow", 1.0, 0.001);
   studies::write_comparison({folder.path() / "deep", folder.path() / "shallow/"},
                             folder.path() / "out");
-  const auto rows = cells(report_testing::read_file(folder.path() / "out" / "comparison.csv"));
+  const auto rows = cells(read_text(folder.path() / "out" / "comparison.csv"));
   EXPECT_EQ(rows[0][2], "shallow normal_force [N]");
   EXPECT_NEAR(std::stod(rows[5][3]), 0.0, 1e-12);
   EXPECT_EQ(rows[6][2], "");
@@ -70,30 +70,30 @@ TEST(Comparison, LeavesCellsEmptyBeyondTheDepthOfARun) {
 }
 
 TEST(Comparison, TakesAValidateRunApartWithTheContinuumFirst) {
-  report_testing::TemporaryFolder folder;
+  TemporaryFolder folder;
   report_testing::write_synthetic_run(folder.path() / "run");
   studies::write_comparison({folder.path() / "run"}, folder.path() / "out");
-  const auto rows = cells(report_testing::read_file(folder.path() / "out" / "comparison.csv"));
+  const auto rows = cells(read_text(folder.path() / "out" / "comparison.csv"));
   EXPECT_EQ(rows[0][1], "run/reference normal_force [N]");
   EXPECT_EQ(rows[0].back(), "run/hookean relative_difference");
   EXPECT_NEAR(std::stod(rows.back().back()), 0.02, 1e-9);
 }
 
 TEST(Comparison, TellsRunsOfTheSameNameApartAndEscapesNames) {
-  report_testing::TemporaryFolder folder;
+  TemporaryFolder folder;
   const std::string odd = "it's <b>&, \"odd\"";
   write_line(folder.path() / "a" / odd, 1.0, 0.002);
   write_line(folder.path() / "b" / odd, 2.0, 0.002);
   studies::write_comparison({folder.path() / "a" / odd, folder.path() / "b" / odd},
                             folder.path() / "out");
-  const std::string html = report_testing::read_file(folder.path() / "out" / "comparison.html");
+  const std::string html = read_text(folder.path() / "out" / "comparison.html");
   EXPECT_TRUE(report_testing::structure_faults(html).empty())
       << report_testing::structure_faults(html).front();
   EXPECT_NE(report_testing::visible_text(html).find(odd + " (2)"), std::string::npos);
 }
 
 TEST(Comparison, RefusesLessThanTwoCurvesAndFoldersWithoutOne) {
-  report_testing::TemporaryFolder folder;
+  TemporaryFolder folder;
   write_line(folder.path() / "only", 1.0, 0.002);
   fs::create_directories(folder.path() / "empty");
   EXPECT_THROW(studies::write_comparison({folder.path() / "only"}, folder.path() / "out"),

@@ -16,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace fingertip;
 using nlohmann::json;
-using report_testing::read_file;
 using report_testing::visible_text;
 using report_testing::write_file;
 
@@ -30,7 +29,7 @@ class ContinuumReport : public testing::Test {
 
   std::string report() const {
     studies::write_report(run_);
-    return read_file(run_ / "report.html");
+    return read_text(run_ / "report.html");
   }
   /// What a reader sees of one chapter, "" when it is missing.
   std::string chapter(const std::string& id) const {
@@ -40,14 +39,14 @@ class ContinuumReport : public testing::Test {
     return visible_text(html.substr(begin, html.find("</section>", begin) - begin));
   }
   void change(const fs::path& file, const std::function<void(json&)>& edit) const {
-    json content = json::parse(read_file(run_ / file));
+    json content = json::parse(read_text(run_ / file));
     edit(content);
     write_file(run_ / file, content.dump());
   }
   /// The points of a figure's series in the panel whose quantity is column `y`.
   std::map<double, double> points(const std::string& figure, const std::string& series,
                                   const std::string& x, const std::string& y) const {
-    std::istringstream stream(read_file(run_ / "figures" / (figure + ".csv")));
+    std::istringstream stream(read_text(run_ / "figures" / (figure + ".csv")));
     std::map<double, double> found;
     std::vector<std::string> names;
     for (std::string line; std::getline(stream, line);) {
@@ -64,7 +63,7 @@ class ContinuumReport : public testing::Test {
     return found;
   }
 
-  report_testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   fs::path run_ = folder_.path() / "run";
 };
 
@@ -133,14 +132,14 @@ TEST_F(ContinuumReport, ConvergenceFigureHoldsTheChangesAndTheEstimate) {
 
 TEST_F(ContinuumReport, LogarithmicAxesCountInDecades) {
   report();
-  const std::string svg = read_file(run_ / "figures" / "mesh_convergence.svg");
+  const std::string svg = read_text(run_ / "figures" / "mesh_convergence.svg");
   EXPECT_TRUE(has(svg, "10⁴"));
   EXPECT_TRUE(has(svg, "5×10⁴"));
   EXPECT_TRUE(has(svg, "0.5<"));
 }
 
 TEST_F(ContinuumReport, OneMeshIsNoEstimate) {
-  std::string response = read_file(run_ / "reference" / "response.csv"), stripped;
+  std::string response = read_text(run_ / "reference" / "response.csv"), stripped;
   std::istringstream lines(response);
   for (std::string line; std::getline(lines, line);) {
     if (!stripped.empty()) {
@@ -151,7 +150,7 @@ TEST_F(ContinuumReport, OneMeshIsNoEstimate) {
     stripped += line + "\n";
   }
   write_file(run_ / "reference" / "response.csv", stripped);
-  std::istringstream rows(read_file(run_ / "reference" / "convergence.csv"));
+  std::istringstream rows(read_text(run_ / "reference" / "convergence.csv"));
   std::string single;
   for (std::string line; std::getline(rows, line);)
     if (line[0] == 'm' || line[0] == '1') single += line + "\n";

@@ -15,17 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace fingertip;
-using report_testing::read_file;
 using report_testing::write_file;
 
 /// A complete run, with its report when asked.
 struct SyntheticRun {
-  report_testing::TemporaryFolder folder;
+  TemporaryFolder folder;
   fs::path path = folder.path() / "run";
   SyntheticRun() { report_testing::write_synthetic_run(path); }
   std::string report() {
     studies::write_report(path);
-    return read_file(path / "report.html");
+    return read_text(path / "report.html");
   }
 };
 
@@ -40,7 +39,7 @@ std::string first_or_none(const std::vector<std::string>& faults) {
 /// The cells of a CSV's row whose first cells are `panel` and `series`, closest to x.
 double csv_value(const fs::path& file, const std::string& series, double x, std::size_t x_column,
                  std::size_t y_column) {
-  std::istringstream stream(read_file(file));
+  std::istringstream stream(read_text(file));
   std::string line;
   double best = 1e300, value = std::nan("");
   while (std::getline(stream, line)) {
@@ -140,7 +139,7 @@ TEST(Report, FigureDataCarryUnitsAndTheMeasuredValues) {
   SyntheticRun run;
   run.report();
   const fs::path forces = run.path / "figures" / "force_indentation.csv";
-  EXPECT_TRUE(has(read_file(forces), "panel,series,indentation [cm],normal force [gf]\n"));
+  EXPECT_TRUE(has(read_text(forces), "panel,series,indentation [cm],normal force [gf]\n"));
   EXPECT_NEAR(csv_value(forces, "reference", 0.3, 2, 3),
               report_testing::continuum_force(0.003) / 9.80665e-3, 1e-9);
   EXPECT_NEAR(csv_value(run.path / "figures" / "force_error.csv", "central", 0.3, 2, 3), -10.0,
@@ -155,7 +154,7 @@ TEST(Report, PolarPlotReachesTheModuliOfTheOtherDirections) {
   const double c = 40.0 * 98.0665;
   const nlohmann::json published =
       report_testing::cubic_moduli(3.18403 * c, 1.47701 * c, 1.47701 * c);
-  std::istringstream lines(read_file(run.path / "figures" / "elastic_directions.csv"));
+  std::istringstream lines(read_text(run.path / "figures" / "elastic_directions.csv"));
   double along = 0.0;
   for (std::string line; std::getline(lines, line);) {
     const std::string start = "(1-10) plane,published,";
@@ -190,7 +189,7 @@ TEST(Report, MissingChaptersAreLeftOutAndNamed) {
 
 TEST(Report, EscapesWhatComesFromFiles) {
   SyntheticRun run;
-  nlohmann::json summary = nlohmann::json::parse(read_file(run.path / "summary.json"));
+  nlohmann::json summary = nlohmann::json::parse(read_text(run.path / "summary.json"));
   const std::string hostile = "<script>alert('x')</script> & \"quoted\" {{page_title}}";
   summary["title"] = hostile;
   summary["criteria"][0]["name"] = hostile;
@@ -206,7 +205,7 @@ TEST(Report, EscapesWhatComesFromFiles) {
 }
 
 TEST(Report, RefusesAFolderThatIsNoRun) {
-  report_testing::TemporaryFolder folder;
+  TemporaryFolder folder;
   EXPECT_THROW(studies::write_report(folder.path()), meshes::InvalidInput);
   EXPECT_THROW(studies::write_report(folder.path() / "absent"), meshes::InvalidInput);
   EXPECT_TRUE(fs::is_empty(folder.path()));
@@ -225,7 +224,7 @@ TEST(Report, KeepsTheOldReportWhenAFileIsDamaged) {
   write_file(run.path / "cubes.csv", "");
   write_file(run.path / "summary.json", "{\"models\": {");
   EXPECT_THROW(studies::write_report(run.path), meshes::InvalidInput);
-  EXPECT_EQ(read_file(run.path / "report.html"), before);
+  EXPECT_EQ(read_text(run.path / "report.html"), before);
 }
 
 TEST(Report, SaysSoWhenGnuplotIsMissingAndKeepsTheOldReport) {
@@ -240,7 +239,7 @@ TEST(Report, SaysSoWhenGnuplotIsMissingAndKeepsTheOldReport) {
   }
   setenv("PATH", path.c_str(), 1);
   EXPECT_TRUE(has(message, "gnuplot")) << message;
-  EXPECT_EQ(read_file(run.path / "report.html"), before);
+  EXPECT_EQ(read_text(run.path / "report.html"), before);
   EXPECT_TRUE(fs::exists(run.path / "figures" / "force_indentation.svg"));
 }
 

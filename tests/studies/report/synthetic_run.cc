@@ -6,9 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
-#include <random>
 #include <vector>
 
 namespace fingertip::report_testing {
@@ -384,22 +382,7 @@ json run_summary() {
 
 void write_file(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
-  std::ofstream(file, std::ios::binary) << text;
-}
-
-std::string read_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-TemporaryFolder::TemporaryFolder()
-    : path_(fs::temp_directory_path() /
-            fmt::format("fingertip-report-test-{:08x}", std::random_device()())) {
-  fs::create_directories(path_);
-}
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  write_text(file, text);
 }
 
 json cubic_moduli(double c11, double c12, double c44) {

@@ -5,24 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/temporary_folder.h"
+
 namespace fingertip::report_testing {
 
 /// Writes `text` into a file, making its folders.
 void write_file(const std::filesystem::path& file, const std::string& text);
-std::string read_file(const std::filesystem::path& file);
-
-/// A folder under the system's temporary one that goes away with the scope.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Elastic constants of a cubic material from C11, C12, C44 [Pa] by the textbook compliances,
 /// in the names of summary.json.

@@ -1,0 +1,28 @@
+#include "fem_reference/solver_choice.h"
+
+#include <mpi.h>
+
+#include "meshes/errors.h"
+
+namespace fingertip::fem_reference {
+namespace {
+
+/// Above this many unknowns the factor outgrows a desktop's memory (4.4 GB peak at 240 000), and
+/// multigrid takes over.
+constexpr double largest_condensed = 300000;
+
+}  // namespace
+
+LinearSolver choose_solver(LinearSolver wanted, double unknowns) {
+  int processes = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &processes);
+  if (wanted == LinearSolver::condensed && processes > 1)
+    throw meshes::InvalidInput({"reference.solver", "condensed",
+                                "the condensed solver runs on one process",
+                                "choose multigrid or automatic, or --ranks 1"});
+  if (wanted != LinearSolver::automatic) return wanted;
+  return processes == 1 && unknowns <= largest_condensed ? LinearSolver::condensed
+                                                         : LinearSolver::multigrid;
+}
+
+}  // namespace fingertip::fem_reference
