@@ -1,6 +1,5 @@
 #include "fem_reference/element.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -16,6 +15,12 @@ using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
 Index node_count(const dealii::FEValues<3>& values) {
   return Index(values.get_fe().n_dofs_per_cell());
+}
+
+/// Values of the polynomials that carry the projected volumetric part, at the quadrature points.
+Eigen::MatrixXd volumetric_basis(const dealii::FEValues<3>& values) {
+  return ElementPolynomials(values, int(values.get_fe().degree) - 1)
+      .at(values.get_quadrature_points());
 }
 
 Index point_count(const dealii::FEValues<3>& values) {
@@ -60,31 +65,36 @@ VolumeDerivatives differentiate(const VolumetricMeasure& h, double jacobian,
 
 }  // namespace
 
-Eigen::MatrixXd orthonormal_polynomials(const dealii::FEValues<3>& values, int degree) {
-  const Index points = point_count(values);
-  dealii::Tensor<1, 3> centre;
+ElementPolynomials::ElementPolynomials(const dealii::FEValues<3>& values, int degree)
+    : degree_(degree) {
   double measure = 0.0;
   for (unsigned q = 0; q < values.n_quadrature_points; ++q) {
-    centre += values.JxW(q) * values.quadrature_point(q);
+    centre_ += values.JxW(q) * values.quadrature_point(q);
     measure += values.JxW(q);
   }
-  centre /= measure;
-  const double size = std::cbrt(measure);
-  Eigen::MatrixXd monomials(points, (degree + 1) * (degree + 2) * (degree + 3) / 6);
-  Eigen::VectorXd weights(points);
-  for (Index q = 0; q < points; ++q) {
-    weights[q] = values.JxW(unsigned(q));
-    const dealii::Tensor<1, 3> x = (values.quadrature_point(unsigned(q)) - centre) / size;
-    Index column = 0;
-    for (int i = 0; i <= degree; ++i)
-      for (int j = 0; i + j <= degree; ++j)
-        for (int k = 0; i + j + k <= degree; ++k)
-          monomials(q, column++) = std::pow(x[0], i) * std::pow(x[1], j) * std::pow(x[2], k);
-  }
-  const Eigen::MatrixXd mass = monomials.transpose() * weights.asDiagonal() * monomials;
+  centre_ /= measure;
+  size_ = std::cbrt(measure);
+  const Eigen::MatrixXd basis = monomials(values.get_quadrature_points());
+  const Eigen::Map<const Eigen::VectorXd> weights(values.get_JxW_values().data(), basis.rows());
+  mass_.compute(basis.transpose() * weights.asDiagonal() * basis);
+}
+
+Eigen::MatrixXd ElementPolynomials::at(const std::vector<dealii::Point<3>>& points) const {
   // With mass = L L^T the columns of monomials L^-T are orthonormal.
-  const Eigen::LLT<Eigen::MatrixXd> factor(mass);
-  return factor.matrixL().solve(monomials.transpose()).transpose();
+  return mass_.matrixL().solve(monomials(points).transpose()).transpose();
+}
+
+Eigen::MatrixXd ElementPolynomials::monomials(const std::vector<dealii::Point<3>>& points) const {
+  Eigen::MatrixXd values(Index(points.size()), (degree_ + 1) * (degree_ + 2) * (degree_ + 3) / 6);
+  for (Index row = 0; row < values.rows(); ++row) {
+    const dealii::Tensor<1, 3> x = (points[std::size_t(row)] - centre_) / size_;
+    Index column = 0;
+    for (int i = 0; i <= degree_; ++i)
+      for (int j = 0; i + j <= degree_; ++j)
+        for (int k = 0; i + j + k <= degree_; ++k)
+          values(row, column++) = std::pow(x[0], i) * std::pow(x[1], j) * std::pow(x[2], k);
+  }
+  return values;
 }
 
 HookeKernel::HookeKernel(const meshes::Rubber& rubber, Volumetric volumetric)
@@ -105,7 +115,7 @@ void HookeKernel::integrate(const dealii::FEValues<3>& values, const Eigen::Vect
   if (volumetric_ == Volumetric::pointwise) {
     k = lambda_ * products_;
   } else {
-    Eigen::MatrixXd basis = orthonormal_polynomials(values, int(values.get_fe().degree) - 1);
+    Eigen::MatrixXd basis = volumetric_basis(values);
     for (Index q = 0; q < points; ++q) basis.row(q) *= std::sqrt(values.JxW(unsigned(q)));
     const Eigen::MatrixXd projected = gradients_ * basis;
     k.noalias() = lambda_ * (projected * projected.transpose());
@@ -150,7 +160,7 @@ void HyperelasticKernel::integrate(const dealii::FEValues<3>& values,
   Eigen::MatrixXd basis;
   Eigen::VectorXd effective = measure;  // the measure that multiplies the modulus
   if (volumetric_ == Volumetric::projected) {
-    basis = orthonormal_polynomials(values, int(values.get_fe().degree) - 1);
+    basis = volumetric_basis(values);
     effective = basis * (basis.transpose() * weights.cwiseProduct(measure));
   }
   const double modulus = law_.volumetric_modulus();

@@ -4,6 +4,7 @@
 
 #include <deal.II/fe/fe_values.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <vector>
 
@@ -73,8 +74,21 @@ class MassKernel : public ElementKernel {
   double density_;
 };
 
-/// Values at the element's quadrature points of polynomials of total degree `degree` in the
-/// coordinates, orthonormal in L2 of the element: (points, polynomials).
-Eigen::MatrixXd orthonormal_polynomials(const dealii::FEValues<3>& values, int degree);
+/// Polynomials of total degree `degree` in the coordinates, orthonormal in L2 of one element.
+class ElementPolynomials {
+ public:
+  /// The inner product is the quadrature of `values`.
+  ElementPolynomials(const dealii::FEValues<3>& values, int degree);
+  /// Their values: (points, polynomials).
+  Eigen::MatrixXd at(const std::vector<dealii::Point<3>>& points) const;
+
+ private:
+  Eigen::MatrixXd monomials(const std::vector<dealii::Point<3>>& points) const;
+
+  int degree_;
+  dealii::Tensor<1, 3> centre_;
+  double size_;
+  Eigen::LLT<Eigen::MatrixXd> mass_;  ///< of the monomials
+};
 
 }  // namespace fingertip::fem_reference

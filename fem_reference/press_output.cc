@@ -4,18 +4,15 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/numerics/data_out.h>
-#include <deal.II/numerics/data_postprocessor.h>
 
-#include <Eigen/LU>
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "fem_reference/press_fields.h"
 #include "fem_reference/press_model.h"
 #include "fem_reference/run_progress.h"
 #include "fem_reference/vtu_output.h"
@@ -27,76 +24,6 @@ namespace {
 
 using Json = nlohmann::json;
 using namespace dealii::DataComponentInterpretation;
-
-/// Cauchy stress and von Mises' equivalent stress at the points of the output.
-class StressOutput : public dealii::DataPostprocessor<dim> {
- public:
-  explicit StressOutput(const ReferenceJob& job)
-      : lambda_(job.rubber.lame_lambda()), shear_(job.rubber.shear_modulus) {
-    if (job.strain == Strain::finite) law_.emplace(job.law, job.rubber);
-  }
-
-  std::vector<std::string> get_names() const override {
-    std::vector<std::string> names(9, "stress");
-    names.emplace_back("von_mises_stress");
-    return names;
-  }
-  std::vector<DataComponentInterpretation> get_data_component_interpretation() const override {
-    std::vector<DataComponentInterpretation> kinds(9, component_is_part_of_tensor);
-    kinds.push_back(component_is_scalar);
-    return kinds;
-  }
-  dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_gradients; }
-
-  void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<dim>& inputs,
-                             std::vector<dealii::Vector<double>>& computed) const override {
-    for (std::size_t p = 0; p < computed.size(); ++p) {
-      Eigen::Matrix3d gradient;
-      for (unsigned i = 0; i < dim; ++i)
-        for (unsigned j = 0; j < dim; ++j) gradient(i, j) = inputs.solution_gradients[p][i][j];
-      const Eigen::Matrix3d sigma = stress(gradient);
-      for (unsigned i = 0; i < dim; ++i)
-        for (unsigned j = 0; j < dim; ++j) computed[p](3 * i + j) = sigma(i, j);
-      const Eigen::Matrix3d deviator = sigma - sigma.trace() / 3 * Eigen::Matrix3d::Identity();
-      computed[p](9) = std::sqrt(1.5) * deviator.norm();
-    }
-  }
-
- private:
-  Eigen::Matrix3d stress(const Eigen::Matrix3d& gradient) const {
-    const auto one = Eigen::Matrix3d::Identity();
-    if (!law_) return lambda_ * gradient.trace() * one + shear_ * (gradient + gradient.transpose());
-    const Eigen::Matrix3d f = one + gradient;
-    // Points of the output are not quadrature points; an element may be inverted there alone.
-    if (!(f.determinant() > 0.0)) return Eigen::Matrix3d::Constant(std::nan(""));
-    return law_->cauchy_stress(f);
-  }
-
-  double lambda_, shear_;
-  std::optional<HyperelasticLaw> law_;
-};
-
-/// Pressure [Pa], shear [Pa] and status of the contact nodes as the three components of a field.
-/// `area` is the lumped area of the surface on which they act.
-Vector contact_field(const Body& body, const PlaneContact& contact, const Vector& area) {
-  Vector own = body.fine.vector();
-  const std::vector<SurfaceNode>& nodes = contact.unknowns().nodes;
-  std::vector<long> unknowns;
-  for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[2]);
-  const std::vector<double> areas = body.fine.gather(area, unknowns);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const meshes::Vector3 traction = contact.reaction(i) / areas[i];
-    const double values[] = {-traction.z(), traction.head<2>().norm(), double(contact.status()[i])};
-    for (std::size_t c = 0; c < 3; ++c)
-      if (body.fine.owned.is_element(unsigned(nodes[i].unknown[c])))
-        own[unsigned(nodes[i].unknown[c])] = values[c];
-  }
-  own.compress(dealii::VectorOperation::insert);
-  body.fine.hanging_nodes().distribute(own);
-  Vector result(body.fine.owned, body.fine.relevant, body.fine.communicator);
-  result = own;
-  return result;
-}
 
 /// The error indicators as fields with one value per cell, so that they travel with the mesh.
 class CellFields {
@@ -151,16 +78,14 @@ Eigen::VectorXd vector_from(const Json& json) {
 void PressModel::write_fields(const std::filesystem::path& file) const {
   const Vector u = body_->fine.ghosted(displacement_);
   const bool finite = job_.strain == Strain::finite;  // then pressure is per deformed area
-  const Vector contact =
-      contact_field(*body_, *contact_, outer_area(*body_, finite ? &displacement_ : nullptr));
-  const StressOutput stress(job_);
+  const ContactField contact(*body_, *contact_,
+                             outer_area(*body_, finite ? &displacement_ : nullptr));
+  const StressField stress(*body_, job_, displacement_);
   dealii::DataOut<dim> out;
   out.add_data_vector(body_->fine.dofs, u, std::vector<std::string>(dim, "displacement"),
                       std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
-  out.add_data_vector(body_->fine.dofs, u, stress);
-  out.add_data_vector(body_->fine.dofs, contact,
-                      {"contact_pressure", "contact_shear", "contact_status"},
-                      std::vector<DataComponentInterpretation>(dim, component_is_scalar));
+  stress.add_to(out);
+  contact.add_to(out);
   out.build_patches(body_->mapping, unsigned(job_.degree),
                     dealii::DataOut<dim>::curved_inner_cells);
   write_vtu(out, file);

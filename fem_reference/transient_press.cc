@@ -12,6 +12,7 @@
 
 #include "fem_reference/generalised_alpha.h"
 #include "fem_reference/plane_contact.h"
+#include "fem_reference/press_fields.h"
 #include "fem_reference/run_progress.h"
 #include "fem_reference/solver_choice.h"
 #include "fem_reference/tip_body.h"
@@ -207,9 +208,16 @@ void TransientPress::write_fields(const std::filesystem::path& file) const {
   const Vector u = space.ghosted(self.motion.displacement());
   const Vector v = space.ghosted(self.motion.velocity());
   const std::vector<DataComponentInterpretation> vector(dim, component_is_part_of_vector);
+  // With Kelvin-Voigt damping the stress is that of u + tau v.
+  Vector strained = self.motion.displacement();
+  strained.add(self.job.rubber.retardation_time, self.motion.velocity());
+  const StressField stress(*self.body, self.job, strained);
+  const ContactField contact(*self.body, *self.contact, outer_area(*self.body, nullptr));
   dealii::DataOut<dim> out;
   out.add_data_vector(space.dofs, u, std::vector<std::string>(dim, "displacement"), vector);
   out.add_data_vector(space.dofs, v, std::vector<std::string>(dim, "velocity"), vector);
+  stress.add_to(out);
+  contact.add_to(out);
   out.build_patches(self.body->mapping, unsigned(self.job.degree),
                     dealii::DataOut<dim>::curved_inner_cells);
   write_vtu(out, file);

@@ -167,7 +167,8 @@ struct ElasticProblem::Implementation {
         weights[q] = values.JxW(unsigned(q));
       }
       if (volumetric == Volumetric::projected) {
-        const Eigen::MatrixXd basis = orthonormal_polynomials(values, body.degree() - 1);
+        const Eigen::MatrixXd basis =
+            ElementPolynomials(values, body.degree() - 1).at(values.get_quadrature_points());
         dilatation = basis * (basis.transpose() * weights.cwiseProduct(dilatation));
       }
       for (Eigen::Index q = 0; q < points; ++q) {

@@ -197,7 +197,8 @@ TEST_F(Programs, TwoContactsOfCalculixAndOurProgramPressAlike) {
   const auto surface =
       errors({Element::c3d20r, Contact::surface, Solver::iterative_scaling, 2e5, 0.02}, 0.5);
   const auto gap = errors({Element::c3d20, Contact::gap, Solver::spooles, 10.0, 0.0}, 0.5);
-  const FemRun fem = run_fem(FINGERTIP_FEM_PROGRAM, 1.2e4, truth_.depths, 1, 120.0, folder_ / "fem");
+  const FemRun fem =
+      run_fem(FINGERTIP_FEM_PROGRAM, 1.2e4, truth_.depths, 1, 120.0, folder_ / "fem");
   const auto own = relative_errors(fem.forces, truth_);
   EXPECT_GT(fem.unknowns, 1000u);
   ASSERT_EQ(surface.size(), truth_.depths.size());

@@ -10,7 +10,7 @@
 namespace fingertip::benchmarks {
 
 struct FemRun {
-  Cost cost;  ///< of the whole program: meshing, assembly, factorisation, contact
+  Cost cost;                   ///< of the whole program: meshing, assembly, factorisation, contact
   std::size_t unknowns = 0;    ///< of the last mesh
   std::vector<double> forces;  ///< per depth on the last mesh [N]; fewer when it stopped short
 };

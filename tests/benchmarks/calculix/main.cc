@@ -87,8 +87,8 @@ Measurement quickest(int repeat, const std::function<Measurement()>& run) {
 
 std::filesystem::path fresh_folder(const Settings& settings, const std::string& program,
                                    double mesh) {
-  const auto folder = std::filesystem::path(settings.folder) /
-                      (program + "_" + fingertip::meshes::to_text(mesh));
+  const auto folder =
+      std::filesystem::path(settings.folder) / (program + "_" + fingertip::meshes::to_text(mesh));
   std::filesystem::remove_all(folder);
   return folder;
 }
@@ -125,7 +125,8 @@ std::string describe(const benchmarks::DeckOptions& deck) {
 void compare(const Settings& settings) {
   const benchmarks::Truth truth = benchmarks::read_truth(settings.truth);
   benchmarks::ProgramRuns calculix{"CalculiX", describe(settings.deck), settings.ccx_threads, {}};
-  benchmarks::ProgramRuns fem{"fingertip-fem", "adaptive, from its default first mesh", settings.fem_threads, {}};
+  benchmarks::ProgramRuns fem{
+      "fingertip-fem", "adaptive, from its default first mesh", settings.fem_threads, {}};
   for (const double refinement : settings.ccx_meshes)
     calculix.runs.push_back(
         quickest(settings.repeat, [&] { return measure_calculix(settings, truth, refinement); }));
