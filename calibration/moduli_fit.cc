@@ -192,6 +192,10 @@ void check(const meshes::Rubber& rubber, const ModuliFitOptions& options) {
     found.push_back({"lattice.model", std::string(lattice::name(options.model)),
                      "the published model has a rule for its constants, k = E/l0, not a fit",
                      "calibrate central or hookean"});
+  if (options.model == ModelKind::network)
+    found.push_back({"lattice.model", std::string(lattice::name(options.model)),
+                     "the network takes G and lambda from the rubber; nothing is left to fit",
+                     "calibrate central or hookean"});
   if (!std::isfinite(options.spacing) || options.spacing <= 0.0)
     found.push_back({"lattice.spacing", meshes::to_text(options.spacing) + " m",
                      "the spacing must be finite and positive", "give the lattice spacing"});

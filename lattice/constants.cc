@@ -9,6 +9,7 @@ std::string_view name(ModelKind kind) {
     case ModelKind::published: return "published";
     case ModelKind::central: return "central";
     case ModelKind::hookean: return "hookean";
+    case ModelKind::network: return "network";
   }
   return "unknown";
 }

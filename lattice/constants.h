@@ -12,6 +12,7 @@ enum class ModelKind {
   published,  ///< Reznik & Laugier 1996 as printed: k = E/l0, every spring counts fully
   central,    ///< the three spring constants fitted to the moduli, weighted per cell
   hookean,    ///< central plus one volume constant per cell: exact E, G, nu
+  network,    ///< fibres of zero rest length under a cell pressure: rubber at finite strain
 };
 
 /// How deformation is measured.

@@ -1,5 +1,6 @@
 #include "lattice/settings.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "lattice/rod.h"
@@ -22,6 +23,27 @@ bool not_negative(double value) {
   return std::isfinite(value) && value >= 0.0;
 }
 
+/// What only static presses can do, and rubbers that the network's energy does not stand.
+void add_model(std::vector<Violation>& found, const PressSetup& setup) {
+  const LatticeSettings& l = setup.lattice;
+  const bool moving = setup.protocol.mode != meshes::DriveMode::equilibrium;
+  if (moving && l.model == ModelKind::network)
+    found.push_back({"lattice.model", "network", "the network is known in static equilibrium only",
+                     "take press.mode = static, or the model hookean"});
+  if (moving && !l.axes.isIdentity(1e-12))
+    found.push_back({"lattice.rotation", "", "the grid of a moving lattice cannot be rotated",
+                     "take press.mode = static, or leave the rotation at 0"});
+  if (!(l.axes.isUnitary(1e-9) && l.axes.determinant() > 0.0))
+    found.push_back(
+        {"lattice.rotation", "", "the grid's axes must be a rotation", "give three angles"});
+  const double nu = setup.rubber.poissons_ratio();
+  if (l.model == ModelKind::network && l.kinematics == Kinematics::finite && nu < 0.0)
+    found.push_back({"rubber.youngs_modulus", "Poisson's ratio " + meshes::to_text(nu),
+                     "the network at finite strain needs Poisson's ratio >= 0: below, its energy "
+                     "falls without bound as a cell collapses",
+                     "take lattice.kinematics = small, or another rubber"});
+}
+
 void add_lattice(std::vector<Violation>& found, const PressSetup& setup) {
   const LatticeSettings& l = setup.lattice;
   if (!(positive(l.spacing) && l.spacing <= 0.5 * setup.geometry.thickness())) {
@@ -35,6 +57,7 @@ void add_lattice(std::vector<Violation>& found, const PressSetup& setup) {
                      "every component of the offset must lie between -1 and 1 spacing",
                      "shift the grid by less"});
   }
+  add_model(found, setup);
   const SpringConstants& k = l.constants;
   const bool springs = not_negative(k.k1) && not_negative(k.k2) && not_negative(k.k3) &&
                        k.k1 + k.k2 + k.k3 > 0.0 && std::isfinite(k.kappa);
@@ -101,15 +124,18 @@ std::vector<Violation> beyond_the_lattice(const meshes::PressProtocol& protocol)
                      "the lattice knows stick and frictionless contact only",
                      "choose one of them, or compute Coulomb friction with `reference`"});
   }
+  if (protocol.mode == meshes::DriveMode::equilibrium) return found;
   if (protocol.tilt != 0.0) {
-    found.push_back({"press.tilt", meshes::to_text(protocol.tilt) + " rad",
-                     "the lattice presses along the plane's normal only",
-                     "leave the tilt at 0, or compute a tilted press with `reference`"});
+    found.push_back(
+        {"press.tilt", meshes::to_text(protocol.tilt) + " rad",
+         "a moving lattice is pressed along the plane's normal only",
+         "leave the tilt at 0, take press.mode = static, or compute it with `reference`"});
   }
   if (protocol.lateral != 0.0) {
     found.push_back({"press.lateral", meshes::to_text(protocol.lateral) + " m",
-                     "the plane of the lattice does not move sideways",
-                     "leave the lateral motion at 0, or compute it with `reference`"});
+                     "the plane of a moving lattice does not move sideways",
+                     "leave the lateral motion at 0, take press.mode = static, or compute it with "
+                     "`reference`"});
   }
   return found;
 }

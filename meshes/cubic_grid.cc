@@ -1,5 +1,6 @@
 #include "meshes/cubic_grid.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "meshes/files.h"
@@ -8,7 +9,8 @@ namespace fingertip::meshes {
 
 namespace {
 
-void check(const Geometry& geometry, double spacing, const Vector3& offset) {
+void check(const Geometry& geometry, double spacing, const Vector3& offset,
+           const Eigen::Matrix3d& axes) {
   std::vector<Violation> found;
   if (!(std::isfinite(spacing) && spacing > 0.0 && spacing <= 0.5 * geometry.thickness())) {
     found.push_back({"lattice.spacing", to_text(spacing) + " m",
@@ -21,22 +23,42 @@ void check(const Geometry& geometry, double spacing, const Vector3& offset) {
                      "every component of the offset must lie between -1 and 1 spacing",
                      "shift the grid by less"});
   }
+  const Eigen::Matrix3d defect = axes.transpose() * axes - Eigen::Matrix3d::Identity();
+  if (!(axes.allFinite() && defect.cwiseAbs().maxCoeff() < 1e-9 && axes.determinant() > 0.0)) {
+    found.push_back({"lattice.rotation", "",
+                     "the grid's directions must be orthonormal and right-handed",
+                     "give a rotation matrix"});
+  }
   if (!found.empty()) throw InvalidInput(found);
+}
+
+/// How far the tip reaches from the centre (0, 0, -L) of its end along the unit vector d [m].
+double reach(const Geometry& geometry, const Vector3& d) {
+  // The farthest point is on the hemisphere if d points upward, else on the rim of the end.
+  return d.z() >= 0.0 ? geometry.tip_radius + geometry.sleeve_length * d.z()
+                      : geometry.tip_radius * std::hypot(d.x(), d.y());
 }
 
 }  // namespace
 
-CubicGrid covering_grid(const Geometry& geometry, double spacing, const Vector3& offset,
-                        int margin) {
-  check(geometry, spacing, offset);
-  // One layer more than the extent asks for, since the offset may shift points outward.
-  const int across = int(std::ceil(geometry.tip_radius / spacing)) + 1 + margin;
-  const int along = int(std::ceil((geometry.sleeve_length + geometry.tip_radius) / spacing)) + 1;
+CubicGrid covering_grid(const Geometry& geometry, double spacing, const Vector3& offset, int margin,
+                        const Eigen::Matrix3d& axes) {
+  check(geometry, spacing, offset, axes);
   CubicGrid grid;
   grid.spacing = spacing;
-  grid.size = {2 * across + 1, 2 * across + 1, along + 2 * margin + 2};
-  grid.origin = spacing * (offset - Vector3(across, across, margin + 1));
-  grid.origin.z() -= geometry.sleeve_length;
+  grid.axes = axes;
+  Vector3 below;  // points on the lower side of the end's centre
+  for (int d = 0; d < 3; ++d) {
+    // One layer more than the extent asks for, since the offset may shift points outward.
+    const auto layers = [&](const Vector3& direction) {
+      return int(std::ceil(reach(geometry, direction) / spacing)) + 1 + margin;
+    };
+    const int lower = layers(-axes.col(d));
+    below[d] = lower;
+    grid.size[std::size_t(d)] = lower + layers(axes.col(d)) + 1;
+  }
+  const Vector3 end_centre(0.0, 0.0, -geometry.sleeve_length);
+  grid.origin = spacing * (offset - below) + axes.transpose() * end_centre;
   return grid;
 }
 

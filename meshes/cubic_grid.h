@@ -11,11 +11,13 @@
 
 namespace fingertip::meshes {
 
-/// A cubic grid of points origin + spacing (i, j, k), 0 <= i < size[0] etc., x fastest.
+/// A cubic grid of points axes (origin + spacing (i, j, k)), 0 <= i < size[0] etc., i fastest.
 struct CubicGrid {
   double spacing = 0.0;              ///< a [m] (the paper's A)
-  Vector3 origin = Vector3::Zero();  ///< position of point (0, 0, 0) [m]
-  std::array<int, 3> size{0, 0, 0};  ///< points along x, y, z
+  Vector3 origin = Vector3::Zero();  ///< point (0, 0, 0) in the grid's own directions [m]
+  std::array<int, 3> size{0, 0, 0};  ///< points along the grid's x, y, z
+  /// Columns: the grid's x, y, z directions in the tip's frame, orthonormal and right-handed.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 
   std::size_t points() const {
     return std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2]);
@@ -25,17 +27,23 @@ struct CubicGrid {
            std::size_t(i);
   }
   Vector3 position(int i, int j, int k) const {
-    return origin + spacing * Vector3(double(i), double(j), double(k));
+    return axes * (origin + spacing * Vector3(double(i), double(j), double(k)));
+  }
+  /// Grid coordinates, in cells, of a point [m] of the tip's frame: the inverse of `position`.
+  Vector3 coordinates(const Vector3& position) const {
+    return (axes.transpose() * position - origin) / spacing;
   }
 };
 
 /// The grid of the paper's points w_ijk = (A i, A j, A k - L) + offset A, with i and j over both
 /// signs, large enough to hold the whole tip and `margin` further layers of points on every side.
+/// With `axes` the grid, its offset included, is turned about the centre (0, 0, -L) of the end.
 /// (The printed formula subtracts R/2 from the first two coordinates; with i, j >= 0 that keeps
 /// little more than half of the tip, so it is read as a misprint.)
-/// Throws InvalidInput unless 0 < spacing <= (R - r)/2 and every |offset| <= 1.
-CubicGrid covering_grid(const Geometry& geometry, double spacing, const Vector3& offset,
-                        int margin);
+/// Throws InvalidInput unless 0 < spacing <= (R - r)/2, every |offset| <= 1 and `axes` is a
+/// rotation.
+CubicGrid covering_grid(const Geometry& geometry, double spacing, const Vector3& offset, int margin,
+                        const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 
 /// The paper's set P: for every grid point whether it is a particle (1) or not (0). Points within
 /// 1e-9 R of a surface count as lying on it.

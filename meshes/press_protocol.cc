@@ -21,7 +21,12 @@ std::string_view name(ContactMode mode) {
 }
 
 std::string_view name(DriveMode mode) {
-  return mode == DriveMode::pid ? "pid" : "quasi-static";
+  switch (mode) {
+    case DriveMode::pid: return "pid";
+    case DriveMode::quasi_static: return "quasi-static";
+    case DriveMode::equilibrium: return "static";
+  }
+  return "unknown";
 }
 
 std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const {

@@ -20,6 +20,7 @@ enum class ContactMode {
 enum class DriveMode {
   pid,           ///< dynamics under a feedback controller that holds speed and orientation
   quasi_static,  ///< dynamics with the rod's motion prescribed: displacement-driven
+  equilibrium,   ///< no time: a path of static equilibria
 };
 
 std::string_view name(ContactMode mode);

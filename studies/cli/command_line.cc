@@ -32,6 +32,7 @@ constexpr Verb verbs[] = {
     {"validate", "the whole path for a case: fit, press, continuum, judgement, report", "CASE",
      "cases to validate (default: 01_paper_rubber)", everything},
     {"press", "press the lattice", "", "", everything},
+    {"modes", "natural frequencies of the lattice bonded to a fixed rod", "", "", everything},
     {"reference", "press the continuum (finite elements)", "", "", everything},
     {"calibrate", "fit the spring constants of lattice.model to the rubber", "", "", everything},
     {"compare", "compare force curves with the continuum's or the first one's", "RUN",

@@ -15,10 +15,11 @@ using namespace fingertip;
 int dispatch(const studies::CommandLine& line) {
   static const std::map<std::string, int (*)(const studies::CommandLine&)> verbs = {
       {"validate", studies::run_validate},   {"press", studies::run_press},
-      {"reference", studies::run_reference}, {"calibrate", studies::run_calibrate},
-      {"compare", studies::run_compare},     {"report", studies::run_report},
-      {"check", studies::run_check},         {"explain", studies::run_explain},
-      {"init", studies::run_init},           {"doctor", studies::run_doctor}};
+      {"modes", studies::run_modes},         {"reference", studies::run_reference},
+      {"calibrate", studies::run_calibrate}, {"compare", studies::run_compare},
+      {"report", studies::run_report},       {"check", studies::run_check},
+      {"explain", studies::run_explain},     {"init", studies::run_init},
+      {"doctor", studies::run_doctor}};
   return verbs.at(line.verb)(line);
 }
 

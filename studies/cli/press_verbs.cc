@@ -91,6 +91,14 @@ void print_accuracy(const std::filesystem::path& folder, double tolerance) {
 
 void print_press_facts(const std::filesystem::path& folder) {
   const auto summary = read_json(folder / "summary.json");
+  if (summary.contains("effort")) {
+    const auto& census = summary["census"];
+    fmt::print("{} particles ({} of the tip), {} Newton iterations\n",
+               census["particles"].get<std::size_t>(),
+               census["sectors"] == 1 ? "all" : fmt::format("1/{}", census["sectors"].get<int>()),
+               summary["effort"]["newton_iterations"].get<int>());
+    return;
+  }
   fmt::print("time step {:.3g} s: {}\n", summary["step"]["step"].get<double>(),
              summary["step"]["explanation"].get<std::string>());
   fmt::print("real-time factor {:.2f} (simulated over wall time)\n",
@@ -115,6 +123,23 @@ int run_press(const CommandLine& line) {
       print_press_facts(session.folder().path());
       print_folder(session, result);
     }
+    return 0;
+  });
+}
+
+int run_modes(const CommandLine& line) {
+  LoadedConfig loaded = load_config(line.config);
+  // Whatever the press is: nothing moves here, so what only static presses know is welcome.
+  loaded.config.press.protocol.mode = meshes::DriveMode::equilibrium;
+  check_all(loaded);
+  const lattice::PressSetup setup = press_setup(loaded);
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const JobResult result =
+        session.run({"", modes_job(setup, loaded.config.lattice_modes), false});
+    if (line.quiet) return 0;
+    fmt::print("{} lattice, natural frequencies\n", lattice::name(setup.lattice.model));
+    print_frequencies(session.folder().path());
+    print_folder(session, result);
     return 0;
   });
 }

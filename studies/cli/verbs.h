@@ -7,6 +7,7 @@ namespace fingertip::studies {
 
 int run_validate(const CommandLine& line);
 int run_press(const CommandLine& line);
+int run_modes(const CommandLine& line);
 int run_reference(const CommandLine& line);
 int run_calibrate(const CommandLine& line);
 int run_compare(const CommandLine& line);

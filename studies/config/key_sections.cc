@@ -78,9 +78,15 @@ void assign_kinematics(Config& config, const Value& value) {
 }
 
 void assign_model(Config& config, const Value& value) {
-  config.press.lattice.model = value.word == "published" ? lattice::ModelKind::published
-                               : value.word == "central" ? lattice::ModelKind::central
-                                                         : lattice::ModelKind::hookean;
+  using lattice::ModelKind;
+  for (const auto model :
+       {ModelKind::published, ModelKind::central, ModelKind::hookean, ModelKind::network}) {
+    if (lattice::name(model) == value.word) config.press.lattice.model = model;
+  }
+}
+
+void assign_rotation(Config& config, const Value& value) {
+  config.rotation = value.numbers;
 }
 
 void assign_samples(Config& config, const Value& value) {
@@ -102,6 +108,13 @@ auto assign_named(Enum fem_reference::ReferenceJob::*member, std::vector<Enum> v
       if (name(one) == value.word) config.reference.*member = one;
     }
   };
+}
+
+void assign_mode(Config& config, const Value& value) {
+  using meshes::DriveMode;
+  for (const auto mode : {DriveMode::pid, DriveMode::quasi_static, DriveMode::equilibrium}) {
+    if (meshes::name(mode) == value.word) config.press.protocol.mode = mode;
+  }
 }
 
 void assign_contact(Config& config, const Value& value) {
@@ -179,18 +192,25 @@ std::vector<Key> lattice_keys() {
   spacing.assign = assign_spacing;
   Key constants = with_rule(
       choice("lattice", "constants", "auto",
-             {{"auto", "published: rule; central: calibrated; hookean: rule"},
-              {"rule", "published, central: k = E a^2/l0; hookean: its exact closed form"},
+             {{"auto", "central: calibrated; the others: rule"},
+              {"rule", "published, central: k = E a^2/l0; hookean, network: exact closed forms"},
               {"calibrated", "least-squares fit to the rubber's moduli (central, hookean)"}},
              "spring constants: a word, or a material.toml written by calibrate", assign_constants),
       "a file must be for the same model; published has a rule and is never calibrated",
       {"lattice.model"});
   constants.kind = Kind::source;
+  Key rotation =
+      with_rule(plain("lattice", "rotation", Kind::quantities, "[\"0 deg\", \"0 deg\", \"0 deg\"]",
+                      any, "turns of the grid about x, then y, then z", assign_rotation),
+                "three angles, mode static only", {"press.mode"});
+  rotation.unit = "rad";
+  rotation.length = 3;
   return {
       choice("lattice", "model", "hookean",
              {{"published", "Reznik & Laugier 1996 as printed: every spring counts fully"},
               {"central", "spring constants fitted to E and G, weighted per cell"},
-              {"hookean", "central plus one volume constant per cell: exact E, G and nu"}},
+              {"hookean", "central plus one volume constant per cell: exact E, G and nu"},
+              {"network", "fibres of zero rest length under a cell pressure: finite strain"}},
              "which mass-spring model", assign_model),
       spacing,
       plain("lattice", "offset", Kind::numbers, "[0.0, 0.0, 0.0]", {-1.0, 1.0, true},
@@ -200,6 +220,7 @@ std::vector<Key> lattice_keys() {
                 config.press.lattice.offset[axis] = value.numbers[std::size_t(axis)];
               }
             }),
+      rotation,
       constants,
       plain("lattice", "ligament_stiffness", Kind::number, "1.0", positive,
             "multiplies the stiffness of the ligaments between tip and rod",
@@ -207,10 +228,13 @@ std::vector<Key> lattice_keys() {
               config.press.lattice.ligament_stiffness = value.number;
             }),
       choice("lattice", "kinematics", "auto",
-             {{"auto", "published: finite; central, hookean: small"},
+             {{"auto", "published, network: finite; central, hookean: small"},
               {"small", "linearised about the rest state"},
               {"finite", "true spring lengths and cell volumes"}},
              "how deformation is measured", assign_kinematics),
+      plain("lattice", "modes", Kind::integer, "10", {1, 1000, true},
+            "how many natural frequencies, lowest first, for the verb modes",
+            [](Config& config, const Value& value) { config.lattice_modes = int(value.number); }),
   };
 }
 
@@ -232,12 +256,9 @@ std::vector<Key> press_keys() {
   return {
       choice("press", "mode", "pid",
              {{"pid", "dynamics; a controller holds speed and orientation"},
-              {"quasi-static", "dynamics; the rod's motion is prescribed"}},
-             "what moves the rod (lattice only)",
-             [](Config& config, const Value& value) {
-               config.press.protocol.mode =
-                   value.word == "pid" ? meshes::DriveMode::pid : meshes::DriveMode::quasi_static;
-             }),
+              {"quasi-static", "dynamics; the rod's motion is prescribed"},
+              {"static", "no time: equilibrium at every sample depth"}},
+             "what moves the rod (lattice only)", assign_mode),
       choice("press", "contact", "stick",
              {{"stick", "infinite friction: anchored where it first touched"},
               {"frictionless", "only the normal gap is held, compressive only"},

@@ -52,9 +52,10 @@ struct Key {
   std::string unit;    ///< SI unit; empty for what is no quantity
   Range range;         ///< in SI
   std::vector<Choice> choices;
-  std::string word;  ///< word accepted instead of a quantity: "auto", "tip_radius/N"
-  std::string help;  ///< one line
-  std::string rule;  ///< further rule in words, may be empty
+  std::size_t length = 0;  ///< of a list of quantities; 0: any
+  std::string word;        ///< word accepted instead of a quantity: "auto", "tip_radius/N"
+  std::string help;        ///< one line
+  std::string rule;        ///< further rule in words, may be empty
   std::vector<std::string> related;  ///< keys its rule also depends on
   std::function<void(Config&, const Value&)> assign;
 

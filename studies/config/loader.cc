@@ -1,5 +1,6 @@
 #include "studies/config/loader.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -156,6 +157,13 @@ LoadedConfig Reader::finish() {
   lattice::PressSetup& press = config.press;
   if (config.spacing_divisor) {
     press.lattice.spacing = press.geometry.tip_radius / *config.spacing_divisor;
+  }
+  if (!config.rotation.empty()) {
+    using Eigen::AngleAxisd, Eigen::Vector3d;
+    press.lattice.axes = (AngleAxisd(config.rotation[2], Vector3d::UnitZ()) *
+                          AngleAxisd(config.rotation[1], Vector3d::UnitY()) *
+                          AngleAxisd(config.rotation[0], Vector3d::UnitX()))
+                             .toRotationMatrix();
   }
   press.lattice.kinematics = config.kinematics.value_or(default_kinematics(press.lattice.model));
   meshes::PressProtocol& protocol = press.protocol;

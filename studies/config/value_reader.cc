@@ -65,6 +65,8 @@ Value read_quantities(const Key& key, const toml::node& node) {
   const auto* list = node.as_array();
   if (list == nullptr)
     refuse("must be a list of quantities", "write e.g. [\"0.1 cm\", \"0.2 cm\"]");
+  if (key.length > 0 && list->size() != key.length)
+    refuse("must be a list of " + std::to_string(key.length) + " quantities", preset_advice(key));
   Value value;
   for (const toml::node& element : *list) {
     value.numbers.push_back(read_quantity(key, element).number);

@@ -123,6 +123,34 @@ ordered_json to_json(const meshes::Rubber& rubber) {
           {"retardation_time", rubber.retardation_time}};
 }
 
+ordered_json to_json(const meshes::PressProtocol& protocol) {
+  ordered_json json = {{"mode", meshes::name(protocol.mode)},
+                       {"contact", meshes::name(protocol.contact)},
+                       {"depth", protocol.depth}};
+  if (protocol.mode == meshes::DriveMode::equilibrium) {
+    json["tilt"] = protocol.tilt;
+    json["lateral"] = protocol.lateral;
+  } else {
+    json["speed"] = protocol.speed;
+    json["clearance"] = protocol.clearance;
+  }
+  json["samples"] = protocol.samples;
+  return json;
+}
+
+ordered_json to_json(const lattice::LatticeSettings& settings) {
+  ordered_json json = {
+      {"model", lattice::name(settings.model)},
+      {"kinematics", lattice::name(settings.kinematics)},
+      {"spacing", settings.spacing},
+      {"offset", std::vector<double>(settings.offset.begin(), settings.offset.end())},
+      {"constants", to_json(settings.constants)},
+      {"ligament_stiffness", settings.ligament_stiffness}};
+  if (!settings.axes.isIdentity(0.0))
+    json["axes"] = std::vector<double>(settings.axes.data(), settings.axes.data() + 9);
+  return json;
+}
+
 ordered_json to_json(const lattice::SpringConstants& constants) {
   return {
       {"k1", constants.k1}, {"k2", constants.k2}, {"k3", constants.k3}, {"kappa", constants.kappa}};

@@ -8,9 +8,14 @@
 
 namespace fingertip::studies {
 
-/// A lattice press. Files: response.csv, trace.csv (rewritten twice a second while it runs, so
-/// that a killed run stays readable), boundary.csv, boundary_springs.csv, summary.json.
+/// A lattice press. Static: see static_press_job.h. Otherwise files: response.csv, trace.csv
+/// (rewritten twice a second while it runs, so that a killed run stays readable), boundary.csv,
+/// boundary_springs.csv, summary.json.
 Job press_job(const lattice::PressSetup& setup);
+
+/// Natural frequencies of the lattice bonded to a fixed rod, lowest first. Files: modes.csv
+/// (`mode,frequency [Hz]`), summary.json.
+Job modes_job(const lattice::PressSetup& setup, int count);
 
 /// The continuum by fingertip-fem. Files: job.json, summary.json, convergence.csv, tip.msh,
 /// section.csv, pressure.csv, fields/, and by analysis response.csv (static press), also
@@ -29,9 +34,12 @@ Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions
 Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& central,
               const lattice::SpringConstants& hookean, double spacing);
 
-/// SI values that define a specimen and a press, for `Job::inputs` and summaries.
+/// SI values that define a specimen and a press, for `Job::inputs` and summaries. Static presses
+/// do not depend on speed and clearance, moving lattices know no tilt, lateral motion and rotation.
 nlohmann::ordered_json to_json(const meshes::Geometry& geometry);
 nlohmann::ordered_json to_json(const meshes::Rubber& rubber);
+nlohmann::ordered_json to_json(const meshes::PressProtocol& protocol);
+nlohmann::ordered_json to_json(const lattice::LatticeSettings& settings);
 nlohmann::ordered_json to_json(const lattice::SpringConstants& constants);
 nlohmann::ordered_json to_json(const calibration::ElasticModuli& moduli);
 

@@ -9,6 +9,7 @@
 #include "source_hash.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/static_press_job.h"
 #include "studies/run/tracking.h"
 
 namespace fingertip::studies {
@@ -113,13 +114,6 @@ class Recorder {
   Clock::time_point written_;
 };
 
-void set_status(const fs::path& folder, const std::string& status) {
-  if (!fs::exists(folder / "summary.json")) return;
-  ordered_json summary = read_json(folder / "summary.json");
-  summary["status"] = status;
-  write_json(summary, folder / "summary.json");
-}
-
 void run_press_job(lattice::PressSetup setup, const fs::path& folder, const JobContext& context) {
   setup.threads = context.threads;
   Recorder recorder(setup, folder, context);
@@ -132,38 +126,20 @@ void run_press_job(lattice::PressSetup setup, const fs::path& folder, const JobC
     write_boundary(outcome, folder);
     context.log("step " + meshes::to_text(outcome.step.step) + " s: " + outcome.step.explanation);
   } catch (const meshes::NotConverged& error) {
-    set_status(folder, std::string("not converged: ") + error.what());
+    set_press_status(folder, std::string("not converged: ") + error.what());
     throw;
   } catch (const meshes::Interrupted&) {
-    set_status(folder, "interrupted");
+    set_press_status(folder, "interrupted");
     throw;
   }
-}
-
-ordered_json protocol_of(const meshes::PressProtocol& protocol) {
-  return {{"mode", meshes::name(protocol.mode)},
-          {"contact", meshes::name(protocol.contact)},
-          {"depth", protocol.depth},
-          {"speed", protocol.speed},
-          {"clearance", protocol.clearance},
-          {"samples", protocol.samples}};
-}
-
-ordered_json lattice_of(const lattice::LatticeSettings& settings) {
-  return {{"model", lattice::name(settings.model)},
-          {"kinematics", lattice::name(settings.kinematics)},
-          {"spacing", settings.spacing},
-          {"offset", {settings.offset.x(), settings.offset.y(), settings.offset.z()}},
-          {"constants", to_json(settings.constants)},
-          {"ligament_stiffness", settings.ligament_stiffness}};
 }
 
 ordered_json inputs_of(const lattice::PressSetup& setup) {
   ordered_json inputs = {
       {"geometry", to_json(setup.geometry)},
       {"rubber", to_json(setup.rubber)},
-      {"protocol", protocol_of(setup.protocol)},
-      {"lattice", lattice_of(setup.lattice)},
+      {"protocol", to_json(setup.protocol)},
+      {"lattice", to_json(setup.lattice)},
       {"integrator", lattice::name(setup.integrator)},
       {"time_step", setup.time_step ? ordered_json(*setup.time_step) : ordered_json()}};
   if (setup.protocol.mode == meshes::DriveMode::pid) {
@@ -182,6 +158,7 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
 }  // namespace
 
 Job press_job(const lattice::PressSetup& setup) {
+  if (setup.protocol.mode == meshes::DriveMode::equilibrium) return static_press_job(setup);
   Job job;
   job.kind = "press";
   job.inputs = inputs_of(setup);

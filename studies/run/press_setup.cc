@@ -20,6 +20,13 @@ void check_constants_source(const LoadedConfig& loaded) {
                           "the published model has a rule for its constants and is not calibrated",
                           "use auto or rule, or the model central or hookean"}});
   }
+  if (loaded.config.press.lattice.model == ModelKind::network &&
+      loaded.config.constants != ConstantsSource::automatic &&
+      loaded.config.constants != ConstantsSource::rule) {
+    throw loaded.locate({{"lattice.constants", "",
+                          "the network takes G and lambda from the rubber and is not calibrated",
+                          "use auto, or the model central or hookean"}});
+  }
 }
 
 lattice::SpringConstants constants_from_file(const LoadedConfig& loaded) {
@@ -55,8 +62,9 @@ lattice::SpringConstants resolve_constants(const LoadedConfig& loaded) {
       (config.constants == ConstantsSource::automatic && model == ModelKind::central);
   if (fitted)
     return calibration::fit_moduli(config.press.rubber, fit_options(loaded, model)).constants;
-  return model == ModelKind::hookean ? lattice::hookean_constants(config.press.rubber, spacing)
-                                     : lattice::published_constants(config.press.rubber, spacing);
+  return model == ModelKind::hookean || model == ModelKind::network
+             ? lattice::hookean_constants(config.press.rubber, spacing)
+             : lattice::published_constants(config.press.rubber, spacing);
 }
 
 void check_spacing(const LoadedConfig& loaded) {
@@ -123,6 +131,11 @@ void check_all(const LoadedConfig& loaded) {
 void check_validation(const LoadedConfig& loaded) {
   check_all(loaded);
   std::vector<meshes::Violation> broken = lattice::beyond_the_lattice(loaded.config.press.protocol);
+  if (loaded.config.press.protocol.mode == meshes::DriveMode::equilibrium) {
+    broken.push_back({"press.mode", "static",
+                      "a validation judges moving lattices: their controller, momentum and speed",
+                      "choose pid or quasi-static, or use press, reference and compare"});
+  }
   if (loaded.config.reference.analysis == fem_reference::Analysis::modes) {
     broken.push_back({"reference.mode", "modes",
                       "a validation compares forces, and natural frequencies have none",

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 namespace fingertip::meshes {
 namespace {
@@ -97,6 +100,63 @@ TEST(CoveringGrid, LeavesTheAskedMarginOfEmptyLayersOnEverySide) {
         }
       }
     }
+  }
+}
+
+TEST(CoveringGrid, HoldsTheTipWithItsMarginInEveryRotation) {
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal;
+  const int margin = 1;
+  for (const Geometry& geometry : {Geometry{}, Geometry{.sleeve_length = 0.0}}) {
+    for (int turn = 0; turn < 12; ++turn) {
+      Eigen::Quaterniond q(normal(random), normal(random), normal(random), normal(random));
+      const Vector3 offset = Vector3::Random();
+      const CubicGrid grid = covering_grid(geometry, geometry.tip_radius / 8.0, offset, margin,
+                                           q.normalized().toRotationMatrix());
+      for (int sample = 0; sample < 3000; ++sample) {
+        // Points on and in the tip, the rim of its end included.
+        const double angle = 0.01 * sample, height = 0.5 * normal(random);
+        const double z = std::clamp(height, -1.0, 1.0);
+        const double radius = geometry.tip_radius;
+        const double across = z > 0.0 ? radius * std::sqrt(1.0 - z * z) : radius;
+        const Vector3 w(across * std::cos(angle), across * std::sin(angle),
+                        z > 0.0 ? z * radius : z * geometry.sleeve_length);
+        const Vector3 at = grid.coordinates(w);
+        for (int d = 0; d < 3; ++d) {
+          ASSERT_GE(at[d], margin);
+          ASSERT_LE(at[d], grid.size[std::size_t(d)] - 1 - margin);
+        }
+      }
+    }
+  }
+}
+
+TEST(CoveringGrid, CoordinatesInvertPositions) {
+  const Eigen::Matrix3d axes =
+      Eigen::AngleAxisd(0.7, Vector3(1, -2, 0.5).normalized()).toRotationMatrix();
+  const CubicGrid grid = covering_grid(Geometry{}, 1e-3, Vector3(0.1, 0.5, -0.3), 2, axes);
+  EXPECT_LT((grid.coordinates(grid.position(3, 17, 8)) - Vector3(3, 17, 8)).norm(), 1e-12);
+  // A step along the grid's second direction.
+  const Vector3 step = grid.position(3, 18, 8) - grid.position(3, 17, 8);
+  EXPECT_LT((step - 1e-3 * axes.col(1)).norm(), 1e-16);
+}
+
+TEST(CoveringGrid, IsThePapersWhenNotTurned) {
+  const Geometry geometry;
+  const double spacing = geometry.tip_radius / 12.0;
+  const Vector3 offset(0.25, -0.5, 0.125);
+  const CubicGrid grid = covering_grid(geometry, spacing, offset, 1);
+  EXPECT_EQ(grid.size, (std::array<int, 3>{29, 29, 35}));
+  const Vector3 anchor = grid.position(14, 14, 2);  // the point i = j = k = 0
+  EXPECT_LT((anchor - spacing * offset - Vector3(0, 0, -geometry.sleeve_length)).norm(), 1e-17);
+}
+
+TEST(CoveringGrid, RefusesDirectionsThatAreNoRotation) {
+  Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity(), stretch = mirror;
+  mirror(2, 2) = -1.0;
+  stretch(0, 0) = 1.001;
+  for (const Eigen::Matrix3d& axes : {mirror, stretch}) {
+    EXPECT_THROW(covering_grid(Geometry{}, 1e-3, Vector3::Zero(), 1, axes), InvalidInput);
   }
 }
 

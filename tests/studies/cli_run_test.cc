@@ -4,7 +4,9 @@
 #include <signal.h>
 
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "meshes/press_response.h"
@@ -144,6 +146,44 @@ TEST(Run, InterruptLeavesAReadableFolderThatCanBeResumed) {
                                   "press.depth=0.02 cm", "--out", "run", "--resume", "auto"});
   EXPECT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_EQ(json_of(folder / "run/manifest.json")["status"], "finished");
+}
+
+// Within 2 % of the continuum's known curve (tests/fem_reference/data), with the shape of a run.
+TEST(Run, StaticPressAgreesWithTheContinuum) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(
+      folder.path(),
+      {"press", "--out", "run", "--set", "press.mode=static", "--set", "press.contact=frictionless",
+       "--set", "lattice.spacing=tip_radius/8", "--set", "press.samples=[\"0.1 cm\", \"0.3 cm\"]"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  for (const char* file : {"parameters.toml", "manifest.json", "response.csv", "contact.csv"}) {
+    EXPECT_TRUE(fs::exists(folder / "run" / file)) << file;
+  }
+  EXPECT_EQ(json_of(folder / "run/summary.json")["status"], "finished");
+  const PressResponse response = PressResponse::read_csv(folder / "run/response.csv");
+  ASSERT_EQ(response.samples().size(), 2U);
+  const double gram_force = 9.80665e-3;
+  EXPECT_NEAR(response.samples()[0].normal_force / gram_force, 3.25628, 0.02 * 3.25628);
+  EXPECT_NEAR(response.samples()[1].normal_force / gram_force, 19.42179, 0.02 * 19.42179);
+  EXPECT_TRUE(std::isnan(response.samples()[0].time)) << "there is none";
+}
+
+// The continuum's lowest frequencies are 49.18, 54.15 (twice) and 62.57 Hz (fem_reference/README.md).
+TEST(Run, ModesOfTheLatticeAreThoseOfTheContinuum) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program(folder.path(), {"modes", "--out", "run", "--set", "lattice.spacing=tip_radius/6",
+                                  "--set", "lattice.modes=4"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::istringstream table(read_text(folder / "run/modes.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "mode,frequency [Hz]");
+  for (const double wanted : {49.18, 54.15, 54.15, 62.57}) {
+    ASSERT_TRUE(std::getline(table, line));
+    EXPECT_NEAR(std::stod(line.substr(line.find(',') + 1)), wanted, 0.04 * wanted) << line;
+  }
+  EXPECT_FALSE(std::getline(table, line));
 }
 
 TEST(Run, CompareTellsDifferences) {

@@ -111,6 +111,45 @@ TEST(Checks, ATransientPressHasItsLimits) {
   }
 }
 
+TEST(Checks, WhatOnlyAStaticPressCanDo) {
+  const auto broken = [](std::vector<std::string> sets) {
+    try {
+      press_setup(load_config({{}, std::move(sets), {}}));
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const char* set : {"lattice.model=network", "press.tilt=5 deg", "press.lateral=1 mm",
+                          "lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]"}) {
+    EXPECT_EQ(broken({set, "press.mode=static"}), "") << set;
+    const std::string text = broken({set});
+    EXPECT_NE(text.find("--set " + std::string(set)), std::string::npos) << text;
+    EXPECT_NE(text.find("press.mode = static"), std::string::npos) << text;
+  }
+  EXPECT_NE(broken({"press.contact=coulomb", "press.mode=static"}), "");
+  EXPECT_NE(broken({"press.mode=static", "lattice.model=network", "lattice.constants=calibrated"}),
+            "");
+  // nu = E/(2G) - 1 = -0.2: the network's energy falls without bound, linearised it does not.
+  const std::vector<std::string> negative = {"press.mode=static", "lattice.model=network",
+                                             "rubber.shear_modulus=25 gf/cm^2"};
+  EXPECT_NE(broken(negative).find("Poisson's ratio >= 0"), std::string::npos) << broken(negative);
+  EXPECT_EQ(broken({negative[0], negative[1], negative[2], "lattice.kinematics=small"}), "");
+}
+
+TEST(Jobs, StaticPressesDependOnWhatIsStatic) {
+  const auto key = [](std::vector<std::string> sets) {
+    sets.emplace_back("press.mode=static");
+    return press_job(setup_of(std::move(sets))).key();
+  };
+  EXPECT_EQ(key({}), key({"press.speed=2 cm/s"}));
+  EXPECT_EQ(key({}), key({"rod.density=2 g/cm^3"}));
+  for (const char* matters : {"press.tilt=1 deg", "press.lateral=1 mm", "lattice.model=network",
+                              "lattice.rotation=[\"1 deg\", \"0 deg\", \"0 deg\"]"}) {
+    EXPECT_NE(key({}), key({matters})) << matters;
+  }
+}
+
 TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
   const auto key = [](std::vector<std::string> sets) {
     return press_job(setup_of(std::move(sets))).key();

@@ -1,0 +1,70 @@
+#include "lattice/statics/contact_patch.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fingertip::lattice {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+namespace {
+
+void add_mirror_images(std::vector<LoadedPoint>& points, const Vector2d& mirror) {
+  const std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    LoadedPoint image = points[i];
+    image.place = image.place.cwiseProduct(mirror);
+    points.push_back(image);
+  }
+}
+
+double hertzian_radius(const std::vector<LoadedPoint>& points) {
+  double sum = 0.0;
+  Vector2d centre = Vector2d::Zero();
+  for (const LoadedPoint& p : points) {
+    sum += p.force;
+    centre += p.force * p.place;
+  }
+  if (!(sum > 0.0)) return 0.0;
+  centre /= sum;
+  Matrix2d moments = Matrix2d::Zero();
+  for (const LoadedPoint& p : points) {
+    const Vector2d arm = p.place - centre;
+    const double own = p.area / (4.0 * std::numbers::pi);  // second moment of a disc
+    moments += p.force / sum * (arm * arm.transpose() + own * Matrix2d::Identity());
+  }
+  return std::pow(25.0 * std::max(moments.determinant(), 0.0), 0.25);
+}
+
+double pressure_around(const Vector2d& place, const std::vector<LoadedPoint>& points,
+                       double width) {
+  double force = 0.0, area = 0.0;
+  for (const LoadedPoint& p : points) {
+    const double weight = 1.0 - (p.place - place).squaredNorm() / (width * width);
+    if (weight <= 0.0) continue;
+    force += weight * p.force;
+    area += weight * p.area;
+  }
+  return force / area;
+}
+
+}  // namespace
+
+ContactPatch contact_patch(std::vector<LoadedPoint> points, int sectors, double width) {
+  const std::size_t own = points.size();
+  if (sectors > 1) add_mirror_images(points, {1.0, -1.0});
+  if (sectors > 2) add_mirror_images(points, {-1.0, 1.0});
+  ContactPatch patch;
+  patch.radius = hertzian_radius(points);
+  for (std::size_t i = 0; i < own; ++i) {
+    if (points[i].force <= 0.0) continue;
+    patch.max_pressure =
+        std::max(patch.max_pressure, pressure_around(points[i].place, points, width));
+  }
+  return patch;
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,193 @@
+#include "lattice/statics/equilibrium.h"
+
+#include <Eigen/CholmodSupport>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "meshes/errors.h"
+
+namespace fingertip::lattice {
+
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int most_iterations = 100;
+constexpr int most_gradients = 30;  // about what a factorisation costs
+constexpr int most_halvings = 20;
+constexpr int most_shifts = 6;
+constexpr double first_shift = 1e-3;  // of the mean stiffness
+/// Accuracy of a Newton step; the next one corrects what it leaves.
+constexpr double step_accuracy = 1e-3;
+/// Of displacements, over the body's size.
+constexpr double round_off = 1e-15;
+/// Share of the decrease promised by the slope that a step must bring (Armijo).
+constexpr double sufficient_decrease = 1e-4;
+
+}  // namespace
+
+struct EquilibriumSolver::Implementation {
+  explicit Implementation(const ElasticSystem& elastic_system);
+
+  double evaluate(const StaticContact& contact, const VectorXd& displacement, Tangent* tangent);
+  double energy(const StaticContact& contact, const VectorXd& displacement) const {
+    return system.energy(displacement) + contact.energy(displacement);
+  }
+  void hold_fixed();
+  double round_off_force() const;
+  bool find_step(VectorXd& step);
+  bool factorise();
+  bool iterate(VectorXd& step) const;
+  bool search(const StaticContact& contact, const VectorXd& step, VectorXd& displacement);
+
+  const ElasticSystem& system;
+  Tangent tangent;
+  VectorXd force;
+  std::vector<Eigen::Index> fixed_entries, fixed_diagonal;  ///< of the tangent's values
+  Eigen::CholmodSupernodalLLT<Tangent, Eigen::Lower> factor;
+  bool factorised = false;
+  double extent = 0.0;  ///< largest coordinate of a particle [m]
+  Effort effort;
+};
+
+EquilibriumSolver::Implementation::Implementation(const ElasticSystem& elastic_system)
+    : system(elastic_system), tangent(system.empty_tangent()) {
+  factor.cholmod().print = 0;
+  factor.analyzePattern(tangent);
+  for (const auto& rest : system.body().rest) extent = std::max(extent, rest.cwiseAbs().maxCoeff());
+  const auto& fixed = system.body().fixed;
+  if (fixed.empty()) return;
+  for (Eigen::Index column = 0; column < tangent.cols(); ++column) {
+    for (Eigen::Index e = tangent.outerIndexPtr()[column]; e < tangent.outerIndexPtr()[column + 1];
+         ++e) {
+      const Eigen::Index row = tangent.innerIndexPtr()[e];
+      if (!fixed[std::size_t(row)] && !fixed[std::size_t(column)]) continue;
+      (row == column ? fixed_diagonal : fixed_entries).push_back(e);
+    }
+  }
+}
+
+/// Sets the force on the free unknowns and, unless null, the tangent; returns the sum of the
+/// contact forces' magnitudes.
+double EquilibriumSolver::Implementation::evaluate(const StaticContact& contact,
+                                                   const VectorXd& displacement, Tangent* matrix) {
+  system.assemble(displacement, force, matrix);
+  const double sum = contact.add(displacement, system, force, matrix);
+  const auto& fixed = system.body().fixed;
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (fixed[i]) force[Eigen::Index(i)] = 0.0;
+  if (matrix) hold_fixed();
+  return sum;
+}
+
+void EquilibriumSolver::Implementation::hold_fixed() {
+  for (const Eigen::Index e : fixed_entries) tangent.valuePtr()[e] = 0.0;
+  for (const Eigen::Index e : fixed_diagonal) tangent.valuePtr()[e] = 1.0;
+}
+
+/// What no iteration removes [N].
+double EquilibriumSolver::Implementation::round_off_force() const {
+  return round_off * tangent.diagonal().maxCoeff() * extent;
+}
+
+/// Where the tangent is not positive definite (springs snapping through), a multiple of the
+/// identity is added, the smaller the better: the step then still goes downhill.
+bool EquilibriumSolver::Implementation::factorise() {
+  const double typical = tangent.diagonal().mean();
+  double shift = 0.0;
+  for (int i = 0; i < most_shifts; ++i) {
+    factor.setShift(shift);
+    factor.factorize(tangent);
+    ++effort.factorisations;
+    factorised = factor.info() == Eigen::Success;
+    if (factorised) return true;
+    shift = shift > 0.0 ? 10.0 * shift : first_shift * typical;
+  }
+  return false;
+}
+
+/// Conjugate gradients for tangent x step = force from step = 0, up to where the energy is found to
+/// curve downward: what they have by then goes downhill (Steihaug 1983). False when they take too
+/// long.
+bool EquilibriumSolver::Implementation::iterate(VectorXd& step) const {
+  const double enough = step_accuracy * force.norm();
+  VectorXd residual = force, z = factor.solve(residual), direction = z, product(step.size());
+  step.setZero();
+  double slope = residual.dot(z);
+  for (int i = 0; i < most_gradients; ++i) {
+    product.noalias() = tangent.selfadjointView<Eigen::Lower>() * direction;
+    const double curvature = direction.dot(product);
+    if (!(slope > 0.0)) return false;
+    if (!(curvature > 0.0)) {
+      if (i == 0) step = direction;
+      return true;
+    }
+    step += slope / curvature * direction;
+    residual -= slope / curvature * product;
+    if (residual.norm() <= enough) return true;
+    z = factor.solve(residual);
+    const double next = residual.dot(z);
+    direction = z + next / slope * direction;
+    slope = next;
+  }
+  return false;
+}
+
+bool EquilibriumSolver::Implementation::find_step(VectorXd& step) {
+  step.resize(force.size());
+  if (factorised && iterate(step)) return true;
+  if (!factorise()) return false;
+  step = factor.solve(force);
+  return true;
+}
+
+/// Goes along the step, halving it until the energy falls enough; near the minimum, where the
+/// energy is all round-off, until the force does.
+bool EquilibriumSolver::Implementation::search(const StaticContact& contact, const VectorXd& step,
+                                               VectorXd& displacement) {
+  const double start = energy(contact, displacement), slope = force.dot(step);
+  const double before = force.norm();
+  if (!(slope > 0.0) || !std::isfinite(start)) return false;
+  const VectorXd origin = displacement;
+  double length = 1.0;
+  for (int i = 0; i < most_halvings; ++i, length *= 0.5) {
+    displacement = origin + length * step;
+    const double now = energy(contact, displacement);
+    if (!std::isfinite(now)) continue;
+    if (now <= start - sufficient_decrease * length * slope) return true;
+    if (std::abs(now - start) > 1e-10 * std::abs(start)) continue;
+    evaluate(contact, displacement, nullptr);
+    if (force.norm() < before) return true;
+  }
+  return false;
+}
+
+EquilibriumSolver::EquilibriumSolver(const ElasticSystem& system)
+    : implementation_(std::make_unique<Implementation>(system)) {}
+
+EquilibriumSolver::~EquilibriumSolver() = default;
+
+const Effort& EquilibriumSolver::effort() const {
+  return implementation_->effort;
+}
+
+bool EquilibriumSolver::solve(const StaticContact& contact, VectorXd& displacement,
+                              double tolerance) {
+  Implementation& own = *implementation_;
+  VectorXd step;
+  for (int i = 0; i < most_iterations; ++i) {
+    double contact_force = 0.0;
+    try {
+      contact_force = own.evaluate(contact, displacement, &own.tangent);
+    } catch (const meshes::NotConverged&) {
+      return false;
+    }
+    if (own.force.norm() <= std::max(tolerance * contact_force, own.round_off_force())) return true;
+    ++own.effort.newton_iterations;
+    if (!own.find_step(step) || !own.search(contact, step, displacement)) return false;
+  }
+  return false;
+}
+
+}  // namespace fingertip::lattice

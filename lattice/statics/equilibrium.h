@@ -1,0 +1,48 @@
+/// Newton's method for the equilibrium of a lattice body in contact.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "lattice/statics/elastic_system.h"
+#include "lattice/statics/static_contact.h"
+
+namespace fingertip::lattice {
+
+/// Force that may be left unbalanced, over the sum of the contact forces' magnitudes.
+inline constexpr double force_tolerance = 1e-9;
+
+/// What a search for equilibrium has cost.
+struct Effort {
+  int newton_iterations = 0;
+  int factorisations = 0;
+};
+
+/// Finds displacements at which elastic and contact forces on the free unknowns cancel, by Newton's
+/// method (semi-smooth where a tie opens or closes) with a backtracking line search on the energy.
+///
+/// Linear systems are solved by conjugate gradients preconditioned with the Cholesky factor of an
+/// earlier tangent; when that takes too long the present tangent is factorised (supernodal CHOLMOD,
+/// pattern analysed once). Ties that open or close are changes of low rank, for which few
+/// iterations suffice.
+class EquilibriumSolver {
+ public:
+  explicit EquilibriumSolver(const ElasticSystem& system);  // keeps a reference
+  ~EquilibriumSolver();
+
+  /// Improves `displacement` until |force| <= `tolerance` x the sum of the contact forces'
+  /// magnitudes, or round-off. False, and the displacement is of no use, when the tangent is not
+  /// positive definite, the start has no finite energy, the line search fails or 60 iterations do
+  /// not suffice. Fixed unknowns keep their values.
+  bool solve(const StaticContact& contact, Eigen::VectorXd& displacement,
+             double tolerance = force_tolerance);
+
+  /// So far, of all calls.
+  const Effort& effort() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,59 @@
+/// A lattice as lists of what stores energy: the form in which equilibrium is sought.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lattice/statics/cell_law.h"
+#include "meshes/geometry.h"
+
+namespace fingertip::lattice {
+
+/// Two particles and the constant k [N/m] between them.
+struct Spring {
+  std::array<std::uint32_t, 2> ends{};
+  double stiffness = 0.0;
+};
+
+/// What a cell's law sees of its eight corners: the displacement gradient averaged over the cell's
+/// rubber, H = Σ_c u_c gradient_cᵀ. A linear displacement u = H X gives H exactly.
+struct MeanCell {
+  std::array<std::uint32_t, 8> corners{};
+  Eigen::Matrix<double, 3, 8> gradients;  ///< mean of grad N_c over the rubber [1/m]
+  double volume = 0.0;                    ///< of the rubber in the cell [m³]
+};
+
+/// A point that moves with particles: x = rest + Σ weight_c u(corner_c), Σ weight_c = 1.
+struct TiedPoint {
+  std::array<std::uint32_t, 8> corners{};
+  std::array<double, 8> weights{};
+  meshes::Vector3 rest = meshes::Vector3::Zero();  ///< on the true surface [m]
+  double area = 0.0;                               ///< of the surface it stands for [m²]
+  double stiffness = 0.0;                          ///< of its tie to rod or plane [N/m]
+};
+
+/// Immutable. Everything in the tip's frame (meshes/geometry.h); energies of a displacement u:
+///   fibres   ½ k (|d|² - |d0|²), small: ½ k |du|²   d = x_b - x_a; isotropic springs of the rubber
+///            network, whose tension at rest is balanced by the cells
+///   springs  ½ k (|d| - |d0|)², small: ½ k (d0^·du)²    central springs
+///   cells    volume x CellLaw(H)
+///   bond     ½ stiffness |x - rest|²                the rod stands still
+struct LatticeBody {
+  std::vector<meshes::Vector3> rest;  ///< X per particle [m]
+  std::vector<double> mass;           ///< per particle [kg]
+  std::vector<Spring> fibres, springs;
+  std::vector<MeanCell> cells;
+  CellLaw law;
+  bool finite = false;           ///< kinematics of springs, fibres and law
+  std::vector<TiedPoint> bond;   ///< on the rod's surface
+  std::vector<TiedPoint> outer;  ///< where the plane may touch
+  /// Per unknown (3 particle + component): 1 where a mirror plane holds it.
+  std::vector<std::uint8_t> fixed;
+  int sectors = 1;  ///< how often this body makes up the tip: 1, 2 (y >= 0) or 4 (x, y >= 0)
+
+  Eigen::Index unknowns() const { return 3 * Eigen::Index(rest.size()); }
+};
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,176 @@
+#include "lattice/statics/static_contact.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace fingertip::lattice {
+
+using Eigen::Matrix3d;
+using Eigen::VectorXd;
+using meshes::Vector3;
+
+namespace {
+
+/// Gaps below this length [m] are round-off: a picometre.
+constexpr double gap_noise = 1e-12;
+
+/// Unit normal out of the rubber where the outer surface is nearest.
+Vector3 outer_normal(const Vector3& rest) {
+  return Vector3(rest.x(), rest.y(), std::max(rest.z(), 0.0)).normalized();
+}
+
+}  // namespace
+
+PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry) {
+  const double s = std::sin(protocol.tilt), c = std::cos(protocol.tilt);
+  PressPlane plane;
+  plane.normal = Vector3(-s, 0.0, -c);
+  plane.t1 = Vector3(c, 0.0, -s);
+  plane.t2 = plane.t1.cross(plane.normal);
+  plane.radius = geometry.tip_radius;
+  plane.lateral_ratio = protocol.lateral / protocol.depth;
+  return plane;
+}
+
+StaticContact::StaticContact(const LatticeBody& body, const PressPlane& plane,
+                             meshes::ContactMode mode)
+    : body_(&body),
+      plane_(plane),
+      stick_(mode == meshes::ContactMode::stick),
+      anchored_(body.outer.size(), 0),
+      released_(body.outer.size(), 0),
+      anchor_(body.outer.size(), Vector3::Zero()),
+      cell_(body.outer.size(), -1) {
+  std::unordered_map<std::uint32_t, std::int32_t> cell_at;
+  for (std::size_t i = 0; i < body.cells.size(); ++i)
+    cell_at[body.cells[i].corners[0]] = std::int32_t(i);
+  for (std::size_t i = 0; i < body.outer.size(); ++i) {
+    const auto found = cell_at.find(body.outer[i].corners[0]);
+    if (found == cell_at.end()) continue;
+    if (body.cells[std::size_t(found->second)].corners == body.outer[i].corners)
+      cell_[i] = found->second;
+  }
+}
+
+double StaticContact::gap(std::size_t point, const VectorXd& displacement,
+                          double indentation) const {
+  return (position(body_->outer[point], displacement) - plane_.point(indentation))
+      .dot(plane_.normal);
+}
+
+bool StaticContact::touches(std::size_t point, const VectorXd& displacement) const {
+  return stick_ ? anchored_[point] != 0 : gap(point, displacement, indentation_) < 0.0;
+}
+
+Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement) const {
+  const TiedPoint& outer = body_->outer[point];
+  if (!stick_) {
+    const double g = gap(point, displacement, indentation_);
+    return -outer.stiffness * std::min(g, 0.0) * plane_.normal;
+  }
+  if (!anchored_[point]) return Vector3::Zero();
+  return outer.stiffness *
+         (plane_.point(indentation_) + anchor_[point] - position(outer, displacement));
+}
+
+double StaticContact::pressure(std::size_t point, const VectorXd& displacement) const {
+  return tie_force(point, displacement).dot(plane_.normal) / body_->outer[point].area;
+}
+
+double StaticContact::energy(const VectorXd& displacement) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < body_->outer.size(); ++i)
+    sum += tie_force(i, displacement).squaredNorm() / (2.0 * body_->outer[i].stiffness);
+  return sum;
+}
+
+double StaticContact::add(const VectorXd& displacement, const ElasticSystem& system,
+                          VectorXd& force, Tangent* tangent) const {
+  const Matrix3d shape =
+      stick_ ? Matrix3d(Matrix3d::Identity()) : Matrix3d(plane_.normal * plane_.normal.transpose());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < body_->outer.size(); ++i) {
+    if (!touches(i, displacement)) continue;
+    const TiedPoint& outer = body_->outer[i];
+    const Vector3 push = tie_force(i, displacement);
+    sum += push.norm();
+    for (std::size_t c = 0; c < 8; ++c)
+      force.segment<3>(3 * Eigen::Index(outer.corners[c])) += outer.weights[c] * push;
+    if (tangent) system.add_tied(outer, outer.stiffness * shape, *tangent);
+  }
+  return sum;
+}
+
+int StaticContact::anchor_touching(const VectorXd& start, double from, const VectorXd& end) {
+  if (!stick_) return 0;
+  int count = 0;
+  for (std::size_t i = 0; i < body_->outer.size(); ++i) {
+    if (anchored_[i]) continue;
+    const double after = gap(i, end, indentation_);
+    if (after >= -gap_noise) continue;
+    const double before = std::max(gap(i, start, from), 0.0);
+    const double share = before / (before - after);
+    const Vector3 first = position(body_->outer[i], start) - plane_.point(from);
+    const Vector3 last = position(body_->outer[i], end) - plane_.point(indentation_);
+    const Vector3 place = (1.0 - share) * first + share * last;
+    anchor_[i] = place - place.dot(plane_.normal) * plane_.normal;
+    anchored_[i] = 1;
+    ++count;
+  }
+  return count;
+}
+
+int StaticContact::release_pulled(const VectorXd& displacement) {
+  int count = 0;
+  for (std::size_t i = 0; i < body_->outer.size(); ++i) {
+    if (!anchored_[i] || released_[i]) continue;
+    if (gap(i, displacement, indentation_) <= gap_noise) continue;
+    anchored_[i] = 0;
+    released_[i] = 1;
+    ++count;
+  }
+  return count;
+}
+
+double StaticContact::projected_area(std::size_t point, const VectorXd& displacement) const {
+  const TiedPoint& outer = body_->outer[point];
+  Vector3 normal = outer_normal(outer.rest);
+  if (body_->finite && cell_[point] >= 0) {
+    // Nanson: the deformed area is J F^-T N.
+    const Matrix3d F =
+        Matrix3d::Identity() + cell_gradient(body_->cells[std::size_t(cell_[point])], displacement);
+    normal = F.determinant() * F.inverse().transpose() * normal;
+  }
+  return outer.area * std::abs(normal.dot(plane_.normal));
+}
+
+PlaneReaction StaticContact::reaction(const VectorXd& displacement, const Vector3& about) const {
+  PlaneReaction result;
+  for (std::size_t i = 0; i < body_->outer.size(); ++i) {
+    const TiedPoint& outer = body_->outer[i];
+    const Vector3 push = tie_force(i, displacement);
+    const Vector3 place = body_->finite ? position(outer, displacement) : outer.rest;
+    result.force += push;
+    result.moment += (place - about).cross(push);
+  }
+  return result;
+}
+
+std::vector<LoadedPoint> StaticContact::points_near(const VectorXd& displacement,
+                                                    double distance) const {
+  std::vector<LoadedPoint> points;
+  for (std::size_t i = 0; i < body_->outer.size(); ++i) {
+    if (gap(i, displacement, indentation_) >= distance) continue;
+    const TiedPoint& outer = body_->outer[i];
+    const Vector3 place = body_->finite ? position(outer, displacement) : outer.rest;
+    points.push_back({{place.dot(plane_.t1), place.dot(plane_.t2)},
+                      tie_force(i, displacement).dot(plane_.normal),
+                      projected_area(i, displacement)});
+  }
+  return points;
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,95 @@
+/// Contact of a lattice body with a rigid plane by one-sided elastic ties.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "lattice/statics/contact_patch.h"
+#include "lattice/statics/elastic_system.h"
+#include "lattice/statics/lattice_body.h"
+#include "meshes/geometry.h"
+#include "meshes/press_protocol.h"
+
+namespace fingertip::lattice {
+
+/// The plane in rod axes and how it moves when the rod is taken to stand still. The normal points
+/// from the plane toward the rod: n = (-sin tilt, 0, -cos tilt); t1 is the rod's x axis projected
+/// on the plane and t2 = t1 x n the rod's y axis.
+struct PressPlane {
+  meshes::Vector3 normal = -meshes::Vector3::UnitZ(), t1 = meshes::Vector3::UnitX(),
+                  t2 = meshes::Vector3::UnitY();
+  double radius = 0.0;         ///< R: distance from the tip's centre at indentation 0 [m]
+  double lateral_ratio = 0.0;  ///< displacement along t1 per indentation
+
+  /// The point of the plane that lies below the tip's centre at indentation 0 [m].
+  meshes::Vector3 point(double indentation) const {
+    return (indentation - radius) * normal + lateral_ratio * indentation * t1;
+  }
+};
+
+PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry);
+
+/// What the plane exerts on the part computed.
+struct PlaneReaction {
+  meshes::Vector3 force = meshes::Vector3::Zero();   ///< [N]
+  meshes::Vector3 moment = meshes::Vector3::Zero();  ///< about a given point [N m]
+};
+
+/// The ties between a body's outer points and the plane. With gap g = (x - plane point)·n, an
+/// energy per point, k its stiffness:
+///   frictionless  ½ k min(g, 0)²
+///   stick         ½ k |x - anchor|² where anchored, else nothing; the anchor is the place of first
+///                 touch, lies in the plane and moves with it
+/// The gap is that of rest + u, also at small strain; the plane's normal is fixed.
+class StaticContact {
+ public:
+  /// Keeps a reference to `body`. `mode` is stick or frictionless.
+  StaticContact(const LatticeBody& body, const PressPlane& plane, meshes::ContactMode mode);
+
+  /// Moves the plane, and the anchors with it, to an indentation [m].
+  void move_to(double indentation) { indentation_ = indentation; }
+  double indentation() const { return indentation_; }
+  const PressPlane& plane() const { return plane_; }
+
+  /// [J]; continuously differentiable.
+  double energy(const Eigen::VectorXd& displacement) const;
+  /// Adds the ties' forces on the particles [N] and, unless null, their tangent [N/m]; returns the
+  /// sum of the magnitudes of the forces [N].
+  double add(const Eigen::VectorXd& displacement, const ElasticSystem& system,
+             Eigen::VectorXd& force, Tangent* tangent) const;
+
+  /// Stick: anchors the free points that have crossed the plane where they crossed it, on the way
+  /// from `start` at indentation `from` to `end` at the present one, both taken to go in a straight
+  /// line. Returns how many.
+  int anchor_touching(const Eigen::VectorXd& start, double from, const Eigen::VectorXd& end);
+  /// Stick: frees the anchored points that the plane would have to pull, but none a second time
+  /// since `begin_step`. Returns how many.
+  int release_pulled(const Eigen::VectorXd& displacement);
+  void begin_step() { released_.assign(released_.size(), 0); }
+
+  /// Force of the plane on an outer point [N].
+  meshes::Vector3 tie_force(std::size_t point, const Eigen::VectorXd& displacement) const;
+  /// Force of the plane along its normal on an outer point per its area at rest [Pa].
+  double pressure(std::size_t point, const Eigen::VectorXd& displacement) const;
+  /// Sum of the ties' forces; moments at positions of rest at small strain, at present ones at
+  /// finite strain.
+  PlaneReaction reaction(const Eigen::VectorXd& displacement, const meshes::Vector3& about) const;
+  /// The outer points that lie nearer to the plane than `distance` [m], seen along its normal.
+  std::vector<LoadedPoint> points_near(const Eigen::VectorXd& displacement, double distance) const;
+
+ private:
+  double gap(std::size_t point, const Eigen::VectorXd& displacement, double indentation) const;
+  bool touches(std::size_t point, const Eigen::VectorXd& displacement) const;
+  double projected_area(std::size_t point, const Eigen::VectorXd& displacement) const;
+
+  const LatticeBody* body_;
+  PressPlane plane_;
+  bool stick_;
+  double indentation_ = 0.0;
+  std::vector<std::uint8_t> anchored_, released_;
+  std::vector<meshes::Vector3> anchor_;  ///< from plane_.point [m]
+  std::vector<std::int32_t> cell_;       ///< that an outer point is tied to, -1: none
+};
+
+}  // namespace fingertip::lattice

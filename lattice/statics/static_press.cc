@@ -1,0 +1,259 @@
+#include "lattice/statics/static_press.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "lattice/model.h"
+#include "lattice/statics/contact_patch.h"
+#include "lattice/statics/cut_lattice.h"
+#include "lattice/statics/elastic_system.h"
+#include "lattice/statics/equilibrium.h"
+#include "lattice/statics/static_contact.h"
+#include "meshes/files.h"
+
+namespace fingertip::lattice {
+
+using Eigen::VectorXd;
+using meshes::ContactMode;
+using meshes::DriveMode;
+using meshes::PressSample;
+using meshes::Vector3;
+
+namespace {
+
+/// Largest steps as shares of the rubber's thickness.
+constexpr double sticking_step = 1.0 / 100.0;
+constexpr double finite_step = 1.0 / 40.0;
+/// A step is not made smaller than this share of the largest.
+constexpr double smallest_share = 1.0 / 128.0;
+/// Rounds of anchoring and releasing within a step.
+constexpr int most_rounds = 60;
+/// Unbalanced force that is small enough to see which points touch.
+constexpr double search_tolerance = 1e-4;
+
+/// What PressSetup::violations() demands of a static press, whatever mode it says.
+std::vector<meshes::Violation> violations_of(const PressSetup& setup) {
+  PressSetup relevant = setup;
+  relevant.protocol.mode = DriveMode::equilibrium;
+  relevant.rod = {};
+  relevant.controller = {};
+  if (setup.lattice.model == ModelKind::network)  // takes no constants
+    relevant.lattice.constants = hookean_constants(setup.rubber, setup.lattice.spacing);
+  std::vector<meshes::Violation> found = relevant.violations();
+  if (setup.lattice.model == ModelKind::published && !setup.lattice.axes.isIdentity()) {
+    found.push_back({"lattice.rotation", "", "the published lattice is aligned with the rod",
+                     "leave the rotation at 0, or take another model"});
+  }
+  return found;
+}
+
+void check(const PressSetup& setup) {
+  const auto found = violations_of(setup);
+  if (!found.empty()) throw meshes::InvalidInput(found);
+}
+
+LatticeBody body_for(const PressSetup& setup) {
+  if (setup.lattice.model != ModelKind::published)
+    return build_cut_tip(setup.geometry, setup.rubber, setup.lattice,
+                         largest_symmetry(setup.lattice, setup.protocol));
+  return body_of(build_tip(setup.geometry, setup.rubber, setup.lattice), setup.geometry,
+                 setup.rubber);
+}
+
+/// One path of equilibria.
+class StaticPress {
+ public:
+  StaticPress(const PressSetup& setup, const LatticeBody& body, const StaticObserver& observer);
+  StaticOutcome run();
+
+ private:
+  /// All that a step changes.
+  struct State {
+    StaticContact contact;
+    VectorXd displacement;
+  };
+
+  void take_census();
+  void march_to(double target);
+  bool step_to(double indentation);
+  VectorXd extrapolated(double indentation) const;
+  PressSample sample() const;
+  void note_contact();
+  void report();
+
+  const PressSetup& setup_;
+  const LatticeBody& body_;
+  const StaticObserver& observer_;
+  const ElasticSystem system_;
+  EquilibriumSolver solver_;
+  State now_;
+  double previous_indentation_ = 0.0;
+  VectorXd previous_displacement_;  ///< one step ago
+  double largest_step_ = 0.0, step_ = 0.0;
+  StaticOutcome outcome_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+};
+
+StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
+                         const StaticObserver& observer)
+    : setup_(setup),
+      body_(body),
+      observer_(observer),
+      system_(body),
+      solver_(system_),
+      now_{StaticContact(body, press_plane(setup.protocol, setup.geometry), setup.protocol.contact),
+           VectorXd::Zero(body.unknowns())},
+      previous_displacement_(now_.displacement) {
+  const double thickness = setup.geometry.thickness();
+  largest_step_ = setup.protocol.depth;
+  if (body.finite) largest_step_ = finite_step * thickness;
+  if (setup.protocol.contact == ContactMode::stick) largest_step_ = sticking_step * thickness;
+  step_ = largest_step_;
+  take_census();
+}
+
+void StaticPress::take_census() {
+  outcome_.particles = body_.rest.size();
+  outcome_.cells = body_.cells.size();
+  outcome_.springs = body_.fibres.size() + body_.springs.size();
+  outcome_.unknowns =
+      std::size_t(body_.unknowns()) - std::size_t(std::ranges::count(body_.fixed, std::uint8_t{1}));
+  outcome_.sectors = body_.sectors;
+  outcome_.volume = body_.sectors * std::accumulate(body_.mass.begin(), body_.mass.end(), 0.0) /
+                    setup_.rubber.density;
+  outcome_.exact_volume = setup_.geometry.tip_volume();
+}
+
+StaticOutcome StaticPress::run() {
+  std::vector<double> samples = setup_.protocol.samples;
+  if (samples.empty()) samples = meshes::default_samples(setup_.protocol.depth);
+  for (const double target : samples) {
+    march_to(target);
+    outcome_.response.append(sample());
+    note_contact();
+    report();
+  }
+  return std::move(outcome_);
+}
+
+void StaticPress::march_to(double target) {
+  // Steps of equal length, so that none is left over at the end.
+  while (now_.contact.indentation() < target) {
+    const double left = target - now_.contact.indentation();
+    const double count = std::ceil(left / step_ - 1e-9);
+    const bool last = count <= 1.0;
+    if (step_to(last ? target : now_.contact.indentation() + left / count)) {
+      step_ = std::min(2.0 * step_, largest_step_);
+      if (!last) report();
+      continue;
+    }
+    step_ = 0.5 * left / std::max(count, 1.0);
+    if (step_ < smallest_share * largest_step_) {
+      throw meshes::NotConverged("the static press found no equilibrium beyond an indentation of " +
+                                 meshes::to_text(now_.contact.indentation()) +
+                                 " m; take a finer lattice or press less deep");
+    }
+  }
+}
+
+/// The last step's motion continued, where that turns no cell inside out.
+VectorXd StaticPress::extrapolated(double indentation) const {
+  const double from = now_.contact.indentation(), before = from - previous_indentation_;
+  if (!(before > 0.0)) return now_.displacement;
+  const VectorXd guess = now_.displacement + (indentation - from) / before *
+                                                 (now_.displacement - previous_displacement_);
+  return std::isfinite(system_.energy(guess)) ? guess : now_.displacement;
+}
+
+bool StaticPress::step_to(double indentation) {
+  const double from = now_.contact.indentation();
+  State next{now_.contact, extrapolated(indentation)};
+  next.contact.move_to(indentation);
+  next.contact.begin_step();
+  const bool stick = setup_.protocol.contact == ContactMode::stick;
+  double tolerance = stick ? search_tolerance : force_tolerance;
+  bool settled = false;
+  for (int round = 0; round < most_rounds && !settled; ++round) {
+    if (!solver_.solve(next.contact, next.displacement, tolerance)) return false;
+    if (next.contact.anchor_touching(now_.displacement, from, next.displacement) > 0) continue;
+    if (next.contact.release_pulled(next.displacement) > 0) continue;
+    settled = tolerance == force_tolerance;
+    tolerance = force_tolerance;
+  }
+  if (!settled) return false;
+  previous_indentation_ = from;
+  previous_displacement_.swap(now_.displacement);
+  now_ = std::move(next);
+  ++outcome_.steps;
+  outcome_.smallest_jacobian =
+      std::min(outcome_.smallest_jacobian, system_.smallest_jacobian(now_.displacement));
+  return true;
+}
+
+/// Force and torque on the rod from the bond's ties. A tie's pull goes through its point on the
+/// rod, at rest or not, and the body's forces balance: they are those of the plane, too.
+PressSample StaticPress::sample() const {
+  const Vector3 endpoint = setup_.geometry.rod_endpoint();
+  Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
+  for (const TiedPoint& point : body_.bond) {
+    const Vector3 pull = point.stiffness * shift(point, now_.displacement);
+    force += pull;
+    torque += (point.rest - endpoint).cross(pull);
+  }
+  // Mirror images: y -> -y turns (f, t) into (fx, -fy, fz), (-tx, ty, -tz); x -> -x likewise.
+  if (body_.sectors > 1) force.y() = torque.x() = torque.z() = 0.0;
+  if (body_.sectors > 2) force.x() = torque.y() = 0.0;
+  force *= body_.sectors;
+  torque *= body_.sectors;
+  const PressPlane& plane = now_.contact.plane();
+  const double spacing = setup_.lattice.spacing;
+  const ContactPatch patch =
+      contact_patch(now_.contact.points_near(now_.displacement, spacing), body_.sectors, spacing);
+  PressSample sample;
+  sample.indentation = now_.contact.indentation();
+  sample.normal_force = force.dot(plane.normal);
+  sample.lateral_force_x = force.dot(plane.t1);
+  sample.lateral_force_y = force.dot(plane.t2);
+  sample.torque_x = torque.x();
+  sample.torque_y = torque.y();
+  sample.torque_z = torque.z();
+  sample.contact_radius = patch.radius;
+  sample.max_pressure = patch.max_pressure;
+  return sample;
+}
+
+void StaticPress::note_contact() {
+  outcome_.contact.clear();
+  for (std::size_t i = 0; i < body_.outer.size(); ++i)
+    outcome_.contact.push_back({body_.outer[i].rest, position(body_.outer[i], now_.displacement),
+                                now_.contact.pressure(i, now_.displacement)});
+}
+
+void StaticPress::report() {
+  outcome_.newton_iterations = solver_.effort().newton_iterations;
+  outcome_.factorisations = solver_.effort().factorisations;
+  outcome_.wall_time =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  if (observer_ && !observer_(outcome_, now_.contact.indentation() / setup_.protocol.depth))
+    throw meshes::Interrupted("the press was interrupted");
+}
+
+}  // namespace
+
+StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer) {
+  check(setup);
+  return StaticPress(setup, body_for(setup), observer).run();
+}
+
+StaticOutcome run_static_press(const PressSetup& setup, const LatticeBody& body,
+                               const StaticObserver& observer) {
+  check(setup);
+  return StaticPress(setup, body, observer).run();
+}
+
+}  // namespace fingertip::lattice

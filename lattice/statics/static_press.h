@@ -1,0 +1,54 @@
+/// The press without time: a path of equilibria.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lattice/settings.h"
+#include "lattice/statics/lattice_body.h"
+#include "meshes/press_response.h"
+
+namespace fingertip::lattice {
+
+/// The state of an outer point at the end of a press.
+struct StaticContactPoint {
+  meshes::Vector3 rest, deformed;  ///< [m]
+  double pressure = 0.0;  ///< along the plane's normal, per rest area [Pa]; 0: not touching
+};
+
+/// Counts and contact points are those of the part computed, 1/sectors of the tip; forces, torques
+/// and radii are the whole tip's. Of the response's columns time and force_error stay unknown.
+/// contact_radius and max_pressure are those of contact_patch, with pressure averaged over one
+/// spacing around a point: true ones at finite strain, at small strain those of the shape at rest.
+/// R/12, default press: radius within 1 % from a depth of 0.05 cm on, pressure -2 ... +6 %.
+struct StaticOutcome {
+  meshes::PressResponse response;  ///< at the protocol's samples
+  std::size_t particles = 0, cells = 0, springs = 0, unknowns = 0;
+  int sectors = 1;
+  double volume = 0.0, exact_volume = 0.0;  ///< of the rubber, whole tip [m³]
+  int steps = 0, newton_iterations = 0, factorisations = 0;
+  double smallest_jacobian = 1.0;           ///< over all cells and steps
+  double wall_time = 0.0;                   ///< [s]
+  std::vector<StaticContactPoint> contact;  ///< at the last sample finished
+};
+
+/// Called after every sample and after the steps between; false ends the press with Interrupted.
+using StaticObserver = std::function<bool(const StaticOutcome& so_far, double fraction_done)>;
+
+/// Presses `setup`'s lattice quasi-statically through protocol.samples (or the default ones), with
+/// stick or frictionless contact, tilt and lateral motion (proportional to the indentation).
+/// Contact is a one-sided elastic tie of every outer point to the plane (TiedPoint::stiffness):
+/// frictionless along the normal; stick to the place where the point first touched, interpolated
+/// within the step, and released when pulled. Steps are at most (R - r)/100 with stick, (R - r)/40
+/// at finite strain without; a step that fails is halved, down to 1/128 of that. The published
+/// model is computed on its own particles, the others on cut cells, on the smallest part that
+/// symmetry allows. Of `setup`, the protocol's mode, rod, controller and integrator do not matter.
+/// Throws InvalidInput for a setup that breaks a rule, NotConverged when Newton's method fails at
+/// the smallest step (the observer has seen what was finished), Interrupted when the observer asks.
+StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer = {});
+
+/// The same with a body of one's own, made for `setup` (largest_symmetry for its sectors).
+StaticOutcome run_static_press(const PressSetup& setup, const LatticeBody& body,
+                               const StaticObserver& observer = {});
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,173 @@
+#include "lattice/statics/vibration_modes.h"
+
+#include <Spectra/SymEigsSolver.h>
+
+#include <Eigen/CholmodSupport>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "lattice/statics/elastic_system.h"
+#include "meshes/errors.h"
+
+namespace fingertip::lattice {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Of an eigenvector's residual; the eigenvalue's error is its square.
+constexpr double residual_tolerance = 1e-10;
+constexpr int most_restarts = 1000;
+constexpr int smallest_basis = 20;  // Lanczos vectors
+/// Shift that makes the stiffness of a free body definite, over the mean square frequency of all
+/// its modes, trace K / trace M: some squared frequency near the lowest elastic ones.
+constexpr double free_shift = 1e-4;
+
+bool is_fixed(const LatticeBody& body, Index unknown) {
+  return !body.fixed.empty() && body.fixed[std::size_t(unknown)] != 0;
+}
+
+void check(const LatticeBody& body, int count) {
+  Index free = 0;
+  for (Index i = 0; i < body.unknowns(); ++i) free += is_fixed(body, i) ? 0 : 1;
+  std::vector<meshes::Violation> found;
+  if (count < 1 || count >= free) {
+    found.push_back({"modes", std::to_string(count),
+                     "the number of modes must be at least 1 and below the lattice's " +
+                         std::to_string(free) + " free unknowns",
+                     "ask for fewer modes or choose a finer lattice"});
+  }
+  if (!std::all_of(body.mass.begin(), body.mass.end(),
+                   [](double mass) { return std::isfinite(mass) && mass > 0.0; })) {
+    found.push_back({"rubber.density", "", "every particle needs a positive mass to vibrate",
+                     "give a positive density"});
+  }
+  if (!found.empty()) throw meshes::InvalidInput(found);
+}
+
+/// B = S (K - shift M)^-1 S with S = M^½, fixed unknowns left out by S = 0. From B v = nu v with
+/// v = S x follows K x = (shift + 1/nu) M x. What has been found is projected out.
+class InverseOperator {
+ public:
+  using Scalar = double;  // the names Spectra asks for
+
+  explicit InverseOperator(const LatticeBody& body);
+
+  Index rows() const { return root_mass_.size(); }
+  Index cols() const { return root_mass_.size(); }
+  void perform_op(const double* in, double* out) const;
+
+  double eigenvalue(double nu) const { return shift_ + 1.0 / nu; }
+  /// x of v.
+  VectorXd shape(const VectorXd& v) const;
+  void project_out(VectorXd v) { found_.push_back(std::move(v)); }
+
+ private:
+  void remove_found(VectorXd& v) const;
+
+  VectorXd root_mass_;  ///< S
+  double shift_ = 0.0;  ///< [1/s²]
+  Eigen::CholmodSupernodalLLT<Tangent, Eigen::Lower> factor_;
+  std::vector<VectorXd> found_;
+};
+
+InverseOperator::InverseOperator(const LatticeBody& body) : root_mass_(body.unknowns()) {
+  const ElasticSystem system(body);
+  VectorXd force, mass(body.unknowns());
+  Tangent matrix = system.empty_tangent();
+  system.assemble(VectorXd::Zero(body.unknowns()), force, &matrix);
+  for (Index i = 0; i < mass.size(); ++i) {
+    mass[i] = body.mass[std::size_t(i / 3)];
+    root_mass_[i] = is_fixed(body, i) ? 0.0 : std::sqrt(mass[i]);
+  }
+  if (body.bond.empty()) shift_ = -free_shift * matrix.diagonal().sum() / mass.sum();
+  for (Index column = 0; column < matrix.cols(); ++column) {
+    for (Tangent::InnerIterator entry(matrix, column); entry; ++entry) {
+      const bool held = is_fixed(body, entry.row()) || is_fixed(body, column);
+      if (entry.row() == column) {
+        entry.valueRef() = held ? 1.0 : entry.value() - shift_ * mass[column];
+      } else if (held) {
+        entry.valueRef() = 0.0;
+      }
+    }
+  }
+  factor_.cholmod().print = 0;
+  factor_.compute(matrix);
+  if (factor_.info() != Eigen::Success) {
+    throw meshes::NotConverged(
+        "the lattice has no natural vibrations: its stiffness at rest is not positive");
+  }
+}
+
+void InverseOperator::remove_found(VectorXd& v) const {
+  for (const VectorXd& f : found_) v -= f.dot(v) * f;
+}
+
+void InverseOperator::perform_op(const double* in, double* out) const {
+  VectorXd v = Eigen::Map<const VectorXd>(in, rows());
+  remove_found(v);
+  VectorXd image = root_mass_.cwiseProduct(factor_.solve(root_mass_.cwiseProduct(v)));
+  remove_found(image);
+  Eigen::Map<VectorXd>(out, rows()) = image;
+}
+
+VectorXd InverseOperator::shape(const VectorXd& v) const {
+  return (root_mass_.array() > 0.0).select(v.cwiseQuotient(root_mass_), 0.0);
+}
+
+/// An eigenvector of the operator.
+struct Found {
+  double nu = 0.0;
+  VectorXd v;
+};
+
+/// The `count` largest in the complement of what has been projected out. A start of its own for
+/// every call: a Krylov space holds one vector of each eigenspace, the same for the same start.
+std::vector<Found> largest(InverseOperator& inverse, int count, std::mt19937& generator) {
+  const Index basis = std::min<Index>(inverse.rows(), std::max(2 * count + 1, smallest_basis));
+  Spectra::SymEigsSolver<InverseOperator> solver(inverse, count, basis);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const VectorXd start = VectorXd::NullaryExpr(inverse.rows(), [&] { return uniform(generator); });
+  solver.init(start.data());
+  solver.compute(Spectra::SortRule::LargestAlge, most_restarts, residual_tolerance);
+  if (solver.info() != Spectra::CompInfo::Successful)
+    throw meshes::NotConverged("the natural vibrations of the lattice were not found in " +
+                               std::to_string(most_restarts) + " restarts of Lanczos' method");
+  const VectorXd nu = solver.eigenvalues();
+  const Eigen::MatrixXd v = solver.eigenvectors();
+  std::vector<Found> found;
+  for (Index i = 0; i < nu.size(); ++i) found.push_back({nu[i], v.col(i)});
+  return found;
+}
+
+}  // namespace
+
+std::vector<VibrationMode> vibration_modes(const LatticeBody& body, int count) {
+  check(body, count);
+  InverseOperator inverse(body);
+  std::mt19937 generator;
+  const auto before = [](const Found& a, const Found& b) { return a.nu > b.nu; };
+  std::vector<Found> kept = largest(inverse, count, generator);
+  for (const Found& one : kept) inverse.project_out(one.v);
+  // A mode whose twin has been found may have been passed over.
+  for (;;) {
+    Found next = largest(inverse, 1, generator).front();
+    if (next.nu <= kept.back().nu) break;
+    inverse.project_out(next.v);
+    kept.insert(std::upper_bound(kept.begin(), kept.end(), next, before), std::move(next));
+    kept.pop_back();
+  }
+  std::vector<VibrationMode> modes;
+  for (const Found& one : kept) {
+    // Round-off may turn the zero of a rigid motion negative.
+    const double square = std::max(inverse.eigenvalue(one.nu), 0.0);
+    modes.push_back({std::sqrt(square) / (2.0 * std::numbers::pi), inverse.shape(one.v)});
+  }
+  return modes;
+}
+
+}  // namespace fingertip::lattice

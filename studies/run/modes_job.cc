@@ -1,0 +1,62 @@
+#include <cmath>
+#include <ostream>
+
+#include "lattice/model.h"
+#include "lattice/statics/cut_lattice.h"
+#include "lattice/statics/vibration_modes.h"
+#include "meshes/files.h"
+#include "source_hash.h"
+#include "studies/run/jobs.h"
+#include "studies/run/json_file.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The whole tip, so that modes of every symmetry are found.
+lattice::LatticeBody body_of(const lattice::PressSetup& setup) {
+  if (setup.lattice.model != lattice::ModelKind::published)
+    return lattice::build_cut_tip(setup.geometry, setup.rubber, setup.lattice, 1);
+  return lattice::body_of(lattice::build_tip(setup.geometry, setup.rubber, setup.lattice),
+                          setup.geometry, setup.rubber);
+}
+
+void run_modes_job(const lattice::PressSetup& setup, int count, const fs::path& folder,
+                   const JobContext& context) {
+  context.report(0.0, "natural frequencies");
+  const lattice::LatticeBody body = body_of(setup);
+  const auto modes = lattice::vibration_modes(body, count);
+  meshes::write_atomically(folder / "modes.csv", [&](std::ostream& out) {
+    out << "mode,frequency [Hz]\n";
+    for (std::size_t i = 0; i < modes.size(); ++i)
+      out << i + 1 << ',' << meshes::to_text(modes[i].frequency) << '\n';
+  });
+  write_json({{"model", lattice::name(setup.lattice.model)},
+              {"status", "finished"},
+              {"spacing", setup.lattice.spacing},
+              {"constants", to_json(setup.lattice.constants)},
+              {"particles", body.rest.size()},
+              {"cells", body.cells.size()}},
+             folder / "summary.json");
+}
+
+}  // namespace
+
+Job modes_job(const lattice::PressSetup& setup, int count) {
+  Job job;
+  job.kind = "modes";
+  job.inputs = {{"geometry", to_json(setup.geometry)},
+                {"rubber", to_json(setup.rubber)},
+                {"lattice", to_json(setup.lattice)},
+                {"modes", count}};
+  job.source_hash = source_hash::lattice;
+  job.weight = 2.0 * std::pow(setup.geometry.tip_radius / (12.0 * setup.lattice.spacing), 6);
+  job.run = [setup, count](const fs::path& folder, const JobContext& context) {
+    run_modes_job(setup, count, folder, context);
+  };
+  return job;
+}
+
+}  // namespace fingertip::studies

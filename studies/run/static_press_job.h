@@ -1,0 +1,15 @@
+/// A press without time, and what it shares with the press of moving lattices.
+#pragma once
+
+#include "lattice/settings.h"
+#include "studies/run/job.h"
+
+namespace fingertip::studies {
+
+/// Files: response.csv and summary.json (rewritten after every sample), contact.csv.
+Job static_press_job(const lattice::PressSetup& setup);
+
+/// Writes `status` into the folder's summary.json, if there is one.
+void set_press_status(const std::filesystem::path& folder, const std::string& status);
+
+}  // namespace fingertip::studies
