@@ -102,7 +102,7 @@ struct Recipe {
   std::array<double, 3> central{};  ///< of whole central springs, per family [N/m]
   CellLaw law;
   bool finite = false;
-  double confined = 0.0;  ///< C11, the modulus of a confined layer [Pa]
+  double shear = 0.0;  ///< C44 [Pa]
 };
 
 Recipe recipe_for(const Rubber& rubber, const LatticeSettings& settings) {
@@ -112,7 +112,7 @@ Recipe recipe_for(const Rubber& rubber, const LatticeSettings& settings) {
   SpringConstants k = settings.constants;
   if (settings.model == ModelKind::network) k = hookean_constants(rubber, a);
   if (settings.model == ModelKind::central) k.kappa = 0.0;
-  recipe.confined = (k.k1 + 2.0 * k.k2 + 4.0 / 3.0 * k.k3) / a + k.kappa;
+  recipe.shear = (k.k2 + 4.0 / 3.0 * k.k3) / a;
   if (settings.model == ModelKind::network && recipe.finite) {
     recipe.fibre = fibre_share * rubber.shear_modulus * a;
     recipe.law = CellLaw::network(rubber, fibre_share);
@@ -120,7 +120,7 @@ Recipe recipe_for(const Rubber& rubber, const LatticeSettings& settings) {
     recipe.central = {k.k1, k.k2, k.k3};
     if (settings.model == ModelKind::hookean) recipe.law = CellLaw::volume(k.kappa, true);
   } else {
-    recipe.fibre = fibre_share * (k.k2 + 4.0 / 3.0 * k.k3);  // s C44 a
+    recipe.fibre = fibre_share * recipe.shear * a;
     recipe.law = CellLaw::cubic(k, a, fibre_share, settings.axes);
   }
   return recipe;
@@ -258,7 +258,7 @@ LatticeBody build_cut_tip(const Geometry& geometry, const Rubber& rubber,
   LatticeBody body = elastic_body(cells, recipe, rubber.density);
   body.sectors = sectors;
   hold_mirror_planes(grid.spacing, sectors, body);
-  const double stiffness = tie_stiffness * recipe.confined / grid.spacing;
+  const double stiffness = tie_stiffness * recipe.shear / grid.spacing;
   body.bond = tied_surface(cells, geometry, Surface::bond, -geometry.sleeve_length, sectors,
                            stiffness * settings.ligament_stiffness);
   body.outer =
@@ -283,7 +283,7 @@ LatticeBody body_of(const LatticeModel& model, const Geometry& geometry, const R
     const Vector3 rest = model.rest_position(point);
     if (rest.z() < lowest_contact(geometry)) continue;
     body.outer.push_back(
-        tie_to_particle(number[point], rest, a * a, tie_stiffness * rubber.youngs_modulus * a));
+        tie_to_particle(number[point], rest, a * a, particle_tie * rubber.youngs_modulus * a));
   }
   return body;
 }

@@ -17,9 +17,11 @@ namespace fingertip::lattice {
 /// the cell's mean gradient. With s = 1/3 the bilinear modes of a cell cost what they cost in the
 /// continuum (edges see y² = 1/4 where the mean over the cell is 1/12).
 inline constexpr double fibre_share = 1.0 / 3.0;
-/// Stiffness of the ties to rod and plane per area over C11/a. Below 10 the ties themselves are
-/// felt, above 50 they lock the lattice (README: measured).
-inline constexpr double tie_stiffness = 20.0;
+/// Stiffness of the ties to rod and plane per area over C44/a. Softer ties are felt, stiffer ones
+/// lock the lattice (README: measured).
+inline constexpr double tie_stiffness = 160.0;
+/// Tie of a published particle to the plane over E a.
+inline constexpr double particle_tie = 20.0;
 /// Cells with less rubber than this are left out.
 inline constexpr double smallest_fraction = 1e-6;
 
@@ -37,7 +39,7 @@ inline constexpr double smallest_fraction = 1e-6;
 ///
 /// settings.constants are those of hookean (kappa included) and central, the network takes G and
 /// lambda of the rubber. Bond and outer points lie at most a/3 apart; the outer ones cover the
-/// hemisphere and R - r of the sleeve. Ties: tie_stiffness C11/a per area, the bond's times
+/// hemisphere and R - r of the sleeve. Ties: tie_stiffness C44/a per area, the bond's times
 /// ligament_stiffness. Where fibres and a cell law make up the material (the first three), a linear
 /// displacement costs the rubber's energy in every cell, and its nodal forces are those of its
 /// traction on the true surfaces (patch test). Throws InvalidInput for a specimen that breaks a
@@ -49,7 +51,7 @@ LatticeBody build_cut_tip(const meshes::Geometry& geometry, const meshes::Rubber
 
 /// The published lattice, the whole tip, as lists: every spring as in the model, particles tied to
 /// the rod by their ligaments, boundary particles down to R - r below the equator that touch by
-/// themselves (area a² each, tie tie_stiffness E a). Throws InvalidInput for the other models,
+/// themselves (area a² each, tie particle_tie E a). Throws InvalidInput for the other models,
 /// which do not press with their staircase: see build_cut_tip.
 LatticeBody body_of(const LatticeModel& model, const meshes::Geometry& geometry,
                     const meshes::Rubber& rubber);

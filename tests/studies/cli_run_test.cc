@@ -168,7 +168,8 @@ TEST(Run, StaticPressAgreesWithTheContinuum) {
   EXPECT_TRUE(std::isnan(response.samples()[0].time)) << "there is none";
 }
 
-// The continuum's lowest frequencies are 49.18, 54.15 (twice) and 62.57 Hz (fem_reference/README.md).
+// The continuum's lowest frequencies are 49.18, 54.15 (twice) and 62.57 Hz
+// (fem_reference/README.md).
 TEST(Run, ModesOfTheLatticeAreThoseOfTheContinuum) {
   const TemporaryFolder folder;
   const ProgramResult result =
