@@ -23,25 +23,32 @@ bool not_negative(double value) {
   return std::isfinite(value) && value >= 0.0;
 }
 
-/// What only static presses can do, and rubbers that the network's energy does not stand.
+bool is_rotated(const LatticeSettings& settings) {
+  return !settings.axes.isIdentity(1e-12);
+}
+
+/// Grids and rubbers that a model does not stand.
 void add_model(std::vector<Violation>& found, const PressSetup& setup) {
   const LatticeSettings& l = setup.lattice;
-  const bool moving = setup.protocol.mode != meshes::DriveMode::equilibrium;
-  if (moving && l.model == ModelKind::network)
-    found.push_back({"lattice.model", "network", "the network is known in static equilibrium only",
-                     "take press.mode = static, or the model hookean"});
-  if (moving && !l.axes.isIdentity(1e-12))
-    found.push_back({"lattice.rotation", "", "the grid of a moving lattice cannot be rotated",
-                     "take press.mode = static, or leave the rotation at 0"});
+  if (l.model == ModelKind::published && is_rotated(l))
+    found.push_back({"lattice.rotation", "", "the published lattice is aligned with the rod",
+                     "leave the rotation at 0, or take another model"});
   if (!(l.axes.isUnitary(1e-9) && l.axes.determinant() > 0.0))
     found.push_back(
         {"lattice.rotation", "", "the grid's axes must be a rotation", "give three angles"});
   const double nu = setup.rubber.poissons_ratio();
-  if (l.model == ModelKind::network && l.kinematics == Kinematics::finite && nu < 0.0)
+  if (l.model == ModelKind::network && l.kinematics == Kinematics::finite && nu < -1e-12)
     found.push_back({"rubber.youngs_modulus", "Poisson's ratio " + meshes::to_text(nu),
                      "the network at finite strain needs Poisson's ratio >= 0: below, its energy "
                      "falls without bound as a cell collapses",
                      "take lattice.kinematics = small, or another rubber"});
+  const bool at_rest = setup.protocol.mode == meshes::DriveMode::equilibrium;
+  if (at_rest && l.model == ModelKind::hookean && l.kinematics == Kinematics::finite &&
+      l.constants.kappa < 0.0)
+    found.push_back({"lattice.kinematics", "finite",
+                     "hookean at finite strain needs kappa >= 0 (Poisson's ratio >= 1/4): below, a "
+                     "cell gains energy by any change of volume",
+                     "take the model network, or lattice.kinematics = small"});
 }
 
 void add_lattice(std::vector<Violation>& found, const PressSetup& setup) {
@@ -117,7 +124,8 @@ void add_rod(std::vector<Violation>& found, const PressSetup& setup) {
 
 }  // namespace
 
-std::vector<Violation> beyond_the_lattice(const meshes::PressProtocol& protocol) {
+std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
+  const meshes::PressProtocol& protocol = setup.protocol;
   std::vector<Violation> found;
   if (protocol.contact == meshes::ContactMode::coulomb) {
     found.push_back({"press.contact", "coulomb",
@@ -125,6 +133,12 @@ std::vector<Violation> beyond_the_lattice(const meshes::PressProtocol& protocol)
                      "choose one of them, or compute Coulomb friction with `reference`"});
   }
   if (protocol.mode == meshes::DriveMode::equilibrium) return found;
+  if (setup.lattice.model == ModelKind::network)
+    found.push_back({"lattice.model", "network", "the network is known in static equilibrium only",
+                     "take press.mode = static, or the model hookean"});
+  if (is_rotated(setup.lattice))
+    found.push_back({"lattice.rotation", "", "the grid of a moving lattice cannot be rotated",
+                     "take press.mode = static, or leave the rotation at 0"});
   if (protocol.tilt != 0.0) {
     found.push_back(
         {"press.tilt", meshes::to_text(protocol.tilt) + " rad",
@@ -147,7 +161,7 @@ std::vector<Violation> PressSetup::violations() const {
   };
   append(rubber.violations());
   append(protocol.violations(geometry));
-  append(beyond_the_lattice(protocol));
+  append(beyond_the_lattice(*this));
   add_lattice(found, *this);
   add_controller(found, controller);
   add_rod(found, *this);

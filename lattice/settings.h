@@ -26,7 +26,7 @@ struct LatticeSettings {
   Kinematics kinematics = Kinematics::small;
   double spacing = 0.01 / 12.0;                      ///< a [m], at most (R - r)/2
   meshes::Vector3 offset = meshes::Vector3::Zero();  ///< shift of the grid in units of a
-  /// Columns: the grid's axes in the tip's frame, a rotation. Static presses only.
+  /// Columns: the grid's axes in the tip's frame, a rotation. Static presses and modes only.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   SpringConstants constants;        ///< for this spacing
   double ligament_stiffness = 1.0;  ///< multiplies the ligaments' stiffness (README: bond)
@@ -48,10 +48,6 @@ struct PidSettings {
   double torque_limit = 1.0;        ///< largest torque about each axis [N m], > 0
 };
 
-/// What of a valid protocol the lattice cannot do: a touching point sticks for good or slides
-/// freely, and moving lattices are pressed straight along the plane's normal.
-std::vector<meshes::Violation> beyond_the_lattice(const meshes::PressProtocol& protocol);
-
 /// The complete order for one press.
 struct PressSetup {
   meshes::Geometry geometry;
@@ -68,5 +64,10 @@ struct PressSetup {
   /// beyond_the_lattice.
   std::vector<meshes::Violation> violations() const;
 };
+
+/// What of a valid order the lattice cannot do: a touching point sticks for good or slides freely,
+/// and moving lattices are not of the network model, stand straight and are pressed straight along
+/// the plane's normal.
+std::vector<meshes::Violation> beyond_the_lattice(const PressSetup& setup);
 
 }  // namespace fingertip::lattice

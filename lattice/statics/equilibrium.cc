@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "meshes/errors.h"
+#include "lattice/statics/factor_memory.h"
 
 namespace fingertip::lattice {
 
@@ -55,6 +55,7 @@ EquilibriumSolver::Implementation::Implementation(const ElasticSystem& elastic_s
     : system(elastic_system), tangent(system.empty_tangent()) {
   factor.cholmod().print = 0;
   factor.analyzePattern(tangent);
+  require_memory(factor.cholmod(), tangent.rows());
   for (const auto& rest : system.body().rest) extent = std::max(extent, rest.cwiseAbs().maxCoeff());
   const auto& fixed = system.body().fixed;
   if (fixed.empty()) return;
@@ -99,6 +100,7 @@ bool EquilibriumSolver::Implementation::factorise() {
   for (int i = 0; i < most_shifts; ++i) {
     factor.setShift(shift);
     factor.factorize(tangent);
+    require_memory(factor.cholmod(), tangent.rows());
     ++effort.factorisations;
     factorised = factor.info() == Eigen::Success;
     if (factorised) return true;

@@ -31,9 +31,9 @@ class EquilibriumSolver {
   ~EquilibriumSolver();
 
   /// Improves `displacement` until |force| <= `tolerance` x the sum of the contact forces'
-  /// magnitudes, or round-off. False, and the displacement is of no use, when the tangent is not
-  /// positive definite, the start has no finite energy, the line search fails or 60 iterations do
-  /// not suffice. Fixed unknowns keep their values.
+  /// magnitudes, or round-off. False, and the displacement is of no use, when the start has no
+  /// finite energy, no shift makes the tangent positive definite, the line search fails or 100
+  /// iterations do not suffice. Fixed unknowns keep their values.
   bool solve(const StaticContact& contact, Eigen::VectorXd& displacement,
              double tolerance = force_tolerance);
 

@@ -98,7 +98,7 @@ std::array<std::uint32_t, 8> GridCells::corners(const CutCell& cell) const {
 
 namespace {
 
-/// Appends the cells of the piece that holds cell `first` and marks them as visited.
+/// The cells of the piece that holds cell `first`; marks them as visited.
 std::vector<std::uint32_t> piece_around(const GridCells& all, std::uint32_t first,
                                         std::vector<std::uint8_t>& visited) {
   std::vector<std::uint32_t> piece{first};

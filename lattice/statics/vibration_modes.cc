@@ -10,7 +10,7 @@
 #include <string>
 
 #include "lattice/statics/elastic_system.h"
-#include "meshes/errors.h"
+#include "lattice/statics/factor_memory.h"
 
 namespace fingertip::lattice {
 
@@ -55,7 +55,7 @@ class InverseOperator {
  public:
   using Scalar = double;  // the names Spectra asks for
 
-  explicit InverseOperator(const LatticeBody& body);
+  InverseOperator(const LatticeBody& body, const std::function<bool()>& stop_requested);
 
   Index rows() const { return root_mass_.size(); }
   Index cols() const { return root_mass_.size(); }
@@ -69,13 +69,16 @@ class InverseOperator {
  private:
   void remove_found(VectorXd& v) const;
 
+  const std::function<bool()>& stop_requested_;
   VectorXd root_mass_;  ///< S
   double shift_ = 0.0;  ///< [1/s²]
   Eigen::CholmodSupernodalLLT<Tangent, Eigen::Lower> factor_;
   std::vector<VectorXd> found_;
 };
 
-InverseOperator::InverseOperator(const LatticeBody& body) : root_mass_(body.unknowns()) {
+InverseOperator::InverseOperator(const LatticeBody& body,
+                                 const std::function<bool()>& stop_requested)
+    : stop_requested_(stop_requested), root_mass_(body.unknowns()) {
   const ElasticSystem system(body);
   VectorXd force, mass(body.unknowns());
   Tangent matrix = system.empty_tangent();
@@ -97,6 +100,7 @@ InverseOperator::InverseOperator(const LatticeBody& body) : root_mass_(body.unkn
   }
   factor_.cholmod().print = 0;
   factor_.compute(matrix);
+  require_memory(factor_.cholmod(), matrix.rows());
   if (factor_.info() != Eigen::Success) {
     throw meshes::NotConverged(
         "the lattice has no natural vibrations: its stiffness at rest is not positive");
@@ -108,6 +112,8 @@ void InverseOperator::remove_found(VectorXd& v) const {
 }
 
 void InverseOperator::perform_op(const double* in, double* out) const {
+  if (stop_requested_ && stop_requested_())
+    throw meshes::Interrupted("the search for natural vibrations was interrupted");
   VectorXd v = Eigen::Map<const VectorXd>(in, rows());
   remove_found(v);
   VectorXd image = root_mass_.cwiseProduct(factor_.solve(root_mass_.cwiseProduct(v)));
@@ -146,9 +152,10 @@ std::vector<Found> largest(InverseOperator& inverse, int count, std::mt19937& ge
 
 }  // namespace
 
-std::vector<VibrationMode> vibration_modes(const LatticeBody& body, int count) {
+std::vector<VibrationMode> vibration_modes(const LatticeBody& body, int count,
+                                           const std::function<bool()>& stop_requested) {
   check(body, count);
-  InverseOperator inverse(body);
+  InverseOperator inverse(body, stop_requested);
   std::mt19937 generator;
   const auto before = [](const Found& a, const Found& b) { return a.nu > b.nu; };
   std::vector<Found> kept = largest(inverse, count, generator);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "lattice/statics/lattice_body.h"
@@ -23,8 +24,10 @@ struct VibrationMode {
 ///
 /// Inverse Lanczos iteration (Spectra) with a CHOLMOD factor, repeated in the complement of what
 /// has been found until nothing lower turns up. Throws InvalidInput unless 1 <= count < number of
-/// free unknowns and all masses are positive, NotConverged where rest is not stable or the
-/// iteration does not end.
-std::vector<VibrationMode> vibration_modes(const LatticeBody& body, int count);
+/// free unknowns and all masses are positive, NotConverged where rest is not stable, memory
+/// does not suffice or the iteration does not end, and Interrupted when `stop_requested`, asked
+/// between solutions with the factor, says so.
+std::vector<VibrationMode> vibration_modes(const LatticeBody& body, int count,
+                                           const std::function<bool()>& stop_requested = {});
 
 }  // namespace fingertip::lattice

@@ -41,7 +41,7 @@ const std::vector<std::string>& validated_models() {
 
 std::vector<std::string> measure_names() {
   std::vector<std::string> names = {"reference.force_error", "verification.failed_checks",
-                                    "cubes.hookean_error"};
+                                    "cubes.hookean_error", "equilibrium.hookean_force_error"};
   for (const std::string& model : validated_models()) {
     for (const std::string& measure : model_measures()) names.push_back(model + "." + measure);
   }
@@ -56,6 +56,9 @@ std::map<std::string, double> take_measures(const ordered_json& summary,
   taken["reference.force_error"] = largest(summary["reference"]["relative_force_error"]);
   if (summary.contains("verification"))
     taken["verification.failed_checks"] = number(summary["verification"], "failed_checks");
+  if (summary.contains("equilibrium"))
+    taken["equilibrium.hookean_force_error"] =
+        largest(summary["equilibrium"]["hookean_force_error"]);
   const ordered_json& target = summary["target"];
   const double youngs = number(target, "youngs_modulus");
   const auto relative = [](double value, double wanted) { return std::abs(value / wanted - 1.0); };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "meshes/files.h"
+#include "studies/cases/force_errors.h"
 #include "studies/run/jobs.h"
 
 namespace fingertip::studies {
@@ -14,29 +15,7 @@ namespace {
 
 using meshes::PressResponse;
 
-/// Force at `depth`, NaN when the press did not get there. The controller may stop a rounding
-/// error short of the last depth.
-double force_at(const PressResponse& response, double depth) {
-  if (depth > response.depth() * (1.0 + 1e-6)) return meshes::unknown;
-  return response.normal_force_at(std::min(depth, response.depth()));
-}
-
 }  // namespace
-
-std::vector<double> verdict_depths(double depth) {
-  return {depth / 6.0, depth / 3.0, depth / 2.0, depth * 2.0 / 3.0, depth};
-}
-
-nlohmann::ordered_json force_errors(const PressResponse& response, const PressResponse& reference,
-                                    double depth) {
-  nlohmann::ordered_json errors = nlohmann::ordered_json::array();
-  for (const double at : verdict_depths(depth)) {
-    const double error = force_at(response, at) / force_at(reference, at) - 1.0;
-    errors.push_back(std::isfinite(error) ? nlohmann::ordered_json(error)
-                                          : nlohmann::ordered_json());
-  }
-  return errors;
-}
 
 PublishedStudy::PublishedStudy(const lattice::PressSetup& base) {
   const double radius = base.geometry.tip_radius;

@@ -6,6 +6,8 @@
 
 #include "meshes/files.h"
 #include "meshes/press_response.h"
+#include "studies/cases/equilibrium_study.h"
+#include "studies/cases/force_errors.h"
 #include "studies/cases/measures.h"
 #include "studies/cases/published_study.h"
 #include "studies/report/report.h"
@@ -42,6 +44,7 @@ class Validation {
   Session& session_;
   const Case& case_;
   PublishedStudy study_;
+  EquilibriumStudy equilibrium_;
   PressResponse reference_;
 };
 
@@ -58,6 +61,8 @@ std::vector<PlannedJob> Validation::plan() {
     jobs.push_back({model, press_job(setups[model]), model != "hookean"});
   }
   study_ = PublishedStudy(setups["published"]);
+  equilibrium_ = EquilibriumStudy(setups["hookean"], setups["central"]);
+  for (PlannedJob& job : equilibrium_.jobs()) jobs.push_back(std::move(job));
   for (PlannedJob& job : study_.jobs()) jobs.push_back(std::move(job));
   for (const auto kind : {lattice::ModelKind::central, lattice::ModelKind::hookean}) {
     jobs.push_back({"calibration_" + std::string(lattice::name(kind)),
@@ -163,20 +168,24 @@ Verdict Validation::run() {
                 fs::copy_options::overwrite_existing);
   reference_ = PressResponse::read_csv(folder() / "reference" / "response.csv");
   study_.write_table(folder(), reference_);
+  equilibrium_.write_table(folder(), reference_);
 
   const meshes::Rubber& rubber = config().press.rubber;
-  ordered_json summary = {{"case", case_.name},
-                          {"title", case_.title},
-                          {"description", case_.description},
-                          {"status", "ok"},
-                          {"target",
-                           {{"youngs_modulus", rubber.youngs_modulus},
-                            {"shear_modulus", rubber.shear_modulus},
-                            {"poissons_ratio", rubber.poissons_ratio()},
-                            {"bulk_modulus", rubber.bulk_modulus()}}},
-                          {"depths", verdict_depths(config().press.protocol.depth)},
-                          {"reference", reference_entry()},
-                          {"verification", verification_entry()}};
+  ordered_json summary = {
+      {"case", case_.name},
+      {"title", case_.title},
+      {"description", case_.description},
+      {"status", "ok"},
+      {"target",
+       {{"youngs_modulus", rubber.youngs_modulus},
+        {"shear_modulus", rubber.shear_modulus},
+        {"poissons_ratio", rubber.poissons_ratio()},
+        {"bulk_modulus", rubber.bulk_modulus()}}},
+      {"depths", verdict_depths(config().press.protocol.depth)},
+      {"reference", reference_entry()},
+      {"verification", verification_entry()},
+      {"equilibrium",
+       {{"hookean_force_error", equilibrium_.hookean_errors(folder(), reference_)}}}};
   for (const std::string& model : validated_models()) {
     const auto result = std::ranges::find(results, model, &JobResult::name);
     summary["models"][model] = model_entry(model, result->status);

@@ -22,7 +22,7 @@ int run_check(const CommandLine& line) {
     if (line.quiet) continue;
     for (const std::string& note : one.loaded.notes) fmt::print("{}: note: {}\n", file, note);
     // No error: the continuum can do it.
-    const auto limits = lattice::beyond_the_lattice(one.loaded.config.press.protocol);
+    const auto limits = lattice::beyond_the_lattice(one.loaded.config.press);
     const ConfigError located = one.loaded.locate(limits);
     for (const Problem& limit : located.problems()) {
       fmt::print("{}: note: for press and validate: {}\n", file, to_string(limit));

@@ -131,6 +131,7 @@ int run_modes(const CommandLine& line) {
   LoadedConfig loaded = load_config(line.config);
   // Whatever the press is: nothing moves here, so what only static presses know is welcome.
   loaded.config.press.protocol.mode = meshes::DriveMode::equilibrium;
+  loaded.config.press.protocol.contact = meshes::ContactMode::stick;
   check_all(loaded);
   const lattice::PressSetup setup = press_setup(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
@@ -166,6 +167,11 @@ int run_reference(const CommandLine& line) {
 int run_calibrate(const CommandLine& line) {
   const LoadedConfig loaded = load_checked(line);
   const lattice::ModelKind model = loaded.config.press.lattice.model;
+  if (model == lattice::ModelKind::network) {
+    throw loaded.locate({{"lattice.model", "network",
+                          "the network takes G and lambda from the rubber; nothing is left to fit",
+                          "calibrate central or hookean"}});
+  }
   if (model == lattice::ModelKind::published) {
     throw loaded.locate({{"lattice.model", "published",
                           "the published model has a rule for its constants and is not calibrated",

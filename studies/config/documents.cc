@@ -67,6 +67,7 @@ nlohmann::json element_schema(const Key& key) {
 nlohmann::json key_schema(const Key& key) {
   nlohmann::json schema = element_schema(key);
   if (key.kind == Kind::quantities) schema = {{"type", "array"}, {"items", schema}};
+  if (key.length > 0) schema["minItems"] = schema["maxItems"] = key.length;
   if (key.kind == Kind::numbers) {
     schema = {{"type", "array"}, {"items", schema}, {"minItems", 3}, {"maxItems", 3}};
   }

@@ -202,7 +202,7 @@ std::vector<Key> lattice_keys() {
   Key rotation =
       with_rule(plain("lattice", "rotation", Kind::quantities, "[\"0 deg\", \"0 deg\", \"0 deg\"]",
                       any, "turns of the grid about x, then y, then z", assign_rotation),
-                "three angles, mode static only", {"press.mode"});
+                "three angles; press.mode = static or the verb modes", {"press.mode"});
   rotation.unit = "rad";
   rotation.length = 3;
   return {

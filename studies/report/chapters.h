@@ -25,6 +25,8 @@ Chapter elasticity_chapter(const RunData& run);
 Chapter pictures_chapter(const RunData& run);
 /// How the published model's force depends on grid and ligaments.
 Chapter published_chapter(const RunData& run);
+/// Static lattices on the tip's true surfaces.
+Chapter equilibrium_chapter(const RunData& run);
 /// Why the models differ, in words.
 Chapter reasons_chapter(const RunData& run);
 /// The continuum's discretisation error, its meshes, and its contact beside Hertz's.

@@ -40,6 +40,8 @@ std::vector<NotRun> missing_parts(const RunData& run) {
   need(!run.cubes.empty(), "Cubes: the surface effect of full springs", "cubes.csv");
   need(!run.published_study.empty(), "The published model's force against grid and ligaments",
        "published_study.csv");
+  need(!run.equilibrium_study.empty(), "Lattices in equilibrium, with true surfaces",
+       "equilibrium_study.csv");
   need(!run.manifest.empty(), "Provenance", "manifest.json");
   return missing;
 }
@@ -55,10 +57,10 @@ Page report_page(const RunData& run) {
       text_at(run.manifest, "started").empty() ? "" : ", " + text_at(run.manifest, "started"));
   if (!run.status.empty() && run.status != "ok") page.status = "Status of the run: " + run.status;
   page.answer = answer(run);
-  page.chapters = {verdict_chapter(run),    force_chapter(run),     control_chapter(run),
-                   elasticity_chapter(run), pictures_chapter(run),  published_chapter(run),
-                   reasons_chapter(run),    continuum_chapter(run), verification_chapter(run),
-                   cost_chapter(run),       provenance_chapter(run)};
+  page.chapters = {verdict_chapter(run),      force_chapter(run),    control_chapter(run),
+                   elasticity_chapter(run),   pictures_chapter(run), published_chapter(run),
+                   equilibrium_chapter(run),  reasons_chapter(run),  continuum_chapter(run),
+                   verification_chapter(run), cost_chapter(run),     provenance_chapter(run)};
   page.not_run = missing_parts(run);
   return page;
 }

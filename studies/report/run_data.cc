@@ -250,6 +250,7 @@ RunData read_run(const fs::path& folder) {
   run.pressure = read_csv(folder / "reference" / "pressure.csv");
   run.cubes = read_csv(folder / "cubes.csv");
   run.published_study = read_csv(folder / "published_study.csv");
+  run.equilibrium_study = read_csv(folder / "equilibrium_study.csv");
   for (const std::string& name : ordered_models(models)) {
     run.models.push_back(read_model(folder, name, models.at(name)));
     run.models.back().force_error.resize(run.depths.size(), meshes::unknown);

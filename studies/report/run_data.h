@@ -80,7 +80,7 @@ struct RunData {
   nlohmann::json verification;              ///< verification/verification.json, likewise
   meshes::PressResponse reference;          ///< empty when the continuum was not run
   CsvTable convergence, section, pressure;  ///< of the continuum
-  CsvTable cubes, published_study;
+  CsvTable cubes, published_study, equilibrium_study;
   std::vector<ModelData> models;  ///< published, central, hookean, then any others
 
   const ModelData* model(const std::string& name) const;

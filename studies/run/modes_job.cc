@@ -25,9 +25,9 @@ lattice::LatticeBody body_of(const lattice::PressSetup& setup) {
 
 void run_modes_job(const lattice::PressSetup& setup, int count, const fs::path& folder,
                    const JobContext& context) {
-  context.report(0.0, "natural frequencies");
   const lattice::LatticeBody body = body_of(setup);
-  const auto modes = lattice::vibration_modes(body, count);
+  const auto modes = lattice::vibration_modes(
+      body, count, [&] { return !context.report(0.0, "natural frequencies"); });
   meshes::write_atomically(folder / "modes.csv", [&](std::ostream& out) {
     out << "mode,frequency [Hz]\n";
     for (std::size_t i = 0; i < modes.size(); ++i)

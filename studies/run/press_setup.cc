@@ -124,13 +124,17 @@ void check_all(const LoadedConfig& loaded) {
   protocol.contact = straight.contact;
   protocol.tilt = straight.tilt;
   protocol.lateral = straight.lateral;
+  // A moving lattice is neither; that is told by the verbs that need it to be.
+  lattice::LatticeSettings& settings = within_the_lattice.config.press.lattice;
+  const bool only_static = settings.model == ModelKind::network || !settings.axes.isIdentity(1e-12);
+  if (only_static) protocol.mode = meshes::DriveMode::equilibrium;
   press_setup(within_the_lattice);
   reference_order(loaded);
 }
 
 void check_validation(const LoadedConfig& loaded) {
   check_all(loaded);
-  std::vector<meshes::Violation> broken = lattice::beyond_the_lattice(loaded.config.press.protocol);
+  std::vector<meshes::Violation> broken = lattice::beyond_the_lattice(loaded.config.press);
   if (loaded.config.press.protocol.mode == meshes::DriveMode::equilibrium) {
     broken.push_back({"press.mode", "static",
                       "a validation judges moving lattices: their controller, momentum and speed",

@@ -48,9 +48,10 @@ TEST(Validate, GoesFromRubberToReportAndComesFromTheCacheAfterwards) {
   EXPECT_NE(first.out.find("hookean"), std::string::npos);
   EXPECT_NE(first.out.find("one/report.html"), std::string::npos);
   for (const char* file :
-       {"report.html", "summary.json", "cubes.csv", "published_study.csv", "parameters.toml",
-        "reference/response.csv", "reference/fields/press.pvd", "published/trace.csv",
-        "central/response.csv", "hookean/boundary.csv", "calibration_hookean/material.toml"}) {
+       {"report.html", "summary.json", "cubes.csv", "published_study.csv", "equilibrium_study.csv",
+        "parameters.toml", "reference/response.csv", "reference/fields/press.pvd",
+        "published/trace.csv", "central/response.csv", "hookean/boundary.csv",
+        "calibration_hookean/material.toml"}) {
     EXPECT_TRUE(fs::exists(folder / "one" / file)) << file;
   }
   const json summary = json::parse(read_text(folder / "one/summary.json"));

@@ -128,6 +128,18 @@ TEST(Checks, WhatOnlyAStaticPressCanDo) {
     EXPECT_NE(text.find("press.mode = static"), std::string::npos) << text;
   }
   EXPECT_NE(broken({"press.contact=coulomb", "press.mode=static"}), "");
+  // What concerns the lattice alone keeps no other verb from its work.
+  EXPECT_EQ(refusal(check_all, {"lattice.model=network"}), "");
+  EXPECT_EQ(refusal(check_all, {"lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]"}), "");
+  EXPECT_NE(broken({"press.mode=static", "lattice.model=published",
+                    "lattice.rotation=[\"1 deg\", \"0 deg\", \"0 deg\"]"})
+                .find("aligned with the rod"),
+            std::string::npos);
+  // nu = 0.05: kappa = lambda - G < 0.
+  EXPECT_NE(broken({"press.mode=static", "lattice.kinematics=finite",
+                    "rubber.youngs_modulus=29.4 gf/cm^2"})
+                .find("kappa >= 0"),
+            std::string::npos);
   EXPECT_NE(broken({"press.mode=static", "lattice.model=network", "lattice.constants=calibrated"}),
             "");
   // nu = E/(2G) - 1 = -0.2: the network's energy falls without bound, linearised it does not.
@@ -145,9 +157,26 @@ TEST(Jobs, StaticPressesDependOnWhatIsStatic) {
   EXPECT_EQ(key({}), key({"press.speed=2 cm/s"}));
   EXPECT_EQ(key({}), key({"rod.density=2 g/cm^3"}));
   for (const char* matters : {"press.tilt=1 deg", "press.lateral=1 mm", "lattice.model=network",
+                              "lattice.ligament_stiffness=2", "lattice.kinematics=finite",
+                              "lattice.offset=[0.0, 0.0, 0.5]", "press.contact=frictionless",
+                              "press.samples=[\"0.1 cm\", \"0.3 cm\"]",
                               "lattice.rotation=[\"1 deg\", \"0 deg\", \"0 deg\"]"}) {
     EXPECT_NE(key({}), key({matters})) << matters;
   }
+}
+
+TEST(Jobs, ModesDependOnTheLatticeAndNotOnThePress) {
+  const auto key = [](std::vector<std::string> sets) {
+    sets.emplace_back("press.mode=static");
+    return modes_job(setup_of(std::move(sets)), 10).key();
+  };
+  EXPECT_EQ(key({}), key({"press.depth=0.1 cm"}));
+  EXPECT_EQ(key({}), key({"press.contact=frictionless"}));
+  for (const char* matters : {"rubber.density=1 g/cm^3", "lattice.spacing=0.1 cm",
+                              "lattice.ligament_stiffness=2", "rubber.shear_modulus=15 gf/cm^2"}) {
+    EXPECT_NE(key({}), key({matters})) << matters;
+  }
+  EXPECT_NE(key({}), modes_job(setup_of({"press.mode=static"}), 11).key());
 }
 
 TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {

@@ -4,11 +4,11 @@
 
 #include <set>
 
+#include "straight_response.h"
+#include "studies/cases/force_errors.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
-using fingertip::meshes::PressResponse;
-using fingertip::meshes::PressSample;
 
 namespace {
 
@@ -18,18 +18,6 @@ fingertip::lattice::PressSetup base() {
   setup.lattice.constants =
       fingertip::lattice::published_constants(setup.rubber, setup.lattice.spacing);
   return setup;
-}
-
-/// A straight line of the given stiffness [N/m] up to `depth`.
-PressResponse straight(double stiffness, double depth) {
-  PressResponse response;
-  for (const double part : {0.25, 0.5, 0.75, 1.0}) {
-    PressSample sample;
-    sample.indentation = part * depth;
-    sample.normal_force = stiffness * sample.indentation;
-    response.append(sample);
-  }
-  return response;
 }
 
 }  // namespace

@@ -201,6 +201,13 @@ TEST(VibrationModes, OfTheNetworkAtRestAreThoseOfHooke) {
     EXPECT_NEAR(modes[i].frequency, expected[i].frequency, 1e-8 * expected[i].frequency);
 }
 
+TEST(VibrationModes, StopWhenAsked) {
+  const LatticeBody body = block(0.001, {3, 3, 3});
+  int asked = 0;
+  EXPECT_THROW(vibration_modes(body, 8, [&] { return ++asked == 5; }), meshes::Interrupted);
+  EXPECT_EQ(asked, 5);
+}
+
 TEST(VibrationModes, RefuseWhatCannotVibrate) {
   LatticeBody body = block(1e-3, {1, 1, 1});
   EXPECT_EQ(vibration_modes(body, 23).size(), 23u);

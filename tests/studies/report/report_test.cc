@@ -58,15 +58,17 @@ double csv_value(const fs::path& file, const std::string& series, double x, std:
 TEST(Report, HasEveryChapterOfACompleteRun) {
   SyntheticRun run;
   const std::string html = run.report();
-  for (const char* chapter : {"verdict", "force", "control", "elasticity", "pictures", "published",
-                              "reasons", "continuum", "verification", "cost", "provenance"}) {
+  for (const char* chapter :
+       {"verdict", "force", "control", "elasticity", "pictures", "published", "equilibrium",
+        "reasons", "continuum", "verification", "cost", "provenance"}) {
     EXPECT_TRUE(has(html, "<section id=\"" + std::string(chapter) + "\">")) << chapter;
   }
   EXPECT_FALSE(has(html, "id=\"not-run\""))
       << report_testing::visible_text(html.substr(html.find("id=\"not-run\"")));
-  for (const char* figure : {"force_indentation", "force_error", "tracking", "elastic_directions",
-                             "cubes", "shapes", "pressure", "published_study", "mesh_convergence",
-                             "adaptive_mesh", "verification_orders", "locking"}) {
+  for (const char* figure :
+       {"force_indentation", "force_error", "tracking", "elastic_directions", "cubes", "shapes",
+        "pressure", "published_study", "equilibrium_error", "mesh_convergence", "adaptive_mesh",
+        "verification_orders", "locking"}) {
     EXPECT_TRUE(fs::exists(run.path / "figures" / (std::string(figure) + ".svg"))) << figure;
     EXPECT_TRUE(fs::exists(run.path / "figures" / (std::string(figure) + ".csv"))) << figure;
     EXPECT_TRUE(has(html, "figures/" + std::string(figure) + ".csv")) << figure;
@@ -168,8 +170,8 @@ TEST(Report, PolarPlotReachesTheModuliOfTheOtherDirections) {
 
 TEST(Report, MissingChaptersAreLeftOutAndNamed) {
   SyntheticRun run;
-  for (const char* name :
-       {"reference", "calibration_central", "cubes.csv", "published_study.csv", "hookean"})
+  for (const char* name : {"reference", "calibration_central", "cubes.csv", "published_study.csv",
+                           "equilibrium_study.csv", "hookean"})
     fs::remove_all(run.path / name);
   for (const char* name : {"published", "central"}) fs::remove(run.path / name / "trace.csv");
   const std::string html = run.report(), text = report_testing::visible_text(html);

@@ -352,6 +352,13 @@ void write_tables(const fs::path& folder) {
   for (double ligament : {0.1, 10.0})
     add("ligament_stiffness", spacing, 0.0, ligament, 1.9 + 0.2 * std::log10(ligament));
   write_file(folder / "published_study.csv", study);
+  std::string equilibrium = "model,spacing [m],indentation [m],normal_force [N],relative_error\n";
+  for (const auto& [model, cells, error] :
+       {std::tuple{"hookean", 12, 0.002}, {"central", 12, -0.1}, {"hookean", 8, 0.007}})
+    for (double d : depths)
+      equilibrium += fmt::format("{},{},{},{},{}\n", model, radius / cells, d,
+                                 (1.0 + error) * continuum_force(d), error);
+  write_file(folder / "equilibrium_study.csv", equilibrium);
 }
 
 json run_summary() {

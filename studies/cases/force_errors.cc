@@ -1,0 +1,30 @@
+#include "studies/cases/force_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fingertip::studies {
+
+using meshes::PressResponse;
+
+std::vector<double> verdict_depths(double depth) {
+  return {depth / 6.0, depth / 3.0, depth / 2.0, depth * 2.0 / 3.0, depth};
+}
+
+double force_at(const PressResponse& response, double depth) {
+  if (depth > response.depth() * (1.0 + 1e-6)) return meshes::unknown;
+  return response.normal_force_at(std::min(depth, response.depth()));
+}
+
+nlohmann::ordered_json force_errors(const PressResponse& response, const PressResponse& reference,
+                                    double depth) {
+  nlohmann::ordered_json errors = nlohmann::ordered_json::array();
+  for (const double at : verdict_depths(depth)) {
+    const double error = force_at(response, at) / force_at(reference, at) - 1.0;
+    errors.push_back(std::isfinite(error) ? nlohmann::ordered_json(error)
+                                          : nlohmann::ordered_json());
+  }
+  return errors;
+}
+
+}  // namespace fingertip::studies

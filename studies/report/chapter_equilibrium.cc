@@ -1,0 +1,139 @@
+/// The lattice without its staircase and without time.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "studies/report/chapters.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+/// One static press of the study, with its errors at the depths.
+struct StaticLattice {
+  std::string model;
+  double spacing = 0.0;
+  std::vector<double> depth, force, error;
+
+  std::string label() const {
+    return fmt::format("{}, a = {} cm", model, number(to_cm(spacing), 3));
+  }
+  /// Largest |error|; NaN when there is none.
+  double worst() const {
+    double result = meshes::unknown;
+    for (const double one : error) result = std::fmax(result, std::abs(one));
+    return result;
+  }
+};
+
+/// By model, coarse to fine.
+std::vector<StaticLattice> read_lattices(const CsvTable& study) {
+  const std::vector<std::string> model = study.texts("model");
+  const std::vector<double> spacing = study.numbers("spacing [m]"),
+                            depth = study.numbers("indentation [m]"),
+                            force = study.numbers("normal_force [N]"),
+                            error = study.numbers("relative_error");
+  std::vector<StaticLattice> lattices;
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    const bool next = lattices.empty() || lattices.back().model != model[i] ||
+                      lattices.back().spacing != spacing[i];
+    if (next) lattices.push_back({model[i], spacing[i], {}, {}, {}});
+    lattices.back().depth.push_back(depth[i]);
+    lattices.back().force.push_back(force[i]);
+    lattices.back().error.push_back(error[i]);
+  }
+  std::ranges::stable_sort(lattices, [](const StaticLattice& a, const StaticLattice& b) {
+    return a.model != b.model ? a.model < b.model : a.spacing > b.spacing;
+  });
+  return lattices;
+}
+
+Table force_table(const std::vector<StaticLattice>& lattices) {
+  Table table;
+  table.caption =
+      "Contact force in equilibrium in gf, and its error against the continuum below, at each "
+      "indentation.";
+  table.graded = true;
+  table.header = {{"Lattice", "", Grade::none}, {"Spacing", "cm", Grade::none}};
+  for (const double depth : lattices.front().depth)
+    table.header.push_back({"F", fmt::format("{:.4g} cm", to_cm(depth)), Grade::none});
+  for (const StaticLattice& lattice : lattices) {
+    std::vector<Cell> row{{lattice.model, "", Grade::none},
+                          {number(to_cm(lattice.spacing)), "", Grade::none}};
+    for (std::size_t i = 0; i < lattice.depth.size(); ++i)
+      row.push_back(
+          {number(to_gf(lattice.force[i])), percent(lattice.error[i]), grade(lattice.error[i])});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+FigureBlock error_figure(const std::vector<StaticLattice>& lattices, const RunData& run) {
+  Panel panel;
+  panel.x_label = "indentation [cm]";
+  panel.y_label = "force error [%]";
+  panel.key = "bottom right";
+  double least = 0.0, most = 0.0;
+  const auto add = [&](const std::string& label, const std::vector<double>& depth,
+                       const std::vector<double>& error, const Style& style) {
+    Series curve{label, label, {}, {}, {}, style};
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      curve.x.push_back(to_cm(depth[i]));
+      curve.y.push_back(100.0 * error[i]);
+      least = std::fmin(least, curve.y.back());
+      most = std::fmax(most, curve.y.back());
+    }
+    panel.series.push_back(std::move(curve));
+  };
+  for (std::size_t i = 0; i < lattices.size(); ++i)
+    add(lattices[i].label(), lattices[i].depth, lattices[i].error, numbered_style(i));
+  if (const ModelData* moving = run.model("hookean"); moving && !moving->force_error.empty()) {
+    Style style = model_style("hookean");
+    style.dash = "4,3";
+    add("hookean, moving, staircase", run.depths, moving->force_error, style);
+  }
+  panel.band = Band{-1.0, 1.0};
+  const double room = 0.6 * (most - least) + 1.0;
+  panel.y_range = Range{least - room, most + 0.1 * room};
+  Figure figure{"equilibrium_error", 760, 430, 1, {}};
+  figure.panels = {panel};
+  return {figure, "Force error of lattices in equilibrium",
+          "Cells cut by the true sphere and cylinder, no inertia, no damping. The band is one per "
+          "cent. Dashed: the moving lattice of the chapters above, whose surface is a staircase "
+          "of whole cells."};
+}
+
+/// What the finest hookean lattice of the study reached.
+std::string finding(const std::vector<StaticLattice>& lattices) {
+  const auto finest =
+      std::ranges::find_if(lattices.rbegin(), lattices.rend(),
+                           [](const StaticLattice& lattice) { return lattice.model == "hookean"; });
+  if (finest == lattices.rend() || std::isnan(finest->worst())) return "";
+  return fmt::format(
+      " At a = {} cm the force of the hookean lattice is within {} of the continuum's "
+      "at every depth of the table.",
+      number(to_cm(finest->spacing), 3), percent_magnitude(finest->worst()));
+}
+
+}  // namespace
+
+Chapter equilibrium_chapter(const RunData& run) {
+  Chapter chapter{"equilibrium", "In equilibrium, with true surfaces", {}};
+  const std::vector<StaticLattice> lattices = read_lattices(run.equilibrium_study);
+  if (lattices.empty()) return chapter;
+  chapter.blocks.push_back(Paragraph{
+      "The same masses without the staircase.",
+      "Here the cells at the surface are cut by it and weigh what their rubber weighs; contact and "
+      "bond act on the true sphere and cylinder. A third of the shear energy is carried by fibres "
+      "along the cells' edges, the rest by each cell's mean deformation, so that a cell resists "
+      "bending as the continuum does; springs alone are three times too stiff in it. The moduli "
+      "are exact either way." +
+          finding(lattices)});
+  chapter.blocks.push_back(error_figure(lattices, run));
+  chapter.blocks.push_back(force_table(lattices));
+  return chapter;
+}
+
+}  // namespace fingertip::studies::reporting
