@@ -7,6 +7,7 @@
 
 #include "meshes/errors.h"
 #include "studies/cli/verbs.h"
+#include "studies/run/blas_threads.h"
 
 namespace {
 
@@ -30,6 +31,7 @@ void complain(const std::string& message) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  studies::keep_blas_to_one_thread();
   try {
     const auto parsed = studies::parse_command_line(argc, argv);
     if (const int* code = std::get_if<int>(&parsed)) return *code;
