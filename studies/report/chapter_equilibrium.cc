@@ -87,12 +87,15 @@ FigureBlock error_figure(const std::vector<StaticLattice>& lattices, const RunDa
     }
     panel.series.push_back(std::move(curve));
   };
-  for (std::size_t i = 0; i < lattices.size(); ++i)
-    add(lattices[i].label(), lattices[i].depth, lattices[i].error, numbered_style(i));
+  for (std::size_t i = 0; i < lattices.size(); ++i) {
+    // A model keeps its colour; points and dashes tell its spacings apart.
+    Style style = numbered_style(i);
+    style.colour = model_style(lattices[i].model).colour;
+    add(lattices[i].label(), lattices[i].depth, lattices[i].error, style);
+  }
   if (const ModelData* moving = run.model("hookean"); moving && !moving->force_error.empty()) {
-    Style style = model_style("hookean");
-    style.dash = "4,3";
-    add("hookean, moving, staircase", run.depths, moving->force_error, style);
+    add("hookean, moving, staircase", run.depths, moving->force_error,
+        {"#777777", "(4,3)", 2.2, 0, true});
   }
   panel.band = Band{-1.0, 1.0};
   const double room = 0.6 * (most - least) + 1.0;
