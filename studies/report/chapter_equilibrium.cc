@@ -104,7 +104,7 @@ FigureBlock error_figure(const std::vector<StaticLattice>& lattices, const RunDa
   figure.panels = {panel};
   return {figure, "Force error of lattices in equilibrium",
           "Cells cut by the true sphere and cylinder, no inertia, no damping. The band is one per "
-          "cent. Dashed: the moving lattice of the chapters above, whose surface is a staircase "
+          "cent. Grey: the moving lattice of the chapters above, whose surface is a staircase "
           "of whole cells."};
 }
 
