@@ -68,7 +68,8 @@ void add_lattice(std::vector<Violation>& found, const PressSetup& setup) {
   const SpringConstants& k = l.constants;
   const bool springs = not_negative(k.k1) && not_negative(k.k2) && not_negative(k.k3) &&
                        k.k1 + k.k2 + k.k3 > 0.0 && std::isfinite(k.kappa);
-  if (!springs) {
+  // The network takes G and lambda from the rubber.
+  if (l.model != ModelKind::network && !springs) {
     found.push_back({"lattice.constants",
                      "k1 " + meshes::to_text(k.k1) + ", k2 " + meshes::to_text(k.k2) + ", k3 " +
                          meshes::to_text(k.k3) + " N/m",

@@ -42,22 +42,12 @@ std::vector<meshes::Violation> violations_of(const PressSetup& setup) {
   relevant.protocol.mode = DriveMode::equilibrium;
   relevant.rod = {};
   relevant.controller = {};
-  if (setup.lattice.model == ModelKind::network)  // takes no constants
-    relevant.lattice.constants = hookean_constants(setup.rubber, setup.lattice.spacing);
   return relevant.violations();
 }
 
 void check(const PressSetup& setup) {
   const auto found = violations_of(setup);
   if (!found.empty()) throw meshes::InvalidInput(found);
-}
-
-LatticeBody body_for(const PressSetup& setup) {
-  if (setup.lattice.model != ModelKind::published)
-    return build_cut_tip(setup.geometry, setup.rubber, setup.lattice,
-                         largest_symmetry(setup.lattice, setup.protocol));
-  return body_of(build_tip(setup.geometry, setup.rubber, setup.lattice), setup.geometry,
-                 setup.rubber);
 }
 
 /// One path of equilibria.
@@ -240,9 +230,17 @@ void StaticPress::report() {
 
 }  // namespace
 
+LatticeBody static_body(const PressSetup& setup, int sectors) {
+  if (setup.lattice.model != ModelKind::published)
+    return build_cut_tip(setup.geometry, setup.rubber, setup.lattice, sectors);
+  return body_of(build_tip(setup.geometry, setup.rubber, setup.lattice), setup.geometry,
+                 setup.rubber);
+}
+
 StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer) {
   check(setup);
-  return StaticPress(setup, body_for(setup), observer).run();
+  const LatticeBody body = static_body(setup, largest_symmetry(setup.lattice, setup.protocol));
+  return StaticPress(setup, body, observer).run();
 }
 
 StaticOutcome run_static_press(const PressSetup& setup, const LatticeBody& body,

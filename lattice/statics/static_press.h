@@ -32,6 +32,10 @@ struct StaticOutcome {
   std::vector<StaticContactPoint> contact;  ///< at the last sample finished
 };
 
+/// The lattice of `setup` as lists: the published model on its own particles (sectors = 1), the
+/// others on cut cells. Throws InvalidInput as build_tip and build_cut_tip do.
+LatticeBody static_body(const PressSetup& setup, int sectors);
+
 /// Called after every sample and after the steps between; false ends the press with Interrupted.
 using StaticObserver = std::function<bool(const StaticOutcome& so_far, double fraction_done)>;
 

@@ -7,6 +7,7 @@
 
 #include "meshes/files.h"
 #include "studies/cases/force_errors.h"
+#include "studies/report/run_data.h"
 #include "studies/run/jobs.h"
 
 namespace fingertip::studies {
@@ -14,6 +15,7 @@ namespace fingertip::studies {
 namespace {
 
 using meshes::PressResponse;
+using reporting::force_at;
 
 PressResponse response_in(const std::filesystem::path& folder) {
   const auto file = folder / "response.csv";

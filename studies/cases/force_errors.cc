@@ -1,19 +1,16 @@
 #include "studies/cases/force_errors.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "studies/report/run_data.h"
 
 namespace fingertip::studies {
 
 using meshes::PressResponse;
+using reporting::force_at;
 
 std::vector<double> verdict_depths(double depth) {
   return {depth / 6.0, depth / 3.0, depth / 2.0, depth * 2.0 / 3.0, depth};
-}
-
-double force_at(const PressResponse& response, double depth) {
-  if (depth > response.depth() * (1.0 + 1e-6)) return meshes::unknown;
-  return response.normal_force_at(std::min(depth, response.depth()));
 }
 
 nlohmann::ordered_json force_errors(const PressResponse& response, const PressResponse& reference,

@@ -11,10 +11,6 @@ namespace fingertip::studies {
 /// The depths at which forces are compared: 1/6, 1/3, 1/2, 2/3 and 1 of the press.
 std::vector<double> verdict_depths(double depth);
 
-/// Force at `depth`, NaN when the press did not get there. The controller may stop a rounding
-/// error short of the last depth.
-double force_at(const meshes::PressResponse& response, double depth);
-
 /// Relative force errors at the verdict depths; null where a press did not get that far.
 nlohmann::ordered_json force_errors(const meshes::PressResponse& response,
                                     const meshes::PressResponse& reference, double depth);

@@ -7,15 +7,13 @@
 
 #include "meshes/files.h"
 #include "studies/cases/force_errors.h"
+#include "studies/report/run_data.h"
 #include "studies/run/jobs.h"
 
 namespace fingertip::studies {
 
-namespace {
-
 using meshes::PressResponse;
-
-}  // namespace
+using reporting::force_at;
 
 PublishedStudy::PublishedStudy(const lattice::PressSetup& base) {
   const double radius = base.geometry.tip_radius;

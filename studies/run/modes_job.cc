@@ -1,8 +1,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "lattice/model.h"
-#include "lattice/statics/cut_lattice.h"
+#include "lattice/statics/static_press.h"
 #include "lattice/statics/vibration_modes.h"
 #include "meshes/files.h"
 #include "source_hash.h"
@@ -15,17 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The whole tip, so that modes of every symmetry are found.
-lattice::LatticeBody body_of(const lattice::PressSetup& setup) {
-  if (setup.lattice.model != lattice::ModelKind::published)
-    return lattice::build_cut_tip(setup.geometry, setup.rubber, setup.lattice, 1);
-  return lattice::body_of(lattice::build_tip(setup.geometry, setup.rubber, setup.lattice),
-                          setup.geometry, setup.rubber);
-}
-
 void run_modes_job(const lattice::PressSetup& setup, int count, const fs::path& folder,
                    const JobContext& context) {
-  const lattice::LatticeBody body = body_of(setup);
+  // The whole tip, so that modes of every symmetry are found.
+  const lattice::LatticeBody body = lattice::static_body(setup, 1);
   const auto modes = lattice::vibration_modes(
       body, count, [&] { return !context.report(0.0, "natural frequencies"); });
   meshes::write_atomically(folder / "modes.csv", [&](std::ostream& out) {

@@ -41,22 +41,16 @@ ordered_json census_of(const lattice::LatticeCensus& census) {
 
 ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome,
                         const std::string& status) {
-  ordered_json summary = {{"model", lattice::name(setup.lattice.model)},
-                          {"kinematics", lattice::name(setup.lattice.kinematics)},
-                          {"mode", meshes::name(setup.protocol.mode)},
-                          {"contact", meshes::name(setup.protocol.contact)},
-                          {"status", status},
-                          {"spacing", setup.lattice.spacing},
-                          {"constants", to_json(setup.lattice.constants)},
-                          {"moduli", to_json(calibration::homogenised_moduli(
-                                         setup.lattice.constants, setup.lattice.spacing))},
-                          {"step", step_of(outcome.step)},
-                          {"census", census_of(outcome.census)},
-                          {"simulated_time", outcome.simulated_time},
-                          {"wall_time", outcome.wall_time},
-                          {"real_time_factor", outcome.real_time_factor()},
-                          {"first_touch_time", number_or_null(outcome.first_touch_time)},
-                          {"momentum_defect", number_or_null(outcome.momentum_defect)}};
+  ordered_json summary = press_summary_head(setup, status);
+  summary["moduli"] =
+      to_json(calibration::homogenised_moduli(setup.lattice.constants, setup.lattice.spacing));
+  summary["step"] = step_of(outcome.step);
+  summary["census"] = census_of(outcome.census);
+  summary["simulated_time"] = outcome.simulated_time;
+  summary["wall_time"] = outcome.wall_time;
+  summary["real_time_factor"] = outcome.real_time_factor();
+  summary["first_touch_time"] = number_or_null(outcome.first_touch_time);
+  summary["momentum_defect"] = number_or_null(outcome.momentum_defect);
   if (setup.protocol.mode == meshes::DriveMode::pid) {
     const Tracking tracking = measure_tracking(outcome.trace, outcome.first_touch_time);
     summary["tracking"] = {

@@ -124,10 +124,9 @@ void check_all(const LoadedConfig& loaded) {
   protocol.contact = straight.contact;
   protocol.tilt = straight.tilt;
   protocol.lateral = straight.lateral;
-  // A moving lattice is neither; that is told by the verbs that need it to be.
-  lattice::LatticeSettings& settings = within_the_lattice.config.press.lattice;
-  const bool only_static = settings.model == ModelKind::network || !settings.axes.isIdentity(1e-12);
-  if (only_static) protocol.mode = meshes::DriveMode::equilibrium;
+  // What a moving lattice still cannot do, one at rest can; the verbs that move it tell.
+  if (!lattice::beyond_the_lattice(within_the_lattice.config.press).empty())
+    protocol.mode = meshes::DriveMode::equilibrium;
   press_setup(within_the_lattice);
   reference_order(loaded);
 }

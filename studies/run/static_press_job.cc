@@ -18,27 +18,17 @@ namespace fs = std::filesystem;
 
 ordered_json summary_of(const lattice::PressSetup& setup, const lattice::StaticOutcome& outcome,
                         const std::string& status) {
-  return {{"model", lattice::name(setup.lattice.model)},
-          {"kinematics", lattice::name(setup.lattice.kinematics)},
-          {"mode", meshes::name(setup.protocol.mode)},
-          {"contact", meshes::name(setup.protocol.contact)},
-          {"status", status},
-          {"spacing", setup.lattice.spacing},
-          {"constants", to_json(setup.lattice.constants)},
-          {"census",
-           {{"sectors", outcome.sectors},
-            {"particles", outcome.particles},
-            {"springs", outcome.springs},
-            {"cells", outcome.cells},
-            {"unknowns", outcome.unknowns},
-            {"volume", outcome.volume},
-            {"exact_volume", outcome.exact_volume}}},
-          {"effort",
-           {{"steps", outcome.steps},
-            {"newton_iterations", outcome.newton_iterations},
-            {"factorisations", outcome.factorisations}}},
-          {"smallest_jacobian", outcome.smallest_jacobian},
-          {"wall_time", outcome.wall_time}};
+  ordered_json summary = press_summary_head(setup, status);
+  summary["census"] = {{"sectors", outcome.sectors},          {"particles", outcome.particles},
+                       {"springs", outcome.springs},          {"cells", outcome.cells},
+                       {"unknowns", outcome.unknowns},        {"volume", outcome.volume},
+                       {"exact_volume", outcome.exact_volume}};
+  summary["effort"] = {{"steps", outcome.steps},
+                       {"newton_iterations", outcome.newton_iterations},
+                       {"factorisations", outcome.factorisations}};
+  summary["smallest_jacobian"] = outcome.smallest_jacobian;
+  summary["wall_time"] = outcome.wall_time;
+  return summary;
 }
 
 void write_contact(const lattice::StaticOutcome& outcome, const fs::path& folder) {
@@ -77,6 +67,16 @@ void run_static_job(const lattice::PressSetup& setup, const fs::path& folder,
 }
 
 }  // namespace
+
+ordered_json press_summary_head(const lattice::PressSetup& setup, const std::string& status) {
+  return {{"model", lattice::name(setup.lattice.model)},
+          {"kinematics", lattice::name(setup.lattice.kinematics)},
+          {"mode", meshes::name(setup.protocol.mode)},
+          {"contact", meshes::name(setup.protocol.contact)},
+          {"status", status},
+          {"spacing", setup.lattice.spacing},
+          {"constants", to_json(setup.lattice.constants)}};
+}
 
 void set_press_status(const fs::path& folder, const std::string& status) {
   if (!fs::exists(folder / "summary.json")) return;

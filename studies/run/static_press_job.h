@@ -9,6 +9,10 @@ namespace fingertip::studies {
 /// Files: response.csv and summary.json (rewritten after every sample), contact.csv.
 Job static_press_job(const lattice::PressSetup& setup);
 
+/// What the summary.json of every press begins with.
+nlohmann::ordered_json press_summary_head(const lattice::PressSetup& setup,
+                                          const std::string& status);
+
 /// Writes `status` into the folder's summary.json, if there is one.
 void set_press_status(const std::filesystem::path& folder, const std::string& status);
 
