@@ -81,6 +81,11 @@ void add_lattice(std::vector<Violation>& found, const PressSetup& setup) {
                      "the factor on the ligaments must be finite and positive",
                      "1 is the standard ligament"});
   }
+  if (!positive(l.contact_stiffness)) {
+    found.push_back({"lattice.contact_stiffness", meshes::to_text(l.contact_stiffness),
+                     "the factor on the ties to the plane must be finite and positive",
+                     "1 is the standard tie"});
+  }
 }
 
 void add_controller(std::vector<Violation>& found, const PidSettings& c) {
@@ -133,7 +138,14 @@ std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
                      "the lattice knows stick and frictionless contact only",
                      "choose one of them, or compute Coulomb friction with `reference`"});
   }
-  if (protocol.mode == meshes::DriveMode::equilibrium) return found;
+  const bool at_rest = protocol.mode == meshes::DriveMode::equilibrium;
+  if (setup.lattice.contact_stiffness != 1.0 &&
+      (!at_rest || setup.lattice.model == ModelKind::published))
+    found.push_back(
+        {"lattice.contact_stiffness", meshes::to_text(setup.lattice.contact_stiffness),
+         "only lattices with true surfaces are tied to the plane",
+         "take press.mode = static and a model other than published, or leave it at 1"});
+  if (at_rest) return found;
   if (setup.lattice.model == ModelKind::network)
     found.push_back({"lattice.model", "network", "the network is known in static equilibrium only",
                      "take press.mode = static, or the model hookean"});

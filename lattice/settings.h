@@ -30,6 +30,7 @@ struct LatticeSettings {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   SpringConstants constants;        ///< for this spacing
   double ligament_stiffness = 1.0;  ///< multiplies the ligaments' stiffness (README: bond)
+  double contact_stiffness = 1.0;   ///< multiplies the ties to the plane; static presses only
 };
 
 /// The rigid rod: its shape comes from the geometry.

@@ -87,6 +87,11 @@ void check_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
                      "the factor on the ligaments must be finite and positive",
                      "1 is the standard ligament"});
   }
+  if (!(std::isfinite(settings.contact_stiffness) && settings.contact_stiffness > 0.0)) {
+    found.push_back({"lattice.contact_stiffness", meshes::to_text(settings.contact_stiffness),
+                     "the factor on the ties to the plane must be finite and positive",
+                     "1 is the standard tie"});
+  }
   if ((sectors != 1 && sectors != 2 && sectors != 4) || sectors > grid_symmetry(settings)) {
     found.push_back({"sectors", std::to_string(sectors),
                      "the tip divides into 1, 2 or 4 parts, and into several only along planes "
@@ -261,8 +266,8 @@ LatticeBody build_cut_tip(const Geometry& geometry, const Rubber& rubber,
   const double stiffness = tie_stiffness * recipe.shear / grid.spacing;
   body.bond = tied_surface(cells, geometry, Surface::bond, -geometry.sleeve_length, sectors,
                            stiffness * settings.ligament_stiffness);
-  body.outer =
-      tied_surface(cells, geometry, Surface::outer, lowest_contact(geometry), sectors, stiffness);
+  body.outer = tied_surface(cells, geometry, Surface::outer, lowest_contact(geometry), sectors,
+                            stiffness * settings.contact_stiffness);
   return body;
 }
 

@@ -40,12 +40,13 @@ inline constexpr double smallest_fraction = 1e-6;
 /// settings.constants are those of hookean (kappa included) and central, the network takes G and
 /// lambda of the rubber. Bond and outer points lie at most a/3 apart; the outer ones cover the
 /// hemisphere and R - r of the sleeve. Ties: tie_stiffness C44/a per area, the bond's times
-/// ligament_stiffness. Where fibres and a cell law make up the material (the first three), a linear
-/// displacement costs the rubber's energy in every cell, and its nodal forces are those of its
-/// traction on the true surfaces (patch test). Throws InvalidInput for a specimen that breaks a
-/// rule, the published model, a spacing above (R - r)/2 or below R/320, a rotation or offset out of
-/// range, constants that are negative or without a diagonal, nu < 0 in the network at finite
-/// strain, sectors the grid's symmetry does not have, and a lattice in several pieces.
+/// ligament_stiffness, the outer ones times contact_stiffness. Where fibres and a cell law make up
+/// the material (the first three), a linear displacement costs the rubber's energy in every cell,
+/// and its nodal forces are those of its traction on the true surfaces (patch test). Throws
+/// InvalidInput for a specimen that breaks a rule, the published model, a spacing above (R - r)/2
+/// or below R/320, a rotation or offset out of range, constants that are negative or without a
+/// diagonal, nu < 0 in the network at finite strain, sectors the grid's symmetry does not have, and
+/// a lattice in several pieces.
 LatticeBody build_cut_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
                           const LatticeSettings& settings, int sectors);
 

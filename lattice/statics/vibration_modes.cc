@@ -23,9 +23,9 @@ namespace {
 constexpr double residual_tolerance = 1e-10;
 constexpr int most_restarts = 1000;
 constexpr int smallest_basis = 20;  // Lanczos vectors
-/// Shift that makes the stiffness of a free body definite, over the mean square frequency of all
-/// its modes, trace K / trace M: some squared frequency near the lowest elastic ones.
-constexpr double free_shift = 1e-4;
+/// Some squared frequency near the lowest elastic ones, over the mean square frequency of all
+/// modes, trace K / trace M.
+constexpr double low_square = 1e-4;
 
 bool is_fixed(const LatticeBody& body, Index unknown) {
   return !body.fixed.empty() && body.fixed[std::size_t(unknown)] != 0;
@@ -49,8 +49,10 @@ void check(const LatticeBody& body, int count) {
   if (!found.empty()) throw meshes::InvalidInput(found);
 }
 
-/// B = S (K - shift M)^-1 S with S = M^½, fixed unknowns left out by S = 0. From B v = nu v with
-/// v = S x follows K x = (shift + 1/nu) M x. What has been found is projected out.
+/// B = S (K - shift M)^-1 S with S = (unit M)^½, fixed unknowns left out by S = 0. From B v = nu v
+/// with v = M^½ x follows K x = (shift + unit/nu) M x. The unit, a low squared frequency, keeps nu
+/// near 1: Spectra's thresholds are not all relative. A free body, whose K is singular, is shifted
+/// by as much. What has been found is projected out.
 class InverseOperator {
  public:
   using Scalar = double;  // the names Spectra asks for
@@ -61,7 +63,7 @@ class InverseOperator {
   Index cols() const { return root_mass_.size(); }
   void perform_op(const double* in, double* out) const;
 
-  double eigenvalue(double nu) const { return shift_ + 1.0 / nu; }
+  double eigenvalue(double nu) const { return shift_ + unit_ / nu; }
   /// x of v.
   VectorXd shape(const VectorXd& v) const;
   void project_out(VectorXd v) { found_.push_back(std::move(v)); }
@@ -70,8 +72,8 @@ class InverseOperator {
   void remove_found(VectorXd& v) const;
 
   const std::function<bool()>& stop_requested_;
-  VectorXd root_mass_;  ///< S
-  double shift_ = 0.0;  ///< [1/s²]
+  VectorXd root_mass_;               ///< S [N/m]^½
+  double unit_ = 0.0, shift_ = 0.0;  ///< [1/s²]
   Eigen::CholmodSupernodalLLT<Tangent, Eigen::Lower> factor_;
   std::vector<VectorXd> found_;
 };
@@ -83,11 +85,11 @@ InverseOperator::InverseOperator(const LatticeBody& body,
   VectorXd force, mass(body.unknowns());
   Tangent matrix = system.empty_tangent();
   system.assemble(VectorXd::Zero(body.unknowns()), force, &matrix);
-  for (Index i = 0; i < mass.size(); ++i) {
-    mass[i] = body.mass[std::size_t(i / 3)];
-    root_mass_[i] = is_fixed(body, i) ? 0.0 : std::sqrt(mass[i]);
-  }
-  if (body.bond.empty()) shift_ = -free_shift * matrix.diagonal().sum() / mass.sum();
+  for (Index i = 0; i < mass.size(); ++i) mass[i] = body.mass[std::size_t(i / 3)];
+  unit_ = low_square * matrix.diagonal().sum() / mass.sum();
+  if (body.bond.empty()) shift_ = -unit_;
+  for (Index i = 0; i < mass.size(); ++i)
+    root_mass_[i] = is_fixed(body, i) ? 0.0 : std::sqrt(unit_ * mass[i]);
   for (Index column = 0; column < matrix.cols(); ++column) {
     for (Tangent::InnerIterator entry(matrix, column); entry; ++entry) {
       const bool held = is_fixed(body, entry.row()) || is_fixed(body, column);
@@ -122,7 +124,7 @@ void InverseOperator::perform_op(const double* in, double* out) const {
 }
 
 VectorXd InverseOperator::shape(const VectorXd& v) const {
-  return (root_mass_.array() > 0.0).select(v.cwiseQuotient(root_mass_), 0.0);
+  return (root_mass_.array() > 0.0).select(std::sqrt(unit_) * v.cwiseQuotient(root_mass_), 0.0);
 }
 
 /// An eigenvector of the operator.

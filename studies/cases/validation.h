@@ -1,4 +1,4 @@
-/// The whole path from rubber to report for one case.
+/// The whole path from a case to its report.
 #pragma once
 
 #include "studies/cases/case_file.h"
@@ -9,12 +9,15 @@ namespace fingertip::studies {
 /// Whether every criterion of the case was met.
 enum class Verdict { passed, failed };
 
-/// Fits the central and the hookean lattice, computes the continuum, presses all three lattices,
-/// tests cubes, varies what the paper leaves open in the published model, compares, judges, and
-/// writes summary.json and report.html into the session's folder. Jobs run side by side, one
-/// thread each, and come from the cache when nothing they depend on has changed.
-/// Throws what the jobs throw, except that the published and central models may fail to converge:
-/// their status then says so.
+/// Throws ConfigError for a case whose plan cannot be carried out: check_validation for the core
+/// plan; a broken rule of a variant, told with the line of the variant, for the other.
+void check_case(const Case& one);
+
+/// Carries out the case's plan (plan.h), judges its criteria, and writes summary.json and
+/// report.html into the session's folder. Jobs run side by side, one thread each, and come from the
+/// cache when nothing they depend on has changed.
+/// Throws what the jobs throw, except that the published and central models and the presses of
+/// variants may fail to converge: their status then says so.
 Verdict validate(Session& session, const Case& one);
 
 }  // namespace fingertip::studies

@@ -7,7 +7,6 @@
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/report/report.h"
-#include "studies/run/press_setup.h"
 
 namespace fingertip::studies {
 
@@ -56,7 +55,7 @@ int run_validate(const CommandLine& line) {
   std::vector<Case> cases;
   for (const fs::path& file : wanted_cases(line)) {
     cases.push_back(load_case(file, line.config));
-    check_validation(cases.back().loaded);
+    check_case(cases.back());
   }
   int worst = 0;
   for (const Case& one : cases) {

@@ -154,7 +154,7 @@ std::string json_schema() {
                                 {"properties", keys}};
   }
   properties["case"] = {{"type", "object"},
-                        {"description", "title, description and criteria of a case"}};
+                        {"description", "title, description, criteria and variants of a case"}};
   const ordered_json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                                {"title", "Configuration of fingertip"},
                                {"type", "object"},

@@ -227,6 +227,13 @@ std::vector<Key> lattice_keys() {
             [](Config& config, const Value& value) {
               config.press.lattice.ligament_stiffness = value.number;
             }),
+      with_rule(plain("lattice", "contact_stiffness", Kind::number, "1.0", positive,
+                      "multiplies the stiffness of the ties between tip and plane",
+                      [](Config& config, const Value& value) {
+                        config.press.lattice.contact_stiffness = value.number;
+                      }),
+                "1 unless press.mode = static and the model has true surfaces",
+                {"press.mode", "lattice.model"}),
       choice("lattice", "kinematics", "auto",
              {{"auto", "published, network: finite; central, hookean: small"},
               {"small", "linearised about the rest state"},

@@ -27,6 +27,12 @@ Chapter pictures_chapter(const RunData& run);
 Chapter published_chapter(const RunData& run);
 /// Static lattices on the tip's true surfaces.
 Chapter equilibrium_chapter(const RunData& run);
+/// A study's static presses against their continua.
+Chapter variants_chapter(const RunData& run);
+/// The study's result in one paragraph.
+std::string variants_answer(const RunData& run);
+/// Every press of a study with its force errors, as plain text.
+std::string variants_text(const RunData& run);
 /// Why the models differ, in words.
 Chapter reasons_chapter(const RunData& run);
 /// The continuum's discretisation error, its meshes, and its contact beside Hertz's.

@@ -48,20 +48,38 @@ std::vector<NotRun> missing_parts(const RunData& run) {
 
 namespace {
 
-Page report_page(const RunData& run) {
+Page core_page(const RunData& run) {
   Page page;
   page.title = run.title.empty() ? "Soft fingertip: lattice against continuum" : run.title;
   page.subtitle = fmt::format(
       "Validation of mass-spring fingertips against a continuum of the same specimen{}{}",
       run.case_name.empty() ? "" : ", case " + run.case_name,
       text_at(run.manifest, "started").empty() ? "" : ", " + text_at(run.manifest, "started"));
-  if (!run.status.empty() && run.status != "ok") page.status = "Status of the run: " + run.status;
-  page.answer = answer(run);
   page.chapters = {verdict_chapter(run),      force_chapter(run),    control_chapter(run),
                    elasticity_chapter(run),   pictures_chapter(run), published_chapter(run),
                    equilibrium_chapter(run),  reasons_chapter(run),  continuum_chapter(run),
                    verification_chapter(run), cost_chapter(run),     provenance_chapter(run)};
   page.not_run = missing_parts(run);
+  return page;
+}
+
+/// A study has its presses to show, and nothing of the core case.
+Page study_page(const RunData& run) {
+  Page page;
+  page.title = run.title.empty() ? "Soft fingertip: a study of lattices at rest" : run.title;
+  page.subtitle = fmt::format(
+      "A study of mass-spring fingertips in equilibrium against a continuum of the same "
+      "specimen{}{}",
+      run.case_name.empty() ? "" : ", case " + run.case_name,
+      text_at(run.manifest, "started").empty() ? "" : ", " + text_at(run.manifest, "started"));
+  page.chapters = {verdict_chapter(run), variants_chapter(run), provenance_chapter(run)};
+  return page;
+}
+
+Page report_page(const RunData& run) {
+  Page page = run.variants.empty() ? core_page(run) : study_page(run);
+  if (!run.status.empty() && run.status != "ok") page.status = "Status of the run: " + run.status;
+  page.answer = answer(run);
   return page;
 }
 

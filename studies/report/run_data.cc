@@ -251,6 +251,8 @@ RunData read_run(const fs::path& folder) {
   run.cubes = read_csv(folder / "cubes.csv");
   run.published_study = read_csv(folder / "published_study.csv");
   run.equilibrium_study = read_csv(folder / "equilibrium_study.csv");
+  run.variants = read_csv(folder / "variants.csv");
+  run.study = object_at(summary, "variants");
   for (const std::string& name : ordered_models(models)) {
     run.models.push_back(read_model(folder, name, models.at(name)));
     run.models.back().force_error.resize(run.depths.size(), meshes::unknown);

@@ -81,6 +81,8 @@ struct RunData {
   meshes::PressResponse reference;          ///< empty when the continuum was not run
   CsvTable convergence, section, pressure;  ///< of the continuum
   CsvTable cubes, published_study, equilibrium_study;
+  CsvTable variants;              ///< of a study
+  nlohmann::json study;           ///< "variants" of its summary.json; an empty object otherwise
   std::vector<ModelData> models;  ///< published, central, hookean, then any others
 
   const ModelData* model(const std::string& name) const;

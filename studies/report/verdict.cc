@@ -187,6 +187,7 @@ std::string text_table(const RunData& run) {
 }  // namespace
 
 std::string answer(const RunData& run) {
+  if (!run.variants.empty()) return variants_answer(run) + criteria_sentence(run);
   std::string text;
   if (!run.reference.empty()) {
     const double depth = run.reference.depth();
@@ -225,7 +226,7 @@ namespace fingertip::studies {
 std::string verdict_text(const std::filesystem::path& run_folder) {
   using namespace reporting;
   const RunData run = read_run(run_folder);
-  std::string text = text_table(run);
+  std::string text = run.variants.empty() ? text_table(run) : variants_text(run);
   for (const Criterion& criterion : run.criteria) {
     text += fmt::format("{} {}: {} (limit {})\n", criterion.passed ? "met    " : "NOT MET",
                         criterion.name, plain_number(criterion.value, "{:.3g}"),

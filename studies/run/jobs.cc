@@ -146,6 +146,7 @@ ordered_json to_json(const lattice::LatticeSettings& settings) {
       {"offset", std::vector<double>(settings.offset.begin(), settings.offset.end())},
       {"constants", to_json(settings.constants)},
       {"ligament_stiffness", settings.ligament_stiffness}};
+  if (settings.contact_stiffness != 1.0) json["contact_stiffness"] = settings.contact_stiffness;
   if (!settings.axes.isIdentity(0.0))
     json["axes"] = std::vector<double>(settings.axes.data(), settings.axes.data() + 9);
   return json;

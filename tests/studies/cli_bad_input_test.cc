@@ -60,6 +60,52 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"reference.degree=7", {"<= 3"}},
         BadInput{"lattice.constants=absent.toml", {"absent.toml"}}));
 
+namespace {
+
+struct BadLattice {
+  std::vector<std::string> sets;  ///< section.key=value
+  std::vector<std::string> told;  ///< what the message must contain
+};
+
+class BadStaticLattice : public testing::TestWithParam<BadLattice> {};
+
+}  // namespace
+
+TEST_P(BadStaticLattice, IsRefusedBeforeAnythingIsComputed) {
+  const TemporaryFolder folder;
+  for (const char* verb : {"press", "modes"}) {
+    std::vector<std::string> words{verb, "--out", "run", "--set", "press.mode=static"};
+    for (const std::string& set : GetParam().sets) words.insert(words.end(), {"--set", set});
+    expect_refused(folder.path(), words, GetParam().told);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    MustShow, BadStaticLattice,
+    testing::Values(
+        BadLattice{{"lattice.spacing=0.26 cm"},
+                   {"--set lattice.spacing=0.26 cm", "(R - r)/2", "two cells", "finer lattice"}},
+        BadLattice{{"geometry.rod_radius=0.9 cm", "press.depth=0.5 mm"},
+                   {"lattice.spacing = tip_radius/12", "(R - r)/2", "finer lattice"}},
+        BadLattice{{"lattice.spacing=tip_radius/400"},
+                   {"--set lattice.spacing=tip_radius/400", "20 million", "coarser lattice"}},
+        BadLattice{{"lattice.model=network", "rubber.youngs_modulus=20 gf/cm^2"},
+                   {"--set rubber.youngs_modulus=20 gf/cm^2", "Poisson's ratio >= 0",
+                    "lattice.kinematics = small"}},
+        BadLattice{{"lattice.model=network", "rubber.youngs_modulus=42 gf/cm^2"},
+                   {"--set rubber.youngs_modulus=42 gf/cm^2", "Poisson's ratio", "reaches 1/2",
+                    "lower youngs_modulus"}},
+        BadLattice{{"lattice.model=hookean", "lattice.kinematics=finite",
+                    "rubber.youngs_modulus=30 gf/cm^2"},
+                   {"--set lattice.kinematics=finite", "kappa >= 0", "network"}},
+        BadLattice{{"lattice.offset=[0.0, 1.5, 0.0]"},
+                   {"--set lattice.offset=[0.0, 1.5, 0.0]", ">= -1 and <= 1"}},
+        BadLattice{
+            {"lattice.model=published", "lattice.rotation=[\"9 deg\", \"0 deg\", \"0 deg\"]"},
+            {"lattice.rotation", "aligned with the rod", "at 0"}},
+        BadLattice{{"lattice.ligament_stiffness=0"},
+                   {"--set lattice.ligament_stiffness=0", "> 0"}}));
+
 TEST(BadInput, WhatTheLatticeCannotDoIsRefusedToItAndGoesToTheContinuum) {
   const TemporaryFolder folder;
   write_text(folder / "tilted.toml", "[press]\ncontact = \"coulomb\"\ntilt = \"5 deg\"\n");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/moduli.h"
+#include "lattice/statics/static_press.h"
 #include "studies/run/jobs.h"
 #include "tests/temporary_folder.h"
 
@@ -55,6 +56,31 @@ TEST(PressSetup, TakesConstantsFromAMaterialFileAtAnySpacing) {
   EXPECT_NEAR(moduli_of(finer).youngs_modulus_100, 3922.66, 1e-5);
   EXPECT_THROW(setup_of({"lattice.model=hookean", constants}), ConfigError) << "another model";
   EXPECT_THROW(setup_of({"lattice.constants=" + (folder / "absent.toml").string()}), ConfigError);
+}
+
+TEST(PressSetup, ContactStiffnessScalesTheTiesToThePlaneAlone) {
+  const auto body_of = [](const std::string& factor) {
+    const auto setup = setup_of({"press.mode=static", "lattice.spacing=tip_radius/6",
+                                 "lattice.contact_stiffness=" + factor});
+    return lattice::static_body(setup, 4);
+  };
+  const lattice::LatticeBody one = body_of("1.0"), three = body_of("3.0");
+  ASSERT_EQ(one.outer.size(), three.outer.size());
+  ASSERT_EQ(one.bond.size(), three.bond.size());
+  for (std::size_t i = 0; i < one.outer.size(); ++i)
+    EXPECT_NEAR(three.outer[i].stiffness / one.outer[i].stiffness, 3.0, 1e-12);
+  for (std::size_t i = 0; i < one.bond.size(); ++i)
+    EXPECT_EQ(three.bond[i].stiffness, one.bond[i].stiffness);
+  const auto key = [](const std::string& factor) {
+    return press_job(setup_of({"press.mode=static", "lattice.contact_stiffness=" + factor})).key();
+  };
+  EXPECT_NE(key("2.0"), key("1.0"));
+  // Where there are no ties the factor would be without effect.
+  EXPECT_THROW(setup_of({"lattice.contact_stiffness=2.0"}), ConfigError);
+  EXPECT_THROW(
+      setup_of({"press.mode=static", "lattice.model=published", "lattice.contact_stiffness=2.0"}),
+      ConfigError);
+  EXPECT_THROW(setup_of({"press.mode=static", "lattice.contact_stiffness=0.0"}), ConfigError);
 }
 
 TEST(PressSetup, RefusesWhatTheLatticeCannotDo) {

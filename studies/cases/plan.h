@@ -1,0 +1,43 @@
+/// What a case computes and what it concludes from it. A case without variants follows the core
+/// plan, one with variants compares static presses.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "studies/cases/case_file.h"
+#include "studies/run/session.h"
+
+namespace fingertip::studies {
+
+/// One use: jobs, then conclude, then measures.
+class Plan {
+ public:
+  virtual ~Plan() = default;
+
+  /// In the order in which they should start. Throws ConfigError.
+  virtual std::vector<PlannedJob> jobs() = 0;
+
+  /// Reads what the jobs left in `folder`, writes the tables that need several of them, and returns
+  /// the plan's part of summary.json.
+  virtual nlohmann::ordered_json conclude(const std::filesystem::path& folder,
+                                          const std::vector<JobResult>& results) = 0;
+
+  /// What criteria are judged by. A measure that could not be taken is absent.
+  virtual std::map<std::string, double> measures(const std::filesystem::path& folder,
+                                                 const nlohmann::ordered_json& summary) const = 0;
+};
+
+/// Continuum, fits, cubes, a press of each model, studies of the published and the static lattice.
+/// `one` must outlive the plan, here and below.
+std::unique_ptr<Plan> core_plan(const Case& one);
+
+/// A static press per variant and the continua they are measured against.
+std::unique_ptr<Plan> variants_plan(const Case& one);
+
+}  // namespace fingertip::studies

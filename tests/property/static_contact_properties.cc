@@ -1,0 +1,161 @@
+// Properties of the ties between a lattice body and the plane, for any tip, deformation and plane.
+#include <rapidcheck.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "lattice/statics/static_contact.h"
+#include "tests/property/random_bodies.h"
+
+using namespace fingertip;
+using namespace fingertip::random;
+using lattice::ElasticSystem;
+using lattice::StaticContact;
+using lattice::Tangent;
+using lattice::TiedPoint;
+
+namespace {
+
+/// A tip and a plane that comes at it anyhow.
+struct Contact {
+  explicit Contact(meshes::ContactMode mode)
+      : specimen(random_tip(random_model())), system(specimen.body) {
+    meshes::PressProtocol protocol;
+    protocol.depth = uniform(0.05, 0.9) * specimen.geometry.thickness();
+    protocol.tilt = uniform(-0.78, 0.78);
+    protocol.lateral = uniform(-0.5, 0.5) * protocol.depth;
+    plane = lattice::press_plane(protocol, specimen.geometry);
+    depth = protocol.depth;
+    contact = std::make_unique<StaticContact>(specimen.body, plane, mode);
+  }
+
+  double gap(const TiedPoint& point, const VectorXd& u) const {
+    return (position(point, u) - plane.point(contact->indentation())).dot(plane.normal);
+  }
+  VectorXd forces(const VectorXd& u) const {
+    VectorXd force = VectorXd::Zero(u.size());
+    contact->add(u, system, force, nullptr);
+    return force;
+  }
+  double stiffness() const {
+    double sum = 0.0;
+    for (const TiedPoint& point : specimen.body.outer) sum += point.stiffness;
+    return sum;
+  }
+
+  Specimen specimen;
+  ElasticSystem system;
+  lattice::PressPlane plane;
+  double depth = 0.0;
+  std::unique_ptr<StaticContact> contact;
+};
+
+/// Energy, force and tangent fit together, and force and moment on the particles are the plane's.
+void check_derivatives(const Contact& c, const VectorXd& u) {
+  const LatticeBody& body = c.specimen.body;
+  const VectorXd motion = random_field(body, 1.0);
+  const double h = 1e-7 * c.specimen.spacing;
+  VectorXd force = VectorXd::Zero(u.size());
+  Tangent tangent = c.system.empty_tangent();
+  const double sum = c.contact->add(u, c.system, force, &tangent);
+  const double scale = sum + c.stiffness() * c.specimen.spacing;
+  const double slope =
+      (c.contact->energy(u + h * motion) - c.contact->energy(u - h * motion)) / (2.0 * h);
+  RC_ASSERT(std::abs(slope + force.dot(motion)) <= 1e-7 * scale);
+  const VectorXd differences = (c.forces(u - h * motion) - c.forces(u + h * motion)) / (2.0 * h);
+  const VectorXd computed = tangent.selfadjointView<Eigen::Lower>() * motion;
+  RC_ASSERT((computed - differences).norm() <= 1e-7 * c.stiffness());
+
+  const Vector3 about = c.specimen.geometry.rod_endpoint();
+  const lattice::PlaneReaction reaction = c.contact->reaction(u, about);
+  Vector3 total = Vector3::Zero(), moment = Vector3::Zero();
+  for (std::size_t p = 0; p < body.rest.size(); ++p) {
+    const Vector3 f = force.segment<3>(3 * Eigen::Index(p));
+    Vector3 at = body.rest[p];
+    if (body.finite) at += u.segment<3>(3 * Eigen::Index(p));
+    total += f;
+    moment += (at - about).cross(f);
+  }
+  RC_ASSERT((total - reaction.force).norm() <= 1e-12 * scale);
+  RC_ASSERT((moment - reaction.moment).norm() <= 1e-11 * scale * c.specimen.geometry.tip_radius);
+}
+
+/// Whether differences taken this near to `u` see no tie open or close.
+bool away_from_kinks(const Contact& c, const VectorXd& u) {
+  return std::ranges::all_of(c.specimen.body.outer, [&](const TiedPoint& point) {
+    return std::abs(c.gap(point, u)) > 1e-5 * c.specimen.spacing;
+  });
+}
+
+bool frictionless_contact_only_pushes() {
+  return rc::check("frictionless contact pushes along the normal, by its energy", [] {
+    Contact c(meshes::ContactMode::frictionless);
+    const VectorXd u = random_displacement(c.specimen);
+    c.contact->move_to(c.depth);
+    RC_PRE(away_from_kinks(c, u));
+    double work = 0.0;
+    for (std::size_t i = 0; i < c.specimen.body.outer.size(); ++i) {
+      const TiedPoint& point = c.specimen.body.outer[i];
+      const Vector3 force = c.contact->tie_force(i, u);
+      const double push = force.dot(c.plane.normal), gap = c.gap(point, u);
+      RC_ASSERT((force - push * c.plane.normal).norm() <= 1e-14 * push);
+      const bool pushes_where_crossed = gap < 0.0 ? push > 0.0 : push == 0.0;
+      RC_ASSERT(pushes_where_crossed);
+      if (gap < 0.0) work += 0.5 * point.stiffness * gap * gap;
+    }
+    RC_ASSERT(std::abs(c.contact->energy(u) - work) <= 1e-12 * work);
+    check_derivatives(c, u);
+    c.contact->move_to(-20.0 * c.specimen.geometry.tip_radius);
+    RC_ASSERT(c.contact->energy(u) == 0.0);
+    RC_ASSERT(c.forces(u).isZero(0.0));
+  });
+}
+
+bool sticking_contact_holds_what_it_touched() {
+  return rc::check("sticking contact holds what crossed the plane until it is pulled", [] {
+    Contact c(meshes::ContactMode::stick);
+    const VectorXd rest = VectorXd::Zero(c.specimen.body.unknowns());
+    const VectorXd u = random_displacement(c.specimen);
+    c.contact->move_to(c.depth);
+    RC_PRE(away_from_kinks(c, u));
+    const int anchored = c.contact->anchor_touching(rest, 0.0, u);
+    int crossed = 0;
+    for (std::size_t i = 0; i < c.specimen.body.outer.size(); ++i) {
+      const TiedPoint& point = c.specimen.body.outer[i];
+      // Seen from the plane the point goes straight from `first` to `last`; the plane holds it
+      // where it crossed.
+      const Vector3 first = point.rest - c.plane.point(0.0);
+      const Vector3 last = position(point, u) - c.plane.point(c.depth);
+      const double before = first.dot(c.plane.normal), after = last.dot(c.plane.normal);
+      const Vector3 back = after / (before - after) * (last - first);
+      const Vector3 expected = after < 0.0 ? Vector3(point.stiffness * back) : Vector3::Zero();
+      crossed += after < 0.0 ? 1 : 0;
+      RC_ASSERT((c.contact->tie_force(i, u) - expected).norm() <=
+                1e-11 * point.stiffness * c.specimen.geometry.tip_radius);
+    }
+    RC_ASSERT(anchored == crossed);
+    check_derivatives(c, u);
+
+    c.contact->move_to(uniform(-0.2, 1.0) * c.depth);
+    c.contact->begin_step();
+    c.contact->release_pulled(u);
+    for (std::size_t i = 0; i < c.specimen.body.outer.size(); ++i)
+      RC_ASSERT(c.contact->pressure(i, u) * c.specimen.body.outer[i].area >=
+                -2e-12 * c.specimen.body.outer[i].stiffness);
+    c.contact->move_to(-20.0 * c.specimen.geometry.tip_radius);
+    c.contact->begin_step();
+    c.contact->release_pulled(u);
+    RC_ASSERT(c.contact->energy(u) == 0.0);
+    RC_ASSERT(c.forces(u).isZero(0.0));
+  });
+}
+
+}  // namespace
+
+int main() {
+  bool good = frictionless_contact_only_pushes();
+  good = sticking_contact_holds_what_it_touched() && good;
+  return good ? 0 : 1;
+}

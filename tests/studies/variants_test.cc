@@ -1,0 +1,205 @@
+// Studies: what a case file's variants become, and what their presses say together.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "studies/cases/case_file.h"
+#include "studies/cases/plan.h"
+#include "studies/cases/validation.h"
+#include "studies/cases/variant_measures.h"
+#include "studies/config/documents.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip::studies;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The case whose table [case] ends with `table`, after a static press of two samples.
+Case case_with(const TemporaryFolder& folder, const std::string& table) {
+  write_text(folder / "case.toml",
+             "[press]\nsamples = [\"0.1 cm\", \"0.2 cm\"]\n[case]\ntitle = \"t\"\n" + table);
+  return load_case(folder / "case.toml", {});
+}
+
+std::string refusal(const TemporaryFolder& folder, const std::string& table) {
+  try {
+    check_case(case_with(folder, table));
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// How many continua and presses a case of the project plans.
+std::pair<std::size_t, std::size_t> planned(const std::string& name) {
+  const Case one = load_case(find_case(name), {});
+  std::pair<std::size_t, std::size_t> counts{0, 0};
+  for (const PlannedJob& job : variants_plan(one)->jobs())
+    ++(job.job.kind == "reference" ? counts.first : counts.second);
+  return counts;
+}
+
+VariantResult result_with(double spacing, std::vector<double> error) {
+  VariantResult result;
+  result.spacing = spacing;
+  result.depth.assign(error.size(), 0.0);
+  for (std::size_t i = 0; i < error.size(); ++i) result.depth[i] = 1e-3 * double(i + 1);
+  result.error = std::move(error);
+  result.reference_error.assign(result.error.size(), 1e-3);
+  return result;
+}
+
+/// Variants of one series at the given x.
+Case series_at(const std::vector<double>& x) {
+  Case one;
+  for (const double at : x) {
+    CaseVariant variant;
+    variant.name = std::to_string(at);
+    variant.series = "s";
+    variant.x = at;
+    one.variants.push_back(variant);
+  }
+  return one;
+}
+
+}  // namespace
+
+TEST(Variants, EveryCaseOfTheProjectCanBePlanned) {
+  for (const fs::path& file : all_cases()) EXPECT_NO_THROW(check_case(load_case(file, {}))) << file;
+}
+
+TEST(Variants, LatticesOfTheSameSpecimenAndContactShareAContinuum) {
+  // Small strain with either contact, finite strain.
+  EXPECT_EQ(planned("02"), (std::pair<std::size_t, std::size_t>{3, 17}));
+  // Bond and contact meet in the press as used, at three spacings.
+  EXPECT_EQ(planned("03"), (std::pair<std::size_t, std::size_t>{1, 30 - 3}));
+  EXPECT_EQ(planned("04").first, 1U);
+  EXPECT_EQ(planned("05").first, 7U);
+  EXPECT_EQ(planned("06"), (std::pair<std::size_t, std::size_t>{2, 10}));
+}
+
+TEST(Variants, AreStaticPressesAgainstTheContinuumOfTheirKinematics) {
+  const TemporaryFolder folder;
+  const Case one =
+      case_with(folder,
+                "variant = [\n"
+                "{ name = \"a\", set = {} },\n"
+                "{ name = \"b\", set = { \"lattice.model\" = \"network\" } },\n"
+                "{ name = \"c\", set = { \"lattice.offset\" = [0.5, 0.0, 0.0] } } ]\n");
+  std::set<std::string> strains;
+  for (const PlannedJob& job : variants_plan(one)->jobs()) {
+    const auto& inputs = job.job.inputs;
+    EXPECT_EQ(job.exhibit, job.job.kind == "press") << job.name;
+    if (job.job.kind == "press") {
+      EXPECT_EQ(inputs["protocol"]["mode"], "static") << job.name;
+    } else {
+      strains.insert(inputs["strain"]);
+      EXPECT_EQ(inputs["analysis"], "static");
+      EXPECT_EQ(inputs.contains("law"), inputs["strain"] == "finite");
+      EXPECT_EQ(inputs.value("law", "A"), "A");
+    }
+  }
+  EXPECT_EQ(strains, (std::set<std::string>{"linear", "finite"}));
+}
+
+TEST(Variants, ParametersOfARunAreTheStudyAgain) {
+  const TemporaryFolder folder;
+  const Case first = load_case(find_case("03"), {});
+  write_text(folder / "parameters.toml", parameters_toml(first.loaded, "test") + first.text);
+  const Case again = load_case(folder / "parameters.toml", {});
+  EXPECT_EQ(again.abscissa, first.abscissa);
+  EXPECT_EQ(again.budgets.size(), first.budgets.size());
+  const auto before = variants_plan(first)->jobs(), after = variants_plan(again)->jobs();
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(before[i].name, after[i].name);
+    EXPECT_EQ(before[i].job.key(), after[i].job.key());
+  }
+}
+
+TEST(Variants, ProblemsAreToldWithTheLineOfTheVariant) {
+  const TemporaryFolder folder;
+  const auto one = [](const std::string& set) {
+    return "[[case.variant]]\nname = \"odd\"\nset = { " + set + " }\n";
+  };
+  EXPECT_TRUE(has(refusal(folder, one("\"lattice.spacin\" = \"1 mm\"")), "lattice.spacing"));
+  const std::string coarse = refusal(folder, one("\"lattice.spacing\" = \"0.3 cm\""));
+  EXPECT_TRUE(has(coarse, "case.toml:5 (variant odd): lattice.spacing = 0.3 cm")) << coarse;
+  const std::string unknown = refusal(folder, one("\"lattice.spacing\" = \"1 furlongg\""));
+  EXPECT_TRUE(has(unknown, "case.toml:5 (variant odd)")) << unknown;
+  EXPECT_TRUE(has(refusal(folder, one("\"press.mode\" = \"pid\"")), "static press"));
+  EXPECT_TRUE(has(refusal(folder, one("\"reference.strain\" = \"finite\"")), "kinematics"));
+  EXPECT_TRUE(has(refusal(folder, one("lattice = { spacing = \"1 mm\" }")), "in quotes"));
+  EXPECT_TRUE(has(refusal(folder, one("\"press.contact\" = \"coulomb\"")), "press.contact"));
+  EXPECT_TRUE(has(refusal(folder, one("") + one("")), "once in a series"));
+  EXPECT_TRUE(
+      has(refusal(folder, one("") + "[[case.budget]]\nname = \"b\"\nparts = [\"s\"]\n"), "x = 1"));
+  EXPECT_TRUE(has(refusal(folder, one("") + "[[case.criteria]]\nname = \"c\"\nmeasure = "
+                                            "\"variants.worst_eror\"\nlimit = 1\n"),
+                  "variants.worst_error"));
+  EXPECT_EQ(refusal(folder, one("\"lattice.spacing\" = \"tip_radius/7\"")), "");
+}
+
+TEST(VariantMeasures, OrderIsTheSlopeInLogarithms) {
+  const Case one = series_at({6, 8, 12, 16});
+  VariantResults results;
+  for (const CaseVariant& variant : one.variants) {
+    const double a = 0.01 / variant.x;
+    results.push_back(result_with(a, {-300.0 * a * a, 900.0 * a * a}));
+  }
+  const SeriesMeasures measures = measure_series(one, "s", results);
+  EXPECT_NEAR(measures.order, 2.0, 1e-12);
+  EXPECT_NEAR(measures.worst_error, 900.0 * std::pow(0.01 / 6, 2), 1e-15);
+  EXPECT_NEAR(measures.finest_error, 900.0 * std::pow(0.01 / 16, 2), 1e-15);
+  EXPECT_NEAR(measures.spread, 900.0 * (std::pow(0.01 / 6, 2) - std::pow(0.01 / 16, 2)), 1e-15);
+  results[2].spacing = results[1].spacing;
+  EXPECT_TRUE(std::isnan(measure_series(one, "s", results).order)) << "not the spacing alone";
+}
+
+TEST(VariantMeasures, WhatIsMissingIsNotJudged) {
+  const Case one = series_at({1, 2});
+  VariantResults results = {result_with(1e-3, {0.1}), result_with(1e-3, {0.2})};
+  EXPECT_NEAR(take_variant_measures(one, results, 0).at("variants.worst_error"), 0.2, 1e-15);
+  results[0].error[0] = std::nan("");
+  const auto taken = take_variant_measures(one, results, 1);
+  EXPECT_EQ(taken.at("variants.not_converged"), 1.0);
+  for (const char* name : {"variants.worst_error", "s.worst_error", "s.spread"})
+    EXPECT_EQ(taken.count(name), 0U) << name;
+}
+
+// Two compliances in a row: the error is linear in one and quadratic in the other; what is left
+// without either is the rest.
+TEST(VariantMeasures, BudgetSeparatesWhatAddsUp) {
+  Case one;
+  VariantResults results;
+  const auto error = [](double bond, double contact) {
+    return 0.004 - 0.010 * bond - 0.006 * contact + 0.001 * contact * contact;
+  };
+  for (const std::string series : {"bond", "contact"}) {
+    for (const double x : {4.0, 0.25, 1.0, 2.0}) {
+      CaseVariant variant;
+      variant.series = series;
+      variant.x = x;
+      one.variants.push_back(variant);
+      // Stiffer ties lock: they must not enter.
+      const double locked = x < 1.0 ? 0.5 : 0.0;
+      results.push_back(
+          result_with(1e-3, {locked + (series == "bond" ? error(x, 1.0) : error(1.0, x))}));
+    }
+  }
+  one.budgets.push_back({"b", {"bond", "contact"}});
+  const Budget budget = take_budget(one, one.budgets[0], results);
+  ASSERT_EQ(budget.parts.size(), 2U);
+  EXPECT_NEAR(budget.total[0], error(1.0, 1.0), 1e-15);
+  EXPECT_NEAR(budget.parts[0][0], -0.010, 1e-12);
+  EXPECT_NEAR(budget.parts[1][0], -0.005, 1e-12);
+  EXPECT_NEAR(budget.rest[0], 0.004, 1e-12);
+  EXPECT_NEAR(take_variant_measures(one, results, 0).at("b.rest"), 0.004, 1e-12);
+}
