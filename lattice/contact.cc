@@ -7,30 +7,7 @@ namespace fingertip::lattice {
 
 using meshes::Vector3;
 
-namespace {
-
-/// Where the line from the particle straight toward the plane leaves the sphere |w| = R, as a
-/// distance [m]; negative if the particle lies beyond it, NaN if the line misses the sphere.
-double distance_to_surface(const Vector3& rest, const Vector3& toward_plane, double radius) {
-  const double along = rest.dot(toward_plane);
-  const double across = (rest - along * toward_plane).squaredNorm();
-  return std::sqrt(radius * radius - across) - along;
-}
-
-/// Whether a particle has a neighbour on the grid line toward the plane.
-bool covered(const LatticeModel& model, std::size_t particle, const Vector3& toward_plane) {
-  Eigen::Index axis = 0;
-  toward_plane.cwiseAbs().maxCoeff(&axis);
-  std::size_t stride = 1;
-  for (Eigen::Index k = 0; k < axis; ++k) stride *= std::size_t(model.grid.size[std::size_t(k)]);
-  const std::size_t next = toward_plane[axis] > 0.0 ? particle + stride : particle - stride;
-  return model.is_particle[next] != 0;
-}
-
-}  // namespace
-
-PlaneContact::PlaneContact(const LatticeModel& model, const meshes::Geometry& geometry,
-                           const Plane& plane, meshes::ContactMode mode)
+PlaneContact::PlaneContact(const LatticeModel& model, const Plane& plane, meshes::ContactMode mode)
     : model_(&model), normal_(plane.normal), mode_(mode) {
   candidates_.reserve(model.boundary.size());
   for (const std::uint32_t particle : model.boundary) {
@@ -39,14 +16,6 @@ PlaneContact::PlaneContact(const LatticeModel& model, const meshes::Geometry& ge
     c.particle = particle;
     c.rest_gap = normal_.dot(rest - plane.point);
     c.lateral = (rest - normal_ * normal_.dot(rest)).norm();
-    if (model.kind == ModelKind::published) {
-      c.eligible = true;
-    } else {
-      const double reach = distance_to_surface(rest, -normal_, geometry.tip_radius);
-      c.eligible =
-          std::isfinite(reach) && -normal_.dot(rest) > 0.0 && !covered(model, particle, -normal_);
-      if (c.eligible) c.rest_gap -= reach;
-    }
     candidates_.push_back(c);
   }
 }
@@ -66,7 +35,6 @@ double PlaneContact::radius() const {
 Vector3 PlaneContact::resolve(State& state, const VectorField& force, double step) {
   Vector3 impulse = Vector3::Zero();
   for (Candidate& c : candidates_) {
-    if (!c.eligible) continue;
     if (c.held) {
       impulse += hold(c, state, force, step);
     } else if (gap(c, state.displacement.at(c.particle)) < 0.0) {

@@ -1,28 +1,23 @@
-/// Contact by anchoring boundary particles on a rigid plane (paper, section II.F).
+/// Contact of the published model: boundary particles anchored on a rigid plane (paper, section
+/// II.F).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "lattice/model.h"
+#include "lattice/plane.h"
 #include "lattice/state.h"
 #include "meshes/press_protocol.h"
 
 namespace fingertip::lattice {
-
-/// A rigid plane; `normal` (unit) points from the plane toward the finger.
-struct Plane {
-  meshes::Vector3 point = meshes::Vector3::Zero();
-  meshes::Vector3 normal = -meshes::Vector3::UnitZ();
-};
 
 /// Which boundary particles the plane holds, and what that costs it. One pass over the boundary
 /// per step; allocates only in the constructor.
 class PlaneContact {
  public:
   /// The finger must start clear of the plane. Model must outlive the contact.
-  PlaneContact(const LatticeModel& model, const meshes::Geometry& geometry, const Plane& plane,
-               meshes::ContactMode mode);
+  PlaneContact(const LatticeModel& model, const Plane& plane, meshes::ContactMode mode);
 
   /// To be called after particles moved freely through a step of length `step` under `force`:
   /// holds the anchored ones back, anchors those that crossed, where they crossed (linear between
@@ -40,9 +35,8 @@ class PlaneContact {
  private:
   struct Candidate {
     std::uint32_t particle = 0;
-    bool eligible = false;  ///< may touch: the model's contact rule
     bool held = false;
-    double rest_gap = 0.0;                                   ///< of its contact point [m]
+    double rest_gap = 0.0;                                   ///< [m]
     double lateral = 0.0;                                    ///< distance from the axis at rest [m]
     meshes::Vector3 displacement = meshes::Vector3::Zero();  ///< at the last step, or held at [m]
   };

@@ -1,9 +1,8 @@
 #include "lattice/energy.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
-#include "lattice/cell.h"
+#include "lattice/cells/cell_forces.h"
 
 namespace fingertip::lattice {
 
@@ -32,15 +31,10 @@ double spring_energy(const LatticeModel& model, const State& state, int s) {
 }  // namespace
 
 double elastic_energy(const LatticeModel& model, const State& state) {
-  double energy = 0.0;
+  double energy = cell_energy(model.cell_lattice, state.displacement);
+  if (!model.has_springs()) return energy;
   for (int s = 0; s < directions; ++s) energy += spring_energy(model, state, s);
-  if (!model.has_volume_term()) return energy;
-  double squares = 0.0;
-  for (const std::size_t cell : model.cells) {
-    const double change = volume_change(model, state.displacement, cell);
-    squares += change * change;
-  }
-  return energy + 0.5 * model.volume_stiffness * std::pow(model.spacing(), 3) * squares;
+  return energy;
 }
 
 double kinetic_energy(const LatticeModel& model, const State& state) {
@@ -54,7 +48,7 @@ double kinetic_energy(const LatticeModel& model, const State& state) {
 Vector3 linear_momentum(const LatticeModel& model, const State& state) {
   Vector3 sum = Vector3::Zero();
   for (const std::size_t i : model.particles) sum += model.mass[i] * state.velocity.at(i);
-  return sum;
+  return model.grid.axes * sum;
 }
 
 }  // namespace fingertip::lattice

@@ -6,8 +6,8 @@
 
 namespace fingertip::lattice {
 
-/// Sum of ½ k (elongation)² over springs and kappa (V - V0)²/(2 V0) over cells [J]; the internal
-/// forces without damping are minus its gradient.
+/// Energy of springs, ½ k (elongation)², and of cells (CellMaterial) [J]; the internal forces
+/// without damping are minus its gradient.
 double elastic_energy(const LatticeModel& model, const State& state);
 
 /// Sum of ½ m v² [J].

@@ -14,12 +14,12 @@ constexpr std::size_t portion = 32;  // blocks per partial sum: the same for any
 
 }  // namespace
 
-Finger::Finger(const LatticeModel& model, const RodBody& rod, const PlaneContact& contact,
-               Integrator integrator, double step, int threads)
+Finger::Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane,
+               meshes::ContactMode contact, Integrator integrator, double step, int threads)
     : model_(&model),
       team_(threads),
       internal_(model, team_),
-      contact_(contact),
+      surfaces_(make_surfaces(model, plane, contact, team_)),
       move_(kernel::select_move()),
       integrator_(integrator),
       step_(step),
@@ -29,8 +29,8 @@ Finger::Finger(const LatticeModel& model, const RodBody& rod, const PlaneContact
       partial_momentum_((model.blocks.size() + portion - 1) / portion) {}
 
 void Finger::find_forces() {
-  internal_.accumulate(state_, force_);
-  bond_ = add_ligament_forces(*model_, state_, rod_, force_);
+  extremes_ = internal_.accumulate(state_, force_);
+  bond_ = surfaces_->hold(state_, rod_, step_, force_);
 }
 
 void Finger::move_particles() {
@@ -83,8 +83,9 @@ void Finger::advance(const RodMotion& at_end) {
 }
 
 void Finger::check_momentum(const Vector3& rod_momentum) {
-  Vector3 momentum = rod_momentum;
-  for (const Vector3& p : partial_momentum_) momentum += p;
+  Vector3 of_particles = Vector3::Zero();
+  for (const Vector3& p : partial_momentum_) of_particles += p;
+  const Vector3 momentum = rod_momentum + model_->grid.axes * of_particles;
   if (balance_started_) {
     const double defect = (momentum - expected_momentum_).norm();
     if (!(defect <= momentum_defect_)) momentum_defect_ = defect;  // keeps a NaN visible
@@ -94,7 +95,7 @@ void Finger::check_momentum(const Vector3& rod_momentum) {
 }
 
 void Finger::close_step(const Vector3& applied_impulse) {
-  plane_impulse_ = contact_.resolve(state_, force_, step_);
+  plane_impulse_ = surfaces_->settle(state_, force_, step_);
   expected_momentum_ += applied_impulse + plane_impulse_;
   largest_impulse_ = std::max({largest_impulse_, applied_impulse.norm(), plane_impulse_.norm(),
                                step_ * bond_.force.norm()});
@@ -102,7 +103,7 @@ void Finger::close_step(const Vector3& applied_impulse) {
 }
 
 double Finger::elastic_energy() const {
-  return lattice::elastic_energy(*model_, state_) + ligament_energy(*model_, state_, rod_.pose());
+  return lattice::elastic_energy(*model_, state_) + surfaces_->energy(state_, rod_);
 }
 
 }  // namespace fingertip::lattice

@@ -1,16 +1,17 @@
 /// The dynamics of the whole finger: particles, rod, ligaments and plane, one time step at a time.
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "lattice/bond.h"
-#include "lattice/contact.h"
 #include "lattice/forces.h"
 #include "lattice/model.h"
 #include "lattice/parallel.h"
+#include "lattice/plane.h"
 #include "lattice/rod.h"
 #include "lattice/settings.h"
 #include "lattice/state.h"
+#include "lattice/surfaces.h"
 
 namespace fingertip::lattice {
 
@@ -23,13 +24,14 @@ struct RodMotion {
 /// Advances a finger in time. A step evaluates all forces at its start, then updates
 ///   symplectic Euler:  v += f/m dt,  x += v dt (new v),
 ///   explicit Euler:    x += v dt (old v),  v += f/m dt  (paper, Fig. 4),
-/// the rod alike, and finally lets the plane hold back what crossed it.
+/// the rod alike. What rod and plane exert is the surfaces' matter (surfaces.h).
 /// Steps allocate nothing. Not copyable; the model must outlive it.
 class Finger {
  public:
-  /// `step` [s] must respect the stability bound (time_step.h); `threads` = 0 takes all cores.
-  Finger(const LatticeModel& model, const RodBody& rod, const PlaneContact& contact,
-         Integrator integrator, double step, int threads);
+  /// `step` [s] must respect the stability bound (time_step.h); `threads` = 0 takes all cores. The
+  /// finger must start clear of the plane.
+  Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane,
+         meshes::ContactMode contact, Integrator integrator, double step, int threads);
   Finger(const Finger&) = delete;
   Finger& operator=(const Finger&) = delete;
 
@@ -40,18 +42,24 @@ class Finger {
 
   double time() const { return time_; }
   double step() const { return step_; }
+  void set_step(double step) { step_ = step; }  ///< of the steps to come [s]
   const LatticeModel& model() const { return *model_; }
   const State& state() const { return state_; }
   State& state() { return state_; }
   const RodState& rod() const { return rod_; }
   RodState& rod() { return rod_; }
-  const PlaneContact& contact() const { return contact_; }
+  int touching() const { return surfaces_->touching(); }  ///< points on the plane
+  double contact_radius() const { return surfaces_->contact_radius(state_); }  ///< [m]
+  /// Whether the plane holds a boundary particle (position in model().boundary).
+  bool holds(std::size_t boundary_number) const { return surfaces_->holds(boundary_number); }
+  /// Of the cells at the start of the last step.
+  const CellExtremes& extremes() const { return extremes_; }
 
-  /// The ligaments' wrench on the rod about its endpoint, at the start of the last step.
+  /// The bond's wrench on the rod about its endpoint, at the start of the last step.
   const Wrench& bond() const { return bond_; }
   /// Impulse of the plane on the tip during the last step [N s].
   const meshes::Vector3& plane_impulse() const { return plane_impulse_; }
-  /// Elastic energy of springs, cells and ligaments [J].
+  /// Elastic energy of springs, cells and surfaces [J].
   double elastic_energy() const;
 
   /// Largest defect so far of (change of momentum of particles and rod) = (applied impulse) +
@@ -69,7 +77,7 @@ class Finger {
   const LatticeModel* model_;
   Team team_;
   InternalForces internal_;
-  PlaneContact contact_;
+  std::unique_ptr<Surfaces> surfaces_;
   kernel::MoveParticles move_;
   Integrator integrator_;
   double step_ = 0.0;
@@ -78,6 +86,7 @@ class Finger {
   VectorField force_;
   RodState rod_;
   Wrench bond_;
+  CellExtremes extremes_;
   meshes::Vector3 plane_impulse_ = meshes::Vector3::Zero();
   std::vector<meshes::Vector3> partial_momentum_;  ///< of fixed portions of the particles
   meshes::Vector3 expected_momentum_ = meshes::Vector3::Zero();

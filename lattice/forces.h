@@ -1,9 +1,7 @@
 /// Internal forces of the lattice: the paper's AccumulateForces, equation (1), and the cells.
 #pragma once
 
-#include <array>
-#include <vector>
-
+#include "lattice/cells/cell_forces.h"
 #include "lattice/kernel.h"
 #include "lattice/model.h"
 #include "lattice/parallel.h"
@@ -11,7 +9,7 @@
 
 namespace fingertip::lattice {
 
-/// Evaluates springs and cells with the vectorised kernel. Holds the scratch arrays, so that
+/// Evaluates springs and cells with the vectorised kernels. Holds the scratch arrays, so that
 /// accumulate() allocates nothing. Model and team must outlive it.
 class InternalForces {
  public:
@@ -20,16 +18,21 @@ class InternalForces {
 
   /// force = sum of spring and cell forces [N] at every particle for this state; at points that
   /// are no particles the force is zero or left as it was. `force` has model.points() entries.
-  void accumulate(const State& state, VectorField& force);
+  /// Returns how far the cells are from rest (rest itself for models without a cell law).
+  CellExtremes accumulate(const State& state, VectorField& force);
 
  private:
+  const VectorField& damped(const State& state);
+  void gather_springs(const VectorField& displacement, const State& state, VectorField& force);
+  void clear(VectorField& force);
+
   const LatticeModel* model_;
   Team* team_;
-  kernel::Variant variant_;
-  kernel::Kernel kernel_;
+  kernel::GatherForces springs_ = nullptr;  ///< null without springs
+  CellForces cells_;
+  bool rates_ = true;  ///< else one pass at u + tau v serves stiffness and damping
   kernel::Arrays arrays_{};
-  VectorField damped_;  ///< u + tau v, where one pass can serve stiffness and damping
-  std::array<std::vector<double>, 9> cell_force_;
+  VectorField damped_;  ///< u + tau v
 };
 
 }  // namespace fingertip::lattice

@@ -25,10 +25,10 @@ int supported_width() {
   return __builtin_cpu_supports("avx2") ? 4 : 2;
 }
 
-Kernel select(const Variant& variant, int width) {
+GatherForces select(const Variant& variant, int width) {
   return offer(width).select(variant);
 }
-Kernel select(const Variant& variant) {
+GatherForces select(const Variant& variant) {
   return select(variant, supported_width());
 }
 MoveParticles select_move(int width) {

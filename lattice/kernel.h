@@ -12,14 +12,10 @@ struct Arrays {
   const double* displacement[3];
   const double* velocity[3];
   const double* weight[13];
-  const double* cell_weight;
-  double* force[3];       ///< written at every point of the blocks [N]
-  double* cell_force[9];  ///< scratch per cell: small kinematics use the first one only
+  double* force[3];  ///< written at every point of the blocks [N]
   std::ptrdiff_t neighbour[13];
-  std::ptrdiff_t row, plane;  ///< offsets to the next point along y and z
   double spacing;
   double stiffness[3], damping[3];
-  double volume_stiffness, volume_damping;
 };
 
 /// Which force law. `rates`: whether velocities enter; without, the displacement handed over is
@@ -27,23 +23,13 @@ struct Arrays {
 struct Variant {
   bool finite = false;
   bool rates = true;
-  bool cells = false;
 };
 
-/// Forces of springs, and of cells if the variant has them, on the points of
-/// blocks[begin, end). Every point gathers its own 26 springs and 8 cells, each of them evaluated
-/// from both ends: no two calls write the same place, and the result does not depend on how
-/// blocks are distributed.
+/// Forces of springs on the points of blocks[begin, end). Every point gathers its own 26 springs,
+/// each of them evaluated from both ends: no two calls write the same place, and the result does
+/// not depend on how blocks are distributed.
 using GatherForces = void (*)(const Arrays&, const std::uint32_t* blocks, std::size_t begin,
                               std::size_t end);
-
-/// First pass over the cells' blocks: what each cell exerts, for the second pass to gather.
-using CellForces = GatherForces;
-
-struct Kernel {
-  GatherForces gather = nullptr;
-  CellForces cells = nullptr;  ///< null for variants without cells
-};
 
 /// Borrowed arrays for moving the particles through one time step.
 struct Motion {
@@ -62,11 +48,11 @@ using MoveParticles = void (*)(const Motion&, const std::uint32_t* blocks, std::
                                std::size_t end, double momentum[3]);
 
 /// The kernel for this variant and the widest instruction set of the running processor.
-Kernel select(const Variant& variant);
+GatherForces select(const Variant& variant);
 
 /// The same for a given number of doubles per register: 2 (every x86-64), 4 (AVX2) or 8
 /// (AVX-512). The caller makes sure that the processor has it. For tests.
-Kernel select(const Variant& variant, int width);
+GatherForces select(const Variant& variant, int width);
 
 MoveParticles select_move();
 MoveParticles select_move(int width);
@@ -76,7 +62,7 @@ int supported_width();
 
 /// What the file compiled for one register width offers; called through select.
 struct Offer {
-  Kernel (*select)(const Variant& variant);
+  GatherForces (*select)(const Variant& variant);
   MoveParticles move;
 };
 Offer offer_width2();

@@ -114,32 +114,7 @@ struct Body {
     }
   }
 
-  /// Grid offset of corner c of a cell.
-  static std::ptrdiff_t corner(const Arrays& a, int c) {
-    return (c & 1) + (c >> 1 & 1) * a.row + (c >> 2 & 1) * a.plane;
-  }
-
-  /// Adds what the eight cells around point i exert on it.
-  template <bool Finite>
-  static void gather_cells(const Arrays& a, std::ptrdiff_t i, Vector& force) {
-    for (int c = 0; c < 8; ++c) {  // the point is corner c of cell i - corner(c)
-      const std::ptrdiff_t cell = i - corner(a, c);
-      const double x = c & 1 ? 1.0 : -1.0, y = c & 2 ? 1.0 : -1.0, z = c & 4 ? 1.0 : -1.0;
-      if constexpr (Finite) {
-        const auto column = [&](int k) { return load(a.cell_force[k] + cell); };
-        force.x += Pack(x) * column(0) + Pack(y) * column(3) + Pack(z) * column(6);
-        force.y += Pack(x) * column(1) + Pack(y) * column(4) + Pack(z) * column(7);
-        force.z += Pack(x) * column(2) + Pack(y) * column(5) + Pack(z) * column(8);
-      } else {
-        const Pack push = load(a.cell_force[0] + cell);
-        force.x += Pack(x) * push;
-        force.y += Pack(y) * push;
-        force.z += Pack(z) * push;
-      }
-    }
-  }
-
-  template <bool Finite, bool Rates, bool Cells>
+  template <bool Finite, bool Rates>
   static void gather(const Arrays& a, const std::uint32_t* blocks, std::size_t begin,
                      std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -150,93 +125,9 @@ struct Body {
         if constexpr (Rates) v = load(a.velocity, i);
         Vector force{0.0, 0.0, 0.0};
         springs<Finite, Rates>(a, i, u, v, force, std::make_index_sequence<directions>());
-        if constexpr (Cells) gather_cells<Finite>(a, i, force);
         store(a.force[0] + i, force.x);
         store(a.force[1] + i, force.y);
         store(a.force[2] + i, force.z);
-      }
-    }
-  }
-
-  /// Mean edge vectors of a cell of a field, times 4: differences between opposite faces.
-  struct Edges {
-    Vector x, y, z;
-  };
-  static Edges edges(const Arrays& a, const double* const* field, std::ptrdiff_t cell) {
-    Edges e{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-    for (int c = 0; c < 8; ++c) {
-      const Vector p = load(field, cell + corner(a, c));
-      add(e.x, p, c & 1);
-      add(e.y, p, c & 2);
-      add(e.z, p, c & 4);
-    }
-    return e;
-  }
-  static void add(Vector& sum, const Vector& p, int positive) {
-    const Pack sign = positive ? 1.0 : -1.0;
-    sum.x += sign * p.x;
-    sum.y += sign * p.y;
-    sum.z += sign * p.z;
-  }
-
-  /// Small kinematics: U = ½ kappa a³ e², e the mean dilatation; every corner is pushed outward
-  /// along each axis by -kappa e a²/4.
-  template <bool Rates>
-  static Pack small_cell(const Arrays& a, std::ptrdiff_t cell) {
-    const Edges u = edges(a, a.displacement, cell);
-    const double face = 0.25 * a.spacing * a.spacing, per_edge = 0.25 / a.spacing;
-    Pack pressure = Pack(a.volume_stiffness * per_edge) * (u.x.x + u.y.y + u.z.z);
-    if constexpr (Rates) {
-      const Edges v = edges(a, a.velocity, cell);
-      pressure += Pack(a.volume_damping * per_edge) * (v.x.x + v.y.y + v.z.z);
-    }
-    return Pack(-face) * load(a.cell_weight + cell) * pressure;
-  }
-
-  static Vector cross(const Vector& a, const Vector& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  }
-  static Pack dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-  /// Finite kinematics: V = e_x·(e_y x e_z) of the mean edges, U = kappa (V - V0)²/(2 V0); a corner
-  /// takes ±¼ of each face vector e_y x e_z, e_z x e_x, e_x x e_y times the pressure.
-  static void finite_cell(const Arrays& a, std::ptrdiff_t cell) {
-    Edges e = edges(a, a.displacement, cell);
-    const Edges w = edges(a, a.velocity, cell);
-    const Pack quarter = 0.25, spacing = a.spacing;
-    for (Vector* edge : {&e.x, &e.y, &e.z}) {
-      edge->x *= quarter;
-      edge->y *= quarter;
-      edge->z *= quarter;
-    }
-    e.x.x += spacing;
-    e.y.y += spacing;
-    e.z.z += spacing;
-    const Vector faces[3] = {cross(e.y, e.z), cross(e.z, e.x), cross(e.x, e.y)};
-    const double rest = a.spacing * a.spacing * a.spacing;
-    const Pack volume = dot(e.x, faces[0]);
-    const Pack rate = quarter * (dot(w.x, faces[0]) + dot(w.y, faces[1]) + dot(w.z, faces[2]));
-    const Pack pressure = Pack(a.volume_stiffness / rest) * (volume - Pack(rest)) +
-                          Pack(a.volume_damping / rest) * rate;
-    const Pack push = Pack(-0.25) * load(a.cell_weight + cell) * pressure;
-    for (int k = 0; k < 3; ++k) {
-      store(a.cell_force[3 * k] + cell, push * faces[k].x);
-      store(a.cell_force[3 * k + 1] + cell, push * faces[k].y);
-      store(a.cell_force[3 * k + 2] + cell, push * faces[k].z);
-    }
-  }
-
-  template <bool Finite, bool Rates>
-  static void cells(const Arrays& a, const std::uint32_t* blocks, std::size_t begin,
-                    std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      for (std::ptrdiff_t lane = 0; lane < block; lane += width) {
-        const std::ptrdiff_t cell = std::ptrdiff_t(blocks[b]) + lane;
-        if constexpr (Finite) {
-          finite_cell(a, cell);
-        } else {
-          store(a.cell_force[0] + cell, small_cell<Rates>(a, cell));
-        }
       }
     }
   }
@@ -268,17 +159,9 @@ struct Body {
     }
   }
 
-  static Kernel select(const Variant& variant) {
-    if (variant.finite) {
-      return variant.cells ? Kernel{gather<true, true, true>, cells<true, true>}
-                           : Kernel{gather<true, true, false>, nullptr};
-    }
-    if (variant.rates) {
-      return variant.cells ? Kernel{gather<false, true, true>, cells<false, true>}
-                           : Kernel{gather<false, true, false>, nullptr};
-    }
-    return variant.cells ? Kernel{gather<false, false, true>, cells<false, false>}
-                         : Kernel{gather<false, false, false>, nullptr};
+  static GatherForces select(const Variant& variant) {
+    if (variant.finite) return gather<true, true>;
+    return variant.rates ? gather<false, true> : gather<false, false>;
   }
 };
 

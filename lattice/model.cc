@@ -26,7 +26,8 @@ double LatticeModel::total_mass() const {
 }
 
 std::size_t LatticeModel::spring_count() const {
-  std::size_t count = 0;
+  std::size_t count = fibres;
+  if (!has_springs()) return count;
   for (const auto& w : weight) {
     count += std::size_t(std::count_if(w.begin(), w.end(), [](double x) { return x > 0.0; }));
   }
@@ -35,10 +36,6 @@ std::size_t LatticeModel::spring_count() const {
 
 namespace {
 
-/// Empty points at the end of every row, so that a block that starts at a row's last particle
-/// does not reach the particles of the next row.
-constexpr int row_margin = int(lanes) - 1;
-
 void require_finite(const SpringConstants& k) {
   for (const double value : {k.k1, k.k2, k.k3, k.kappa}) {
     if (std::isfinite(value)) continue;
@@ -46,22 +43,6 @@ void require_finite(const SpringConstants& k) {
                                 "spring and volume constants must be finite",
                                 "use the model's closed form or a calibration"});
   }
-}
-
-/// Where the body's cells are: those whose centre is rubber (README: sampling).
-std::vector<std::uint8_t> whole_cells(const Geometry& geometry, const CubicGrid& grid) {
-  const double tolerance = 1e-9 * geometry.tip_radius;
-  const Vector3 to_centre = Vector3::Constant(0.5 * grid.spacing);
-  std::vector<std::uint8_t> cells(grid.points(), 0);
-  for (int k = 0; k + 1 < grid.size[2]; ++k) {
-    for (int j = 0; j + 1 < grid.size[1]; ++j) {
-      for (int i = 0; i + 1 < grid.size[0]; ++i) {
-        cells[grid.index(i, j, k)] =
-            geometry.contains(grid.position(i, j, k) + to_centre, tolerance);
-      }
-    }
-  }
-  return cells;
 }
 
 /// Runs of `lanes` points, row by row, that cover every marked point once.
@@ -111,52 +92,45 @@ void connect_particles(LatticeModel& model, std::vector<std::uint8_t> is_particl
   }
 }
 
-/// Central and hookean: every cell adds its share of springs and mass.
-void assemble_cells(LatticeModel& model, const std::vector<std::uint8_t>& is_cell, double density) {
-  allocate(model);
-  model.cells = marked_points(is_cell);
-  const double corner_mass = density * std::pow(model.spacing(), 3) / 8.0;
-  for (const std::size_t cell : model.cells) {
-    for (int c = 0; c < 8; ++c) {
-      const std::size_t i = cell_corner(model.grid.size, cell, c);
-      model.is_particle[i] = 1;
-      model.mass[i] += corner_mass;
-    }
-    for (int s = 0; s < directions; ++s) {
-      const Direction& d = half_stencil[std::size_t(s)];
-      // The spring starts at each corner from which the neighbour is still a corner of this cell.
-      for (int c = 0; c < 8; ++c) {
-        const int x = (c & 1) + d.dx, y = (c >> 1 & 1) + d.dy, z = (c >> 2 & 1) + d.dz;
-        if ((x | y | z) & ~1) continue;
-        model.weight[std::size_t(s)][cell_corner(model.grid.size, cell, c)] += cell_share[d.family];
-      }
-    }
-  }
-  model.particles = marked_points(model.is_particle);
-  if (model.constants.kappa != 0.0) {
-    model.cell_weight.assign(model.points(), 0.0);
-    for (const std::size_t cell : model.cells) model.cell_weight[cell] = 1.0;
-    model.cell_blocks = covering_blocks(model.grid, is_cell);
+/// The kernel's traversal order, and the paper's dampers.
+void finish_published(LatticeModel& model) {
+  model.stiffness = {model.constants.k1, model.constants.k2, model.constants.k3};
+  const double reduced_mass = 0.5 * model.mass[model.particles.front()];  // the paper's m'
+  for (std::size_t f = 0; f < 3; ++f) {
+    model.damping[f] = 2.0 * std::sqrt(reduced_mass * model.stiffness[f]);
   }
 }
 
-/// Constants per class, dampers by the model's rule, and the kernel's traversal order.
-void finish(LatticeModel& model, double retardation_time) {
-  model.stiffness = {model.constants.k1, model.constants.k2, model.constants.k3};
+/// Masses and springs of cells: every cell gives what of them lies in its rubber.
+void connect_cells(LatticeModel& model, const GridCells& cells, bool central_springs,
+                   double density) {
+  const double cube = std::pow(model.spacing(), 3);
+  for (const meshes::CutCell& cell : cells.cells()) {
+    const CornerMoments moments = corner_moments(cell);
+    const auto corners = cells.corners(cell);
+    for (std::size_t c = 0; c < 8; ++c) {
+      const std::size_t i = cells.point(corners[c]);
+      model.is_particle[i] = 1;
+      model.mass[i] += density * cube * moments[c];
+    }
+    model.cells.push_back(std::uint32_t(cells.point(corners[0])));
+  }
+  model.particles = marked_points(model.is_particle);
+  const auto shares = spring_shares(cells);
+  for (std::size_t s = 0; s < directions; ++s) {
+    if (central_springs) {
+      std::copy(shares[s].begin(), shares[s].end(), model.weight[s].begin());
+    } else if (half_stencil[s].family == axis) {
+      model.fibres += std::size_t(
+          std::count_if(shares[s].begin(), shares[s].end(), [](double w) { return w > 0.0; }));
+    }
+  }
+}
+
+/// Traversal order and inverse masses.
+void finish(LatticeModel& model) {
   model.blocks = covering_blocks(model.grid, model.is_particle);
   for (const std::size_t i : model.particles) model.inverse_mass[i] = 1.0 / model.mass[i];
-  if (model.kind == ModelKind::published) {
-    const double reduced_mass = 0.5 * model.mass[model.particles.front()];  // the paper's m'
-    for (std::size_t f = 0; f < 3; ++f) {
-      model.damping[f] = 2.0 * std::sqrt(reduced_mass * model.stiffness[f]);
-    }
-    return;
-  }
-  model.proportional_damping = true;
-  model.retardation_time = retardation_time;
-  for (std::size_t f = 0; f < 3; ++f) model.damping[f] = retardation_time * model.stiffness[f];
-  model.volume_stiffness = model.constants.kappa;
-  model.volume_damping = retardation_time * model.constants.kappa;
 }
 
 std::size_t neighbour_count(const LatticeModel& model, std::size_t i) {
@@ -168,6 +142,8 @@ std::size_t neighbour_count(const LatticeModel& model, std::size_t i) {
   return count;
 }
 
+}  // namespace
+
 void find_boundary(LatticeModel& model, const Geometry& geometry) {
   const double middle = 0.5 * (geometry.tip_radius + geometry.rod_radius);
   for (const std::uint32_t i : model.particles) {
@@ -177,6 +153,8 @@ void find_boundary(LatticeModel& model, const Geometry& geometry) {
     }
   }
 }
+
+namespace {
 
 /// Published: every particle within one spacing of the rod hangs on a ligament k = E a, critically
 /// damped by the paper's rule. The rod is thousands of times heavier, so the equivalent mass of
@@ -190,96 +168,88 @@ void hang_on_ligaments(LatticeModel& model, const Geometry& geometry, double lay
   }
 }
 
-/// Central and hookean: the staircase that stands for the rod's surface, i.e. the particles that
-/// touch a cell whose centre lies in the rod, bonded nearly rigidly (README: bond).
-void bond_inner_skin(LatticeModel& model, const Geometry& geometry, double stiffness,
-                     double damping) {
-  const CubicGrid& grid = model.grid;
-  const Vector3 to_centre = Vector3::Constant(0.5 * grid.spacing);
-  const double reach = geometry.rod_radius + 1e-9 * geometry.tip_radius;
-  const std::size_t last_corner = cell_corner(grid.size, 0, 7);
-  for (const std::uint32_t i : model.particles) {
-    const std::size_t lowest = i - last_corner;
-    for (int c = 0; c < 8; ++c) {
-      const Vector3 centre = model.rest_position(cell_corner(grid.size, lowest, c)) + to_centre;
-      if (Geometry::radial_distance(centre) > reach) continue;
-      model.ligaments.push_back({i, model.rest_position(i), stiffness, damping});
-      break;
-    }
-  }
-}
-
-void attach_to_rod(LatticeModel& model, const Geometry& geometry, const meshes::Rubber& rubber,
-                   double scale) {
-  const double layer = scale * rubber.youngs_modulus * model.spacing();
-  if (model.kind == ModelKind::published) {
-    hang_on_ligaments(model, geometry, layer);
-    return;
-  }
-  constexpr double nearly_rigid = 4.0;
-  bond_inner_skin(model, geometry,
-                  nearly_rigid * scale * rubber.longitudinal_modulus() * model.spacing(),
-                  rubber.retardation_time * layer);
-}
-
 }  // namespace
 
-LatticeModel build_tip(const Geometry& geometry, const meshes::Rubber& rubber,
-                       const LatticeSettings& settings) {
+LatticeModel build_published_tip(const Geometry& geometry, const meshes::Rubber& rubber,
+                                 const LatticeSettings& settings) {
+  if (settings.model != ModelKind::published) {
+    throw meshes::InvalidInput({"lattice.model", std::string(name(settings.model)),
+                                "only the published lattice has no cells",
+                                "take build_cut_model, which cuts the cells of the others"});
+  }
   require_finite(settings.constants);
   LatticeModel model;
   model.kind = settings.model;
   model.kinematics = settings.kinematics;
   model.constants = settings.constants;
-  if (settings.model != ModelKind::hookean) model.constants.kappa = 0.0;
+  model.constants.kappa = 0.0;
   model.grid = meshes::covering_grid(geometry, settings.spacing, settings.offset, 1);
   model.grid.size[0] += row_margin;
-  if (settings.model == ModelKind::published) {
-    connect_particles(model, meshes::sample_particles(geometry, model.grid),
-                      rubber.density * geometry.tip_volume());
-  } else {
-    assemble_cells(model, whole_cells(geometry, model.grid), rubber.density);
-  }
-  finish(model, rubber.retardation_time);
+  connect_particles(model, meshes::sample_particles(geometry, model.grid),
+                    rubber.density * geometry.tip_volume());
+  finish_published(model);
+  finish(model);
   find_boundary(model, geometry);
-  attach_to_rod(model, geometry, rubber, settings.ligament_stiffness);
+  hang_on_ligaments(model, geometry,
+                    settings.ligament_stiffness * rubber.youngs_modulus * model.spacing());
+  return model;
+}
+
+LatticeModel build_model(const GridCells& cells, ModelKind kind, const Recipe& recipe,
+                         double density) {
+  require_finite(recipe.constants);
+  LatticeModel model;
+  model.kind = kind;
+  model.kinematics = recipe.finite ? Kinematics::finite : Kinematics::small;
+  model.constants = recipe.constants;
+  model.grid = cells.grid();
+  model.is_particle.assign(model.grid.points(), 0);
+  allocate(model);
+  connect_cells(model, cells, recipe.central_springs, density);
+  model.proportional_damping = true;
+  model.retardation_time = recipe.material.retardation_time;
+  if (recipe.central_springs) {
+    model.stiffness = {recipe.constants.k1, recipe.constants.k2, recipe.constants.k3};
+    for (std::size_t f = 0; f < 3; ++f) {
+      model.damping[f] = model.retardation_time * model.stiffness[f];
+    }
+  }
+  if (recipe.cell_law) model.cell_lattice = lay_out(model.grid, cells.cells(), recipe.material);
+  finish(model);
   return model;
 }
 
 LatticeModel build_block(ModelKind kind, Kinematics kinematics, const SpringConstants& constants,
                          double spacing, const std::array<int, 3>& cells, double density,
                          double retardation_time) {
-  require_finite(constants);
   if (!(std::isfinite(spacing) && spacing > 0.0) ||
       *std::min_element(cells.begin(), cells.end()) < 1) {
     throw meshes::InvalidInput({"lattice.spacing", meshes::to_text(spacing) + " m",
                                 "a block needs a positive spacing and at least one cell each way",
                                 "give a positive spacing and cell count"});
   }
+  CubicGrid grid;
+  grid.spacing = spacing;
+  grid.origin = Vector3::Constant(-spacing);
+  grid.size = {cells[0] + 3 + row_margin, cells[1] + 3, cells[2] + 3};
+  const GridCells block(grid, whole_cells({1, 1, 1}, cells));
+  if (kind != ModelKind::published) {
+    return build_model(block, kind, spring_recipe(kind, kinematics, constants, retardation_time),
+                       density);
+  }
+  require_finite(constants);
   LatticeModel model;
   model.kind = kind;
   model.kinematics = kinematics;
   model.constants = constants;
-  if (kind != ModelKind::hookean) model.constants.kappa = 0.0;
-  model.grid.spacing = spacing;
-  model.grid.origin = Vector3::Constant(-spacing);
-  model.grid.size = {cells[0] + 3 + row_margin, cells[1] + 3, cells[2] + 3};
-  std::vector<std::uint8_t> is_cell(model.grid.points(), 0), is_particle(is_cell);
-  for (int k = 1; k <= cells[2] + 1; ++k) {
-    for (int j = 1; j <= cells[1] + 1; ++j) {
-      for (int i = 1; i <= cells[0] + 1; ++i) {
-        is_particle[model.grid.index(i, j, k)] = 1;
-        is_cell[model.grid.index(i, j, k)] = i <= cells[0] && j <= cells[1] && k <= cells[2];
-      }
-    }
-  }
-  if (kind == ModelKind::published) {
-    const double volume = std::pow(spacing, 3) * cells[0] * cells[1] * cells[2];
-    connect_particles(model, std::move(is_particle), density * volume);
-  } else {
-    assemble_cells(model, is_cell, density);
-  }
-  finish(model, retardation_time);
+  model.constants.kappa = 0.0;
+  model.grid = grid;
+  std::vector<std::uint8_t> is_particle(grid.points(), 0);
+  for (std::size_t p = 0; p < block.particles(); ++p) is_particle[block.point(p)] = 1;
+  connect_particles(model, std::move(is_particle),
+                    density * std::pow(spacing, 3) * cells[0] * cells[1] * cells[2]);
+  finish_published(model);
+  finish(model);
   return model;
 }
 

@@ -8,6 +8,7 @@
 
 #include "lattice/control/approach.h"
 #include "lattice/control/pid.h"
+#include "lattice/cut_model.h"
 #include "lattice/finger.h"
 #include "lattice/press_recorder.h"
 #include "lattice/time_step.h"
@@ -26,7 +27,7 @@ LatticeCensus take_census(const PressSetup& setup, const LatticeModel& model) {
   census.springs = model.spring_count();
   census.cells = model.cells.size();
   census.boundary_particles = model.boundary.size();
-  census.ligaments = model.ligaments.size();
+  census.ligaments = model.ligaments.size() + model.bond.size();
   census.expected_particles =
       meshes::expected_particle_count(setup.geometry, setup.lattice.spacing);
   census.mass = model.total_mass();
@@ -34,7 +35,17 @@ LatticeCensus take_census(const PressSetup& setup, const LatticeModel& model) {
   return census;
 }
 
-/// One press from start to depth. The rod moves along +z; the plane faces it.
+/// The rod's straight way toward the plane (and along it, if it moves laterally).
+struct Way {
+  PressPlane plane;
+  Vector3 direction;  ///< travel per distance along the plane's normal
+
+  Way(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry)
+      : plane(press_plane(protocol, geometry)),
+        direction(-plane.normal - plane.lateral_ratio * plane.t1) {}
+};
+
+/// One press from start to depth. The tip hangs straight in its frame, the plane may be tilted.
 class Press {
  public:
   Press(const PressSetup& setup, const PressObserver& observer);
@@ -42,6 +53,9 @@ class Press {
 
  private:
   double indentation() const;
+  void make_controller();
+  bool must_rethink() const;
+  void choose_step();
   PressInstant now() const { return {finger_->time(), indentation(), finger_->bond()}; }
   void step_once();
   void sample_controller();
@@ -58,8 +72,10 @@ class Press {
   PressOutcome outcome_;
   LatticeModel model_;
   RodBody rod_;
+  Way way_;
   Plane plane_;
   Approach approach_;
+  StepController steps_;
   std::unique_ptr<Finger> finger_;
   std::unique_ptr<PressRecorder> recorder_;
   std::unique_ptr<Controller> controller_;  // null when the motion is prescribed
@@ -75,31 +91,53 @@ Press::Press(const PressSetup& setup, const PressObserver& observer)
       observer_(observer),
       model_(build_tip(setup.geometry, setup.rubber, setup.lattice)),
       rod_(rod_body(setup.geometry, setup.rod)),
-      approach_(setup.protocol.speed, setup.protocol.clearance) {
+      way_(setup.protocol, setup.geometry),
+      plane_{way_.plane.point(-setup.protocol.clearance), way_.plane.normal},
+      approach_(setup.protocol.speed, setup.protocol.clearance),
+      steps_(model_, setup.protocol.mode == meshes::DriveMode::quasi_static ? nullptr : &rod_,
+             setup.integrator, setup.time_step) {
   const meshes::PressProtocol& protocol = setup.protocol;
-  plane_.point = Vector3(0.0, 0.0, setup.geometry.tip_radius + protocol.clearance);
+  const double step = steps_.divide(setup.controller.period, {});
   outcome_.census = take_census(setup, model_);
-  const bool prescribed = protocol.mode == meshes::DriveMode::quasi_static;
-  outcome_.step = choose_step(model_, prescribed ? nullptr : &rod_, setup.integrator,
-                              setup.time_step, setup.controller.period);
-  finger_ = std::make_unique<Finger>(model_, rod_,
-                                     PlaneContact(model_, setup.geometry, plane_, protocol.contact),
-                                     setup.integrator, outcome_.step.step, setup.threads);
-  recorder_ = std::make_unique<PressRecorder>(protocol, plane_, *finger_, outcome_);
-  if (protocol.mode == meshes::DriveMode::pid) {
-    const Vector3 start = rod_.endpoint;
-    controller_ = std::make_unique<Pid>(
-        setup.controller, rod_.inertia_at_endpoint(), [this, start](double time) {
-          const SetPoint point = approach_.at(time);
-          return Target{start - point.distance * plane_.normal, -point.speed * plane_.normal,
-                        -point.acceleration * plane_.normal};
-        });
-  }
+  outcome_.step = steps_.report(step);
+  outcome_.step.smallest = step;
+  finger_ = std::make_unique<Finger>(model_, rod_, plane_, protocol.contact, setup.integrator, step,
+                                     setup.threads);
+  recorder_ = std::make_unique<PressRecorder>(protocol, setup.geometry, plane_, *finger_, outcome_);
+  if (protocol.mode == meshes::DriveMode::pid) make_controller();
   time_limit_ = 2.0 * approach_.time_at(protocol.clearance + protocol.depth) + 0.5;
+}
+
+void Press::make_controller() {
+  const Vector3 start = rod_.endpoint;
+  controller_ = std::make_unique<Pid>(
+      setup_.controller, rod_.inertia_at_endpoint(), [this, start](double time) {
+        const SetPoint point = approach_.at(time);
+        return Target{start + point.distance * way_.direction, point.speed * way_.direction,
+                      point.acceleration * way_.direction};
+      });
 }
 
 double Press::indentation() const {
   return (rod_.endpoint - finger_->rod().endpoint()).dot(plane_.normal) - setup_.protocol.clearance;
+}
+
+bool Press::must_rethink() const {
+  const CellExtremes& cells = finger_->extremes();
+  return steps_.outdated(cells) || finger_->step() > steps_.limit(cells) ||
+         !(cells.smallest_jacobian > 0.0);
+}
+
+/// At the start of a period, and whenever the cells have grown too stiff for the present step.
+void Press::choose_step() {
+  const CellExtremes& cells = finger_->extremes();
+  if (!(cells.smallest_jacobian > 0.0)) give_up("a cell was turned inside out");
+  if (steps_.outdated(cells)) steps_.update(finger_->state(), cells);
+  const double span = next_period_ - finger_->time();
+  const double step = steps_.divide(span, cells);
+  if (!(step > 1e-4 * outcome_.step.step)) give_up("cells are pressed flat");
+  finger_->set_step(step);
+  outcome_.step.smallest = std::min(outcome_.step.smallest, step);
 }
 
 void Press::sample_controller() {
@@ -120,7 +158,7 @@ void Press::step_once() {
     finger_->advance(applied_);
   } else {
     const SetPoint end = approach_.at(finger_->time() + finger_->step());
-    finger_->advance(RodMotion{-end.distance * plane_.normal, -end.speed * plane_.normal});
+    finger_->advance(RodMotion{end.distance * way_.direction, end.speed * way_.direction});
   }
   start_of_step_.bond = finger_->bond();  // of the configuration the step started from
 }
@@ -180,6 +218,9 @@ PressOutcome Press::run() {
       if (controller_) sample_controller();
       look_after();
       next_period_ += setup_.controller.period;
+      choose_step();
+    } else if (must_rethink()) {
+      choose_step();
     }
     step_once();
     if (recorder_->add_step(start_of_step_)) report(true);

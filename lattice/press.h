@@ -33,7 +33,8 @@ struct TraceRow {
 
 /// How the time step was chosen; `explanation` says which bound rules.
 struct StepReport {
-  double step = 0.0;            ///< used [s]
+  double step = 0.0;            ///< at rest [s]
+  double smallest = 0.0;        ///< used [s]; smaller where compression stiffened the cells
   double omega0 = 0.0;          ///< the paper's estimate sqrt(2k/m) [rad/s]
   double paper_bound = 0.0;     ///< 1/omega0 [s]
   double spectral_bound = 0.0;  ///< largest stable step by the computed stiffness and damping [s]
@@ -42,7 +43,9 @@ struct StepReport {
 
 /// What the lattice consists of, for reports and pictures.
 struct LatticeCensus {
-  std::size_t particles = 0, springs = 0, cells = 0, boundary_particles = 0, ligaments = 0;
+  std::size_t particles = 0, cells = 0, boundary_particles = 0;
+  std::size_t springs = 0;          ///< and fibres
+  std::size_t ligaments = 0;        ///< or points of the bond
   double expected_particles = 0.0;  ///< V/a³
   double mass = 0.0;                ///< sum of the particles' masses [kg]
   double exact_mass = 0.0;          ///< rho V [kg]

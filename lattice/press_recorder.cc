@@ -13,9 +13,16 @@ namespace {
 
 constexpr int even_depths = 60;
 
+/// The point of the outer surface nearest to `rest`: cut cells reach beyond it.
+Vector3 outer_point(const Vector3& rest, double radius) {
+  const Vector3 axis(0.0, 0.0, std::min(rest.z(), 0.0));
+  return axis + radius * (rest - axis).normalized();
+}
+
 }  // namespace
 
-PressRecorder::PressRecorder(const meshes::PressProtocol& protocol, const Plane& plane,
+PressRecorder::PressRecorder(const meshes::PressProtocol& protocol,
+                             const meshes::Geometry& geometry, const Plane& plane,
                              const Finger& finger, PressOutcome& outcome)
     : normal_(plane.normal), finger_(&finger), outcome_(&outcome) {
   const auto samples =
@@ -32,15 +39,17 @@ PressRecorder::PressRecorder(const meshes::PressProtocol& protocol, const Plane&
   for (const double depth : depths_) {
     is_sample_.push_back(std::find(samples.begin(), samples.end(), depth) != samples.end());
   }
-  find_boundary();
+  find_boundary(geometry);
 }
 
-void PressRecorder::find_boundary() {
+void PressRecorder::find_boundary(const meshes::Geometry& geometry) {
   const LatticeModel& model = finger_->model();
   std::vector<int> number(model.points(), -1);
   for (std::size_t b = 0; b < model.boundary.size(); ++b) {
     number[model.boundary[b]] = int(b);
-    outcome_->boundary_rest.push_back(model.rest_position(model.boundary[b]));
+    const Vector3 rest = model.rest_position(model.boundary[b]);
+    outcome_->boundary_rest.push_back(model.is_cut() ? outer_point(rest, geometry.tip_radius)
+                                                     : rest);
   }
   for (const std::size_t i : model.boundary) {
     for (int s = 0; s < directions; ++s) {
@@ -70,14 +79,14 @@ meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
   sample.torque_x = torque.x();
   sample.torque_y = torque.y();
   sample.torque_z = torque.z();
-  sample.contact_radius = finger_->contact().radius();
+  sample.contact_radius = finger_->contact_radius();
   sample.time = between(previous_.time, end.time);
   return sample;
 }
 
 bool PressRecorder::add_step(const PressInstant& start) {
   plane_impulse_ += finger_->plane_impulse().dot(normal_);
-  if (std::isnan(outcome_->first_touch_time) && finger_->contact().anchored() > 0) {
+  if (std::isnan(outcome_->first_touch_time) && finger_->touching() > 0) {
     outcome_->first_touch_time = finger_->time();
   }
   bool passed_sample = false;
@@ -105,7 +114,7 @@ void PressRecorder::add_trace(const PressInstant& now, const SetPoint& commanded
   row.torque = now.bond.torque.norm();
   row.command_force = -applied.force.dot(normal_);
   row.plane_force = elapsed > 0.0 ? plane_impulse_ / elapsed : 0.0;
-  row.anchored = finger_->contact().anchored();
+  row.anchored = finger_->touching();
   row.kinetic_energy = lattice::kinetic_energy(finger_->model(), finger_->state());
   row.elastic_energy = finger_->elastic_energy();
   outcome_->trace.push_back(row);
@@ -123,8 +132,10 @@ void PressRecorder::update(double wall_time) {
   outcome_->boundary_deformed.resize(model.boundary.size());
   outcome_->boundary_anchored.resize(model.boundary.size());
   for (std::size_t b = 0; b < model.boundary.size(); ++b) {
-    outcome_->boundary_deformed[b] = position(model, finger_->state(), model.boundary[b]);
-    outcome_->boundary_anchored[b] = finger_->contact().holds(b);
+    outcome_->boundary_deformed[b] =
+        outcome_->boundary_rest[b] +
+        model.grid.axes * finger_->state().displacement.at(model.boundary[b]);
+    outcome_->boundary_anchored[b] = finger_->holds(b);
   }
 }
 

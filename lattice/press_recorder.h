@@ -23,8 +23,8 @@ struct PressInstant {
 /// indentation between steps) and one trace row per controller period.
 class PressRecorder {
  public:
-  PressRecorder(const meshes::PressProtocol& protocol, const Plane& plane, const Finger& finger,
-                PressOutcome& outcome);
+  PressRecorder(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry,
+                const Plane& plane, const Finger& finger, PressOutcome& outcome);
 
   /// To be called after every step with the finger as it was at the step's start. Returns whether
   /// one of the protocol's sample depths was passed.
@@ -35,7 +35,7 @@ class PressRecorder {
   void update(double wall_time);
 
  private:
-  void find_boundary();
+  void find_boundary(const meshes::Geometry& geometry);
   meshes::PressSample sample_between(const PressInstant& end, double indentation) const;
 
   meshes::Vector3 normal_;

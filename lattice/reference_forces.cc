@@ -1,9 +1,8 @@
 #include "lattice/reference_forces.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
-#include "lattice/cell.h"
+#include "lattice/cells/cell_forces.h"
 
 namespace fingertip::lattice {
 
@@ -27,27 +26,22 @@ Vector3 spring_force(const LatticeModel& model, const State& state, std::size_t 
   return (k * (d.norm() - rest.norm()) + mu * rate.dot(direction)) * direction;
 }
 
-void add_cell(const LatticeModel& model, const State& state, std::size_t cell, VectorField& force) {
-  const double a = model.spacing();
-  Eigen::Matrix3d edges = a * Eigen::Matrix3d::Identity();
-  if (model.kinematics == Kinematics::finite) edges += mean_edges(model, state.displacement, cell);
-  // dV/d(edge k) is the face vector spanned by the other two edges.
-  const Eigen::Matrix3d faces = edges.inverse().transpose() * edges.determinant();
-  const Eigen::Matrix3d rates = mean_edges(model, state.velocity, cell);
-  const double pressure = model.volume_stiffness * volume_change(model, state.displacement, cell) +
-                          model.volume_damping * faces.cwiseProduct(rates).sum() / (a * a * a);
-  for (int c = 0; c < 8; ++c) {
-    Vector3 face = Vector3::Zero();
-    for (int k = 0; k < 3; ++k) face += (c >> k & 1 ? 0.25 : -0.25) * faces.col(k);
-    force.add(cell_corner(model.grid.size, cell, c), -pressure * face);
+/// At small strain u + tau v stands for stiffness and damping together.
+void add_cells(const LatticeModel& model, const State& state, VectorField& force) {
+  VectorField displacement = state.displacement;
+  if (model.kinematics == Kinematics::small) {
+    for (const std::size_t i : model.particles) {
+      displacement.add(i, model.retardation_time * state.velocity.at(i));
+    }
   }
+  reference_cell_forces(model.cell_lattice, displacement, state.velocity, force);
 }
 
 }  // namespace
 
 VectorField reference_forces(const LatticeModel& model, const State& state) {
   VectorField force(model.points());
-  for (int s = 0; s < directions; ++s) {
+  for (int s = 0; model.has_springs() && s < directions; ++s) {
     const Direction& direction = half_stencil[std::size_t(s)];
     for (const std::size_t i : model.particles) {
       const double weight = model.weight[std::size_t(s)][i];
@@ -58,9 +52,7 @@ VectorField reference_forces(const LatticeModel& model, const State& state) {
       force.add(j, -pull);
     }
   }
-  if (model.has_volume_term()) {
-    for (const std::size_t cell : model.cells) add_cell(model, state, cell, force);
-  }
+  add_cells(model, state, force);
   return force;
 }
 

@@ -26,11 +26,11 @@ struct LatticeSettings {
   Kinematics kinematics = Kinematics::small;
   double spacing = 0.01 / 12.0;                      ///< a [m], at most (R - r)/2
   meshes::Vector3 offset = meshes::Vector3::Zero();  ///< shift of the grid in units of a
-  /// Columns: the grid's axes in the tip's frame, a rotation. Static presses and modes only.
+  /// Columns: the grid's axes in the tip's frame, a rotation.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   SpringConstants constants;        ///< for this spacing
-  double ligament_stiffness = 1.0;  ///< multiplies the ligaments' stiffness (README: bond)
-  double contact_stiffness = 1.0;   ///< multiplies the ties to the plane; static presses only
+  double ligament_stiffness = 1.0;  ///< multiplies the stiffness of the bond to the rod
+  double contact_stiffness = 1.0;   ///< multiplies the ties of true surfaces to the plane
 };
 
 /// The rigid rod: its shape comes from the geometry.
@@ -58,7 +58,7 @@ struct PressSetup {
   RodSettings rod;
   PidSettings controller;
   Integrator integrator = Integrator::symplectic_euler;
-  std::optional<double> time_step;  ///< [s]; the largest safe one when absent
+  std::optional<double> time_step;  ///< largest one [s]; the largest safe one when absent
   int threads = 0;                  ///< 0: all cores. The result does not depend on it.
 
   /// Every broken rule of specimen, protocol, lattice, rod and controller, and what is
@@ -67,8 +67,7 @@ struct PressSetup {
 };
 
 /// What of a valid order the lattice cannot do: a touching point sticks for good or slides freely,
-/// and moving lattices are not of the network model, stand straight and are pressed straight along
-/// the plane's normal.
+/// the published model, moving, is pressed straight, and the others need the symplectic integrator.
 std::vector<meshes::Violation> beyond_the_lattice(const PressSetup& setup);
 
 }  // namespace fingertip::lattice

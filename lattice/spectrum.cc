@@ -2,14 +2,12 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <random>
 #include <vector>
 
-#include "lattice/stiffness.h"
+#include "lattice/forces.h"
 
 namespace fingertip::lattice {
 
@@ -58,61 +56,38 @@ double particle_bound(const LatticeModel& model, const std::array<double, 3>& fa
   return bound;
 }
 
-/// Element bound: K and M are sums over cells, so no Rayleigh quotient exceeds the largest one of
-/// a single cell on its own corner masses. A ligament is shared evenly by the cells around its
-/// particle.
-double cell_bound(const LatticeModel& model, const SpringConstants& constants,
-                  const std::vector<double>& ligament) {
-  const double corner_mass = model.total_mass() / (8.0 * double(model.cells.size()));
-  const Eigen::Matrix<double, 24, 24> bare = cell_stiffness(constants, model.spacing());
-  std::map<std::array<double, 8>, double> known;
-  double bound = 0.0;
-  for (const std::size_t cell : model.cells) {
-    std::array<double, 8> share;
-    for (int c = 0; c < 8; ++c) {
-      const std::size_t i = cell_corner(model.grid.size, cell, c);
-      share[std::size_t(c)] = ligament[i] * corner_mass / model.mass[i];
-    }
-    auto [entry, is_new] = known.try_emplace(share, 0.0);
-    if (is_new) {
-      Eigen::Matrix<double, 24, 24> matrix = bare;
-      for (int c = 0; c < 8; ++c) {
-        matrix.diagonal().segment<3>(3 * c).array() += share[std::size_t(c)];
-      }
-      entry->second = largest_eigenvalue(matrix) / corner_mass;
-    }
-    bound = std::max(bound, entry->second);
-  }
-  return bound;
-}
-
 double lattice_bound(const LatticeModel& model, Quantity quantity, double ligament_factor) {
-  const auto ligament = ligament_values(model, quantity, ligament_factor);
-  const bool stiffness = quantity == Quantity::stiffness;
-  if (model.kind == ModelKind::published) {
-    return particle_bound(model, stiffness ? model.stiffness : model.damping, ligament);
-  }
-  const auto& k = stiffness ? model.stiffness : model.damping;
-  return cell_bound(model,
-                    {k[0], k[1], k[2], stiffness ? model.volume_stiffness : model.volume_damping},
-                    ligament);
+  return particle_bound(model, quantity == Quantity::stiffness ? model.stiffness : model.damping,
+                        ligament_values(model, quantity, ligament_factor));
 }
 
-/// Largest eigenvalue of the rod's own block: ligaments on a rod whose particles stand still.
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Stiffness of the rod on an isotropic spring of unit stiffness at `rest`, about its centre.
+Matrix6 unit_spring_on_rod(const Vector3& rest, const RodBody& rod) {
+  const Vector3 arm = rest - rod.centre;
+  Eigen::Matrix<double, 3, 6> motion;
+  motion.leftCols<3>().setIdentity();
+  for (int k = 0; k < 3; ++k) motion.col(3 + k) = Vector3::Unit(k).cross(arm);
+  return motion.transpose() * motion;
+}
+
+/// Largest eigenvalue of the rod's own block: bond on a rod whose particles stand still.
 double rod_bound(const LatticeModel& model, Quantity quantity, const RodBody& rod) {
-  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+  Matrix6 stiffness = Matrix6::Zero();
   for (const Ligament& l : model.ligaments) {
-    const Vector3 arm = l.rest - rod.centre;
-    Eigen::Matrix<double, 3, 6> motion;
-    motion.leftCols<3>().setIdentity();
-    for (int k = 0; k < 3; ++k) motion.col(3 + k) = Vector3::Unit(k).cross(arm);
-    stiffness += value(l, quantity) * motion.transpose() * motion;
+    stiffness += value(l, quantity) * unit_spring_on_rod(l.rest, rod);
   }
-  Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Zero();
+  if (quantity == Quantity::stiffness) {
+    for (const TiedPoint& tie : model.bond) {
+      stiffness += tie.stiffness * unit_spring_on_rod(tie.rest, rod);
+    }
+  }
+  Matrix6 inertia = Matrix6::Zero();
   inertia.topLeftCorner<3, 3>() = rod.mass * Matrix3d::Identity();
   inertia.bottomRightCorner<3, 3>() = rod.inertia;
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(
-             stiffness, inertia, Eigen::EigenvaluesOnly)
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6>(stiffness, inertia,
+                                                           Eigen::EigenvaluesOnly)
       .eigenvalues()
       .maxCoeff();
 }
@@ -128,41 +103,70 @@ double bound(const LatticeModel& model, Quantity quantity, const RodBody* rod) {
   return std::max(lattice_bound(model, quantity, 1.0 + e), own * (1.0 + 1.0 / e));
 }
 
-/// y = M^(-1/2) A M^(-1/2) q with A the lattice's stiffness or damping matrix, ligaments included.
+/// y = M^(-1/2) A M^(-1/2) q with A the lattice's stiffness or damping matrix at a state, ligaments
+/// included, from its forces.
 class ScaledOperator {
  public:
-  ScaledOperator(const LatticeModel& model, Quantity quantity)
-      : matrix_(small_strain_matrix(model, quantity)),
-        scale_(mass_vector(model).cwiseSqrt().cwiseInverse()) {
-    const auto ligament = ligament_values(model, quantity, 1.0);
-    diagonal_.resize(scale_.size());
-    for (std::size_t p = 0; p < model.particles.size(); ++p) {
-      diagonal_.segment<3>(3 * Eigen::Index(p)).setConstant(ligament[model.particles[p]]);
-    }
-  }
-  Eigen::Index size() const { return scale_.size(); }
-  Eigen::VectorXd operator()(const Eigen::VectorXd& q) const {
-    const Eigen::VectorXd u = scale_.cwiseProduct(q);
-    return scale_.cwiseProduct(matrix_ * u + diagonal_.cwiseProduct(u));
+  ScaledOperator(const LatticeModel& model, const State& at, Quantity quantity)
+      : model_(&model),
+        quantity_(quantity),
+        team_(1),
+        forces_(model, team_),
+        base_(quantity == Quantity::stiffness ? at.displacement : at.velocity),
+        state_(at),
+        force_(model.points()),
+        ligament_(ligament_values(model, quantity, 1.0)) {}
+
+  Eigen::Index size() const { return 3 * Eigen::Index(model_->particles.size()); }
+
+  Eigen::VectorXd operator()(const Eigen::VectorXd& q) {
+    // Of forces that are not linear in the displacement the part that is even drops out.
+    const double amplitude = 1e-4 * model_->spacing() / largest_shift(q);
+    return (forces(q, amplitude) - forces(q, -amplitude)) / (-2.0 * amplitude);
   }
 
  private:
-  static Eigen::SparseMatrix<double> small_strain_matrix(const LatticeModel& model,
-                                                         Quantity quantity) {
-    if (quantity == Quantity::stiffness) return small_strain_stiffness(model);
-    LatticeModel viscous = model;
-    viscous.stiffness = model.damping;
-    viscous.volume_stiffness = model.volume_damping;
-    return small_strain_stiffness(viscous);
+  double scale(std::size_t particle) const { return std::sqrt(model_->inverse_mass[particle]); }
+
+  double largest_shift(const Eigen::VectorXd& q) const {
+    double largest = 0.0;
+    for (std::size_t p = 0; p < model_->particles.size(); ++p) {
+      largest =
+          std::max(largest, scale(model_->particles[p]) * q.segment<3>(3 * Eigen::Index(p)).norm());
+    }
+    return largest;
   }
 
-  Eigen::SparseMatrix<double> matrix_;
-  Eigen::VectorXd scale_, diagonal_;
+  /// M^(-1/2) times the forces where amplitude M^(-1/2) q is added to the displacement (velocity).
+  Eigen::VectorXd forces(const Eigen::VectorXd& q, double amplitude) {
+    VectorField& moved = quantity_ == Quantity::stiffness ? state_.displacement : state_.velocity;
+    for (std::size_t p = 0; p < model_->particles.size(); ++p) {
+      const std::size_t i = model_->particles[p];
+      moved.set(i, base_.at(i) + amplitude * scale(i) * q.segment<3>(3 * Eigen::Index(p)));
+    }
+    forces_.accumulate(state_, force_);
+    Eigen::VectorXd result(size());
+    for (std::size_t p = 0; p < model_->particles.size(); ++p) {
+      const std::size_t i = model_->particles[p];
+      result.segment<3>(3 * Eigen::Index(p)) =
+          scale(i) * (force_.at(i) - ligament_[i] * moved.at(i));
+    }
+    return result;
+  }
+
+  const LatticeModel* model_;
+  Quantity quantity_;
+  Team team_;
+  InternalForces forces_;
+  VectorField base_;
+  State state_;
+  VectorField force_;
+  std::vector<double> ligament_;
 };
 
 /// Largest Ritz value after `steps` of the symmetric Lanczos recursion. The largest one converges
 /// first, and lost orthogonality only duplicates it (Paige 1971), so none is restored.
-double lanczos(const ScaledOperator& apply, int steps) {
+double lanczos(ScaledOperator& apply, int steps) {
   Eigen::VectorXd previous = Eigen::VectorXd::Zero(apply.size()), current(apply.size());
   std::minstd_rand generator(1);  // a fixed start without symmetry: every mode takes part
   for (double& value : current) value = double(generator()) / double(generator.max()) - 0.5;
@@ -174,7 +178,7 @@ double lanczos(const ScaledOperator& apply, int steps) {
     diagonal.push_back(current.dot(next));
     next -= diagonal.back() * current;
     beside.push_back(next.norm());
-    if (beside.back() == 0.0) break;
+    if (beside.back() <= 1e-14 * std::abs(diagonal.back())) break;
     previous = current;
     current = next / beside.back();
   }
@@ -194,7 +198,7 @@ void find_retardation_times(const LatticeModel& model, SpectralBounds& bounds) {
     bounds.longest_retardation = std::max(bounds.longest_retardation, mu / k);
   };
   for (std::size_t f = 0; f < 3; ++f) include(model.damping[f], model.stiffness[f]);
-  include(model.volume_damping, model.volume_stiffness);
+  include(model.retardation_time, model.cell_lattice.empty() ? 0.0 : 1.0);
   for (const Ligament& l : model.ligaments) include(l.damping, l.stiffness);
 }
 
@@ -221,14 +225,22 @@ SpectralBounds rod_bounds(const LatticeModel& model, const RodBody& rod) {
   return bounds;
 }
 
-SpectralBounds spectral_estimate(const LatticeModel& model) {
-  constexpr int steps = 60;
+SpectralBounds spectral_estimate(const LatticeModel& model, const State& at, int steps) {
   SpectralBounds estimate;
   find_retardation_times(model, estimate);
-  estimate.stiffness = lanczos({model, Quantity::stiffness}, steps);
-  estimate.damping = uniformly_damped(estimate) ? estimate.longest_retardation * estimate.stiffness
-                                                : lanczos({model, Quantity::damping}, steps);
+  ScaledOperator stiffness(model, at, Quantity::stiffness);
+  estimate.stiffness = lanczos(stiffness, steps);
+  if (uniformly_damped(estimate) && model.kinematics == Kinematics::small) {
+    estimate.damping = estimate.longest_retardation * estimate.stiffness;
+  } else {
+    ScaledOperator damping(model, at, Quantity::damping);
+    estimate.damping = lanczos(damping, steps);
+  }
   return estimate;
+}
+
+SpectralBounds spectral_estimate(const LatticeModel& model) {
+  return spectral_estimate(model, State(model), 60);
 }
 
 }  // namespace fingertip::lattice

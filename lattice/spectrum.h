@@ -6,6 +6,7 @@
 
 #include "lattice/model.h"
 #include "lattice/rod.h"
+#include "lattice/state.h"
 
 namespace fingertip::lattice {
 
@@ -17,16 +18,22 @@ struct SpectralBounds {
   double longest_retardation = 0.0;   ///< largest mu/k [s]
 };
 
-/// Rigorous upper bounds. Spring lattices (published): lambda <= max over particles of the largest
-/// eigenvalue of (2/m) Σ k d̂d̂ᵀ. Cells: the largest eigenvalue of one cell on its own corner masses.
-/// Ligaments are added particle by particle. `rod` null: bonded to a rod that cannot move.
+/// Rigorous upper bounds for a lattice of springs and ligaments alone: lambda <= max over particles
+/// of the largest eigenvalue of (2/m) Σ k d̂d̂ᵀ, ligaments added particle by particle. `rod` null:
+/// bonded to a rod that cannot move.
 SpectralBounds spectral_bounds(const LatticeModel& model, const RodBody* rod);
 
-/// Largest eigenvalues of the rod alone on its ligaments, the particles held; no retardation times.
+/// Largest eigenvalues of the rod alone on its ligaments or its tied bond, the particles held; no
+/// retardation times.
 SpectralBounds rod_bounds(const LatticeModel& model, const RodBody& rod);
 
-/// Largest eigenvalues by the Lanczos method with the rod held, from below; converged to a few
-/// parts in 10⁴. Retardation times as in spectral_bounds.
+/// Largest eigenvalues at rest by the Lanczos method with the rod held, from below; converged to a
+/// few parts in 10⁴. Tied surfaces are left out: they do not limit the step (tied_surfaces.h).
+/// Retardation times as in spectral_bounds.
 SpectralBounds spectral_estimate(const LatticeModel& model);
+
+/// The same about another state, its velocity included, with `steps` Lanczos steps; 30 are good to
+/// one or two per cent.
+SpectralBounds spectral_estimate(const LatticeModel& model, const State& at, int steps);
 
 }  // namespace fingertip::lattice

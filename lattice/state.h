@@ -27,7 +27,8 @@ struct VectorField {
   }
 };
 
-/// World displacement u = x - X and velocity v; zero at points without a particle.
+/// Displacement u = x - X and velocity v, components along the grid's axes; zero at points without
+/// a particle.
 struct State {
   VectorField displacement;  ///< [m]
   VectorField velocity;      ///< [m/s]
@@ -37,9 +38,9 @@ struct State {
       : displacement(model.points()), velocity(model.points()) {}
 };
 
-/// x = X + u [m].
+/// x = X + u [m] in the tip's frame.
 inline meshes::Vector3 position(const LatticeModel& model, const State& state, std::size_t point) {
-  return model.rest_position(point) + state.displacement.at(point);
+  return model.rest_position(point) + model.grid.axes * state.displacement.at(point);
 }
 
 }  // namespace fingertip::lattice

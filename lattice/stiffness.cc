@@ -1,7 +1,6 @@
 #include "lattice/stiffness.h"
 
 #include <Eigen/Dense>
-#include <bit>
 #include <vector>
 
 namespace fingertip::lattice {
@@ -33,30 +32,7 @@ CellVector volume_gradient(double spacing) {
   return gradient;
 }
 
-Vector3 corner_position(int c) {
-  return Vector3(c & 1, c >> 1 & 1, c >> 2 & 1);
-}
-
 }  // namespace
-
-Eigen::Matrix<double, 24, 24> cell_stiffness(const SpringConstants& constants, double spacing) {
-  const std::array<double, 3> k{constants.k1, constants.k2, constants.k3};
-  const CellVector gradient = volume_gradient(spacing);
-  Eigen::Matrix<double, 24, 24> matrix =
-      constants.kappa / (spacing * spacing * spacing) * gradient * gradient.transpose();
-  for (int p = 0; p < 8; ++p) {
-    for (int q = p + 1; q < 8; ++q) {
-      const std::size_t family = std::size_t(std::popcount(unsigned(p ^ q)) - 1);
-      const Vector3 direction = (corner_position(q) - corner_position(p)).normalized();
-      const Matrix3d block = cell_share[family] * k[family] * direction * direction.transpose();
-      matrix.block<3, 3>(3 * p, 3 * p) += block;
-      matrix.block<3, 3>(3 * q, 3 * q) += block;
-      matrix.block<3, 3>(3 * p, 3 * q) -= block;
-      matrix.block<3, 3>(3 * q, 3 * p) -= block;
-    }
-  }
-  return matrix;
-}
 
 Eigen::SparseMatrix<double> small_strain_stiffness(const LatticeModel& model) {
   std::vector<Eigen::Index> number(model.points(), -1);
@@ -80,7 +56,7 @@ Eigen::SparseMatrix<double> small_strain_stiffness(const LatticeModel& model) {
       add_block(entries, j, i, -block);
     }
   }
-  if (model.has_volume_term()) {
+  if (model.constants.kappa != 0.0) {
     const double a = model.spacing();
     const CellVector gradient = volume_gradient(a);
     for (const std::size_t cell : model.cells) {
@@ -88,7 +64,7 @@ Eigen::SparseMatrix<double> small_strain_stiffness(const LatticeModel& model) {
         for (int q = 0; q < 8; ++q) {
           add_block(entries, number[cell_corner(model.grid.size, cell, p)],
                     number[cell_corner(model.grid.size, cell, q)],
-                    model.volume_stiffness / (a * a * a) * gradient.segment<3>(3 * p) *
+                    model.constants.kappa / (a * a * a) * gradient.segment<3>(3 * p) *
                         gradient.segment<3>(3 * q).transpose());
         }
       }

@@ -11,8 +11,15 @@ namespace fingertip::lattice {
 
 namespace {
 
-double safety(Kinematics kinematics) {
-  return kinematics == Kinematics::small ? 0.95 : 0.8;
+/// Largest change of a cell's volume within a step.
+constexpr double largest_volume_change = 0.1;
+
+/// Growth of the cells' extremes that the step leaves room for.
+constexpr double room = 1.2;
+
+double safety(const LatticeModel& model) {
+  if (model.kinematics == Kinematics::small) return 0.95;
+  return model.has_springs() ? 0.8 : 0.9;
 }
 
 /// Which of the bounds decides, in words.
@@ -55,54 +62,90 @@ double largest_stable_step(const SpectralBounds& bounds, Integrator integrator) 
 }
 
 double paper_frequency(const LatticeModel& model) {
-  double mass = model.mass[model.particles.front()];
-  for (const std::size_t i : model.particles) mass = std::min(mass, model.mass[i]);
-  const double k = *std::max_element(model.stiffness.begin(), model.stiffness.end());
-  return std::sqrt(2.0 * k / mass);
+  // The particle among whole cells: the largest mass.
+  const double mass = *std::max_element(model.mass.begin(), model.mass.end());
+  const SpringConstants& constants = model.constants;
+  return std::sqrt(2.0 * std::max({constants.k1, constants.k2, constants.k3}) / mass);
 }
 
 SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod) {
   constexpr double margin = 1.05;
-  SpectralBounds bounds = spectral_bounds(model, rod);
   const SpectralBounds held = spectral_estimate(model);
   const SpectralBounds own = rod != nullptr ? rod_bounds(model, *rod) : SpectralBounds{};
+  if (model.kind != ModelKind::published) {
+    SpectralBounds bounds = held;
+    bounds.damping *= margin;
+    // Of a tie's energy the particles' part is taken care of (tied_bond.h); the rod has the other.
+    bounds.stiffness = std::max(margin * held.stiffness, 2.0 * own.stiffness);
+    return bounds;
+  }
+  SpectralBounds bounds = spectral_bounds(model, rod);
   // The largest eigenvalue of a positive matrix is at most the sum of those of its diagonal blocks.
   bounds.stiffness = std::min(bounds.stiffness, margin * held.stiffness + own.stiffness);
   bounds.damping = std::min(bounds.damping, margin * held.damping + own.damping);
   return bounds;
 }
 
-StepReport choose_step(const LatticeModel& model, const RodBody* rod, Integrator integrator,
-                       std::optional<double> wanted, double period) {
+StepController::StepController(const LatticeModel& model, const RodBody* rod, Integrator integrator,
+                               std::optional<double> wanted)
+    : model_(&model),
+      integrator_(integrator),
+      safety_(safety(model)),
+      rod_stiffness_(rod != nullptr ? 2.0 * rod_bounds(model, *rod).stiffness : 0.0) {
   const SpectralBounds bounds = tightest_bounds(model, rod);
-  StepReport report;
-  report.omega0 = paper_frequency(model);
-  report.paper_bound = 1.0 / report.omega0;
-  report.spectral_bound = largest_stable_step(bounds, integrator);
-  if (!(report.spectral_bound > 0.0)) {
+  report_.omega0 = paper_frequency(model);
+  report_.paper_bound = 1.0 / report_.omega0;
+  report_.spectral_bound = largest_stable_step(bounds, integrator);
+  if (!(report_.spectral_bound > 0.0)) {
     throw meshes::InvalidInput(
         {"run.integrator", std::string(name(integrator)),
          "explicit Euler is unstable at any step without damping: it adds energy to every mode",
          "use symplectic-euler, or give rubber.retardation_time a positive value"});
   }
-  const std::string why = ruling(bounds, integrator, report.spectral_bound);
-  if (wanted) {
-    if (!(*wanted > 0.0 && *wanted <= report.spectral_bound)) {
-      refuse(*wanted, report.spectral_bound, why);
-    }
-    report.step = *wanted;
-  } else {
-    const double safe = safety(model.kinematics) * report.spectral_bound;
-    report.step = period / std::ceil(period / safe);
+  why_ = ruling(bounds, integrator, report_.spectral_bound);
+  if (wanted && !(*wanted > 0.0 && *wanted <= report_.spectral_bound)) {
+    refuse(*wanted, report_.spectral_bound, why_);
   }
+  largest_ = present_ = wanted ? *wanted : safety_ * report_.spectral_bound;
+}
+
+bool StepController::outdated(const CellExtremes& now) const {
+  const double growth =
+      std::max(now.stiffening / reference_.stiffening, now.thickening / reference_.thickening);
+  const double decline =
+      std::min(now.stiffening / reference_.stiffening, now.thickening / reference_.thickening);
+  return growth > room || decline < 1.0 / (room * room);
+}
+
+void StepController::update(const State& state, const CellExtremes& now) {
+  constexpr int lanczos_steps = 30;
+  constexpr double margin = 1.05;
+  SpectralBounds bounds = spectral_estimate(*model_, state, lanczos_steps);
+  bounds.stiffness = std::max(room * margin * bounds.stiffness, rod_stiffness_);
+  bounds.damping *= room * margin;
+  present_ = std::min(largest_, safety_ * largest_stable_step(bounds, integrator_));
+  reference_ = now;
+}
+
+double StepController::limit(const CellExtremes& now) const {
+  if (!(now.fastest > 0.0)) return present_;
+  return std::min(present_, largest_volume_change / now.fastest);
+}
+
+double StepController::divide(double span, const CellExtremes& now) const {
+  return span / std::ceil(span / limit(now) * (1.0 - 1e-12));
+}
+
+StepReport StepController::report(double step) const {
+  StepReport report = report_;
+  report.step = step;
   std::ostringstream text;
   text.precision(3);
-  text << "step " << report.step * 1e6 << " us = " << report.step / report.spectral_bound
+  text << "step " << step * 1e6 << " us = " << step / report.spectral_bound
        << " of the spectral bound " << report.spectral_bound * 1e6
-       << " us = " << report.step * report.omega0
-       << "/omega0 with the paper's omega0 = " << report.omega0
+       << " us = " << step * report.omega0 << "/omega0 with the paper's omega0 = " << report.omega0
        << " rad/s, whose bound 1/omega0 = " << report.paper_bound * 1e6
-       << " us does not see the 26 springs of a particle; " << why;
+       << " us does not see the 26 springs of a particle; " << why_;
   report.explanation = text.str();
   return report;
 }

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
+#include "lattice/cells/cell_forces.h"
 #include "lattice/model.h"
 #include "lattice/press.h"
 #include "lattice/rod.h"
 #include "lattice/settings.h"
 #include "lattice/spectrum.h"
+#include "lattice/state.h"
 
 namespace fingertip::lattice {
 
@@ -16,20 +19,53 @@ namespace fingertip::lattice {
 /// retardation time mu/k, and c (2 dt - dt²/longest mu/k) <= 4; 0 without damping.
 double largest_stable_step(const SpectralBounds& bounds, Integrator integrator);
 
-/// The paper's omega0 = sqrt(2 k/m) with the largest spring constant and the smallest mass.
+/// The paper's omega0 = sqrt(2 k/m) with the largest spring constant and the mass of a
+/// particle among whole cells.
 double paper_frequency(const LatticeModel& model);
 
-/// The bounds that the step is chosen from: the rigorous ones, or where that is smaller the Lanczos
-/// estimate with a margin of 5 % plus the free rod's own block (README: stable steps). `rod` null:
-/// its motion is prescribed.
+/// The bounds that the step is chosen from (README: stable steps). Published: the rigorous ones, or
+/// where that is smaller the Lanczos estimate with a margin of 5 % plus the free rod's own block.
+/// Others: that estimate, or twice the rod's own block if that is larger. `rod` null: its motion is
+/// prescribed.
 SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod);
 
-/// The step to use. Absent `wanted`: the stable step times a safety factor (small kinematics 0.95,
-/// finite 0.8, for springs turn and cells grow stiffer as the tip deforms), rounded down so that
-/// a whole number of steps makes `period`. Throws InvalidInput (key run.time_step) when `wanted`
-/// is not positive or exceeds the stable step, or when no step is stable. `rod` null: its motion is
-/// prescribed.
-StepReport choose_step(const LatticeModel& model, const RodBody* rod, Integrator integrator,
-                       std::optional<double> wanted, double period);
+/// Chooses the steps of a press: the largest stable one times a safety factor (small kinematics
+/// 0.95; finite 0.9 where the cells tell how they stiffen, 0.8 for springs alone, which do not), at
+/// most `wanted` if given.
+///
+/// Compression stiffens cells. CellExtremes bound by how much, but far too generously where slivers
+/// deform wildly. So they only say when it is time to look: once they have grown by `room` since
+/// the spectrum was last computed, it is computed anew about the present state.
+class StepController {
+ public:
+  /// Throws InvalidInput (key run.time_step) when `wanted` is not positive or exceeds the stable
+  /// step at rest, or when no step is stable. `rod` null: its motion is prescribed.
+  StepController(const LatticeModel& model, const RodBody* rod, Integrator integrator,
+                 std::optional<double> wanted);
+
+  /// Whether the spectrum on which the limit rests has to be computed anew.
+  bool outdated(const CellExtremes& now) const;
+  /// Computes it.
+  void update(const State& state, const CellExtremes& now);
+
+  /// Largest step [s] that is safe while not outdated, and changes no cell's volume by more than a
+  /// tenth.
+  double limit(const CellExtremes& now) const;
+  /// The step that divides `span` [s] > 0 evenly and does not exceed the limit [s].
+  double divide(double span, const CellExtremes& now) const;
+  /// How `step` relates to the bounds at rest.
+  StepReport report(double step) const;
+
+ private:
+  const LatticeModel* model_;
+  Integrator integrator_;
+  double safety_;
+  double rod_stiffness_ = 0.0;  ///< what the free rod adds to the bounds [1/s²]
+  double largest_ = 0.0;        ///< at rest [s]
+  double present_ = 0.0;        ///< [s]
+  CellExtremes reference_;      ///< when the spectrum was computed
+  StepReport report_;
+  std::string why_;
+};
 
 }  // namespace fingertip::lattice

@@ -47,7 +47,7 @@ Matrix9 cubic_stiffness(double c11, double c12, double c44) {
 
 }  // namespace
 
-CellLaw CellLaw::cubic(const SpringConstants& constants, double spacing, double fibre_share,
+CellLaw CellLaw::cubic(const SpringConstants& constants, double spacing, double share,
                        const Matrix3d& axes) {
   const double c44 = (constants.k2 + 4.0 / 3.0 * constants.k3) / spacing;
   const double c11 = (constants.k1 + constants.k2) / spacing + c44 + constants.kappa;
@@ -55,7 +55,7 @@ CellLaw CellLaw::cubic(const SpringConstants& constants, double spacing, double 
   CellLaw law;
   law.kind_ = Kind::linear;
   law.tangent_ = turn.transpose() * cubic_stiffness(c11, c44 + constants.kappa, c44) * turn -
-                 fibre_share * c44 * Matrix9::Identity();
+                 share * c44 * Matrix9::Identity();
   return law;
 }
 
@@ -68,12 +68,12 @@ CellLaw CellLaw::volume(double kappa, bool finite) {
   return law;
 }
 
-CellLaw CellLaw::network(const meshes::Rubber& rubber, double fibre_share) {
+CellLaw CellLaw::network(const meshes::Rubber& rubber, double share) {
   CellLaw law;
   law.kind_ = Kind::network;
   law.shear_ = rubber.shear_modulus;
   law.lambda_ = rubber.lame_lambda();
-  law.cell_shear_ = (1.0 - fibre_share) * rubber.shear_modulus;
+  law.cell_shear_ = (1.0 - share) * rubber.shear_modulus;
   return law;
 }
 

@@ -32,13 +32,13 @@ class CellLaw {
 
   /// C by homogenisation of springs and volume constant (README: physics): C12 = C44 + kappa,
   /// C11 = (k1 + 2 k2 + 4/3 k3)/a + kappa, C44 = (k2 + 4/3 k3)/a, along the columns of `axes`, a
-  /// rotation. `spacing` a > 0 [m], 0 <= `fibre_share` s <= 1.
-  static CellLaw cubic(const SpringConstants& constants, double spacing, double fibre_share,
+  /// rotation. `spacing` a > 0 [m], 0 <= `share` s <= 1.
+  static CellLaw cubic(const SpringConstants& constants, double spacing, double share,
                        const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
   /// `kappa` [Pa].
   static CellLaw volume(double kappa, bool finite);
-  /// nu >= 0, or the energy has no bound below as J -> 0; not checked. 0 <= `fibre_share` s <= 1.
-  static CellLaw network(const meshes::Rubber& rubber, double fibre_share);
+  /// nu >= 0, or the energy has no bound below as J -> 0; not checked. 0 <= `share` s <= 1.
+  static CellLaw network(const meshes::Rubber& rubber, double share);
 
   /// Throws std::domain_error where J <= 0 and the law needs J > 0.
   CellResponse evaluate(const Eigen::Matrix3d& H) const;

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "lattice/cells/cut_tip.h"
 #include "lattice/model.h"
 #include "lattice/settings.h"
 #include "lattice/statics/lattice_body.h"
@@ -13,40 +14,13 @@
 
 namespace fingertip::lattice {
 
-/// Share s of the shear energy that is carried by the fibres along the cells' edges; the rest sees
-/// the cell's mean gradient. With s = 1/3 the bilinear modes of a cell cost what they cost in the
-/// continuum (edges see y² = 1/4 where the mean over the cell is 1/12).
-inline constexpr double fibre_share = 1.0 / 3.0;
-/// Stiffness of the ties to rod and plane per area over C44/a. Softer ties are felt, stiffer ones
-/// lock the lattice (README: measured).
-inline constexpr double tie_stiffness = 160.0;
 /// Tie of a published particle to the plane over E a.
 inline constexpr double particle_tie = 20.0;
-/// Cells with less rubber than this are left out.
-inline constexpr double smallest_fraction = 1e-6;
-
-/// central, hookean or network on cells cut by the tip's true surfaces. `sectors` = 4, 2 or 1 asks
-/// for the quarter (x, y >= 0), half (y >= 0) or whole tip; mirror planes must go through grid
-/// points and hold the displacement across them. A cell gives its springs, law and mass what of
-/// them lies in its rubber:
-///
-///   hookean, small    isotropic fibres s C44 a along the edges, CellLaw::cubic
-///   network, finite   isotropic fibres s G a, CellLaw::network: law A of the continuum, no stress
-///                     at rest in cut cells either
-///   network, small    hookean with the rubber's closed form for its constants
-///   hookean, finite   central springs k1, k2, k3 and CellLaw::volume
-///   central           central springs k1, k2, k3; the cells carry no law
-///
-/// settings.constants are those of hookean (kappa included) and central, the network takes G and
-/// lambda of the rubber. Bond and outer points lie at most a/3 apart; the outer ones cover the
-/// hemisphere and R - r of the sleeve. Ties: tie_stiffness C44/a per area, the bond's times
-/// ligament_stiffness, the outer ones times contact_stiffness. Where fibres and a cell law make up
-/// the material (the first three), a linear displacement costs the rubber's energy in every cell,
-/// and its nodal forces are those of its traction on the true surfaces (patch test). Throws
-/// InvalidInput for a specimen that breaks a rule, the published model, a spacing above (R - r)/2
-/// or below R/320, a rotation or offset out of range, constants that are negative or without a
-/// diagonal, nu < 0 in the network at finite strain, sectors the grid's symmetry does not have, and
-/// a lattice in several pieces.
+/// central, hookean or network on cells cut by the tip's true surfaces (cut_tip, Recipe); a cell
+/// gives its springs, law and mass what of them lies in its rubber, mirror planes hold the
+/// displacement across them. Where fibres and a cell law make up the material, a linear displacement
+/// costs the rubber's energy in every cell, and its nodal forces are those of its traction on the
+/// true surfaces (patch test). Throws InvalidInput as cut_tip does.
 LatticeBody build_cut_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
                           const LatticeSettings& settings, int sectors);
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lattice/cells/tied_points.h"
 #include "lattice/statics/cell_law.h"
 #include "meshes/geometry.h"
 
@@ -23,15 +24,6 @@ struct MeanCell {
   std::array<std::uint32_t, 8> corners{};
   Eigen::Matrix<double, 3, 8> gradients;  ///< mean of grad N_c over the rubber [1/m]
   double volume = 0.0;                    ///< of the rubber in the cell [m³]
-};
-
-/// A point that moves with particles: x = rest + Σ weight_c u(corner_c), Σ weight_c = 1.
-struct TiedPoint {
-  std::array<std::uint32_t, 8> corners{};
-  std::array<double, 8> weights{};
-  meshes::Vector3 rest = meshes::Vector3::Zero();  ///< on the true surface [m]
-  double area = 0.0;                               ///< of the surface it stands for [m²]
-  double stiffness = 0.0;                          ///< of its tie to rod or plane [N/m]
 };
 
 /// Immutable. Everything in the tip's frame (meshes/geometry.h); energies of a displacement u:

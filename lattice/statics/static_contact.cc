@@ -17,23 +17,7 @@ namespace {
 /// Gaps below this length [m] are round-off: a picometre.
 constexpr double gap_noise = 1e-12;
 
-/// Unit normal out of the rubber where the outer surface is nearest.
-Vector3 outer_normal(const Vector3& rest) {
-  return Vector3(rest.x(), rest.y(), std::max(rest.z(), 0.0)).normalized();
-}
-
 }  // namespace
-
-PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry) {
-  const double s = std::sin(protocol.tilt), c = std::cos(protocol.tilt);
-  PressPlane plane;
-  plane.normal = Vector3(-s, 0.0, -c);
-  plane.t1 = Vector3(c, 0.0, -s);
-  plane.t2 = plane.t1.cross(plane.normal);
-  plane.radius = geometry.tip_radius;
-  plane.lateral_ratio = protocol.lateral / protocol.depth;
-  return plane;
-}
 
 StaticContact::StaticContact(const LatticeBody& body, const PressPlane& plane,
                              meshes::ContactMode mode)

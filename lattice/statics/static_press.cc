@@ -9,7 +9,7 @@
 #include <string>
 
 #include "lattice/model.h"
-#include "lattice/statics/contact_patch.h"
+#include "lattice/cells/contact_patch.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/equilibrium.h"
@@ -233,7 +233,7 @@ void StaticPress::report() {
 LatticeBody static_body(const PressSetup& setup, int sectors) {
   if (setup.lattice.model != ModelKind::published)
     return build_cut_tip(setup.geometry, setup.rubber, setup.lattice, sectors);
-  return body_of(build_tip(setup.geometry, setup.rubber, setup.lattice), setup.geometry,
+  return body_of(build_published_tip(setup.geometry, setup.rubber, setup.lattice), setup.geometry,
                  setup.rubber);
 }
 

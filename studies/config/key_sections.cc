@@ -202,7 +202,7 @@ std::vector<Key> lattice_keys() {
   Key rotation =
       with_rule(plain("lattice", "rotation", Kind::quantities, "[\"0 deg\", \"0 deg\", \"0 deg\"]",
                       any, "turns of the grid about x, then y, then z", assign_rotation),
-                "three angles; press.mode = static or the verb modes", {"press.mode"});
+                "three angles; not with the published model", {"lattice.model"});
   rotation.unit = "rad";
   rotation.length = 3;
   return {
@@ -223,7 +223,7 @@ std::vector<Key> lattice_keys() {
       rotation,
       constants,
       plain("lattice", "ligament_stiffness", Kind::number, "1.0", positive,
-            "multiplies the stiffness of the ligaments between tip and rod",
+            "multiplies the stiffness of the bond between tip and rod (published: its ligaments)",
             [](Config& config, const Value& value) {
               config.press.lattice.ligament_stiffness = value.number;
             }),
@@ -232,8 +232,7 @@ std::vector<Key> lattice_keys() {
                       [](Config& config, const Value& value) {
                         config.press.lattice.contact_stiffness = value.number;
                       }),
-                "1 unless press.mode = static and the model has true surfaces",
-                {"press.mode", "lattice.model"}),
+                "1 for the published model", {"lattice.model"}),
       choice("lattice", "kinematics", "auto",
              {{"auto", "published, network: finite; central, hookean: small"},
               {"small", "linearised about the rest state"},
@@ -279,11 +278,11 @@ std::vector<Key> press_keys() {
               config.press.protocol.friction = value.number;
             }),
       with_rule(quantity("press", "tilt", "0 deg", "rad", any,
-                         "of the rod against the plane's normal, about y (reference only)",
+                         "of the rod against the plane's normal, about y (published: static presses only)",
                          protocol(&PressProtocol::tilt)),
                 "between -45 and 45 degrees", {}),
       with_rule(quantity("press", "lateral", "0 cm", "m", any,
-                         "how far the plane has moved along t1 at full depth (reference only)",
+                         "how far the plane has moved along t1 at full depth (published: static presses only)",
                          protocol(&PressProtocol::lateral)),
                 "at most tip_radius either way", {"geometry.tip_radius"}),
       with_rule(quantity("press", "depth", "0.3 cm", "m", positive, "final indentation",

@@ -126,11 +126,10 @@ ordered_json to_json(const meshes::Rubber& rubber) {
 ordered_json to_json(const meshes::PressProtocol& protocol) {
   ordered_json json = {{"mode", meshes::name(protocol.mode)},
                        {"contact", meshes::name(protocol.contact)},
-                       {"depth", protocol.depth}};
-  if (protocol.mode == meshes::DriveMode::equilibrium) {
-    json["tilt"] = protocol.tilt;
-    json["lateral"] = protocol.lateral;
-  } else {
+                       {"depth", protocol.depth},
+                       {"tilt", protocol.tilt},
+                       {"lateral", protocol.lateral}};
+  if (protocol.mode != meshes::DriveMode::equilibrium) {
     json["speed"] = protocol.speed;
     json["clearance"] = protocol.clearance;
   }

@@ -35,7 +35,7 @@ Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& cent
               const lattice::SpringConstants& hookean, double spacing);
 
 /// SI values that define a specimen and a press, for `Job::inputs` and summaries. Static presses
-/// do not depend on speed and clearance, moving lattices know no tilt, lateral motion and rotation.
+/// do not depend on speed and clearance.
 nlohmann::ordered_json to_json(const meshes::Geometry& geometry);
 nlohmann::ordered_json to_json(const meshes::Rubber& rubber);
 nlohmann::ordered_json to_json(const meshes::PressProtocol& protocol);

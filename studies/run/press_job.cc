@@ -22,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 ordered_json step_of(const lattice::StepReport& step) {
   return {{"step", step.step},
+          {"smallest", step.smallest},
           {"omega0", step.omega0},
           {"paper_bound", step.paper_bound},
           {"spectral_bound", number_or_null(step.spectral_bound)},

@@ -1,5 +1,6 @@
-#include "lattice/statics/tied_points.h"
+#include "lattice/cells/tied_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "meshes/errors.h"
@@ -39,6 +40,10 @@ std::uint32_t nearest_cell(const GridCells& cells, const Vector3& at) {
 }
 
 }  // namespace
+
+Vector3 outer_normal(const Vector3& rest) {
+  return Vector3(rest.x(), rest.y(), std::max(rest.z(), 0.0)).normalized();
+}
 
 TiedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, double stiffness) {
   const Vector3 at = cells.grid().coordinates(point.position);

@@ -64,6 +64,14 @@ class GridCells {
   std::vector<std::uint32_t> cell_at_;      ///< per grid point
 };
 
+/// A block of cells wholly in the rubber, counts[0] x counts[1] x counts[2] from `lowest` on.
+std::vector<meshes::CutCell> whole_cells(const std::array<int, 3>& lowest,
+                                         const std::array<int, 3>& counts);
+
+/// Per direction of the half stencil and grid point: what the cells own together of the spring from
+/// the point to its neighbour (spring_share).
+std::array<std::vector<double>, directions> spring_shares(const GridCells& cells);
+
 /// The cells that hang together face to face in one piece, in their order. Cells that share less
 /// than a face would be hinged. Pieces that hold less than 1e-4 of the rubber together are left
 /// out; throws InvalidInput when they hold more.

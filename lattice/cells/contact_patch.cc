@@ -1,4 +1,4 @@
-#include "lattice/statics/contact_patch.h"
+#include "lattice/cells/contact_patch.h"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "lattice/statics/grid_cells.h"
+#include "lattice/cells/grid_cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -145,6 +145,38 @@ std::vector<CutCell> largest_piece(const CubicGrid& grid, const std::vector<CutC
   kept.reserve(largest.size());
   for (const std::uint32_t c : largest) kept.push_back(cells[c]);
   return kept;
+}
+
+std::vector<CutCell> whole_cells(const std::array<int, 3>& lowest,
+                                 const std::array<int, 3>& counts) {
+  std::vector<CutCell> cells;
+  for (int k = 0; k < counts[2]; ++k) {
+    for (int j = 0; j < counts[1]; ++j) {
+      for (int i = 0; i < counts[0]; ++i) {
+        cells.push_back({{lowest[0] + i, lowest[1] + j, lowest[2] + k},
+                         {1.0, 0.5, 0.5, 0.25, 0.5, 0.25, 0.25, 0.125}});
+      }
+    }
+  }
+  return cells;
+}
+
+std::array<std::vector<double>, directions> spring_shares(const GridCells& cells) {
+  std::array<std::vector<double>, directions> shares;
+  for (auto& share : shares) share.assign(cells.grid().points(), 0.0);
+  for (const CutCell& cell : cells.cells()) {
+    const CornerMoments moments = corner_moments(cell);
+    const std::array<std::uint32_t, 8> corners = cells.corners(cell);
+    for (std::size_t s = 0; s < half_stencil.size(); ++s) {
+      const Direction& d = half_stencil[s];
+      for (int c = 0; c < 8; ++c) {
+        const int x = (c & 1) + d.dx, y = (c >> 1 & 1) + d.dy, z = (c >> 2 & 1) + d.dz;
+        if ((x | y | z) & ~1) continue;  // the spring would leave the cell
+        shares[s][cells.point(corners[std::size_t(c)])] += spring_share(moments, c, d);
+      }
+    }
+  }
+  return shares;
 }
 
 }  // namespace fingertip::lattice

@@ -1,0 +1,44 @@
+/// Cells that store energy in their deformation, laid out for the vectorised kernel.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lattice/cells/cell_material.h"
+#include "meshes/cubic_grid.h"
+#include "meshes/cut_cells.h"
+
+namespace fingertip::lattice {
+
+/// Immutable. Blocks are sorted by grid index and do not overlap.
+struct CellLattice {
+  /// Per lane of a cut block, value by value (value v of lane l at cut + v * lanes + l): the volume
+  /// fraction (0: absent), the means over the rubber of x, y, z, yz, zx, xy with the cell's centre
+  /// as origin and a as unit, and the upper triangle of Omega, row by row.
+  static constexpr std::size_t cut_values = 17;
+
+  CellMaterial material;
+  double spacing = 0.0;               ///< a [m]
+  std::ptrdiff_t row = 0, plane = 0;  ///< from a grid point to the next along y and z
+  std::vector<CellBlock> blocks;
+  /// Blocks with even and with odd k of their cells' index are separated, for cells of one plane
+  /// share no particle with those of the second next: planes[p] holds the range
+  /// [first, last) of the blocks of one plane of cells, in an order that balances threads.
+  struct Plane {
+    std::uint32_t first = 0, last = 0;
+  };
+  std::array<std::vector<Plane>, 2> planes;  ///< [0]: even k, [1]: odd k
+  std::vector<double> cut;
+
+  bool empty() const { return blocks.empty(); }
+};
+
+/// Lays the cells out; they must be sorted by grid index. The grid must have at least `lanes` - 1
+/// points without particles at the end of every row and one layer of them on every other side, so
+/// that the kernel may read and write whole blocks; throws std::invalid_argument otherwise.
+CellLattice lay_out(const meshes::CubicGrid& grid, const std::vector<meshes::CutCell>& cells,
+                    const CellMaterial& material);
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,42 @@
+/// What cells are made of and how the kernel finds them: plain data, shared with the kernel.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace fingertip::lattice {
+
+/// What a cell stores per volume of its rubber, as a function of the mean F = 1 + H of dx/dX over
+/// that rubber and of its bilinear modes q (README of this folder):
+///
+///   cubic    ½ eps:C:eps + ½ bending q:Omega:q           small strain, eps = (H + Hᵀ)/2
+///   volume   kappa/2 (J - 1)²                            beside central springs, J = det F
+///   network  law A + ½ bending q:Omega:q, law A = G/2 (|F|² - 3) - G ln J + lambda/2 (ln J)²
+///
+/// Damping (Kelvin-Voigt): `cubic` sees u + tau v instead of u. `network` adds, with L the mean
+/// velocity gradient dv/dx and D its symmetric part, the Kirchhoff stress tau (lambda tr D + 2 G D)
+/// and on the bilinear modes bending tau Omega (dq/dt - L q); `volume` adds to dW/dF the stress
+/// tau kappa dJ/dt cof F. All are objective, so no rigid motion of a deformed cell is damped, and
+/// equal to tau times the stiffness at rest.
+enum class CellLawKind { cubic, volume, network };
+
+struct CellMaterial {
+  CellLawKind kind = CellLawKind::cubic;
+  double c11 = 0.0, c12 = 0.0, c44 = 0.0;  ///< cubic, along the grid's axes [Pa]
+  double kappa = 0.0;                      ///< volume [Pa]
+  double shear = 0.0, lambda = 0.0;        ///< network: G > 0, lambda >= 0 [Pa]
+  double bending = 0.0;  ///< modulus of the bilinear modes, the fibres' share of C44 or G [Pa]
+  double retardation_time = 0.0;  ///< tau [s], not negative
+};
+
+/// `lanes` cells that follow one another along the grid's x; some of them may be absent.
+struct CellBlock {
+  static constexpr std::uint32_t whole = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t first = 0;  ///< grid index of the lowest corner of the first cell
+  /// `whole` where all cells are present and wholly in the rubber, else the position in
+  /// CellLattice::cut of the block's values.
+  std::uint32_t cut = whole;
+};
+
+}  // namespace fingertip::lattice

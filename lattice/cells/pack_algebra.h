@@ -1,0 +1,139 @@
+/// Vectors and matrices whose entries are packs of doubles, for the kernel of the cells; included
+/// by it only.
+#pragma once
+
+#include <experimental/simd>
+#include <utility>
+
+namespace fingertip::lattice::kernel {
+
+template <typename Pack>
+struct PackAlgebra {
+  struct Vector {
+    Pack x, y, z;
+
+    [[gnu::always_inline]] friend Vector operator+(const Vector& a, const Vector& b) {
+      return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    [[gnu::always_inline]] friend Vector operator-(const Vector& a, const Vector& b) {
+      return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+  };
+  /// A matrix by columns.
+  struct Columns {
+    Vector x, y, z;
+
+    [[gnu::always_inline]] friend Vector operator*(const Columns& A, const Vector& v) {
+      return scaled(v.x, A.x) + scaled(v.y, A.y) + scaled(v.z, A.z);
+    }
+  };
+
+  [[gnu::always_inline]] static Pack load(const double* from) {
+    return Pack(from, std::experimental::element_aligned);
+  }
+  [[gnu::always_inline]] static void store(double* to, const Pack& value) {
+    value.copy_to(to, std::experimental::element_aligned);
+  }
+
+  /// The last lane of `before`, then the lanes of `value` but for its last.
+  [[gnu::always_inline]] static Pack shifted(const Pack& before, const Pack& value) {
+    return shifted(before, value, std::make_integer_sequence<int, int(Pack::size())>());
+  }
+  template <int... Lane>
+  [[gnu::always_inline]] static Pack shifted(const Pack& before, const Pack& value,
+                                             std::integer_sequence<int, Lane...>) {
+    constexpr int last = int(Pack::size()) - 1;
+    using Raw [[gnu::vector_size(sizeof(Pack))]] = double;
+    return Pack(__builtin_shufflevector(static_cast<Raw>(before), static_cast<Raw>(value),
+                                        (last + Lane)...));
+  }
+
+  [[gnu::always_inline]] static Vector scaled(const Pack& s, const Vector& v) {
+    return {s * v.x, s * v.y, s * v.z};
+  }
+  [[gnu::always_inline]] static Columns multiple(const Pack& s, const Columns& A) {
+    return {scaled(s, A.x), scaled(s, A.y), scaled(s, A.z)};
+  }
+  [[gnu::always_inline]] static Pack dot(const Vector& a, const Vector& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+  [[gnu::always_inline]] static Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  template <int K>
+  [[gnu::always_inline]] static const Pack& entry(const Vector& v) {
+    if constexpr (K == 0) {
+      return v.x;
+    } else if constexpr (K == 1) {
+      return v.y;
+    } else {
+      return v.z;
+    }
+  }
+
+  [[gnu::always_inline]] static Columns plus_one(Columns H) {
+    H.x.x += Pack(1.0);
+    H.y.y += Pack(1.0);
+    H.z.z += Pack(1.0);
+    return H;
+  }
+  /// det(F) F⁻ᵀ.
+  [[gnu::always_inline]] static Columns cofactor(const Columns& F) {
+    return {cross(F.y, F.z), cross(F.z, F.x), cross(F.x, F.y)};
+  }
+  /// A Bᵀ.
+  [[gnu::always_inline]] static Columns times_transposed(const Columns& A, const Columns& B) {
+    return {scaled(B.x.x, A.x) + scaled(B.y.x, A.y) + scaled(B.z.x, A.z),
+            scaled(B.x.y, A.x) + scaled(B.y.y, A.y) + scaled(B.z.y, A.z),
+            scaled(B.x.z, A.x) + scaled(B.y.z, A.y) + scaled(B.z.z, A.z)};
+  }
+  /// s (A + Aᵀ).
+  [[gnu::always_inline]] static Columns twice_symmetric(const Pack& s, const Columns& A) {
+    const Pack yz = s * (A.y.z + A.z.y), zx = s * (A.z.x + A.x.z), xy = s * (A.x.y + A.y.x);
+    return {{s * (A.x.x + A.x.x), xy, zx},
+            {xy, s * (A.y.y + A.y.y), yz},
+            {zx, yz, s * (A.z.z + A.z.z)}};
+  }
+  /// At least the largest eigenvalue of AᵀA (Gershgorin): its largest sum of a row's magnitudes.
+  [[gnu::always_inline]] static Pack gershgorin(const Columns& A) {
+    const Pack yz = abs(dot(A.y, A.z)), zx = abs(dot(A.z, A.x)), xy = abs(dot(A.x, A.y));
+    return max(max(dot(A.x, A.x) + (xy + zx), dot(A.y, A.y) + (xy + yz)),
+               dot(A.z, A.z) + (yz + zx));
+  }
+
+  /// Natural logarithm to 1 ulp (2e-16) for 2^-12 <= value <= 2^12; beyond, that of the nearer end.
+  [[gnu::always_inline]] static Pack log(const Pack& value) {
+    constexpr double root = 1.4142135623730951;
+    constexpr double ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
+    // In cells near rest there is nothing to reduce.
+    if (all_of(value >= Pack(0.5 * root) && value <= Pack(root))) {
+      const Pack f = value - Pack(1.0);
+      return f - correction(f);
+    }
+    const Pack power = 4096.0;
+    Pack m = min(max(value, Pack(1.0) / power), power), exponent = 0.0;
+    constexpr double steps[4] = {8.0, 4.0, 2.0, 1.0}, factors[4] = {256.0, 16.0, 4.0, 2.0};
+    for (int s = 0; s < 4; ++s) {
+      const auto large = m > Pack(0.5 * root * factors[s]);
+      where(large, m) = m * Pack(1.0 / factors[s]);
+      where(large, exponent) = exponent + Pack(steps[s]);
+      const auto small = m < Pack(root / factors[s]);
+      where(small, m) = m * Pack(factors[s]);
+      where(small, exponent) = exponent - Pack(steps[s]);
+    }
+    const Pack f = m - Pack(1.0);
+    return exponent * Pack(ln2_high) + (f - (correction(f) - exponent * Pack(ln2_low)));
+  }
+
+  /// f - ln(1 + f) for 1/√2 <= 1 + f <= √2: with s = f/(2 + f), ln(1 + f) = 2 artanh s =
+  /// f - s (f - R), R = s² (2/3 + 2/5 s² + 2/7 s⁴ + ...); what is left out is below 3e-17 ln(1 +
+  /// f).
+  [[gnu::always_inline]] static Pack correction(const Pack& f) {
+    const Pack s = f / (Pack(2.0) + f), z = s * s;
+    Pack series = 2.0 / 21.0;
+    for (int n = 19; n >= 3; n -= 2) series = series * z + Pack(2.0 / n);
+    return s * (f - z * series);
+  }
+};
+
+}  // namespace fingertip::lattice::kernel

@@ -1,0 +1,20 @@
+#include "lattice/plane.h"
+
+#include <cmath>
+
+namespace fingertip::lattice {
+
+using meshes::Vector3;
+
+PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry) {
+  const double s = std::sin(protocol.tilt), c = std::cos(protocol.tilt);
+  PressPlane plane;
+  plane.normal = Vector3(-s, 0.0, -c);
+  plane.t1 = Vector3(c, 0.0, -s);
+  plane.t2 = plane.t1.cross(plane.normal);
+  plane.radius = geometry.tip_radius;
+  plane.lateral_ratio = protocol.lateral / protocol.depth;
+  return plane;
+}
+
+}  // namespace fingertip::lattice

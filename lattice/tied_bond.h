@@ -1,0 +1,59 @@
+/// The rubber's bond to the rod on their common true surface.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "lattice/model.h"
+#include "lattice/parallel.h"
+#include "lattice/rod.h"
+#include "lattice/state.h"
+
+namespace fingertip::lattice {
+
+/// The ties of model.bond, energy Σ ½ k |x - T(X)|² over the points X of the rod's surface, T the
+/// rod's pose. Trilinear weights reproduce linear fields, so a tie's stretch is the weighted sum of
+/// the slips s_i = x_i - T(X_i) of its corners, and all ties together are one matrix of scalars:
+/// energy ½ Σ K_ij s_i·s_j, force -K s.
+///
+/// The ties are far stiffer than the rubber and must not dictate the time step, so they act as they
+/// will be at its end (backward Euler): -K (s + step ds/dt) - step² K a, a the particles'
+/// acceleration. The last term is made diagonal: a particle takes the force F of the others and of
+/// the first term as F m/(m + step² d_i), d_i = Σ_j |K_ij|, as if it were heavier in its motion
+/// against the rod, which there is next to none of. Since K <= diag(d), symplectic Euler is then
+/// stable at any step the rubber allows. Forces in equilibrium are untouched, and the rod receives
+/// exactly what the particles do not.
+class TiedBond {
+ public:
+  /// Model and team must outlive it.
+  TiedBond(const LatticeModel& model, Team& team);
+
+  /// Adds the bond to `force`, which holds all other forces on the particles; returns its wrench on
+  /// the rod about the rod's endpoint.
+  Wrench add(const State& state, const RodState& rod, double step, VectorField& force);
+  double energy(const State& state, const RodState& rod) const;  ///< [J]
+
+ private:
+  struct Entry {
+    std::uint32_t row = 0;  ///< number of the particle
+    double value = 0.0;     ///< K_ij [N/m]
+  };
+  using Row = Eigen::Array4d;  ///< a vector, padded for the processor
+
+  /// Slips after `ahead` seconds at the present velocities.
+  void find_slips(const State& state, const RodState& rod, double ahead,
+                  std::vector<Row>& slips) const;
+  Row pull(std::size_t particle, const std::vector<Row>& slips) const;  ///< Σ_j K_ij s_j [N]
+
+  const LatticeModel* model_;
+  Team* team_;
+  std::vector<std::uint32_t> points_;  ///< grid index per particle of the bond
+  std::vector<meshes::Vector3> rest_;  ///< X_i [m]
+  std::vector<double> sum_;            ///< d_i [N/m]
+  std::vector<std::uint32_t> first_;   ///< per particle: of its entries; one more at the end
+  std::vector<Entry> entries_;
+  std::vector<Row> slips_, pulls_;  ///< along the grid's axes [m], [N]
+};
+
+}  // namespace fingertip::lattice
