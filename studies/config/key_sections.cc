@@ -277,14 +277,18 @@ std::vector<Key> press_keys() {
             [](Config& config, const Value& value) {
               config.press.protocol.friction = value.number;
             }),
-      with_rule(quantity("press", "tilt", "0 deg", "rad", any,
-                         "of the rod against the plane's normal, about y (published: static presses only)",
-                         protocol(&PressProtocol::tilt)),
-                "between -45 and 45 degrees", {}),
-      with_rule(quantity("press", "lateral", "0 cm", "m", any,
-                         "how far the plane has moved along t1 at full depth (published: static presses only)",
-                         protocol(&PressProtocol::lateral)),
-                "at most tip_radius either way", {"geometry.tip_radius"}),
+      with_rule(
+          quantity(
+              "press", "tilt", "0 deg", "rad", any,
+              "of the rod against the plane's normal, about y (published: static presses only)",
+              protocol(&PressProtocol::tilt)),
+          "between -45 and 45 degrees", {}),
+      with_rule(
+          quantity(
+              "press", "lateral", "0 cm", "m", any,
+              "how far the plane has moved along t1 at full depth (published: static presses only)",
+              protocol(&PressProtocol::lateral)),
+          "at most tip_radius either way", {"geometry.tip_radius"}),
       with_rule(quantity("press", "depth", "0.3 cm", "m", positive, "final indentation",
                          protocol(&PressProtocol::depth)),
                 "less than tip_radius - rod_radius",

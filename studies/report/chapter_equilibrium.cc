@@ -1,4 +1,4 @@
-/// The lattice without its staircase and without time.
+/// The lattice without time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -94,18 +94,17 @@ FigureBlock error_figure(const std::vector<StaticLattice>& lattices, const RunDa
     add(lattices[i].label(), lattices[i].depth, lattices[i].error, style);
   }
   if (const ModelData* moving = run.model("hookean"); moving && !moving->force_error.empty()) {
-    add("hookean, moving, staircase", run.depths, moving->force_error,
-        {"#777777", "(4,3)", 2.2, 0, true});
+    add("hookean, moving", run.depths, moving->force_error, {"#777777", "(4,3)", 2.2, 0, true});
   }
   panel.band = Band{-1.0, 1.0};
   const double room = 0.6 * (most - least) + 1.0;
   panel.y_range = Range{least - room, most + 0.1 * room};
   Figure figure{"equilibrium_error", 760, 430, 1, {}};
   figure.panels = {panel};
-  return {figure, "Force error of lattices in equilibrium",
-          "Cells cut by the true sphere and cylinder, no inertia, no damping. The band is one per "
-          "cent. Grey: the moving lattice of the chapters above, whose surface is a staircase "
-          "of whole cells."};
+  return {
+      figure, "Force error of lattices in equilibrium",
+      "Cells cut by the true sphere and cylinder, no inertia, no damping. The band is one per "
+      "cent. Grey: the moving lattice of the chapters above, the same cells and ties at speed."};
 }
 
 /// What the finest hookean lattice of the study reached.
@@ -123,12 +122,12 @@ std::string finding(const std::vector<StaticLattice>& lattices) {
 }  // namespace
 
 Chapter equilibrium_chapter(const RunData& run) {
-  Chapter chapter{"equilibrium", "In equilibrium, with true surfaces", {}};
+  Chapter chapter{"equilibrium", "In equilibrium", {}};
   const std::vector<StaticLattice> lattices = read_lattices(run.equilibrium_study);
   if (lattices.empty()) return chapter;
   chapter.blocks.push_back(Paragraph{
-      "The same masses without the staircase.",
-      "Here the cells at the surface are cut by it and weigh what their rubber weighs; contact and "
+      "The same lattices without inertia and damping.",
+      "The cells at the surface are cut by it and weigh what their rubber weighs; contact and "
       "bond act on the true sphere and cylinder. A third of the shear energy is carried by fibres "
       "along the cells' edges, the rest by each cell's mean deformation, so that a cell resists "
       "bending as the continuum does; springs alone are three times too stiff in it. The moduli "

@@ -133,8 +133,8 @@ FigureBlock shapes_figure(const RunData& run) {
       "heavy line, rises by the indentation. Mesh: the element edges in the section y = 0. "
       "Lattices: the "
       "boundary springs on the viewer's side, projected; dots are particles held by the plane. In "
-      "the calibrated models a boundary particle stands for the point of the true sphere before "
-      "it, which touches in its place, so that its dot need not lie on the line."};
+      "the calibrated models a boundary particle is drawn where the true surface is nearest to "
+      "it."};
 }
 
 }  // namespace

@@ -81,10 +81,8 @@ std::string central_reason(const RunData& run, const ModelData& model) {
         "at full depth.",
         percent(error));
   } else {
-    text += fmt::format(
-        " At full depth its force is {} off, the sum of a material too {} to compress and of a "
-        "surface made of whole cells.",
-        percent(error), bulk < 0.0 ? "easy" : "hard");
+    text += fmt::format(" At full depth its force is {} off; the material is too {} to compress.",
+                        percent(error), bulk < 0.0 ? "easy" : "hard");
   }
   return text;
 }
@@ -101,12 +99,13 @@ std::string hookean_reason(const RunData& run, const ModelData& model) {
                          : fmt::format("Its elastic constants are within {} of the rubber.",
                                        percent_magnitude(worst));
   text +=
-      " What remains is mainly shape: a body of whole cells ends in a staircase at the surface and "
-      "at the "
-      "rod";
+      " Surface, bond and contact are the tip's own: cells are cut by sphere and cylinder. What "
+      "remains is the size of the cells";
   const double spacing = number_at(model.summary, "spacing");
-  if (std::isfinite(spacing)) text += fmt::format(" (steps of {} cm)", number(to_cm(spacing), 3));
-  text += ", and contact is made point by point.";
+  if (std::isfinite(spacing)) text += fmt::format(" ({} cm)", number(to_cm(spacing), 3));
+  text +=
+      ", which a small contact feels first, and what the press at speed adds by inertia and "
+      "damping to the continuum's equilibrium.";
   std::size_t worst_depth = model.force_error.size() - 1;
   for (std::size_t i = 0; i < model.force_error.size(); ++i) {
     const double error = std::abs(model.force_error[i]);
@@ -117,7 +116,7 @@ std::string hookean_reason(const RunData& run, const ModelData& model) {
     text += fmt::format(" At the depths of the verdict it amounts to {} at most, at {}.",
                         percent(model.force_error[worst_depth]), length(run.depths[worst_depth]));
   }
-  return text + " Volume fractions of cut cells and true surfaces are what would reduce this part.";
+  return text;
 }
 
 std::string dynamics_reason(const RunData& run) {

@@ -104,13 +104,16 @@ std::string refusal(void (*check)(const LoadedConfig&), std::vector<std::string>
 
 }  // namespace
 
-TEST(Checks, WhatOnlyTheContinuumCanDoIsRefusedToThePressAndTheValidation) {
-  for (const char* set : {"press.contact=coulomb", "press.tilt=5 deg", "press.lateral=1 mm"}) {
+TEST(Checks, WhatAPressCannotDoIsRefusedToTheValidationAlone) {
+  for (const char* set :
+       {"press.contact=coulomb", "press.tilt=5 deg", "press.lateral=1 mm",
+        "lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]", "lattice.contact_stiffness=2"}) {
     EXPECT_EQ(refusal(check_all, {set}), "") << set;
     EXPECT_NO_THROW(reference_order(load_config({{}, {set}, {}}))) << set;
-    EXPECT_THROW(setup_of({set}), ConfigError) << set;
     EXPECT_EQ(refusal(check_validation, {set}).find("--set " + std::string(set)), 0U) << set;
+    EXPECT_THROW(setup_of({set, "lattice.model=published"}), ConfigError) << set;
   }
+  EXPECT_THROW(setup_of({"press.contact=coulomb"}), ConfigError);
   EXPECT_EQ(refusal(check_validation, {}), "");
   EXPECT_EQ(refusal(check_validation, {"reference.mode=transient"}), "");
   EXPECT_NE(refusal(check_validation, {"reference.mode=modes"}), "");
@@ -137,7 +140,7 @@ TEST(Checks, ATransientPressHasItsLimits) {
   }
 }
 
-TEST(Checks, WhatOnlyAStaticPressCanDo) {
+TEST(Checks, WhatALatticeCanDoAtRestOrMoving) {
   const auto broken = [](std::vector<std::string> sets) {
     try {
       press_setup(load_config({{}, std::move(sets), {}}));
@@ -149,10 +152,15 @@ TEST(Checks, WhatOnlyAStaticPressCanDo) {
   for (const char* set : {"lattice.model=network", "press.tilt=5 deg", "press.lateral=1 mm",
                           "lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]"}) {
     EXPECT_EQ(broken({set, "press.mode=static"}), "") << set;
-    const std::string text = broken({set});
-    EXPECT_NE(text.find("--set " + std::string(set)), std::string::npos) << text;
+    EXPECT_EQ(broken({set}), "") << set;
+  }
+  for (const char* set : {"press.tilt=5 deg", "press.lateral=1 mm"}) {
+    EXPECT_EQ(broken({set, "lattice.model=published", "press.mode=static"}), "") << set;
+    const std::string text = broken({set, "lattice.model=published"});
     EXPECT_NE(text.find("press.mode = static"), std::string::npos) << text;
   }
+  EXPECT_EQ(broken({"run.integrator=explicit-euler", "lattice.model=published"}), "");
+  EXPECT_NE(broken({"run.integrator=explicit-euler"}).find("symplectic-euler"), std::string::npos);
   EXPECT_NE(broken({"press.contact=coulomb", "press.mode=static"}), "");
   // What concerns the lattice alone keeps no other verb from its work.
   EXPECT_EQ(refusal(check_all, {"lattice.model=network"}), "");
@@ -162,8 +170,7 @@ TEST(Checks, WhatOnlyAStaticPressCanDo) {
                 .find("aligned with the rod"),
             std::string::npos);
   // nu = 0.05: kappa = lambda - G < 0.
-  EXPECT_NE(broken({"press.mode=static", "lattice.kinematics=finite",
-                    "rubber.youngs_modulus=29.4 gf/cm^2"})
+  EXPECT_NE(broken({"lattice.kinematics=finite", "rubber.youngs_modulus=29.4 gf/cm^2"})
                 .find("kappa >= 0"),
             std::string::npos);
   EXPECT_NE(broken({"press.mode=static", "lattice.model=network", "lattice.constants=calibrated"}),
