@@ -1,4 +1,4 @@
-#include "lattice/statics/grid_cells.h"
+#include "lattice/cells/grid_cells.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lattice/statics/tied_points.h"
+#include "lattice/cells/tied_points.h"
 #include "meshes/errors.h"
 
 using namespace fingertip;

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "body_sums.h"
-#include "lattice/statics/contact_patch.h"
+#include "lattice/cells/contact_patch.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/equilibrium.h"
 
