@@ -75,8 +75,9 @@ SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod) {
   if (model.kind != ModelKind::published) {
     SpectralBounds bounds = held;
     bounds.damping *= margin;
-    // Of a tie's energy the particles' part is taken care of (tied_bond.h); the rod has the other.
-    bounds.stiffness = std::max(margin * held.stiffness, 2.0 * own.stiffness);
+    // Of a tie's energy the particles' part is taken care of (tied_bond.h), the rod has the other.
+    // Its ties act as after the step, lambda dt² + 2 (lambda dt) dt <= 4.
+    bounds.stiffness = std::max(margin * held.stiffness, 3.0 * own.stiffness);
     return bounds;
   }
   SpectralBounds bounds = spectral_bounds(model, rod);
@@ -91,7 +92,7 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
     : model_(&model),
       integrator_(integrator),
       safety_(safety(model)),
-      rod_stiffness_(rod != nullptr ? 2.0 * rod_bounds(model, *rod).stiffness : 0.0) {
+      rod_stiffness_(rod != nullptr ? 3.0 * rod_bounds(model, *rod).stiffness : 0.0) {
   const SpectralBounds bounds = tightest_bounds(model, rod);
   report_.omega0 = paper_frequency(model);
   report_.paper_bound = 1.0 / report_.omega0;

@@ -25,8 +25,8 @@ double paper_frequency(const LatticeModel& model);
 
 /// The bounds that the step is chosen from (README: stable steps). Published: the rigorous ones, or
 /// where that is smaller the Lanczos estimate with a margin of 5 % plus the free rod's own block.
-/// Others: that estimate, or twice the rod's own block if that is larger. `rod` null: its motion is
-/// prescribed.
+/// Others: that estimate, or three times the rod's own block if that is larger. `rod` null: its
+/// motion is prescribed.
 SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod);
 
 /// Chooses the steps of a press: the largest stable one times a safety factor (small kinematics

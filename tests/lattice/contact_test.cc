@@ -39,8 +39,7 @@ struct PublishedPress {
   lattice::VectorField force{model.points()};
   std::size_t top = pole(model);
 
-  explicit PublishedPress(ContactMode mode)
-      : contact(model, meshes::Geometry{}, plane_above(), mode) {
+  explicit PublishedPress(ContactMode mode) : contact(model, plane_above(), mode) {
     contact.resolve(state, force, 1e-4);  // the configuration before the step
   }
   PlaneContact contact;
@@ -96,39 +95,30 @@ TEST(Contact, FrictionlessHoldsOnlyTheNormalAndOnlyInCompression) {
   EXPECT_EQ(press.contact.anchored(), 0);
 }
 
-TEST(Contact, PublishedTouchesWithParticlesCellModelsWithTheTrueSphere) {
-  // Moving the undeformed tip up by clearance + delta, each contact point crosses when the sphere
-  // above it does: for cell models at delta = R - sqrt(R² - rho²), for the published one when the
-  // particle itself does.
-  for (const ModelKind kind : all_models) {
-    const LatticeModel model = tip(kind, Kinematics::small, 10);
-    PlaneContact contact(model, meshes::Geometry{}, plane_above(), ContactMode::stick);
+TEST(Contact, ParticlesTouchByThemselves) {
+  // Moving the undeformed tip up by clearance + delta, each particle crosses when it reaches the
+  // plane; at R/10 only the pole has, and by R - a the whole layer below it.
+  const LatticeModel model = tip(ModelKind::published, Kinematics::finite, 10);
+  for (const double delta : {0.6e-3, 1.1e-3}) {
+    PlaneContact contact(model, plane_above(), ContactMode::stick);
     State state(model);
     const lattice::VectorField force(model.points());
-    const double delta = 0.6e-3;
     contact.resolve(state, force, 1e-4);
     for (const std::size_t i : model.particles) {
       state.displacement.set(i, {0.0, 0.0, clearance + delta});
     }
     contact.resolve(state, force, 1e-4);
-    EXPECT_GT(contact.anchored(), 0);
+    int crossed = 0;
+    double radius = 0.0;
     for (std::size_t b = 0; b < model.boundary.size(); ++b) {
       const Vector3 x = model.rest_position(model.boundary[b]);
-      const double rho = std::hypot(x.x(), x.y());
-      if (contact.holds(b)) {
-        const double top = kind == ModelKind::published ? x.z() : std::sqrt(1e-4 - rho * rho);
-        EXPECT_GT(top + delta, 0.01 - 1e-12) << name(kind);
-      } else if (kind == ModelKind::published) {
-        EXPECT_LE(x.z() + delta, 0.01 + 1e-12);
-      }
+      EXPECT_EQ(contact.holds(b), x.z() + delta > 0.01 + 1e-12);
+      if (!contact.holds(b)) continue;
+      ++crossed;
+      radius = std::max(radius, std::hypot(x.x(), x.y()));
     }
-    const double sphere = std::sqrt(1e-4 - (0.01 - delta) * (0.01 - delta));
-    EXPECT_LE(contact.radius(), sphere + 1e-12);
-    // Published touches one plane of particles after the other: only its pole so far.
-    if (kind == ModelKind::published) {
-      EXPECT_EQ(contact.anchored(), 1);
-    } else {
-      EXPECT_GT(contact.radius(), sphere - 1.5 * model.spacing()) << name(kind);
-    }
+    EXPECT_EQ(contact.anchored(), crossed);
+    EXPECT_NEAR(contact.radius(), radius, 1e-12);
+    EXPECT_EQ(crossed == 1, delta < model.spacing());
   }
 }

@@ -1,10 +1,18 @@
 /// Small lattices and states shared by the tests of this room.
 #pragma once
 
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 #include <random>
+#include <string>
 
+#include "lattice/cells/recipe.h"
+#include "lattice/cut_model.h"
 #include "lattice/model.h"
+#include "lattice/reference_forces.h"
 #include "lattice/state.h"
+#include "lattice/stiffness.h"
 
 namespace fixtures {
 
@@ -35,11 +43,31 @@ inline lattice::LatticeModel tip(lattice::ModelKind kind, lattice::Kinematics ki
   return lattice::build_tip({}, {}, settings_for(kind, kinematics, per_radius));
 }
 
+/// A free block of whole cells as tips are made of, its lowest corner at the origin.
+inline lattice::LatticeModel cell_block(lattice::LatticeSettings settings,
+                                        const std::array<int, 3>& cells,
+                                        const meshes::Rubber& rubber = {}) {
+  meshes::CubicGrid grid;
+  grid.spacing = settings.spacing;
+  grid.axes = settings.axes;
+  grid.origin = Vector3::Constant(-settings.spacing);
+  grid.size = {cells[0] + 3 + lattice::row_margin, cells[1] + 3, cells[2] + 3};
+  return lattice::build_model(lattice::GridCells(grid, lattice::whole_cells({1, 1, 1}, cells)),
+                              settings.model, lattice::recipe_for(rubber, settings),
+                              rubber.density);
+}
+
+/// The same on R/10; network from its recipe, the others from springs.
 inline lattice::LatticeModel block(lattice::ModelKind kind, lattice::Kinematics kinematics,
                                    std::array<int, 3> cells, double retardation_time = 3e-4) {
   const double spacing = 1e-3;
-  return lattice::build_block(kind, kinematics, constants_for(kind, {}, spacing), spacing, cells,
-                              500.0, retardation_time);
+  meshes::Rubber rubber;
+  rubber.retardation_time = retardation_time;
+  if (kind == lattice::ModelKind::network) {
+    return cell_block(settings_for(kind, kinematics, 10), cells, rubber);
+  }
+  return lattice::build_block(kind, kinematics, constants_for(kind, rubber, spacing), spacing,
+                              cells, rubber.density, retardation_time);
 }
 
 /// Displacements up to `amplitude` spacings and velocities up to `speed` on every particle.
@@ -58,6 +86,40 @@ inline lattice::State random_state(const lattice::LatticeModel& model, double am
   return state;
 }
 
+/// -df/du (`rates` false) or -df/dv about a state, by central differences of the plain forces;
+/// exact for linear ones. Degree of freedom 3 p + c is axis c of the p-th entry of model.particles.
+inline Eigen::MatrixXd tangent(const lattice::LatticeModel& model, lattice::State state,
+                               bool rates = false) {
+  const Eigen::Index count = Eigen::Index(model.particles.size());
+  lattice::VectorField& field = rates ? state.velocity : state.displacement;
+  const double h = 1e-5 * model.spacing();
+  Eigen::MatrixXd matrix(3 * count, 3 * count);
+  for (Eigen::Index j = 0; j < 3 * count; ++j) {
+    double& value = field.component[std::size_t(j % 3)][model.particles[std::size_t(j / 3)]];
+    const double at = value;
+    value = at + h;
+    const lattice::VectorField above = lattice::reference_forces(model, state);
+    value = at - h;
+    const lattice::VectorField below = lattice::reference_forces(model, state);
+    value = at;
+    for (Eigen::Index p = 0; p < count; ++p) {
+      const std::size_t i = model.particles[std::size_t(p)];
+      matrix.col(j).segment<3>(3 * p) = (below.at(i) - above.at(i)) / (2.0 * h);
+    }
+  }
+  return matrix;
+}
+
+/// Largest eigenvalue of M⁻¹A, A a tangent's symmetric part [1/s² or 1/s].
+inline double largest_rate(const lattice::LatticeModel& model, const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd scale = lattice::mass_vector(model).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled =
+      scale.asDiagonal() * (0.5 * (matrix + matrix.transpose())) * scale.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
 /// Largest magnitude of a field over the particles.
 inline double largest(const lattice::LatticeModel& model, const lattice::VectorField& field) {
   double result = 0.0;
@@ -66,8 +128,16 @@ inline double largest(const lattice::LatticeModel& model, const lattice::VectorF
 }
 
 inline constexpr std::array all_models{lattice::ModelKind::published, lattice::ModelKind::central,
-                                       lattice::ModelKind::hookean};
+                                       lattice::ModelKind::hookean, lattice::ModelKind::network};
+/// Those on cut cells.
+inline constexpr std::array cell_models{lattice::ModelKind::central, lattice::ModelKind::hookean,
+                                        lattice::ModelKind::network};
 inline constexpr std::array both_kinematics{lattice::Kinematics::small,
                                             lattice::Kinematics::finite};
+
+/// The model's name, its kinematics: what a failure is about.
+inline std::string label(lattice::ModelKind kind, lattice::Kinematics kinematics) {
+  return std::string(name(kind)) + ", " + std::string(name(kinematics));
+}
 
 }  // namespace fixtures

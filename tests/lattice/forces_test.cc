@@ -40,7 +40,7 @@ void for_all_variants(const Check& check) {
   for (const ModelKind kind : all_models) {
     for (const Kinematics kinematics : both_kinematics) {
       const LatticeModel model = block(kind, kinematics, {10, 3, 2});
-      check(model, std::string(name(kind)) + ", " + std::string(name(kinematics)));
+      check(model, fixtures::label(kind, kinematics));
     }
   }
 }
@@ -82,7 +82,8 @@ TEST(Forces, KernelMatchesTheEdgeListForEveryInstructionSet) {
 TEST(Forces, TheTipsKernelMatchesTheEdgeListOnAnyNumberOfThreads) {
   for (const ModelKind kind : all_models) {
     const LatticeModel model = tip(kind, Kinematics::finite, 6);
-    const State state = random_state(model, 0.2, 0.5, 3);
+    // Little enough that no sliver is turned inside out.
+    const State state = random_state(model, 0.1, 0.5, 3);
     const VectorField expected = lattice::reference_forces(model, state);
     const VectorField one = kernel_forces(model, state, 1);
     EXPECT_LT(difference(model, one, expected), 1e-13 * largest(model, expected));
@@ -154,14 +155,16 @@ TEST(Forces, RigidMotionCostsNothingAndIsNotDamped) {
       state.displacement.set(i, u);
       state.velocity.set(i, Vector3(0.1, 0.2, -0.3) + spin.cross(x));
     }
-    const double unit = model.stiffness[0] * model.spacing();
+    const double a = model.spacing(), unit = meshes::Rubber{}.shear_modulus * a * a;
     EXPECT_LT(largest(model, kernel_forces(model, state)), 1e-12 * unit) << label;
-    EXPECT_LT(lattice::elastic_energy(model, state), 1e-24 * unit) << label;
+    // What the network stores is the difference of terms that a rotation does not keep small.
+    const bool cancels = model.kind == ModelKind::network && model.kinematics == Kinematics::finite;
+    EXPECT_LT(lattice::elastic_energy(model, state), (cancels ? 1e-12 * a : 1e-24) * unit) << label;
   });
 }
 
-TEST(Bond, ForcesAreMinusTheGradientWithRespectToParticlesAndRod) {
-  const LatticeModel model = tip(ModelKind::hookean, Kinematics::small, 4);
+TEST(Ligaments, ForcesAreMinusTheGradientWithRespectToParticlesAndRod) {
+  const LatticeModel model = tip(ModelKind::published, Kinematics::small, 4);
   const State state = random_state(model, 0.3, 0.0, 2);
   lattice::RodState rod(lattice::rod_body({}, {}));
   rod.set_velocity({0.1, -0.2, 0.3}, {2.0, -1.0, 3.0});
@@ -193,7 +196,7 @@ TEST(Bond, ForcesAreMinusTheGradientWithRespectToParticlesAndRod) {
   EXPECT_LT(moment.norm(), 1e-13 * wrench.torque.norm());
 }
 
-TEST(Bond, RigidMotionOfRodAndTipIsFreeOfForce) {
+TEST(Ligaments, RigidMotionOfRodAndTipIsFreeOfForce) {
   const LatticeModel model = tip(ModelKind::published, Kinematics::finite, 4);
   lattice::RodState rod(lattice::rod_body({}, {}));
   rod.set_velocity({0.1, -0.2, 0.3}, {2.0, -1.0, 3.0});

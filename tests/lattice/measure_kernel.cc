@@ -1,5 +1,6 @@
 // Prints what a time step of the default tip costs on one thread: nanoseconds of processor time per
-// spring, for every register width the processor has. Not a test: lattice/README.md quotes it.
+// spring or fibre, for every register width the processor has. Not a test: lattice/README.md quotes
+// it.
 #include <cstdio>
 #include <ctime>
 #include <string>
@@ -43,9 +44,8 @@ void measure(lattice::ModelKind kind, lattice::Kinematics kinematics, int per_ra
     print("forces, " + std::to_string(width) + " lanes",
           milliseconds(100, [&] { forces.accumulate(state, force); }), springs);
   }
-  const lattice::PlaneContact far_plane(model, {}, {Vector3(0.0, 0.0, 1.0), -Vector3::UnitZ()},
-                                        meshes::ContactMode::stick);
-  lattice::Finger finger(model, lattice::rod_body({}, {}), far_plane,
+  const lattice::Plane far{Vector3(0.0, 0.0, 1.0), -Vector3::UnitZ()};
+  lattice::Finger finger(model, lattice::rod_body({}, {}), far, meshes::ContactMode::stick,
                          lattice::Integrator::symplectic_euler, 1e-6, 1);
   print("whole step", milliseconds(200, [&] { finger.advance(lattice::Wrench{}); }), springs);
 }
@@ -58,5 +58,6 @@ int main() {
     measure(lattice::ModelKind::central, lattice::Kinematics::small, per_radius);
     measure(lattice::ModelKind::hookean, lattice::Kinematics::small, per_radius);
     measure(lattice::ModelKind::hookean, lattice::Kinematics::finite, per_radius);
+    measure(lattice::ModelKind::network, lattice::Kinematics::finite, per_radius);
   }
 }

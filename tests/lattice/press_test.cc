@@ -23,7 +23,8 @@ namespace {
 PressSetup setup_for(ModelKind kind, int per_radius, DriveMode mode, ContactMode contact) {
   PressSetup setup;
   setup.lattice.model = kind;
-  setup.lattice.kinematics = kind == ModelKind::published ? Kinematics::finite : Kinematics::small;
+  const bool finite = kind == ModelKind::published || kind == ModelKind::network;
+  setup.lattice.kinematics = finite ? Kinematics::finite : Kinematics::small;
   setup.lattice.spacing = 0.01 / per_radius;
   const double a = setup.lattice.spacing;
   setup.lattice.constants = kind == ModelKind::published
@@ -76,15 +77,22 @@ TEST(PidPress, HookeanHoldsSpeedAndOrientationThroughContact) {
   expect_the_papers_task(ModelKind::hookean, ContactMode::frictionless);
 }
 
+TEST(PidPress, NetworkHoldsSpeedAndOrientationThroughContact) {
+  expect_the_papers_task(ModelKind::network, ContactMode::stick);
+}
+
 TEST(QuasiStaticPress, HookeanComesCloseToTheContinuum) {
   // Independent axisymmetric finite elements, frictionless, small strain (default specimen):
-  // indentation [cm], force [gf]. The staircase of R/8 costs up to 5 % (README).
+  // indentation [cm], force [gf]. At R/8 few cells touch at first (README of statics), and at
+  // 1 cm/s the rubber's damping adds up to half a per cent.
   const PressOutcome outcome = lattice::run_press(
       setup_for(ModelKind::hookean, 8, DriveMode::quasi_static, ContactMode::frictionless));
   const double gf = 9.80665e-3;
   for (const auto& [depth, force] :
        {std::pair{0.05e-2, 1.02296}, {0.1e-2, 3.25628}, {0.2e-2, 10.22344}, {0.3e-2, 19.42179}}) {
-    EXPECT_NEAR(outcome.response.normal_force_at(depth) / gf / force, 1.0, 0.05) << depth;
+    EXPECT_NEAR(outcome.response.normal_force_at(depth) / gf / force, 1.0,
+                depth < 0.1e-2 ? 0.04 : 0.015)
+        << depth;
   }
   EXPECT_LT(outcome.momentum_defect, 1e-9);
 }
@@ -109,21 +117,34 @@ TEST(QuasiStaticPress, PlaneAndBondCarryTheSameForce) {
 }
 
 TEST(Press, ResultDoesNotDependOnTheNumberOfThreads) {
-  for (const ModelKind kind : {ModelKind::published, ModelKind::hookean}) {
+  for (const ModelKind kind : {ModelKind::published, ModelKind::hookean, ModelKind::network}) {
     PressSetup setup = setup_for(kind, 6, DriveMode::pid, ContactMode::stick);
     setup.protocol.depth = 1.5e-3;
+    setup.protocol.speed = 2e-2;
     setup.threads = 1;
     const PressOutcome one = lattice::run_press(setup);
-    setup.threads = 3;
-    const PressOutcome three = lattice::run_press(setup);
-    ASSERT_EQ(one.trace.size(), three.trace.size());
+    setup.threads = 2;
+    const PressOutcome two = lattice::run_press(setup);
+    ASSERT_EQ(one.trace.size(), two.trace.size());
     for (std::size_t i = 0; i < one.response.samples().size(); ++i) {
-      EXPECT_EQ(one.response.samples()[i].normal_force, three.response.samples()[i].normal_force);
+      EXPECT_EQ(one.response.samples()[i].normal_force, two.response.samples()[i].normal_force);
     }
     for (std::size_t b = 0; b < one.boundary_deformed.size(); ++b) {
-      EXPECT_EQ(one.boundary_deformed[b], three.boundary_deformed[b]);
+      EXPECT_EQ(one.boundary_deformed[b], two.boundary_deformed[b]);
     }
   }
+}
+
+TEST(Press, ExplicitEulerPressesThePublishedModelLikeSymplecticEuler) {
+  PressSetup setup =
+      setup_for(ModelKind::published, 5, DriveMode::quasi_static, ContactMode::stick);
+  setup.protocol.depth = 2e-3;
+  const PressOutcome symplectic = lattice::run_press(setup);
+  setup.integrator = lattice::Integrator::explicit_euler;
+  const PressOutcome explicit_euler = lattice::run_press(setup);
+  const double force = symplectic.response.normal_force_at(2e-3);
+  EXPECT_GT(force, 0.05);
+  EXPECT_NEAR(explicit_euler.response.normal_force_at(2e-3), force, 0.01 * force);
 }
 
 TEST(Press, SamplesAreAtTheDepthsAskedForAndEvenlyBetween) {
@@ -141,14 +162,17 @@ TEST(Press, SamplesAreAtTheDepthsAskedForAndEvenlyBetween) {
   for (const auto& row : rows) EXPECT_FALSE(std::isnan(row.time));
 }
 
-TEST(Press, ASmallerStepChangesTheForceLittle) {
+TEST(Press, SmallerStepsChangeTheForceLessAndLess) {
   PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::quasi_static, ContactMode::stick);
   const PressOutcome coarse = lattice::run_press(setup);
-  setup.time_step = 0.25 * coarse.step.step;
+  setup.time_step = 0.5 * coarse.step.step;
+  const PressOutcome medium = lattice::run_press(setup);
+  setup.time_step = 0.125 * coarse.step.step;
   const PressOutcome fine = lattice::run_press(setup);
   for (const double depth : {1e-3, 2e-3, 3e-3}) {
-    EXPECT_NEAR(coarse.response.normal_force_at(depth) / fine.response.normal_force_at(depth), 1.0,
-                2e-3);
+    const double force = fine.response.normal_force_at(depth);
+    EXPECT_NEAR(coarse.response.normal_force_at(depth), force, 5e-3 * force) << depth;
+    EXPECT_NEAR(medium.response.normal_force_at(depth), force, 1.5e-3 * force) << depth;
   }
 }
 
@@ -175,11 +199,18 @@ TEST(Press, ARodLighterThanTheRubberIsRefusedUnderTheController) {
   EXPECT_TRUE(setup.violations().empty());
 }
 
-TEST(Press, ExplicitEulerWithoutDampingIsRefused) {
-  PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::pid, ContactMode::stick);
-  setup.rubber.retardation_time = 0.0;
+TEST(Press, ExplicitEulerIsForThePublishedModelAlone) {
+  // The published model's dampers do not depend on the rubber's retardation time.
+  PressSetup setup = setup_for(ModelKind::published, 5, DriveMode::pid, ContactMode::stick);
   setup.integrator = lattice::Integrator::explicit_euler;
-  EXPECT_THROW(lattice::run_press(setup), meshes::InvalidInput);
+  EXPECT_TRUE(setup.violations().empty());
+  for (const ModelKind kind : cell_models) {
+    setup = setup_for(kind, 5, DriveMode::pid, ContactMode::stick);
+    setup.integrator = lattice::Integrator::explicit_euler;
+    ASSERT_EQ(setup.violations().size(), 1u) << name(kind);
+    EXPECT_EQ(setup.violations()[0].key, "run.integrator");
+    EXPECT_THROW(lattice::run_press(setup), meshes::InvalidInput);
+  }
 }
 
 TEST(Press, StopsWhenTheObserverAsksAndKeepsWhatItHas) {

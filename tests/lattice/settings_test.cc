@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fixtures.h"
 #include "lattice/press.h"
 
@@ -9,6 +11,8 @@ using namespace fingertip;
 using meshes::ContactMode;
 
 namespace {
+
+using Keys = std::vector<std::string>;
 
 lattice::PressSetup valid_setup() {
   lattice::PressSetup setup;
@@ -29,17 +33,53 @@ TEST(PressSetup, TheDefaultIsValid) {
 }
 
 TEST(PressSetup, RefusesWhatOnlyTheContinuumCanDo) {
-  using Keys = std::vector<std::string>;
   lattice::PressSetup setup = valid_setup();
   setup.protocol.contact = ContactMode::coulomb;
-  EXPECT_EQ(keys_of(setup.violations()), Keys{"press.contact"});
+  ASSERT_EQ(keys_of(setup.violations()), Keys{"press.contact"});
+  EXPECT_NE(setup.violations()[0].remedy.find("`reference`"), std::string::npos);
+  EXPECT_THROW(lattice::run_press(setup), meshes::InvalidInput);
+}
+
+TEST(PressSetup, OnlyThePublishedModelIsPressedStraightOnAStraightGrid) {
+  lattice::PressSetup setup = valid_setup();
   setup.protocol.tilt = -0.1;
   setup.protocol.lateral = 1e-3;
-  EXPECT_EQ(keys_of(setup.violations()), (Keys{"press.contact", "press.tilt", "press.lateral"}));
-  for (const meshes::Violation& violation : setup.violations()) {
-    EXPECT_NE(violation.remedy.find("`reference`"), std::string::npos) << violation.key;
+  setup.lattice.axes << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+  for (const lattice::ModelKind kind : fixtures::cell_models) {
+    setup.lattice.model = kind;
+    EXPECT_TRUE(setup.violations().empty()) << name(kind);
   }
-  EXPECT_THROW(lattice::run_press(setup), meshes::InvalidInput);
+  setup.lattice.model = lattice::ModelKind::published;
+  EXPECT_EQ(keys_of(setup.violations()), (Keys{"press.tilt", "lattice.rotation"}));
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
+  EXPECT_EQ(keys_of(setup.violations()), Keys{"lattice.rotation"});
+}
+
+TEST(PressSetup, TheGridsAxesAreARotation) {
+  lattice::PressSetup setup = valid_setup();
+  for (const double x : {-1.0, 1.1, std::nan("")}) {
+    setup.lattice.axes(0, 0) = x;
+    EXPECT_EQ(keys_of(setup.violations()), Keys{"lattice.rotation"}) << x;
+  }
+}
+
+TEST(PressSetup, TiesMustNeitherVanishNorHideTheRubber) {
+  for (const double factor : {0.0, 1e-4, 1e7, -1.0, std::nan("")}) {
+    lattice::PressSetup setup = valid_setup();
+    setup.lattice.ligament_stiffness = factor;
+    EXPECT_EQ(keys_of(setup.violations()), Keys{"lattice.ligament_stiffness"}) << factor;
+    setup = valid_setup();
+    setup.lattice.contact_stiffness = factor;
+    EXPECT_EQ(keys_of(setup.violations()), Keys{"lattice.contact_stiffness"}) << factor;
+  }
+  lattice::PressSetup setup = valid_setup();
+  setup.lattice.contact_stiffness = 2.0;
+  EXPECT_TRUE(setup.violations().empty());
+  setup.lattice.model = lattice::ModelKind::published;
+  EXPECT_EQ(keys_of(setup.violations()), Keys{"lattice.contact_stiffness"});
+  setup = valid_setup();
+  setup.geometry.rod_radius = 0.09 * setup.lattice.spacing;
+  EXPECT_EQ(keys_of(setup.violations()), Keys{"lattice.spacing"});
 }
 
 TEST(PressSetup, FrictionMattersToCoulombContactAlone) {

@@ -2,17 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 #include "fixtures.h"
-#include "lattice/forces.h"
-#include "lattice/stiffness.h"
 #include "lattice/time_step.h"
-#include "meshes/errors.h"
 
 using namespace fingertip;
 using namespace fixtures;
@@ -79,36 +74,6 @@ SpectralBounds infinite_published_bounds() {
   return bounds;
 }
 
-/// Largest eigenvalue of M⁻¹K of a free block, by a dense solver.
-double exact_stiffness(const LatticeModel& model) {
-  const Eigen::VectorXd scale = lattice::mass_vector(model).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd k(lattice::small_strain_stiffness(model));
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * k * scale.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
-}
-
-/// Growth of a random free motion over `steps` steps of symplectic Euler.
-double free_growth(const LatticeModel& model, double dt, int steps) {
-  lattice::State state = random_state(model, 1e-3, 0.0, 1);
-  lattice::Team team(1);
-  lattice::InternalForces forces(model, team);
-  lattice::VectorField force(model.points());
-  const double start = largest(model, state.displacement);
-  double peak = 0.0;
-  for (int n = 0; n < steps; ++n) {
-    forces.accumulate(state, force);
-    for (const std::size_t i : model.particles) {
-      state.velocity.add(i, dt * model.inverse_mass[i] * force.at(i));
-      state.displacement.add(i, dt * state.velocity.at(i));
-    }
-    peak = std::max(peak, largest(model, state.displacement));
-    if (!(peak < 1e6 * start)) break;
-  }
-  return peak / start;
-}
-
 }  // namespace
 
 TEST(InfinitePublishedLattice, BoundsAreTheKnownNumbers) {
@@ -132,81 +97,60 @@ TEST(InfinitePublishedLattice, ThePapersFrequencyIsNotConservative) {
   EXPECT_GT(worst_growth(Integrator::explicit_euler, 0.2 * std::sqrt(0.5)), 1.0);
 }
 
-TEST(SpectralBounds, LieAboveTheExactEigenvalue) {
-  for (const ModelKind kind : all_models) {
+TEST(SpectralBounds, LieAboveTheExactEigenvalueOfSprings) {
+  for (const ModelKind kind : {ModelKind::published, ModelKind::central}) {
     const LatticeModel model = block(kind, Kinematics::small, {4, 3, 5});
-    const double exact = exact_stiffness(model);
-    const double bound = lattice::spectral_bounds(model, nullptr).stiffness;
-    const double estimate = lattice::spectral_estimate(model).stiffness;
-    EXPECT_GE(bound, exact * (1.0 - 1e-12)) << name(kind);
-    EXPECT_LT(bound, 2.5 * exact) << name(kind);
-    EXPECT_LE(estimate, exact * (1.0 + 1e-10)) << name(kind);
-    EXPECT_GT(estimate, 0.99 * exact) << name(kind);
+    const lattice::State rest(model);
+    const SpectralBounds bounds = lattice::spectral_bounds(model, nullptr);
+    const double exact = largest_rate(model, tangent(model, rest));
+    EXPECT_GE(bounds.stiffness, exact * (1.0 - 1e-9)) << name(kind);
+    EXPECT_LT(bounds.stiffness, 2.5 * exact) << name(kind);
+    const double exact_damping = largest_rate(model, tangent(model, rest, true));
+    EXPECT_GE(bounds.damping, exact_damping * (1.0 - 1e-9)) << name(kind);
+    EXPECT_LT(bounds.damping, 2.5 * exact_damping) << name(kind);
   }
 }
 
-TEST(SpectralBounds, OfAHookeanCellIncludeItsBreathing) {
+TEST(SpectralEstimate, ConvergesToTheExactEigenvalueFromBelow) {
+  for (const ModelKind kind : all_models) {
+    for (const Kinematics kinematics : both_kinematics) {
+      const LatticeModel model = block(kind, kinematics, {4, 3, 5});
+      const lattice::State rest(model);
+      const SpectralBounds estimate = lattice::spectral_estimate(model);
+      const double exact = largest_rate(model, tangent(model, rest));
+      const double exact_damping = largest_rate(model, tangent(model, rest, true));
+      EXPECT_LE(estimate.stiffness, exact * (1.0 + 1e-6)) << label(kind, kinematics);
+      EXPECT_GT(estimate.stiffness, 0.99 * exact) << label(kind, kinematics);
+      EXPECT_LE(estimate.damping, exact_damping * (1.0 + 1e-6)) << label(kind, kinematics);
+      EXPECT_GT(estimate.damping, 0.99 * exact_damping) << label(kind, kinematics);
+    }
+  }
+}
+
+TEST(SpectralEstimate, SeesAStatesOwnStiffnessAndDamping) {
+  const LatticeModel model = block(ModelKind::network, Kinematics::finite, {4, 3, 3});
+  lattice::State state = random_state(model, 0.05, 0.0, 4);
+  Eigen::Matrix3d H = Eigen::Vector3d(0.1, 0.2, -0.45).asDiagonal();
+  H(0, 2) = 0.3;
+  for (const std::size_t i : model.particles) {
+    state.displacement.add(i, H * model.rest_position(i));
+  }
+  const SpectralBounds estimate = lattice::spectral_estimate(model, state, 30);
+  const double exact = largest_rate(model, tangent(model, state));
+  const double exact_damping = largest_rate(model, tangent(model, state, true));
+  EXPECT_GT(exact, 1.5 * largest_rate(model, tangent(model, lattice::State(model))));
+  EXPECT_LE(estimate.stiffness, exact * (1.0 + 1e-5));
+  EXPECT_GT(estimate.stiffness, 0.97 * exact);
+  EXPECT_LE(estimate.damping, exact_damping * (1.0 + 1e-5));
+  EXPECT_GT(estimate.damping, 0.97 * exact_damping);
+}
+
+TEST(SpectralEstimate, OfAHookeanCellIsItsBreathing) {
   const meshes::Rubber rubber;
   const double a = 1e-3;
   const LatticeModel model = lattice::build_block(ModelKind::hookean, Kinematics::small,
                                                   lattice::hookean_constants(rubber, a), a,
                                                   {1, 1, 1}, rubber.density, 0.0);
-  EXPECT_NEAR(exact_stiffness(model), 12.0 * rubber.bulk_modulus() / (rubber.density * a * a),
-              1e-6 * exact_stiffness(model));
-}
-
-TEST(StableStep, SeparatesBoundedFromGrowingMotionWithoutDamping) {
-  const LatticeModel model = block(ModelKind::hookean, Kinematics::small, {4, 4, 4}, 0.0);
-  const double limit = 2.0 / std::sqrt(exact_stiffness(model));
-  EXPECT_NEAR(lattice::largest_stable_step({exact_stiffness(model), 0.0, 0.0, 0.0},
-                                           Integrator::symplectic_euler),
-              limit, 1e-12 * limit);
-  EXPECT_LT(free_growth(model, 0.99 * limit, 5000), 100.0);
-  EXPECT_GT(free_growth(model, 1.005 * limit, 5000), 1e5);
-}
-
-TEST(StableStep, SeparatesBoundedFromGrowingMotionWithDamping) {
-  const double tau = 3e-4;
-  const LatticeModel model = block(ModelKind::hookean, Kinematics::small, {4, 4, 4}, tau);
-  const double lambda = exact_stiffness(model);
-  const double limit =
-      lattice::largest_stable_step({lambda, tau * lambda, tau, tau}, Integrator::symplectic_euler);
-  EXPECT_LT(free_growth(model, 0.99 * limit, 3000), 10.0);
-  EXPECT_GT(free_growth(model, 1.01 * limit, 3000), 1e5);
-}
-
-TEST(StableStep, ExplicitEulerIsLimitedByTheRetardationTime) {
-  // One underdamped oscillator: growth of |z| for z² + z (dt c - 2) + 1 - dt c + dt² lambda.
-  const double lambda = 1e4, tau = 1e-3;
-  const SpectralBounds bounds{lambda, tau * lambda, tau, tau};
-  EXPECT_DOUBLE_EQ(lattice::largest_stable_step(bounds, Integrator::explicit_euler), tau);
-  const auto modulus = [&](double dt) {
-    const double b = dt * tau * lambda - 2.0, c = 1.0 - dt * tau * lambda + dt * dt * lambda;
-    const std::complex<double> root = std::sqrt(std::complex<double>(b * b - 4.0 * c, 0.0));
-    return std::max(std::abs((-b + root) / 2.0), std::abs((-b - root) / 2.0));
-  };
-  EXPECT_LT(modulus(0.99 * tau), 1.0);
-  EXPECT_GT(modulus(1.01 * tau), 1.0);
-  EXPECT_EQ(lattice::largest_stable_step({lambda, 0.0, 0.0, 0.0}, Integrator::explicit_euler), 0.0);
-}
-
-TEST(ChooseStep, RefusesAnUnstableStepWithTheReason) {
-  const LatticeModel model = tip(ModelKind::hookean, Kinematics::small, 5);
-  const auto rod = lattice::rod_body({}, {});
-  const auto report =
-      lattice::choose_step(model, &rod, Integrator::symplectic_euler, std::nullopt, 1e-3);
-  EXPECT_LT(report.step, report.spectral_bound);
-  EXPECT_NEAR(1e-3 / report.step, std::round(1e-3 / report.step), 1e-9);
-  EXPECT_NEAR(report.paper_bound * report.omega0, 1.0, 1e-12);
-  EXPECT_NE(report.explanation.find("rules"), std::string::npos);
-  try {
-    lattice::choose_step(model, &rod, Integrator::symplectic_euler, 1.01 * report.spectral_bound,
-                         1e-3);
-    FAIL() << "an unstable step was accepted";
-  } catch (const meshes::InvalidInput& refusal) {
-    EXPECT_EQ(refusal.violations().at(0).key, "run.time_step");
-    EXPECT_FALSE(refusal.violations().at(0).remedy.empty());
-  }
-  EXPECT_THROW(lattice::choose_step(model, &rod, Integrator::symplectic_euler, -1.0, 1e-3),
-               meshes::InvalidInput);
+  const double breathing = 12.0 * rubber.bulk_modulus() / (rubber.density * a * a);
+  EXPECT_NEAR(lattice::spectral_estimate(model).stiffness, breathing, 1e-6 * breathing);
 }

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "body_sums.h"
+#include "lattice/cut_model.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/surface_points.h"
 
@@ -314,7 +315,7 @@ TEST(CutLattice, PublishedBodyHasEverySpringOfThePaper) {
   const Rubber rubber;
   LatticeSettings settings = settings_for(ModelKind::published, Kinematics::finite, 0.01 / 7);
   settings.constants = lattice::published_constants(rubber, settings.spacing);
-  const auto model = lattice::build_tip(geometry, rubber, settings);
+  const auto model = lattice::build_published_tip(geometry, rubber, settings);
   const LatticeBody body = lattice::body_of(model, geometry, rubber);
   // All pairs of the paper's points that are neighbours, joined by E a²/l0.
   const double a = settings.spacing;
@@ -354,7 +355,7 @@ TEST(CutLattice, PublishedBodyHasEverySpringOfThePaper) {
   EXPECT_TRUE(body.finite && body.fibres.empty() && body.cells.empty());
   const double mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
   EXPECT_NEAR(mass / (rubber.density * geometry.tip_volume()), 1.0, 1e-12);
-  EXPECT_THROW(lattice::body_of(lattice::build_tip(
+  EXPECT_THROW(lattice::body_of(lattice::build_cut_model(
                                     geometry, rubber,
                                     settings_for(ModelKind::hookean, Kinematics::small, 0.01 / 6)),
                                 geometry, rubber),
