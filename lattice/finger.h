@@ -50,8 +50,8 @@ class Finger {
   RodState& rod() { return rod_; }
   int touching() const { return surfaces_->touching(); }  ///< points on the plane
   double contact_radius() const { return surfaces_->contact_radius(state_); }  ///< [m]
-  /// Whether the plane holds a boundary particle (position in model().boundary).
-  bool holds(std::size_t boundary_number) const { return surfaces_->holds(boundary_number); }
+  /// Per boundary particle of the model: 1 where the plane holds it.
+  std::vector<std::uint8_t> held() const { return surfaces_->held(); }
   /// Of the cells at the start of the last step.
   const CellExtremes& extremes() const { return extremes_; }
 

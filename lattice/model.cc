@@ -214,7 +214,10 @@ LatticeModel build_model(const GridCells& cells, ModelKind kind, const Recipe& r
       model.damping[f] = model.retardation_time * model.stiffness[f];
     }
   }
-  if (recipe.cell_law) model.cell_lattice = lay_out(model.grid, cells.cells(), recipe.material);
+  // Springs at finite strain do not notice when a cell turns inside out; its cells tell.
+  if (recipe.cell_law || recipe.finite) {
+    model.cell_lattice = lay_out(model.grid, cells.cells(), recipe.material);
+  }
   finish(model);
   return model;
 }

@@ -17,6 +17,12 @@ meshes::Vector3 ParticleSurfaces::settle(State& state, const VectorField& force,
   return contact_.resolve(state, force, step);
 }
 
+std::vector<std::uint8_t> ParticleSurfaces::held() const {
+  std::vector<std::uint8_t> result;
+  for (std::size_t b = 0; b < model_->boundary.size(); ++b) result.push_back(contact_.holds(b));
+  return result;
+}
+
 double ParticleSurfaces::energy(const State& state, const RodState& rod) const {
   return ligament_energy(*model_, state, rod.pose());
 }

@@ -16,7 +16,7 @@ class ParticleSurfaces : public Surfaces {
   double energy(const State& state, const RodState& rod) const override;
   int touching() const override { return contact_.anchored(); }
   double contact_radius(const State&) const override { return contact_.radius(); }
-  bool holds(std::size_t boundary_number) const override { return contact_.holds(boundary_number); }
+  std::vector<std::uint8_t> held() const override;
 
  private:
   const LatticeModel* model_;

@@ -31,6 +31,7 @@ LatticeCensus take_census(const PressSetup& setup, const LatticeModel& model) {
   census.expected_particles =
       meshes::expected_particle_count(setup.geometry, setup.lattice.spacing);
   census.mass = model.total_mass();
+  census.added_mass = model.added_mass;
   census.exact_mass = setup.rubber.density * setup.geometry.tip_volume();
   return census;
 }

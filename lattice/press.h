@@ -26,9 +26,9 @@ struct TraceRow {
   double torque = 0.0;           ///< magnitude of the bond torque about the endpoint [N m]
   double command_force = 0.0;    ///< controller's force along the approach direction [N]
   double plane_force = 0.0;      ///< reaction of the plane along its normal [N]
-  int anchored = 0;              ///< boundary particles on the plane
-  double kinetic_energy = 0.0;   ///< of the particles [J]
-  double elastic_energy = 0.0;   ///< of springs, cells and ligaments [J]
+  int anchored = 0;             ///< boundary particles, or points of the true surface, on the plane
+  double kinetic_energy = 0.0;  ///< of the particles [J]
+  double elastic_energy = 0.0;  ///< of springs, cells, bond and contact [J]
 };
 
 /// How the time step was chosen; `explanation` says which bound rules.
@@ -49,6 +49,7 @@ struct LatticeCensus {
   double expected_particles = 0.0;  ///< V/a³
   double mass = 0.0;                ///< sum of the particles' masses [kg]
   double exact_mass = 0.0;          ///< rho V [kg]
+  double added_mass = 0.0;          ///< what light particles at cut cells were given [kg]
 };
 
 struct PressOutcome {

@@ -130,12 +130,11 @@ void PressRecorder::update(double wall_time) {
                                   ? finger_->momentum_defect() / finger_->largest_impulse()
                                   : 0.0;
   outcome_->boundary_deformed.resize(model.boundary.size());
-  outcome_->boundary_anchored.resize(model.boundary.size());
+  outcome_->boundary_anchored = finger_->held();
   for (std::size_t b = 0; b < model.boundary.size(); ++b) {
     outcome_->boundary_deformed[b] =
         outcome_->boundary_rest[b] +
         model.grid.axes * finger_->state().displacement.at(model.boundary[b]);
-    outcome_->boundary_anchored[b] = finger_->holds(b);
   }
 }
 

@@ -51,16 +51,16 @@ void add_model(std::vector<Violation>& found, const PressSetup& setup) {
 /// Ties to rod and plane. Within these factors forces are those of nearly rigid or of soft ties;
 /// far beyond, round-off of the ties hides what the rubber does.
 void add_ties(std::vector<Violation>& found, const PressSetup& setup) {
-  constexpr double least = 1e-3, most = 1e6;
+  constexpr double least = 1e-3, most = 1e3;
   const LatticeSettings& l = setup.lattice;
   const auto within = [](double value) { return value >= least && value <= most; };
   if (!within(l.ligament_stiffness))
     found.push_back({"lattice.ligament_stiffness", meshes::to_text(l.ligament_stiffness),
-                     "the factor on the bond must lie between 0.001 and 1e6",
+                     "the factor on the bond must lie between 0.001 and 1000",
                      "1 is the standard bond"});
   if (!within(l.contact_stiffness))
     found.push_back({"lattice.contact_stiffness", meshes::to_text(l.contact_stiffness),
-                     "the factor on the ties to the plane must lie between 0.001 and 1e6",
+                     "the factor on the ties to the plane must lie between 0.001 and 1000",
                      "1 is the standard tie"});
   if (l.contact_stiffness != 1.0 && l.model == ModelKind::published)
     found.push_back({"lattice.contact_stiffness", meshes::to_text(l.contact_stiffness),
@@ -89,15 +89,18 @@ void add_lattice(std::vector<Violation>& found, const PressSetup& setup) {
   }
   add_model(found, setup);
   const SpringConstants& k = l.constants;
+  const double needed = l.model == ModelKind::published ? k.k1 + k.k2 + k.k3 : k.k2 + k.k3;
   const bool springs = not_negative(k.k1) && not_negative(k.k2) && not_negative(k.k3) &&
-                       k.k1 + k.k2 + k.k3 > 0.0 && std::isfinite(k.kappa);
+                       needed > 0.0 && std::isfinite(k.kappa);
   // The network takes G and lambda from the rubber.
   if (l.model != ModelKind::network && !springs) {
-    found.push_back({"lattice.constants",
-                     "k1 " + meshes::to_text(k.k1) + ", k2 " + meshes::to_text(k.k2) + ", k3 " +
-                         meshes::to_text(k.k3) + " N/m",
-                     "spring constants must be finite, not negative and not all zero",
-                     "use the model's closed form or a calibration"});
+    found.push_back(
+        {"lattice.constants",
+         "k1 " + meshes::to_text(k.k1) + ", k2 " + meshes::to_text(k.k2) + ", k3 " +
+             meshes::to_text(k.k3) + " N/m",
+         "spring constants must be finite and not negative, and some diagonal must resist "
+         "shear",
+         "use the model's closed form or a calibration"});
   }
   add_ties(found, setup);
 }
@@ -155,12 +158,15 @@ std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
   if (protocol.mode == meshes::DriveMode::equilibrium) return found;
   const LatticeSettings& lattice = setup.lattice;
   if (lattice.model == ModelKind::published) {
-    if (protocol.tilt != 0.0 || protocol.lateral != 0.0)
+    const auto straight = [&found](const char* key, double value, const char* unit) {
+      if (value == 0.0) return;
       found.push_back(
-          {"press.tilt", meshes::to_text(protocol.tilt) + " rad",
+          {key, meshes::to_text(value) + unit,
            "the published lattice, moving, is pressed straight along the plane's normal",
-           "leave press.tilt and press.lateral at 0, or take another model or "
-           "press.mode = static"});
+           "leave it at 0, or take another model or press.mode = static"});
+    };
+    straight("press.tilt", protocol.tilt, " rad");
+    straight("press.lateral", protocol.lateral, " m");
   } else if (setup.integrator == Integrator::explicit_euler) {
     found.push_back({"run.integrator", std::string(name(setup.integrator)),
                      "explicit Euler adds energy to undamped motion, and the ties of true surfaces "

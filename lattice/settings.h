@@ -66,7 +66,7 @@ struct PressSetup {
   std::vector<meshes::Violation> violations() const;
 };
 
-/// What of a valid order the lattice cannot do: a touching point sticks for good or slides freely,
+/// What of a valid order the lattice cannot do: a touching point sticks or slides freely,
 /// the published model, moving, is pressed straight, and the others need the symplectic integrator.
 std::vector<meshes::Violation> beyond_the_lattice(const PressSetup& setup);
 

@@ -1,7 +1,9 @@
 /// What holds the tip: its bond to the rod and its contact with the plane.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "lattice/model.h"
 #include "lattice/parallel.h"
@@ -34,8 +36,8 @@ class Surfaces {
   /// How many points touch the plane.
   virtual int touching() const = 0;
   virtual double contact_radius(const State& state) const = 0;  ///< [m], 0 without contact
-  /// Whether the plane holds a boundary particle (position in model.boundary).
-  virtual bool holds(std::size_t boundary_number) const = 0;
+  /// Per boundary particle of the model: 1 where the plane holds it.
+  virtual std::vector<std::uint8_t> held() const = 0;
 };
 
 /// Ligaments and anchored particles for the published model, tied surfaces for the others. Model

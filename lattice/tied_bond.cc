@@ -1,5 +1,7 @@
 #include "lattice/tied_bond.h"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -60,7 +62,24 @@ TiedBond::Row TiedBond::pull(std::size_t particle, const std::vector<Row>& slips
   return sum;
 }
 
-Wrench TiedBond::add(const State& state, const RodState& rod, double step, VectorField& force) {
+/// Replaces what a particle took without regard to its contact.
+void TiedBond::share(SharedLoad& load, double step, VectorField& force) {
+  const std::uint32_t i = load.particle;
+  const std::size_t p =
+      std::size_t(std::lower_bound(points_.begin(), points_.end(), i) - points_.begin());
+  const Vector3 others = force.at(i) + Vector3(pulls_[p].head<3>());
+  const Vector3 total = others - Vector3(pull(p, slips_).head<3>());
+  const double mass = model_->mass[i], square = step * step;
+  const Eigen::Matrix3d inertia =
+      (mass + square * sum_[p]) * Eigen::Matrix3d::Identity() + square * load.stiffness;
+  const Vector3 acceleration = inertia.inverse() * total;
+  load.held_back = -square * (load.stiffness * acceleration);
+  force.set(i, mass * acceleration);
+  pulls_[p].head<3>() = others + load.held_back - mass * acceleration;
+}
+
+Wrench TiedBond::add(const State& state, const RodState& rod, double step, VectorField& force,
+                     std::vector<SharedLoad>* shared) {
   find_slips(state, rod, step, slips_);
   team_->split(points_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
@@ -73,6 +92,9 @@ Wrench TiedBond::add(const State& state, const RodState& rod, double step, Vecto
       pulls_[p].head<3>() = others - taken;
     }
   });
+  if (shared != nullptr) {
+    for (SharedLoad& load : *shared) share(load, step, force);
+  }
   const Eigen::Matrix3d& axes = model_->grid.axes;
   const Vector3 endpoint = rod.endpoint();
   Wrench on_rod;

@@ -12,6 +12,14 @@
 
 namespace fingertip::lattice {
 
+/// A particle of the bond that touches the plane as well.
+struct SharedLoad {
+  std::uint32_t particle = 0;  ///< grid index
+  Eigen::Matrix3d stiffness =
+      Eigen::Matrix3d::Zero();  ///< of the contact, along the grid's axes [N/m]
+  meshes::Vector3 held_back = meshes::Vector3::Zero();  ///< what the contact's inertia takes [N]
+};
+
 /// The ties of model.bond, energy Σ ½ k |x - T(X)|² over the points X of the rod's surface, T the
 /// rod's pose. Trilinear weights reproduce linear fields, so a tie's stretch is the weighted sum of
 /// the slips s_i = x_i - T(X_i) of its corners, and all ties together are one matrix of scalars:
@@ -30,8 +38,10 @@ class TiedBond {
   TiedBond(const LatticeModel& model, Team& team);
 
   /// Adds the bond to `force`, which holds all other forces on the particles; returns its wrench on
-  /// the rod about the rod's endpoint.
-  Wrench add(const State& state, const RodState& rod, double step, VectorField& force);
+  /// the rod about the rod's endpoint. Particles in `shared` are heavier by both inertias; what the
+  /// contact's takes is noted there.
+  Wrench add(const State& state, const RodState& rod, double step, VectorField& force,
+             std::vector<SharedLoad>* shared = nullptr);
   double energy(const State& state, const RodState& rod) const;  ///< [J]
 
  private:
@@ -45,6 +55,7 @@ class TiedBond {
   void find_slips(const State& state, const RodState& rod, double ahead,
                   std::vector<Row>& slips) const;
   Row pull(std::size_t particle, const std::vector<Row>& slips) const;  ///< Σ_j K_ij s_j [N]
+  void share(SharedLoad& load, double step, VectorField& force);
 
   const LatticeModel* model_;
   Team* team_;

@@ -12,7 +12,7 @@ using meshes::Vector3;
 
 namespace {
 
-constexpr std::size_t turns = 16;  // steps until every point has been looked at
+constexpr double most_turns = 16.0;  // steps until every point has been looked at
 
 }  // namespace
 
@@ -38,9 +38,16 @@ TiedContact::TiedContact(const LatticeModel& model, const Plane& plane, meshes::
     points_.push_back(point);
   }
   loads_.resize(particles_.size());
+  bonded_.resize(particles_.size(), 0);
   loaded_.reserve(particles_.size());
   near_.reserve(points_.size());
-  for (std::size_t turn = 0; turn < turns; ++turn) look_around(State(model), 0.0);
+  for (const TiedPoint& tie : model.bond) {
+    for (const std::uint32_t corner : tie.corners) {
+      const auto found = number.find(corner);
+      if (found != number.end()) bonded_[found->second] = 1;
+    }
+  }
+  look_around(State(model), 0.0, points_.size());
 }
 
 Vector3 TiedContact::shift_of(std::size_t point, const State& state, double ahead) const {
@@ -54,9 +61,8 @@ Vector3 TiedContact::shift_of(std::size_t point, const State& state, double ahea
 }
 
 /// Points that have come near are looked at in every step from now on.
-void TiedContact::look_around(const State& state, double ahead) {
-  const std::size_t portion = points_.size() / turns + 1;
-  for (std::size_t n = 0; n < portion; ++n, ++next_look_) {
+void TiedContact::look_around(const State& state, double ahead, std::size_t looks) {
+  for (std::size_t n = 0; n < looks; ++n, ++next_look_) {
     if (next_look_ >= points_.size()) next_look_ = 0;
     Point& point = points_[next_look_];
     if (point.near) continue;
@@ -116,18 +122,21 @@ void TiedContact::load(std::size_t number, const Vector3& pull) {
 }
 
 /// Passes the loads on to the particles; returns what the plane gives them altogether.
-Vector3 TiedContact::unload(double step, VectorField& force) {
+Vector3 TiedContact::unload(double step, VectorField& force, std::vector<SharedLoad>* shared) {
+  const Eigen::Matrix3d shape = stick_ ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                       : Eigen::Matrix3d(normal_ * normal_.transpose());
   Vector3 sum = Vector3::Zero();
   for (const std::uint32_t particle : loaded_) {
     const std::uint32_t i = particles_[particle];
-    const double mass = model_->mass[i];
-    const double share = mass / (mass + step * step * loads_[particle].stiffness);
+    const Load& load = loads_[particle];
     const Vector3 others = force.at(i);
-    Vector3 taken = others + loads_[particle].force;
-    if (stick_) {
-      taken *= share;
+    Vector3 taken = others + load.force;
+    if (shared != nullptr && bonded_[particle] != 0) {
+      shared->push_back({i, load.stiffness * shape, Vector3::Zero()});
     } else {
-      taken -= (1.0 - share) * normal_.dot(taken) * normal_;
+      const double mass = model_->mass[i];
+      const double share = mass / (mass + step * step * load.stiffness);
+      taken -= (1.0 - share) * (shape * taken);
     }
     force.set(i, taken);
     sum += taken - others;
@@ -137,8 +146,20 @@ Vector3 TiedContact::unload(double step, VectorField& force) {
   return model_->grid.axes * sum;
 }
 
-Vector3 TiedContact::add(const State& state, double step, VectorField& force) {
-  look_around(state, step);
+/// So many that every point has its turn before the fastest particle has come half the margin
+/// nearer.
+std::size_t TiedContact::looks_per_step(const State& state, double step) const {
+  double closing = 0.0;
+  for (const std::uint32_t i : particles_) {
+    closing = std::max(closing, -normal_.dot(state.velocity.at(i)));
+  }
+  const double turns = std::clamp(0.5 * margin_ / (closing * step), 1.0, most_turns);
+  return std::size_t(double(points_.size()) / std::floor(turns)) + 1;
+}
+
+Vector3 TiedContact::add(const State& state, double step, VectorField& force,
+                         std::vector<SharedLoad>* shared) {
+  look_around(state, step, looks_per_step(state, step));
   touching_ = 0;
   energy_ = 0.0;
   for (const std::uint32_t number : near_) {
@@ -156,7 +177,7 @@ Vector3 TiedContact::add(const State& state, double step, VectorField& force) {
     point.near = point.anchored || point.gap < 2.0 * margin_;
     return !point.near;
   });
-  return unload(step, force);
+  return unload(step, force, shared);
 }
 
 double TiedContact::radius(const State& state) const {
@@ -175,12 +196,14 @@ double TiedContact::radius(const State& state) const {
   return contact_patch(std::move(loaded), 1, model_->spacing()).radius;
 }
 
-bool TiedContact::holds(std::size_t particle) const {
-  return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t number) {
-    const auto& corners = model_->outer[number].corners;
-    return points_[number].push > 0.0 &&
-           std::find(corners.begin(), corners.end(), particle) != corners.end();
-  });
+std::vector<std::uint8_t> TiedContact::held() const {
+  std::vector<std::uint8_t> touched(model_->points(), 0), result;
+  for (const std::uint32_t number : near_) {
+    if (!(points_[number].push > 0.0)) continue;
+    for (const std::uint32_t corner : model_->outer[number].corners) touched[corner] = 1;
+  }
+  for (const std::uint32_t particle : model_->boundary) result.push_back(touched[particle]);
+  return result;
 }
 
 }  // namespace fingertip::lattice

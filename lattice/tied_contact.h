@@ -7,6 +7,7 @@
 #include "lattice/model.h"
 #include "lattice/plane.h"
 #include "lattice/state.h"
+#include "lattice/tied_bond.h"
 #include "meshes/press_protocol.h"
 
 namespace fingertip::lattice {
@@ -22,22 +23,26 @@ namespace fingertip::lattice {
 /// alone; the plane receives what they do not. (With the gap at the step's start instead, undamped
 /// rubber bounces on its ties from step to step until cells turn inside out.)
 ///
-/// Only points near the plane are looked at in every step, the others in turn, a part per step.
+/// Only points near the plane are looked at in every step, the others in turn, so many per step
+/// that none comes nearer unseen by more than half of what counts as near (a/2).
 class TiedContact {
  public:
   /// Model must outlive it; the points must be clear of the plane.
   TiedContact(const LatticeModel& model, const Plane& plane, meshes::ContactMode mode);
 
   /// Adds the plane's forces to `force`, which holds the internal ones; returns their sum, the
-  /// plane's on the tip [N]. `step` [s] may be 0: the ties as they are.
-  meshes::Vector3 add(const State& state, double step, VectorField& force);
+  /// plane's on the tip [N]. `step` [s] may be 0: the ties as they are. Particles of the bond that
+  /// touch as well are appended to `shared` (unless null): they get the plain forces, and the bond
+  /// takes both inertias into account at once.
+  meshes::Vector3 add(const State& state, double step, VectorField& force,
+                      std::vector<SharedLoad>* shared = nullptr);
 
   double energy() const { return energy_; }  ///< of the ties at the last add() [J]
   int touching() const { return touching_; }
   /// Of the patch that the forces of the last add() act on (contact_patch) [m].
   double radius(const State& state) const;
-  /// Whether a tie that acts hangs on the particle (grid index).
-  bool holds(std::size_t particle) const;
+  /// Per boundary particle of the model: 1 where a tie that acts hangs on it.
+  std::vector<std::uint8_t> held() const;
 
  private:
   struct Point {
@@ -58,11 +63,12 @@ class TiedContact {
 
   /// Displacement of a point after `ahead` seconds at the present velocities.
   meshes::Vector3 shift_of(std::size_t point, const State& state, double ahead) const;
-  void look_around(const State& state, double ahead);
+  void look_around(const State& state, double ahead, std::size_t looks);
   void look_at(std::size_t point, const State& state, double ahead);
   meshes::Vector3 pull(std::size_t point) const;
   void load(std::size_t point, const meshes::Vector3& pull);
-  meshes::Vector3 unload(double step, VectorField& force);
+  meshes::Vector3 unload(double step, VectorField& force, std::vector<SharedLoad>* shared);
+  std::size_t looks_per_step(const State& state, double step) const;
 
   const LatticeModel* model_;
   Plane plane_;
@@ -73,6 +79,7 @@ class TiedContact {
   std::vector<std::uint32_t> near_;  ///< points that are near, in the order they came
   std::size_t next_look_ = 0;
   std::vector<std::uint32_t> particles_;  ///< grid index per contact particle
+  std::vector<std::uint8_t> bonded_;      ///< per contact particle: 1 where the bond holds it, too
   std::vector<Load> loads_;               ///< per contact particle, zero between calls
   std::vector<std::uint32_t> loaded_;     ///< contact particles with a load
   int touching_ = 0;

@@ -6,20 +6,21 @@ namespace fingertip::lattice {
 
 TiedSurfaces::TiedSurfaces(const LatticeModel& model, const Plane& plane, meshes::ContactMode mode,
                            Team& team)
-    : model_(&model), bond_(model, team), contact_(model, plane, mode) {}
+    : model_(&model), bond_(model, team), contact_(model, plane, mode) {
+  shared_.reserve(model.boundary.size());
+}
 
 Wrench TiedSurfaces::hold(const State& state, const RodState& rod, double step,
                           VectorField& force) {
-  plane_force_ = contact_.add(state, step, force);
-  return bond_.add(state, rod, step, force);
+  shared_.clear();
+  plane_force_ = contact_.add(state, step, force, &shared_);
+  const Wrench on_rod = bond_.add(state, rod, step, force, &shared_);
+  for (const SharedLoad& load : shared_) plane_force_ += model_->grid.axes * load.held_back;
+  return on_rod;
 }
 
 double TiedSurfaces::energy(const State& state, const RodState& rod) const {
   return bond_.energy(state, rod) + contact_.energy();
-}
-
-bool TiedSurfaces::holds(std::size_t boundary_number) const {
-  return contact_.holds(model_->boundary[boundary_number]);
 }
 
 std::unique_ptr<Surfaces> make_surfaces(const LatticeModel& model, const Plane& plane,

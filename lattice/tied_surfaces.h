@@ -19,12 +19,13 @@ class TiedSurfaces : public Surfaces {
   double energy(const State& state, const RodState& rod) const override;
   int touching() const override { return contact_.touching(); }
   double contact_radius(const State& state) const override { return contact_.radius(state); }
-  bool holds(std::size_t boundary_number) const override;
+  std::vector<std::uint8_t> held() const override { return contact_.held(); }
 
  private:
   const LatticeModel* model_;
   TiedBond bond_;
   TiedContact contact_;
+  std::vector<SharedLoad> shared_;                         ///< particles on both surfaces
   meshes::Vector3 plane_force_ = meshes::Vector3::Zero();  ///< on the tip [N]
 };
 

@@ -146,7 +146,7 @@ StepReport StepController::report(double step) const {
        << " of the spectral bound " << report.spectral_bound * 1e6
        << " us = " << step * report.omega0 << "/omega0 with the paper's omega0 = " << report.omega0
        << " rad/s, whose bound 1/omega0 = " << report.paper_bound * 1e6
-       << " us does not see the 26 springs of a particle; " << why_;
+       << " us sees a single spring of those around a particle; " << why_;
   report.explanation = text.str();
   return report;
 }

@@ -72,7 +72,7 @@ Recipe spring_recipe(ModelKind kind, Kinematics kinematics, const SpringConstant
   recipe.central_springs = true;
   recipe.cell_law = kind == ModelKind::hookean && constants.kappa != 0.0;
   if (!recipe.cell_law) recipe.constants.kappa = 0.0;
-  recipe.material = volume_material(constants.kappa, recipe.finite);
+  recipe.material = volume_material(recipe.constants.kappa, recipe.finite);
   recipe.material.retardation_time = retardation_time;
   return recipe;
 }

@@ -37,6 +37,7 @@ ordered_json census_of(const lattice::LatticeCensus& census) {
           {"boundary_particles", census.boundary_particles},
           {"ligaments", census.ligaments},
           {"mass", census.mass},
+          {"added_mass", census.added_mass},
           {"exact_mass", census.exact_mass}};
 }
 
@@ -136,12 +137,12 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
       {"protocol", to_json(setup.protocol)},
       {"lattice", to_json(setup.lattice)},
       {"integrator", lattice::name(setup.integrator)},
-      {"time_step", setup.time_step ? ordered_json(*setup.time_step) : ordered_json()}};
+      {"time_step", setup.time_step ? ordered_json(*setup.time_step) : ordered_json()},
+      {"period", setup.controller.period}};  // steps divide it, whatever moves the rod
   if (setup.protocol.mode == meshes::DriveMode::pid) {
     const lattice::PidSettings& pid = setup.controller;
     inputs["rod_density"] = setup.rod.density;
-    inputs["controller"] = {{"period", pid.period},
-                            {"natural_frequency", pid.natural_frequency},
+    inputs["controller"] = {{"natural_frequency", pid.natural_frequency},
                             {"derivative_filter", pid.derivative_filter},
                             {"bond_compensation", pid.bond_compensation},
                             {"force_limit", pid.force_limit},

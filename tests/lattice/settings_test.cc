@@ -50,7 +50,7 @@ TEST(PressSetup, OnlyThePublishedModelIsPressedStraightOnAStraightGrid) {
     EXPECT_TRUE(setup.violations().empty()) << name(kind);
   }
   setup.lattice.model = lattice::ModelKind::published;
-  EXPECT_EQ(keys_of(setup.violations()), (Keys{"press.tilt", "lattice.rotation"}));
+  EXPECT_EQ(keys_of(setup.violations()), (Keys{"press.tilt", "press.lateral", "lattice.rotation"}));
   setup.protocol.mode = meshes::DriveMode::equilibrium;
   EXPECT_EQ(keys_of(setup.violations()), Keys{"lattice.rotation"});
 }

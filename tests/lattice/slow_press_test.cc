@@ -77,6 +77,19 @@ void expect_finite(const PressOutcome& outcome) {
 }  // namespace
 
 /// Damping adds tau times the force's rate, 3/2 tau speed/depth of it: 0.2 % at 0.1 cm.
+TEST(SlowPress, ParticlesOnBothSurfacesDoNotDependOnTheStep) {
+  // Two cells through the rubber: below the contact many particles hang on bond and plane.
+  PressSetup setup = setup_for(ModelKind::hookean, 10, ContactMode::frictionless);
+  setup.geometry.rod_radius = 0.008;
+  setup.lattice.axes =
+      Eigen::AngleAxisd(0.4, Vector3(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+  setup.rubber.retardation_time = 0.0;
+  setup.protocol.depth = 0.9e-3;
+  setup.protocol.samples = {0.5e-3, 0.6e-3, 0.7e-3, 0.9e-3};
+  setup.protocol.speed = 0.005;
+  expect_the_static_press(setup, 0.4e-3, 1.5e-3);
+}
+
 TEST(SlowPress, HookeanWithoutFrictionPassesThroughEquilibria) {
   PressSetup setup = setup_for(ModelKind::hookean, 6, ContactMode::frictionless);
   setup.protocol.speed = 5e-3;

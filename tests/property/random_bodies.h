@@ -70,7 +70,8 @@ inline LatticeBody tip_of(const Geometry& geometry, const Rubber& rubber,
                           const LatticeSettings& settings) {
   if (settings.model != ModelKind::published)
     return lattice::build_cut_tip(geometry, rubber, settings, 1);
-  return lattice::body_of(lattice::build_tip(geometry, rubber, settings), geometry, rubber);
+  return lattice::body_of(lattice::build_published_tip(geometry, rubber, settings), geometry,
+                          rubber);
 }
 
 struct Specimen {
