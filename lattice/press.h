@@ -63,7 +63,8 @@ struct PressOutcome {
   /// Largest defect of the momentum balance of rod, tip and plane over a step, relative to the
   /// largest impulse exchanged.
   double momentum_defect = 0.0;
-  std::vector<meshes::Vector3> boundary_rest;        ///< boundary particles at rest [m] ...
+  /// Boundary particles, or the points of the true surface that stand for them, at rest [m] ...
+  std::vector<meshes::Vector3> boundary_rest;
   std::vector<meshes::Vector3> boundary_deformed;    ///< ... and at the end [m]
   std::vector<std::array<int, 2>> boundary_springs;  ///< pairs of them joined by axis springs
   std::vector<std::uint8_t> boundary_anchored;       ///< 1 where held by the plane

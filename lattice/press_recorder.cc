@@ -51,11 +51,27 @@ void PressRecorder::find_boundary(const meshes::Geometry& geometry) {
     outcome_->boundary_rest.push_back(model.is_cut() ? outer_point(rest, geometry.tip_radius)
                                                      : rest);
   }
+  follow_surface(number);
   for (const std::size_t i : model.boundary) {
     for (int s = 0; s < directions; ++s) {
       if (half_stencil[std::size_t(s)].family != axis) continue;
       const std::size_t j = i + std::size_t(neighbour_offset(model.grid.size, s));
       if (number[j] >= 0) outcome_->boundary_springs.push_back({number[i], number[j]});
+    }
+  }
+}
+
+/// Puts the tied point that is nearest to it in a boundary particle's place.
+void PressRecorder::follow_surface(const std::vector<int>& number) {
+  drawn_.assign(outcome_->boundary_rest.size(), nullptr);
+  const std::vector<Vector3> rest = outcome_->boundary_rest;
+  for (const TiedPoint& tie : finger_->model().outer) {
+    for (const std::uint32_t corner : tie.corners) {
+      if (number[corner] < 0) continue;
+      const std::size_t b = std::size_t(number[corner]);
+      if (drawn_[b] && (drawn_[b]->rest - rest[b]).norm() <= (tie.rest - rest[b]).norm()) continue;
+      drawn_[b] = &tie;
+      outcome_->boundary_rest[b] = tie.rest;
     }
   }
 }
@@ -131,10 +147,16 @@ void PressRecorder::update(double wall_time) {
                                   : 0.0;
   outcome_->boundary_deformed.resize(model.boundary.size());
   outcome_->boundary_anchored = finger_->held();
+  const VectorField& displacement = finger_->state().displacement;
   for (std::size_t b = 0; b < model.boundary.size(); ++b) {
-    outcome_->boundary_deformed[b] =
-        outcome_->boundary_rest[b] +
-        model.grid.axes * finger_->state().displacement.at(model.boundary[b]);
+    Vector3 shift = displacement.at(model.boundary[b]);
+    if (const TiedPoint* point = drawn_[b]) {
+      shift.setZero();
+      for (std::size_t c = 0; c < 8; ++c) {
+        shift += point->weights[c] * displacement.at(point->corners[c]);
+      }
+    }
+    outcome_->boundary_deformed[b] = outcome_->boundary_rest[b] + model.grid.axes * shift;
   }
 }
 

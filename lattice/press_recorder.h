@@ -36,6 +36,7 @@ class PressRecorder {
 
  private:
   void find_boundary(const meshes::Geometry& geometry);
+  void follow_surface(const std::vector<int>& number);
   meshes::PressSample sample_between(const PressInstant& end, double indentation) const;
 
   meshes::Vector3 normal_;
@@ -44,6 +45,9 @@ class PressRecorder {
   std::vector<double> depths_;           ///< increasing [m]
   std::vector<std::uint8_t> is_sample_;  ///< whether the protocol asked for the depth
   std::size_t next_ = 0;
+  /// Per boundary particle the point of the true surface that is drawn in its place, or null: far
+  /// corners of slivers move wildly.
+  std::vector<const TiedPoint*> drawn_;
   PressInstant previous_;
   double plane_impulse_ = 0.0;  ///< along the normal since the last trace row [N s]
   double plane_since_ = 0.0;    ///< time of the last trace row [s]
