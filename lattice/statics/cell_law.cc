@@ -69,11 +69,15 @@ CellLaw CellLaw::volume(double kappa, bool finite) {
 }
 
 CellLaw CellLaw::network(const meshes::Rubber& rubber, double share) {
+  return network(rubber.shear_modulus, rubber.lame_lambda(), share);
+}
+
+CellLaw CellLaw::network(double shear, double lambda, double share) {
   CellLaw law;
   law.kind_ = Kind::network;
-  law.shear_ = rubber.shear_modulus;
-  law.lambda_ = rubber.lame_lambda();
-  law.cell_shear_ = (1.0 - share) * rubber.shear_modulus;
+  law.shear_ = shear;
+  law.lambda_ = lambda;
+  law.cell_shear_ = (1.0 - share) * shear;
   return law;
 }
 

@@ -39,6 +39,8 @@ class CellLaw {
   static CellLaw volume(double kappa, bool finite);
   /// nu >= 0, or the energy has no bound below as J -> 0; not checked. 0 <= `share` s <= 1.
   static CellLaw network(const meshes::Rubber& rubber, double share);
+  /// The same with `shear` G and `lambda` [Pa] of any sign, as derivatives of the law have them.
+  static CellLaw network(double shear, double lambda, double share);
 
   /// Throws std::domain_error where J <= 0 and the law needs J > 0.
   CellResponse evaluate(const Eigen::Matrix3d& H) const;

@@ -9,6 +9,7 @@
 
 namespace fingertip::lattice {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -20,6 +21,10 @@ constexpr int most_shifts = 6;
 constexpr double first_shift = 1e-3;  // of the mean stiffness
 /// Accuracy of a Newton step; the next one corrects what it leaves.
 constexpr double step_accuracy = 1e-3;
+/// Of the residual of a response, over its force.
+constexpr double response_accuracy = 1e-12;
+/// More than a fresh factor takes.
+constexpr int fewest_gradients = 5;
 /// Of displacements, over the body's size.
 constexpr double round_off = 1e-15;
 /// Share of the decrease promised by the slope that a step must bring (Armijo).
@@ -40,6 +45,7 @@ struct EquilibriumSolver::Implementation {
   bool factorise();
   bool iterate(VectorXd& step) const;
   bool search(const StaticContact& contact, const VectorXd& step, VectorXd& displacement);
+  bool iterate(const MatrixXd& forces, MatrixXd& responses) const;
 
   const ElasticSystem& system;
   Tangent tangent;
@@ -165,6 +171,39 @@ bool EquilibriumSolver::Implementation::search(const StaticContact& contact, con
   return false;
 }
 
+/// Conjugate gradients for all columns side by side, each with coefficients of its own, until its
+/// residual is small. False when one meets negative curvature or they cost more than a
+/// factorisation.
+bool EquilibriumSolver::Implementation::iterate(const MatrixXd& forces, MatrixXd& responses) const {
+  const auto product = [this](const MatrixXd& x) -> MatrixXd {
+    return tangent.selfadjointView<Eigen::Lower>() * x;
+  };
+  MatrixXd residual = forces - product(responses);
+  MatrixXd direction = MatrixXd::Zero(forces.rows(), forces.cols());
+  VectorXd slope = VectorXd::Ones(forces.cols());
+  const int most = std::max(fewest_gradients, most_gradients / int(forces.cols()));
+  for (int i = 0; i < most; ++i) {
+    std::vector<Eigen::Index> active;
+    for (Eigen::Index j = 0; j < forces.cols(); ++j)
+      if (residual.col(j).norm() > response_accuracy * forces.col(j).norm()) active.push_back(j);
+    if (active.empty()) return true;
+    const MatrixXd z = factor.solve(residual);
+    for (const Eigen::Index j : active) {
+      const double next = residual.col(j).dot(z.col(j));
+      direction.col(j) = z.col(j) + next / slope[j] * direction.col(j);
+      slope[j] = next;
+    }
+    const MatrixXd pull = product(direction);
+    for (const Eigen::Index j : active) {
+      const double curvature = direction.col(j).dot(pull.col(j));
+      if (!(curvature > 0.0)) return false;
+      responses.col(j) += slope[j] / curvature * direction.col(j);
+      residual.col(j) -= slope[j] / curvature * pull.col(j);
+    }
+  }
+  return false;
+}
+
 EquilibriumSolver::EquilibriumSolver(const ElasticSystem& system)
     : implementation_(std::make_unique<Implementation>(system)) {}
 
@@ -172,6 +211,17 @@ EquilibriumSolver::~EquilibriumSolver() = default;
 
 const Effort& EquilibriumSolver::effort() const {
   return implementation_->effort;
+}
+
+bool EquilibriumSolver::respond(const StaticContact& contact, const VectorXd& displacement,
+                                const MatrixXd& forces, MatrixXd& responses) {
+  if (forces.cols() == 0) return true;
+  for (Eigen::Index j = 0; j < forces.cols(); ++j)
+    if (forces.col(j).isZero(0.0)) responses.col(j).setZero();
+  Implementation& own = *implementation_;
+  own.evaluate(contact, displacement, &own.tangent);
+  if (own.factorised && own.iterate(forces, responses)) return true;
+  return own.factorise() && own.iterate(forces, responses);
 }
 
 bool EquilibriumSolver::solve(const StaticContact& contact, VectorXd& displacement,

@@ -37,6 +37,13 @@ class EquilibriumSolver {
   bool solve(const StaticContact& contact, Eigen::VectorXd& displacement,
              double tolerance = force_tolerance);
 
+  /// Solves tangent x `responses` = `forces` column by column to a relative residual of 1e-12, with
+  /// the tangent at `displacement` in contact: how an equilibrium answers small forces. On entry
+  /// `responses`, as large as `forces`, is a first guess; fixed unknowns must be zero in both.
+  /// False where the tangent is not positive definite. Throws NotConverged where it is infinite.
+  bool respond(const StaticContact& contact, const Eigen::VectorXd& displacement,
+               const Eigen::MatrixXd& forces, Eigen::MatrixXd& responses);
+
   /// So far, of all calls.
   const Effort& effort() const;
 

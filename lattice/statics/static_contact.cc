@@ -88,23 +88,29 @@ double StaticContact::add(const VectorXd& displacement, const ElasticSystem& sys
   return sum;
 }
 
-int StaticContact::anchor_touching(const VectorXd& start, double from, const VectorXd& end) {
-  if (!stick_) return 0;
-  int count = 0;
+std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, double from,
+                                                     const VectorXd& end) const {
+  std::vector<FirstTouch> touches;
+  if (!stick_) return touches;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (anchored_[i]) continue;
     const double after = gap(i, end, indentation_);
     if (after >= -gap_noise) continue;
-    const double before = std::max(gap(i, start, from), 0.0);
-    const double share = before / (before - after);
-    const Vector3 first = position(body_->outer[i], start) - plane_.point(from);
-    const Vector3 last = position(body_->outer[i], end) - plane_.point(indentation_);
-    const Vector3 place = (1.0 - share) * first + share * last;
-    anchor_[i] = place - place.dot(plane_.normal) * plane_.normal;
-    anchored_[i] = 1;
-    ++count;
+    touches.push_back({i, std::max(gap(i, start, from), 0.0), after,
+                       position(body_->outer[i], start) - plane_.point(from),
+                       position(body_->outer[i], end) - plane_.point(indentation_)});
   }
-  return count;
+  return touches;
+}
+
+int StaticContact::anchor_touching(const VectorXd& start, double from, const VectorXd& end) {
+  const std::vector<FirstTouch> touches = first_touches(start, from, end);
+  for (const FirstTouch& touch : touches) {
+    const Vector3 place = (1.0 - touch.share()) * touch.first + touch.share() * touch.last;
+    anchor_[touch.point] = place - place.dot(plane_.normal) * plane_.normal;
+    anchored_[touch.point] = 1;
+  }
+  return int(touches.size());
 }
 
 int StaticContact::release_pulled(const VectorXd& displacement) {

@@ -20,6 +20,16 @@ struct PlaneReaction {
   meshes::Vector3 moment = meshes::Vector3::Zero();  ///< about a given point [N m]
 };
 
+/// An outer point's way through the plane within a step. Places are relative to the plane's point.
+struct FirstTouch {
+  std::size_t point = 0;             ///< among the outer ones
+  double before = 0.0, after = 0.0;  ///< gap at start and end of the step, >= 0 and < 0 [m]
+  meshes::Vector3 first, last;       ///< places at start and end of the step [m]
+
+  /// Of the step until the gap closes.
+  double share() const { return before / (before - after); }
+};
+
 /// The ties between a body's outer points and the plane. With gap g = (x - plane point)·n, an
 /// energy per point, k its stiffness:
 ///   frictionless  ½ k min(g, 0)²
@@ -43,13 +53,17 @@ class StaticContact {
   double add(const Eigen::VectorXd& displacement, const ElasticSystem& system,
              Eigen::VectorXd& force, Tangent* tangent) const;
 
-  /// Stick: anchors the free points that have crossed the plane where they crossed it, on the way
-  /// from `start` at indentation `from` to `end` at the present one, both taken to go in a straight
-  /// line. Returns how many.
+  /// Stick: the free points that have crossed the plane on the way from `start` at indentation
+  /// `from` to `end` at the present one, both taken to go in a straight line.
+  std::vector<FirstTouch> first_touches(const Eigen::VectorXd& start, double from,
+                                        const Eigen::VectorXd& end) const;
+  /// Stick: anchors them where they crossed it. Returns how many.
   int anchor_touching(const Eigen::VectorXd& start, double from, const Eigen::VectorXd& end);
   /// Stick: frees the anchored points that the plane would have to pull, but none a second time
   /// since `begin_step`. Returns how many.
   int release_pulled(const Eigen::VectorXd& displacement);
+  /// Whether a point sticks.
+  bool anchored(std::size_t point) const { return anchored_[point] != 0; }
   void begin_step() { released_.assign(released_.size(), 0); }
 
   /// Force of the plane on an outer point [N].

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <string>
 
-#include "lattice/model.h"
 #include "lattice/cells/contact_patch.h"
+#include "lattice/model.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/equilibrium.h"
@@ -54,20 +54,27 @@ void check(const PressSetup& setup) {
 class StaticPress {
  public:
   StaticPress(const PressSetup& setup, const LatticeBody& body, const StaticObserver& observer);
+  /// Carries derivatives along; `system` must outlive the press.
+  void differentiate(const SlopeSystem& system);
   StaticOutcome run();
+  /// Of the samples, a row each; as many as were finished.
+  const PressSlopes& slopes() const { return slopes_; }
 
  private:
   /// All that a step changes.
   struct State {
     StaticContact contact;
     VectorXd displacement;
+    StateSlopes slopes;  ///< empty unless differentiated
   };
 
   void take_census();
   void march_to(double target);
   bool step_to(double indentation);
   VectorXd extrapolated(double indentation) const;
+  bool anchor(State& next) const;
   PressSample sample() const;
+  void note_slopes();
   void note_contact();
   void report();
 
@@ -76,11 +83,14 @@ class StaticPress {
   const StaticObserver& observer_;
   const ElasticSystem system_;
   EquilibriumSolver solver_;
+  const SlopeSystem* slope_system_ = nullptr;
+  double search_tolerance_ = search_tolerance, tolerance_ = force_tolerance;
   State now_;
   double previous_indentation_ = 0.0;
   VectorXd previous_displacement_;  ///< one step ago
   double largest_step_ = 0.0, step_ = 0.0;
   StaticOutcome outcome_;
+  PressSlopes slopes_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
@@ -92,7 +102,8 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
       system_(body),
       solver_(system_),
       now_{StaticContact(body, press_plane(setup.protocol, setup.geometry), setup.protocol.contact),
-           VectorXd::Zero(body.unknowns())},
+           VectorXd::Zero(body.unknowns()),
+           {}},
       previous_displacement_(now_.displacement) {
   const double thickness = setup.geometry.thickness();
   largest_step_ = setup.protocol.depth;
@@ -100,6 +111,12 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
   if (setup.protocol.contact == ContactMode::stick) largest_step_ = sticking_step * thickness;
   step_ = largest_step_;
   take_census();
+}
+
+void StaticPress::differentiate(const SlopeSystem& system) {
+  slope_system_ = &system;
+  search_tolerance_ = tolerance_ = slope_tolerance;
+  now_.slopes = system.at_rest();
 }
 
 void StaticPress::take_census() {
@@ -120,6 +137,7 @@ StaticOutcome StaticPress::run() {
   for (const double target : samples) {
     march_to(target);
     outcome_.response.append(sample());
+    if (slope_system_) note_slopes();
     note_contact();
     report();
   }
@@ -157,18 +175,20 @@ VectorXd StaticPress::extrapolated(double indentation) const {
 
 bool StaticPress::step_to(double indentation) {
   const double from = now_.contact.indentation();
-  State next{now_.contact, extrapolated(indentation)};
+  State next{now_.contact, extrapolated(indentation), now_.slopes};
   next.contact.move_to(indentation);
   next.contact.begin_step();
   const bool stick = setup_.protocol.contact == ContactMode::stick;
-  double tolerance = stick ? search_tolerance : force_tolerance;
+  double tolerance = stick ? search_tolerance_ : tolerance_;
   bool settled = false;
   for (int round = 0; round < most_rounds && !settled; ++round) {
     if (!solver_.solve(next.contact, next.displacement, tolerance)) return false;
-    if (next.contact.anchor_touching(now_.displacement, from, next.displacement) > 0) continue;
+    if (stick && slope_system_)
+      slope_system_->respond(solver_, next.contact, next.displacement, next.slopes);
+    if (anchor(next)) continue;
     if (next.contact.release_pulled(next.displacement) > 0) continue;
-    settled = tolerance == force_tolerance;
-    tolerance = force_tolerance;
+    settled = tolerance == tolerance_;
+    tolerance = tolerance_;
   }
   if (!settled) return false;
   previous_indentation_ = from;
@@ -178,6 +198,16 @@ bool StaticPress::step_to(double indentation) {
   outcome_.smallest_jacobian =
       std::min(outcome_.smallest_jacobian, system_.smallest_jacobian(now_.displacement));
   return true;
+}
+
+/// Anchors what has crossed the plane since the step's start; whether anything has.
+bool StaticPress::anchor(State& next) const {
+  const double from = now_.contact.indentation();
+  if (slope_system_) {
+    slope_system_->anchor(next.contact.first_touches(now_.displacement, from, next.displacement),
+                          next.contact.plane().normal, now_.slopes, next.slopes);
+  }
+  return next.contact.anchor_touching(now_.displacement, from, next.displacement) > 0;
 }
 
 /// Force and torque on the rod from the bond's ties. A tie's pull goes through its point on the
@@ -210,6 +240,20 @@ PressSample StaticPress::sample() const {
   sample.contact_radius = patch.radius;
   sample.max_pressure = patch.max_pressure;
   return sample;
+}
+
+/// Frictionless, a state owes nothing to those before it: only samples need slopes.
+void StaticPress::note_slopes() {
+  slope_system_->respond(solver_, now_.contact, now_.displacement, now_.slopes);
+  const Eigen::Matrix3Xd force = slope_system_->force(now_.displacement, now_.slopes);
+  const PressPlane& plane = now_.contact.plane();
+  const auto append = [](const Eigen::RowVectorXd& row, Eigen::MatrixXd& table) {
+    table.conservativeResize(table.rows() + 1, row.size());
+    table.bottomRows(1) = row;
+  };
+  append(plane.normal.transpose() * force, slopes_.normal_force);
+  append(plane.t1.transpose() * force, slopes_.lateral_force_x);
+  append(plane.t2.transpose() * force, slopes_.lateral_force_y);
 }
 
 void StaticPress::note_contact() {
@@ -247,6 +291,19 @@ StaticOutcome run_static_press(const PressSetup& setup, const LatticeBody& body,
                                const StaticObserver& observer) {
   check(setup);
   return StaticPress(setup, body, observer).run();
+}
+
+StaticOutcomeWithSlopes run_static_press_with_slopes(const PressSetup& setup,
+                                                     const std::vector<PressParameter>& parameters,
+                                                     const StaticObserver& observer) {
+  check(setup);
+  const LatticeBody body = static_body(setup, largest_symmetry(setup.lattice, setup.protocol));
+  const SlopeSystem system(setup, body, parameters);
+  StaticPress press(setup, body, observer);
+  press.differentiate(system);
+  StaticOutcomeWithSlopes result{press.run(), press.slopes()};
+  result.slopes.parameters = parameters;
+  return result;
 }
 
 }  // namespace fingertip::lattice

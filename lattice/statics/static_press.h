@@ -6,6 +6,7 @@
 
 #include "lattice/settings.h"
 #include "lattice/statics/lattice_body.h"
+#include "lattice/statics/press_slopes.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::lattice {
@@ -54,5 +55,20 @@ StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& ob
 /// The same with a body of one's own, made for `setup` (largest_symmetry for its sectors).
 StaticOutcome run_static_press(const PressSetup& setup, const LatticeBody& body,
                                const StaticObserver& observer = {});
+
+struct StaticOutcomeWithSlopes {
+  StaticOutcome outcome;
+  PressSlopes slopes;
+};
+
+/// run_static_press, and the derivatives of its forces with respect to `parameters` (which may be
+/// none): exact for the path computed, as long as every point touches, slides or is released in the
+/// same step. All states are in equilibrium to slope_tolerance, so that forces may differ from
+/// run_static_press's by what its coarser search for the points that stick leaves, and finite
+/// differences of them are good for comparison. Throws InvalidInput as body_slope does,
+/// NotConverged also where a tangent is not positive definite.
+StaticOutcomeWithSlopes run_static_press_with_slopes(const PressSetup& setup,
+                                                     const std::vector<PressParameter>& parameters,
+                                                     const StaticObserver& observer = {});
 
 }  // namespace fingertip::lattice
