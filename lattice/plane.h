@@ -31,4 +31,9 @@ struct Plane {
   meshes::Vector3 normal = -meshes::Vector3::UnitZ();
 };
 
+/// t1: the rod's x axis projected on a plane with this unit normal; t2 = t1 x normal.
+inline meshes::Vector3 first_tangent(const meshes::Vector3& normal) {
+  return (meshes::Vector3::UnitX() - normal * normal.x()).normalized();
+}
+
 }  // namespace fingertip::lattice

@@ -85,8 +85,7 @@ meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
   };
   const Vector3 force = between(previous_.bond.force, end.bond.force).eval();
   const Vector3 torque = between(previous_.bond.torque, end.bond.torque).eval();
-  const Vector3 t1 = (Vector3::UnitX() - normal_ * normal_.x()).normalized();
-  const Vector3 t2 = t1.cross(normal_);
+  const Vector3 t1 = first_tangent(normal_), t2 = t1.cross(normal_);
   meshes::PressSample sample;
   sample.indentation = indentation;
   sample.normal_force = force.dot(normal_);

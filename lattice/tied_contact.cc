@@ -181,8 +181,7 @@ Vector3 TiedContact::add(const State& state, double step, VectorField& force,
 }
 
 double TiedContact::radius(const State& state) const {
-  const Vector3 t1 = (Vector3::UnitX() - plane_.normal * plane_.normal.x()).normalized();
-  const Vector3 t2 = t1.cross(plane_.normal);
+  const Vector3 t1 = first_tangent(plane_.normal), t2 = t1.cross(plane_.normal);
   std::vector<LoadedPoint> loaded;
   for (const std::uint32_t number : near_) {
     const TiedPoint& tie = model_->outer[number];

@@ -14,8 +14,6 @@ using meshes::CubicGrid;
 using meshes::CutCell;
 using meshes::Geometry;
 using meshes::Rubber;
-using meshes::Surface;
-using meshes::SurfacePoint;
 using meshes::Vector3;
 using meshes::Violation;
 
