@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lattice/cells/cut_tip.h"
 #include "lattice/energy.h"
 
 namespace fingertip::lattice {
@@ -52,7 +53,13 @@ void PressRecorder::find_boundary(const meshes::Geometry& geometry) {
                                                      : rest);
   }
   follow_surface(number);
+  // Far corners of slivers that no point of the surface hangs on are not part of the picture.
+  for (std::size_t b = 0; b < model.boundary.size(); ++b) {
+    const bool on_surface = drawn_[b] || outcome_->boundary_rest[b].z() < lowest_contact(geometry);
+    if (model.is_cut() && !on_surface) number[model.boundary[b]] = -1;
+  }
   for (const std::size_t i : model.boundary) {
+    if (number[i] < 0) continue;
     for (int s = 0; s < directions; ++s) {
       if (half_stencil[std::size_t(s)].family != axis) continue;
       const std::size_t j = i + std::size_t(neighbour_offset(model.grid.size, s));
