@@ -29,4 +29,8 @@ SpringConstants hookean_constants(const meshes::Rubber& rubber, double spacing, 
           rubber.lame_lambda() - rubber.shear_modulus};
 }
 
+double shear_stiffness(const SpringConstants& constants, double spacing) {
+  return (constants.k2 + 4.0 / 3.0 * constants.k3) / spacing;
+}
+
 }  // namespace fingertip::lattice

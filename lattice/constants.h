@@ -42,4 +42,7 @@ SpringConstants published_constants(const meshes::Rubber& rubber, double spacing
 /// calibration/README.md). `spacing` a > 0 [m]; the rubber must be valid, which is not checked.
 SpringConstants hookean_constants(const meshes::Rubber& rubber, double spacing, double k3 = 0.0);
 
+/// C44 of the infinite lattice, (k2 + 4/3 k3)/a [Pa] (calibration/README.md). `spacing` a > 0 [m].
+double shear_stiffness(const SpringConstants& constants, double spacing);
+
 }  // namespace fingertip::lattice

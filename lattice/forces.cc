@@ -41,12 +41,15 @@ CellExtremes InternalForces::accumulate(const State& state, VectorField& force) 
 
 const VectorField& InternalForces::damped(const State& state) {
   const double tau = model_->retardation_time;
-  team_->split(model_->points(), lanes * grain, [&](std::size_t begin, std::size_t end) {
+  const std::vector<std::uint32_t>& blocks = model_->blocks;
+  team_->split(blocks.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = 0; c < 3; ++c) {
       const double* u = state.displacement.component[c].data();
       const double* v = state.velocity.component[c].data();
       double* w = damped_.component[c].data();
-      for (std::size_t i = begin; i < end; ++i) w[i] = u[i] + tau * v[i];
+      for (std::size_t b = begin; b < end; ++b) {
+        for (std::size_t i = blocks[b]; i < blocks[b] + lanes; ++i) w[i] = u[i] + tau * v[i];
+      }
     }
   });
   return damped_;
@@ -65,10 +68,11 @@ void InternalForces::gather_springs(const VectorField& displacement, const State
 }
 
 void InternalForces::clear(VectorField& force) {
-  team_->split(model_->points(), lanes * grain, [&](std::size_t begin, std::size_t end) {
+  const std::vector<std::uint32_t>& blocks = model_->blocks;
+  team_->split(blocks.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (auto& component : force.component) {
-      std::fill(component.begin() + std::ptrdiff_t(begin), component.begin() + std::ptrdiff_t(end),
-                0.0);
+      for (std::size_t b = begin; b < end; ++b)
+        std::fill_n(component.data() + blocks[b], lanes, 0.0);
     }
   });
 }

@@ -92,15 +92,6 @@ void connect_particles(LatticeModel& model, std::vector<std::uint8_t> is_particl
   }
 }
 
-/// The kernel's traversal order, and the paper's dampers.
-void finish_published(LatticeModel& model) {
-  model.stiffness = {model.constants.k1, model.constants.k2, model.constants.k3};
-  const double reduced_mass = 0.5 * model.mass[model.particles.front()];  // the paper's m'
-  for (std::size_t f = 0; f < 3; ++f) {
-    model.damping[f] = 2.0 * std::sqrt(reduced_mass * model.stiffness[f]);
-  }
-}
-
 /// Masses and springs of cells: every cell gives what of them lies in its rubber.
 void connect_cells(LatticeModel& model, const GridCells& cells, bool central_springs,
                    double density) {
@@ -131,6 +122,27 @@ void connect_cells(LatticeModel& model, const GridCells& cells, bool central_spr
 void finish(LatticeModel& model) {
   model.blocks = covering_blocks(model.grid, model.is_particle);
   for (const std::size_t i : model.particles) model.inverse_mass[i] = 1.0 / model.mass[i];
+}
+
+/// Particles joined as in connect_particles, with the paper's dampers.
+LatticeModel published_model(Kinematics kinematics, const SpringConstants& constants,
+                             const CubicGrid& grid, std::vector<std::uint8_t> is_particle,
+                             double mass) {
+  require_finite(constants);
+  LatticeModel model;
+  model.kind = ModelKind::published;
+  model.kinematics = kinematics;
+  model.constants = constants;
+  model.constants.kappa = 0.0;
+  model.grid = grid;
+  connect_particles(model, std::move(is_particle), mass);
+  model.stiffness = {constants.k1, constants.k2, constants.k3};
+  const double reduced_mass = 0.5 * model.mass[model.particles.front()];  // the paper's m'
+  for (std::size_t f = 0; f < 3; ++f) {
+    model.damping[f] = 2.0 * std::sqrt(reduced_mass * model.stiffness[f]);
+  }
+  finish(model);
+  return model;
 }
 
 std::size_t neighbour_count(const LatticeModel& model, std::size_t i) {
@@ -177,18 +189,11 @@ LatticeModel build_published_tip(const Geometry& geometry, const meshes::Rubber&
                                 "only the published lattice has no cells",
                                 "take build_cut_model, which cuts the cells of the others"});
   }
-  require_finite(settings.constants);
-  LatticeModel model;
-  model.kind = settings.model;
-  model.kinematics = settings.kinematics;
-  model.constants = settings.constants;
-  model.constants.kappa = 0.0;
-  model.grid = meshes::covering_grid(geometry, settings.spacing, settings.offset, 1);
-  model.grid.size[0] += row_margin;
-  connect_particles(model, meshes::sample_particles(geometry, model.grid),
-                    rubber.density * geometry.tip_volume());
-  finish_published(model);
-  finish(model);
+  CubicGrid grid = meshes::covering_grid(geometry, settings.spacing, settings.offset, 1);
+  grid.size[0] += row_margin;
+  LatticeModel model = published_model(settings.kinematics, settings.constants, grid,
+                                       meshes::sample_particles(geometry, grid),
+                                       rubber.density * geometry.tip_volume());
   find_boundary(model, geometry);
   hang_on_ligaments(model, geometry,
                     settings.ligament_stiffness * rubber.youngs_modulus * model.spacing());
@@ -240,20 +245,10 @@ LatticeModel build_block(ModelKind kind, Kinematics kinematics, const SpringCons
     return build_model(block, kind, spring_recipe(kind, kinematics, constants, retardation_time),
                        density);
   }
-  require_finite(constants);
-  LatticeModel model;
-  model.kind = kind;
-  model.kinematics = kinematics;
-  model.constants = constants;
-  model.constants.kappa = 0.0;
-  model.grid = grid;
   std::vector<std::uint8_t> is_particle(grid.points(), 0);
   for (std::size_t p = 0; p < block.particles(); ++p) is_particle[block.point(p)] = 1;
-  connect_particles(model, std::move(is_particle),
-                    density * std::pow(spacing, 3) * cells[0] * cells[1] * cells[2]);
-  finish_published(model);
-  finish(model);
-  return model;
+  return published_model(kinematics, constants, grid, std::move(is_particle),
+                         density * std::pow(spacing, 3) * cells[0] * cells[1] * cells[2]);
 }
 
 }  // namespace fingertip::lattice

@@ -10,7 +10,7 @@ PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geom
   const double s = std::sin(protocol.tilt), c = std::cos(protocol.tilt);
   PressPlane plane;
   plane.normal = Vector3(-s, 0.0, -c);
-  plane.t1 = Vector3(c, 0.0, -s);
+  plane.t1 = first_tangent(plane.normal);
   plane.t2 = plane.t1.cross(plane.normal);
   plane.radius = geometry.tip_radius;
   plane.lateral_ratio = protocol.lateral / protocol.depth;

@@ -16,8 +16,7 @@ constexpr int even_depths = 60;
 
 /// The point of the outer surface nearest to `rest`: cut cells reach beyond it.
 Vector3 outer_point(const Vector3& rest, double radius) {
-  const Vector3 axis(0.0, 0.0, std::min(rest.z(), 0.0));
-  return axis + radius * (rest - axis).normalized();
+  return Vector3(0.0, 0.0, std::min(rest.z(), 0.0)) + radius * outer_normal(rest);
 }
 
 }  // namespace
@@ -153,16 +152,11 @@ void PressRecorder::update(double wall_time) {
                                   : 0.0;
   outcome_->boundary_deformed.resize(model.boundary.size());
   outcome_->boundary_anchored = finger_->held();
-  const VectorField& displacement = finger_->state().displacement;
+  const State& state = finger_->state();
   for (std::size_t b = 0; b < model.boundary.size(); ++b) {
-    Vector3 shift = displacement.at(model.boundary[b]);
-    if (const TiedPoint* point = drawn_[b]) {
-      shift.setZero();
-      for (std::size_t c = 0; c < 8; ++c) {
-        shift += point->weights[c] * displacement.at(point->corners[c]);
-      }
-    }
-    outcome_->boundary_deformed[b] = outcome_->boundary_rest[b] + model.grid.axes * shift;
+    const Vector3 moved =
+        drawn_[b] ? shift(*drawn_[b], state, 0.0) : state.displacement.at(model.boundary[b]);
+    outcome_->boundary_deformed[b] = outcome_->boundary_rest[b] + model.grid.axes * moved;
   }
 }
 

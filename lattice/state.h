@@ -38,6 +38,17 @@ struct State {
       : displacement(model.points()), velocity(model.points()) {}
 };
 
+/// Displacement of a point tied to particles (corners are grid indices), along the grid's axes,
+/// after `ahead` seconds at the present velocities [m].
+inline meshes::Vector3 shift(const TiedPoint& tie, const State& state, double ahead) {
+  meshes::Vector3 sum = meshes::Vector3::Zero();
+  for (std::size_t c = 0; c < 8; ++c) {
+    const std::uint32_t i = tie.corners[c];
+    sum += tie.weights[c] * (state.displacement.at(i) + ahead * state.velocity.at(i));
+  }
+  return sum;
+}
+
 /// x = X + u [m] in the tip's frame.
 inline meshes::Vector3 position(const LatticeModel& model, const State& state, std::size_t point) {
   return model.rest_position(point) + model.grid.axes * state.displacement.at(point);

@@ -76,12 +76,4 @@ Eigen::SparseMatrix<double> small_strain_stiffness(const LatticeModel& model) {
   return matrix;
 }
 
-Eigen::VectorXd mass_vector(const LatticeModel& model) {
-  Eigen::VectorXd mass(3 * Eigen::Index(model.particles.size()));
-  for (std::size_t p = 0; p < model.particles.size(); ++p) {
-    mass.segment<3>(3 * Eigen::Index(p)).setConstant(model.mass[model.particles[p]]);
-  }
-  return mass;
-}
-
 }  // namespace fingertip::lattice

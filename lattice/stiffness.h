@@ -13,7 +13,4 @@ namespace fingertip::lattice {
 /// the p-th entry of model.particles.
 Eigen::SparseMatrix<double> small_strain_stiffness(const LatticeModel& model);
 
-/// The diagonal of the mass matrix [kg], in the same order.
-Eigen::VectorXd mass_vector(const LatticeModel& model);
-
 }  // namespace fingertip::lattice

@@ -46,9 +46,10 @@ void TiedBond::find_slips(const State& state, const RodState& rod, double ahead,
   const Pose pose = rod.pose();
   const Eigen::Matrix3d turn = pose.orientation.toRotationMatrix();
   const Eigen::Matrix3d to_grid = model_->grid.axes.transpose();
+  const Vector3 velocity = rod.velocity(), spin = rod.angular_velocity(), centre = rod.centre();
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const Vector3 place = pose.position + turn * rest_[p];
-    const Vector3 carried = place - rest_[p] + ahead * rod.velocity_at(place);
+    const Vector3 carried = place - rest_[p] + ahead * (velocity + spin.cross(place - centre));
     slips[p].head<3>() = state.displacement.at(points_[p]) + ahead * state.velocity.at(points_[p]) -
                          to_grid * carried;
   }

@@ -50,30 +50,20 @@ TiedContact::TiedContact(const LatticeModel& model, const Plane& plane, meshes::
   look_around(State(model), 0.0, points_.size());
 }
 
-Vector3 TiedContact::shift_of(std::size_t point, const State& state, double ahead) const {
-  const TiedPoint& tie = model_->outer[point];
-  Vector3 shift = Vector3::Zero();
-  for (std::size_t c = 0; c < 8; ++c) {
-    const std::uint32_t i = tie.corners[c];
-    shift += tie.weights[c] * (state.displacement.at(i) + ahead * state.velocity.at(i));
-  }
-  return shift;
-}
-
 /// Points that have come near are looked at in every step from now on.
 void TiedContact::look_around(const State& state, double ahead, std::size_t looks) {
   for (std::size_t n = 0; n < looks; ++n, ++next_look_) {
     if (next_look_ >= points_.size()) next_look_ = 0;
     Point& point = points_[next_look_];
     if (point.near) continue;
-    const Vector3 shift = shift_of(next_look_, state, ahead);
-    const double gap = point.rest_gap + normal_.dot(shift);
+    const Vector3 moved = shift(model_->outer[next_look_], state, ahead);
+    const double gap = point.rest_gap + normal_.dot(moved);
     if (gap < margin_) {
       // Where it was when last looked at tells look_at() where it crossed, had it come this fast.
       point.near = true;
       near_.push_back(std::uint32_t(next_look_));
     } else {
-      point.shift = shift;
+      point.shift = moved;
       point.gap = gap;
     }
   }
@@ -82,17 +72,17 @@ void TiedContact::look_around(const State& state, double ahead, std::size_t look
 /// Brings gap and anchor of a near point up to date.
 void TiedContact::look_at(std::size_t number, const State& state, double ahead) {
   Point& point = points_[number];
-  const Vector3 shift = shift_of(number, state, ahead);
-  const double gap = point.rest_gap + normal_.dot(shift);
+  const Vector3 moved = shift(model_->outer[number], state, ahead);
+  const double gap = point.rest_gap + normal_.dot(moved);
   if (stick_ && !point.anchored && gap < 0.0) {
     const double before = std::max(point.gap, 0.0);
     const double fraction = before / (before - gap);
-    point.anchor = (1.0 - fraction) * point.shift + fraction * shift;
+    point.anchor = (1.0 - fraction) * point.shift + fraction * moved;
     point.anchored = true;
   } else if (point.anchored && gap > 0.0) {
     point.anchored = false;
   }
-  point.shift = shift;
+  point.shift = moved;
   point.gap = gap;
 }
 
@@ -187,7 +177,7 @@ double TiedContact::radius(const State& state) const {
     const TiedPoint& tie = model_->outer[number];
     Vector3 place = tie.rest;
     if (model_->kinematics == Kinematics::finite) {
-      place += model_->grid.axes * shift_of(number, state, 0.0);
+      place += model_->grid.axes * shift(tie, state, 0.0);
     }
     const double facing = std::abs(outer_normal(tie.rest).dot(plane_.normal));
     loaded.push_back({{place.dot(t1), place.dot(t2)}, points_[number].push, facing * tie.area});

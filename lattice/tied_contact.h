@@ -61,8 +61,6 @@ class TiedContact {
     bool loaded = false;
   };
 
-  /// Displacement of a point after `ahead` seconds at the present velocities.
-  meshes::Vector3 shift_of(std::size_t point, const State& state, double ahead) const;
   void look_around(const State& state, double ahead, std::size_t looks);
   void look_at(std::size_t point, const State& state, double ahead);
   meshes::Vector3 pull(std::size_t point) const;

@@ -17,6 +17,22 @@ constexpr double largest_volume_change = 0.1;
 /// Growth of the cells' extremes that the step leaves room for.
 constexpr double room = 1.2;
 
+/// What a Lanczos estimate, which comes from below, may lack.
+constexpr double margin = 1.05;
+
+/// Of a tie's energy the particles' part is taken care of (tied_bond.h), the rod has the other. Its
+/// ties act as after the step, lambda dt² + 2 (lambda dt) dt <= 4.
+double tied_rod(const LatticeModel& model, const RodBody* rod) {
+  return rod != nullptr ? 3.0 * rod_bounds(model, *rod).stiffness : 0.0;
+}
+
+/// Of a lattice with true surfaces, from what Lanczos found.
+SpectralBounds tied_bounds(SpectralBounds held, double growth, double rod) {
+  held.stiffness = std::max(growth * held.stiffness, rod);
+  held.damping *= growth;
+  return held;
+}
+
 double safety(const LatticeModel& model) {
   if (model.kinematics == Kinematics::small) return 0.95;
   return model.has_springs() ? 0.8 : 0.9;
@@ -69,17 +85,9 @@ double paper_frequency(const LatticeModel& model) {
 }
 
 SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod) {
-  constexpr double margin = 1.05;
   const SpectralBounds held = spectral_estimate(model);
+  if (model.kind != ModelKind::published) return tied_bounds(held, margin, tied_rod(model, rod));
   const SpectralBounds own = rod != nullptr ? rod_bounds(model, *rod) : SpectralBounds{};
-  if (model.kind != ModelKind::published) {
-    SpectralBounds bounds = held;
-    bounds.damping *= margin;
-    // Of a tie's energy the particles' part is taken care of (tied_bond.h), the rod has the other.
-    // Its ties act as after the step, lambda dt² + 2 (lambda dt) dt <= 4.
-    bounds.stiffness = std::max(margin * held.stiffness, 3.0 * own.stiffness);
-    return bounds;
-  }
   SpectralBounds bounds = spectral_bounds(model, rod);
   // The largest eigenvalue of a positive matrix is at most the sum of those of its diagonal blocks.
   bounds.stiffness = std::min(bounds.stiffness, margin * held.stiffness + own.stiffness);
@@ -92,7 +100,7 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
     : model_(&model),
       integrator_(integrator),
       safety_(safety(model)),
-      rod_stiffness_(rod != nullptr ? 3.0 * rod_bounds(model, *rod).stiffness : 0.0) {
+      rod_stiffness_(tied_rod(model, rod)) {
   const SpectralBounds bounds = tightest_bounds(model, rod);
   report_.omega0 = paper_frequency(model);
   report_.paper_bound = 1.0 / report_.omega0;
@@ -120,10 +128,8 @@ bool StepController::outdated(const CellExtremes& now) const {
 
 void StepController::update(const State& state, const CellExtremes& now) {
   constexpr int lanczos_steps = 30;
-  constexpr double margin = 1.05;
-  SpectralBounds bounds = spectral_estimate(*model_, state, lanczos_steps);
-  bounds.stiffness = std::max(room * margin * bounds.stiffness, rod_stiffness_);
-  bounds.damping *= room * margin;
+  const SpectralBounds bounds =
+      tied_bounds(spectral_estimate(*model_, state, lanczos_steps), room * margin, rod_stiffness_);
   present_ = std::min(largest_, safety_ * largest_stable_step(bounds, integrator_));
   reference_ = now;
 }

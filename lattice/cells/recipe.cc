@@ -49,7 +49,7 @@ Recipe recipe_for(const Rubber& rubber, const LatticeSettings& settings) {
   recipe.constants =
       settings.model == ModelKind::network ? hookean_constants(rubber, a) : settings.constants;
   if (settings.model == ModelKind::central) recipe.constants.kappa = 0.0;
-  recipe.shear = (recipe.constants.k2 + 4.0 / 3.0 * recipe.constants.k3) / a;
+  recipe.shear = shear_stiffness(recipe.constants, a);
   const bool network = settings.model == ModelKind::network;
   recipe.central_springs = settings.model == ModelKind::central || (recipe.finite && !network);
   recipe.cell_law = settings.model != ModelKind::central;

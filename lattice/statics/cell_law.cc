@@ -49,7 +49,7 @@ Matrix9 cubic_stiffness(double c11, double c12, double c44) {
 
 CellLaw CellLaw::cubic(const SpringConstants& constants, double spacing, double share,
                        const Matrix3d& axes) {
-  const double c44 = (constants.k2 + 4.0 / 3.0 * constants.k3) / spacing;
+  const double c44 = shear_stiffness(constants, spacing);
   const double c11 = (constants.k1 + constants.k2) / spacing + c44 + constants.kappa;
   const Matrix9 turn = change_of_axes(axes);
   CellLaw law;

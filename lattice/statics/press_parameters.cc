@@ -21,10 +21,6 @@ struct Rates {
   double bond = 0.0, contact = 0.0;  ///< factors on ties
 };
 
-double cubic_shear(const SpringConstants& constants, double spacing) {
-  return (constants.k2 + 4.0 / 3.0 * constants.k3) / spacing;
-}
-
 Rates rates_of(PressParameter parameter, const LatticeSettings& settings) {
   Rates rates;
   const double a = settings.spacing;
@@ -42,7 +38,7 @@ Rates rates_of(PressParameter parameter, const LatticeSettings& settings) {
     case PressParameter::bond: rates.bond = 1.0; break;
     case PressParameter::contact: rates.contact = 1.0; break;
   }
-  rates.shear = cubic_shear(rates.constants, a);
+  rates.shear = shear_stiffness(rates.constants, a);
   return rates;
 }
 

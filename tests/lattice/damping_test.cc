@@ -123,7 +123,7 @@ TEST(Damping, StationaryWavesDecayByHalfOmegaTau) {
   const LatticeModel model =
       cell_block(settings_for(ModelKind::network, Kinematics::finite, 10), {12, 2, 2});
   const Eigen::MatrixXd K = tangent(model, State(model));
-  const Eigen::VectorXd root = lattice::mass_vector(model).cwiseSqrt();
+  const Eigen::VectorXd root = mass_vector(model).cwiseSqrt();
   const Eigen::MatrixXd scaled = root.cwiseInverse().asDiagonal() * (0.5 * (K + K.transpose())) *
                                  root.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scaled);

@@ -110,9 +110,18 @@ inline Eigen::MatrixXd tangent(const lattice::LatticeModel& model, lattice::Stat
   return matrix;
 }
 
+/// The diagonal of the mass matrix [kg]; degree of freedom 3 p + c is axis c of the p-th particle.
+inline Eigen::VectorXd mass_vector(const lattice::LatticeModel& model) {
+  Eigen::VectorXd mass(3 * Eigen::Index(model.particles.size()));
+  for (std::size_t p = 0; p < model.particles.size(); ++p) {
+    mass.segment<3>(3 * Eigen::Index(p)).setConstant(model.mass[model.particles[p]]);
+  }
+  return mass;
+}
+
 /// Largest eigenvalue of M⁻¹A, A a tangent's symmetric part [1/s² or 1/s].
 inline double largest_rate(const lattice::LatticeModel& model, const Eigen::MatrixXd& matrix) {
-  const Eigen::VectorXd scale = lattice::mass_vector(model).cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd scale = mass_vector(model).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled =
       scale.asDiagonal() * (0.5 * (matrix + matrix.transpose())) * scale.asDiagonal();
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)

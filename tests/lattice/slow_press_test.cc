@@ -76,7 +76,6 @@ void expect_finite(const PressOutcome& outcome) {
 
 }  // namespace
 
-/// Damping adds tau times the force's rate, 3/2 tau speed/depth of it: 0.2 % at 0.1 cm.
 TEST(SlowPress, ParticlesOnBothSurfacesDoNotDependOnTheStep) {
   // Two cells through the rubber: below the contact many particles hang on bond and plane.
   PressSetup setup = setup_for(ModelKind::hookean, 10, ContactMode::frictionless);
@@ -90,6 +89,7 @@ TEST(SlowPress, ParticlesOnBothSurfacesDoNotDependOnTheStep) {
   expect_the_static_press(setup, 0.4e-3, 1.5e-3);
 }
 
+/// Damping adds tau times the force's rate, 3/2 tau speed/depth of it: 0.2 % at 0.1 cm.
 TEST(SlowPress, HookeanWithoutFrictionPassesThroughEquilibria) {
   PressSetup setup = setup_for(ModelKind::hookean, 6, ContactMode::frictionless);
   setup.protocol.speed = 5e-3;

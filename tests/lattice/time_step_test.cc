@@ -52,7 +52,7 @@ double free_growth(const LatticeModel& model, double dt, int steps) {
 /// not shrink it. Motion that grows without turning its sign is physical (squeezed cells buckle).
 bool overshoots(const LatticeModel& model, const State& state, double dt) {
   const Eigen::MatrixXd K = tangent(model, state), C = tangent(model, state, true);
-  const Eigen::VectorXd kick = dt * lattice::mass_vector(model).cwiseInverse();
+  const Eigen::VectorXd kick = dt * mass_vector(model).cwiseInverse();
   const Eigen::Index n = K.rows();
   Eigen::MatrixXd step(2 * n, 2 * n);  // of displacement, velocity
   step.bottomLeftCorner(n, n) = -(kick.asDiagonal() * K);
