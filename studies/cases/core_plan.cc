@@ -77,11 +77,7 @@ ordered_json CorePlan::reference_entry() const {
   for (const double depth : verdict_depths(config().press.protocol.depth)) {
     const double value = reference_.normal_force_at(depth);
     force.push_back(value);
-    // The error is known at the samples; in between take the share of the nearest one.
-    const auto nearest = std::ranges::min_element(
-        reference_.samples(), {},
-        [&](const meshes::PressSample& sample) { return std::abs(sample.indentation - depth); });
-    error.push_back(number_or_null(nearest->force_error / nearest->normal_force));
+    error.push_back(number_or_null(estimated_force_error(reference_, depth)));
   }
   return {{"status", finished}, {"force", force}, {"relative_force_error", error}};
 }

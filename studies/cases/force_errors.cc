@@ -1,5 +1,6 @@
 #include "studies/cases/force_errors.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "studies/report/run_data.h"
@@ -22,6 +23,13 @@ nlohmann::ordered_json force_errors(const PressResponse& response, const PressRe
                                           : nlohmann::ordered_json());
   }
   return errors;
+}
+
+double estimated_force_error(const PressResponse& continuum, double depth) {
+  const auto nearest = std::ranges::min_element(
+      continuum.samples(), {},
+      [&](const meshes::PressSample& sample) { return std::abs(sample.indentation - depth); });
+  return nearest->force_error / nearest->normal_force;
 }
 
 }  // namespace fingertip::studies

@@ -15,4 +15,8 @@ std::vector<double> verdict_depths(double depth);
 nlohmann::ordered_json force_errors(const meshes::PressResponse& response,
                                     const meshes::PressResponse& reference, double depth);
 
+/// Estimated relative error of a continuum's force at a depth [m]: that of the nearest sample, for
+/// it is known at samples only. NaN where it was not estimated.
+double estimated_force_error(const meshes::PressResponse& continuum, double depth);
+
 }  // namespace fingertip::studies

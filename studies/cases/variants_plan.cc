@@ -8,6 +8,7 @@
 #include <set>
 
 #include "meshes/files.h"
+#include "studies/cases/force_errors.h"
 #include "studies/cases/plan.h"
 #include "studies/cases/variant_measures.h"
 #include "studies/report/figure.h"
@@ -147,14 +148,6 @@ PressResponse response_in(const fs::path& folder) {
   return fs::exists(file) ? PressResponse::read_csv(file) : PressResponse();
 }
 
-/// Estimated relative error of the continuum at one of its samples.
-double estimated_error(const PressResponse& continuum, double depth) {
-  const auto sample = std::ranges::min_element(
-      continuum.samples(), {},
-      [&](const meshes::PressSample& one) { return std::abs(one.indentation - depth); });
-  return sample->force_error / sample->normal_force;
-}
-
 VariantResult VariantsPlan::result_of(const Press& press, const fs::path& folder) const {
   const PressResponse response = response_in(folder / press.folder);
   const PressResponse continuum = response_in(folder / continua_[press.continuum].folder);
@@ -165,7 +158,7 @@ VariantResult VariantsPlan::result_of(const Press& press, const fs::path& folder
     result.depth.push_back(depth);
     result.force.push_back(force);
     result.reference_force.push_back(wanted);
-    result.reference_error.push_back(estimated_error(continuum, depth));
+    result.reference_error.push_back(estimated_force_error(continuum, depth));
     result.error.push_back(force / wanted - 1.0);
   }
   return result;

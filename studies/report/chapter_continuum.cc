@@ -210,10 +210,6 @@ FigureBlock convergence_figure(const RunData& run, const std::vector<Sample>& sa
           "fall evenly."};
 }
 
-Cell plain(const std::string& text, const std::string& note = "") {
-  return {text, note, Grade::none};
-}
-
 std::string whole(const json& object, const char* key) {
   return count(number_at(object, key));
 }

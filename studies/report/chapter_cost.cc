@@ -11,10 +11,6 @@ namespace {
 
 using nlohmann::json;
 
-Cell plain(const std::string& text, const std::string& note = "") {
-  return {text, note, Grade::none};
-}
-
 /// One line of the lattices' table: what it tells and how a model's summary.json tells it.
 struct Quantity {
   std::string label, note;

@@ -21,11 +21,7 @@ struct StaticLattice {
     return fmt::format("{}, a = {} cm", model, number(to_cm(spacing), 3));
   }
   /// Largest |error|; NaN when there is none.
-  double worst() const {
-    double result = meshes::unknown;
-    for (const double one : error) result = std::fmax(result, std::abs(one));
-    return result;
-  }
+  double worst() const { return largest_magnitude(error); }
 };
 
 /// By model, coarse to fine.

@@ -17,10 +17,6 @@ std::string full_name(const VariantPress& press) {
   return press.series.empty() ? press.name : press.series + ", " + press.name;
 }
 
-Cell plain(const std::string& text, const std::string& note = "") {
-  return {text, note, Grade::none};
-}
-
 std::vector<double> numbers(const json& list) {
   std::vector<double> values;
   for (const json& one : list)

@@ -18,10 +18,6 @@ constexpr double order_slack = 0.2, order_near = 0.5;
 /// Below so much [%] it does not matter how far an element is off.
 constexpr double least_shown = 1e-3;
 
-Cell plain(const std::string& text, const std::string& note = "") {
-  return {text, note, Grade::none};
-}
-
 Cell words(const std::string& text) {
   return {text, "", Grade::none, true};
 }

@@ -30,6 +30,10 @@ struct Cell {
   bool words = false;  ///< prose: left-aligned and wrapped
 };
 
+inline Cell plain(const std::string& text, const std::string& note = "") {
+  return {text, note, Grade::none};
+}
+
 /// The first column names the row.
 struct Table {
   std::string caption;

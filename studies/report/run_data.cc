@@ -154,6 +154,12 @@ std::vector<double> CsvTable::numbers(const std::string& name) const {
   return values;
 }
 
+double largest_magnitude(const std::vector<double>& values) {
+  double result = meshes::unknown;
+  for (const double one : values) result = std::fmax(result, std::abs(one));
+  return result;
+}
+
 CsvTable read_csv(const fs::path& file) {
   CsvTable table;
   std::ifstream stream(file);

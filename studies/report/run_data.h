@@ -11,6 +11,9 @@
 
 namespace fingertip::studies::reporting {
 
+/// NaN when there is none; NaN among others does not count.
+double largest_magnitude(const std::vector<double>& values);
+
 /// A CSV file whose first line holds names with units. Cells are kept as text.
 struct CsvTable {
   std::vector<std::string> names;

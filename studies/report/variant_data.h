@@ -16,7 +16,8 @@ struct VariantPress {
   double spacing = 0.0, volume_defect = 0.0, wall_time = 0.0;
   std::vector<double> depth, force, reference, error;
 
-  double worst() const;  ///< largest |error|; NaN when there is none
+  /// Largest |error|; NaN when there is none.
+  double worst() const { return largest_magnitude(error); }
 };
 
 /// In the order of the case.

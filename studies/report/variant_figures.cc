@@ -8,12 +8,6 @@
 
 namespace fingertip::studies::reporting {
 
-double VariantPress::worst() const {
-  double result = meshes::unknown;
-  for (const double one : error) result = std::fmax(result, std::abs(one));
-  return result;
-}
-
 std::vector<VariantPress> read_variants(const CsvTable& table) {
   const auto series = table.texts("series"), name = table.texts("name"),
              model = table.texts("model"), continuum = table.texts("continuum"),
