@@ -47,8 +47,7 @@ CellLaw law_for(const Recipe& recipe, const Rubber& rubber, const CubicGrid& gri
 }
 
 /// Particles, springs and cells; no bond, no outer points, nothing held.
-LatticeBody elastic_body(const GridCells& cells, const Recipe& recipe,
-                         const Rubber& rubber) {
+LatticeBody elastic_body(const GridCells& cells, const Recipe& recipe, const Rubber& rubber) {
   LatticeBody body;
   body.finite = recipe.finite;
   body.law = law_for(recipe, rubber, cells.grid());

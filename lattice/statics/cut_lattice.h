@@ -18,9 +18,9 @@ namespace fingertip::lattice {
 inline constexpr double particle_tie = 20.0;
 /// central, hookean or network on cells cut by the tip's true surfaces (cut_tip, Recipe); a cell
 /// gives its springs, law and mass what of them lies in its rubber, mirror planes hold the
-/// displacement across them. Where fibres and a cell law make up the material, a linear displacement
-/// costs the rubber's energy in every cell, and its nodal forces are those of its traction on the
-/// true surfaces (patch test). Throws InvalidInput as cut_tip does.
+/// displacement across them. Where fibres and a cell law make up the material, a linear
+/// displacement costs the rubber's energy in every cell, and its nodal forces are those of its
+/// traction on the true surfaces (patch test). Throws InvalidInput as cut_tip does.
 LatticeBody build_cut_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
                           const LatticeSettings& settings, int sectors);
 
