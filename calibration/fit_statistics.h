@@ -1,0 +1,53 @@
+/// What the Jacobian at a least-squares fit says about its parameters.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "calibration/press_fit.h"
+
+namespace fingertip::calibration {
+
+/// Half width of the 95 % interval over the standard error: Student's t, and 1.96 for a normal
+/// distribution. `degrees_of_freedom` >= 1.
+double student_95(int degrees_of_freedom);
+double normal_95();
+
+/// Probability that chi-square with so many degrees of freedom (>= 1) is at least that large.
+double chi_square_above(double chi_square, int degrees_of_freedom);
+
+/// Singular value decomposition of a Jacobian whose columns are parameters over their sizes and
+/// whose rows are residuals over their deviations.
+class Sensitivity {
+ public:
+  /// `jacobian` of residuals over deviations by the parameters themselves, `sizes` > 0.
+  Sensitivity(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& sizes);
+
+  /// Decreasing, one per parameter, zero where there are fewer residuals.
+  const Eigen::VectorXd& singular_values() const { return values_; }
+  /// Right singular vectors as columns, in units of the sizes.
+  const Eigen::MatrixXd& directions() const { return directions_; }
+  /// Of the parameters themselves. Singular values count as at least 1e-15 of the largest, so that
+  /// what is not seen at all has a huge variance, not an infinite one.
+  Eigen::MatrixXd covariance() const;
+
+ private:
+  Eigen::VectorXd sizes_, values_;
+  Eigen::MatrixXd directions_;
+};
+
+/// Fills in singular values, unidentifiable and only_from_priors of `fit`, whose parameters and
+/// covariance are known. The Jacobian's rows over their deviations are those of the curves, then
+/// those of priors; `quantile` is the 95 % interval's half width over a standard error. A direction
+/// is open where the curves' singular value is below `threshold` times the largest, or where their
+/// own interval along it exceeds the sizes.
+void describe_sensitivity(PressFit& fit, const Eigen::MatrixXd& curves,
+                          const Eigen::MatrixXd& priors, const Eigen::VectorXd& sizes,
+                          double threshold, double quantile);
+
+/// "youngs_modulus + 1, shear_modulus - 0.75": changes over the parameters' sizes.
+std::string describe_changes(const Eigen::VectorXd& changes,
+                             const std::vector<MaterialParameter>& parameters);
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,177 @@
+#include "calibration/forward_model.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "lattice/statics/static_press.h"
+#include "meshes/errors.h"
+
+namespace fingertip::calibration {
+
+using lattice::ModelKind;
+using lattice::PressParameter;
+using lattice::PressSetup;
+
+namespace {
+
+bool is_modulus(MaterialParameter parameter) {
+  return parameter == MaterialParameter::youngs_modulus ||
+         parameter == MaterialParameter::shear_modulus;
+}
+
+/// The parameter of a press that is the same thing; none for E and G.
+std::optional<PressParameter> press_parameter(MaterialParameter parameter) {
+  switch (parameter) {
+    case MaterialParameter::youngs_modulus:
+    case MaterialParameter::shear_modulus: return std::nullopt;
+    case MaterialParameter::k1: return PressParameter::k1;
+    case MaterialParameter::k2: return PressParameter::k2;
+    case MaterialParameter::k3: return PressParameter::k3;
+    case MaterialParameter::kappa: return PressParameter::kappa;
+    case MaterialParameter::lame_shear: return PressParameter::shear_modulus;
+    case MaterialParameter::lambda: return PressParameter::lambda;
+    case MaterialParameter::bond: return PressParameter::bond;
+    case MaterialParameter::contact: return PressParameter::contact;
+  }
+  return std::nullopt;
+}
+
+bool is_tie(MaterialParameter parameter) {
+  return parameter == MaterialParameter::bond || parameter == MaterialParameter::contact;
+}
+
+bool model_has(const lattice::LatticeSettings& settings, MaterialParameter parameter) {
+  if (is_modulus(parameter))
+    return settings.model == ModelKind::hookean || settings.model == ModelKind::network;
+  const auto known = lattice::press_parameters(settings);
+  return std::ranges::find(known, *press_parameter(parameter)) != known.end();
+}
+
+void check(const PressSetup& setup, const std::vector<MaterialParameter>& parameters) {
+  std::vector<meshes::Violation> found;
+  if (parameters.empty())
+    found.push_back({"parameters", "none", "a fit needs a free parameter", "name at least one"});
+  for (auto it = parameters.begin(); it != parameters.end(); ++it) {
+    if (!model_has(setup.lattice, *it))
+      found.push_back({"parameters", std::string(name(*it)),
+                       "the " + std::string(lattice::name(setup.lattice.model)) +
+                           " model does not depend on it, or not by a closed form",
+                       "hookean and network know E and G; others see press_parameters"});
+    if (std::find(parameters.begin(), it, *it) != it)
+      found.push_back({"parameters", std::string(name(*it)), "a parameter is named once",
+                       "remove the second one"});
+  }
+  const auto constant = [](MaterialParameter p) { return !is_modulus(p) && !is_tie(p); };
+  if (std::ranges::any_of(parameters, is_modulus) && std::ranges::any_of(parameters, constant))
+    found.push_back(
+        {"parameters", "E or G beside a constant of the lattice",
+         "the rubber is described in one way: by E and G, or by the lattice's constants",
+         "choose one of them"});
+  if (!found.empty()) throw meshes::InvalidInput(found);
+}
+
+}  // namespace
+
+std::string_view name(MaterialParameter parameter) {
+  switch (parameter) {
+    case MaterialParameter::youngs_modulus: return "youngs_modulus";
+    case MaterialParameter::shear_modulus: return "shear_modulus";
+    case MaterialParameter::k1: return "k1";
+    case MaterialParameter::k2: return "k2";
+    case MaterialParameter::k3: return "k3";
+    case MaterialParameter::kappa: return "kappa";
+    case MaterialParameter::lame_shear: return "lame_shear";
+    case MaterialParameter::lambda: return "lambda";
+    case MaterialParameter::bond: return "bond";
+    case MaterialParameter::contact: return "contact";
+  }
+  return "unknown";
+}
+
+std::string_view unit(MaterialParameter parameter) {
+  switch (parameter) {
+    case MaterialParameter::k1:
+    case MaterialParameter::k2:
+    case MaterialParameter::k3: return "N/m";
+    case MaterialParameter::bond:
+    case MaterialParameter::contact: return "1";
+    default: return "Pa";
+  }
+}
+
+Eigen::RowVector2d lambda_slopes(double e, double g) {
+  const double denominator = (3.0 * g - e) * (3.0 * g - e);
+  return Eigen::RowVector2d(g * g, 4.0 * e * g - e * e - 6.0 * g * g) / denominator;
+}
+
+LatticeForwardModel::LatticeForwardModel(PressSetup setup,
+                                         std::vector<MaterialParameter> parameters)
+    : setup_(std::move(setup)), parameters_(std::move(parameters)) {
+  check(setup_, parameters_);
+  if (by_moduli()) {
+    using enum PressParameter;
+    press_parameters_ = setup_.lattice.model == ModelKind::network
+                            ? std::vector{shear_modulus, lambda}
+                            : std::vector{k1, k2, kappa};
+  }
+  for (const MaterialParameter parameter : parameters_)
+    if (const auto same = press_parameter(parameter)) press_parameters_.push_back(*same);
+}
+
+bool LatticeForwardModel::by_moduli() const {
+  return std::ranges::any_of(parameters_, is_modulus);
+}
+
+PressSetup LatticeForwardModel::setup_with(const Eigen::VectorXd& parameters) const {
+  PressSetup setup = setup_;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const double value = parameters(Eigen::Index(i));
+    if (parameters_[i] == MaterialParameter::youngs_modulus) setup.rubber.youngs_modulus = value;
+    if (parameters_[i] == MaterialParameter::shear_modulus) setup.rubber.shear_modulus = value;
+    if (const auto same = press_parameter(parameters_[i])) set_value(*same, value, setup);
+  }
+  // The closed form divides by 3G - E.
+  const auto broken = setup.rubber.violations();
+  if (!broken.empty()) throw meshes::InvalidInput(broken);
+  if (by_moduli() && setup.lattice.model == ModelKind::hookean)
+    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  return setup;
+}
+
+Eigen::MatrixXd LatticeForwardModel::chain(const PressSetup& setup) const {
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(Eigen::Index(press_parameters_.size()),
+                                                Eigen::Index(parameters_.size()));
+  const double a = setup.lattice.spacing;
+  const Eigen::RowVector2d lambda =
+      lambda_slopes(setup.rubber.youngs_modulus, setup.rubber.shear_modulus);
+  for (Eigen::Index j = 0; j < chain.cols(); ++j) {
+    const MaterialParameter parameter = parameters_[std::size_t(j)];
+    if (const auto same = press_parameter(parameter)) {
+      const auto row = std::ranges::find(press_parameters_, *same) - press_parameters_.begin();
+      chain(row, j) = 1.0;
+      continue;
+    }
+    const bool shear = parameter == MaterialParameter::shear_modulus;
+    const double of_shear = shear ? 1.0 : 0.0, of_lambda = lambda(shear ? 1 : 0);
+    if (setup.lattice.model == ModelKind::network)
+      chain.col(j).head<2>() << of_shear, of_lambda;
+    else
+      chain.col(j).head<3>() << a * of_shear, a * of_shear, of_lambda - of_shear;
+  }
+  return chain;
+}
+
+CurveSlopes LatticeForwardModel::evaluate(const Eigen::VectorXd& parameters) {
+  const PressSetup setup = setup_with(parameters);
+  const auto press = lattice::run_static_press_with_slopes(setup, press_parameters_);
+  const auto& samples = press.outcome.response.samples();
+  CurveSlopes result;
+  result.force.resize(Eigen::Index(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    result.force(Eigen::Index(i)) = samples[i].normal_force;
+  result.jacobian = press.slopes.normal_force * chain(setup);
+  return result;
+}
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,76 @@
+/// From material parameters to the forces of a press and their derivatives.
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+#include <vector>
+
+#include "lattice/settings.h"
+#include "lattice/statics/press_parameters.h"
+
+namespace fingertip::calibration {
+
+/// What can be identified from a press. Of a rubber's two constants one is varied while the named
+/// other is held, so E and G go together, and G with lambda.
+enum class MaterialParameter {
+  youngs_modulus,  ///< E, G held [Pa]
+  shear_modulus,   ///< G, E held [Pa]
+  k1,              ///< SpringConstants [N/m]
+  k2,              ///< [N/m]
+  k3,              ///< [N/m]
+  kappa,           ///< [Pa]
+  lame_shear,      ///< G, lambda held; network [Pa]
+  lambda,          ///< G held; network [Pa]
+  bond,            ///< LatticeSettings::ligament_stiffness
+  contact,         ///< LatticeSettings::contact_stiffness
+};
+
+/// The enumerator's name.
+std::string_view name(MaterialParameter parameter);
+
+/// "Pa", "N/m" or "1".
+std::string_view unit(MaterialParameter parameter);
+
+/// Forces at the indentations of a curve.
+struct CurveSlopes {
+  Eigen::VectorXd force;     ///< [N]
+  Eigen::MatrixXd jacobian;  ///< rows are indentations, columns parameters [N per unit]
+};
+
+/// A curve as a function of parameters, whose order the model knows.
+class ForwardModel {
+ public:
+  virtual ~ForwardModel() = default;
+  /// Throws InvalidInput for parameters outside of the model's range, NotConverged where it finds
+  /// no answer.
+  virtual CurveSlopes evaluate(const Eigen::VectorXd& parameters) = 0;
+};
+
+/// lambda = G (E - 2G)/(3G - E) by E and by G, dimensionless.
+Eigen::RowVector2d lambda_slopes(double youngs_modulus, double shear_modulus);
+
+/// The static lattice: normal forces at protocol.samples by run_static_press_with_slopes.
+/// E and G become constants of hookean by k1 = k2 = aG, k3 = 0, kappa = lambda - G, whatever the
+/// setup's constants were, and go to the network as they are. What is not among the parameters
+/// stays as in the setup.
+class LatticeForwardModel final : public ForwardModel {
+ public:
+  /// Throws InvalidInput for an empty list, a parameter that the setup's model does not have, one
+  /// named twice, or parameters that describe the rubber in two ways at once.
+  LatticeForwardModel(lattice::PressSetup setup, std::vector<MaterialParameter> parameters);
+
+  CurveSlopes evaluate(const Eigen::VectorXd& parameters) override;
+  /// The press with these parameters.
+  lattice::PressSetup setup_with(const Eigen::VectorXd& parameters) const;
+
+ private:
+  bool by_moduli() const;
+  /// d(press parameters)/d(parameters), rows as in press_parameters_.
+  Eigen::MatrixXd chain(const lattice::PressSetup& setup) const;
+
+  lattice::PressSetup setup_;
+  std::vector<MaterialParameter> parameters_;
+  std::vector<lattice::PressParameter> press_parameters_;
+};
+
+}  // namespace fingertip::calibration
