@@ -2,6 +2,16 @@
 
 namespace fingertip::calibration {
 
+namespace {
+
+/// l²m² + m²n² + n²l² of a direction of any length: 0 along a cube axis, 1/3 along a body diagonal.
+double off_axis(const Eigen::Vector3d& direction) {
+  const Eigen::Array3d squares = direction.normalized().array().square();
+  return squares(0) * squares(1) + squares(1) * squares(2) + squares(2) * squares(0);
+}
+
+}  // namespace
+
 ElasticModuli moduli_from_stiffness(double c11, double c12, double c44) {
   // Compliances of a cubic crystal; 1/E along a direction mixes S11 with the off-axis term.
   const double determinant = (c11 - c12) * (c11 + 2.0 * c12);
@@ -24,10 +34,18 @@ double youngs_modulus_along(const ElasticModuli& moduli, const Eigen::Vector3d& 
   const double s11 = (moduli.c11 + moduli.c12) / determinant;
   const double s12 = -moduli.c12 / determinant;
   const double s44 = 1.0 / moduli.c44;
-  const Eigen::Array3d squares = direction.normalized().array().square();
-  const double off_axis =
-      squares(0) * squares(1) + squares(1) * squares(2) + squares(2) * squares(0);
-  return 1.0 / (s11 - 2.0 * (s11 - s12 - 0.5 * s44) * off_axis);
+  return 1.0 / (s11 - 2.0 * (s11 - s12 - 0.5 * s44) * off_axis(direction));
+}
+
+Eigen::RowVector3d youngs_modulus_slopes(const ElasticModuli& moduli,
+                                         const Eigen::Vector3d& direction) {
+  const double q = off_axis(direction), e = youngs_modulus_along(moduli, direction);
+  const double shear = moduli.c11 - moduli.c12, bulk = moduli.c11 + 2.0 * moduli.c12;
+  const double by_shear = (2.0 / 3.0 - 2.0 * q) / (shear * shear);
+  const double by_bulk = 1.0 / (3.0 * bulk * bulk);
+  return e * e *
+         Eigen::RowVector3d(by_shear + by_bulk, 2.0 * by_bulk - by_shear,
+                            q / (moduli.c44 * moduli.c44));
 }
 
 Eigen::Matrix<double, 3, 4> stiffness_jacobian(double spacing) {
@@ -47,12 +65,11 @@ ElasticModuli homogenised_moduli(const lattice::SpringConstants& constants, doub
 Eigen::Matrix4d moduli_jacobian(const lattice::SpringConstants& constants, double spacing) {
   const ElasticModuli m = homogenised_moduli(constants, spacing);
   const double sum = m.c11 + m.c12;
-  // E = (C11 - C12)(C11 + 2 C12)/(C11 + C12), nu = C12/(C11 + C12), K = (C11 + 2 C12)/3.
+  // nu = C12/(C11 + C12), K = (C11 + 2 C12)/3.
   Eigen::Matrix<double, 4, 3> by_stiffness;
-  by_stiffness << (2.0 * m.c11 + m.c12 - m.youngs_modulus_100) / sum,
-      (m.c11 - 4.0 * m.c12 - m.youngs_modulus_100) / sum, 0.0,  //
-      0.0, 0.0, 1.0,                                            //
-      -m.c12 / (sum * sum), m.c11 / (sum * sum), 0.0,           //
+  by_stiffness << youngs_modulus_slopes(m, Eigen::Vector3d::UnitX()),  //
+      0.0, 0.0, 1.0,                                                   //
+      -m.c12 / (sum * sum), m.c11 / (sum * sum), 0.0,                  //
       1.0 / 3.0, 2.0 / 3.0, 0.0;
   return by_stiffness * stiffness_jacobian(spacing);
 }

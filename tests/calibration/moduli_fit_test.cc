@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +14,7 @@
 namespace {
 
 using fingertip::calibration::CubeModuli;
+using fingertip::calibration::ElasticModuli;
 using fingertip::calibration::fit_moduli;
 using fingertip::calibration::homogenised_moduli;
 using fingertip::calibration::ModuliFit;
@@ -40,10 +41,7 @@ class HookeanFit : public testing::TestWithParam<double> {};
 
 TEST_P(HookeanFit, ReachesEveryModulusIsotropicallyFromEveryStart) {
   const Rubber rubber = rubber_of(GetParam());
-  const auto start = std::chrono::steady_clock::now();
   const ModuliFit result = fit(rubber, ModelKind::hookean);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-
   EXPECT_TRUE(result.converged);
   EXPECT_EQ(result.starts_agreeing, 10);
   EXPECT_NEAR(result.achieved.youngs_modulus_100 / rubber.youngs_modulus, 1.0, 1e-9);
@@ -53,7 +51,12 @@ TEST_P(HookeanFit, ReachesEveryModulusIsotropicallyFromEveryStart) {
   EXPECT_NEAR(result.achieved.poissons_ratio_100, GetParam(), 1e-9);
   EXPECT_NEAR(result.achieved.bulk_modulus / rubber.bulk_modulus(), 1.0, 1e-9);
   EXPECT_NEAR(result.achieved.anisotropy, 1.0, 1e-9);
-  EXPECT_LT(elapsed.count(), 1.0);
+  // From the constants once more, and against the rubber's own.
+  const ElasticModuli again = homogenised_moduli(result.constants, a);
+  const double tolerance = 1e-8 * rubber.youngs_modulus;
+  EXPECT_NEAR(again.c11, rubber.longitudinal_modulus(), tolerance);
+  EXPECT_NEAR(again.c12, rubber.lame_lambda(), tolerance);
+  EXPECT_NEAR(again.c44, rubber.shear_modulus, tolerance);
 }
 
 TEST_P(HookeanFit, FindsTheClosedForm) {
@@ -107,6 +110,118 @@ TEST(CentralFit, MatchesTheOneRubberOfNuOneQuarterCompletely) {
   const ModuliFit result = fit(rubber, ModelKind::central);
   EXPECT_NEAR(result.achieved.bulk_modulus / rubber.bulk_modulus(), 1.0, 1e-9);
   EXPECT_NEAR(result.achieved.anisotropy, 1.0, 1e-9);
+}
+
+ModuliFit compromise(const Rubber& rubber, double isotropy, double bulk, unsigned seed = 1) {
+  return fit_moduli(rubber, {.model = ModelKind::central,
+                             .spacing = a,
+                             .seed = seed,
+                             .isotropy_weight = isotropy,
+                             .bulk_weight = bulk});
+}
+
+/// Sum of squared residuals of springs with these moduli, written once more.
+double loss(const Rubber& rubber, double isotropy, double bulk, double c11, double c44) {
+  const ElasticModuli m = fingertip::calibration::moduli_from_stiffness(c11, c44, c44);
+  const double e = m.youngs_modulus_100;
+  return std::pow(e / rubber.youngs_modulus - 1.0, 2) +
+         std::pow(c44 / rubber.shear_modulus - 1.0, 2) +
+         isotropy * isotropy *
+             (std::pow(m.youngs_modulus_110 / e - 1.0, 2) +
+              std::pow(m.youngs_modulus_111 / e - 1.0, 2)) +
+         bulk * bulk * std::pow(m.bulk_modulus / rubber.bulk_modulus() - 1.0, 2);
+}
+
+/// Every C44 > 0 and C11 > C44 belongs to non-negative springs, so the least loss can be sought
+/// there: on a grid in their logarithms that closes in on its best point.
+Eigen::Vector2d least_loss(const Rubber& rubber, double isotropy, double bulk) {
+  Eigen::Vector2d best(std::log(2.0 * rubber.shear_modulus), std::log(rubber.shear_modulus));
+  const auto at = [&](const Eigen::Vector2d& logs) {
+    const double c44 = std::exp(logs(1));
+    return loss(rubber, isotropy, bulk, c44 + std::exp(logs(0)), c44);
+  };
+  for (double width = 4.0; width > 1e-8; width *= 0.8) {
+    const Eigen::Vector2d centre = best;
+    for (int i = -10; i <= 10; ++i)
+      for (int j = -10; j <= 10; ++j) {
+        const Eigen::Vector2d other = centre + width / 10.0 * Eigen::Vector2d(i, j);
+        if (at(other) < at(best)) best = other;
+      }
+  }
+  const double c44 = std::exp(best(1));
+  return {c44 + std::exp(best(0)), c44};
+}
+
+TEST(CentralCompromise, IsTheLeastLossThatAnySpringsHave) {
+  for (const double nu : {-0.9, -0.3, 0.0, 3.0 / 7.0, 0.499})
+    for (const auto& [isotropy, bulk] :
+         {std::pair{1.0, 0.0}, {0.0, 0.1}, {0.3, 1.0}, {10.0, 3.0}}) {
+      SCOPED_TRACE(testing::Message() << nu << " " << isotropy << " " << bulk);
+      const Rubber rubber = rubber_of(nu);
+      const ModuliFit result = compromise(rubber, isotropy, bulk);
+      const Eigen::Vector2d best = least_loss(rubber, isotropy, bulk);
+      EXPECT_TRUE(result.converged);
+      EXPECT_EQ(result.starts_agreeing, 10);
+      EXPECT_NEAR(result.achieved.c11 / best(0), 1.0, 1e-5);
+      EXPECT_NEAR(result.achieved.c44 / best(1), 1.0, 1e-5);
+      EXPECT_LE(loss(rubber, isotropy, bulk, result.achieved.c11, result.achieved.c44),
+                loss(rubber, isotropy, bulk, best(0), best(1)) * (1.0 + 1e-12));
+      ASSERT_EQ(result.unidentifiable.size(), 1U);
+      EXPECT_EQ(fingertip::calibration::describe_direction(result.unidentifiable[0]),
+                "k1 + 1, k2 - 1, k3 + 0.75");
+      EXPECT_GE(std::min({result.constants.k1, result.constants.k2, result.constants.k3}), 0.0);
+    }
+}
+
+// Isotropic springs have E = 5/2 G; of these the weight leaves the one whose E and G miss least.
+TEST(CentralCompromise, LargeWeightsEndAtIsotropyOrAtTheBulkModulus) {
+  const Rubber rubber;
+  const ModuliFit isotropic = compromise(rubber, 1e4, 0.0);
+  const double e = rubber.youngs_modulus, g = rubber.shear_modulus;
+  const double expected = (2.5 / e + 1.0 / g) / (6.25 / (e * e) + 1.0 / (g * g));
+  EXPECT_NEAR(isotropic.achieved.anisotropy, 1.0, 1e-6);
+  EXPECT_NEAR(isotropic.achieved.poissons_ratio_100, 0.25, 1e-6);
+  EXPECT_NEAR(isotropic.achieved.shear_modulus / expected, 1.0, 1e-6);
+  const ModuliFit bulky = compromise(rubber, 0.0, 1e4);
+  EXPECT_NEAR(bulky.achieved.bulk_modulus / rubber.bulk_modulus(), 1.0, 1e-6);
+  EXPECT_GT(bulky.achieved.youngs_modulus_100, 1.2 * e);
+}
+
+TEST(CentralCompromise, TradesMoreTheLargerTheWeight) {
+  double bulk = 0.0, error = -1.0, anisotropy = 0.0;
+  for (const double weight : {0.0, 0.05, 0.2, 1.0, 5.0}) {
+    const ModuliFit volume = compromise(Rubber{}, 0.0, weight);
+    EXPECT_GT(volume.achieved.bulk_modulus, bulk);
+    EXPECT_GT(volume.residuals.head<2>().norm(), error);
+    bulk = volume.achieved.bulk_modulus;
+    error = volume.residuals.head<2>().norm();
+    const ModuliFit shape = compromise(Rubber{}, weight, 0.0);
+    EXPECT_GT(shape.achieved.anisotropy, anisotropy);
+    anisotropy = shape.achieved.anisotropy;
+  }
+  EXPECT_LT(anisotropy, 1.0);
+}
+
+TEST(CentralCompromise, CostsNothingWhereNothingIsOutOfReach) {
+  const Rubber rubber = rubber_of(0.25);
+  const ModuliFit result = compromise(rubber, 1.0, 1.0);
+  EXPECT_LT(result.residuals.cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_NE(result.statement.find("all reached"), std::string::npos) << result.statement;
+  // hookean meets everything, so weights mean nothing to it.
+  const ModuliFit plain = fit(Rubber{}, ModelKind::hookean);
+  const ModuliFit weighted = fit_moduli(Rubber{}, {.spacing = a, .isotropy_weight = 2.0});
+  EXPECT_EQ(weighted.constants.k1, plain.constants.k1);
+  EXPECT_EQ(weighted.statement, plain.statement);
+}
+
+TEST(CentralCompromise, StatementSaysWhatIsOutOfReachAndWhatWasTraded) {
+  const ModuliFit result = compromise(Rubber{}, 1.0, 0.1);
+  EXPECT_EQ(result.residual_names,
+            (std::vector<std::string>{"E_100", "G", "E_110/E_100", "E_111/E_100", "K"}));
+  for (const char* words : {"Cauchy", "nu = 0.4286", "out of reach together", "(isotropy 1, bulk",
+                            "E_100 = 3729.1 Pa instead of 3922.7 Pa (-4.94 %)", "Traded",
+                            "K = 2434.7 Pa instead of 9152.9 Pa (-73.4 %)", "anisotropy 0.862"})
+    EXPECT_NE(result.statement.find(words), std::string::npos) << words << "\n" << result.statement;
 }
 
 TEST(ModuliFit, FiniteCubesOfTheFittedLatticesMeasureTheTargets) {
@@ -186,6 +301,7 @@ TEST(ModuliFit, StatementExplainsThePrice) {
   EXPECT_NE(central.find("instead of 9152.9 Pa"), std::string::npos) << central;
   EXPECT_NE(central.find("k1 + 1, k2 - 1, k3 + 0.75"), std::string::npos) << central;
   EXPECT_NE(central.find("10 of 10 random starts"), std::string::npos) << central;
+  EXPECT_NE(central.find("out of reach"), std::string::npos) << central;
   const std::string hookean = fit(Rubber{}, ModelKind::hookean).statement;
   EXPECT_NE(hookean.find("every direction"), std::string::npos) << hookean;
   EXPECT_NE(fit(rubber_of(0.25), ModelKind::central).statement.find("costs nothing"),
@@ -200,6 +316,19 @@ void expect_refused(const Rubber& rubber, const ModuliFitOptions& options, const
     ASSERT_FALSE(error.violations().empty());
     EXPECT_EQ(error.violations()[0].key, key);
     EXPECT_FALSE(error.violations()[0].remedy.empty());
+  }
+}
+
+TEST(ModuliFit, SaysWhyNoBodyHasALargerPoissonsRatio) {
+  Rubber rubber;
+  rubber.shear_modulus = 0.3 * rubber.youngs_modulus;
+  try {
+    fit(rubber, ModelKind::hookean);
+    FAIL();
+  } catch (const InvalidInput& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("G must exceed E/3"), std::string::npos) << text;
+    EXPECT_NE(text.find("no lattice and no continuum"), std::string::npos) << text;
   }
 }
 
@@ -219,6 +348,14 @@ TEST(ModuliFit, RefusesWhatItCannotFit) {
   Rubber too_soft_in_shear;
   too_soft_in_shear.shear_modulus = too_soft_in_shear.youngs_modulus / 3.0;
   expect_refused(too_soft_in_shear, good, "rubber.shear_modulus");
+  for (const double weight : {-1.0, std::numeric_limits<double>::infinity()}) {
+    bad = good;
+    bad.isotropy_weight = weight;
+    expect_refused(Rubber{}, bad, "calibration.isotropy_weight");
+    bad = good;
+    bad.bulk_weight = weight;
+    expect_refused(Rubber{}, bad, "calibration.bulk_weight");
+  }
 }
 
 }  // namespace

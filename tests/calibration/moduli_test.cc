@@ -82,6 +82,24 @@ TEST(Moduli, DirectionalYoungsModulusEqualsRotatingTheStiffnessTensor) {
   EXPECT_NEAR(youngs_modulus_along(m, 5.0 * odd), youngs_modulus_along(m, odd), 1e-12);
 }
 
+TEST(Moduli, SlopesOfDirectionalYoungsModulusEqualDifferences) {
+  const Eigen::Vector3d stiffness(46.48, 12.0, 9.0);
+  const auto e = [](const Eigen::Vector3d& c, const Eigen::Vector3d& direction) {
+    return youngs_modulus_along(moduli_from_stiffness(c(0), c(1), c(2)), direction);
+  };
+  for (const Eigen::Vector3d& direction :
+       {Eigen::Vector3d(1, 0, 0), {1, 1, 0}, {1, 1, 1}, {0.3, -1.7, 0.9}}) {
+    const Eigen::RowVector3d found = fingertip::calibration::youngs_modulus_slopes(
+        moduli_from_stiffness(stiffness(0), stiffness(1), stiffness(2)), direction);
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d shift = 1e-5 * Eigen::Vector3d::Unit(i);
+      const double slope =
+          (e(stiffness + shift, direction) - e(stiffness - shift, direction)) / 2e-5;
+      EXPECT_NEAR(found(i), slope, 1e-8) << i;
+    }
+  }
+}
+
 TEST(Moduli, IsotropicStiffnessGivesTheTextbookRelations) {
   const double lambda = 84.0, g = 14.0;
   const ElasticModuli m = moduli_from_stiffness(lambda + 2.0 * g, lambda, g);

@@ -4,23 +4,17 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
-#include "meshes/errors.h"
-
 namespace {
 
-using fingertip::calibration::at_spacing;
 using fingertip::calibration::fit_moduli;
-using fingertip::calibration::homogenised_moduli;
 using fingertip::calibration::Material;
+using fingertip::calibration::material_from;
 using fingertip::calibration::ModuliFit;
-using fingertip::calibration::read_material_toml;
 using fingertip::lattice::ModelKind;
-using fingertip::meshes::InvalidInput;
 using fingertip::meshes::Rubber;
 
 constexpr double a = 1.0e-2 / 12.0;  // [m]
@@ -46,32 +40,8 @@ class ResultFiles : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  /// Writes a good material file with `from` replaced by `to`.
-  std::filesystem::path spoiled(const std::string& from, const std::string& to) const {
-    const std::filesystem::path file = folder_ / "material.toml";
-    fingertip::calibration::write_material_toml(fit(ModelKind::hookean), file);
-    std::string text = contents(file);
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-    std::ofstream(file) << text;
-    return file;
-  }
-
   std::filesystem::path folder_;
 };
-
-void expect_refused(const std::filesystem::path& file, const std::string& place,
-                    const std::string& rule) {
-  try {
-    read_material_toml(file);
-    FAIL() << "accepted a file with " << rule;
-  } catch (const InvalidInput& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find(file.string() + place), std::string::npos) << message;
-    EXPECT_NE(message.find(rule), std::string::npos) << message;
-  }
-}
 
 TEST_F(ResultFiles, CalibrationJsonHoldsTheContractInSi) {
   const ModuliFit central = fit(ModelKind::central);
@@ -100,71 +70,27 @@ TEST_F(ResultFiles, CalibrationJsonHoldsTheContractInSi) {
   EXPECT_EQ(json.at("statement"), central.statement);
 }
 
-TEST_F(ResultFiles, MaterialReadsBackToTheSameBits) {
+TEST_F(ResultFiles, AFitIsAMaterialThatSaysWhereItCameFrom) {
   for (const ModelKind model : {ModelKind::hookean, ModelKind::central}) {
     const ModuliFit written = fit(model);
-    const std::filesystem::path file = folder_ / "material.toml";
-    fingertip::calibration::write_material_toml(written, file);
-    const Material read = read_material_toml(file);
-    EXPECT_EQ(read.model, model);
-    EXPECT_EQ(read.spacing, a);
-    EXPECT_EQ(read.constants.k1, written.constants.k1);
-    EXPECT_EQ(read.constants.k2, written.constants.k2);
-    EXPECT_EQ(read.constants.k3, written.constants.k3);
-    EXPECT_EQ(read.constants.kappa, written.constants.kappa);
-    EXPECT_EQ(read.rubber.youngs_modulus, written.target.youngs_modulus);
-    EXPECT_EQ(read.rubber.shear_modulus, written.target.shear_modulus);
-    EXPECT_EQ(read.rubber.density, written.target.density);
-    EXPECT_EQ(read.rubber.retardation_time, written.target.retardation_time);
-    EXPECT_NE(read.provenance.find(written.statement), std::string::npos);
-    EXPECT_FALSE(read.validity.empty());
-  }
-}
-
-TEST_F(ResultFiles, ConstantsScaleToAnotherSpacingAtTheSameModuli) {
-  const Material material = fingertip::calibration::material_from(fit(ModelKind::hookean));
-  const double finer = 0.37 * a;
-  const auto moduli = homogenised_moduli(at_spacing(material, finer), finer);
-  EXPECT_NEAR(moduli.youngs_modulus_100 / material.rubber.youngs_modulus, 1.0, 1e-9);
-  EXPECT_NEAR(moduli.bulk_modulus / material.rubber.bulk_modulus(), 1.0, 1e-9);
-}
-
-TEST_F(ResultFiles, BadMaterialFilesAreRefusedWithFileLineAndRule) {
-  expect_refused(folder_ / "absent.toml", ": ", "cannot be read");
-  expect_refused(folder_, ": ", "cannot be read");
-  std::ofstream(folder_ / "empty.toml").close();
-  expect_refused(folder_ / "empty.toml", ": ", "is empty");
-  expect_refused(spoiled("[constants]", "[constants"), ":7", "");
-  expect_refused(spoiled("N/m\"\nk2", "Pa\"\nk2"), ":8: constants.k1", "the unit N/m");
-  expect_refused(spoiled("k1 = \"", "k1 = \"nan "), ":8: constants.k1", "finite number");
-  expect_refused(spoiled("k1 = \"", "k1 = \"-"), ":8: constants.k1", "must not be negative");
-  expect_refused(spoiled("k1 = \"", "k9 = \""), ":21: constants.k1", "missing");
-  expect_refused(spoiled("[about]", "[rubber.more]\n[about]"), ":19: rubber.more", "no such key");
-  expect_refused(spoiled("\"hookean\"", "\"published\""), ":4: lattice.model",
-                 "central and hookean");
-  expect_refused(spoiled("\"hookean\"", "\"central\""), ":11: constants.kappa", "must be 0");
-  expect_refused(spoiled("\"hookean\"", "7"), ":4: lattice.model", "must be a string");
-  expect_refused(spoiled("shear_modulus = \"1372.931", "shear_modulus = \"1307.5"),
-                 ":15: rubber.shear_modulus", "G must exceed E/3");
-  expect_refused(spoiled("kappa = \"", "kappa = \"-"), ":8: constants.k1",
-                 "resist every deformation");
-}
-
-TEST_F(ResultFiles, TruncatedMaterialFilesAreRefusedWhereverTheyEnd) {
-  const std::filesystem::path file = folder_ / "material.toml";
-  fingertip::calibration::write_material_toml(fit(ModelKind::hookean), file);
-  const std::string text = contents(file);
-  // The last quote and newline may go missing together only with the string they close.
-  for (std::size_t length = 0; length + 1 < text.size(); length += 7) {
-    std::ofstream(file) << text.substr(0, length);
-    EXPECT_THROW(read_material_toml(file), InvalidInput) << "truncated to " << length;
+    const Material material = material_from(written);
+    EXPECT_EQ(material.model, model);
+    EXPECT_EQ(material.spacing, a);
+    EXPECT_EQ(material.constants.k1, written.constants.k1);
+    EXPECT_EQ(material.constants.kappa, written.constants.kappa);
+    EXPECT_EQ(material.rubber.retardation_time, written.target.retardation_time);
+    EXPECT_EQ(material.ligament_stiffness, 1.0);
+    EXPECT_EQ(material.provenance.find("moduli"), 0U);
+    EXPECT_NE(material.statement.find(written.statement), std::string::npos);
+    EXPECT_TRUE(material.validity.contacts.empty());
+    EXPECT_FALSE(material.validity.largest_indentation);
+    EXPECT_NEAR(material.validity.smallest_poissons_ratio.value(), 3.0 / 7.0, 1e-12);
+    EXPECT_TRUE(material.violations().empty());
   }
 }
 
 TEST_F(ResultFiles, UnwritablePlacesAreReported) {
-  const std::filesystem::path file = folder_ / "no" / "such" / "folder" / "material.toml";
-  EXPECT_THROW(fingertip::calibration::write_material_toml(fit(ModelKind::hookean), file),
-               std::runtime_error);
+  const std::filesystem::path file = folder_ / "no" / "such" / "folder" / "calibration.json";
   EXPECT_THROW(fingertip::calibration::write_calibration_json(fit(ModelKind::hookean), file),
                std::runtime_error);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -10,39 +11,44 @@
 
 namespace fingertip::calibration {
 
-/// What can be identified from a press. Of a rubber's two constants one is varied while the named
+/// What can be identified. Of a rubber's two constants one is varied while the named
 /// other is held, so E and G go together, and G with lambda.
 enum class MaterialParameter {
-  youngs_modulus,  ///< E, G held [Pa]
-  shear_modulus,   ///< G, E held [Pa]
-  k1,              ///< SpringConstants [N/m]
-  k2,              ///< [N/m]
-  k3,              ///< [N/m]
-  kappa,           ///< [Pa]
-  lame_shear,      ///< G, lambda held; network [Pa]
-  lambda,          ///< G held; network [Pa]
-  bond,            ///< LatticeSettings::ligament_stiffness
-  contact,         ///< LatticeSettings::contact_stiffness
+  youngs_modulus,    ///< E, G held [Pa]
+  shear_modulus,     ///< G, E held [Pa]
+  k1,                ///< SpringConstants [N/m]
+  k2,                ///< [N/m]
+  k3,                ///< [N/m]
+  kappa,             ///< [Pa]
+  lame_shear,        ///< G, lambda held; network [Pa]
+  lambda,            ///< G held; network [Pa]
+  bond,              ///< LatticeSettings::ligament_stiffness
+  contact,           ///< LatticeSettings::contact_stiffness
+  retardation_time,  ///< tau of Kelvin and Voigt [s]
 };
 
 /// The enumerator's name.
 std::string_view name(MaterialParameter parameter);
 
-/// "Pa", "N/m" or "1".
+/// "Pa", "N/m", "s" or "1".
 std::string_view unit(MaterialParameter parameter);
 
-/// Forces at the indentations of a curve.
+/// Value in a setup, in the parameter's unit; lame_shear and lambda are the rubber's.
+double value_of(MaterialParameter parameter, const lattice::PressSetup& setup);
+
+/// What a model answers at the abscissae of a curve.
 struct CurveSlopes {
-  Eigen::VectorXd force;     ///< [N]
-  Eigen::MatrixXd jacobian;  ///< rows are indentations, columns parameters [N per unit]
+  Eigen::VectorXd value;     ///< in the curve's unit; of a press forces [N]
+  Eigen::MatrixXd jacobian;  ///< rows are abscissae, columns parameters [value per unit]
 };
 
-/// A curve as a function of parameters, whose order the model knows.
+/// A curve as a function of parameters, whose order the model knows. Its abscissae are fixed.
 class ForwardModel {
  public:
   virtual ~ForwardModel() = default;
   /// Throws InvalidInput for parameters outside of the model's range, NotConverged where it finds
-  /// no answer.
+  /// no answer, Interrupted where it is told to stop. Different models may be evaluated side by
+  /// side, one model is not.
   virtual CurveSlopes evaluate(const Eigen::VectorXd& parameters) = 0;
 };
 
@@ -56,9 +62,12 @@ Eigen::RowVector2d lambda_slopes(double youngs_modulus, double shear_modulus);
 class LatticeForwardModel final : public ForwardModel {
  public:
   /// Throws InvalidInput for an empty list, a parameter that the setup's model does not have, one
-  /// named twice, or parameters that describe the rubber in two ways at once.
-  LatticeForwardModel(lattice::PressSetup setup, std::vector<MaterialParameter> parameters);
+  /// named twice, or parameters that describe the rubber in two ways at once. `go_on` is asked
+  /// after every step of a press.
+  LatticeForwardModel(lattice::PressSetup setup, std::vector<MaterialParameter> parameters,
+                      std::function<bool()> go_on = {});
 
+  /// Throws also as run_static_press_with_slopes does, Interrupted when `go_on` says no.
   CurveSlopes evaluate(const Eigen::VectorXd& parameters) override;
   /// The press with these parameters.
   lattice::PressSetup setup_with(const Eigen::VectorXd& parameters) const;
@@ -71,6 +80,7 @@ class LatticeForwardModel final : public ForwardModel {
   lattice::PressSetup setup_;
   std::vector<MaterialParameter> parameters_;
   std::vector<lattice::PressParameter> press_parameters_;
+  std::function<bool()> go_on_;
 };
 
 }  // namespace fingertip::calibration

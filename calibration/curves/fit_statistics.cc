@@ -1,4 +1,4 @@
-#include "calibration/fit_statistics.h"
+#include "calibration/curves/fit_statistics.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -15,6 +15,8 @@ using Eigen::Index;
 namespace {
 
 constexpr double upper_tail = 0.975;
+/// Relative changes below this are not told.
+constexpr double visible_change = 5e-3;
 
 std::string number(double value) {
   char text[32];
@@ -29,7 +31,55 @@ Eigen::VectorXd normalised(const Eigen::VectorXd& direction) {
   return direction / direction(largest);
 }
 
-std::string statement_of(const Direction& direction,
+bool is_spring(MaterialParameter parameter) {
+  return unit(parameter) == "N/m";
+}
+
+bool is_constant(MaterialParameter parameter) {
+  return is_spring(parameter) || parameter == MaterialParameter::kappa;
+}
+
+/// The open combination of a lattice's constants in their own units, "k1 + 1 N/m, k2 - 1 N/m",
+/// its largest spring (or else kappa) 1, and which sums of springs, which are a C44 and
+/// a (C11 - kappa), it leaves as they are; empty without such constants,
+/// and where other parameters change, too.
+std::string open_combination(const Eigen::VectorXd& change, const Eigen::VectorXd& relative,
+                             const std::vector<MaterialParameter>& parameters) {
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (!is_constant(parameters[i]) && std::abs(relative(Index(i))) >= visible_change) return {};
+  double unit_change = 0.0, k1 = 0.0, k2 = 0.0, k3 = 0.0;
+  const bool springs = std::ranges::any_of(parameters, is_spring);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i] == MaterialParameter::k1) k1 = change(Index(i));
+    if (parameters[i] == MaterialParameter::k2) k2 = change(Index(i));
+    if (parameters[i] == MaterialParameter::k3) k3 = change(Index(i));
+    if (is_spring(parameters[i])) unit_change = std::max(unit_change, std::abs(change(Index(i))));
+  }
+  if (!springs || unit_change == 0.0) return {};
+  std::string text;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double value = change(Index(i)) / unit_change;
+    const bool small = is_spring(parameters[i]) && std::abs(value) < visible_change;
+    if (small || !is_constant(parameters[i]) || value == 0.0) continue;
+    text += (text.empty() ? "" : ", ") + std::string(name(parameters[i])) +
+            (value < 0.0 ? " - " : " + ") + number(std::abs(value)) + " " +
+            std::string(unit(parameters[i]));
+  }
+  text = "; what is open is " + text + " times any number";
+  // Stays: to 5 % of what its parts change by.
+  const auto stays = [](double a, double b, double c) {
+    return std::abs(a + b + c) < 0.05 * (std::abs(a) + std::abs(b) + std::abs(c));
+  };
+  const bool shear = stays(0.0, k2, 4.0 / 3.0 * k3), axial = stays(k1, 2.0 * k2, 4.0 / 3.0 * k3);
+  if (shear || axial)
+    text += ", which keeps " + std::string(shear ? "k2 + 4/3 k3 (the shear modulus)" : "") +
+            (shear && axial ? " and " : "") +
+            (axial ? "k1 + 2 k2 + 4/3 k3 (the springs' axial stiffness)" : "");
+  return text;
+}
+
+/// `change` is the direction in the parameters' units.
+std::string statement_of(const Direction& direction, const Eigen::VectorXd& change,
                          const std::vector<MaterialParameter>& parameters) {
   const std::string changes = describe_changes(direction.changes, parameters);
   if (parameters.size() == 1)
@@ -37,9 +87,10 @@ std::string statement_of(const Direction& direction,
            ": its 95 % interval is +-" + number(100.0 * direction.interval) + " % of its size";
   return "the curves hardly see the change " + changes +
          " (of each parameter over its size): along it the 95 % interval is +-" +
-         number(100.0 * direction.interval) + " %, and forces respond " +
+         number(100.0 * direction.interval) + " %, and the values respond " +
          number(direction.relative_singular_value) +
-         " times as strongly as to the best-seen change";
+         " times as strongly as to the best-seen change" +
+         open_combination(change, direction.changes, parameters);
 }
 
 }  // namespace
@@ -70,10 +121,9 @@ Eigen::MatrixXd Sensitivity::covariance() const {
   return root * root.transpose();
 }
 
-void describe_sensitivity(PressFit& fit, const Eigen::MatrixXd& curves,
-                          const Eigen::MatrixXd& priors, const Eigen::VectorXd& sizes,
-                          double threshold, double quantile) {
-  const Sensitivity seen(curves, sizes);
+void describe_sensitivity(CurveFit& fit, const Eigen::MatrixXd& priors,
+                          const Eigen::VectorXd& sizes, double threshold, double quantile) {
+  const Sensitivity seen(fit.jacobian, sizes);
   const Eigen::VectorXd inverse = sizes.cwiseInverse();
   const Eigen::MatrixXd relative = inverse.asDiagonal() * fit.covariance * inverse.asDiagonal();
   fit.singular_values = seen.singular_values();
@@ -85,7 +135,8 @@ void describe_sensitivity(PressFit& fit, const Eigen::MatrixXd& curves,
     // A step t along unit/largest is the coordinate unit·change times `largest`.
     const double interval = quantile * largest * std::sqrt(unit.dot(relative * unit));
     Direction direction{normalised(unit), share, interval, {}};
-    direction.statement = statement_of(direction, fit.parameters);
+    direction.statement =
+        statement_of(direction, sizes.cwiseProduct(direction.changes), fit.parameters);
     const double from_priors = (priors * sizes.cwiseProduct(unit)).norm();
     const bool closed = from_priors > value && interval <= 1.0;
     (closed ? fit.only_from_priors : fit.unidentifiable).push_back(direction);
@@ -96,7 +147,7 @@ std::string describe_changes(const Eigen::VectorXd& changes,
                              const std::vector<MaterialParameter>& parameters) {
   std::string text;
   for (Index i = 0; i < changes.size(); ++i) {
-    if (std::abs(changes(i)) < 5e-3) continue;
+    if (std::abs(changes(i)) < visible_change) continue;
     text += (text.empty() ? "" : ", ") + std::string(name(parameters[std::size_t(i)])) +
             (changes(i) < 0.0 ? " - " : " + ") + number(std::abs(changes(i)));
   }

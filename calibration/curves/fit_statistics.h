@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/press_fit.h"
+#include "calibration/curves/curve_fit.h"
 
 namespace fingertip::calibration {
 
@@ -37,14 +37,13 @@ class Sensitivity {
   Eigen::MatrixXd directions_;
 };
 
-/// Fills in singular values, unidentifiable and only_from_priors of `fit`, whose parameters and
-/// covariance are known. The Jacobian's rows over their deviations are those of the curves, then
-/// those of priors; `quantile` is the 95 % interval's half width over a standard error. A direction
-/// is open where the curves' singular value is below `threshold` times the largest, or where their
-/// own interval along it exceeds the sizes.
-void describe_sensitivity(PressFit& fit, const Eigen::MatrixXd& curves,
-                          const Eigen::MatrixXd& priors, const Eigen::VectorXd& sizes,
-                          double threshold, double quantile);
+/// Fills in singular values, unidentifiable and only_from_priors of `fit`, whose parameters,
+/// estimates, jacobian and covariance are known. `priors` are the priors' rows over their
+/// deviations; `quantile` is the 95 % interval's half width over a standard error. A direction is
+/// open where the curves' singular value is below `threshold` times the largest, or where their own
+/// interval along it exceeds the sizes.
+void describe_sensitivity(CurveFit& fit, const Eigen::MatrixXd& priors,
+                          const Eigen::VectorXd& sizes, double threshold, double quantile);
 
 /// "youngs_modulus + 1, shear_modulus - 0.75": changes over the parameters' sizes.
 std::string describe_changes(const Eigen::VectorXd& changes,

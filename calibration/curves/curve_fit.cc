@@ -1,12 +1,13 @@
-#include "calibration/press_fit.h"
+#include "calibration/curves/curve_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "calibration/fit_statistics.h"
-#include "calibration/press_minimum.h"
-#include "calibration/press_residuals.h"
+#include "calibration/curves/curve_minimum.h"
+#include "calibration/curves/curve_residuals.h"
+#include "calibration/curves/fit_coordinates.h"
+#include "calibration/curves/fit_statistics.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 
@@ -17,14 +18,14 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::vector<MaterialParameter> names(const PressFitOptions& options) {
+std::vector<MaterialParameter> names(const CurveFitOptions& options) {
   std::vector<MaterialParameter> parameters;
   for (const FreeParameter& free : options.free) parameters.push_back(free.parameter);
   return parameters;
 }
 
 /// From the start, then from the others.
-std::vector<Minimum> minima_from(PressResiduals& residuals, const PressFitOptions& options) {
+std::vector<Minimum> minima_from(CurveResiduals& residuals, const CurveFitOptions& options) {
   VectorXd start(Index(options.free.size()));
   for (Index i = 0; i < start.size(); ++i) start(i) = options.free[std::size_t(i)].start;
   std::vector<Minimum> minima = {minimise(residuals, options, start)};
@@ -34,7 +35,7 @@ std::vector<Minimum> minima_from(PressResiduals& residuals, const PressFitOption
 }
 
 /// What a relative change refers to: the estimate, and for what may be zero at least its size.
-VectorXd sizes(const VectorXd& estimates, const PressFitOptions& options) {
+VectorXd sizes(const VectorXd& estimates, const CurveFitOptions& options) {
   VectorXd sizes = estimates.cwiseAbs();
   for (std::size_t i = 0; i < options.free.size(); ++i)
     if (!varies_by_logarithm(options.free[i]))
@@ -42,27 +43,35 @@ VectorXd sizes(const VectorXd& estimates, const PressFitOptions& options) {
   return sizes;
 }
 
-void add_uncertainty(PressFit& fit, const Sensitivity& sensitivity, double quantile) {
+/// Less than one good fit in a hundred has so large a chi-square.
+constexpr double improbable = 0.01;
+
+void add_uncertainty(CurveFit& fit, const Sensitivity& sensitivity, double quantile) {
   fit.covariance = sensitivity.covariance();
   fit.standard_errors = fit.covariance.diagonal().cwiseSqrt();
   const VectorXd inverse = fit.standard_errors.cwiseInverse();
   fit.correlation = inverse.asDiagonal() * fit.covariance * inverse.asDiagonal();
-  fit.lower = fit.estimates - quantile * fit.standard_errors;
-  fit.upper = fit.estimates + quantile * fit.standard_errors;
+  fit.lower = fit.estimates - quantile * fit.birge_ratio * fit.standard_errors;
+  fit.upper = fit.estimates + quantile * fit.birge_ratio * fit.standard_errors;
 }
 
-void add_bounds(PressFit& fit, const PressFitOptions& options) {
+void add_bounds(CurveFit& fit, const CurveFitOptions& options) {
   for (std::size_t i = 0; i < options.free.size(); ++i) {
     const double p = fit.estimates(Index(i)), near = 1e-9 * size_of(options.free[i]);
     fit.at_bound.push_back(p - lower_bound(options.free[i]) <= near ||
                            options.free[i].upper - p <= near);
   }
+  if (const auto places = places_of_moduli(options)) {
+    const auto [e, g] = *places;
+    if (3.0 * fit.estimates(g) <= (1.0 + 1.001 * incompressible) * fit.estimates(e))
+      fit.at_bound[std::size_t(e)] = true;
+  }
 }
 
 /// Squares of the residuals, and of the priors' where sigma weighs both; the deviation of one
 /// residual that follows, in their unit.
-double add_squares(PressFit& fit, const PressResiduals& residuals, const Linearisation& at,
-                   const PressFitOptions& options) {
+double add_squares(CurveFit& fit, const CurveResiduals& residuals, const Linearisation& at,
+                   const CurveFitOptions& options) {
   fit.residuals = residuals.misfit(at);
   fit.degrees_of_freedom = int(at.residuals.size() - fit.estimates.size());
   double squares = 0.0;
@@ -70,64 +79,69 @@ double add_squares(PressFit& fit, const PressResiduals& residuals, const Lineari
   if (fit.degrees_of_freedom > 0)
     fit.residual_deviation = std::sqrt(squares / fit.degrees_of_freedom);
   if (!residuals.has_sigma())
-    return std::max(fit.residual_deviation / residuals.force_scale(), 1e-150);
+    return std::max(fit.residual_deviation / residuals.deviations()(0), 1e-150);
   if (options.robust_width == 0.0) {
     fit.chi_square = at.residuals.squaredNorm();
-    if (fit.degrees_of_freedom > 0)
+    if (fit.degrees_of_freedom > 0) {
       fit.chi_square_probability = chi_square_above(*fit.chi_square, fit.degrees_of_freedom);
+      if (*fit.chi_square_probability < improbable)
+        fit.birge_ratio = std::sqrt(*fit.chi_square / fit.degrees_of_freedom);
+    }
   }
   return 1.0;
 }
 
 }  // namespace
 
-PressFit fit_models(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
-                    const PressFitOptions& options) {
-  check_press_fit(curves, options);
+CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
+                    const CurveFitOptions& options) {
+  check_curve_fit(curves, options);
   if (models.size() != curves.size())
     throw meshes::InvalidInput({"models", std::to_string(models.size()),
                                 "every curve needs its model", "give one per curve"});
-  PressResiduals residuals(curves, models, options);
+  CurveResiduals residuals(curves, models, options);
 
-  PressFit fit;
+  CurveFit fit;
   fit.parameters = names(options);
   fit.minima = minima_from(residuals, options);
   const Minimum& best = *std::ranges::min_element(fit.minima, {}, &Minimum::loss);
   fit.estimates = best.estimates;
   fit.iterations = best.iterations;
+  fit.evaluations = residuals.evaluations();
   const Linearisation& at = residuals.at(fit.estimates);
   const double deviation = add_squares(fit, residuals, at, options);
   const double quantile = residuals.has_sigma() ? normal_95() : student_95(fit.degrees_of_freedom);
-  const Eigen::MatrixXd jacobian =
-      residuals.weights(at).cwiseSqrt().asDiagonal() * at.jacobian / deviation;
+  const VectorXd root = residuals.weights(at).cwiseSqrt();
+  const Eigen::MatrixXd jacobian = root.asDiagonal() * at.jacobian / deviation;
+  fit.jacobian = jacobian.topRows(residuals.values());
+  fit.deviations = deviation * residuals.deviations().cwiseQuotient(root.head(residuals.values()));
   const VectorXd size = sizes(fit.estimates, options);
   add_uncertainty(fit, Sensitivity(jacobian, size), quantile);
   add_bounds(fit, options);
-  describe_sensitivity(fit, jacobian.topRows(residuals.forces()),
-                       jacobian.bottomRows(residuals.priors()), size,
+  describe_sensitivity(fit, jacobian.bottomRows(residuals.priors()), size,
                        options.relative_singular_value, quantile);
   return fit;
 }
 
 namespace {
 
-lattice::PressSetup setup_of(const Curve& curve) {
-  lattice::PressSetup setup = curve.condition;
-  const double depth = curve.indentation.back();
+lattice::PressSetup setup_of(const Curve& curve, lattice::PressSetup setup) {
+  const double depth = curve.x.back();
   // The plane moves in proportion to the indentation.
   if (setup.protocol.lateral != 0.0) setup.protocol.lateral *= depth / setup.protocol.depth;
   setup.protocol.depth = depth;
-  setup.protocol.samples = curve.indentation;
+  setup.protocol.samples = curve.x;
   return setup;
 }
 
 /// k1, k2, k3 mean the same rubber at one spacing only.
-void check_spacing(const std::vector<Curve>& curves, const PressFitOptions& options) {
+void check_spacing(const std::vector<lattice::PressSetup>& conditions,
+                   const CurveFitOptions& options) {
   const bool springs = std::ranges::any_of(
       options.free, [](const FreeParameter& free) { return unit(free.parameter) == "N/m"; });
-  const auto& first = curves.front().condition.lattice;
-  for (const Curve& curve : curves) {
-    const auto& lattice = curve.condition.lattice;
+  const auto& first = conditions.front().lattice;
+  for (const lattice::PressSetup& condition : conditions) {
+    const auto& lattice = condition.lattice;
     if (!springs || (lattice.spacing == first.spacing && lattice.model == first.model)) continue;
     throw meshes::InvalidInput(
         {"lattice.spacing", meshes::to_text(lattice.spacing) + " m",
@@ -138,14 +152,20 @@ void check_spacing(const std::vector<Curve>& curves, const PressFitOptions& opti
 
 }  // namespace
 
-PressFit fit_press(const std::vector<Curve>& curves, const PressFitOptions& options) {
-  check_press_fit(curves, options);
-  check_spacing(curves, options);
+CurveFit fit_presses(const std::vector<Curve>& curves,
+                     const std::vector<lattice::PressSetup>& conditions,
+                     const CurveFitOptions& options, const std::function<bool()>& go_on) {
+  check_curve_fit(curves, options);
+  if (conditions.size() != curves.size())
+    throw meshes::InvalidInput({"conditions", std::to_string(conditions.size()),
+                                "every curve needs its condition", "give one per curve"});
+  check_spacing(conditions, options);
   std::vector<LatticeForwardModel> models;
-  for (const Curve& curve : curves) models.emplace_back(setup_of(curve), names(options));
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    models.emplace_back(setup_of(curves[i], conditions[i]), names(options), go_on);
   std::vector<ForwardModel*> addresses;
   for (LatticeForwardModel& model : models) addresses.push_back(&model);
-  return fit_models(curves, addresses, options);
+  return fit_curves(curves, addresses, options);
 }
 
 }  // namespace fingertip::calibration

@@ -1,4 +1,4 @@
-#include "calibration/forward_model.h"
+#include "calibration/curves/forward_model.h"
 
 #include <algorithm>
 #include <optional>
@@ -33,6 +33,7 @@ std::optional<PressParameter> press_parameter(MaterialParameter parameter) {
     case MaterialParameter::lambda: return PressParameter::lambda;
     case MaterialParameter::bond: return PressParameter::bond;
     case MaterialParameter::contact: return PressParameter::contact;
+    case MaterialParameter::retardation_time: return std::nullopt;
   }
   return std::nullopt;
 }
@@ -45,7 +46,8 @@ bool model_has(const lattice::LatticeSettings& settings, MaterialParameter param
   if (is_modulus(parameter))
     return settings.model == ModelKind::hookean || settings.model == ModelKind::network;
   const auto known = lattice::press_parameters(settings);
-  return std::ranges::find(known, *press_parameter(parameter)) != known.end();
+  const auto same = press_parameter(parameter);
+  return same && std::ranges::find(known, *same) != known.end();
 }
 
 void check(const PressSetup& setup, const std::vector<MaterialParameter>& parameters) {
@@ -85,6 +87,7 @@ std::string_view name(MaterialParameter parameter) {
     case MaterialParameter::lambda: return "lambda";
     case MaterialParameter::bond: return "bond";
     case MaterialParameter::contact: return "contact";
+    case MaterialParameter::retardation_time: return "retardation_time";
   }
   return "unknown";
 }
@@ -96,8 +99,27 @@ std::string_view unit(MaterialParameter parameter) {
     case MaterialParameter::k3: return "N/m";
     case MaterialParameter::bond:
     case MaterialParameter::contact: return "1";
+    case MaterialParameter::retardation_time: return "s";
     default: return "Pa";
   }
+}
+
+double value_of(MaterialParameter parameter, const PressSetup& setup) {
+  const lattice::SpringConstants& constants = setup.lattice.constants;
+  switch (parameter) {
+    case MaterialParameter::youngs_modulus: return setup.rubber.youngs_modulus;
+    case MaterialParameter::shear_modulus:
+    case MaterialParameter::lame_shear: return setup.rubber.shear_modulus;
+    case MaterialParameter::lambda: return setup.rubber.lame_lambda();
+    case MaterialParameter::k1: return constants.k1;
+    case MaterialParameter::k2: return constants.k2;
+    case MaterialParameter::k3: return constants.k3;
+    case MaterialParameter::kappa: return constants.kappa;
+    case MaterialParameter::bond: return setup.lattice.ligament_stiffness;
+    case MaterialParameter::contact: return setup.lattice.contact_stiffness;
+    case MaterialParameter::retardation_time: return setup.rubber.retardation_time;
+  }
+  return 0.0;
 }
 
 Eigen::RowVector2d lambda_slopes(double e, double g) {
@@ -106,8 +128,9 @@ Eigen::RowVector2d lambda_slopes(double e, double g) {
 }
 
 LatticeForwardModel::LatticeForwardModel(PressSetup setup,
-                                         std::vector<MaterialParameter> parameters)
-    : setup_(std::move(setup)), parameters_(std::move(parameters)) {
+                                         std::vector<MaterialParameter> parameters,
+                                         std::function<bool()> go_on)
+    : setup_(std::move(setup)), parameters_(std::move(parameters)), go_on_(std::move(go_on)) {
   check(setup_, parameters_);
   if (by_moduli()) {
     using enum PressParameter;
@@ -164,12 +187,14 @@ Eigen::MatrixXd LatticeForwardModel::chain(const PressSetup& setup) const {
 
 CurveSlopes LatticeForwardModel::evaluate(const Eigen::VectorXd& parameters) {
   const PressSetup setup = setup_with(parameters);
-  const auto press = lattice::run_static_press_with_slopes(setup, press_parameters_);
+  lattice::StaticObserver observer;
+  if (go_on_) observer = [this](const lattice::StaticOutcome&, double) { return go_on_(); };
+  const auto press = lattice::run_static_press_with_slopes(setup, press_parameters_, observer);
   const auto& samples = press.outcome.response.samples();
   CurveSlopes result;
-  result.force.resize(Eigen::Index(samples.size()));
+  result.value.resize(Eigen::Index(samples.size()));
   for (std::size_t i = 0; i < samples.size(); ++i)
-    result.force(Eigen::Index(i)) = samples[i].normal_force;
+    result.value(Eigen::Index(i)) = samples[i].normal_force;
   result.jacobian = press.slopes.normal_force * chain(setup);
   return result;
 }

@@ -1,0 +1,67 @@
+/// What stands against a fit: data left out, the true shape of its valley, errors of the model.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/residual_structure.h"
+
+namespace fingertip::calibration {
+
+/// A fit to all curves but one, and what it predicts of that one.
+struct LeftOut {
+  Eigen::VectorXd estimates;
+  Eigen::VectorXd residuals;          ///< of the curve left out, measured minus predicted [y]
+  double worst_relative_error = 0.0;  ///< largest |residual/measured| where that is not zero
+  std::string failure;                ///< why there is no such fit; all else is then empty
+};
+
+/// One per curve, each sought from `fit`'s estimates alone. Throws InvalidInput for less than two
+/// curves, Interrupted.
+std::vector<LeftOut> leave_one_out(const std::vector<Curve>& curves,
+                                   const std::vector<ForwardModel*>& models,
+                                   const CurveFitOptions& options, const CurveFit& fit);
+
+struct ProfileOptions {
+  int points = 9;           ///< per parameter, >= 2
+  double half_width = 3.0;  ///< of the grid, in standard errors, > 0
+};
+
+/// Chi-square over two parameters, least over all others.
+struct Profile {
+  /// Ascending, evenly spaced around the estimate; cut off at bounds, and at a tenth of the
+  /// estimate of what is positive by nature [the parameter's unit].
+  Eigen::VectorXd first_values, second_values;
+  /// Over its value at the estimates, rows first, columns second; in units of sigma or of the
+  /// residual deviation, with priors; of a robust loss twice the loss. NaN where a model has no
+  /// answer. The joint 95 % region of two parameters is where it is below 5.99 (sigma known).
+  Eigen::MatrixXd increase;
+};
+
+/// `first` and `second` are places in options.free. At every point of the grid the two are held and
+/// the others sought, starting where the fit's covariance expects them. Throws InvalidInput for
+/// places that are not two different ones, less than two points or a width that is not positive;
+/// Interrupted.
+Profile profile_likelihood(const std::vector<Curve>& curves,
+                           const std::vector<ForwardModel*>& models, const CurveFitOptions& options,
+                           const CurveFit& fit, std::size_t first, std::size_t second,
+                           const ProfileOptions& profile = {});
+
+/// d(estimates)/d(y), a row per parameter, a column per value of every curve in order [unit of the
+/// parameter per unit of y]: (JᵀJ + priors)⁻¹ Jᵀ/sigma at the estimates; bounds do not count. Data
+/// that contain d, which the model does not, move the estimates by this matrix times d.
+Eigen::MatrixXd influence(const CurveFit& fit);
+
+/// Starts for fits of E and G: at every Poisson's ratio of `poissons_ratios` the rubber whose
+/// values meet the curves best, found from one evaluation, because forces and stresses at given
+/// kinematics are proportional to (E, G) at held nu. Other parameters keep their start. Ratios at
+/// which a model has no answer are left out, moduli are cut off at their bounds. Throws
+/// InvalidInput unless E and G both are free, and for ratios outside of (-1, 1/2).
+std::vector<Eigen::VectorXd> scaled_starts(const std::vector<Curve>& curves,
+                                           const std::vector<ForwardModel*>& models,
+                                           const CurveFitOptions& options,
+                                           const std::vector<double>& poissons_ratios);
+
+}  // namespace fingertip::calibration

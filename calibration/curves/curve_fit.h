@@ -1,0 +1,132 @@
+/// Material parameters from measured curves, with what the data can and cannot say.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/curves/curve.h"
+#include "calibration/curves/forward_model.h"
+#include "lattice/settings.h"
+
+namespace fingertip::calibration {
+
+/// What is known of a parameter besides the curves, a normal distribution, in the parameter's unit.
+struct Prior {
+  double mean = 0.0;
+  double deviation = 0.0;  ///< > 0
+};
+
+/// E, G, bond, contact and times are positive and vary by their logarithm; k1, k2, k3 >= 0, kappa
+/// and lambda vary in units of `scale`. Bounds and start are in the parameter's unit.
+struct FreeParameter {
+  MaterialParameter parameter = MaterialParameter::youngs_modulus;
+  double start = 0.0;
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  std::optional<Prior> prior = std::nullopt;  ///< only where sigma is given, to weigh it against
+  double scale = 0.0;                         ///< typical size; 0: |start|
+};
+
+struct CurveFitOptions {
+  std::vector<FreeParameter> free;
+  /// Further vectors of start values: of all minima found, the least is reported.
+  std::vector<Eigen::VectorXd> other_starts;
+  /// Width w in sigma of the loss w² (sqrt(1 + r²/w²) - 1), quadratic inside, linear outside; 0:
+  /// least squares. Needs sigma.
+  double robust_width = 0.0;
+  int max_iterations = 50;  ///< per start, >= 1
+  /// The search ends where a step promises no more than this share of a standard error, in (0,
+  /// 0.1]. Steps below it cost evaluations and tell nothing; on a kink of a model they creep.
+  double tolerance = 1e-7;
+  /// A direction counts as unidentifiable also when the curves' singular value is below this share
+  /// of the largest, for errors of the model itself, which sigma does not contain, come through
+  /// amplified by the inverse: at 0.02 an error of 2 %, the lattice's at R/6, may move the
+  /// parameters by their own size.
+  double relative_singular_value = 0.02;
+  /// Models evaluated side by side, >= 1; the result does not depend on it.
+  int threads = 1;
+  /// Told after every evaluation of all models, in the calling thread, how many there were and the
+  /// loss at this one; false ends the fit with Interrupted.
+  std::function<bool(int evaluations, double loss)> progress = {};
+};
+
+/// A change of all parameters together that the curves hardly see: a right singular vector.
+struct Direction {
+  Eigen::VectorXd changes;               ///< of the parameters over their size; largest component 1
+  double relative_singular_value = 0.0;  ///< the curves' over their largest
+  /// Half width of the 95 % interval of a step along `changes`, priors included; above 1 it exceeds
+  /// the parameters.
+  double interval = 0.0;
+  std::string statement;
+};
+
+/// Where the search from one start ended.
+struct Minimum {
+  Eigen::VectorXd estimates;
+  /// Half the sum of squares, in units of sigma or of the values' root mean square.
+  double loss = 0.0;
+  int iterations = 0;
+};
+
+/// Everything local is linearised at the estimates.
+struct CurveFit {
+  std::vector<MaterialParameter> parameters;
+  Eigen::VectorXd estimates;
+  /// sigma given: (Jᵀ J)⁻¹ with J in units of sigma, priors as further rows; not given: times the
+  /// residual variance. With a robust loss J is weighted by the loss's slope.
+  Eigen::MatrixXd covariance, correlation;
+  Eigen::VectorXd standard_errors;
+  /// 95 % intervals: normal where sigma is given, times birge_ratio, else Student's t.
+  Eigen::VectorXd lower, upper;
+  /// Its interval then is not one. Of E also at 3G/E - 1 = 1e-4 where G is free, too, and
+  /// neither has bounds: the data ask for nu = 1/2 or more.
+  std::vector<bool> at_bound;
+  int degrees_of_freedom = 0;  ///< values and priors minus parameters
+  /// Sum of squares in units of sigma (and of the priors' deviations), and the probability of at
+  /// least that if model and sigma are right; only where sigma is given and the loss is quadratic.
+  std::optional<double> chi_square, chi_square_probability;
+  /// Birge's ratio, sqrt(chi_square/degrees_of_freedom), where chi_square is improbable (below
+  /// 0.01): the residuals are so many times larger than sigma explains, and the intervals, not the
+  /// covariance, are widened by it (Birge, Phys. Rev. 40, 207, 1932). Else 1.
+  double birge_ratio = 1.0;
+  double residual_deviation = 0.0;  ///< sqrt(sum of squares / degrees of freedom), data only [y]
+  /// J: derivatives of the curves' values, curve by curve, over `deviations` [1 per unit]. Priors
+  /// are not among its rows.
+  Eigen::MatrixXd jacobian;
+  /// What a row of `jacobian` is divided by [y]: sigma, or what the residuals yield for it, and
+  /// with a robust loss larger where the loss gives a value less weight.
+  Eigen::VectorXd deviations;
+  /// Of `jacobian` times the parameters' sizes, decreasing.
+  Eigen::VectorXd singular_values;
+  std::vector<Direction> unidentifiable;
+  /// What the curves leave open and priors close: they say more about it than the curves, and the
+  /// interval does not exceed the parameters.
+  std::vector<Direction> only_from_priors;
+  std::vector<Eigen::VectorXd> residuals;  ///< measured minus computed, per curve [y]
+  int iterations = 0;                      ///< of the start reported
+  int evaluations = 0;                     ///< of all models, from all starts
+  std::vector<Minimum> minima;             ///< from every start, in order
+};
+
+/// Least squares by Ceres with the models' own Jacobians; a model per curve, whose parameters are
+/// `options.free` in that order. Throws InvalidInput for an empty curve, lists of different length,
+/// abscissae that are not positive and increasing, values that are not finite, sigma that is not
+/// positive, a prior or robust loss without sigma, a start outside its bounds, fewer values than
+/// parameters, and for what a model refuses at the start; NotConverged when max_iterations do not
+/// suffice; Interrupted.
+CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
+                    const CurveFitOptions& options);
+
+/// The same for presses of the static lattice, a condition per curve: how it was pressed and by
+/// what lattice it is computed; depth and samples are the curve's, `lateral` shrinks with the
+/// depth. `go_on` is asked while a press runs, from options.threads threads; false ends the fit
+/// with Interrupted. Throws InvalidInput also for constants of springs at different spacings.
+CurveFit fit_presses(const std::vector<Curve>& curves,
+                     const std::vector<lattice::PressSetup>& conditions,
+                     const CurveFitOptions& options, const std::function<bool()>& go_on = {});
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,114 @@
+/// The plain words of a fit to curves.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "calibration/curves/fit_record.h"
+
+namespace fingertip::calibration {
+
+using Eigen::Index;
+
+namespace {
+
+/// Signs of residuals that chance makes less often than this are told.
+constexpr double improbable = 0.01;
+/// A minimum whose chi-square is within this of the least one is as good (95 %, one parameter).
+constexpr double as_good = 3.84;
+
+std::string rounded(double value, int digits = 4) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+std::string percent(double value) {
+  return rounded(100.0 * value, 2) + " %";
+}
+
+std::string with_unit(double value, MaterialParameter parameter) {
+  const std::string_view symbol = unit(parameter);
+  return rounded(value, 5) + (symbol == "1" ? "" : " " + std::string(symbol));
+}
+
+std::string estimates(const CurveFit& fit) {
+  std::string text;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const MaterialParameter parameter = fit.parameters[i];
+    text += (text.empty() ? "" : "; ") + std::string(name(parameter)) + " = " +
+            with_unit(fit.estimates(Index(i)), parameter);
+    text += fit.at_bound[i] ? " (at its bound)"
+                            : " (95 %: " + rounded(fit.lower(Index(i)), 5) + " to " +
+                                  rounded(fit.upper(Index(i)), 5) + ")";
+  }
+  return text + ".";
+}
+
+std::string misfit(const FitRecord& record) {
+  double worst = 0.0, squares = 0.0, total = 0.0;
+  for (std::size_t c = 0; c < record.curves.size(); ++c)
+    for (std::size_t i = 0; i < record.curves[c].y.size(); ++i) {
+      const double y = record.curves[c].y[i], residual = record.fit.residuals[c](Index(i));
+      if (y != 0.0) worst = std::max(worst, std::abs(residual / y));
+      squares += residual * residual;
+      total += y * y;
+    }
+  std::string text = " The fit meets the data within " + percent(std::sqrt(squares / total)) +
+                     " (root mean square), every single value within " + percent(worst) + ".";
+  const CurveFit& fit = record.fit;
+  if (!fit.chi_square || !fit.chi_square_probability) return text;
+  text += " Chi-square is " + rounded(*fit.chi_square, 3) + " at " +
+          std::to_string(fit.degrees_of_freedom) + " degrees of freedom";
+  if (fit.birge_ratio > 1.0)
+    return text + ": more than the stated deviations explain (probability " +
+           rounded(*fit.chi_square_probability, 2) +
+           "), so the model misses something or the deviations are too small; the intervals are "
+           "wider by Birge's ratio, " +
+           rounded(fit.birge_ratio, 2) + ".";
+  return text + ", which the stated deviations explain (probability " +
+         rounded(*fit.chi_square_probability, 2) + ").";
+}
+
+std::string open_directions(const CurveFit& fit) {
+  std::string text;
+  for (const Direction& one : fit.unidentifiable)
+    text += " Not determined by the data: " + one.statement + ".";
+  for (const Direction& one : fit.only_from_priors)
+    text += " Known from the prior, not from the data: " + one.statement + ".";
+  return text;
+}
+
+std::string other_minima(const CurveFit& fit) {
+  const auto best = std::ranges::min_element(fit.minima, {}, &Minimum::loss);
+  for (const Minimum& one : fit.minima) {
+    const bool same =
+        (one.estimates - best->estimates).cwiseQuotient(best->estimates).cwiseAbs().maxCoeff() <
+        0.01;
+    if (same || 2.0 * (one.loss - best->loss) > as_good || !fit.chi_square) continue;
+    std::string text = " Another answer describes the data as well:";
+    for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+      text += " " + std::string(name(fit.parameters[i])) + " = " +
+              with_unit(one.estimates(Index(i)), fit.parameters[i]);
+    return text + ".";
+  }
+  return "";
+}
+
+std::string structures(const FitRecord& record) {
+  std::string text;
+  for (std::size_t c = 0; c < record.curves.size(); ++c) {
+    const ResidualStructure structure = residual_structure(record.fit.residuals[c]);
+    if (structure.probability < improbable)
+      text += " " + record.curves[c].name + ": " + structure.statement + ".";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string fit_statement(const FitRecord& record) {
+  return estimates(record.fit) + misfit(record) + open_directions(record.fit) +
+         other_minima(record.fit) + structures(record);
+}
+
+}  // namespace fingertip::calibration

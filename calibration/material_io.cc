@@ -1,0 +1,333 @@
+// material.toml, written for people and read strictly.
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <ostream>
+#include <sstream>
+#include <string_view>
+
+#include "calibration/material.h"
+#include "meshes/files.h"
+
+namespace fingertip::calibration {
+namespace {
+
+using lattice::Kinematics;
+using lattice::ModelKind;
+using meshes::ContactMode;
+using meshes::InvalidInput;
+using meshes::to_text;
+
+/// One number of material.toml: where it stands, its unit ("": a bare number) and where it lives.
+struct Quantity {
+  std::string_view section, key, unit;
+  double* value = nullptr;                 ///< of what every material has
+  std::optional<double>* maybe = nullptr;  ///< of what may be unknown
+  bool required = true;
+  std::string_view note = {};  ///< for people
+};
+
+/// In the order of the file. The network's stiffness is its rubber's: no constants.
+std::vector<Quantity> quantities(Material& m) {
+  std::vector<Quantity> all = {{"lattice", "spacing", "m", &m.spacing}};
+  const auto factor = [&](std::string_view key, double& value, std::string_view note) {
+    all.push_back({"lattice", key, "", &value, nullptr, false, note});
+  };
+  factor("ligament_stiffness", m.ligament_stiffness, "factor on the bond to the rod");
+  factor("contact_stiffness", m.contact_stiffness, "factor on the ties to the plane");
+  if (m.model != ModelKind::network)
+    all.insert(all.end(), {{"constants", "k1", "N/m", &m.constants.k1},
+                           {"constants", "k2", "N/m", &m.constants.k2},
+                           {"constants", "k3", "N/m", &m.constants.k3},
+                           {"constants", "kappa", "Pa", &m.constants.kappa}});
+  all.insert(all.end(), {{"rubber", "youngs_modulus", "Pa", &m.rubber.youngs_modulus},
+                         {"rubber", "shear_modulus", "Pa", &m.rubber.shear_modulus},
+                         {"rubber", "density", "kg/m^3", &m.rubber.density},
+                         {"rubber", "retardation_time", "s", &m.rubber.retardation_time}});
+  const auto bound = [&](std::string_view key, std::string_view unit, std::optional<double>& value,
+                         std::string_view note) {
+    all.push_back({"validity", key, unit, nullptr, &value, false, note});
+  };
+  Validity& v = m.validity;
+  bound("largest_indentation", "m", v.largest_indentation, "deepest force fitted or checked");
+  bound("thickness", "m", v.thickness, "R - r of that finger");
+  bound("rod_ratio", "", v.rod_ratio, "r/R of that finger");
+  bound("smallest_spacing", "m", v.smallest_spacing, "");
+  bound("largest_spacing", "m", v.largest_spacing, "");
+  bound("smallest_poissons_ratio", "", v.smallest_poissons_ratio, "");
+  bound("largest_poissons_ratio", "", v.largest_poissons_ratio, "");
+  bound("model_error", "", v.model_error, "largest relative error of a force there");
+  return all;
+}
+
+/// A double-quoted TOML string.
+std::string toml_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += std::string("\\") + c;
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      constexpr std::string_view digits = "0123456789abcdef";
+      out += std::string("\\u00") + digits[std::size_t(c) / 16] + digits[std::size_t(c) % 16];
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+/// Reads one material file; knows its name for messages.
+class MaterialReader {
+ public:
+  explicit MaterialReader(std::filesystem::path file) : file_(std::move(file)) {
+    const std::ifstream in(file_, std::ios::binary);
+    std::ostringstream content;
+    // Copying nothing sets the fail bit, so this refuses empty files and folders, too.
+    if (!in.is_open() || !(content << in.rdbuf()))
+      throw InvalidInput({file_.string(), "", "the file cannot be read or is empty",
+                          "check path and rights, or run calibrate again"});
+    const std::string text = content.str();
+    last_line_ = std::max(1, int(std::count(text.begin(), text.end(), '\n')));
+    try {
+      table_ = toml::parse(text, file_.string());
+    } catch (const toml::parse_error& error) {
+      fail(int(error.source().begin.line), "", "", std::string(error.description()),
+           "mend the line, or run calibrate again");
+    }
+  }
+
+  Material read() {
+    Material material;
+    material.model = word("lattice", "model",
+                          std::array{ModelKind::central, ModelKind::hookean, ModelKind::network});
+    if (find("lattice", "kinematics"))
+      material.kinematics =
+          word("lattice", "kinematics", std::array{Kinematics::small, Kinematics::finite});
+    const std::vector<Quantity> known = quantities(material);
+    for (const Quantity& quantity : known) read(quantity);
+    if (find("validity", "contacts")) material.validity.contacts = contacts();
+    material.provenance = text("about", "provenance");
+    if (find("about", "program")) material.program = text("about", "program");
+    if (find("about", "date")) material.date = text("about", "date");
+    // Its name in files without [validity].
+    statement_ =
+        find("about", "statement") || !find("about", "validity") ? "statement" : "validity";
+    material.statement = text("about", statement_);
+    refuse_unknown_keys(known);
+    check(material);
+    if (material.model == ModelKind::network)
+      material.constants = lattice::hookean_constants(material.rubber, material.spacing);
+    return material;
+  }
+
+ private:
+  [[noreturn]] void fail(int line, const std::string& key, const std::string& value,
+                         const std::string& rule, const std::string& remedy) const {
+    std::string where = file_.string() + ":" + std::to_string(line);
+    if (!key.empty()) where += ": " + key;
+    throw InvalidInput({where, value, rule, remedy});
+  }
+
+  static std::string dotted(std::string_view section, std::string_view key) {
+    return std::string(section) + "." + std::string(key);
+  }
+
+  const toml::node* find(std::string_view section, std::string_view key) const {
+    return table_.at_path(dotted(section, key)).node();
+  }
+
+  const toml::node& node(std::string_view section, std::string_view key) const {
+    const toml::node* found = find(section, key);
+    if (found == nullptr)
+      fail(last_line_, dotted(section, key), "", "the key is missing; the file may be truncated",
+           "run calibrate again");
+    return *found;
+  }
+
+  int line(std::string_view section, std::string_view key) const {
+    const toml::node* found = find(section, key);
+    return found != nullptr ? int(found->source().begin.line) : last_line_;
+  }
+
+  std::string text(std::string_view section, std::string_view key) const {
+    const std::optional<std::string> value = node(section, key).value_exact<std::string>();
+    if (!value)
+      fail(line(section, key), dotted(section, key), "", "the value must be a string",
+           "put it in quotes, a quantity with its unit");
+    return *value;
+  }
+
+  void read(const Quantity& quantity) const {
+    if (!quantity.required && find(quantity.section, quantity.key) == nullptr) return;
+    const double value = quantity.unit.empty() ? bare_number(quantity) : number(quantity);
+    if (quantity.value != nullptr)
+      *quantity.value = value;
+    else
+      *quantity.maybe = value;
+  }
+
+  double bare_number(const Quantity& quantity) const {
+    const std::optional<double> value = node(quantity.section, quantity.key).value<double>();
+    if (!value || !std::isfinite(*value))
+      fail(line(quantity.section, quantity.key), dotted(quantity.section, quantity.key), "",
+           "must be a finite number without quotes", "write for instance 1.5");
+    return *value;
+  }
+
+  double number(const Quantity& quantity) const {
+    const std::string written = text(quantity.section, quantity.key);
+    double value = 0.0;
+    const char* end = written.data() + written.size();
+    const auto parsed = std::from_chars(written.data(), end, value);
+    const std::string rest(parsed.ptr, end);
+    if (parsed.ec != std::errc() || !std::isfinite(value) ||
+        rest != " " + std::string(quantity.unit))
+      fail(line(quantity.section, quantity.key), dotted(quantity.section, quantity.key), written,
+           "must be a finite number and the unit " + std::string(quantity.unit),
+           "write for instance \"1.5 " + std::string(quantity.unit) + "\"");
+    return value;
+  }
+
+  /// The choice whose name is written.
+  template <typename Choice, std::size_t n>
+  Choice chosen(const std::string& written, std::string_view section, std::string_view key,
+                const std::array<Choice, n>& choices) const {
+    std::string names;
+    for (const Choice choice : choices) {
+      if (written == name(choice)) return choice;
+      names += (names.empty() ? "" : ", ") + std::string(name(choice));
+    }
+    fail(line(section, key), dotted(section, key), written, "must be one of " + names,
+         "give one of them");
+  }
+
+  template <typename Choice, std::size_t n>
+  Choice word(std::string_view section, std::string_view key,
+              const std::array<Choice, n>& choices) const {
+    return chosen(text(section, key), section, key, choices);
+  }
+
+  std::vector<ContactMode> contacts() const {
+    constexpr std::array all = {ContactMode::stick, ContactMode::frictionless,
+                                ContactMode::coulomb};
+    const toml::array* list = node("validity", "contacts").as_array();
+    std::vector<ContactMode> found;
+    const auto refuse = [&] {
+      fail(line("validity", "contacts"), "validity.contacts", "", "must be a list of words",
+           "write for instance [\"stick\", \"frictionless\"]");
+    };
+    if (list == nullptr) refuse();
+    for (const toml::node& item : *list) {
+      const std::optional<std::string> written = item.value_exact<std::string>();
+      if (!written) refuse();
+      found.push_back(chosen(*written, "validity", "contacts", all));
+    }
+    return found;
+  }
+
+  void refuse_unknown_keys(const std::vector<Quantity>& known) const {
+    constexpr std::array<std::string_view, 6> words = {"lattice.model",     "lattice.kinematics",
+                                                       "validity.contacts", "about.provenance",
+                                                       "about.program",     "about.date"};
+    const auto expected = [&](std::string_view section, std::string_view key) {
+      const std::string full = dotted(section, key);
+      return std::ranges::find(words, full) != words.end() || full == dotted("about", statement_) ||
+             std::ranges::any_of(known, [&](const Quantity& quantity) {
+               return quantity.section == section && quantity.key == key;
+             });
+    };
+    const auto refuse = [&](const toml::node& at, const std::string& key) {
+      const bool network = key.starts_with("constants.");
+      fail(int(at.source().begin.line), key, "",
+           network ? "no such key: the network's stiffness is E and G in [rubber]" : "no such key",
+           "remove it");
+    };
+    for (const auto& [section, content] : table_) {
+      if (!content.is_table()) refuse(content, std::string(section.str()));
+      for (const auto& [key, value] : *content.as_table())
+        if (!expected(section.str(), key.str())) refuse(value, dotted(section.str(), key.str()));
+    }
+  }
+
+  void check(const Material& material) const {
+    std::vector<meshes::Violation> found = material.violations();
+    for (meshes::Violation& violation : found) {
+      const std::size_t dot = violation.key.find('.');
+      const int at = line(violation.key.substr(0, dot), violation.key.substr(dot + 1));
+      violation.key = file_.string() + ":" + std::to_string(at) + ": " + violation.key;
+    }
+    if (!found.empty()) throw InvalidInput(found);
+  }
+
+  std::filesystem::path file_;
+  toml::table table_;
+  int last_line_ = 1;
+  std::string_view statement_ = "statement";
+};
+
+/// What stands in a section besides quantities.
+std::string words_of(const Material& material, std::string_view section) {
+  std::string text;
+  if (section == "lattice") {
+    text = "model = " + toml_text(name(material.model)) + '\n';
+    if (material.kinematics) text += "kinematics = " + toml_text(name(*material.kinematics)) + '\n';
+  }
+  if (section == "validity" && !material.validity.contacts.empty()) {
+    for (const ContactMode mode : material.validity.contacts)
+      text += (text.empty() ? "" : ", ") + toml_text(name(mode));
+    text = "contacts = [" + text + "]\n";
+  }
+  return text;
+}
+
+std::string material_toml(Material material) {
+  std::string text =
+      "# Calibrated lattice constants, SI. Use: lattice.constants = \"<path of this file>\"\n";
+  const std::vector<Quantity> all = quantities(material);
+  for (const std::string_view section : {"lattice", "constants", "rubber", "validity"}) {
+    std::string lines = words_of(material, section);
+    for (const Quantity& quantity : all) {
+      if (quantity.section != section || (quantity.maybe != nullptr && !*quantity.maybe)) continue;
+      const double value = quantity.value != nullptr ? *quantity.value : **quantity.maybe;
+      lines +=
+          std::string(quantity.key) + " = " +
+          (quantity.unit.empty() ? to_text(value)
+                                 : toml_text(to_text(value) + " " + std::string(quantity.unit)));
+      lines += quantity.note.empty() ? "\n" : "  # " + std::string(quantity.note) + "\n";
+    }
+    if (!lines.empty()) text += "\n[" + std::string(section) + "]\n" + lines;
+  }
+  text += "\n[about]\nprovenance = " + toml_text(material.provenance) + '\n';
+  if (!material.program.empty()) text += "program = " + toml_text(material.program) + '\n';
+  if (!material.date.empty()) text += "date = " + toml_text(material.date) + '\n';
+  // Last, so that a file cut short is noticed.
+  return text + "statement = " + toml_text(material.statement) + '\n';
+}
+
+}  // namespace
+
+void write_material_toml(const Material& material, const std::filesystem::path& file) {
+  const std::vector<meshes::Violation> broken = material.violations();
+  if (!broken.empty()) throw InvalidInput(broken);
+  const std::string text = material_toml(material);
+  try {
+    static_cast<void>(toml::parse(text));
+  } catch (const toml::parse_error& error) {
+    throw InvalidInput(
+        {"about", "", "the texts on a material must be UTF-8: " + std::string(error.description()),
+         "rename the files it names"});
+  }
+  meshes::write_atomically(file, [&](std::ostream& out) { out << text; });
+}
+
+Material read_material_toml(const std::filesystem::path& file) {
+  return MaterialReader(file).read();
+}
+
+}  // namespace fingertip::calibration
