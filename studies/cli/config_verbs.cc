@@ -20,7 +20,8 @@ int run_check(const CommandLine& line) {
     const Case one = load_case(file, line.config);
     check_all(one.loaded);
     if (line.quiet) continue;
-    for (const std::string& note : one.loaded.notes) fmt::print("{}: note: {}\n", file, note);
+    for (const std::string& note : with_material(one.loaded, LatticeUse::press).notes)
+      fmt::print("{}: note: {}\n", file, note);
     // No error: the continuum can do it.
     const auto limits = lattice::beyond_the_lattice(one.loaded.config.press);
     const ConfigError located = one.loaded.locate(limits);

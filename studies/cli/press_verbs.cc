@@ -109,13 +109,23 @@ void print_press_facts(const std::filesystem::path& folder) {
              summary["tracking"]["tilt_deg"].get<double>());
 }
 
+/// Puts the run's notes where scripts look. They belong to the run: what the job computes does not
+/// depend on them, so they are no part of its cached result.
+void put_warnings(const std::filesystem::path& folder, const std::vector<std::string>& notes) {
+  auto summary = read_json(folder / "summary.json");
+  summary.erase("warnings");
+  if (!notes.empty()) summary["warnings"] = notes;
+  write_json(summary, folder / "summary.json");
+}
+
 }  // namespace
 
 int run_press(const CommandLine& line) {
-  const LoadedConfig loaded = load_checked(line);
+  const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::press);
   const lattice::PressSetup setup = press_setup(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const JobResult result = session.run({"", press_job(setup), false});
+    put_warnings(session.folder().path(), loaded.notes);
     if (!line.quiet) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
@@ -133,10 +143,12 @@ int run_modes(const CommandLine& line) {
   loaded.config.press.protocol.mode = meshes::DriveMode::equilibrium;
   loaded.config.press.protocol.contact = meshes::ContactMode::stick;
   check_all(loaded);
+  loaded = with_material(loaded, LatticeUse::modes);
   const lattice::PressSetup setup = press_setup(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const JobResult result =
         session.run({"", modes_job(setup, loaded.config.lattice_modes), false});
+    put_warnings(session.folder().path(), loaded.notes);
     if (line.quiet) return 0;
     fmt::print("{} lattice, natural frequencies\n", lattice::name(setup.lattice.model));
     print_frequencies(session.folder().path());
@@ -159,49 +171,6 @@ int run_reference(const CommandLine& line) {
       print_response(folder, order.samples);
       if (order.estimate_error) print_accuracy(folder, order.tolerance);
     }
-    print_folder(session, result);
-    return 0;
-  });
-}
-
-int run_calibrate(const CommandLine& line) {
-  const LoadedConfig loaded = load_checked(line);
-  const lattice::ModelKind model = loaded.config.press.lattice.model;
-  if (model == lattice::ModelKind::network) {
-    throw loaded.locate({{"lattice.model", "network",
-                          "the network takes G and lambda from the rubber; nothing is left to fit",
-                          "calibrate central or hookean"}});
-  }
-  if (model == lattice::ModelKind::published) {
-    throw loaded.locate({{"lattice.model", "published",
-                          "the published model has a rule for its constants and is not calibrated",
-                          "calibrate central or hookean"}});
-  }
-  return run_in_folder(line, loaded, {}, [&](Session& session) {
-    const PlannedJob planned{"", moduli_job(loaded.config.press.rubber, fit_options(loaded, model)),
-                             false};
-    const JobResult result = session.run(planned);
-    if (line.quiet) return 0;
-    const auto content = read_json(session.folder().path() / "calibration.json");
-    fmt::print("{}\n\n{:<22}{:>14}{:>14}{:>16}\n", content["statement"].get<std::string>(), "",
-               "target", "achieved", "achieved [Pa]");
-    const auto& target = content["target"];
-    const auto& achieved = content["achieved"];
-    const auto row = [&](const char* name, const char* wanted, const char* reached) {
-      const double pascal = achieved[reached].get<double>();
-      fmt::print("{:<22}{:>14.4f}{:>14.4f}{:>16.6g}\n", name,
-                 convert(target[wanted].get<double>(), "Pa", "gf/cm^2"),
-                 convert(pascal, "Pa", "gf/cm^2"), pascal);
-    };
-    row("E_100 [gf/cm^2]", "youngs_modulus", "youngs_modulus_100");
-    row("E_110 [gf/cm^2]", "youngs_modulus", "youngs_modulus_110");
-    row("E_111 [gf/cm^2]", "youngs_modulus", "youngs_modulus_111");
-    row("G [gf/cm^2]", "shear_modulus", "shear_modulus");
-    row("K [gf/cm^2]", "bulk_modulus", "bulk_modulus");
-    fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "nu_100", target["poissons_ratio"].get<double>(),
-               achieved["poissons_ratio_100"].get<double>());
-    fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "anisotropy A", 1.0,
-               achieved["anisotropy"].get<double>());
     print_folder(session, result);
     return 0;
   });

@@ -98,7 +98,7 @@ int run_compare(const CommandLine& line) {
 
 int run_report(const CommandLine& line) {
   if (line.arguments.empty()) {
-    refuse("report", "no run folder is given", "give the folder of a validate run");
+    refuse("report", "no run folder is given", "give the folder of a validate or calibrate run");
   }
   for (const std::string& run : line.arguments) {
     write_report(run);

@@ -20,6 +20,40 @@ enum class ConstantsSource {
   file,        ///< a material.toml written by `calibrate`
 };
 
+/// What `calibrate` fits (key calibration.problem).
+enum class CalibrationProblem {
+  moduli,         ///< constants to E and G of the rubber
+  curve,          ///< constants and ties to the continuum's forces
+  experiment,     ///< E and G, or constants, to measured forces
+  finite_strain,  ///< E and G, or lambda and G, of law A to stress-stretch data
+  damping,        ///< the retardation time
+};
+std::string_view name(CalibrationProblem problem);
+
+/// What answers for the press when parameters are varied (key calibration.forward).
+enum class ForwardKind { lattice, continuum };
+std::string_view name(ForwardKind forward);
+
+/// Section [calibration]; the key table says what the entries mean.
+struct CalibrationOrder {
+  CalibrationProblem problem = CalibrationProblem::moduli;
+  std::vector<std::filesystem::path> data;  ///< absolute
+  std::vector<std::string> conditions;      ///< "section.key=value; ..." per curve
+  double depth = 0.0;                       ///< [m]
+  int points = 6;
+  std::vector<std::string> parameters;  ///< empty: the problem's own
+  ForwardKind forward = ForwardKind::lattice;
+  double prior = 0.0;        ///< relative; 0: none
+  double model_error = 0.0;  ///< relative
+  double robust_width = 0.0;
+  std::vector<double> poisson_range;  ///< lowest, highest
+  std::vector<std::string> profile;
+  bool bias = true, surrogate = false;
+  double isotropy_weight = 0.0, bulk_weight = 0.0;
+  int starts = 10;
+  unsigned seed = 1;
+};
+
 /// SI throughout. The spring constants in `press.lattice` are empty until
 /// `studies/run/press_setup.h` resolves them.
 struct Config {
@@ -31,8 +65,7 @@ struct Config {
   int lattice_modes = 10;                         ///< how many natural frequencies
   std::optional<double> spacing_divisor;          ///< a = R/divisor when given so
   fem_reference::ReferenceJob reference;
-  int fit_starts = 10;
-  unsigned fit_seed = 1;
+  CalibrationOrder calibration;
 };
 
 /// The model's own kinematics: published and network finite, central and hookean small.

@@ -19,8 +19,11 @@ std::string_view kind_name(Kind kind) {
     case Kind::numbers: return "list of 3 numbers";
     case Kind::integer: return "integer";
     case Kind::boolean: return "true or false";
+    case Kind::number_pair: return "list of 2 numbers";
     case Kind::choice: return "word";
     case Kind::source: return "word or path";
+    case Kind::texts: return "list of texts";
+    case Kind::files: return "list of paths";
   }
   return "";
 }
@@ -52,9 +55,12 @@ nlohmann::json element_schema(const Key& key) {
       schema["enum"] = json::array();
       for (const Choice& choice : key.choices) schema["enum"].push_back(choice.word);
       break;
-    case Kind::source: schema = {{"type", "string"}, {"minLength", 1}}; break;
+    case Kind::source:
+    case Kind::texts:
+    case Kind::files: schema = {{"type", "string"}, {"minLength", 1}}; break;
     case Kind::integer: schema["type"] = "integer"; break;
     case Kind::number:
+    case Kind::number_pair:
     case Kind::numbers: schema["type"] = "number"; break;
   }
   if (key.unit.empty() && key.range.minimum > -endless) {
@@ -66,11 +72,14 @@ nlohmann::json element_schema(const Key& key) {
 
 nlohmann::json key_schema(const Key& key) {
   nlohmann::json schema = element_schema(key);
-  if (key.kind == Kind::quantities) schema = {{"type", "array"}, {"items", schema}};
-  if (key.length > 0) schema["minItems"] = schema["maxItems"] = key.length;
-  if (key.kind == Kind::numbers) {
-    schema = {{"type", "array"}, {"items", schema}, {"minItems", 3}, {"maxItems", 3}};
-  }
+  const bool list = key.kind == Kind::quantities || key.kind == Kind::texts ||
+                    key.kind == Kind::files || key.kind == Kind::numbers ||
+                    key.kind == Kind::number_pair;
+  if (list) schema = {{"type", "array"}, {"items", schema}};
+  const std::size_t length = key.kind == Kind::numbers       ? 3
+                             : key.kind == Kind::number_pair ? 2
+                                                             : key.length;
+  if (length > 0) schema["minItems"] = schema["maxItems"] = length;
   schema["description"] = key.help + " (" + constraints(key) + ")";
   // The defaults are TOML literals of the kind that JSON shares.
   schema["default"] = nlohmann::json::parse(key.preset);

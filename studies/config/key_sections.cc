@@ -1,58 +1,12 @@
 #include "studies/config/key_sections.h"
 
+#include "studies/config/key_builders.h"
+
 #include <algorithm>
 
 namespace fingertip::studies {
 
 namespace {
-
-constexpr double endless = std::numeric_limits<double>::infinity();
-constexpr Range positive{0.0, endless, false};
-constexpr Range not_negative{0.0, endless, true};
-constexpr Range any{};
-
-/// A key whose value is one quantity, stored in `member`.
-template <typename Target>
-Key quantity(const char* section, const char* name, const char* preset, const char* unit,
-             Range range, const char* help, Target target) {
-  Key key;
-  key.section = section;
-  key.name = name;
-  key.kind = Kind::quantity;
-  key.preset = "\"" + std::string(preset) + "\"";
-  key.unit = unit;
-  key.range = range;
-  key.help = help;
-  key.assign = [target](Config& config, const Value& value) { target(config) = value.number; };
-  return key;
-}
-
-Key plain(const char* section, const char* name, Kind kind, const char* preset, Range range,
-          const char* help, std::function<void(Config&, const Value&)> assign) {
-  Key key;
-  key.section = section;
-  key.name = name;
-  key.kind = kind;
-  key.preset = preset;
-  key.range = range;
-  key.help = help;
-  key.assign = std::move(assign);
-  return key;
-}
-
-Key choice(const char* section, const char* name, const char* preset, std::vector<Choice> choices,
-           const char* help, std::function<void(Config&, const Value&)> assign) {
-  const std::string literal = "\"" + std::string(preset) + "\"";
-  Key key = plain(section, name, Kind::choice, literal.c_str(), any, help, std::move(assign));
-  key.choices = std::move(choices);
-  return key;
-}
-
-Key with_rule(Key key, const char* rule, std::vector<std::string> related) {
-  key.rule = rule;
-  key.related = std::move(related);
-  return key;
-}
 
 void assign_constants(Config& config, const Value& value) {
   config.constants = value.word == "auto"         ? ConstantsSource::automatic
@@ -422,22 +376,13 @@ std::vector<Key> reference_keys() {
   return keys;
 }
 
-std::vector<Key> solver_keys() {
-  const auto nothing = [](Config&, const Value&) {};
+std::vector<Key> run_keys() {
   Key time_step = quantity("run", "time_step", "auto", "s", positive,
                            "lattice time step; auto takes the largest safe one",
                            [](Config& config) -> double& { return *config.press.time_step; });
   time_step.word = "auto";
   time_step.assign = assign_time_step;
   return {
-      choice("calibration", "problem", "moduli", {{"moduli", "fit to Young's and shear modulus"}},
-             "what is fitted to what", nothing),
-      plain("calibration", "starts", Kind::integer, "10", {1, 1000, true},
-            "random starts of the fit; the best one is kept",
-            [](Config& config, const Value& value) { config.fit_starts = int(value.number); }),
-      plain("calibration", "seed", Kind::integer, "1", {0, 4294967295.0, true},
-            "seed of the random starts",
-            [](Config& config, const Value& value) { config.fit_seed = unsigned(value.number); }),
       plain("run", "threads", Kind::integer, "0", {0, 1024, true},
             "threads to use, 0 for all cores; results do not depend on it",
             [](Config& config, const Value& value) { config.press.threads = int(value.number); }),

@@ -7,10 +7,11 @@
 
 namespace fingertip::studies {
 
-std::vector<Key> specimen_keys();   ///< [geometry] [rubber] [rod]
-std::vector<Key> lattice_keys();    ///< [lattice]
-std::vector<Key> press_keys();      ///< [press] [controller]
-std::vector<Key> reference_keys();  ///< [reference]
-std::vector<Key> solver_keys();     ///< [calibration] [run]
+std::vector<Key> specimen_keys();     ///< [geometry] [rubber] [rod]
+std::vector<Key> lattice_keys();      ///< [lattice]
+std::vector<Key> press_keys();        ///< [press] [controller]
+std::vector<Key> reference_keys();    ///< [reference]
+std::vector<Key> calibration_keys();  ///< [calibration]
+std::vector<Key> run_keys();          ///< [run]
 
 }  // namespace fingertip::studies

@@ -13,21 +13,25 @@
 namespace fingertip::studies {
 
 enum class Kind {
-  quantity,    ///< text "number unit"
-  quantities,  ///< list of such texts
-  number,      ///< TOML number
-  numbers,     ///< list of three TOML numbers
-  integer,     ///< TOML integer
-  boolean,     ///< true or false
-  choice,      ///< one of the listed words
-  source,      ///< one of the listed words or the path of a file
+  quantity,     ///< text "number unit"
+  quantities,   ///< list of such texts
+  number,       ///< TOML number
+  numbers,      ///< list of three TOML numbers
+  number_pair,  ///< list of two TOML numbers, the smaller first
+  integer,      ///< TOML integer
+  boolean,      ///< true or false
+  choice,       ///< one of the listed words
+  source,       ///< one of the listed words or the path of a file
+  texts,        ///< list of texts
+  files,        ///< list of paths of files
 };
 
 /// A value read from text, in SI.
 struct Value {
-  double number = 0.0;          ///< quantity, number, integer, boolean (0 or 1)
-  std::vector<double> numbers;  ///< quantities, numbers
-  std::string word;             ///< choice, source; for a quantity the word given instead of one
+  double number = 0.0;             ///< quantity, number, integer, boolean (0 or 1)
+  std::vector<double> numbers;     ///< quantities, numbers
+  std::string word;                ///< choice, source; for a quantity the word given instead of one
+  std::vector<std::string> words;  ///< texts, files
 };
 
 struct Choice {

@@ -61,12 +61,8 @@ void Reader::take(const Key& key, const toml::node& node, Entry entry,
   const std::string name = key.full_name();
   try {
     Value value = read_value(key, node);
-    const bool is_choice = std::ranges::any_of(
-        key.choices, [&](const Choice& choice) { return choice.word == value.word; });
-    if (key.kind == Kind::source && !is_choice) {
-      value.word = std::filesystem::absolute(base / value.word).lexically_normal().string();
-      entry.literal = toml_literal(toml::value<std::string>(value.word));
-    }
+    locate_files(key, base, value);
+    entry.literal = located_literal(key, value, entry.literal);
     key.assign(loaded_.config, value);
   } catch (const UnitError& error) {
     problems_.push_back({entry.place, name, unquoted(entry.literal), error.rule, error.remedy});

@@ -93,6 +93,35 @@ Value read_numbers(const Key& key, const toml::node& node) {
   return value;
 }
 
+Value read_number_pair(const Key& key, const toml::node& node) {
+  const auto* list = node.as_array();
+  if (list == nullptr || list->size() != 2)
+    refuse("must be a list of 2 numbers", preset_advice(key));
+  Value value;
+  for (const toml::node& element : *list) value.numbers.push_back(read_number(key, element).number);
+  if (!(value.numbers[0] < value.numbers[1]))
+    refuse("the first number must be the smaller one", preset_advice(key));
+  return value;
+}
+
+Value read_texts(const Key& key, const toml::node& node) {
+  const auto* list = node.as_array();
+  const std::string advice = "write e.g. " + key.name + " = [\"one\", \"another\"]";
+  if (list == nullptr) refuse("must be a list of texts", advice);
+  Value value;
+  for (const toml::node& element : *list) {
+    const auto* text = element.as_string();
+    if (text == nullptr || text->get().empty()) refuse("must be a list of texts", advice);
+    value.words.push_back(text->get());
+  }
+  return value;
+}
+
+bool is_choice(const Key& key, const std::string& word) {
+  return std::ranges::any_of(key.choices,
+                             [&](const Choice& choice) { return choice.word == word; });
+}
+
 Value read_word(const Key& key, const toml::node& node) {
   std::vector<std::string> words;
   for (const Choice& choice : key.choices) words.push_back(choice.word);
@@ -118,8 +147,11 @@ Value read_value(const Key& key, const toml::node& node) {
     case Kind::quantities: return read_quantities(key, node);
     case Kind::number: return read_number(key, node);
     case Kind::numbers: return read_numbers(key, node);
+    case Kind::number_pair: return read_number_pair(key, node);
     case Kind::choice:
     case Kind::source: return read_word(key, node);
+    case Kind::texts:
+    case Kind::files: return read_texts(key, node);
     case Kind::integer:
       if (!node.is_integer()) refuse("must be an integer", preset_advice(key));
       return read_number(key, node);
@@ -128,6 +160,22 @@ Value read_value(const Key& key, const toml::node& node) {
       value.number = *node.value<bool>() ? 1.0 : 0.0;
   }
   return value;
+}
+
+void locate_files(const Key& key, const std::filesystem::path& base, Value& value) {
+  const auto locate = [&](std::string& file) {
+    file = std::filesystem::absolute(base / file).lexically_normal().string();
+  };
+  if (key.kind == Kind::source && !is_choice(key, value.word)) locate(value.word);
+  if (key.kind == Kind::files) std::ranges::for_each(value.words, locate);
+}
+
+std::string located_literal(const Key& key, const Value& value, const std::string& literal) {
+  if (key.kind == Kind::source) return toml_literal(toml::value<std::string>(value.word));
+  if (key.kind != Kind::files) return literal;
+  toml::array files;
+  for (const std::string& file : value.words) files.push_back(file);
+  return toml_literal(files);
 }
 
 std::string toml_literal(const toml::node& node) {

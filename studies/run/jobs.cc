@@ -23,7 +23,10 @@ void run_moduli(const meshes::Rubber& rubber, const calibration::ModuliFitOption
   context.report(0.0, "least squares");
   const calibration::ModuliFit fit = calibration::fit_moduli(rubber, options);
   calibration::write_calibration_json(fit, folder / "calibration.json");
-  calibration::write_material_toml(fit, folder / "material.toml");
+  calibration::Material material = calibration::material_from(fit);
+  material.program = "fingertip " + program_version();
+  material.date = utc_now();
+  calibration::write_material_toml(material, folder / "material.toml");
   write_json({{"model", lattice::name(fit.model)},
               {"status", "finished"},
               {"spacing", fit.spacing},
@@ -193,7 +196,9 @@ Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions
                 {"model", lattice::name(options.model)},
                 {"spacing", options.spacing},
                 {"starts", options.starts},
-                {"seed", options.seed}};
+                {"seed", options.seed},
+                {"isotropy_weight", options.isotropy_weight},
+                {"bulk_weight", options.bulk_weight}};
   job.source_hash = source_hash::calibration;
   job.weight = 0.1;
   job.run = [rubber, options](const fs::path& folder, const JobContext& context) {

@@ -1,8 +1,10 @@
 #include "studies/run/press_setup.h"
 
-#include "calibration/result_io.h"
+#include "calibration/material.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/files.h"
+#include "studies/config/key_table.h"
+#include "studies/config/units.h"
 
 namespace fingertip::studies {
 
@@ -21,15 +23,14 @@ void check_constants_source(const LoadedConfig& loaded) {
                           "use auto or rule, or the model central or hookean"}});
   }
   if (loaded.config.press.lattice.model == ModelKind::network &&
-      loaded.config.constants != ConstantsSource::automatic &&
-      loaded.config.constants != ConstantsSource::rule) {
-    throw loaded.locate({{"lattice.constants", "",
-                          "the network takes G and lambda from the rubber and is not calibrated",
-                          "use auto, or the model central or hookean"}});
+      loaded.config.constants == ConstantsSource::calibrated) {
+    throw loaded.locate({{"lattice.constants", "calibrated",
+                          "the network takes G and lambda from the rubber, moduli are all it has",
+                          "use auto, or the file of a fit to curves"}});
   }
 }
 
-lattice::SpringConstants constants_from_file(const LoadedConfig& loaded) {
+calibration::Material material_of(const LoadedConfig& loaded) {
   const Config& config = loaded.config;
   calibration::Material material;
   try {
@@ -49,14 +50,43 @@ lattice::SpringConstants constants_from_file(const LoadedConfig& loaded) {
               ", not of " + std::string(lattice::name(config.press.lattice.model)),
           "calibrate this model, or change lattice.model"}});
   }
-  return calibration::at_spacing(material, config.press.lattice.spacing);
+  return material;
+}
+
+/// Where keys are left at their defaults the material's values take their place.
+void take_over(const calibration::Material& material, LoadedConfig& loaded) {
+  const auto given = [&](const char* key) { return loaded.entries.at(key).given; };
+  const auto take = [&](const std::string& name, double ours, double& value) {
+    const Key& key = *find_key(name);
+    const std::string text = meshes::to_text(ours);
+    const std::string quantity = text + ' ' + key.unit;
+    loaded.entries.at(name) = {key.unit.empty() ? text : '"' + quantity + '"',
+                               loaded.config.constants_file.string(), true};
+    // As it will be read from the run's parameters, to the last bit.
+    value = key.unit.empty() ? ours : parse_quantity(quantity, key.unit, key.example());
+  };
+  meshes::Rubber& rubber = loaded.config.press.rubber;
+  // One of the two says nothing about the other, and both together must make a rubber.
+  if (!given("rubber.youngs_modulus") && !given("rubber.shear_modulus")) {
+    take("rubber.youngs_modulus", material.rubber.youngs_modulus, rubber.youngs_modulus);
+    take("rubber.shear_modulus", material.rubber.shear_modulus, rubber.shear_modulus);
+  }
+  lattice::LatticeSettings& lattice = loaded.config.press.lattice;
+  const auto take_default = [&](const char* key, double ours, double& value) {
+    if (!given(key)) take(key, ours, value);
+  };
+  take_default("rubber.density", material.rubber.density, rubber.density);
+  take_default("rubber.retardation_time", material.rubber.retardation_time,
+               rubber.retardation_time);
+  take_default("lattice.ligament_stiffness", material.ligament_stiffness,
+               lattice.ligament_stiffness);
+  take_default("lattice.contact_stiffness", material.contact_stiffness, lattice.contact_stiffness);
 }
 
 lattice::SpringConstants resolve_constants(const LoadedConfig& loaded) {
   const Config& config = loaded.config;
   const ModelKind model = config.press.lattice.model;
   const double spacing = config.press.lattice.spacing;
-  if (config.constants == ConstantsSource::file) return constants_from_file(loaded);
   const bool fitted =
       config.constants == ConstantsSource::calibrated ||
       (config.constants == ConstantsSource::automatic && model == ModelKind::central);
@@ -88,11 +118,32 @@ void check_spacing(const LoadedConfig& loaded) {
 
 }  // namespace
 
+LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use) {
+  if (loaded.config.constants != ConstantsSource::file) return loaded;
+  const calibration::Material material = material_of(loaded);
+  LoadedConfig complete = loaded;
+  take_over(material, complete);
+  const lattice::PressSetup& press = complete.config.press;
+  const auto warnings = use == LatticeUse::press ? calibration::warnings(material, press)
+                                                 : calibration::lattice_warnings(material, press);
+  const std::string place = loaded.config.constants_file.filename().string() + ": ";
+  for (const std::string& warning : warnings) complete.notes.push_back(place + warning);
+  return complete;
+}
+
 lattice::PressSetup press_setup(const LoadedConfig& loaded) {
   check_spacing(loaded);
   check_constants_source(loaded);
   lattice::PressSetup setup = loaded.config.press;
-  setup.lattice.constants = resolve_constants(loaded);
+  if (loaded.config.constants == ConstantsSource::file) {
+    const calibration::Material material = material_of(loaded);
+    setup = with_material(loaded, LatticeUse::press).config.press;
+    setup.rubber.youngs_modulus = material.rubber.youngs_modulus;
+    setup.rubber.shear_modulus = material.rubber.shear_modulus;
+    setup.lattice.constants = calibration::at_spacing(material, setup.lattice.spacing);
+  } else {
+    setup.lattice.constants = resolve_constants(loaded);
+  }
   const std::vector<meshes::Violation> broken = setup.violations();
   if (!broken.empty()) throw loaded.locate(broken);
   return setup;
@@ -112,8 +163,10 @@ calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::M
   calibration::ModuliFitOptions options;
   options.model = model;
   options.spacing = loaded.config.press.lattice.spacing;
-  options.starts = loaded.config.fit_starts;
-  options.seed = loaded.config.fit_seed;
+  options.starts = loaded.config.calibration.starts;
+  options.seed = loaded.config.calibration.seed;
+  options.isotropy_weight = loaded.config.calibration.isotropy_weight;
+  options.bulk_weight = loaded.config.calibration.bulk_weight;
   return options;
 }
 

@@ -7,9 +7,20 @@
 
 namespace fingertip::studies {
 
-/// The press that `loaded` describes, with spring constants for its spacing. Throws ConfigError
-/// for every rule of lattice, rod and controller it breaks, for constants that do not go with the
-/// model, and for a material.toml that cannot be used; NotConverged when a fit fails.
+/// What a lattice is used for: how it is pressed does not matter to natural frequencies.
+enum class LatticeUse { press, modes };
+
+/// `loaded`, and where lattice.constants is a file: what it says in place of defaults (moduli,
+/// density and retardation time of the rubber, factors on bond and contact), and as notes where the
+/// lattice is used outside of what the file is good for. The entries name the file as their source,
+/// so that the parameters of a run remain complete. Throws ConfigError for a file that cannot be
+/// used or is for another model.
+LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use);
+
+/// The press that `loaded` describes, with spring constants for its spacing, and with_material. The
+/// stiffness is that of a material's file, whatever moduli the configuration gives. Throws
+/// ConfigError for every rule of lattice, rod and controller it breaks, for constants that do not
+/// go with the model, and for a material.toml that cannot be used; NotConverged when a fit fails.
 lattice::PressSetup press_setup(const LoadedConfig& loaded);
 
 /// The continuum's order. Throws ConfigError.

@@ -121,6 +121,41 @@ TEST(Run, CalibratedConstantsGoIntoAPress) {
   EXPECT_NEAR(moduli["E_100"].get<double>(), 3922.66, 1e-5);
 }
 
+TEST(Run, APressBeyondItsMaterialSaysSoEverywhere) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(folder.path(), {"calibrate", "--out", "fit"}).code, 0);
+  std::string material = read_text(folder / "fit/material.toml");
+  EXPECT_NE(material.find("program = \"fingertip "), std::string::npos);
+  const std::string section = "[validity]\n";
+  ASSERT_NE(material.find(section), std::string::npos);
+  material.insert(material.find(section) + section.size(),
+                  "largest_indentation = \"0.0001 m\"\nthickness = \"0.005 m\"\n");
+  write_text(folder / "fit/material.toml", material);
+  const std::vector<std::string> sets = {"--set", "lattice.constants=fit/material.toml",
+                                         "--set", "lattice.spacing=tip_radius/6",
+                                         "--set", "press.mode=static"};
+  const std::string warning = "material.toml: the press goes to 60 % of the rubber's thickness";
+  const auto run = [&](const char* verb, const std::string& out) {
+    std::vector<std::string> words = {verb};
+    words.insert(words.end(), sets.begin(), sets.end());
+    words.insert(words.end(), {"--out", out});
+    return run_program(folder.path(), words);
+  };
+  for (const char* out : {"computed", "cached"}) {
+    const ProgramResult result = run("press", out);
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.err.find("note: " + warning), std::string::npos) << result.err;
+    EXPECT_NE(read_text(folder / out / "log.txt").find(warning), std::string::npos);
+    const json warnings = json_of(folder / out / "summary.json")["warnings"];
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0].get<std::string>().find(warning), 0U);
+  }
+  const ProgramResult modes = run("modes", "modes");
+  ASSERT_EQ(modes.code, 0) << modes.err;
+  EXPECT_EQ(modes.err.find(warning), std::string::npos) << "nothing is pressed";
+  EXPECT_FALSE(json_of(folder / "modes/summary.json").contains("warnings"));
+}
+
 TEST(Run, InterruptLeavesAReadableFolderThatCanBeResumed) {
   const TemporaryFolder folder;
   const std::vector<std::string> words = {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/material.h"
 #include "calibration/moduli.h"
 #include "lattice/statics/static_press.h"
+#include "studies/config/documents.h"
 #include "studies/run/jobs.h"
 #include "tests/temporary_folder.h"
 
@@ -56,6 +58,123 @@ TEST(PressSetup, TakesConstantsFromAMaterialFileAtAnySpacing) {
   EXPECT_NEAR(moduli_of(finer).youngs_modulus_100, 3922.66, 1e-5);
   EXPECT_THROW(setup_of({"lattice.model=hookean", constants}), ConfigError) << "another model";
   EXPECT_THROW(setup_of({"lattice.constants=" + (folder / "absent.toml").string()}), ConfigError);
+}
+
+namespace {
+
+namespace calibration = fingertip::calibration;
+
+/// As a fit to curves leaves it: another rubber than the default one, factors on the ties.
+calibration::Material fitted(lattice::ModelKind model) {
+  calibration::Material m;
+  m.model = model;
+  m.spacing = 1e-2 / 8.0;
+  m.kinematics = default_kinematics(model);
+  m.rubber = {5000.0, 1800.0, 900.0, 1.0 / 3.0e3};
+  m.constants = lattice::hookean_constants(m.rubber, m.spacing);
+  m.ligament_stiffness = 1.25;
+  m.contact_stiffness = 0.7;
+  m.validity.largest_indentation = 1e-3;
+  m.validity.thickness = 5e-3;
+  m.validity.smallest_spacing = m.validity.largest_spacing = m.spacing;
+  m.statement = "for tests";
+  return m;
+}
+
+/// Sets that use it where it was fitted.
+std::vector<std::string> inside(const TemporaryFolder& folder, const calibration::Material& m) {
+  calibration::write_material_toml(m, folder / "material.toml");
+  return {"lattice.constants=" + (folder / "material.toml").string(), "press.mode=static",
+          "lattice.model=" + std::string(lattice::name(m.model)), "lattice.spacing=tip_radius/8",
+          "press.depth=0.1 cm"};
+}
+
+std::vector<std::string> with(std::vector<std::string> sets, const std::string& more) {
+  sets.push_back(more);
+  return sets;
+}
+
+std::vector<std::string> notes(const std::vector<std::string>& sets,
+                               LatticeUse use = LatticeUse::press) {
+  return with_material(load_config({{}, sets, {}}), use).notes;
+}
+
+}  // namespace
+
+TEST(MaterialOfAPress, StiffnessTiesAndRubberAreTheFiles) {
+  const TemporaryFolder folder;
+  const calibration::Material m = fitted(lattice::ModelKind::hookean);
+  const auto sets = inside(folder, m);
+  const lattice::PressSetup press = setup_of(sets);
+  EXPECT_EQ(press.lattice.constants.k1, m.constants.k1);
+  EXPECT_EQ(press.lattice.constants.kappa, m.constants.kappa);
+  EXPECT_EQ(press.lattice.ligament_stiffness, 1.25);
+  EXPECT_EQ(press.lattice.contact_stiffness, 0.7);
+  EXPECT_EQ(press.rubber.youngs_modulus, 5000.0);
+  EXPECT_EQ(press.rubber.density, 900.0);
+  EXPECT_NEAR(press.rubber.retardation_time, 1.0 / 3.0e3, 1e-17);
+  EXPECT_TRUE(notes(sets).empty()) << notes(sets).front();
+}
+
+TEST(MaterialOfAPress, ANetworkTakesItsModuliFromTheFile) {
+  const TemporaryFolder folder;
+  const auto sets = inside(folder, fitted(lattice::ModelKind::network));
+  const lattice::PressSetup press = setup_of(sets);
+  EXPECT_EQ(press.rubber.shear_modulus, 1800.0);
+  EXPECT_EQ(press.rubber.youngs_modulus, 5000.0);
+  // The forces are those of a press whose rubber is given by hand.
+  const auto force = [](const lattice::PressSetup& setup) {
+    return lattice::run_static_press(setup).response.samples().back().normal_force;
+  };
+  const double by_hand =
+      force(setup_of({"press.mode=static", "lattice.model=network", "lattice.spacing=tip_radius/8",
+                      "press.depth=0.1 cm", "press.samples=[\"0.1 cm\"]",
+                      "rubber.youngs_modulus=5000 Pa", "rubber.shear_modulus=1800 Pa",
+                      "lattice.ligament_stiffness=1.25", "lattice.contact_stiffness=0.7"}));
+  EXPECT_NEAR(force(setup_of(with(sets, "press.samples=[\"0.1 cm\"]"))) / by_hand, 1.0, 1e-12);
+}
+
+TEST(MaterialOfAPress, WhatTheUserSaysIsKeptAndWarnedOf) {
+  const TemporaryFolder folder;
+  const auto sets = inside(folder, fitted(lattice::ModelKind::hookean));
+  const struct {
+    const char* set;
+    const char* says;
+  } cases[] = {{"rubber.density=1 g/cm^3", "density is 1000"},
+               {"rubber.retardation_time=1 ms", "retardation time is 0.001"},
+               {"lattice.ligament_stiffness=2", "bond is 2"},
+               {"lattice.contact_stiffness=1", "contact is 1"},
+               {"rubber.youngs_modulus=3900 Pa", "have no effect"},
+               {"press.depth=0.2 cm", "20 % only"},
+               {"lattice.spacing=tip_radius/10", "calibrate at this spacing"},
+               {"lattice.kinematics=finite", "used at finite strain"}};
+  for (const auto& one : cases) {
+    const auto found = notes(with(sets, one.set));
+    ASSERT_EQ(found.size(), 1U) << one.set;
+    EXPECT_EQ(found[0].find("material.toml: "), 0U) << found[0];
+    EXPECT_NE(found[0].find(one.says), std::string::npos) << found[0];
+  }
+  EXPECT_TRUE(notes(with(sets, "press.depth=0.2 cm"), LatticeUse::modes).empty());
+  EXPECT_EQ(notes(with(sets, "lattice.spacing=tip_radius/10"), LatticeUse::modes).size(), 1U);
+  const lattice::PressSetup press = setup_of(with(sets, "rubber.density=1 g/cm^3"));
+  EXPECT_EQ(press.rubber.density, 1000.0);
+  EXPECT_EQ(setup_of(with(sets, "rubber.youngs_modulus=3900 Pa")).rubber.youngs_modulus, 5000.0);
+  EXPECT_TRUE(notes({"press.mode=static"}).empty()) << "no file, nothing to warn of";
+}
+
+TEST(MaterialOfAPress, ParametersOfARunMakeTheSamePress) {
+  const TemporaryFolder folder;
+  const auto sets = inside(folder, fitted(lattice::ModelKind::hookean));
+  for (const char* more : {"press.depth=0.2 cm", "rubber.shear_modulus=30 gf/cm^2"}) {
+    const LoadedConfig loaded =
+        with_material(load_config({{}, with(sets, more), {}}), LatticeUse::press);
+    write_text(folder / "parameters.toml", parameters_toml(loaded, "test"));
+    const LoadedConfig again =
+        with_material(load_config({folder / "parameters.toml", {}, {}}), LatticeUse::press);
+    EXPECT_EQ(press_job(press_setup(again)).key(), press_job(press_setup(loaded)).key());
+    EXPECT_EQ(again.notes, loaded.notes);
+    EXPECT_EQ(loaded.entries.at("rubber.density").place, (folder / "material.toml").string());
+  }
 }
 
 TEST(PressSetup, ContactStiffnessScalesTheTiesToThePlaneAlone) {

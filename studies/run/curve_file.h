@@ -1,0 +1,71 @@
+/// Measured curves from CSV files, with units, into SI.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "calibration/curves/curve.h"
+
+namespace fingertip::studies {
+
+/// A column's name and SI unit, "1" for a number without dimension.
+struct Quantity {
+  std::string_view name, unit;
+};
+
+/// What a file may hold: y over x.
+struct CurveQuantities {
+  Quantity x, y;
+};
+
+/// The pairs that calibrations know.
+namespace measured {
+inline constexpr CurveQuantities press{{"indentation", "m"}, {"force", "N"}};
+inline constexpr CurveQuantities uniaxial{{"stretch", "1"}, {"nominal_stress", "Pa"}};
+inline constexpr CurveQuantities simple_shear{{"shear", "1"}, {"shear_stress", "Pa"}};
+inline constexpr CurveQuantities vibration{{"frequency", "Hz"}, {"loss_factor", "1"}};
+inline constexpr CurveQuantities creep{{"time", "s"}, {"creep", "1"}};
+inline constexpr CurveQuantities relaxation{{"time", "s"}, {"force", "N"}};
+}  // namespace measured
+
+/// A comment "# press.contact = "stick"": how the curve was measured, for --set.
+struct MeasuredSetting {
+  std::string key;       ///< "press.contact"
+  std::string value;     ///< TOML literal or bare text as it stands
+  std::size_t line = 0;  ///< counted from 1
+  std::string assignment() const { return key + "=" + value; }
+};
+
+struct MeasuredFile {
+  calibration::Curve curve;               ///< SI; its name is the file's without extension
+  std::string x_quantity, y_quantity;     ///< names of the pair found, e.g. "indentation", "force"
+  std::vector<MeasuredSetting> settings;  ///< in the order of the file, each key once
+  std::vector<std::string> notes;         ///< what was ignored, left out or averaged
+};
+
+/// Reads a CSV file in UTF-8: a header of titles `name [unit]` and rows of numbers with a decimal
+/// point, separated by comma, or by semicolon or tab where the header has them; empty lines and
+/// lines that start with # may stand anywhere. README tells the format to users.
+/// - The pair is the first of `allowed` whose columns are both there; `normal_force` is `force`.
+///   Units are any of the right dimension (units.h), [1] alone where there is none.
+/// - `sigma`, in a unit of y, is the standard deviation of every y. Without it a `force_error`
+///   serves where it is known and positive in every row. Further columns are ignored with a note.
+/// - Rows with indentation, time or shear <= 0 lie before the start and are left out with a note;
+///   stretch and frequency must be positive.
+/// - x must increase from row to row. More than 200 rows are averaged in at most 200 bins of equal
+///   width, with weights 1/sigma² and the mean's sigma (sum of the weights)^(-1/2), which supposes
+///   independent errors; there the means of blocks of successive rows (a thousand blocks) may step
+///   back by a bin's width and single rows by two: that is noise, and more is unloading.
+/// - Forces are positive in compression: their sum must be, single ones may be negative (a note
+///   tells how many).
+/// Throws ConfigError with up to ten problems of the file, each with its line, its column and what
+/// to do: unreadable or empty file, another encoding, no header, missing or wrong units, cells
+/// that are no finite numbers or absurdly large or small (beyond 1e-60 ... 1e60 SI), rows of
+/// another length, sigma <= 0, equal or decreasing x, a setting given twice.
+MeasuredFile read_measured(const std::filesystem::path& file,
+                           const std::vector<CurveQuantities>& allowed);
+
+}  // namespace fingertip::studies

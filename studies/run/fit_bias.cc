@@ -1,0 +1,67 @@
+#include "studies/run/fit_bias.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fingertip::studies {
+
+using Eigen::Index;
+using nlohmann::ordered_json;
+
+namespace {
+
+/// y at x by straight lines, constant beyond the ends.
+double interpolated(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
+  const auto above = std::ranges::lower_bound(xs, x);
+  if (above == xs.begin()) return ys.front();
+  if (above == xs.end()) return ys.back();
+  const std::size_t i = std::size_t(above - xs.begin());
+  return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
+}
+
+double relative_bias(const ordered_json& parameter) {
+  return parameter["bias"].get<double>() / parameter["estimate"].get<double>();
+}
+
+std::string statement(const ordered_json& parameters) {
+  std::string text = " The lattice's own error, measured by the continuum at the estimates, shifts";
+  for (const ordered_json& one : parameters)
+    text += fmt::format("{} {} by {:+.2g} %", &one == &parameters.front() ? "" : ",",
+                        one["name"].get<std::string>(), 100.0 * relative_bias(one));
+  return text + "; the intervals are wider by that to both sides.";
+}
+
+}  // namespace
+
+Eigen::VectorXd lattice_error(const calibration::Curve& curve, const std::vector<double>& residuals,
+                              const meshes::PressResponse& continuum) {
+  std::vector<double> fitted = curve.y;
+  for (std::size_t i = 0; i < fitted.size(); ++i) fitted[i] -= residuals[i];
+  std::vector<double> depths, relative;
+  for (const meshes::PressSample& sample : continuum.samples()) {
+    depths.push_back(sample.indentation);
+    relative.push_back(1.0 -
+                       sample.normal_force / interpolated(curve.x, fitted, sample.indentation));
+  }
+  Eigen::VectorXd error(Index(fitted.size()));
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+    error(Index(i)) = fitted[i] * interpolated(depths, relative, curve.x[i]);
+  return error;
+}
+
+void add_bias(const Eigen::VectorXd& error, ordered_json& calibration) {
+  ordered_json& parameters = calibration["parameters"];
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const auto row = calibration["influence"][p].get<std::vector<double>>();
+    const double bias = -Eigen::Map<const Eigen::VectorXd>(row.data(), error.size()).dot(error);
+    ordered_json& one = parameters[p];
+    one["bias"] = bias;
+    one["lower"] = one["lower"].get<double>() - std::abs(bias);
+    one["upper"] = one["upper"].get<double>() + std::abs(bias);
+  }
+  calibration["statement"] = calibration["statement"].get<std::string>() + statement(parameters);
+}
+
+}  // namespace fingertip::studies

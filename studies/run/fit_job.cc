@@ -1,0 +1,299 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "calibration/curves/curve_checks.h"
+#include "calibration/curves/damping_models.h"
+#include "calibration/curves/remembered_model.h"
+#include "calibration/curves/stretch_models.h"
+#include "lattice/statics/static_press.h"
+#include "source_hash.h"
+#include "studies/run/digest.h"
+#include "studies/run/fit_order.h"
+#include "studies/run/jobs.h"
+#include "studies/run/json_file.h"
+
+namespace fingertip::studies {
+
+using calibration::CurveFitOptions;
+using calibration::ForwardModel;
+using calibration::MaterialParameter;
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+namespace {
+
+ordered_json press_inputs(const lattice::PressSetup& setup) {
+  return {{"geometry", to_json(setup.geometry)},
+          {"rubber", to_json(setup.rubber)},
+          {"protocol", to_json(setup.protocol)},
+          {"lattice", to_json(setup.lattice)}};
+}
+
+/// What the answers for a curve depend on, and its data.
+ordered_json curve_inputs(const FitOrder& order, std::size_t i) {
+  const calibration::Curve& curve = order.curves[i];
+  ordered_json inputs = {{"name", curve.name},
+                         {"condition", order.conditions[i]},
+                         {"kind", int(order.kinds[i])},
+                         {"quantities", {curve.x_quantity, curve.y_quantity}},
+                         {"x", curve.x},
+                         {"y", curve.y},
+                         {"sigma", curve.sigma}};
+  if (i < order.presses.size()) inputs["press"] = press_inputs(order.presses[i]);
+  return inputs;
+}
+
+/// The stiffness of a ramp errs by the square of the samples' distance.
+constexpr int ramp_samples = 40;
+
+/// From first touch at the press's speed to its depth, then held.
+std::unique_ptr<ForwardModel> ramp_model(lattice::PressSetup setup, const std::vector<double>& time,
+                                         const std::function<bool()>& go_on) {
+  const double depth = setup.protocol.depth;
+  setup.protocol.samples.clear();
+  for (int i = 1; i <= ramp_samples; ++i)
+    setup.protocol.samples.push_back(depth * i / ramp_samples);
+  const auto press = lattice::run_static_press(
+      setup, [&](const lattice::StaticOutcome&, double) { return go_on(); });
+  return std::make_unique<calibration::RampModel>(
+      time, calibration::Ramp{setup.protocol.speed, depth / setup.protocol.speed},
+      calibration::interpolated_force(press.response));
+}
+
+std::unique_ptr<ForwardModel> model_of(const FitOrder& order, std::size_t i,
+                                       const std::function<bool()>& go_on) {
+  const std::vector<double>& x = order.curves[i].x;
+  const std::vector<MaterialParameter> parameters = parameters_of(order);
+  switch (order.kinds[i]) {
+    case CurveKind::press:
+      return std::make_unique<calibration::LatticeForwardModel>(order.presses[i], parameters,
+                                                                go_on);
+    case CurveKind::table: return std::make_unique<calibration::ScaledTable>(order.tables[i]);
+    case CurveKind::uniaxial:
+      return std::make_unique<calibration::UniaxialModel>(x, parameters, order.base.rubber);
+    case CurveKind::simple_shear:
+      return std::make_unique<calibration::SimpleShearModel>(x, parameters, order.base.rubber);
+    case CurveKind::loss_factor: return std::make_unique<calibration::LossFactorModel>(x);
+    case CurveKind::creep: return std::make_unique<calibration::CreepModel>(x);
+    case CurveKind::ramp: return ramp_model(order.presses[i], x, go_on);
+    case CurveKind::moving_press:
+      return std::make_unique<calibration::MovingPressModel>(order.presses[i], x);
+  }
+  return nullptr;
+}
+
+/// Models, and what remembers their answers in the folder's evaluations/.
+class Models {
+ public:
+  Models(const FitOrder& order, const fs::path& folder, const std::function<bool()>& go_on) {
+    fs::create_directories(folder / "evaluations");
+    for (std::size_t i = 0; i < order.curves.size(); ++i) {
+      models_.push_back(model_of(order, i, go_on));
+      remembering_.push_back(std::make_unique<calibration::RememberedModel>(
+          *models_[i], folder / "evaluations" / fmt::format("curve_{}.jsonl", i + 1),
+          Eigen::Index(order.curves[i].x.size()), Eigen::Index(order.options.free.size()),
+          sha256(curve_inputs(order, i).dump())));
+    }
+  }
+
+  std::vector<ForwardModel*> addresses() const {
+    std::vector<ForwardModel*> result;
+    for (const auto& model : remembering_) result.push_back(model.get());
+    return result;
+  }
+
+ private:
+  std::vector<std::unique_ptr<ForwardModel>> models_;
+  std::vector<std::unique_ptr<calibration::RememberedModel>> remembering_;
+};
+
+/// The lattice and rubber that the estimates stand for.
+lattice::PressSetup fitted_setup(const FitOrder& order, const Eigen::VectorXd& estimates) {
+  lattice::PressSetup setup = order.base;
+  if (order.problem == CalibrationProblem::damping) {
+    setup.rubber.retardation_time = estimates(0);
+    return setup;
+  }
+  if (order.problem != CalibrationProblem::finite_strain)
+    return calibration::LatticeForwardModel(setup, parameters_of(order)).setup_with(estimates);
+  const auto law =
+      calibration::LawParameters(parameters_of(order), order.base.rubber).at(estimates);
+  setup.rubber.shear_modulus = law.shear;
+  setup.rubber.youngs_modulus =
+      law.shear * (3.0 * law.lambda + 2.0 * law.shear) / (law.lambda + law.shear);
+  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  return setup;
+}
+
+/// The deepest press, if there was any.
+const lattice::PressSetup* deepest(const FitOrder& order) {
+  const auto relative = [](const lattice::PressSetup& setup) {
+    return setup.protocol.samples.back() / setup.geometry.thickness();
+  };
+  const auto found = std::ranges::max_element(order.presses, {}, relative);
+  return found == order.presses.end() ? nullptr : &*found;
+}
+
+double worst_relative(const calibration::FitRecord& record) {
+  double worst = 0.0;
+  for (std::size_t c = 0; c < record.curves.size(); ++c)
+    for (std::size_t i = 0; i < record.curves[c].y.size(); ++i)
+      if (record.curves[c].y[i] != 0.0)
+        worst = std::max(
+            worst, std::abs(record.fit.residuals[c](Eigen::Index(i)) / record.curves[c].y[i]));
+  return worst;
+}
+
+calibration::Validity validity_of(const FitOrder& order, const calibration::FitRecord& record) {
+  calibration::Validity validity;
+  const lattice::PressSetup* press = deepest(order);
+  if (press == nullptr) return validity;
+  validity.largest_indentation = press->protocol.samples.back();
+  validity.thickness = press->geometry.thickness();
+  validity.rod_ratio = press->geometry.rod_radius / press->geometry.tip_radius;
+  validity.smallest_spacing = validity.largest_spacing = press->lattice.spacing;
+  validity.model_error = worst_relative(record);
+  for (const lattice::PressSetup& one : order.presses)
+    if (std::ranges::find(validity.contacts, one.protocol.contact) == validity.contacts.end())
+      validity.contacts.push_back(one.protocol.contact);
+  return validity;
+}
+
+calibration::Material material_of(const FitOrder& order, const calibration::FitRecord& record) {
+  const lattice::PressSetup setup = fitted_setup(order, record.fit.estimates);
+  calibration::Material material;
+  material.model = setup.lattice.model;
+  material.kinematics = setup.lattice.kinematics;
+  material.spacing = setup.lattice.spacing;
+  material.constants = setup.lattice.constants;
+  material.rubber = setup.rubber;
+  material.ligament_stiffness = setup.lattice.ligament_stiffness;
+  material.contact_stiffness = setup.lattice.contact_stiffness;
+  material.validity = validity_of(order, record);
+  material.provenance = order.provenance;
+  material.program = order.program;
+  return material;
+}
+
+/// Points per parameter where an evaluation costs nothing: valleys are narrow.
+constexpr int fine_grid = 61;
+
+void add_profile(const FitOrder& order, const std::vector<ForwardModel*>& models,
+                 calibration::FitRecord& record) {
+  const auto place = [&](const std::string& name) {
+    const auto found = std::ranges::find(record.fit.parameters, name, calibration::name);
+    return std::size_t(found - record.fit.parameters.begin());
+  };
+  const std::size_t first = place(order.profile[0]), second = place(order.profile[1]);
+  calibration::ProfileOptions grid;
+  if (order.presses.empty() || !order.tables.empty()) grid.points = fine_grid;
+  record.profile = calibration::profile_likelihood(record.curves, models, record.options,
+                                                   record.fit, first, second, grid);
+  record.profile_first = record.fit.parameters[first];
+  record.profile_second = record.fit.parameters[second];
+}
+
+void write(const calibration::FitRecord& record, const fs::path& folder) {
+  calibration::write_fit_json(record, folder / "calibration.json");
+  calibration::write_fit_data(record, folder / "fit_data.csv");
+  calibration::write_material_toml(record.material, folder / "material.toml");
+  write_json({{"problem", record.problem},
+              {"model", lattice::name(record.material.model)},
+              {"status", "finished"},
+              {"evaluations", record.fit.evaluations},
+              {"wall_time", record.wall_time},
+              {"statement", calibration::fit_statement(record)}},
+             folder / "summary.json");
+}
+
+calibration::FitRecord described(const FitOrder& order) {
+  calibration::FitRecord record;
+  record.problem = name(order.problem);
+  record.forward = !order.tables.empty()   ? "continuum"
+                   : order.presses.empty() ? "formula"
+                                           : "lattice";
+  record.curves = order.curves;
+  record.conditions = order.conditions;
+  if (order.rubber_known) record.target = order.base.rubber;
+  return record;
+}
+
+void run_fit(FitOrder order, const fs::path& folder, const JobContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  int evaluations = 0;
+  const auto go_on = [&] {
+    // Nobody knows how many evaluations a fit takes: the bar approaches its end.
+    const double done = 1.0 - 1.0 / (1.0 + 0.1 * evaluations);
+    return context.report(done, std::to_string(evaluations) + " evaluations");
+  };
+  const Models models(order, folder, go_on);
+  const std::vector<ForwardModel*> list = models.addresses();
+  CurveFitOptions& options = order.options;
+  options.threads = context.threads;
+  options.progress = [&](int count, double) {
+    evaluations = count;
+    return go_on();
+  };
+  if (!order.start_ratios.empty())
+    options.other_starts =
+        calibration::scaled_starts(order.curves, list, options, order.start_ratios);
+
+  calibration::FitRecord record = described(order);
+  record.options = options;
+  record.fit = calibration::fit_curves(order.curves, list, options);
+  if (order.curves.size() > 1)
+    record.left_out = calibration::leave_one_out(order.curves, list, options, record.fit);
+  if (!order.profile.empty()) add_profile(order, list, record);
+  record.material = material_of(order, record);
+  if (const lattice::PressSetup* press = deepest(order))
+    record.range.relative_indentation =
+        press->protocol.samples.back() / press->geometry.thickness();
+  record.range.kinematics = order.base.lattice.kinematics;
+  record.wall_time =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  write(record, folder);
+  context.log(calibration::fit_statement(record));
+}
+
+ordered_json inputs_of(const FitOrder& order) {
+  ordered_json inputs = {
+      {"problem", name(order.problem)},     {"base", press_inputs(order.base)},
+      {"rubber_known", order.rubber_known}, {"robust_width", order.options.robust_width},
+      {"starts", order.start_ratios},       {"profile", order.profile},
+      {"provenance", order.provenance},     {"tables", order.table_keys}};
+  inputs["curves"] = inputs["free"] = ordered_json::array();
+  for (std::size_t i = 0; i < order.curves.size(); ++i)
+    inputs["curves"].push_back(curve_inputs(order, i));
+  for (const calibration::FreeParameter& free : order.options.free)
+    inputs["free"].push_back({{"name", calibration::name(free.parameter)},
+                              {"start", free.start},
+                              {"scale", free.scale},
+                              {"prior", free.prior ? free.prior->deviation : 0.0}});
+  return inputs;
+}
+
+}  // namespace
+
+std::vector<MaterialParameter> parameters_of(const FitOrder& order) {
+  std::vector<MaterialParameter> parameters;
+  for (const auto& free : order.options.free) parameters.push_back(free.parameter);
+  return parameters;
+}
+
+Job fit_job(const FitOrder& order) {
+  Job job;
+  job.kind = "fit";
+  job.inputs = inputs_of(order);
+  job.source_hash = source_hash::calibration;
+  job.weight = 10.0;
+  job.resumable = true;
+  job.run = [order](const fs::path& folder, const JobContext& context) {
+    run_fit(order, folder, context);
+  };
+  return job;
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,249 @@
+#include "studies/run/fit_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/result_io.h"
+#include "meshes/press_response.h"
+#include "studies/run/continuum_table.h"
+#include "studies/run/fit_bias.h"
+#include "studies/run/fit_setup.h"
+#include "studies/run/jobs.h"
+#include "studies/run/json_file.h"
+#include "studies/run/press_setup.h"
+#include "studies/run/surrogate_job.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+using calibration::MaterialParameter;
+using meshes::PressResponse;
+using nlohmann::ordered_json;
+
+/// Continua per curve that stand for all Poisson's ratios between.
+constexpr int table_nodes = 7;
+/// Indentations at which a lattice is judged by its continuum; between them its relative error is
+/// taken as linear.
+constexpr std::size_t bias_samples = 8;
+
+/// Evenly chosen, the last one always.
+std::vector<double> thinned(const std::vector<double>& x, std::size_t count) {
+  if (x.size() <= count) return x;
+  std::vector<double> chosen;
+  for (std::size_t i = 1; i <= count; ++i) chosen.push_back(x[i * x.size() / count - 1]);
+  return chosen;
+}
+
+/// A static run has exactly the samples it was asked for, a transient one has more.
+const meshes::PressSample& sample_near(const PressResponse& response, double depth) {
+  return *std::ranges::min_element(response.samples(), {}, [&](const meshes::PressSample& one) {
+    return std::abs(one.indentation - depth);
+  });
+}
+
+Eigen::MatrixXd matrix_of(const nlohmann::json& rows) {
+  Eigen::MatrixXd matrix(Eigen::Index(rows.size()), Eigen::Index(rows.size()));
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      matrix(i, j) = rows[std::size_t(i)][std::size_t(j)].get<double>();
+  return matrix;
+}
+
+void check_moduli(const LoadedConfig& loaded) {
+  const lattice::ModelKind model = loaded.config.press.lattice.model;
+  if (model == lattice::ModelKind::network)
+    throw loaded.locate({{"lattice.model", "network",
+                          "the network takes G and lambda from the rubber; nothing is left to fit "
+                          "to moduli",
+                          "calibrate central or hookean, or fit it to a curve: "
+                          "calibration.problem = \"curve\""}});
+  if (model == lattice::ModelKind::published)
+    throw loaded.locate({{"lattice.model", "published",
+                          "the published model has a rule for its constants and is not calibrated",
+                          "calibrate central, hookean or network"}});
+}
+
+}  // namespace
+
+FitPlan::FitPlan(LoadedConfig loaded, std::string folder)
+    : loaded_(std::move(loaded)), folder_(std::move(folder)) {
+  if (loaded_.config.calibration.problem == CalibrationProblem::moduli) {
+    check_moduli(loaded_);
+  } else {
+    setup_ = fit_setup(loaded_);
+  }
+}
+
+std::string FitPlan::place(const std::string& name) const {
+  return folder_.empty() || name.empty() ? folder_ + name : folder_ + "/" + name;
+}
+
+bool FitPlan::by_moduli() const {
+  return loaded_.config.calibration.problem == CalibrationProblem::moduli;
+}
+
+std::vector<PlannedJob> FitPlan::next(const fs::path& run) {
+  std::vector<PlannedJob> jobs;
+  while (jobs.empty() && stage_ != Stage::done) {
+    if (stage_ == Stage::data) jobs = data_jobs();
+    if (stage_ == Stage::fit) jobs = {fit(run)};
+    if (stage_ == Stage::follow_up) jobs = follow_up_jobs(run);
+    if (stage_ == Stage::finish) finish(run);
+    stage_ = Stage(int(stage_) + 1);
+  }
+  return jobs;
+}
+
+std::vector<PlannedJob> FitPlan::data_jobs() {
+  std::vector<PlannedJob> jobs;
+  if (by_moduli()) return jobs;
+  for (std::size_t i = 0; i < setup_.order.kinds.size(); ++i) {
+    if (setup_.data_from_continuum)
+      jobs.push_back(
+          {place("reference_" + std::to_string(i + 1)), reference_job(setup_.continua[i]), false});
+    if (setup_.order.kinds[i] == CurveKind::table)
+      for (PlannedJob& job : table_jobs(i)) jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+std::vector<double> FitPlan::table_ratios() const {
+  const std::vector<double>& range = loaded_.config.calibration.poisson_range;
+  return calibration::chebyshev_nodes(range[0], range[1], table_nodes);
+}
+
+std::string FitPlan::table_place(std::size_t curve, std::size_t ratio) const {
+  return place(fmt::format("table_{}/{}", curve + 1, ratio + 1));
+}
+
+std::vector<PlannedJob> FitPlan::table_jobs(std::size_t curve) {
+  std::vector<PlannedJob> jobs;
+  for (const fem_reference::ReferenceJob& order :
+       continuum_table_orders(setup_.continua[curve], table_ratios())) {
+    jobs.push_back({table_place(curve, jobs.size()), reference_job(order), false});
+    setup_.order.table_keys.push_back(jobs.back().job.key());
+  }
+  return jobs;
+}
+
+void FitPlan::take_tables(const fs::path& run) {
+  const std::vector<double> ratios = table_ratios();
+  for (std::size_t i = 0; i < setup_.order.kinds.size(); ++i) {
+    if (setup_.order.kinds[i] != CurveKind::table) continue;
+    std::vector<fs::path> folders;
+    for (std::size_t k = 0; k < ratios.size(); ++k) folders.push_back(run / table_place(i, k));
+    setup_.order.tables.push_back(
+        read_continuum_table(setup_.continua[i], ratios, folders, parameters_of(setup_.order))
+            .table);
+  }
+}
+
+/// Forces of the continuum become data; their deviation is its own error and what the model of a
+/// curve may miss.
+void FitPlan::take_continuum_data(const fs::path& run) {
+  const double model_error = std::max(loaded_.config.calibration.model_error, 1e-6);
+  for (std::size_t i = 0; i < setup_.order.curves.size(); ++i) {
+    calibration::Curve& curve = setup_.order.curves[i];
+    const PressResponse response =
+        PressResponse::read_csv(run / place("reference_" + std::to_string(i + 1)) / "response.csv");
+    for (const double depth : curve.x) {
+      const meshes::PressSample sample = sample_near(response, depth);
+      const double own = std::isfinite(sample.force_error) ? sample.force_error : 0.0;
+      curve.y.push_back(sample.normal_force);
+      curve.sigma.push_back(std::hypot(own, model_error * sample.normal_force));
+    }
+  }
+}
+
+PlannedJob FitPlan::fit(const fs::path& run) {
+  if (by_moduli())
+    return {folder_,
+            moduli_job(loaded_.config.press.rubber,
+                       fit_options(loaded_, loaded_.config.press.lattice.model)),
+            false};
+  if (setup_.data_from_continuum) take_continuum_data(run);
+  take_tables(run);
+  return {place("fit"), fit_job(setup_.order), false};
+}
+
+/// Of a lattice that answered for measured forces: the continuum at the estimates tells its error.
+bool FitPlan::measures_bias() const {
+  return loaded_.config.calibration.problem == CalibrationProblem::experiment &&
+         loaded_.config.calibration.bias && setup_.order.tables.empty();
+}
+
+PlannedJob FitPlan::bias(const fs::path& run, std::size_t curve) const {
+  fem_reference::ReferenceJob order = setup_.continua[curve];
+  const calibration::Material found = material(run);
+  order.rubber.youngs_modulus = found.rubber.youngs_modulus;
+  order.rubber.shear_modulus = found.rubber.shear_modulus;
+  order.samples = thinned(order.samples, bias_samples);
+  return {place("bias_" + std::to_string(curve + 1)), reference_job(order), false};
+}
+
+std::vector<PlannedJob> FitPlan::follow_up_jobs(const fs::path& run) {
+  std::vector<PlannedJob> jobs;
+  if (loaded_.config.calibration.surrogate) jobs.push_back(surrogate(run));
+  if (measures_bias())
+    for (std::size_t i = 0; i < setup_.continua.size(); ++i) jobs.push_back(bias(run, i));
+  return jobs;
+}
+
+/// The press of the configuration with what was found.
+PlannedJob FitPlan::surrogate(const fs::path& run) const {
+  const calibration::Material found = material(run);
+  lattice::PressSetup setup = press_setup(loaded_.with({"press.mode=static"}));
+  setup.rubber = found.rubber;
+  setup.lattice.constants = found.constants;
+  setup.lattice.ligament_stiffness = found.ligament_stiffness;
+  setup.lattice.contact_stiffness = found.contact_stiffness;
+  ForceUncertainty uncertainty;
+  uncertainty.model_error = loaded_.config.calibration.model_error;
+  const bool by_press = !by_moduli() && !setup_.order.presses.empty() &&
+                        setup_.order.problem != CalibrationProblem::damping;
+  if (by_press) {
+    const nlohmann::json fit = read_json(run / place("fit") / "calibration.json");
+    uncertainty.parameters = parameters_of(setup_.order);
+    uncertainty.covariance = matrix_of(fit.at("covariance"));
+  }
+  return {place("surrogate"), surrogate_job(setup, uncertainty), false};
+}
+
+calibration::Material FitPlan::material(const fs::path& run) const {
+  return calibration::read_material_toml(run / place(by_moduli() ? "" : "fit") / "material.toml");
+}
+
+void FitPlan::add_bias_to(const fs::path& target, const fs::path& run) const {
+  ordered_json calibration = read_json(target / "calibration.json");
+  std::vector<double> error;
+  for (std::size_t i = 0; i < setup_.order.curves.size(); ++i) {
+    const fs::path folder = run / place("bias_" + std::to_string(i + 1));
+    const Eigen::VectorXd own = lattice_error(
+        setup_.order.curves[i], calibration["residuals"][i].get<std::vector<double>>(),
+        PressResponse::read_csv(folder / "response.csv"));
+    error.insert(error.end(), own.begin(), own.end());
+  }
+  add_bias(Eigen::Map<const Eigen::VectorXd>(error.data(), Eigen::Index(error.size())),
+           calibration);
+  write_json(calibration, target / "calibration.json");
+}
+
+void FitPlan::finish(const fs::path& run) const {
+  const fs::path target = run / folder_;
+  const auto copy = [&](const std::string& from, const char* file) {
+    fs::copy_file(run / place(from) / file, target / file, fs::copy_options::overwrite_existing);
+  };
+  if (!by_moduli()) {
+    for (const char* file : {"calibration.json", "material.toml", "fit_data.csv", "summary.json"})
+      copy("fit", file);
+    if (measures_bias()) add_bias_to(target, run);
+  }
+  if (loaded_.config.calibration.surrogate)
+    for (const char* file : {"surrogate.csv", "surrogate.json"}) copy("surrogate", file);
+}
+
+}  // namespace fingertip::studies

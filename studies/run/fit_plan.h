@@ -1,0 +1,63 @@
+/// A calibration from its data to its files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibration/material.h"
+#include "studies/config/loader.h"
+#include "studies/run/fit_setup.h"
+#include "studies/run/session.h"
+
+namespace fingertip::studies {
+
+/// One calibration as stages of jobs, each of which needs the results of those before: the
+/// continuum that makes data, answers for the press or judges the lattice, the fit, the surrogate.
+///   reference_N/   continuum of curve N, or table_N/K: curve N at the K-th Poisson's ratio
+///   fit/           the fit itself (moduli: in the calibration's folder)
+///   bias_N/        continuum of curve N at the estimates
+///   surrogate/     the calibrated lattice's press, smoothed
+/// In the folder itself: calibration.json, material.toml, fit_data.csv, summary.json, surrogate.csv
+/// and .json.
+class FitPlan {
+ public:
+  /// `folder` below the run's, empty for the run's own. Reads measured files. Throws ConfigError
+  /// for what cannot be carried out.
+  FitPlan(LoadedConfig loaded, std::string folder);
+
+  /// The jobs that may run now. None: the files are written, the calibration is complete.
+  std::vector<PlannedJob> next(const std::filesystem::path& run);
+
+  /// Remarks on measured files.
+  const std::vector<std::string>& notes() const { return setup_.notes; }
+
+  /// Of a complete calibration.
+  calibration::Material material(const std::filesystem::path& run) const;
+
+ private:
+  enum class Stage { data, fit, follow_up, finish, done };
+
+  bool by_moduli() const;
+  std::string place(const std::string& name) const;
+  std::vector<PlannedJob> data_jobs();
+  std::vector<PlannedJob> table_jobs(std::size_t curve);
+  std::vector<double> table_ratios() const;
+  std::string table_place(std::size_t curve, std::size_t ratio) const;
+  void take_tables(const std::filesystem::path& run);
+  void take_continuum_data(const std::filesystem::path& run);
+  PlannedJob fit(const std::filesystem::path& run);
+  std::vector<PlannedJob> follow_up_jobs(const std::filesystem::path& run);
+  PlannedJob surrogate(const std::filesystem::path& run) const;
+  PlannedJob bias(const std::filesystem::path& run, std::size_t curve) const;
+  bool measures_bias() const;
+  void add_bias_to(const std::filesystem::path& target, const std::filesystem::path& run) const;
+  void finish(const std::filesystem::path& run) const;
+
+  LoadedConfig loaded_;
+  std::string folder_;
+  Stage stage_ = Stage::data;
+  FitSetup setup_;  ///< empty for the moduli
+};
+
+}  // namespace fingertip::studies

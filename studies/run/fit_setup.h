@@ -1,0 +1,29 @@
+/// From a configuration to the order of a fit.
+#pragma once
+
+#include <vector>
+
+#include "fem_reference/job.h"
+#include "studies/config/loader.h"
+#include "studies/run/fit_order.h"
+
+namespace fingertip::studies {
+
+/// A fit's order as far as the configuration and measured files tell, and the continuum that goes
+/// with each curve: the one that will make its data (y is then still empty), or the one the lattice
+/// can be judged by. No continua for coupon tests and damping by files.
+struct FitSetup {
+  FitOrder order;
+  std::vector<fem_reference::ReferenceJob> continua;
+  bool data_from_continuum = false;
+  std::vector<std::string> notes;  ///< on measured files
+};
+
+/// Throws ConfigError with every problem of [calibration], of a condition or a measured file.
+FitSetup fit_setup(const LoadedConfig& loaded);
+
+/// The continuum beside a press: static, linear or law A as `kinematics` says, without fields.
+fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
+                                             lattice::Kinematics kinematics);
+
+}  // namespace fingertip::studies
