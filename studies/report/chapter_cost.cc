@@ -181,12 +181,13 @@ Chapter provenance_chapter(const RunData& run) {
   add_rows(table, object_at(run.manifest, "packages"), "");
   if (!table.rows.empty()) chapter.blocks.push_back(std::move(table));
   if (!run.parameters.empty()) {
-    chapter.blocks.push_back(
-        Paragraph{"To reproduce:",
-                  "take parameters.toml from this folder (below) and run `fingertip validate "
-                  "--config parameters.toml`; every value that "
-                  "went into the run is in it. The curves, traces and fields in the subfolders are "
-                  "the data behind the figures."});
+    chapter.blocks.push_back(Paragraph{
+        "To reproduce:",
+        fmt::format(
+            "take parameters.toml from this folder (below) and run `fingertip {} --config "
+            "parameters.toml`; every value that went into the run is in it. The curves, traces "
+            "and fields in the subfolders are the data behind the figures.",
+            run.verb)});
     chapter.blocks.push_back(Listing{"parameters.toml", run.parameters});
   }
   return chapter;

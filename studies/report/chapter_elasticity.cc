@@ -9,19 +9,15 @@
 
 #include "calibration/moduli.h"
 #include "studies/report/chapters.h"
+#include "studies/report/modulus_surfaces.h"
 
 namespace fingertip::studies::reporting {
 namespace {
 
 using Eigen::Vector3d;
 
-/// C11 and C12 from tension along a cube axis: S11 = 1/E_100, S12 = -nu_100/E_100, and for a
-/// cubic material C11 - C12 = 1/(S11 - S12), C11 + 2 C12 = 1/(S11 + 2 S12).
 calibration::ElasticModuli cubic(const Moduli& moduli) {
-  const double difference = moduli.E_100 / (1.0 + moduli.nu_100);
-  const double sum = moduli.E_100 / (1.0 - 2.0 * moduli.nu_100);
-  const double c12 = (sum - difference) / 3.0;
-  return calibration::moduli_from_stiffness(c12 + difference, c12, moduli.G);
+  return cubic_material(moduli.E_100, moduli.nu_100, moduli.G);
 }
 
 /// E against direction in the plane of two unit vectors, as a closed curve around the origin.
@@ -100,6 +96,14 @@ FigureBlock polar_figure(const RunData& run) {
           "A model that touches it only along the cube axes has the right stiffness in one test "
           "and the wrong "
           "one in every other."};
+}
+
+/// All directions at once; empty without models whose constants are known.
+Figure surface_figure(const RunData& run) {
+  std::vector<std::pair<std::string, calibration::ElasticModuli>> materials;
+  for (const ModelData& model : run.models)
+    materials.emplace_back(model_label(model.name), cubic(model.moduli));
+  return modulus_surface_figure("elastic_surfaces", materials);
 }
 
 Table achieved_table(const RunData& run) {
@@ -293,6 +297,12 @@ Chapter elasticity_chapter(const RunData& run) {
   Chapter chapter{"elasticity", "Elastic constants", {}};
   if (run.models.empty()) return chapter;
   chapter.blocks.push_back(polar_figure(run));
+  if (Figure surfaces = surface_figure(run); !surfaces.panels.empty()) {
+    chapter.blocks.push_back(
+        FigureBlock{std::move(surfaces), "Young's modulus along every direction",
+                    "Distance from the centre and colour are E along that direction, all lattices "
+                    "at the same scale; n is the direction in the cube's axes. Rubber is a ball."});
+  }
   chapter.blocks.push_back(achieved_table(run));
   chapter.blocks.push_back(Paragraph{"The Cauchy limit.", cauchy_text(run)});
   add_calibrations(run, chapter);

@@ -49,6 +49,7 @@ class BlockData {
     inner.set("lead", paragraph.lead);
     inner.set("has_lead", !paragraph.lead.empty());
     inner.set("text", paragraph.text);
+    inner.set("warning", paragraph.warning);
     return data("paragraph", inner);
   }
 

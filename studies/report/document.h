@@ -15,6 +15,7 @@ namespace fingertip::studies::reporting {
 struct Paragraph {
   std::string lead;
   std::string text;
+  bool warning = false;  ///< in a box of its own: what a reader must not miss
 };
 
 /// Text shown as it is.

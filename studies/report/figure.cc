@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <stdexcept>
 
@@ -30,18 +31,6 @@ bool has_points(const Series& series) {
   return false;
 }
 
-/// A string for gnuplot: single quotes suspend every other escape.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (char c : text) {
-    if (c == '\'')
-      result += "''";
-    else
-      result += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return result + "'";
-}
-
 std::string data_block(const Series& series, const std::string& name) {
   std::string text = name + " << EOD\n";
   for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -58,13 +47,18 @@ std::string data_block(const Series& series, const std::string& name) {
 
 std::string plot_item(const Series& series, const std::string& block) {
   const Style& style = series.style;
+  const std::string title =
+      series.label.empty() ? " notitle" : " title " + gnuplot_string(series.label);
+  if (series.filled)
+    return fmt::format("{} using 1:2 with filledcurves closed fc rgb '{}' fs solid 0.25 noborder{}",
+                       block, style.colour, title);
   const std::string with = !style.line ? "points" : style.point ? "linespoints" : "lines";
   const std::string data = series.legend_only ? "keyentry" : block + " using 1:2";
   std::string item = fmt::format("{} with {} lc rgb '{}'", data, with, style.colour);
   if (style.line)
     item += fmt::format(" lw {} dt {}", style.width, style.dash.empty() ? "solid" : style.dash);
   if (style.point) item += fmt::format(" pt {} ps {}", style.point, style.point_size);
-  item += series.label.empty() ? " notitle" : " title " + quoted(series.label);
+  item += title;
   if (!series.error.empty()) {
     // Vectors with flat ends: the style "errorbars" would erase the curves around its points.
     item += fmt::format(
@@ -91,7 +85,7 @@ std::string decorations(const Panel& panel) {
   }
   for (const Text& label : panel.texts) {
     text += fmt::format("set label {} at first {:.8g}, first {:.8g} center tc rgb '#444444'\n",
-                        quoted(label.text), label.x, label.y);
+                        gnuplot_string(label.text), label.x, label.y);
   }
   return text;
 }
@@ -135,10 +129,17 @@ std::string decade_tics(const char* axis, const Range& extent) {
                                 : mantissa == 1
                                     ? power_of_ten(exponent)
                                     : fmt::format("{}×{}", mantissa, power_of_ten(exponent));
-      tics += fmt::format("{}{} {:.8g}", tics.empty() ? "" : ", ", quoted(label), value);
+      tics += fmt::format("{}{} {:.8g}", tics.empty() ? "" : ", ", gnuplot_string(label), value);
     }
   }
   return fmt::format("set {}tics ({})\n", axis, tics);
+}
+
+std::string named_tics(const std::vector<std::string>& names) {
+  std::string tics;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    tics += fmt::format("{}{} {}", i ? ", " : "", gnuplot_string(names[i]), i + 1);
+  return fmt::format("set xtics ({})\n", tics);
 }
 
 /// Range, scale and tics of one axis.
@@ -154,13 +155,15 @@ std::string axis(const Panel& panel, bool vertical) {
     if (!range) range = Range{extent.from / room, extent.to * room};
     text += decade_tics(name, extent);
   }
+  if (!vertical && !panel.x_names.empty()) text += named_tics(panel.x_names);
   return text + axis_range(name, range);
 }
 
 std::string panel_script(const Panel& panel, std::size_t index) {
   std::string text = "unset object\nunset arrow\nunset label\nunset logscale\n";
-  text += "set title " + quoted(panel.title) + " offset 0,-0.5\n";
-  text += "set xlabel " + quoted(panel.x_label) + "\nset ylabel " + quoted(panel.y_label) + "\n";
+  text += "set title " + gnuplot_string(panel.title) + " offset 0,-0.5\n";
+  text += "set xlabel " + gnuplot_string(panel.x_label) + "\nset ylabel " +
+          gnuplot_string(panel.y_label) + "\n";
   text += axis(panel, false) + axis(panel, true);
   text += panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n";
   text += panel.key.empty() ? "unset key\n" : "set key " + panel.key + " Left reverse samplen 3\n";
@@ -200,7 +203,9 @@ std::string script(const Figure& figure, const fs::path& svg) {
       "linewidth 1\nset output {}\nset encoding utf8\nset minussign\nset border 3 lc rgb "
       "'#555555'\n"
       "set tics nomirror tc rgb '#333333'\nset grid lc rgb '#dddddd' lw 0.6 dt solid\n",
-      figure.width, figure.height, quoted(svg.string()));
+      figure.width, figure.height, gnuplot_string(svg.string()));
+  const bool surfaces = !figure.panels.empty() && figure.panels.front().surface;
+  if (surfaces) return text + surface_script(figure) + "unset output\n";
   if (rows * columns > 1) text += layout(figure, columns, rows);
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     Panel panel = figure.panels[i];
@@ -282,28 +287,54 @@ void write_points(const Figure& figure, const fs::path& file) {
     labels.push_back(label);
     return labels.size() - 1;
   };
-  for (const Panel& panel : figure.panels) column(panel.x_label), column(panel.y_label);
+  for (const Panel& panel : figure.panels) {
+    column(panel.x_label), column(panel.y_label);
+    if (panel.surface) column(panel.surface->z_label), column(panel.surface->value_label);
+  }
   meshes::write_atomically(file, [&](std::ostream& out) {
     out << "panel,series";
     for (const std::string& label : labels) out << ',' << csv_cell(label);
     out << '\n';
+    using Value = std::pair<std::string, double>;
+    const auto write = [&](const Panel& panel, const std::string& series,
+                           std::initializer_list<Value> values) {
+      std::vector<std::string> cells(labels.size());
+      for (const auto& [label, value] : values) cells[column(label)] = meshes::to_text(value);
+      out << csv_cell(panel.title) << ',' << csv_cell(series);
+      for (const std::string& cell : cells) out << ',' << cell;
+      out << '\n';
+    };
     for (const Panel& panel : figure.panels) {
       for (const Series& series : panel.series) {
-        for (std::size_t i = 0; i < series.x.size(); ++i) {
-          std::vector<std::string> cells(labels.size());
-          cells[column(panel.x_label)] = meshes::to_text(series.x[i]);
-          cells[column(panel.y_label)] = meshes::to_text(series.y[i]);
-          out << csv_cell(panel.title) << ','
-              << csv_cell(series.key.empty() ? series.label : series.key);
-          for (const std::string& cell : cells) out << ',' << cell;
-          out << '\n';
-        }
+        for (std::size_t i = 0; i < series.x.size(); ++i)
+          write(panel, series.key.empty() ? series.label : series.key,
+                {{panel.x_label, series.x[i]}, {panel.y_label, series.y[i]}});
+      }
+      if (!panel.surface) continue;
+      for (const auto& row : panel.surface->rows) {
+        for (const Surface::Point& point : row)
+          write(panel, panel.title,
+                {{panel.x_label, point.x},
+                 {panel.y_label, point.y},
+                 {panel.surface->z_label, point.z},
+                 {panel.surface->value_label, point.value}});
       }
     }
   });
 }
 
 }  // namespace
+
+std::string gnuplot_string(const std::string& text) {
+  std::string result = "'";
+  for (char c : text) {
+    if (c == '\'')
+      result += "''";
+    else
+      result += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return result + "'";
+}
 
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;

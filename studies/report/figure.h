@@ -39,6 +39,7 @@ struct Series {
   /// Drawn at so many times x, lest error bars cover each other; the CSV has x itself.
   double shift = 1.0;
   bool legend_only = false;  ///< an entry of the legend without a curve
+  bool filled = false;       ///< a pale area inside the closed curve, behind what follows
 };
 
 /// A NaN end follows the data.
@@ -59,6 +60,17 @@ struct Text {
   std::string text;
 };
 
+/// A surface in space, coloured by a value. Drawn with all three axes from -extent to extent.
+struct Surface {
+  struct Point {
+    double x, y, z, value;
+  };
+  std::vector<std::vector<Point>> rows;  ///< of equal length; neighbours span the facets
+  std::string z_label, value_label;
+  double extent = 1.0;        ///< > 0
+  Range values = {0.0, 1.0};  ///< of the colours; from < to
+};
+
 /// One pair of axes.
 struct Panel {
   std::string title, x_label, y_label;  ///< labels carry their unit in brackets
@@ -71,6 +83,10 @@ struct Panel {
   int log_x = 0, log_y = 0;      ///< base of a logarithmic axis, 2 or 10; 0 for a linear one.
                                  ///< A range given for base 10 must be finite and positive.
   std::string key = "top left";  ///< gnuplot's place of the legend, "" for none
+  std::vector<std::string> x_names = {};  ///< tics at 1, 2, … in place of numbers
+  /// In place of series. All panels of a figure have one or none has; they fill the columns row by
+  /// row.
+  std::optional<Surface> surface = std::nullopt;
 };
 
 struct Figure {
@@ -91,6 +107,12 @@ struct Figure {
 /// Throws std::runtime_error with gnuplot's message when it is missing or fails.
 std::string draw(const Figure& figure, const std::string& title,
                  const std::filesystem::path& folder);
+
+/// `text` as a string in a gnuplot script: in single quotes, which suspend every other escape.
+std::string gnuplot_string(const std::string& text);
+
+/// The part of a gnuplot script that draws the surfaces of the figure's panels.
+std::string surface_script(const Figure& figure);
 
 /// A CSV cell: quoted when it holds a comma, a quote or a line break.
 std::string csv_cell(const std::string& text);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "studies/report/calibration_chapters.h"
 #include "studies/report/chapters.h"
 
 namespace fingertip::studies {
@@ -76,10 +77,35 @@ Page study_page(const RunData& run) {
   return page;
 }
 
+/// Fits have neither presses of models nor a continuum of their own.
+Page calibration_page(const RunData& run) {
+  Page page;
+  page.title = run.title.empty() ? "Soft fingertip: a lattice fitted to curves" : run.title;
+  page.subtitle = fmt::format(
+      "Parameters of mass-spring fingertips from curves, and what the curves determine{}{}",
+      run.case_name.empty() ? "" : ", case " + run.case_name,
+      text_at(run.manifest, "started").empty() ? "" : ", " + text_at(run.manifest, "started"));
+  page.chapters = {verdict_chapter(run), provenance_chapter(run)};
+  return page;
+}
+
+/// The chapters on fits come before the provenance, the last.
+void add_fits(Page& page, const CalibrationData& calibration) {
+  std::vector<Chapter> chapters = fit_chapters(calibration);
+  chapters.insert(chapters.begin(), transfer_chapter(calibration));
+  page.chapters.insert(page.chapters.end() - 1, chapters.begin(), chapters.end());
+  for (const NotRun& part : missing_fit_parts(calibration)) page.not_run.push_back(part);
+}
+
 Page report_page(const RunData& run) {
-  Page page = run.variants.empty() ? core_page(run) : study_page(run);
+  const CalibrationData calibration = read_calibration(run);
+  const bool fits_alone = !calibration.empty() && run.models.empty() && run.variants.empty();
+  Page page = fits_alone             ? calibration_page(run)
+              : run.variants.empty() ? core_page(run)
+                                     : study_page(run);
   if (!run.status.empty() && run.status != "ok") page.status = "Status of the run: " + run.status;
-  page.answer = answer(run);
+  page.answer = (fits_alone ? calibration_answer(calibration) : "") + answer(run);
+  if (!calibration.empty()) add_fits(page, calibration);
   return page;
 }
 

@@ -8,12 +8,12 @@
 namespace fingertip::studies {
 
 /// Writes `report.html` (self-contained) and the folder `figures/` (one SVG and one CSV per
-/// figure) into the run folder of `validate`. Everything is read from disk; chapters whose files
-/// are missing are left out and named as not run. The old report stays until the new one is
-/// complete.
-/// Throws meshes::InvalidInput when the folder is not one of `validate` (no readable
-/// summary.json) or holds a damaged file; std::runtime_error when gnuplot cannot draw a figure or
-/// a file cannot be written.
+/// figure) into the run folder of `validate`, or of a `calibrate` that fitted curves. Everything is
+/// read from disk; chapters whose files are missing are left out and named as not run. The old
+/// report stays until the new one is complete.
+/// Throws meshes::InvalidInput when the folder is not one of these (no readable summary.json, nor a
+/// calibration.json with its problem) or holds a damaged file; std::runtime_error when gnuplot
+/// cannot draw a figure or a file cannot be written.
 void write_report(const std::filesystem::path& run_folder);
 
 /// Writes `comparison.html`, `comparison.csv` and `figures/` into `out_folder` (made if missing):

@@ -27,15 +27,6 @@ std::string read_text(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-json read_json(const fs::path& file) {
-  if (!fs::exists(file)) return json::object();
-  json content = json::parse(read_text(file), nullptr, false);
-  if (!content.is_object()) {
-    refuse(file, "", "must hold a JSON object", "the file is damaged: run the case again");
-  }
-  return content;
-}
-
 meshes::PressResponse read_response(const fs::path& file) {
   return fs::exists(file) ? meshes::PressResponse::read_csv(file) : meshes::PressResponse();
 }
@@ -63,15 +54,6 @@ double parse(const std::string& cell) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   return error == std::errc() && end == cell.data() + cell.size() ? value : meshes::unknown;
-}
-
-std::vector<double> numbers_at(const json& object, const std::string& key) {
-  std::vector<double> values;
-  if (!object.contains(key) || !object.at(key).is_array()) return values;
-  for (const json& entry : object.at(key)) {
-    values.push_back(entry.is_number() ? entry.get<double>() : meshes::unknown);
-  }
-  return values;
 }
 
 /// The first finite one of several spellings.
@@ -154,6 +136,15 @@ std::vector<double> CsvTable::numbers(const std::string& name) const {
   return values;
 }
 
+json read_json(const fs::path& file) {
+  if (!fs::exists(file)) return json::object();
+  json content = json::parse(read_text(file), nullptr, false);
+  if (!content.is_object()) {
+    refuse(file, "", "must hold a JSON object", "the file is damaged: run the case again");
+  }
+  return content;
+}
+
 double largest_magnitude(const std::vector<double>& values) {
   double result = meshes::unknown;
   for (const double one : values) result = std::fmax(result, std::abs(one));
@@ -223,6 +214,13 @@ json array_at(const json& object, const std::string& key) {
   return object.at(key);
 }
 
+std::vector<double> numbers_at(const json& object, const std::string& key) {
+  std::vector<double> values;
+  for (const json& entry : array_at(object, key))
+    values.push_back(entry.is_number() ? entry.get<double>() : meshes::unknown);
+  return values;
+}
+
 const ModelData* RunData::model(const std::string& name) const {
   for (const ModelData& candidate : models) {
     if (candidate.name == name) return &candidate;
@@ -231,7 +229,8 @@ const ModelData* RunData::model(const std::string& name) const {
 }
 
 RunData read_run(const fs::path& folder) {
-  if (!fs::exists(folder / "summary.json")) {
+  const bool calibrated = read_json(folder / "calibration.json").contains("problem");
+  if (!calibrated && !fs::exists(folder / "summary.json")) {
     refuse(folder, "", "must be the run folder of `validate`, with a summary.json",
            "run `fingertip validate` first, or name its folder");
   }
@@ -239,6 +238,7 @@ RunData read_run(const fs::path& folder) {
   const json models = object_at(summary, "models");
   RunData run;
   run.folder = folder;
+  run.verb = calibrated ? "calibrate" : "validate";
   run.case_name = text_at(summary, "case");
   run.title = text_at(summary, "title");
   run.description = text_at(summary, "description");
@@ -259,6 +259,7 @@ RunData read_run(const fs::path& folder) {
   run.equilibrium_study = read_csv(folder / "equilibrium_study.csv");
   run.variants = read_csv(folder / "variants.csv");
   run.study = object_at(summary, "variants");
+  run.calibration = object_at(summary, "calibration");
   for (const std::string& name : ordered_models(models)) {
     run.models.push_back(read_model(folder, name, models.at(name)));
     run.models.back().force_error.resize(run.depths.size(), meshes::unknown);

@@ -31,6 +31,9 @@ struct CsvTable {
 /// row whose number of cells differs from the header's.
 CsvTable read_csv(const std::filesystem::path& file);
 
+/// The JSON object in a file, empty when the file is absent. Throws InvalidInput for anything else.
+nlohmann::json read_json(const std::filesystem::path& file);
+
 /// The rubber's constants the models are measured against [Pa]; NaN where no file tells them.
 struct Target {
   double youngs_modulus = meshes::unknown;
@@ -72,6 +75,7 @@ struct Criterion {
 /// A validate run.
 struct RunData {
   std::filesystem::path folder;
+  std::string verb;  ///< what made it: "validate" or "calibrate"
   std::string case_name, title, description, status;
   std::vector<double> depths;  ///< where force errors are given [m]
   Target target;
@@ -86,12 +90,14 @@ struct RunData {
   CsvTable cubes, published_study, equilibrium_study;
   CsvTable variants;              ///< of a study
   nlohmann::json study;           ///< "variants" of its summary.json; an empty object otherwise
+  nlohmann::json calibration;     ///< "calibration" of its summary.json, likewise
   std::vector<ModelData> models;  ///< published, central, hookean, then any others
 
   const ModelData* model(const std::string& name) const;
 };
 
-/// Reads the run folder of a `validate`. Throws InvalidInput when summary.json is missing or any
+/// Reads the run folder of a `validate`, or of a `calibrate` (no summary.json, but a
+/// calibration.json that names its "problem"). Throws InvalidInput for other folders and when any
 /// file is damaged.
 RunData read_run(const std::filesystem::path& folder);
 
@@ -101,6 +107,8 @@ double force_at(const meshes::PressResponse& response, double depth);
 
 /// `json[key]` as a number; NaN when absent or null.
 double number_at(const nlohmann::json& json, const std::string& key);
+/// `json[key]` as numbers, NaN for entries that are none; empty when it is not an array.
+std::vector<double> numbers_at(const nlohmann::json& json, const std::string& key);
 /// `json[key]` as text: strings as they are, other values as JSON, "" when absent.
 std::string text_at(const nlohmann::json& json, const std::string& key);
 /// `json[key]` if it is an object, else an empty object.

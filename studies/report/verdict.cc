@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "studies/report/calibration_chapters.h"
 #include "studies/report/chapters.h"
 #include "studies/report/report.h"
 
@@ -226,7 +227,11 @@ namespace fingertip::studies {
 std::string verdict_text(const std::filesystem::path& run_folder) {
   using namespace reporting;
   const RunData run = read_run(run_folder);
-  std::string text = run.variants.empty() ? text_table(run) : variants_text(run);
+  const CalibrationData calibration = read_calibration(run);
+  const bool fits_alone = !calibration.empty() && run.models.empty();
+  std::string text = !run.variants.empty() ? variants_text(run)
+                     : fits_alone          ? calibration_text(calibration)
+                                           : text_table(run);
   for (const Criterion& criterion : run.criteria) {
     text += fmt::format("{} {}: {} (limit {})\n", criterion.passed ? "met    " : "NOT MET",
                         criterion.name, plain_number(criterion.value, "{:.3g}"),

@@ -1,0 +1,35 @@
+/// The chapters on fits to curves: what they found, what the data determine, and how far the
+/// result carries.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/report/calibration_data.h"
+#include "studies/report/document.h"
+
+namespace fingertip::studies::reporting {
+
+/// Four chapters per fit: quality; parameters; what the data determine; moduli and surrogate. Those
+/// without files have no blocks.
+std::vector<Chapter> fit_chapters(const CalibrationData& data);
+/// Estimates with intervals, priors, bias and truth; correlation; other minima. Nothing without
+/// parameters.
+std::vector<Block> parameter_blocks(const Fit& fit);
+/// What the data leave open in words, singular values and the profile; figures' names begin with
+/// `prefix`.
+std::vector<Block> identifiability_blocks(const Fit& fit, const std::string& prefix);
+/// "E = 40.1 gf/cm² (95 %: 39 … 41)"
+std::string estimate_words(const FitParameter& parameter);
+/// Fits against what they predict: table of the worst errors, and errors against indentation.
+Chapter transfer_chapter(const CalibrationData& data);
+/// One fit's result in a few sentences.
+std::string fit_answer(const Fit& fit);
+/// The run's result in one paragraph.
+std::string calibration_answer(const CalibrationData& data);
+/// Fits with their parameters and worst errors, as plain ASCII for a terminal.
+std::string calibration_text(const CalibrationData& data);
+/// What these chapters look for in vain.
+std::vector<NotRun> missing_fit_parts(const CalibrationData& data);
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,153 @@
+/// How far a fit carries: presses it has not seen.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/report/calibration_chapters.h"
+#include "studies/report/calibration_figures.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+/// What kept a prediction from its deepest samples; empty when nothing did.
+std::string trouble(const CalibrationData& data, const std::string& fit,
+                    const std::string& prediction) {
+  for (const PredictedForce& row : data.transfer) {
+    const bool fine = row.status.empty() || row.status == "finished" || row.status == "ok";
+    if (row.fit == fit && row.prediction == prediction && !fine) return row.status;
+  }
+  return "";
+}
+
+/// Where the error is largest: "at 0.2 cm".
+std::string place(const CalibrationData& data, const std::string& fit,
+                  const std::string& prediction) {
+  const PredictedForce* worst = nullptr;
+  for (const PredictedForce& row : data.transfer) {
+    if (row.fit != fit || row.prediction != prediction || !std::isfinite(row.error)) continue;
+    if (worst == nullptr || std::abs(row.error) > std::abs(worst->error)) worst = &row;
+  }
+  return worst == nullptr ? "" : fmt::format("at {:.4g}{}cm", to_cm(worst->depth), gap);
+}
+
+Table transfer_table(const CalibrationData& data) {
+  Table table;
+  table.caption =
+      "Largest error of the normal force, and the indentation where it occurs. Rows: what the "
+      "lattice was fitted to; columns: what it was asked for.";
+  table.graded = true;
+  table.header = {plain("Fitted to")};
+  for (const std::string& prediction : data.predictions) table.header.push_back(plain(prediction));
+  for (std::size_t i = 0; i < data.fits.size(); ++i) {
+    const Fit& fit = data.fits[i];
+    std::vector<Cell> row{plain(fit.name, fit.model)};
+    for (std::size_t j = 0; j < data.predictions.size(); ++j) {
+      const double error = data.worst_error[i][j];
+      const std::string status = trouble(data, fit.name, data.predictions[j]);
+      row.push_back({percent_magnitude(error),
+                     status.empty() ? place(data, fit.name, data.predictions[j]) : status,
+                     grade(error)});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// The index of the fit whose worst prediction is best (sign -1) or worst (1), the first only among
+/// those that predicted everything; the number of fits when there is none.
+std::size_t extreme(const CalibrationData& data, double sign) {
+  std::size_t found = data.fits.size();
+  for (std::size_t i = 0; i < data.fits.size(); ++i) {
+    const std::vector<double>& row = data.worst_error[i];
+    const double worst = largest_magnitude(row);
+    const bool complete =
+        std::ranges::all_of(row, [](double error) { return std::isfinite(error); });
+    if (!std::isfinite(worst) || (sign < 0.0 && !complete)) continue;
+    if (found == data.fits.size() ||
+        sign * worst > sign * largest_magnitude(data.worst_error[found]))
+      found = i;
+  }
+  return found;
+}
+
+std::string transfer_answer(const CalibrationData& data) {
+  const std::size_t best = extreme(data, -1.0), worst = extreme(data, 1.0);
+  const auto quoted = [&](std::size_t i) { return "“" + data.fits[i].name + "”"; };
+  const auto error = [&](std::size_t i) {
+    return percent_magnitude(largest_magnitude(data.worst_error[i]));
+  };
+  if (worst == data.fits.size()) return "";
+  const std::string farthest =
+      fmt::format("The largest error of all, {}, is that of {}.", error(worst), quoted(worst));
+  if (best == data.fits.size()) return "No fit predicted every press asked for. " + farthest;
+  return fmt::format(
+      "Of {} {}, {} carries farthest: it predicts every press asked for within {}.{}",
+      data.fits.size(), data.fits.size() == 1 ? "fit" : "fits", quoted(best), error(best),
+      best == worst ? "" : " " + farthest);
+}
+
+std::string ascii(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c >= ' ' && c <= '~' ? c : '?';
+  return result;
+}
+
+std::string parameter_lines(const Fit& fit) {
+  std::string text;
+  for (const FitParameter& one : fit.parameters) {
+    const auto value = [&](double si) {
+      return std::isfinite(si) ? fmt::format("{:.5g}", one.factor * si) : std::string("-");
+    };
+    const std::string unit = one.unit == "gf/cm²" ? "gf/cm^2" : one.unit;
+    text += fmt::format("  {:<18}{:>12} {:<8} 95 %: {} ... {}{}\n", ascii(one.name),
+                        value(one.estimate), ascii(unit), value(one.lower), value(one.upper),
+                        one.at_bound ? " (at its bound)" : "");
+  }
+  return text;
+}
+
+}  // namespace
+
+Chapter transfer_chapter(const CalibrationData& data) {
+  Chapter chapter{"transfer", "How far the fits carry", {}};
+  if (data.predictions.empty() || data.fits.empty()) return chapter;
+  if (const std::string text = transfer_answer(data); !text.empty())
+    chapter.blocks.push_back(Paragraph{"", text});
+  chapter.blocks.push_back(transfer_table(data));
+  if (Figure figure = transfer_figure(data); !figure.panels.empty())
+    chapter.blocks.push_back(
+        FigureBlock{std::move(figure), "Force error of the predictions",
+                    "A panel for what was asked for, a curve for what was fitted. The band is the "
+                    "largest estimated error of the reference itself."});
+  return chapter;
+}
+
+std::string calibration_answer(const CalibrationData& data) {
+  const std::string transfer = transfer_answer(data);
+  if (!transfer.empty()) return transfer;
+  if (data.fits.size() == 1) return fit_answer(data.fits.front());
+  std::string text;
+  for (const Fit& fit : data.fits)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : " ", fit.name, fit_answer(fit));
+  return text;
+}
+
+std::string calibration_text(const CalibrationData& data) {
+  std::string text;
+  for (std::size_t i = 0; i < data.fits.size(); ++i) {
+    const Fit& fit = data.fits[i];
+    text += ascii(fmt::format("{} ({})", fit.name.empty() ? fit.problem : fit.name, fit.model));
+    text += '\n';
+    text += parameter_lines(fit);
+    for (std::size_t j = 0; j < data.predictions.size(); ++j) {
+      const double error = data.worst_error[i][j];
+      text += fmt::format("  {:<30}{:>10}\n", ascii(data.predictions[j]),
+                          std::isfinite(error) ? fmt::format("{:.2f} %", 100.0 * error) : "-");
+    }
+  }
+  if (!data.predictions.empty()) text += "largest error of the force of each press predicted\n";
+  return text;
+}
+
+}  // namespace fingertip::studies::reporting
