@@ -18,7 +18,7 @@ struct CaseCriterion {
   double limit = 0.0;   ///< in the measure's unit
 };
 
-/// One static press of a study: the case's configuration with some keys set otherwise.
+/// One run of a study: the case's configuration with some keys set otherwise.
 struct CaseVariant {
   std::string name;    ///< unique within its series
   std::string series;  ///< variants that are drawn and judged together; may be empty
@@ -42,6 +42,8 @@ struct Case {
   std::vector<CaseCriterion> criteria;
   std::vector<CaseVariant> variants;  ///< empty for a case of the core plan
   std::vector<CaseBudget> budgets;
+  std::vector<CaseVariant> fits;         ///< calibrations that are compared; then no variants
+  std::vector<CaseVariant> predictions;  ///< static presses that every fit is asked to predict
   LoadedConfig loaded;
   std::string text;  ///< the table [case] as TOML, to be kept in parameters.toml
 };

@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "studies/cases/fit_measures.h"
 #include "studies/cases/measures.h"
 #include "studies/cases/variant_measures.h"
 #include "studies/config/key_table.h"
+#include "studies/config/units.h"
 #include "studies/config/value_reader.h"
 
 namespace fingertip::studies {
@@ -37,15 +39,16 @@ const std::set<std::string>& derived_keys() {
 
 /// "key=literal". A file that a value names is relative to the folder of the case.
 std::string setting(const std::string& key, const toml::node& value, const fs::path& base) {
+  const std::string literal = toml_literal(value);
   const Key* known = find_key(key);
-  const auto* text = value.as_string();
-  if (known == nullptr || known->kind != Kind::source || text == nullptr)
-    return key + "=" + toml_literal(value);
-  const bool word = std::ranges::any_of(
-      known->choices, [&](const Choice& choice) { return choice.word == text->get(); });
-  const std::string meant =
-      word ? text->get() : fs::absolute(base / text->get()).lexically_normal().string();
-  return key + "=" + toml_literal(toml::value<std::string>(meant));
+  if (known == nullptr) return key + "=" + literal;
+  try {
+    Value read = read_value(*known, value);
+    locate_files(*known, base, read);
+    return key + "=" + located_literal(*known, read, literal);
+  } catch (const UnitError&) {
+    return key + "=" + literal;  // told when the variant is loaded
+  }
 }
 
 /// Reads [case], collecting problems with their line.
@@ -62,6 +65,8 @@ class CaseReader {
     for (const auto& [key, node] : table) read_entry(std::string(key.str()), node);
     // Budgets and criteria speak of variants.
     each(table, "variant", &CaseReader::read_variant);
+    each(table, "fit", &CaseReader::read_fit);
+    each(table, "prediction", &CaseReader::read_prediction);
     each(table, "budget", &CaseReader::read_budget);
     each(table, "criteria", &CaseReader::read_criterion);
     return problems_;
@@ -69,7 +74,9 @@ class CaseReader {
 
  private:
   void read_entry(const std::string& name, const toml::node& node) {
-    const bool list = name == "variant" || name == "budget" || name == "criteria";
+    static const std::set<std::string> lists = {"variant", "budget", "fit", "prediction",
+                                                "criteria"};
+    const bool list = lists.contains(name);
     if (name == "title") {
       target_.title = text(node, "case.title");
     } else if (name == "description") {
@@ -78,8 +85,8 @@ class CaseReader {
       target_.abscissa = text(node, "case.x");
     } else if (!list || !node.is_array_of_tables()) {
       problem(node, "case." + name, "", "unknown entry of [case]",
-              "use title, description, x, [[case.variant]], [[case.budget]] and "
-              "[[case.criteria]] with name, measure, limit");
+              "use title, description, x, [[case.variant]], [[case.budget]], [[case.fit]], "
+              "[[case.prediction]] and [[case.criteria]] with name, measure, limit");
     }
   }
 
@@ -110,8 +117,10 @@ class CaseReader {
     criterion.name = entry["name"].value_or(std::string());
     criterion.measure = entry["measure"].value_or(std::string());
     criterion.limit = entry["limit"].value_or(std::nan(""));
-    const std::vector<std::string> measures =
-        target_.variants.empty() ? measure_names() : variant_measure_names(target_);
+    const std::vector<std::string> measures = !target_.fits.empty() ? fit_measure_names(target_)
+                                              : target_.variants.empty()
+                                                  ? measure_names()
+                                                  : variant_measure_names(target_);
     if (criterion.name.empty() || !std::isfinite(criterion.limit) || entry.size() != 3) {
       problem(entry, "case.criteria", criterion.name, "needs exactly name, measure and limit",
               "complete the entry");
@@ -122,29 +131,35 @@ class CaseReader {
     target_.criteria.push_back(std::move(criterion));
   }
 
-  void read_variant(const toml::table& entry) {
+  void read_variant(const toml::table& entry) { read_run(entry, "variant", target_.variants); }
+  void read_fit(const toml::table& entry) { read_run(entry, "fit", target_.fits); }
+  void read_prediction(const toml::table& entry) {
+    read_run(entry, "prediction", target_.predictions);
+  }
+
+  void read_run(const toml::table& entry, const std::string& kind, std::vector<CaseVariant>& runs) {
     CaseVariant variant;
     variant.place = place(entry);
     for (const auto& [key, node] : entry) {
       const std::string name(key.str());
       if (name == "name" || name == "series") {
-        (name == "name" ? variant.name : variant.series) = text(node, "case.variant." + name);
+        (name == "name" ? variant.name : variant.series) = text(node, "case." + kind + "." + name);
       } else if (name == "x" && node.is_number() && std::isfinite(*node.value<double>())) {
         variant.x = *node.value<double>();
       } else if (name == "set" && node.is_table()) {
         read_settings(*node.as_table(), variant);
       } else {
-        problem(node, "case.variant." + name, toml_literal(node), "no such entry of a variant",
+        problem(node, "case." + kind + "." + name, toml_literal(node), "no such entry of a " + kind,
                 "use name, series (texts), x (a number) and set = { \"section.key\" = value }");
       }
     }
-    const bool twice = std::ranges::any_of(target_.variants, [&](const CaseVariant& other) {
+    const bool twice = std::ranges::any_of(runs, [&](const CaseVariant& other) {
       return other.name == variant.name && other.series == variant.series;
     });
     if (variant.name.empty() || twice)
-      problem(entry, "case.variant.name", variant.name, "must be given, once in a series",
-              "name every variant");
-    target_.variants.push_back(std::move(variant));
+      problem(entry, "case." + kind + ".name", variant.name, "must be given, once in a series",
+              "name every " + kind);
+    runs.push_back(std::move(variant));
   }
 
   void read_settings(const toml::table& settings, CaseVariant& variant) {
@@ -193,8 +208,8 @@ std::string number(double value) {
   return toml_literal(toml::value<double>(value));
 }
 
-std::string variant_toml(const CaseVariant& variant) {
-  std::string text = "\n[[case.variant]]\nname = " + quoted(variant.name) + "\n";
+std::string run_toml(const char* kind, const CaseVariant& variant) {
+  std::string text = fmt::format("\n[[case.{}]]\nname = ", kind) + quoted(variant.name) + "\n";
   if (!variant.series.empty()) text += "series = " + quoted(variant.series) + "\n";
   if (std::isfinite(variant.x)) text += "x = " + number(variant.x) + "\n";
   std::string settings;
@@ -216,7 +231,9 @@ std::string case_toml(const Case& one) {
   std::string text = fmt::format("\n[case]\ntitle = {}\ndescription = {}\n", quoted(one.title),
                                  quoted(one.description));
   if (!one.abscissa.empty()) text += "x = " + quoted(one.abscissa) + "\n";
-  for (const CaseVariant& variant : one.variants) text += variant_toml(variant);
+  for (const CaseVariant& variant : one.variants) text += run_toml("variant", variant);
+  for (const CaseVariant& fit : one.fits) text += run_toml("fit", fit);
+  for (const CaseVariant& prediction : one.predictions) text += run_toml("prediction", prediction);
   for (const CaseBudget& budget : one.budgets) {
     std::string parts;
     for (const std::string& part : budget.parts)

@@ -1,5 +1,5 @@
-/// What a case computes and what it concludes from it. A case without variants follows the core
-/// plan, one with variants compares static presses.
+/// What a case computes and what it concludes from it. A case with variants compares static
+/// presses, one with fits calibrations and what they predict; others follow the core plan.
 #pragma once
 
 #include <filesystem>
@@ -15,13 +15,18 @@
 
 namespace fingertip::studies {
 
-/// One use: jobs, then conclude, then measures.
+/// One use: jobs, further_jobs until there are none, then conclude, then measures.
 class Plan {
  public:
   virtual ~Plan() = default;
 
   /// In the order in which they should start. Throws ConfigError.
   virtual std::vector<PlannedJob> jobs() = 0;
+
+  /// What needs the results in `folder` of the jobs before; none when everything is computed.
+  virtual std::vector<PlannedJob> further_jobs(const std::filesystem::path& /*folder*/) {
+    return {};
+  }
 
   /// Reads what the jobs left in `folder`, writes the tables that need several of them, and returns
   /// the plan's part of summary.json.
@@ -36,6 +41,9 @@ class Plan {
 /// Continuum, fits, cubes, a press of each model, studies of the published and the static lattice.
 /// `one` must outlive the plan, here and below.
 std::unique_ptr<Plan> core_plan(const Case& one);
+
+/// Calibrations, and presses with what they found beside the continuum.
+std::unique_ptr<Plan> calibration_plan(const Case& one);
 
 /// A static press per variant and the continua they are measured against.
 std::unique_ptr<Plan> variants_plan(const Case& one);

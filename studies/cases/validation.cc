@@ -14,6 +14,7 @@ namespace {
 using nlohmann::ordered_json;
 
 std::unique_ptr<Plan> plan_for(const Case& one) {
+  if (!one.fits.empty()) return calibration_plan(one);
   return one.variants.empty() ? core_plan(one) : variants_plan(one);
 }
 
@@ -35,17 +36,21 @@ ordered_json judged(const std::vector<CaseCriterion>& criteria,
 }  // namespace
 
 void check_case(const Case& one) {
-  if (one.variants.empty()) {
+  if (one.variants.empty() && one.fits.empty()) {
     check_validation(one.loaded);
   } else {
-    variants_plan(one)->jobs();
+    plan_for(one)->jobs();
   }
 }
 
 Verdict validate(Session& session, const Case& one) {
   const std::filesystem::path& folder = session.folder().path();
   const std::unique_ptr<Plan> plan = plan_for(one);
-  const std::vector<JobResult> results = session.run_all(plan->jobs());
+  std::vector<JobResult> results = session.run_all(plan->jobs());
+  for (auto jobs = plan->further_jobs(folder); !jobs.empty(); jobs = plan->further_jobs(folder)) {
+    const std::vector<JobResult> more = session.run_all(jobs);
+    results.insert(results.end(), more.begin(), more.end());
+  }
   ordered_json summary = {
       {"case", one.name}, {"title", one.title}, {"description", one.description}, {"status", "ok"}};
   summary.update(plan->conclude(folder, results));

@@ -8,11 +8,13 @@
 #include <set>
 
 #include "meshes/files.h"
+#include "studies/cases/folders.h"
 #include "studies/cases/force_errors.h"
 #include "studies/cases/plan.h"
 #include "studies/cases/variant_measures.h"
 #include "studies/report/figure.h"
 #include "studies/report/run_data.h"
+#include "studies/run/fit_setup.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_setup.h"
@@ -69,15 +71,6 @@ class VariantsPlan : public Plan {
   std::size_t not_converged_ = 0;
 };
 
-/// Letters, digits, '-' and '.'; anything else becomes '_'.
-std::string as_folder(std::string text) {
-  for (char& c : text) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
-    if (!plain) c = '_';
-  }
-  return text;
-}
-
 std::string VariantsPlan::free_folder(const CaseVariant& variant) {
   const std::string series = variant.series.empty() ? "" : as_folder(variant.series) + "/";
   std::string folder = "variants/" + series + as_folder(variant.name);
@@ -88,14 +81,7 @@ std::string VariantsPlan::free_folder(const CaseVariant& variant) {
 /// At finite strain law A, which the network stands for.
 std::size_t VariantsPlan::continuum_of(const LoadedConfig& loaded,
                                        const lattice::PressSetup& setup) {
-  LoadedConfig own = loaded;
-  fem_reference::ReferenceJob& order = own.config.reference;
-  order.analysis = fem_reference::Analysis::static_press;
-  order.strain = setup.lattice.kinematics == lattice::Kinematics::finite
-                     ? fem_reference::Strain::finite
-                     : fem_reference::Strain::linear;
-  order.law = fem_reference::StrainEnergy::law_a;
-  const fem_reference::ReferenceJob checked = reference_order(own);
+  const fem_reference::ReferenceJob checked = continuum_beside(loaded, setup.lattice.kinematics);
   const std::string key = reference_job(checked).key();
   const auto found = std::ranges::find(continua_, key, &Continuum::key);
   if (found == continua_.end())
@@ -141,11 +127,6 @@ std::vector<PlannedJob> VariantsPlan::jobs() {
                            [](const PlannedJob& one) { return one.job.weight; });
   jobs.insert(jobs.end(), presses.begin(), presses.end());
   return jobs;
-}
-
-PressResponse response_in(const fs::path& folder) {
-  const fs::path file = folder / "response.csv";
-  return fs::exists(file) ? PressResponse::read_csv(file) : PressResponse();
 }
 
 VariantResult VariantsPlan::result_of(const Press& press, const fs::path& folder) const {
