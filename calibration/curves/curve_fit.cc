@@ -62,8 +62,10 @@ void add_bounds(CurveFit& fit, const CurveFitOptions& options) {
                            options.free[i].upper - p <= near);
   }
   if (const auto places = places_of_moduli(options)) {
-    const auto [e, g] = *places;
-    if (3.0 * fit.estimates(g) <= (1.0 + 1.001 * incompressible) * fit.estimates(e))
+    const Index e = places->first;
+    const FitCoordinates coordinates(options);
+    const double x = coordinates.from(fit.estimates)(e);
+    if (x <= 1.001 * coordinates.lower()(e) || x >= (1.0 - 1e-9) * coordinates.upper()(e))
       fit.at_bound[std::size_t(e)] = true;
   }
 }

@@ -38,6 +38,9 @@ struct CurveFitOptions {
   /// Width w in sigma of the loss w² (sqrt(1 + r²/w²) - 1), quadratic inside, linear outside; 0:
   /// least squares. Needs sigma.
   double robust_width = 0.0;
+  /// Poisson's ratios between which E and G are sought where both are free, without bounds of
+  /// their own: the ends of a table, 0 of law A. -1 < lowest < highest <= 1/2.
+  double lowest_poissons_ratio = -0.999, highest_poissons_ratio = 0.5;
   int max_iterations = 50;  ///< per start, >= 1
   /// The search ends where a step promises no more than this share of a standard error, in (0,
   /// 0.1]. Steps below it cost evaluations and tell nothing; on a kink of a model they creep.

@@ -14,6 +14,11 @@ bool has_bounds(const FreeParameter& free) {
   return free.lower > 0.0 || std::isfinite(free.upper);
 }
 
+/// 3G/E - 1 at a Poisson's ratio.
+double compressibility(double poissons_ratio) {
+  return 1.5 / (1.0 + poissons_ratio) - 1.0;
+}
+
 }  // namespace
 
 bool varies_by_logarithm(const FreeParameter& free) {
@@ -66,7 +71,7 @@ VectorXd FitCoordinates::from(const VectorXd& parameters) const {
   for (Index i = 0; i < x.size(); ++i) x(i) = coordinate(std::size_t(i), parameters(i));
   if (rubber_) {
     const auto [e, g] = *rubber_;
-    x(e) = std::max(3.0 * parameters(g) / parameters(e) - 1.0, incompressible);
+    x(e) = std::clamp(3.0 * parameters(g) / parameters(e) - 1.0, lower()(e), upper()(e));
   }
   return x;
 }
@@ -102,14 +107,17 @@ VectorXd FitCoordinates::lower() const {
   VectorXd lower(Index(options_->free.size()));
   for (std::size_t i = 0; i < options_->free.size(); ++i)
     lower(Index(i)) = coordinate(i, lower_bound(options_->free[i]));
-  if (rubber_) lower(rubber_->first) = incompressible;
+  if (rubber_)
+    lower(rubber_->first) =
+        std::max(incompressible, compressibility(options_->highest_poissons_ratio));
   return lower;
 }
 
 VectorXd FitCoordinates::upper() const {
   VectorXd upper(Index(options_->free.size()));
   for (std::size_t i = 0; i < options_->free.size(); ++i)
-    upper(Index(i)) = coordinate(i, options_->free[i].upper);  // infinite for 3G/E - 1, too
+    upper(Index(i)) = coordinate(i, options_->free[i].upper);
+  if (rubber_) upper(rubber_->first) = compressibility(options_->lowest_poissons_ratio);
   return upper;
 }
 

@@ -20,7 +20,8 @@ double lower_bound(const FreeParameter& free);
 inline constexpr double incompressible = 1e-4;
 
 /// ln(p/size) of what is positive by nature, else p/size. Where E and G both are free and have no
-/// bounds, E's coordinate is 3G/E - 1 >= incompressible: data that ask for E >= 3G, as those of
+/// bounds, E's coordinate is 3G/E - 1, which knows nu alone and is bounded by the options and
+/// `incompressible`: data that ask for E >= 3G, as those of
 /// nearly incompressible rubbers do every other time, then meet a bound like any other instead of
 /// points that every model refuses.
 class FitCoordinates {

@@ -53,6 +53,7 @@ std::string misfit(const FitRecord& record) {
       squares += residual * residual;
       total += y * y;
     }
+  if (total == 0.0) return " All data are zero: there is nothing to be met.";
   std::string text = " The fit meets the data within " + percent(std::sqrt(squares / total)) +
                      " (root mean square), every single value within " + percent(worst) + ".";
   const CurveFit& fit = record.fit;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "studies/config/config.h"
+#include "studies/run/json_file.h"
 
 namespace fingertip::studies {
 
@@ -29,8 +30,8 @@ const std::vector<std::string>& known_parameters() {
 
 /// 0 inside the interval, else how far outside, over the truth.
 double outside(const ordered_json& parameter, double value) {
-  const double below = parameter["lower"].get<double>() - value;
-  const double above = value - parameter["upper"].get<double>();
+  const double below = number_of(parameter["lower"]) - value;
+  const double above = value - number_of(parameter["upper"]);
   return std::max({below, above, 0.0}) / std::abs(value);
 }
 

@@ -53,13 +53,13 @@ void print_parameters(const ordered_json& content) {
              "[gf, cm]");
   for (const ordered_json& one : content["parameters"]) {
     const std::string unit = one["unit"];
-    const double value = one["estimate"].get<double>();
+    const double value = number_of(one["estimate"]);
     const std::string other =
         unit == "Pa"    ? fmt::format("{:.5g} gf/cm^2", convert(value, "Pa", "gf/cm^2"))
         : unit == "N/m" ? fmt::format("{:.5g} gf/cm", convert(value, "N/m", "gf/cm"))
                         : "";
     fmt::print("{:<24}{:>14.6g}{:>14.6g}{:>14.6g}  {:<8}{:>16}\n", one["name"].get<std::string>(),
-               value, one["lower"].get<double>(), one["upper"].get<double>(), unit, other);
+               value, number_of(one["lower"]), number_of(one["upper"]), unit, other);
   }
 }
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "meshes/errors.h"
+#include "studies/run/cache.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/press_setup.h"
 
@@ -23,6 +25,13 @@ std::string kept_in(const std::filesystem::path& folder) {
       "\nfingertip: {} is kept; the same command with --out {} --resume auto computes the "
       "rest",
       folder.string(), folder.string());
+}
+
+/// A calibration may find bad input late, when continua and fits are there already.
+bool holds_results(const std::filesystem::path& folder) {
+  return std::ranges::any_of(
+      std::filesystem::recursive_directory_iterator(folder),
+      [](const auto& item) { return item.path().filename() == marker_name; });
 }
 
 }  // namespace
@@ -49,7 +58,7 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
   };
   const auto refuse = [&](const std::exception& why) {
     progress.clear();
-    if (folder.resumed()) {
+    if (folder.resumed() || holds_results(folder.path())) {
       folder.finish("bad input", 2, {{"error", why.what()}});
     } else {
       folder.discard();

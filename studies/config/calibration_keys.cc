@@ -99,8 +99,8 @@ std::vector<Key> calibration_keys() {
       problem_key(),
       data_key(),
       list("conditions",
-           "settings of further presses, \"press.contact=stick; press.tilt=20 deg\", a curve each; "
-           "none: the press itself",
+           "settings of presses in place of [press], \"press.contact=stick; press.tilt=20 deg\", a "
+           "curve each; none: the press itself",
            &Order::conditions),
       quantity("calibration", "depth", "0.15 cm", "m", positive,
                "largest indentation of the continuum's curves",

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/run/json_file.h"
+
 namespace fingertip::studies {
 
 using Eigen::Index;
@@ -21,16 +23,16 @@ double interpolated(const std::vector<double>& xs, const std::vector<double>& ys
   return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
 }
 
-double relative_bias(const ordered_json& parameter) {
-  return parameter["bias"].get<double>() / parameter["estimate"].get<double>();
-}
-
 std::string statement(const ordered_json& parameters) {
-  std::string text = " The lattice's own error, measured by the continuum at the estimates, shifts";
+  std::string text =
+      " The lattice's own error, measured by the continuum at the estimates, shifts them; with that"
+      " the 95 % intervals are";
   for (const ordered_json& one : parameters)
-    text += fmt::format("{} {} by {:+.2g} %", &one == &parameters.front() ? "" : ",",
-                        one["name"].get<std::string>(), 100.0 * relative_bias(one));
-  return text + "; the intervals are wider by that to both sides.";
+    text += fmt::format("{} {} {:.5g} to {:.5g} (shifted by {:+.2g} %)",
+                        &one == &parameters.front() ? "" : ",", one["name"].get<std::string>(),
+                        number_of(one["lower"]), number_of(one["upper"]),
+                        100.0 * number_of(one["bias"]) / number_of(one["estimate"]));
+  return text + ".";
 }
 
 }  // namespace
@@ -58,8 +60,8 @@ void add_bias(const Eigen::VectorXd& error, ordered_json& calibration) {
     const double bias = -Eigen::Map<const Eigen::VectorXd>(row.data(), error.size()).dot(error);
     ordered_json& one = parameters[p];
     one["bias"] = bias;
-    one["lower"] = one["lower"].get<double>() - std::abs(bias);
-    one["upper"] = one["upper"].get<double>() + std::abs(bias);
+    one["lower"] = number_or_null(number_of(one["lower"]) - std::abs(bias));
+    one["upper"] = number_or_null(number_of(one["upper"]) + std::abs(bias));
   }
   calibration["statement"] = calibration["statement"].get<std::string>() + statement(parameters);
 }

@@ -25,13 +25,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ordered_json press_inputs(const lattice::PressSetup& setup) {
-  return {{"geometry", to_json(setup.geometry)},
-          {"rubber", to_json(setup.rubber)},
-          {"protocol", to_json(setup.protocol)},
-          {"lattice", to_json(setup.lattice)}};
-}
-
 /// What the answers for a curve depend on, and its data.
 ordered_json curve_inputs(const FitOrder& order, std::size_t i) {
   const calibration::Curve& curve = order.curves[i];
@@ -42,7 +35,7 @@ ordered_json curve_inputs(const FitOrder& order, std::size_t i) {
                          {"x", curve.x},
                          {"y", curve.y},
                          {"sigma", curve.sigma}};
-  if (i < order.presses.size()) inputs["press"] = press_inputs(order.presses[i]);
+  if (i < order.presses.size()) inputs["press"] = to_json(order.presses[i]);
   return inputs;
 }
 
@@ -110,21 +103,45 @@ class Models {
   std::vector<std::unique_ptr<calibration::RememberedModel>> remembering_;
 };
 
+/// Of another rubber than the setup's: its constants in closed form, or fitted to its moduli.
+void put_rubber(const meshes::Rubber& rubber, lattice::PressSetup& setup) {
+  setup.rubber = rubber;
+  calibration::ModuliFitOptions options;
+  options.model = setup.lattice.model;
+  options.spacing = setup.lattice.spacing;
+  setup.lattice.constants = options.model == lattice::ModelKind::central
+                                ? calibration::fit_moduli(rubber, options).constants
+                                : lattice::hookean_constants(rubber, options.spacing);
+}
+
+/// E and G of law A's parameters.
+meshes::Rubber law_rubber(const FitOrder& order, const Eigen::VectorXd& estimates) {
+  const auto law =
+      calibration::LawParameters(parameters_of(order), order.base.rubber).at(estimates);
+  meshes::Rubber rubber = order.base.rubber;
+  rubber.shear_modulus = law.shear;
+  rubber.youngs_modulus =
+      law.shear * (3.0 * law.lambda + 2.0 * law.shear) / (law.lambda + law.shear);
+  return rubber;
+}
+
 /// The lattice and rubber that the estimates stand for.
 lattice::PressSetup fitted_setup(const FitOrder& order, const Eigen::VectorXd& estimates) {
   lattice::PressSetup setup = order.base;
   if (order.problem == CalibrationProblem::damping) {
     setup.rubber.retardation_time = estimates(0);
-    return setup;
-  }
-  if (order.problem != CalibrationProblem::finite_strain)
+  } else if (order.problem == CalibrationProblem::finite_strain) {
+    put_rubber(law_rubber(order, estimates), setup);
+  } else if (!order.tables.empty()) {
+    meshes::Rubber rubber = order.base.rubber;
+    for (std::size_t i = 0; i < order.options.free.size(); ++i)
+      (order.options.free[i].parameter == MaterialParameter::youngs_modulus
+           ? rubber.youngs_modulus
+           : rubber.shear_modulus) = estimates(Eigen::Index(i));
+    put_rubber(rubber, setup);
+  } else {
     return calibration::LatticeForwardModel(setup, parameters_of(order)).setup_with(estimates);
-  const auto law =
-      calibration::LawParameters(parameters_of(order), order.base.rubber).at(estimates);
-  setup.rubber.shear_modulus = law.shear;
-  setup.rubber.youngs_modulus =
-      law.shear * (3.0 * law.lambda + 2.0 * law.shear) / (law.lambda + law.shear);
-  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  }
   return setup;
 }
 
@@ -175,6 +192,7 @@ calibration::Material material_of(const FitOrder& order, const calibration::FitR
   material.validity = validity_of(order, record);
   material.provenance = order.provenance;
   material.program = order.program;
+  material.statement = calibration::fit_statement(record);
   return material;
 }
 
@@ -260,7 +278,7 @@ void run_fit(FitOrder order, const fs::path& folder, const JobContext& context) 
 
 ordered_json inputs_of(const FitOrder& order) {
   ordered_json inputs = {
-      {"problem", name(order.problem)},     {"base", press_inputs(order.base)},
+      {"problem", name(order.problem)},     {"base", to_json(order.base)},
       {"rubber_known", order.rubber_known}, {"robust_width", order.options.robust_width},
       {"starts", order.start_ratios},       {"profile", order.profile},
       {"provenance", order.provenance},     {"tables", order.table_keys}};
@@ -271,6 +289,7 @@ ordered_json inputs_of(const FitOrder& order) {
     inputs["free"].push_back({{"name", calibration::name(free.parameter)},
                               {"start", free.start},
                               {"scale", free.scale},
+                              {"lower", free.lower},
                               {"prior", free.prior ? free.prior->deviation : 0.0}});
   return inputs;
 }

@@ -45,15 +45,26 @@ const meshes::PressSample& sample_near(const PressResponse& response, double dep
   });
 }
 
-Eigen::MatrixXd matrix_of(const nlohmann::json& rows) {
+/// What the continuum knows, too.
+bool is_of_the_rubber(MaterialParameter parameter) {
+  using enum MaterialParameter;
+  return parameter == youngs_modulus || parameter == shear_modulus || parameter == lame_shear ||
+         parameter == lambda;
+}
+
+Eigen::MatrixXd matrix_of(const ordered_json& rows) {
   Eigen::MatrixXd matrix(Eigen::Index(rows.size()), Eigen::Index(rows.size()));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-      matrix(i, j) = rows[std::size_t(i)][std::size_t(j)].get<double>();
+      matrix(i, j) = number_of(rows[std::size_t(i)][std::size_t(j)]);
   return matrix;
 }
 
 void check_moduli(const LoadedConfig& loaded) {
+  if (!loaded.config.calibration.data.empty())
+    throw loaded.locate(
+        {{"calibration.data", "", "the problem moduli fits to E and G of the rubber",
+          "leave data out, or take the problem experiment"}});
   const lattice::ModelKind model = loaded.config.press.lattice.model;
   if (model == lattice::ModelKind::network)
     throw loaded.locate({{"lattice.model", "network",
@@ -173,7 +184,8 @@ PlannedJob FitPlan::fit(const fs::path& run) {
 /// Of a lattice that answered for measured forces: the continuum at the estimates tells its error.
 bool FitPlan::measures_bias() const {
   return loaded_.config.calibration.problem == CalibrationProblem::experiment &&
-         loaded_.config.calibration.bias && setup_.order.tables.empty();
+         loaded_.config.calibration.bias && setup_.order.tables.empty() &&
+         std::ranges::all_of(parameters_of(setup_.order), is_of_the_rubber);
 }
 
 PlannedJob FitPlan::bias(const fs::path& run, std::size_t curve) const {
@@ -206,9 +218,11 @@ PlannedJob FitPlan::surrogate(const fs::path& run) const {
   const bool by_press = !by_moduli() && !setup_.order.presses.empty() &&
                         setup_.order.problem != CalibrationProblem::damping;
   if (by_press) {
-    const nlohmann::json fit = read_json(run / place("fit") / "calibration.json");
+    const ordered_json fit = read_json(run / place("fit") / "calibration.json");
     uncertainty.parameters = parameters_of(setup_.order);
-    uncertainty.covariance = matrix_of(fit.at("covariance"));
+    // As wide as the intervals.
+    uncertainty.covariance =
+        std::pow(fit.at("birge_ratio").get<double>(), 2) * matrix_of(fit.at("covariance"));
   }
   return {place("surrogate"), surrogate_job(setup, uncertainty), false};
 }
@@ -217,8 +231,8 @@ calibration::Material FitPlan::material(const fs::path& run) const {
   return calibration::read_material_toml(run / place(by_moduli() ? "" : "fit") / "material.toml");
 }
 
-void FitPlan::add_bias_to(const fs::path& target, const fs::path& run) const {
-  ordered_json calibration = read_json(target / "calibration.json");
+nlohmann::ordered_json FitPlan::with_bias(nlohmann::ordered_json calibration,
+                                          const fs::path& run) const {
   std::vector<double> error;
   for (std::size_t i = 0; i < setup_.order.curves.size(); ++i) {
     const fs::path folder = run / place("bias_" + std::to_string(i + 1));
@@ -229,7 +243,7 @@ void FitPlan::add_bias_to(const fs::path& target, const fs::path& run) const {
   }
   add_bias(Eigen::Map<const Eigen::VectorXd>(error.data(), Eigen::Index(error.size())),
            calibration);
-  write_json(calibration, target / "calibration.json");
+  return calibration;
 }
 
 void FitPlan::finish(const fs::path& run) const {
@@ -238,9 +252,13 @@ void FitPlan::finish(const fs::path& run) const {
     fs::copy_file(run / place(from) / file, target / file, fs::copy_options::overwrite_existing);
   };
   if (!by_moduli()) {
-    for (const char* file : {"calibration.json", "material.toml", "fit_data.csv", "summary.json"})
-      copy("fit", file);
-    if (measures_bias()) add_bias_to(target, run);
+    for (const char* file : {"material.toml", "fit_data.csv"}) copy("fit", file);
+    ordered_json calibration = read_json(run / place("fit") / "calibration.json");
+    ordered_json summary = read_json(run / place("fit") / "summary.json");
+    if (measures_bias()) calibration = with_bias(std::move(calibration), run);
+    summary["statement"] = calibration["statement"];
+    write_json(summary, target / "summary.json");
+    write_json(calibration, target / "calibration.json");
   }
   if (loaded_.config.calibration.surrogate)
     for (const char* file : {"surrogate.csv", "surrogate.json"}) copy("surrogate", file);

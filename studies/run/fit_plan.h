@@ -51,7 +51,8 @@ class FitPlan {
   PlannedJob surrogate(const std::filesystem::path& run) const;
   PlannedJob bias(const std::filesystem::path& run, std::size_t curve) const;
   bool measures_bias() const;
-  void add_bias_to(const std::filesystem::path& target, const std::filesystem::path& run) const;
+  nlohmann::ordered_json with_bias(nlohmann::ordered_json calibration,
+                                   const std::filesystem::path& run) const;
   void finish(const std::filesystem::path& run) const;
 
   LoadedConfig loaded_;

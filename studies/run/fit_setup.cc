@@ -11,6 +11,7 @@
 #include "studies/run/curve_file.h"
 #include "studies/run/digest.h"
 #include "studies/run/press_setup.h"
+#include "studies/run/provenance.h"
 
 namespace fingertip::studies {
 
@@ -128,6 +129,9 @@ std::vector<FreeParameter> free_list(const LoadedConfig& loaded, const lattice::
     free.scale = scale_of(parameter, base);
     const double size = free.scale > 0.0 ? free.scale : std::abs(free.start);
     const double weight = parameter == bond || parameter == contact ? ties_prior : 1.0;
+    // The energy of law A falls without bound for lambda < 0.
+    if (parameter == lambda && base.lattice.kinematics == lattice::Kinematics::finite)
+      free.lower = 0.0;
     if (with_priors) free.prior = calibration::Prior{free.start, weight * order.prior * size};
     if (parameter == retardation_time) free.start = 0.7 * std::max(free.start, 1e-4);
     list.push_back(free);
@@ -143,9 +147,21 @@ std::string even_samples(double depth, int count) {
   return "press.samples=[" + list + "]";
 }
 
+/// A condition says how a press is done: what it is done with is common to all curves.
+void check_condition(const LoadedConfig& loaded, const std::vector<std::string>& sets) {
+  for (const std::string& one : sets) {
+    const std::string section = one.substr(0, one.find('.'));
+    if (section != "press" && section != "geometry" && section != "reference")
+      throw refused(loaded, "calibration.conditions", one,
+                    "a curve's condition sets keys of press, geometry and reference",
+                    "set rubber, lattice and calibration for the whole fit");
+  }
+}
+
 /// The press of one curve: the configuration, the condition's settings, then what the problem asks.
 LoadedConfig under(const LoadedConfig& loaded, const std::vector<std::string>& condition,
                    const std::vector<std::string>& derived) {
+  check_condition(loaded, condition);
   std::vector<std::string> sets = condition;
   sets.insert(sets.end(), derived.begin(), derived.end());
   return loaded.with(sets);
@@ -167,10 +183,18 @@ std::string described(const lattice::PressSetup& setup) {
   return text;
 }
 
+/// Two files of one stem, or two fingers under one contact.
+void name_once(const std::vector<Curve>& others, Curve& curve) {
+  const std::string name = curve.name;
+  for (int copy = 2; std::ranges::find(others, curve.name, &Curve::name) != others.end(); ++copy)
+    curve.name = name + " (" + std::to_string(copy) + ")";
+}
+
 void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
   const lattice::PressSetup press = press_setup(own);
   fit.order.conditions.push_back(described(press));
   if (curve.name.empty()) curve.name = fit.order.conditions.back();
+  name_once(fit.order.curves, curve);
   fit.order.curves.push_back(std::move(curve));
   fit.order.kinds.push_back(kind);
   fit.order.presses.push_back(press);
@@ -287,6 +311,11 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
       add_measured_press(fit, loaded, file, kind, condition);
       continue;
     }
+    if (!order.conditions.empty())
+      throw refused(loaded, "calibration.conditions", "",
+                    "conditions are those of presses; a test on a coupon has none",
+                    "leave them out");
+    name_once(fit.order.curves, file.curve);
     fit.order.curves.push_back(file.curve);
     fit.order.conditions.push_back("");
     fit.order.kinds.push_back(kind);
@@ -322,6 +351,55 @@ void check_profile(const LoadedConfig& loaded, const FitOrder& order) {
                   "name two of those that are free, or none");
 }
 
+void check_data(const LoadedConfig& loaded) {
+  const CalibrationOrder& order = loaded.config.calibration;
+  if (order.problem == CalibrationProblem::curve && !order.data.empty())
+    throw refused(loaded, "calibration.data", "",
+                  "the problem curve makes its data by the continuum",
+                  "leave data out, or take the problem experiment");
+}
+
+/// Law A knows no nu < 0, a table none beyond its nodes.
+void bound_poissons_ratio(const LoadedConfig& loaded, FitOrder& order) {
+  const CalibrationOrder& wanted = loaded.config.calibration;
+  calibration::CurveFitOptions& options = order.options;
+  const bool finite = order.base.lattice.kinematics == lattice::Kinematics::finite ||
+                      wanted.problem == CalibrationProblem::finite_strain;
+  if (finite) options.lowest_poissons_ratio = 0.0;
+  if (wanted.problem != CalibrationProblem::experiment || wanted.forward != ForwardKind::continuum)
+    return;
+  options.lowest_poissons_ratio = wanted.poisson_range[0];
+  options.highest_poissons_ratio = wanted.poisson_range[1];
+  const double ratio = order.base.rubber.poissons_ratio();
+  if (ratio < wanted.poisson_range[0] || ratio > wanted.poisson_range[1])
+    throw refused(loaded, "calibration.poisson_range", "",
+                  "Poisson's ratio of the rubber, from which the search starts, is " +
+                      meshes::to_text(ratio) + ", outside of the range",
+                  "widen the range, or start from another rubber");
+}
+
+/// What a model would refuse is said before the continuum runs for it.
+void check_models(const LoadedConfig& loaded, const FitOrder& order) {
+  const auto is_modulus = [](MaterialParameter parameter) {
+    return parameter == youngs_modulus || parameter == shear_modulus;
+  };
+  for (std::size_t i = 0; i < order.kinds.size(); ++i) {
+    if (order.kinds[i] == CurveKind::table &&
+        !std::ranges::all_of(parameters_of(order), is_modulus))
+      throw refused(loaded, "calibration.parameters", "", "the continuum knows E and G alone",
+                    "free youngs_modulus, shear_modulus or both");
+    if (order.kinds[i] != CurveKind::press) continue;
+    try {
+      calibration::LatticeForwardModel(order.presses[i], parameters_of(order));
+    } catch (const meshes::InvalidInput& error) {
+      std::vector<meshes::Violation> broken = error.violations();
+      for (meshes::Violation& one : broken)
+        if (one.key == "parameters") one.key = "calibration.parameters";
+      throw loaded.locate(broken);
+    }
+  }
+}
+
 /// The lattice is needed where constants are sought or the press is the lattice's.
 lattice::PressSetup base_of(const LoadedConfig& loaded) {
   return press_setup(loaded.with({"press.mode=static"}));
@@ -355,14 +433,17 @@ fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
 FitSetup fit_setup(const LoadedConfig& loaded) {
   const CalibrationOrder& wanted = loaded.config.calibration;
   check_model(loaded);
+  check_data(loaded);
   FitSetup fit;
   fit.order.problem = wanted.problem;
   fit.order.base = base_of(loaded);
   fit.order.options.free = free_list(loaded, fit.order.base);
   fit.order.options.robust_width = wanted.robust_width;
   fit.order.options.tolerance = search_tolerance;
+  fit.order.program = "fingertip " + program_version();
   fit.order.profile = wanted.profile;
   check_profile(loaded, fit.order);
+  bound_poissons_ratio(loaded, fit.order);
   const bool from_continuum =
       wanted.problem == CalibrationProblem::curve ||
       (wanted.problem == CalibrationProblem::damping && wanted.data.empty());
@@ -372,6 +453,7 @@ FitSetup fit_setup(const LoadedConfig& loaded) {
     add_measured_curves(fit, loaded);
   }
   fit.order.start_ratios = further_starts(fit.order, wanted);
+  check_models(loaded, fit.order);
   return fit;
 }
 

@@ -140,6 +140,13 @@ ordered_json to_json(const meshes::PressProtocol& protocol) {
   return json;
 }
 
+ordered_json to_json(const lattice::PressSetup& setup) {
+  return {{"geometry", to_json(setup.geometry)},
+          {"rubber", to_json(setup.rubber)},
+          {"protocol", to_json(setup.protocol)},
+          {"lattice", to_json(setup.lattice)}};
+}
+
 ordered_json to_json(const lattice::LatticeSettings& settings) {
   ordered_json json = {
       {"model", lattice::name(settings.model)},

@@ -40,6 +40,8 @@ nlohmann::ordered_json to_json(const meshes::Geometry& geometry);
 nlohmann::ordered_json to_json(const meshes::Rubber& rubber);
 nlohmann::ordered_json to_json(const meshes::PressProtocol& protocol);
 nlohmann::ordered_json to_json(const lattice::LatticeSettings& settings);
+/// What an equilibrium depends on: specimen, protocol and lattice.
+nlohmann::ordered_json to_json(const lattice::PressSetup& setup);
 nlohmann::ordered_json to_json(const lattice::SpringConstants& constants);
 nlohmann::ordered_json to_json(const calibration::ElasticModuli& moduli);
 

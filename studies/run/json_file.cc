@@ -26,6 +26,10 @@ nlohmann::ordered_json read_json(const std::filesystem::path& file) {
   }
 }
 
+double number_of(const nlohmann::ordered_json& value) {
+  return value.is_number() ? value.get<double>() : std::nan("");
+}
+
 nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }

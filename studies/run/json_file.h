@@ -13,6 +13,9 @@ void write_json(const nlohmann::ordered_json& content, const std::filesystem::pa
 /// Throws meshes::InvalidInput when the file cannot be read or is no JSON.
 nlohmann::ordered_json read_json(const std::filesystem::path& file);
 
+/// The number, NaN for null.
+double number_of(const nlohmann::ordered_json& value);
+
 /// NaN and infinities, which JSON cannot hold, become null.
 nlohmann::ordered_json number_or_null(double value);
 

@@ -88,10 +88,7 @@ void set_press_status(const fs::path& folder, const std::string& status) {
 Job static_press_job(const lattice::PressSetup& setup) {
   Job job;
   job.kind = "press";
-  job.inputs = {{"geometry", to_json(setup.geometry)},
-                {"rubber", to_json(setup.rubber)},
-                {"protocol", to_json(setup.protocol)},
-                {"lattice", to_json(setup.lattice)}};
+  job.inputs = to_json(setup);
   job.source_hash = source_hash::lattice;
   // Factorisations of 3-D lattices grow with the sixth power of R/a; 2 units at R/12.
   job.weight = 2.0 * std::pow(setup.geometry.tip_radius / (12.0 * setup.lattice.spacing), 6);

@@ -77,10 +77,8 @@ Job surrogate_job(const lattice::PressSetup& order, const ForceUncertainty& unce
   Job job;
   job.kind = "surrogate";
   job.inputs = {
-      {"geometry", to_json(setup.geometry)},
-      {"rubber", to_json(setup.rubber)},
-      {"protocol", to_json(setup.protocol)},
-      {"lattice", to_json(setup.lattice)},
+      {"format", 1},
+      {"press", to_json(setup)},
       {"parameters", names},
       {"covariance", std::vector<double>(covariance.data(), covariance.data() + covariance.size())},
       {"model_error", uncertainty.model_error}};

@@ -160,6 +160,17 @@ TEST(Calibrate, RefusesWhatCannotBeFitted) {
       {{"--set", "calibration.data=[\"good.csv\"]", "--set",
         "calibration.conditions=[\"press.contact=stick\", \"press.tilt=5 deg\"]"},
        "calibration.conditions"},
+      {{"--set", "calibration.data=[\"good.csv\"]", "--set",
+        "calibration.conditions=[\"lattice.spacing=tip_radius/4\"]"},
+       "press, geometry and reference"},
+      {{"--set", "calibration.data=[\"good.csv\"]", "--set", "calibration.forward=continuum",
+        "--set", "calibration.parameters=[\"k1\"]"},
+       "E and G alone"},
+      {{"--set", "calibration.data=[\"good.csv\"]", "--set",
+        "calibration.parameters=[\"youngs_modulus\", \"k1\"]"},
+       "described in one way"},
+      {{"--set", "calibration.data=[\"good.csv\"]", "--set", "calibration.problem=moduli"},
+       "calibration.data"},
   };
   for (const Attempt& attempt : attempts) {
     const ProgramResult run =

@@ -53,7 +53,7 @@ TEST(FitBias, AModelThatIsTooStiffMakesTheEstimateTooSmall) {
   EXPECT_NEAR(bias, line.estimate() - line.truth, 2.0 * line.truth * line.error * line.error);
   EXPECT_NEAR(found["lower"].get<double>(), 4.8 - std::abs(bias), 1e-12);
   EXPECT_NEAR(found["upper"].get<double>(), 5.0 + std::abs(bias), 1e-12);
-  EXPECT_NE(calibration["statement"].get<std::string>().find("p by -2"), std::string::npos)
+  EXPECT_NE(calibration["statement"].get<std::string>().find("shifted by -2"), std::string::npos)
       << calibration["statement"];
 }
 

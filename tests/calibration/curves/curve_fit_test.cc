@@ -91,6 +91,27 @@ TEST(CurveFit, QuantilesMeetClosedForms) {
   EXPECT_NEAR(student_95(1000000), normal_95(), 1e-5);
 }
 
+/// Data that ask for nu = -0.16 where nu >= 0 is all a model knows: the least squares along E = 2G,
+/// by hand, and not wherever the search first met the wall.
+TEST(CurveFit, TheEndOfPoissonsRatioIsABound) {
+  Curve data;
+  data.x = {1.0, 2.0};
+  data.y = {2300.0, 1373.0};  // E and G themselves
+  data.sigma = {10.0, 10.0};
+  FormulaModel model([](const VectorXd& p) {
+    if (p(0) < 2.0 * p(1) * (1.0 - 1e-12))
+      throw meshes::InvalidInput({"nu", "", "nu >= 0", "raise E"});
+    return CurveSlopes{p, MatrixXd::Identity(2, 2)};
+  });
+  CurveFitOptions options = e_and_g();
+  options.lowest_poissons_ratio = 0.0;
+  const CurveFit fit = fit_curves({data}, {&model}, options);
+  const double g = (2.0 * 2300.0 + 1373.0) / 5.0;
+  EXPECT_NEAR(fit.estimates(1), g, 1e-5 * g);
+  EXPECT_NEAR(fit.estimates(0), 2.0 * g, 1e-5 * g);
+  EXPECT_TRUE(fit.at_bound[0]);
+}
+
 /// Sigma stated five times too small: chi-square is 25 times what it should be, and the intervals
 /// become those of a fit that does not know sigma, but for Student's t.
 TEST(CurveFit, IntervalsGrowWhereSigmaDoesNotExplainTheResiduals) {
