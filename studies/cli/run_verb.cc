@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <thread>
 
 #include "meshes/errors.h"
@@ -29,9 +28,13 @@ std::string kept_in(const std::filesystem::path& folder) {
 
 /// A calibration may find bad input late, when continua and fits are there already.
 bool holds_results(const std::filesystem::path& folder) {
-  return std::ranges::any_of(
-      std::filesystem::recursive_directory_iterator(folder),
-      [](const auto& item) { return item.path().filename() == marker_name; });
+  using Walk = std::filesystem::recursive_directory_iterator;
+  for (Walk item(folder); item != Walk(); ++item) {
+    if (item->path().filename() == marker_name) return true;
+    // What --force has set aside is hidden.
+    if (item->path().filename().string().starts_with('.')) item.disable_recursion_pending();
+  }
+  return false;
 }
 
 }  // namespace
