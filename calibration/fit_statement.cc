@@ -1,18 +1,12 @@
 #include "calibration/fit_statement.h"
 
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <string_view>
+
+#include "calibration/words.h"
 
 namespace fingertip::calibration {
 namespace {
-
-std::string rounded(double value, int digits = 4) {
-  std::ostringstream out;
-  out << std::setprecision(digits) << value;
-  return out.str();
-}
 
 std::string pascals(double value) {
   return rounded(value, 5) + " Pa";

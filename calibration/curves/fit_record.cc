@@ -129,6 +129,18 @@ ordered_json profile_entry(const FitRecord& record) {
           {"increase", rows(profile.increase)}};
 }
 
+/// How deep the deepest press went, as a share of the rubber's thickness; null without presses.
+ordered_json validity_entry(const Material& material) {
+  const Validity& validity = material.validity;
+  const bool pressed = validity.largest_indentation && validity.thickness;
+  return {{"largest_strain_measure",
+           pressed ? number(*validity.largest_indentation / *validity.thickness) : ordered_json()},
+          {"spacing", material.spacing},
+          {"poissons_ratio", material.rubber.poissons_ratio()},
+          {"model", lattice::name(material.model)},
+          {"kinematics", lattice::name(material.kinematics.value_or(lattice::Kinematics::small))}};
+}
+
 ordered_json minima(const CurveFit& fit) {
   ordered_json result = ordered_json::array();
   for (const Minimum& one : fit.minima)
@@ -212,6 +224,16 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
+double worst_relative_residual(const FitRecord& record) {
+  double worst = 0.0;
+  for (std::size_t c = 0; c < record.curves.size(); ++c)
+    for (std::size_t i = 0; i < record.curves[c].y.size(); ++i)
+      if (record.curves[c].y[i] != 0.0)
+        worst =
+            std::max(worst, std::abs(record.fit.residuals[c](Index(i)) / record.curves[c].y[i]));
+  return worst;
+}
+
 void write_fit_json(const FitRecord& record, const std::filesystem::path& file) {
   ordered_json json = material_entries(record);
   json.update(statistics_entries(record));
@@ -228,13 +250,7 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
   json["iterations"] = record.fit.iterations;
   json["evaluations"] = record.fit.evaluations;
   json["wall_time"] = record.wall_time;
-  json["validity"] = {{"largest_strain_measure", record.range.relative_indentation > 0.0
-                                                     ? number(record.range.relative_indentation)
-                                                     : ordered_json()},
-                      {"spacing", record.material.spacing},
-                      {"poissons_ratio", record.material.rubber.poissons_ratio()},
-                      {"model", lattice::name(record.material.model)},
-                      {"kinematics", lattice::name(record.range.kinematics)}};
+  json["validity"] = validity_entry(record.material);
   json["statement"] = fit_statement(record);
   meshes::write_atomically(file, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
 }

@@ -13,12 +13,6 @@
 
 namespace fingertip::calibration {
 
-/// Where what a fit found was seen to hold.
-struct FitRange {
-  double relative_indentation = 0.0;  ///< deepest x of a press over the rubber's thickness; 0: none
-  lattice::Kinematics kinematics = lattice::Kinematics::small;
-};
-
 /// Everything that is told of a fit.
 struct FitRecord {
   std::string problem;                   ///< "curve", "experiment", "finite-strain", "damping"
@@ -32,9 +26,11 @@ struct FitRecord {
   std::vector<LeftOut> left_out;   ///< per curve, or none
   std::optional<Profile> profile;  ///< over these two:
   MaterialParameter profile_first{}, profile_second{};
-  FitRange range;
   double wall_time = 0.0;  ///< [s]
 };
+
+/// Largest |measured - fitted| over |measured| of all curves, where that is not zero.
+double worst_relative_residual(const FitRecord& record);
 
 /// What was found, how sure that is, what the data leave open and whether the model describes them.
 std::string fit_statement(const FitRecord& record);

@@ -6,7 +6,8 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <cstdio>
+
+#include "calibration/words.h"
 
 namespace fingertip::calibration {
 
@@ -19,9 +20,7 @@ constexpr double upper_tail = 0.975;
 constexpr double visible_change = 5e-3;
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
+  return rounded(value, 2);
 }
 
 /// The largest component becomes 1.

@@ -1,9 +1,9 @@
 /// The plain words of a fit to curves.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "calibration/curves/fit_record.h"
+#include "calibration/words.h"
 
 namespace fingertip::calibration {
 
@@ -15,12 +15,6 @@ namespace {
 constexpr double improbable = 0.01;
 /// A minimum whose chi-square is within this of the least one is as good (95 %, one parameter).
 constexpr double as_good = 3.84;
-
-std::string rounded(double value, int digits = 4) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
 
 std::string percent(double value) {
   return rounded(100.0 * value, 2) + " %";
@@ -45,17 +39,15 @@ std::string estimates(const CurveFit& fit) {
 }
 
 std::string misfit(const FitRecord& record) {
-  double worst = 0.0, squares = 0.0, total = 0.0;
-  for (std::size_t c = 0; c < record.curves.size(); ++c)
-    for (std::size_t i = 0; i < record.curves[c].y.size(); ++i) {
-      const double y = record.curves[c].y[i], residual = record.fit.residuals[c](Index(i));
-      if (y != 0.0) worst = std::max(worst, std::abs(residual / y));
-      squares += residual * residual;
-      total += y * y;
-    }
+  double squares = 0.0, total = 0.0;
+  for (std::size_t c = 0; c < record.curves.size(); ++c) {
+    squares += record.fit.residuals[c].squaredNorm();
+    for (const double y : record.curves[c].y) total += y * y;
+  }
   if (total == 0.0) return " All data are zero: there is nothing to be met.";
   std::string text = " The fit meets the data within " + percent(std::sqrt(squares / total)) +
-                     " (root mean square), every single value within " + percent(worst) + ".";
+                     " (root mean square), every single value within " +
+                     percent(worst_relative_residual(record)) + ".";
   const CurveFit& fit = record.fit;
   if (!fit.chi_square || !fit.chi_square_probability) return text;
   text += " Chi-square is " + rounded(*fit.chi_square, 3) + " at " +

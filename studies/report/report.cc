@@ -49,13 +49,18 @@ std::vector<NotRun> missing_parts(const RunData& run) {
 
 namespace {
 
+/// What a page is about, with the run's case and time.
+std::string with_case(const RunData& run, const std::string& subject) {
+  const std::string started = text_at(run.manifest, "started");
+  return subject + (run.case_name.empty() ? "" : ", case " + run.case_name) +
+         (started.empty() ? "" : ", " + started);
+}
+
 Page core_page(const RunData& run) {
   Page page;
   page.title = run.title.empty() ? "Soft fingertip: lattice against continuum" : run.title;
-  page.subtitle = fmt::format(
-      "Validation of mass-spring fingertips against a continuum of the same specimen{}{}",
-      run.case_name.empty() ? "" : ", case " + run.case_name,
-      text_at(run.manifest, "started").empty() ? "" : ", " + text_at(run.manifest, "started"));
+  page.subtitle = with_case(
+      run, "Validation of mass-spring fingertips against a continuum of the same specimen");
   page.chapters = {verdict_chapter(run),      force_chapter(run),    control_chapter(run),
                    elasticity_chapter(run),   pictures_chapter(run), published_chapter(run),
                    equilibrium_chapter(run),  reasons_chapter(run),  continuum_chapter(run),
@@ -68,11 +73,10 @@ Page core_page(const RunData& run) {
 Page study_page(const RunData& run) {
   Page page;
   page.title = run.title.empty() ? "Soft fingertip: a study of lattices at rest" : run.title;
-  page.subtitle = fmt::format(
-      "A study of mass-spring fingertips in equilibrium against a continuum of the same "
-      "specimen{}{}",
-      run.case_name.empty() ? "" : ", case " + run.case_name,
-      text_at(run.manifest, "started").empty() ? "" : ", " + text_at(run.manifest, "started"));
+  page.subtitle =
+      with_case(run,
+                "A study of mass-spring fingertips in equilibrium against a continuum of the same "
+                "specimen");
   page.chapters = {verdict_chapter(run), variants_chapter(run), provenance_chapter(run)};
   return page;
 }
@@ -81,10 +85,8 @@ Page study_page(const RunData& run) {
 Page calibration_page(const RunData& run) {
   Page page;
   page.title = run.title.empty() ? "Soft fingertip: a lattice fitted to curves" : run.title;
-  page.subtitle = fmt::format(
-      "Parameters of mass-spring fingertips from curves, and what the curves determine{}{}",
-      run.case_name.empty() ? "" : ", case " + run.case_name,
-      text_at(run.manifest, "started").empty() ? "" : ", " + text_at(run.manifest, "started"));
+  page.subtitle = with_case(
+      run, "Parameters of mass-spring fingertips from curves, and what the curves determine");
   page.chapters = {verdict_chapter(run), provenance_chapter(run)};
   return page;
 }

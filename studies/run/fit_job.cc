@@ -154,16 +154,6 @@ const lattice::PressSetup* deepest(const FitOrder& order) {
   return found == order.presses.end() ? nullptr : &*found;
 }
 
-double worst_relative(const calibration::FitRecord& record) {
-  double worst = 0.0;
-  for (std::size_t c = 0; c < record.curves.size(); ++c)
-    for (std::size_t i = 0; i < record.curves[c].y.size(); ++i)
-      if (record.curves[c].y[i] != 0.0)
-        worst = std::max(
-            worst, std::abs(record.fit.residuals[c](Eigen::Index(i)) / record.curves[c].y[i]));
-  return worst;
-}
-
 calibration::Validity validity_of(const FitOrder& order, const calibration::FitRecord& record) {
   calibration::Validity validity;
   const lattice::PressSetup* press = deepest(order);
@@ -172,7 +162,7 @@ calibration::Validity validity_of(const FitOrder& order, const calibration::FitR
   validity.thickness = press->geometry.thickness();
   validity.rod_ratio = press->geometry.rod_radius / press->geometry.tip_radius;
   validity.smallest_spacing = validity.largest_spacing = press->lattice.spacing;
-  validity.model_error = worst_relative(record);
+  validity.model_error = calibration::worst_relative_residual(record);
   for (const lattice::PressSetup& one : order.presses)
     if (std::ranges::find(validity.contacts, one.protocol.contact) == validity.contacts.end())
       validity.contacts.push_back(one.protocol.contact);
@@ -266,10 +256,6 @@ void run_fit(FitOrder order, const fs::path& folder, const JobContext& context) 
     record.left_out = calibration::leave_one_out(order.curves, list, options, record.fit);
   if (!order.profile.empty()) add_profile(order, list, record);
   record.material = material_of(order, record);
-  if (const lattice::PressSetup* press = deepest(order))
-    record.range.relative_indentation =
-        press->protocol.samples.back() / press->geometry.thickness();
-  record.range.kinematics = order.base.lattice.kinematics;
   record.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write(record, folder);

@@ -9,6 +9,7 @@
 #include "calibration/curves/forward_model.h"
 #include "meshes/files.h"
 #include "studies/run/curve_file.h"
+#include "studies/run/curve_text.h"
 #include "studies/run/digest.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/provenance.h"
@@ -28,23 +29,19 @@ constexpr double ties_prior = 10.0;
 /// A thousandth of a standard error is close enough for a model that takes seconds to answer.
 constexpr double search_tolerance = 1e-3;
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
-  return first == text.npos ? "" : text.substr(first, last - first + 1);
-}
-
 /// "press.contact = stick; press.tilt=20 deg" as --set texts.
-std::vector<std::string> settings_in(const std::string& condition) {
+std::vector<std::string> settings_in(std::string_view condition) {
   std::vector<std::string> sets;
   std::size_t begin = 0;
   while (begin <= condition.size()) {
     const std::size_t end = std::min(condition.find(';', begin), condition.size());
-    const std::string one = condition.substr(begin, end - begin);
+    const std::string_view one = trimmed(condition.substr(begin, end - begin));
     const auto equals = one.find('=');
     if (equals != one.npos)
-      sets.push_back(trimmed(one.substr(0, equals)) + "=" + trimmed(one.substr(equals + 1)));
-    else if (!trimmed(one).empty())
-      sets.push_back(trimmed(one));
+      sets.push_back(std::string(trimmed(one.substr(0, equals))) + "=" +
+                     std::string(trimmed(one.substr(equals + 1))));
+    else if (!one.empty())
+      sets.emplace_back(one);
     begin = end + 1;
   }
   return sets;

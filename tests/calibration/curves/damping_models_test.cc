@@ -10,6 +10,7 @@
 #include <random>
 
 #include "calibration/curves/curve_fit.h"
+#include "fit_fixtures.h"
 #include "lattice/control/approach.h"
 #include "lattice/finger.h"
 #include "lattice/forces.h"
@@ -22,6 +23,7 @@ using namespace fingertip;
 using namespace fingertip::calibration;
 using Eigen::Index;
 using Eigen::VectorXd;
+using fit_fixtures::refusal;
 using meshes::ContactMode;
 using meshes::Vector3;
 
@@ -29,15 +31,6 @@ namespace {
 
 VectorXd one(double value) {
   return VectorXd::Constant(1, value);
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const meshes::InvalidInput& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 void expect_slopes_of_differences(ForwardModel& model, double tau) {

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "calibration/curves/curve_fit.h"
+#include "fit_fixtures.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/elastic_system.h"
 #include "meshes/errors.h"
@@ -20,6 +21,7 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 using enum MaterialParameter;
+using fit_fixtures::refusal;
 
 namespace {
 
@@ -32,15 +34,6 @@ double stress(double stretch, double shear, double lambda_value) {
   return UniaxialModel({stretch}, {lame_shear, lambda})
       .evaluate(Vector2d(shear, lambda_value))
       .value(0);
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const meshes::InvalidInput& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 void expect_slopes_of_differences(ForwardModel& model, const VectorXd& at) {

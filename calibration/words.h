@@ -1,0 +1,16 @@
+/// Numbers in sentences.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace fingertip::calibration {
+
+/// To so many significant digits, without trailing zeros.
+inline std::string rounded(double value, int digits = 4) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+}  // namespace fingertip::calibration
