@@ -15,35 +15,60 @@ constexpr std::size_t portion = 32;  // blocks per partial sum: the same for any
 }  // namespace
 
 Finger::Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane,
-               meshes::ContactMode contact, Integrator integrator, double step, int threads)
+               const ContactLaw& law, Integrator integrator, double step, int threads)
     : model_(&model),
       team_(threads),
       internal_(model, team_),
-      surfaces_(make_surfaces(model, plane, contact, team_)),
+      surfaces_(make_surfaces(model, plane, law, team_)),
       move_(kernel::select_move()),
       integrator_(integrator),
+      tip_mass_(model.total_mass()),
       step_(step),
-      state_(model),
+      now_{.state = State(model), .rod = RodState(rod), .plane = plane},
       force_(model.points()),
-      rod_(rod),
       partial_momentum_((model.blocks.size() + portion - 1) / portion) {}
 
-void Finger::find_forces() {
-  extremes_ = internal_.accumulate(state_, force_);
-  bond_ = surfaces_->hold(state_, rod_, step_, force_);
+void Finger::load(const Snapshot& snapshot) {
+  now_ = snapshot.memory;
+  surfaces_ = snapshot.surfaces->clone();
+}
+
+void Finger::find_forces(double step) {
+  now_.extremes = internal_forces(now_.state, force_);
+  if (!gravity_.isZero(0.0)) weigh_particles(force_);
+  now_.bond = surfaces_->hold(now_.state, now_.rod, now_.plane, step, force_);
+}
+
+CellExtremes Finger::internal_forces(const State& state, VectorField& force) {
+  ++evaluations_;
+  return internal_.accumulate(state, force);
+}
+
+Finger::Trial Finger::attempt(const State& state, const RodState& rod, const Plane& plane,
+                              VectorField& force) {
+  Trial trial;
+  trial.extremes = internal_forces(state, force);
+  if (!gravity_.isZero(0.0)) weigh_particles(force);
+  trial.surfaces = surfaces_->attempt(state, rod, plane, force);
+  return trial;
+}
+
+void Finger::weigh_particles(VectorField& force) const {
+  const Vector3 gravity = model_->grid.axes.transpose() * gravity_;
+  for (const std::uint32_t i : model_->particles) force.add(i, model_->mass[i] * gravity);
 }
 
 void Finger::move_particles() {
   kernel::Motion motion{};
   for (std::size_t c = 0; c < 3; ++c) {
     motion.force[c] = force_.component[c].data();
-    motion.displacement[c] = state_.displacement.component[c].data();
-    motion.velocity[c] = state_.velocity.component[c].data();
+    motion.displacement[c] = now_.state.displacement.component[c].data();
+    motion.velocity[c] = now_.state.velocity.component[c].data();
   }
   motion.mass = model_->mass.data();
   motion.inverse_mass = model_->inverse_mass.data();
   motion.step = step_;
-  motion.symplectic = integrator_ == Integrator::symplectic_euler;
+  motion.symplectic = integrator_ != Integrator::explicit_euler;
   const auto& blocks = model_->blocks;
   team_.split(partial_momentum_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
@@ -54,56 +79,72 @@ void Finger::move_particles() {
 }
 
 void Finger::advance(const Wrench& applied) {
-  find_forces();
-  const Vector3 momentum_before = rod_.momentum();
-  const Vector3 endpoint = rod_.endpoint();
-  Wrench total = applied;
-  total.force += bond_.force;
-  total.torque += bond_.torque;
-  if (integrator_ == Integrator::symplectic_euler) {
-    rod_.kick(total, endpoint, step_);
-    rod_.drift(step_);
+  find_forces(step_);
+  RodState& rod = now_.rod;
+  const Vector3 momentum_before = rod.momentum();
+  const Vector3 endpoint = rod.endpoint(), weight = rod.body().mass * gravity_;
+  Wrench total{applied.force + now_.bond.force + weight, applied.torque + now_.bond.torque};
+  total.torque += (rod.centre() - endpoint).cross(weight);
+  if (integrator_ != Integrator::explicit_euler) {
+    rod.kick(total, endpoint, step_);
+    rod.drift(step_);
   } else {
-    rod_.drift(step_);
-    rod_.kick({total.force, total.torque + (endpoint - rod_.endpoint()).cross(total.force)},
-              rod_.endpoint(), step_);
+    rod.drift(step_);
+    rod.kick({total.force, total.torque + (endpoint - rod.endpoint()).cross(total.force)},
+             rod.endpoint(), step_);
   }
   move_particles();
-  check_momentum(momentum_before);
-  close_step(step_ * applied.force);
+  sum_momentum(momentum_before);
+  close_step(step_ * (applied.force + weight));
 }
 
 void Finger::advance(const RodMotion& at_end) {
-  find_forces();
-  const Vector3 momentum_before = rod_.momentum();
-  rod_.prescribe(at_end.travel, at_end.velocity);
+  find_forces(step_);
+  const Vector3 momentum_before = now_.rod.momentum();
+  now_.rod.prescribe(at_end.travel, at_end.velocity);
   move_particles();
-  check_momentum(momentum_before);
-  close_step(rod_.momentum() - momentum_before - step_ * bond_.force);
+  sum_momentum(momentum_before);
+  close_step(now_.rod.momentum() - momentum_before - step_ * now_.bond.force);
 }
 
-void Finger::check_momentum(const Vector3& rod_momentum) {
+void Finger::sum_momentum(const Vector3& of_rod) {
   Vector3 of_particles = Vector3::Zero();
   for (const Vector3& p : partial_momentum_) of_particles += p;
-  const Vector3 momentum = rod_momentum + model_->grid.axes * of_particles;
-  if (balance_started_) {
-    const double defect = (momentum - expected_momentum_).norm();
-    if (!(defect <= momentum_defect_)) momentum_defect_ = defect;  // keeps a NaN visible
-  }
-  expected_momentum_ = momentum;
-  balance_started_ = true;
+  check_momentum(of_rod + model_->grid.axes * of_particles);
 }
 
-void Finger::close_step(const Vector3& applied_impulse) {
-  plane_impulse_ = surfaces_->settle(state_, force_, step_);
-  expected_momentum_ += applied_impulse + plane_impulse_;
-  largest_impulse_ = std::max({largest_impulse_, applied_impulse.norm(), plane_impulse_.norm(),
-                               step_ * bond_.force.norm()});
-  time_ += step_;
+void Finger::check_momentum(const Vector3& momentum) {
+  if (now_.balance_started) {
+    const double defect = (momentum - now_.expected_momentum).norm();
+    if (!(defect <= now_.momentum_defect)) now_.momentum_defect = defect;  // keeps a NaN visible
+  }
+  now_.expected_momentum = momentum;
+  now_.balance_started = true;
+}
+
+void Finger::start_step() {
+  find_forces(0.0);
+  check_momentum(linear_momentum(*model_, now_.state) + now_.rod.momentum());
+}
+
+void Finger::close_step(const Vector3& on_rod) {
+  finish_step(step_, surfaces_->settle(now_.state, force_, now_.plane, step_), on_rod);
+}
+
+void Finger::finish_step(double duration, const Wrench& plane_impulse, const Vector3& on_rod) {
+  step_ = duration;
+  now_.plane_impulse = plane_impulse;
+  const Vector3 weight = step_ * tip_mass_ * gravity_;
+  now_.expected_momentum += on_rod + now_.plane_impulse.force + weight;
+  now_.largest_impulse =
+      std::max({now_.largest_impulse, on_rod.norm(), now_.plane_impulse.force.norm(), weight.norm(),
+                step_ * now_.bond.force.norm()});
+  now_.plane = now_.plane.after(step_);
+  now_.time += step_;
 }
 
 double Finger::elastic_energy() const {
-  return lattice::elastic_energy(*model_, state_) + surfaces_->energy(state_, rod_);
+  return lattice::elastic_energy(*model_, now_.state) + surfaces_->energy(now_.state, now_.rod);
 }
 
 }  // namespace fingertip::lattice

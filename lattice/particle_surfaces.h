@@ -9,12 +9,20 @@ namespace fingertip::lattice {
 /// Ligaments (bond.h) and boundary particles that the plane anchors (contact.h).
 class ParticleSurfaces : public Surfaces {
  public:
-  ParticleSurfaces(const LatticeModel& model, const Plane& plane, meshes::ContactMode mode);
+  ParticleSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law);
 
-  Wrench hold(const State& state, const RodState& rod, double step, VectorField& force) override;
-  meshes::Vector3 settle(State& state, const VectorField& force, double step) override;
-  double energy(const State& state, const RodState& rod) const override;
+  std::unique_ptr<Surfaces> clone() const override {
+    return std::make_unique<ParticleSurfaces>(*this);
+  }
+  Wrench hold(const State& state, const RodState& rod, const Plane& plane, double step,
+              VectorField& force) override;
+  Wrench settle(State& state, const VectorField& force, const Plane& plane, double step) override;
+  double bond_energy(const State& state, const RodState& rod) const override;
+  double energy(const State& state, const RodState& rod) const override {
+    return bond_energy(state, rod);
+  }
   int touching() const override { return contact_.anchored(); }
+  int sliding() const override { return contact_.sliding(); }
   double contact_radius(const State&) const override { return contact_.radius(); }
   std::vector<std::uint8_t> held() const override;
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "lattice/rod.h"
+
 namespace fingertip::lattice {
 
 using meshes::Vector3;
@@ -15,6 +17,16 @@ PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geom
   plane.radius = geometry.tip_radius;
   plane.lateral_ratio = protocol.lateral / protocol.depth;
   return plane;
+}
+
+Plane Plane::after(double duration) const {
+  if (at_rest()) return *this;
+  Plane moved = *this;
+  const Eigen::Quaterniond turn = rotation_by(duration * angular_velocity);
+  moved.point += duration * velocity;
+  moved.normal = (turn * normal).normalized();
+  moved.turned = (turn * turned).normalized();
+  return moved;
 }
 
 }  // namespace fingertip::lattice

@@ -25,10 +25,36 @@ struct PressPlane {
 
 PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry);
 
-/// A rigid plane at rest; `normal` (unit) points from the plane toward the finger.
+/// How a touching point interacts with the plane.
+struct ContactLaw {
+  meshes::ContactMode mode = meshes::ContactMode::stick;
+  double friction = 0.0;  ///< Coulomb's coefficient, > 0 for coulomb [1]
+
+  ContactLaw(meshes::ContactMode contact = meshes::ContactMode::stick, double coefficient = 0.0)
+      : mode(contact), friction(coefficient) {}
+};
+
+/// A rigid plane as a body in motion; `normal` (unit) points from the plane toward the finger.
 struct Plane {
-  meshes::Vector3 point = meshes::Vector3::Zero();
-  meshes::Vector3 normal = -meshes::Vector3::UnitZ();
+  meshes::Vector3 point = meshes::Vector3::Zero();             ///< fixed to the plane [m]
+  meshes::Vector3 normal = -meshes::Vector3::UnitZ();          ///< at this moment
+  meshes::Vector3 velocity = meshes::Vector3::Zero();          ///< of `point` [m/s]
+  meshes::Vector3 angular_velocity = meshes::Vector3::Zero();  ///< [rad/s]
+  Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();  ///< since the start
+
+  /// Distance of a place from the plane, negative behind it [m].
+  double gap(const meshes::Vector3& place) const { return normal.dot(place - point); }
+  /// A place carried along by the plane: fixed(x) stays the same while the plane moves [m].
+  meshes::Vector3 fixed(const meshes::Vector3& place) const {
+    return turned.conjugate() * (place - point);
+  }
+  meshes::Vector3 place(const meshes::Vector3& fixed) const { return point + turned * fixed; }
+  meshes::Vector3 velocity_at(const meshes::Vector3& place) const {
+    return velocity + angular_velocity.cross(place - point);
+  }
+  bool at_rest() const { return velocity.isZero(0.0) && angular_velocity.isZero(0.0); }
+  /// The plane after `duration` [s] at its present velocities.
+  Plane after(double duration) const;
 };
 
 /// t1: the rod's x axis projected on a plane with this unit normal; t2 = t1 x normal.

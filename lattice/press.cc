@@ -7,15 +7,13 @@
 #include <sstream>
 
 #include "lattice/control/approach.h"
-#include "lattice/control/pid.h"
-#include "lattice/cut_model.h"
-#include "lattice/finger.h"
+#include "lattice/control/control_loop.h"
+#include "lattice/press_pictures.h"
 #include "lattice/press_recorder.h"
-#include "lattice/time_step.h"
+#include "lattice/press_task.h"
+#include "lattice/virtual_finger.h"
 
 namespace fingertip::lattice {
-
-using meshes::Vector3;
 
 namespace {
 
@@ -36,32 +34,27 @@ LatticeCensus take_census(const PressSetup& setup, const LatticeModel& model) {
   return census;
 }
 
-/// The rod's straight way toward the plane (and along it, if it moves laterally).
-struct Way {
-  PressPlane plane;
-  Vector3 direction;  ///< travel per distance along the plane's normal
-
-  Way(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry)
-      : plane(press_plane(protocol, geometry)),
-        direction(-plane.normal - plane.lateral_ratio * plane.t1) {}
-};
-
-/// One press from start to depth. The tip hangs straight in its frame, the plane may be tilted.
+/// One press from start to depth.
 class Press {
  public:
-  Press(const PressSetup& setup, const PressObserver& observer);
+  Press(const PressSetup& setup, const PressObserver& observer, const PressFilm& film);
   PressOutcome run();
 
  private:
   double indentation() const;
   void make_controller();
-  bool must_rethink() const;
-  void choose_step();
-  PressInstant now() const { return {finger_->time(), indentation(), finger_->bond()}; }
-  void step_once();
-  void sample_controller();
+  void rehearse(Controller& trial, const std::function<bool()>& done, double longest);
+  PressInstant now() const { return {finger_.time(), indentation(), finger_.finger().bond()}; }
+  bool run_period();
+  bool follow_motion();
+  bool after_step();
   void look_after();  // once per period: trace, observer, sanity
   void check_sanity();
+  void update() {
+    recorder_.update(wall_time());
+    pictures_.update();
+  }
+  double expected_time() const;
   void report(bool in_any_case);
   [[noreturn]] void give_up(const std::string& why);
   double wall_time() const {
@@ -71,103 +64,119 @@ class Press {
   const PressSetup& setup_;
   const PressObserver& observer_;
   PressOutcome outcome_;
-  LatticeModel model_;
-  RodBody rod_;
-  Way way_;
-  Plane plane_;
+  PressWay way_;
+  VirtualFinger finger_;
   Approach approach_;
-  StepController steps_;
-  std::unique_ptr<Finger> finger_;
-  std::unique_ptr<PressRecorder> recorder_;
+  PressRecorder recorder_;
+  PressPictures pictures_;
   std::unique_ptr<Controller> controller_;  // null when the motion is prescribed
-  Wrench applied_;
+  std::unique_ptr<ControlLoop> loop_;
   PressInstant start_of_step_;
-  double next_period_ = 0.0;
   double time_limit_ = 0.0;
   Clock::time_point started_, last_report_;
 };
 
-Press::Press(const PressSetup& setup, const PressObserver& observer)
+Press::Press(const PressSetup& setup, const PressObserver& observer, const PressFilm& film)
     : setup_(setup),
       observer_(observer),
-      model_(build_tip(setup.geometry, setup.rubber, setup.lattice)),
-      rod_(rod_body(setup.geometry, setup.rod)),
       way_(setup.protocol, setup.geometry),
-      plane_{way_.plane.point(-setup.protocol.clearance), way_.plane.normal},
+      finger_(finger_setup(setup, way_)),
       approach_(setup.protocol.speed, setup.protocol.clearance),
-      steps_(model_, setup.protocol.mode == meshes::DriveMode::quasi_static ? nullptr : &rod_,
-             setup.integrator, setup.time_step) {
+      recorder_(setup.protocol, finger_.finger().plane(), finger_.finger(), outcome_),
+      pictures_(setup, finger_.finger(), expected_time(), film, outcome_) {
   const meshes::PressProtocol& protocol = setup.protocol;
-  const double step = steps_.divide(setup.controller.period, {});
-  outcome_.census = take_census(setup, model_);
-  outcome_.step = steps_.report(step);
-  outcome_.step.smallest = step;
-  finger_ = std::make_unique<Finger>(model_, rod_, plane_, protocol.contact, setup.integrator, step,
-                                     setup.threads);
-  recorder_ = std::make_unique<PressRecorder>(protocol, setup.geometry, plane_, *finger_, outcome_);
-  if (protocol.mode == meshes::DriveMode::pid) make_controller();
-  time_limit_ = 2.0 * approach_.time_at(protocol.clearance + protocol.depth) + 0.5;
+  outcome_.census = take_census(setup, finger_.model());
+  outcome_.step = finger_.step_report(setup.controller.period);
+  if (finger_.setup().prescribed) {
+    finger_.write([this](double time) {
+      const SetPoint point = approach_.at(time);
+      return RodMotion{point.distance * way_.direction, point.speed * way_.direction};
+    });
+  } else {
+    make_controller();
+  }
+  time_limit_ =
+      setup.duration.value_or(2.0 * approach_.time_at(protocol.clearance + protocol.depth) + 0.5);
+}
+
+/// When the press will end if all goes well [s].
+double Press::expected_time() const {
+  const double at_depth = approach_.time_at(setup_.protocol.clearance + setup_.protocol.depth);
+  const double latest = setup_.duration.value_or(at_depth);
+  return setup_.follows_path ? std::min(at_depth, latest) : latest;
+}
+
+void Press::rehearse(Controller& trial, const std::function<bool()>& done, double longest) {
+  const VirtualFinger::Snapshot start = finger_.save();
+  finger_.write(Wrench{});
+  ControlLoop loop(finger_, trial, setup_.hardware, setup_.controller, setup_.controller.period);
+  while (finger_.time() < longest && !done()) {
+    loop.sample();
+    loop.advance();
+  }
+  finger_.load(start);
+  finger_.write(Wrench{});
 }
 
 void Press::make_controller() {
-  const Vector3 start = rod_.endpoint;
-  controller_ = std::make_unique<Pid>(
-      setup_.controller, rod_.inertia_at_endpoint(), [this, start](double time) {
-        const SetPoint point = approach_.at(time);
-        return Target{start + point.distance * way_.direction, point.speed * way_.direction,
-                      point.acceleration * way_.direction};
-      });
+  ControlTask order = control_task(setup_, way_, finger_.rod_body());
+  order.rehearse = [this](Controller& trial, const std::function<bool()>& done, double longest) {
+    rehearse(trial, done, longest);
+  };
+  if (setup_.make_controller) {
+    controller_ = setup_.make_controller(order);
+  } else {
+    controller_ = std::make_unique<PidController>(setup_.controller, order.inertia, order.path);
+  }
+  loop_ = std::make_unique<ControlLoop>(finger_, *controller_, setup_.hardware, setup_.controller,
+                                        order.period);
 }
 
 double Press::indentation() const {
-  return (rod_.endpoint - finger_->rod().endpoint()).dot(plane_.normal) - setup_.protocol.clearance;
+  return way_.indentation(finger_.rod_body().endpoint, finger_.finger().rod().endpoint(),
+                          setup_.protocol.clearance);
 }
 
-bool Press::must_rethink() const {
-  const CellExtremes& cells = finger_->extremes();
-  return steps_.outdated(cells) || finger_->step() > steps_.limit(cells) ||
-         !(cells.smallest_jacobian > 0.0);
-}
-
-/// At the start of a period, and whenever the cells have grown too stiff for the present step.
-void Press::choose_step() {
-  const CellExtremes& cells = finger_->extremes();
-  if (!(cells.smallest_jacobian > 0.0)) give_up("a cell was turned inside out");
-  if (steps_.outdated(cells)) steps_.update(finger_->state(), cells);
-  const double span = next_period_ - finger_->time();
-  const double step = steps_.divide(span, cells);
-  if (!(step > 1e-4 * outcome_.step.step)) give_up("cells are pressed flat");
-  finger_->set_step(step);
-  outcome_.step.smallest = std::min(outcome_.step.smallest, step);
-}
-
-void Press::sample_controller() {
-  const RodState& rod = finger_->rod();
-  Measurement m;
-  m.time = finger_->time();
-  m.position = rod.endpoint();
-  m.orientation = rod.pose().orientation;
-  m.velocity = rod.velocity_at(rod.endpoint());
-  m.angular_velocity = rod.angular_velocity();
-  m.bond = finger_->bond();
-  applied_ = controller_->command(m);
-}
-
-void Press::step_once() {
+/// Whether the press goes on.
+bool Press::after_step() {
+  start_of_step_.bond = finger_.finger().bond();  // of the configuration the step started from
+  if (recorder_.add_step(start_of_step_)) report(true);
+  const bool deep_enough = start_of_step_.indentation >= setup_.protocol.depth;
+  const bool late = setup_.duration && finger_.time() >= time_limit_;
   start_of_step_ = now();
-  if (controller_) {
-    finger_->advance(applied_);
-  } else {
-    const SetPoint end = approach_.at(finger_->time() + finger_->step());
-    finger_->advance(RodMotion{end.distance * way_.direction, end.speed * way_.direction});
+  pictures_.look(start_of_step_.indentation);
+  return !deep_enough && !late;
+}
+
+bool Press::run_period() {
+  if (loop_) loop_->sample();
+  look_after();
+  start_of_step_ = now();
+  return loop_ ? loop_->advance([this] { return after_step(); }) : follow_motion();
+}
+
+/// One period of prescribed motion. Adaptive steps may be long: they end where samples are taken,
+/// for in between forces would be interpolated.
+bool Press::follow_motion() {
+  const auto observe = [this] { return after_step(); };
+  const double period = setup_.controller.period;
+  if (!is_adaptive(setup_.integrator)) return finger_.do_step(period, observe);
+  const meshes::PressProtocol& protocol = setup_.protocol;
+  const double end = finger_.time() + period;
+  while (true) {
+    const auto depth = recorder_.next_depth(indentation() + 1e-9 * protocol.depth);
+    const double until = depth ? approach_.time_at(protocol.clearance + *depth) : end;
+    if (!(until < end - 1e-6 * period)) return finger_.do_step(end - finger_.time(), observe);
+    if (!finger_.do_step(until - finger_.time(), observe)) return false;
   }
-  start_of_step_.bond = finger_->bond();  // of the configuration the step started from
 }
 
 void Press::look_after() {
   PressInstant instant = now();
-  const Wrench held = controller_ ? applied_ : Wrench{-instant.bond.force, -instant.bond.torque};
-  recorder_->add_trace(instant, approach_.at(instant.time), held);
+  const Wrench held =
+      loop_ ? loop_->commanded() : Wrench{-instant.bond.force, -instant.bond.torque};
+  recorder_.add_trace(instant, approach_.at(instant.time), held,
+                      controller_ ? controller_->report() : ControllerReport{});
   check_sanity();
   report(false);
 }
@@ -180,11 +189,11 @@ void Press::check_sanity() {
   }
   const double commanded = approach_.at(row.time).distance - setup_.protocol.clearance;
   const double ahead = row.indentation - commanded;
-  const bool lost = row.tilt > 0.5 || !(ahead <= 0.1 * setup_.geometry.thickness());
-  if (lost) {
+  const bool off_path = setup_.follows_path && !(ahead <= 0.1 * setup_.geometry.thickness());
+  if (row.tilt > 0.5 || off_path) {
     give_up("the controller lost the rod: controller.natural_frequency is too high for its period");
   }
-  if (finger_->time() > time_limit_) {
+  if (!setup_.duration && finger_.time() > time_limit_) {
     give_up("the rod did not reach the depth: the controller's limits are too low");
   }
 }
@@ -194,7 +203,7 @@ void Press::report(bool in_any_case) {
   const Clock::time_point instant = Clock::now();
   if (!in_any_case && instant - last_report_ < std::chrono::milliseconds(100)) return;
   last_report_ = instant;
-  recorder_->update(wall_time());
+  update();
   const double total = setup_.protocol.clearance + setup_.protocol.depth;
   const double done = (indentation() + setup_.protocol.clearance) / total;
   if (!observer_(outcome_, std::clamp(done, 0.0, 1.0))) {
@@ -204,40 +213,43 @@ void Press::report(bool in_any_case) {
 }
 
 void Press::give_up(const std::string& why) {
-  recorder_->update(wall_time());
+  update();
   if (observer_) observer_(outcome_, 0.0);
   std::ostringstream text;
-  text << why << " (at " << finger_->time() << " s, indentation " << start_of_step_.indentation
-       << " m, step " << finger_->step() << " s)";
+  text << why << " (at " << finger_.time() << " s, indentation " << start_of_step_.indentation
+       << " m, step " << finger_.finger().step() << " s)";
   throw meshes::NotConverged(text.str());
 }
 
 PressOutcome Press::run() {
   started_ = last_report_ = Clock::now();
-  while (start_of_step_.indentation < setup_.protocol.depth) {
-    if (finger_->time() >= next_period_ - 1e-6 * finger_->step()) {
-      if (controller_) sample_controller();
-      look_after();
-      next_period_ += setup_.controller.period;
-      choose_step();
-    } else if (must_rethink()) {
-      choose_step();
-    }
-    step_once();
-    if (recorder_->add_step(start_of_step_)) report(true);
+  pictures_.look(indentation());
+  try {
+    while (run_period()) continue;
+  } catch (const CrushedCells& error) {
+    give_up(error.what());
+  } catch (const ControllerFailed&) {
+    update();
+    if (observer_) observer_(outcome_, 0.0);
+    throw;
   }
   look_after();  // a rod that ran away within the last period must not pass for a finished press
-  recorder_->update(wall_time());
+  outcome_.step = finger_.step_report(setup_.controller.period);
+  outcome_.steps = finger_.step_count();
+  outcome_.force_evaluations = finger_.finger().force_evaluations();
+  pictures_.finish(indentation());
+  update();
   if (observer_) observer_(outcome_, 1.0);
   return std::move(outcome_);
 }
 
 }  // namespace
 
-PressOutcome run_press(const PressSetup& setup, const PressObserver& observer) {
+PressOutcome run_press(const PressSetup& setup, const PressObserver& observer,
+                       const PressFilm& film) {
   const auto violations = setup.violations();
   if (!violations.empty()) throw meshes::InvalidInput(violations);
-  Press press(setup, observer);
+  Press press(setup, observer, film);
   return press.run();
 }
 

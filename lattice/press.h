@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "lattice/boundary_view.h"
+#include "lattice/integrators/stepper.h"
 #include "lattice/settings.h"
+#include "lattice/time_step.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::lattice {
@@ -26,19 +29,13 @@ struct TraceRow {
   double torque = 0.0;           ///< magnitude of the bond torque about the endpoint [N m]
   double command_force = 0.0;    ///< controller's force along the approach direction [N]
   double plane_force = 0.0;      ///< reaction of the plane along its normal [N]
+  double contact_stiffness = meshes::unknown;  ///< as the controller takes it to be [N/m]
+  double wanted_force = meshes::unknown;       ///< contact force the controller wants [N]
+  bool force_mode = false;                     ///< whether it controls the contact force
   int anchored = 0;             ///< boundary particles, or points of the true surface, on the plane
+  int sliding = 0;              ///< of these (contact coulomb)
   double kinetic_energy = 0.0;  ///< of the particles [J]
   double elastic_energy = 0.0;  ///< of springs, cells, bond and contact [J]
-};
-
-/// How the time step was chosen; `explanation` says which bound rules.
-struct StepReport {
-  double step = 0.0;            ///< at rest [s]
-  double smallest = 0.0;        ///< used [s]; smaller where compression stiffened the cells
-  double omega0 = 0.0;          ///< the paper's estimate sqrt(2k/m) [rad/s]
-  double paper_bound = 0.0;     ///< 1/omega0 [s]
-  double spectral_bound = 0.0;  ///< largest stable step by the computed stiffness and damping [s]
-  std::string explanation;
 };
 
 /// What the lattice consists of, for reports and pictures.
@@ -56,6 +53,8 @@ struct PressOutcome {
   meshes::PressResponse response;  ///< at the sample depths and evenly in between
   std::vector<TraceRow> trace;
   StepReport step;
+  StepCount steps;
+  long force_evaluations = 0;  ///< of springs and cells
   LatticeCensus census;
   double simulated_time = 0.0;                ///< [s]
   double wall_time = 0.0;                     ///< of the step loop alone [s]
@@ -63,11 +62,13 @@ struct PressOutcome {
   /// Largest defect of the momentum balance of rod, tip and plane over a step, relative to the
   /// largest impulse exchanged.
   double momentum_defect = 0.0;
-  /// Boundary particles, or the points of the true surface that stand for them, at rest [m] ...
+  /// What a BoundaryView shows, at rest [m] ...
   std::vector<meshes::Vector3> boundary_rest;
   std::vector<meshes::Vector3> boundary_deformed;    ///< ... and at the end [m]
   std::vector<std::array<int, 2>> boundary_springs;  ///< pairs of them joined by axis springs
-  std::vector<std::uint8_t> boundary_anchored;       ///< 1 where held by the plane
+  std::vector<std::uint8_t> boundary_anchored;       ///< Finger::held
+  /// Up to four: halfway to the plane, at first touch, at half depth, at the end.
+  std::vector<FingerPicture> snapshots;
 
   /// Simulated over wall time.
   double real_time_factor() const { return wall_time > 0.0 ? simulated_time / wall_time : 0.0; }
@@ -77,10 +78,18 @@ struct PressOutcome {
 /// with Interrupted after the observer has seen the outcome so far.
 using PressObserver = std::function<bool(const PressOutcome& so_far, double fraction_done)>;
 
+/// Pictures of a press, evenly spaced in time from the start to the end.
+struct PressFilm {
+  /// How many, 2 or more, when the press takes as long as planned; 0: none.
+  int pictures = 0;
+  std::function<void(const BoundaryView& view, const FingerPicture& picture)> show;
+};
+
 /// Runs the press. Throws InvalidInput for a setup that breaks a rule or a time step above the
 /// stability bound (with the reason), NotConverged when the lattice blows up (the observer has
-/// seen what was finished), Interrupted when the observer asks.
-PressOutcome run_press(const PressSetup& setup, const PressObserver& observer = {});
+/// seen what was finished), ControllerFailed likewise, Interrupted when the observer asks.
+PressOutcome run_press(const PressSetup& setup, const PressObserver& observer = {},
+                       const PressFilm& film = {});
 
 /// trace.csv: one row per controller period, first line with names and units.
 void write_trace_csv(const std::vector<TraceRow>& trace, const std::filesystem::path& file);

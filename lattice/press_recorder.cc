@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lattice/cells/cut_tip.h"
 #include "lattice/energy.h"
 
 namespace fingertip::lattice {
@@ -14,15 +13,9 @@ namespace {
 
 constexpr int even_depths = 60;
 
-/// The point of the outer surface nearest to `rest`: cut cells reach beyond it.
-Vector3 outer_point(const Vector3& rest, double radius) {
-  return Vector3(0.0, 0.0, std::min(rest.z(), 0.0)) + radius * outer_normal(rest);
-}
-
 }  // namespace
 
-PressRecorder::PressRecorder(const meshes::PressProtocol& protocol,
-                             const meshes::Geometry& geometry, const Plane& plane,
+PressRecorder::PressRecorder(const meshes::PressProtocol& protocol, const Plane& plane,
                              const Finger& finger, PressOutcome& outcome)
     : normal_(plane.normal), finger_(&finger), outcome_(&outcome) {
   const auto samples =
@@ -38,47 +31,6 @@ PressRecorder::PressRecorder(const meshes::PressProtocol& protocol,
   std::sort(depths_.begin(), depths_.end());
   for (const double depth : depths_) {
     is_sample_.push_back(std::find(samples.begin(), samples.end(), depth) != samples.end());
-  }
-  find_boundary(geometry);
-}
-
-void PressRecorder::find_boundary(const meshes::Geometry& geometry) {
-  const LatticeModel& model = finger_->model();
-  std::vector<int> number(model.points(), -1);
-  for (std::size_t b = 0; b < model.boundary.size(); ++b) {
-    number[model.boundary[b]] = int(b);
-    const Vector3 rest = model.rest_position(model.boundary[b]);
-    outcome_->boundary_rest.push_back(model.is_cut() ? outer_point(rest, geometry.tip_radius)
-                                                     : rest);
-  }
-  follow_surface(number);
-  // Far corners of slivers that no point of the surface hangs on are not part of the picture.
-  for (std::size_t b = 0; b < model.boundary.size(); ++b) {
-    const bool on_surface = drawn_[b] || outcome_->boundary_rest[b].z() < lowest_contact(geometry);
-    if (model.is_cut() && !on_surface) number[model.boundary[b]] = -1;
-  }
-  for (const std::size_t i : model.boundary) {
-    if (number[i] < 0) continue;
-    for (int s = 0; s < directions; ++s) {
-      if (half_stencil[std::size_t(s)].family != axis) continue;
-      const std::size_t j = i + std::size_t(neighbour_offset(model.grid.size, s));
-      if (number[j] >= 0) outcome_->boundary_springs.push_back({number[i], number[j]});
-    }
-  }
-}
-
-/// Puts the tied point that is nearest to it in a boundary particle's place.
-void PressRecorder::follow_surface(const std::vector<int>& number) {
-  drawn_.assign(outcome_->boundary_rest.size(), nullptr);
-  const std::vector<Vector3> rest = outcome_->boundary_rest;
-  for (const TiedPoint& tie : finger_->model().outer) {
-    for (const std::uint32_t corner : tie.corners) {
-      if (number[corner] < 0) continue;
-      const std::size_t b = std::size_t(number[corner]);
-      if (drawn_[b] && (drawn_[b]->rest - rest[b]).norm() <= (tie.rest - rest[b]).norm()) continue;
-      drawn_[b] = &tie;
-      outcome_->boundary_rest[b] = tie.rest;
-    }
   }
 }
 
@@ -106,7 +58,7 @@ meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
 }
 
 bool PressRecorder::add_step(const PressInstant& start) {
-  plane_impulse_ += finger_->plane_impulse().dot(normal_);
+  plane_impulse_ += finger_->plane_impulse().force.dot(normal_);
   if (std::isnan(outcome_->first_touch_time) && finger_->touching() > 0) {
     outcome_->first_touch_time = finger_->time();
   }
@@ -120,8 +72,13 @@ bool PressRecorder::add_step(const PressInstant& start) {
   return passed_sample;
 }
 
+std::optional<double> PressRecorder::next_depth(double beyond) const {
+  const auto found = std::upper_bound(depths_.begin(), depths_.end(), beyond);
+  return found != depths_.end() ? std::optional(*found) : std::nullopt;
+}
+
 void PressRecorder::add_trace(const PressInstant& now, const SetPoint& commanded,
-                              const Wrench& applied) {
+                              const Wrench& applied, const ControllerReport& controller) {
   const RodState& rod = finger_->rod();
   const double elapsed = now.time - plane_since_;
   TraceRow row;
@@ -135,7 +92,11 @@ void PressRecorder::add_trace(const PressInstant& now, const SetPoint& commanded
   row.torque = now.bond.torque.norm();
   row.command_force = -applied.force.dot(normal_);
   row.plane_force = elapsed > 0.0 ? plane_impulse_ / elapsed : 0.0;
+  row.contact_stiffness = controller.stiffness;
+  row.wanted_force = controller.force;
+  row.force_mode = controller.mode == ControlMode::force;
   row.anchored = finger_->touching();
+  row.sliding = finger_->sliding();
   row.kinetic_energy = lattice::kinetic_energy(finger_->model(), finger_->state());
   row.elastic_energy = finger_->elastic_energy();
   outcome_->trace.push_back(row);
@@ -144,20 +105,11 @@ void PressRecorder::add_trace(const PressInstant& now, const SetPoint& commanded
 }
 
 void PressRecorder::update(double wall_time) {
-  const LatticeModel& model = finger_->model();
   outcome_->simulated_time = finger_->time();
   outcome_->wall_time = wall_time;
   outcome_->momentum_defect = finger_->largest_impulse() > 0.0
                                   ? finger_->momentum_defect() / finger_->largest_impulse()
                                   : 0.0;
-  outcome_->boundary_deformed.resize(model.boundary.size());
-  outcome_->boundary_anchored = finger_->held();
-  const State& state = finger_->state();
-  for (std::size_t b = 0; b < model.boundary.size(); ++b) {
-    const Vector3 moved =
-        drawn_[b] ? shift(*drawn_[b], state, 0.0) : state.displacement.at(model.boundary[b]);
-    outcome_->boundary_deformed[b] = outcome_->boundary_rest[b] + model.grid.axes * moved;
-  }
 }
 
 }  // namespace fingertip::lattice

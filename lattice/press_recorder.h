@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lattice/control/approach.h"
@@ -23,20 +24,21 @@ struct PressInstant {
 /// indentation between steps) and one trace row per controller period.
 class PressRecorder {
  public:
-  PressRecorder(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry,
-                const Plane& plane, const Finger& finger, PressOutcome& outcome);
+  PressRecorder(const meshes::PressProtocol& protocol, const Plane& plane, const Finger& finger,
+                PressOutcome& outcome);
 
   /// To be called after every step with the finger as it was at the step's start. Returns whether
   /// one of the protocol's sample depths was passed.
   bool add_step(const PressInstant& start);
+  /// The first indentation beyond this one at which the response is taken [m], if there is one.
+  std::optional<double> next_depth(double beyond) const;
   /// To be called once per controller period.
-  void add_trace(const PressInstant& now, const SetPoint& commanded, const Wrench& applied);
-  /// Brings the outcome up to date: times, momentum balance, deformed boundary.
+  void add_trace(const PressInstant& now, const SetPoint& commanded, const Wrench& applied,
+                 const ControllerReport& controller);
+  /// Brings the outcome up to date: times, momentum balance.
   void update(double wall_time);
 
  private:
-  void find_boundary(const meshes::Geometry& geometry);
-  void follow_surface(const std::vector<int>& number);
   meshes::PressSample sample_between(const PressInstant& end, double indentation) const;
 
   meshes::Vector3 normal_;
@@ -45,9 +47,6 @@ class PressRecorder {
   std::vector<double> depths_;           ///< increasing [m]
   std::vector<std::uint8_t> is_sample_;  ///< whether the protocol asked for the depth
   std::size_t next_ = 0;
-  /// Per boundary particle the point of the true surface that is drawn in its place, or null: far
-  /// corners of slivers move wildly.
-  std::vector<const TiedPoint*> drawn_;
   PressInstant previous_;
   double plane_impulse_ = 0.0;  ///< along the normal since the last trace row [N s]
   double plane_since_ = 0.0;    ///< time of the last trace row [s]

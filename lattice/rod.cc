@@ -88,7 +88,9 @@ void RodState::kick(const Wrench& wrench, const Vector3& at, double duration) {
 }
 
 void RodState::drift(double duration) {
-  orientation_ = (rotation_by(duration * angular_velocity()) * orientation_).normalized();
+  const Eigen::Quaterniond start = orientation_;
+  orientation_ = rotation_by(0.5 * duration * angular_velocity()) * start;  // halfway
+  orientation_ = (rotation_by(duration * angular_velocity()) * start).normalized();
   centre_ += duration * velocity();
 }
 
@@ -101,6 +103,14 @@ void RodState::prescribe(const Vector3& travel, const Vector3& velocity) {
 void RodState::set_velocity(const Vector3& velocity, const Vector3& angular_velocity) {
   momentum_ = body_.mass * velocity;
   spin_ = world_inertia() * angular_velocity;
+}
+
+void RodState::set_state(const Vector3& centre, const Eigen::Quaterniond& orientation,
+                         const Vector3& momentum, const Vector3& angular_momentum) {
+  centre_ = centre;
+  orientation_ = orientation.normalized();
+  momentum_ = momentum;
+  spin_ = angular_momentum;
 }
 
 }  // namespace fingertip::lattice

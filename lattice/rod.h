@@ -4,15 +4,25 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "lattice/settings.h"
 #include "meshes/geometry.h"
 
 namespace fingertip::lattice {
+
+/// The rigid rod: its shape comes from the geometry.
+struct RodSettings {
+  double density = 2700.0;  ///< [kg/m³], > 0
+};
 
 /// A force [N] and a torque [N m] about a stated point, in world axes.
 struct Wrench {
   meshes::Vector3 force = meshes::Vector3::Zero();
   meshes::Vector3 torque = meshes::Vector3::Zero();
+};
+
+/// Velocity of a stated point of a rigid body and its angular velocity, in world axes.
+struct Twist {
+  meshes::Vector3 velocity = meshes::Vector3::Zero();          ///< [m/s]
+  meshes::Vector3 angular_velocity = meshes::Vector3::Zero();  ///< [rad/s]
 };
 
 /// Where a rigid body is: x = position + orientation * X for a body-frame point X.
@@ -45,7 +55,7 @@ RodBody rod_body(const meshes::Geometry& geometry, const RodSettings& settings);
 class RodState {
  public:
   /// At rest where the geometry puts it.
-  explicit RodState(const RodBody& body);
+  explicit RodState(const RodBody& body = {});
 
   Pose pose() const;  ///< of the finger's frame
   meshes::Vector3 endpoint() const { return pose() * body_.endpoint; }
@@ -60,12 +70,17 @@ class RodState {
 
   /// Changes the momenta by `wrench` about world point `at` acting for `duration` [s].
   void kick(const Wrench& wrench, const meshes::Vector3& at, double duration);
-  /// Moves with the present velocities for `duration` [s].
+  /// Moves with the present momenta for `duration` [s]: the centre exactly, the orientation by the
+  /// exponential map of SO(3) with the angular velocity halfway (explicit midpoint, second order).
   void drift(double duration);
   /// Puts the rod, in its starting orientation, at `travel` [m] with velocity [m/s], not turning.
   void prescribe(const meshes::Vector3& travel, const meshes::Vector3& velocity);
   /// Sets velocity of the centre and angular velocity (world axes).
   void set_velocity(const meshes::Vector3& velocity, const meshes::Vector3& angular_velocity);
+  /// Puts the rod in any state: centre of mass [m], orientation (normalised here), momentum [N s]
+  /// and angular momentum about the centre [N m s], world axes.
+  void set_state(const meshes::Vector3& centre, const Eigen::Quaterniond& orientation,
+                 const meshes::Vector3& momentum, const meshes::Vector3& angular_momentum);
 
  private:
   Eigen::Matrix3d world_inertia() const;

@@ -11,7 +11,17 @@ namespace fingertip::lattice {
 using meshes::Violation;
 
 std::string_view name(Integrator integrator) {
-  return integrator == Integrator::symplectic_euler ? "symplectic-euler" : "explicit-euler";
+  switch (integrator) {
+    case Integrator::symplectic_euler: return "symplectic-euler";
+    case Integrator::explicit_euler: return "explicit-euler";
+    case Integrator::runge_kutta: return "runge-kutta";
+    case Integrator::energy_controlled: return "energy-controlled";
+  }
+  return {};
+}
+
+bool is_adaptive(Integrator integrator) {
+  return integrator == Integrator::runge_kutta || integrator == Integrator::energy_controlled;
 }
 
 namespace {
@@ -120,6 +130,11 @@ void add_controller(std::vector<Violation>& found, const PidSettings& c) {
                      "the share of the measured wrench fed forward must lie between 0 and 1",
                      "1 cancels the tip's pull on the rod, 0 leaves it to the integrator"});
   }
+  if (!(c.setpoint_weight >= 0.0 && c.setpoint_weight <= 1.0)) {
+    found.push_back({"controller.setpoint_weight", meshes::to_text(c.setpoint_weight),
+                     "the share of the set point in the proportional part must lie between 0 and 1",
+                     "1 answers a set point like an error, 0 spares the actuator"});
+  }
   require(c.force_limit, "controller.force_limit", " N",
           "the actuator's force limit must be finite and positive");
   require(c.torque_limit, "controller.torque_limit", " N m",
@@ -145,17 +160,50 @@ void add_rod(std::vector<Violation>& found, const PressSetup& setup) {
   }
 }
 
+void add_adaptive_steps(std::vector<Violation>& found, const PressSetup& setup) {
+  if (!is_adaptive(setup.integrator)) return;
+  const std::string integrator(name(setup.integrator));
+  if (setup.lattice.model == ModelKind::published) {
+    found.push_back({"run.integrator", integrator,
+                     "the published lattice stops particles at touch from one step to the next: "
+                     "neither an error nor an energy of a step can be kept small",
+                     "take symplectic-euler or explicit-euler, or another model"});
+  }
+  if (setup.integrator == Integrator::energy_controlled &&
+      setup.protocol.contact == meshes::ContactMode::coulomb) {
+    found.push_back({"run.integrator", integrator,
+                     "what slip dissipates is not part of the energy balance",
+                     "take another integrator, or stick or frictionless contact"});
+  }
+}
+
+void add_step_control(std::vector<Violation>& found, const PressSetup& setup) {
+  const auto below_one = [](double value) { return positive(value) && value < 1.0; };
+  if (!below_one(setup.tolerance)) {
+    found.push_back({"run.tolerance", meshes::to_text(setup.tolerance),
+                     "the tolerance of runge-kutta must lie between 0 and 1", "1e-6 is usual"});
+  }
+  if (!below_one(setup.energy_bound)) {
+    found.push_back({"run.energy_bound", meshes::to_text(setup.energy_bound),
+                     "the bound of energy-controlled steps must lie between 0 and 1",
+                     "1e-7 is usual"});
+  }
+}
+
 }  // namespace
 
 std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
   const meshes::PressProtocol& protocol = setup.protocol;
   std::vector<Violation> found;
-  if (protocol.contact == meshes::ContactMode::coulomb) {
-    found.push_back({"press.contact", "coulomb",
-                     "the lattice knows stick and frictionless contact only",
-                     "choose one of them, or compute Coulomb friction with `reference`"});
+  if (protocol.mode == meshes::DriveMode::equilibrium) {
+    if (protocol.contact == meshes::ContactMode::coulomb) {
+      found.push_back({"press.contact", "coulomb",
+                       "the lattice in equilibrium sticks or is free of friction",
+                       "take press.mode = quasi-static or pid, where it slides, or compute "
+                       "the equilibrium with `reference`"});
+    }
+    return found;
   }
-  if (protocol.mode == meshes::DriveMode::equilibrium) return found;
   const LatticeSettings& lattice = setup.lattice;
   if (lattice.model == ModelKind::published) {
     const auto straight = [&found](const char* key, double value, const char* unit) {
@@ -173,6 +221,7 @@ std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
                      "are undamped",
                      "take symplectic-euler; explicit-euler is for the published model"});
   }
+  add_adaptive_steps(found, setup);
   return found;
 }
 
@@ -186,7 +235,13 @@ std::vector<Violation> PressSetup::violations() const {
   append(beyond_the_lattice(*this));
   add_lattice(found, *this);
   add_controller(found, controller);
+  append(hardware.violations());
+  if (duration && !positive(*duration)) {
+    found.push_back({"press.duration", meshes::to_text(*duration) + " s",
+                     "the duration must be finite and positive", "or leave it out"});
+  }
   add_rod(found, *this);
+  add_step_control(found, *this);
   if (threads < 0) {
     found.push_back({"run.threads", std::to_string(threads),
                      "the number of threads must not be negative", "0 takes all cores"});

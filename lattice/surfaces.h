@@ -18,31 +18,52 @@ namespace fingertip::lattice {
 /// One step of a Finger asks hold() with the forces at its start, moves the particles and asks
 /// settle(). Momentum is exchanged with rod and plane only: what hold() adds to the particles'
 /// forces, and what settle() changes of their velocities, is the opposite of what rod and plane
-/// receive. Neither allocates.
+/// receive. Neither allocates. The plane is that of the step's start; it moves on at its
+/// velocities.
 class Surfaces {
  public:
   virtual ~Surfaces() = default;
+  /// With all it remembers: where points were anchored, which are near.
+  virtual std::unique_ptr<Surfaces> clone() const = 0;
 
   /// Adds to `force`, which holds the internal forces [N] at the start of a step of length `step`
   /// [s], what rod and plane exert on the particles. Returns the bond's wrench on the rod about its
   /// endpoint.
-  virtual Wrench hold(const State& state, const RodState& rod, double step, VectorField& force) = 0;
+  virtual Wrench hold(const State& state, const RodState& rod, const Plane& plane, double step,
+                      VectorField& force) = 0;
   /// Corrects the state after the particles moved freely through the step under `force`. Returns
-  /// the impulse of the plane on the tip during the step [N s].
-  virtual meshes::Vector3 settle(State& state, const VectorField& force, double step) = 0;
+  /// the impulse of the plane on the tip during the step: [N s], and [N m s] about the world's
+  /// origin.
+  virtual Wrench settle(State& state, const VectorField& force, const Plane& plane,
+                        double step) = 0;
 
+  /// What rod and plane exert at one moment.
+  struct Trial {
+    Wrench bond;                  ///< on the rod about its endpoint
+    Wrench plane;                 ///< on the tip, about the world's origin
+    double contact_energy = 0.0;  ///< where contact is elastic [J]
+  };
+  /// As hold() with step 0 would, but for a state that is only tried: what is remembered stays as
+  /// it is. Throws std::logic_error for surfaces that act between steps (published).
+  virtual Trial attempt(const State& state, const RodState& rod, const Plane& plane,
+                        VectorField& force);
+
+  virtual double bond_energy(const State& state, const RodState& rod) const = 0;  ///< [J]
   /// Of bond and, where it is elastic, contact [J].
   virtual double energy(const State& state, const RodState& rod) const = 0;
   /// How many points touch the plane.
   virtual int touching() const = 0;
+  /// How many of them slide (coulomb; without friction none is said to).
+  virtual int sliding() const = 0;
   virtual double contact_radius(const State& state) const = 0;  ///< [m], 0 without contact
-  /// Per boundary particle of the model: 1 where the plane holds it.
+  /// Per boundary particle of the model: 1 where it sticks to the plane or touches it without
+  /// friction, 2 where it slides (coulomb), else 0.
   virtual std::vector<std::uint8_t> held() const = 0;
 };
 
 /// Ligaments and anchored particles for the published model, tied surfaces for the others. Model
 /// and team must outlive them; the finger must start clear of the plane.
 std::unique_ptr<Surfaces> make_surfaces(const LatticeModel& model, const Plane& plane,
-                                        meshes::ContactMode mode, Team& team);
+                                        const ContactLaw& law, Team& team);
 
 }  // namespace fingertip::lattice

@@ -1,32 +1,58 @@
 #include "lattice/tied_surfaces.h"
 
+#include <stdexcept>
+
 #include "lattice/particle_surfaces.h"
 
 namespace fingertip::lattice {
 
-TiedSurfaces::TiedSurfaces(const LatticeModel& model, const Plane& plane, meshes::ContactMode mode,
+TiedSurfaces::TiedSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law,
                            Team& team)
-    : model_(&model), bond_(model, team), contact_(model, plane, mode) {
+    : model_(&model), bond_(model, team), contact_(model, plane, law) {
   shared_.reserve(model.boundary.size());
 }
 
-Wrench TiedSurfaces::hold(const State& state, const RodState& rod, double step,
+Wrench TiedSurfaces::hold(const State& state, const RodState& rod, const Plane& plane, double step,
                           VectorField& force) {
+  return hold_with(contact_, state, rod, plane, step, force, on_tip_);
+}
+
+Surfaces::Trial TiedSurfaces::attempt(const State& state, const RodState& rod, const Plane& plane,
+                                      VectorField& force) {
+  if (!trial_) trial_ = contact_;
+  trial_->try_from(contact_);
+  Trial trial;
+  trial.bond = hold_with(*trial_, state, rod, plane, 0.0, force, trial.plane);
+  trial.contact_energy = trial_->energy();
+  return trial;
+}
+
+Wrench TiedSurfaces::hold_with(TiedContact& contact, const State& state, const RodState& rod,
+                               const Plane& plane, double step, VectorField& force,
+                               Wrench& on_tip) {
   shared_.clear();
-  plane_force_ = contact_.add(state, step, force, &shared_);
+  on_tip = contact.add(state, plane, step, force, &shared_);
   const Wrench on_rod = bond_.add(state, rod, step, force, &shared_);
-  for (const SharedLoad& load : shared_) plane_force_ += model_->grid.axes * load.held_back;
+  for (const SharedLoad& load : shared_) {
+    const meshes::Vector3 held_back = model_->grid.axes * load.held_back;
+    on_tip.force += held_back;
+    on_tip.torque += position(*model_, state, load.particle).cross(held_back);
+  }
   return on_rod;
 }
 
 double TiedSurfaces::energy(const State& state, const RodState& rod) const {
-  return bond_.energy(state, rod) + contact_.energy();
+  return bond_energy(state, rod) + contact_.energy();
+}
+
+Surfaces::Trial Surfaces::attempt(const State&, const RodState&, const Plane&, VectorField&) {
+  throw std::logic_error("these surfaces act between steps, not by forces alone");
 }
 
 std::unique_ptr<Surfaces> make_surfaces(const LatticeModel& model, const Plane& plane,
-                                        meshes::ContactMode mode, Team& team) {
-  if (model.is_cut()) return std::make_unique<TiedSurfaces>(model, plane, mode, team);
-  return std::make_unique<ParticleSurfaces>(model, plane, mode);
+                                        const ContactLaw& law, Team& team) {
+  if (model.is_cut()) return std::make_unique<TiedSurfaces>(model, plane, law, team);
+  return std::make_unique<ParticleSurfaces>(model, plane, law);
 }
 
 }  // namespace fingertip::lattice

@@ -1,6 +1,8 @@
 /// Bond and contact on the tip's true surfaces.
 #pragma once
 
+#include <optional>
+
 #include "lattice/surfaces.h"
 #include "lattice/tied_bond.h"
 #include "lattice/tied_contact.h"
@@ -10,23 +12,35 @@ namespace fingertip::lattice {
 /// Elastic ties to the rod (tied_bond.h) and to the plane (tied_contact.h).
 class TiedSurfaces : public Surfaces {
  public:
-  TiedSurfaces(const LatticeModel& model, const Plane& plane, meshes::ContactMode mode, Team& team);
+  TiedSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law, Team& team);
 
-  Wrench hold(const State& state, const RodState& rod, double step, VectorField& force) override;
-  meshes::Vector3 settle(State&, const VectorField&, double step) override {
-    return step * plane_force_;
+  std::unique_ptr<Surfaces> clone() const override { return std::make_unique<TiedSurfaces>(*this); }
+  Wrench hold(const State& state, const RodState& rod, const Plane& plane, double step,
+              VectorField& force) override;
+  Trial attempt(const State& state, const RodState& rod, const Plane& plane,
+                VectorField& force) override;
+  Wrench settle(State&, const VectorField&, const Plane&, double step) override {
+    return {step * on_tip_.force, step * on_tip_.torque};
+  }
+  double bond_energy(const State& state, const RodState& rod) const override {
+    return bond_.energy(state, rod);
   }
   double energy(const State& state, const RodState& rod) const override;
   int touching() const override { return contact_.touching(); }
+  int sliding() const override { return contact_.sliding(); }
   double contact_radius(const State& state) const override { return contact_.radius(state); }
   std::vector<std::uint8_t> held() const override { return contact_.held(); }
 
  private:
+  Wrench hold_with(TiedContact& contact, const State& state, const RodState& rod,
+                   const Plane& plane, double step, VectorField& force, Wrench& on_tip);
+
   const LatticeModel* model_;
   TiedBond bond_;
   TiedContact contact_;
-  std::vector<SharedLoad> shared_;                         ///< particles on both surfaces
-  meshes::Vector3 plane_force_ = meshes::Vector3::Zero();  ///< on the tip [N]
+  std::optional<TiedContact> trial_;  ///< contact_ as attempt() needs it, made by the first one
+  std::vector<SharedLoad> shared_;    ///< particles on both surfaces
+  Wrench on_tip_;                     ///< of the plane, about the world's origin
 };
 
 }  // namespace fingertip::lattice

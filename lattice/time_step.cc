@@ -66,7 +66,7 @@ std::string ruling(const SpectralBounds& bounds, Integrator integrator, double s
 
 double largest_stable_step(const SpectralBounds& bounds, Integrator integrator) {
   const double lambda = bounds.stiffness, c = bounds.damping;
-  if (integrator == Integrator::symplectic_euler) {
+  if (integrator != Integrator::explicit_euler) {
     return 4.0 / (c + std::sqrt(c * c + 4.0 * lambda));  // root of lambda dt² + 2 c dt = 4
   }
   const double tau = bounds.longest_retardation;
@@ -115,14 +115,14 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
   if (wanted && !(*wanted > 0.0 && *wanted <= report_.spectral_bound)) {
     refuse(*wanted, report_.spectral_bound, why_);
   }
-  largest_ = present_ = wanted ? *wanted : safety_ * report_.spectral_bound;
+  largest_ = now_.present = wanted ? *wanted : safety_ * report_.spectral_bound;
 }
 
 bool StepController::outdated(const CellExtremes& now) const {
-  const double growth =
-      std::max(now.stiffening / reference_.stiffening, now.thickening / reference_.thickening);
-  const double decline =
-      std::min(now.stiffening / reference_.stiffening, now.thickening / reference_.thickening);
+  const double growth = std::max(now.stiffening / now_.reference.stiffening,
+                                 now.thickening / now_.reference.thickening);
+  const double decline = std::min(now.stiffening / now_.reference.stiffening,
+                                  now.thickening / now_.reference.thickening);
   return growth > room || decline < 1.0 / (room * room);
 }
 
@@ -130,17 +130,21 @@ void StepController::update(const State& state, const CellExtremes& now) {
   constexpr int lanczos_steps = 30;
   const SpectralBounds bounds =
       tied_bounds(spectral_estimate(*model_, state, lanczos_steps), room * margin, rod_stiffness_);
-  present_ = std::min(largest_, safety_ * largest_stable_step(bounds, integrator_));
-  reference_ = now;
+  now_.present = std::min(largest_, safety_ * largest_stable_step(bounds, integrator_));
+  now_.reference = now;
 }
 
 double StepController::limit(const CellExtremes& now) const {
-  if (!(now.fastest > 0.0)) return present_;
-  return std::min(present_, largest_volume_change / now.fastest);
+  if (!(now.fastest > 0.0)) return now_.present;
+  return std::min(now_.present, largest_volume_change / now.fastest);
 }
 
 double StepController::divide(double span, const CellExtremes& now) const {
   return span / std::ceil(span / limit(now) * (1.0 - 1e-12));
+}
+
+double StepController::at_rest(double span) const {
+  return span / std::ceil(span / largest_ * (1.0 - 1e-12));
 }
 
 StepReport StepController::report(double step) const {

@@ -6,13 +6,22 @@
 
 #include "lattice/cells/cell_forces.h"
 #include "lattice/model.h"
-#include "lattice/press.h"
 #include "lattice/rod.h"
 #include "lattice/settings.h"
 #include "lattice/spectrum.h"
 #include "lattice/state.h"
 
 namespace fingertip::lattice {
+
+/// How the time step was chosen; `explanation` says which bound rules.
+struct StepReport {
+  double step = 0.0;            ///< at rest [s]
+  double smallest = 0.0;        ///< used [s]; smaller where compression stiffened the cells
+  double omega0 = 0.0;          ///< the paper's estimate sqrt(2k/m) [rad/s]
+  double paper_bound = 0.0;     ///< 1/omega0 [s]
+  double spectral_bound = 0.0;  ///< largest stable step by the computed stiffness and damping [s]
+  std::string explanation;
+};
 
 /// Largest step [s] for which every motion within the bounds stays bounded (README: stable
 /// steps). Symplectic Euler: lambda dt² + 2 c dt <= 4. Explicit Euler: dt <= the shortest
@@ -53,8 +62,18 @@ class StepController {
   double limit(const CellExtremes& now) const;
   /// The step that divides `span` [s] > 0 evenly and does not exceed the limit [s].
   double divide(double span, const CellExtremes& now) const;
+  /// The same for a lattice at rest [s].
+  double at_rest(double span) const;
   /// How `step` relates to the bounds at rest.
   StepReport report(double step) const;
+
+  /// What it knows of the present state.
+  struct Memory {
+    double present = 0.0;    ///< [s]
+    CellExtremes reference;  ///< when the spectrum was computed
+  };
+  const Memory& memory() const { return now_; }
+  void recall(const Memory& memory) { now_ = memory; }
 
  private:
   const LatticeModel* model_;
@@ -62,8 +81,7 @@ class StepController {
   double safety_;
   double rod_stiffness_ = 0.0;  ///< what the free rod adds to the bounds [1/s²]
   double largest_ = 0.0;        ///< at rest [s]
-  double present_ = 0.0;        ///< [s]
-  CellExtremes reference_;      ///< when the spectrum was computed
+  Memory now_;
   StepReport report_;
   std::string why_;
 };

@@ -1,32 +1,74 @@
 /// The virtual control interface (paper, section III and Fig. 3): a controller sees measurements
-/// at the rod's endpoint and answers with a wrench there. It cannot tell the model from hardware.
+/// at the rod's endpoint and answers with a wrench there, or with where the endpoint should be. It
+/// cannot tell the model from hardware.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <variant>
 
 #include "lattice/rod.h"
 
 namespace fingertip::lattice {
 
-/// What the robot feels at the rod's endpoint (0, 0, -l), world axes = the rod's starting axes.
-struct Measurement {
-  double time = 0.0;                                                ///< [s]
-  meshes::Vector3 position = meshes::Vector3::Zero();               ///< of the endpoint [m]
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< since the start
-  meshes::Vector3 velocity = meshes::Vector3::Zero();               ///< [m/s]
-  meshes::Vector3 angular_velocity = meshes::Vector3::Zero();       ///< [rad/s]
-  Wrench bond;  ///< of the tip on the rod, about the endpoint [N, N m]
+/// What a tactile sensor on the tip would tell.
+struct ContactState {
+  int touching = 0;     ///< points on the plane
+  double radius = 0.0;  ///< of the contact patch [m]
+  Wrench on_tip;        ///< of the plane, about the rod's endpoint [N, N m]
 };
 
-/// Computes the wrench applied to the rod's endpoint, held constant until the next sample.
+/// What the robot feels at the rod's endpoint (0, 0, -l), world axes = the rod's starting axes.
+struct Measurement {
+  double time = 0.0;  ///< when it was taken [s]
+  Pose pose;          ///< position of the endpoint [m], orientation since the start
+  Twist twist;        ///< of the endpoint
+  Wrench wrench;      ///< of the tip on the rod, about the endpoint [N, N m]
+  std::optional<ContactState> contact;  ///< where a tactile sensor is configured
+};
+
+/// A set point for the built-in servo: where the endpoint should be and how it should move.
+struct Target {
+  Pose pose;           ///< position of the endpoint [m], orientation since the start
+  Twist twist;         ///< of the endpoint
+  Twist acceleration;  ///< of the endpoint [m/s², rad/s²]
+};
+
+/// A wrench at the endpoint [N, N m], or a set point that the built-in servo turns into one.
+using Command = std::variant<Wrench, Target>;
+
+/// Thrown when a controller died, hangs, or commands what is no number. What was computed so far is
+/// kept.
+class ControllerFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What a controller is about, for the record.
+enum class ControlMode {
+  position,  ///< on a way
+  force,     ///< at a contact force
+};
+
+/// What a controller may tell of itself; NaN where it has nothing to tell.
+struct ControllerReport {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  ControlMode mode = ControlMode::position;
+  double stiffness = unknown;  ///< of the contact, as it takes it to be [N/m]
+  double force = unknown;      ///< contact force it wants [N]
+};
+
+/// Computes the command that is held until the next sample (zero-order hold).
 class Controller {
  public:
   virtual ~Controller() = default;
-  /// Called once per period(), with increasing times.
-  virtual Wrench command(const Measurement& measurement) = 0;
-  /// Sampling period [s], > 0.
-  virtual double period() const = 0;
+  /// Called once per sampling period, with increasing times. May throw ControllerFailed.
+  virtual Command command(const Measurement& measurement) = 0;
+  /// Forgets everything it has seen, as before the first command.
+  virtual void reset() = 0;
+  /// Of the last command.
+  virtual ControllerReport report() const { return {}; }
 };
 
 }  // namespace fingertip::lattice

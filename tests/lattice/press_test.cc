@@ -257,8 +257,8 @@ TEST(Press, WritesATraceWithNamesAndUnits) {
   std::string names, values;
   std::getline(in, names);
   std::getline(in, values);
-  EXPECT_EQ(std::count(names.begin(), names.end(), ','), 12);
-  EXPECT_EQ(std::count(values.begin(), values.end(), ','), 12);
+  EXPECT_EQ(std::count(names.begin(), names.end(), ','), 16);
+  EXPECT_EQ(std::count(values.begin(), values.end(), ','), 16);
   EXPECT_EQ(names.substr(0, 26), "time [s],indentation [m],c");
   EXPECT_EQ(values.substr(0, 5), "0.25,");
 }

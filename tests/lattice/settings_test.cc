@@ -6,6 +6,7 @@
 
 #include "fixtures.h"
 #include "lattice/press.h"
+#include "lattice/statics/static_press.h"
 
 using namespace fingertip;
 using meshes::ContactMode;
@@ -32,12 +33,19 @@ TEST(PressSetup, TheDefaultIsValid) {
   EXPECT_TRUE(valid_setup().violations().empty());
 }
 
-TEST(PressSetup, RefusesWhatOnlyTheContinuumCanDo) {
+TEST(PressSetup, SlidesOnlyWhenItMoves) {
   lattice::PressSetup setup = valid_setup();
   setup.protocol.contact = ContactMode::coulomb;
+  for (const lattice::ModelKind kind : fixtures::all_models) {
+    setup.lattice.model = kind;
+    EXPECT_TRUE(setup.violations().empty()) << name(kind);
+  }
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
   ASSERT_EQ(keys_of(setup.violations()), Keys{"press.contact"});
-  EXPECT_NE(setup.violations()[0].remedy.find("`reference`"), std::string::npos);
-  EXPECT_THROW(lattice::run_press(setup), meshes::InvalidInput);
+  const std::string remedy = setup.violations()[0].remedy;
+  EXPECT_NE(remedy.find("press.mode = quasi-static"), std::string::npos);
+  EXPECT_NE(remedy.find("`reference`"), std::string::npos);
+  EXPECT_THROW(lattice::run_static_press(setup), meshes::InvalidInput);
 }
 
 TEST(PressSetup, OnlyThePublishedModelIsPressedStraightOnAStraightGrid) {

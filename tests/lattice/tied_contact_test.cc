@@ -30,6 +30,10 @@ namespace {
 constexpr double clearance = 0.1e-3;
 constexpr int looks = 17;  // after so many every point has been looked at
 constexpr std::array both_modes{ContactMode::frictionless, ContactMode::stick};
+const std::array all_laws{lattice::ContactLaw{ContactMode::frictionless},
+                          lattice::ContactLaw{ContactMode::stick},
+                          lattice::ContactLaw{ContactMode::coulomb, 0.05},
+                          lattice::ContactLaw{ContactMode::coulomb, 1.0}};
 
 /// A tip on a grid that is aligned with nothing, and a tilted plane 0.1 mm from its surface.
 struct Scene {
@@ -87,7 +91,7 @@ VectorField forces(const Scene& s, TiedContact& contact, const State& state, int
   VectorField force;
   for (int n = 0; n < times; ++n) {
     force = VectorField(s.model.points());
-    contact.add(state, 0.0, force);
+    contact.add(state, s.plane, 0.0, force);
   }
   return force;
 }
@@ -245,7 +249,7 @@ TEST(TiedContact, ThePlaneReceivesWhatTheParticlesLose) {
       state.velocity = rough.velocity;
       const VectorField others = rough.displacement;
       VectorField force = others;
-      const Vector3 plane_force = contact.add(state, step, force);
+      const Vector3 plane_force = contact.add(state, s.plane, step, force).force;
       Vector3 sum = Vector3::Zero();
       double aside = 0.0, magnitude = 0.0;
       for (const std::size_t i : s.model.particles) {
@@ -274,8 +278,8 @@ TEST(TiedContact, ActsAsItWillBeAtTheEndOfTheStep) {
       start.velocity.set(i, (end.displacement.at(i) - start.displacement.at(i)) / step);
     }
     VectorField a(s.model.points()), b = a;
-    moving.add(start, step, a);
-    resting.add(end, step, b);
+    moving.add(start, s.plane, step, a);
+    resting.add(end, s.plane, step, b);
     EXPECT_GT(largest(s.model, b), 0.0);
     EXPECT_LT(difference(s.model, a, b), 1e-9 * largest(s.model, b)) << name(mode);
   }
@@ -285,10 +289,10 @@ TEST(TiedContact, DoesNotLimitTheStep) {
   // Particles without rubber between them, thrown against the plane at steps below and far above
   // what explicit ties would allow: they come to rest or bounce off, with no more energy than they
   // had.
-  for (const ContactMode mode : both_modes) {
+  for (const lattice::ContactLaw& law : all_laws) {
     for (const double step : {1e-7, 1e-5, 1e-3}) {
       const Scene s;
-      TiedContact contact(s.model, s.plane, mode);
+      TiedContact contact(s.model, s.plane, law);
       State state = random_state(s.model, 0.0, 0.1, 7);
       const double speed = 0.1 * clearance / step;
       for (const std::size_t i : s.model.particles) {
@@ -300,7 +304,7 @@ TEST(TiedContact, DoesNotLimitTheStep) {
       int touching = 0;
       for (int n = 0; n < 60; ++n) {
         VectorField force(s.model.points());
-        contact.add(state, step, force);
+        contact.add(state, s.plane, step, force);
         touching = std::max(touching, contact.touching());
         for (const std::size_t i : s.model.particles) {
           state.velocity.add(i, step * s.model.inverse_mass[i] * force.at(i));
@@ -308,8 +312,8 @@ TEST(TiedContact, DoesNotLimitTheStep) {
         }
         most = std::max(most, lattice::kinetic_energy(s.model, state));
       }
-      EXPECT_LE(most, 1.001 * start) << name(mode) << step;
-      EXPECT_GT(touching, 0) << name(mode) << step;
+      EXPECT_LE(most, 1.001 * start) << name(law.mode) << step;
+      EXPECT_GT(touching, 0) << name(law.mode) << step;
     }
   }
 }
@@ -346,7 +350,7 @@ TEST(TiedContact, AFastTipIsLookedAtWholeInEveryStep) {
       state.displacement.add(i, -step * velocity);  // `pressed` after the step
     }
     VectorField force(s.model.points());
-    contact.add(state, step, force);
+    contact.add(state, s.plane, step, force);
     EXPECT_EQ(contact.touching(), s.penetrating(s.pressed(1.0))) << name(mode);
   }
 }

@@ -21,11 +21,9 @@ namespace {
 Measurement measure(const RodState& rod, double time, const Wrench& bond = {}) {
   Measurement m;
   m.time = time;
-  m.position = rod.endpoint();
-  m.orientation = rod.pose().orientation;
-  m.velocity = rod.velocity_at(rod.endpoint());
-  m.angular_velocity = rod.angular_velocity();
-  m.bond = bond;
+  m.pose = {rod.endpoint(), rod.pose().orientation};
+  m.twist = {rod.velocity_at(rod.endpoint()), rod.angular_velocity()};
+  m.wrench = bond;
   return m;
 }
 
@@ -34,20 +32,20 @@ Measurement measure(const RodState& rod, double time, const Wrench& bond = {}) {
 struct ControlledRod {
   RodState rod{lattice::rod_body({}, {})};
   Pid pid;
+  Target target;
   double time = 0.0, next = 0.0;
   Wrench command;
 
   ControlledRod(const PidSettings& settings, const Vector3& shift)
-      : pid(settings, rod.body().inertia_at_endpoint(),
-            [at = Vector3(rod.body().endpoint + shift)](double) {
-              return Target{at, Vector3::Zero(), Vector3::Zero()};
-            }) {}
+      : pid(settings, rod.body().inertia_at_endpoint()) {
+    target.pose.position = rod.body().endpoint + shift;
+  }
 
   void run(double duration, const Wrench& disturbance, double dt = 1e-6) {
     for (const double end = time + duration; time < end - 0.5 * dt; time += dt) {
       if (time >= next - 0.5 * dt) {
-        command = pid.command(measure(rod, time));
-        next += pid.period();
+        command = pid.follow(measure(rod, time), target);
+        next += pid.settings().period;
       }
       rod.kick({command.force + disturbance.force, command.torque + disturbance.torque},
                rod.endpoint(), dt);
@@ -112,13 +110,84 @@ TEST(Pid, FeedsTheMeasuredBondWrenchForward) {
   PidSettings settings;
   settings.bond_compensation = 0.5;
   const RodState rod(lattice::rod_body({}, {}));
-  Pid pid(settings, rod.body().inertia_at_endpoint(), [&](double) {
-    return Target{rod.endpoint(), {0, 0, 0}, {0, 0, 0}};
-  });
+  Pid pid(settings, rod.body().inertia_at_endpoint());
+  Target target;
+  target.pose.position = rod.endpoint();
   const Wrench answer =
-      pid.command(measure(rod, 0.0, {Vector3(0.1, 0.2, -0.3), Vector3(0.01, 0.0, -0.02)}));
+      pid.follow(measure(rod, 0.0, {Vector3(0.1, 0.2, -0.3), Vector3(0.01, 0.0, -0.02)}), target);
   EXPECT_LT((answer.force - Vector3(-0.05, -0.1, 0.15)).norm(), 1e-15);
   EXPECT_LT((answer.torque - Vector3(-0.005, 0.0, 0.01)).norm(), 1e-15);
+}
+
+TEST(Pid, ChangesItsGainsWithoutAJump) {
+  // Between any two samples the command after the change is the one without it.
+  for (const bool change : {false, true}) {
+    ControlledRod loop(fast_sampling(), Vector3(0.0, 0.0, 1e-4));
+    const Wrench load{Vector3(0.01, 0.0, 0.03), Vector3::Zero()};
+    loop.run(0.02, load, 1e-5);
+    static Wrench unchanged;
+    PidSettings other = fast_sampling();
+    other.natural_frequency = 35.0;
+    other.setpoint_weight = 0.4;
+    other.bond_compensation = 0.7;
+    const Measurement m = measure(loop.rod, loop.time, {Vector3(0.02, 0.01, 0.0), Vector3::Zero()});
+    loop.pid.follow(m, loop.target);
+    if (change) loop.pid.set_settings(other);
+    // The same measurement once more; the integral moves on by T w³ e.
+    const Wrench next = loop.pid.follow(m, loop.target);
+    if (!change) unchanged = next;
+    EXPECT_LT((next.force - unchanged.force).norm(), 1e-9 + 1e-12);
+    EXPECT_LT((next.torque - unchanged.torque).norm(), 1e-9);
+    EXPECT_EQ(loop.pid.settings().period, 1e-5);
+  }
+}
+
+TEST(Pid, StartsWithTheWrenchItIsHanded) {
+  const RodState rod(lattice::rod_body({}, {}));
+  Pid pid(PidSettings{}, rod.body().inertia_at_endpoint());
+  Target target;
+  target.pose.position = rod.endpoint() + Vector3(1e-4, 0.0, 2e-4);
+  target.twist.velocity = Vector3(0.0, 0.0, 0.02);
+  const Wrench held{Vector3(0.3, -0.2, 1.5), Vector3(0.01, 0.02, -0.03)};
+  pid.start_from(held);
+  const Wrench first =
+      pid.follow(measure(rod, 0.0, {Vector3(0.1, 0.2, -0.3), Vector3(0.01, 0.0, 0.0)}), target);
+  EXPECT_LT((first.force - held.force).norm(), 1e-13);
+  EXPECT_LT((first.torque - held.torque).norm(), 1e-13);
+}
+
+TEST(Pid, SetPointWeightScalesTheProportionalAnswerToTheSetPointOnly) {
+  const RodState rod(lattice::rod_body({}, {}));
+  const double w = 2.0 * std::numbers::pi * 60.0, step = 1e-4;
+  for (const double weight : {0.0, 0.3, 1.0}) {
+    PidSettings settings;
+    settings.setpoint_weight = weight;
+    Pid pid(settings, rod.body().inertia_at_endpoint());
+    Target target;
+    target.pose.position = rod.endpoint();
+    pid.follow(measure(rod, 0.0), target);
+    target.pose.position.z() += step;
+    const Wrench answer = pid.follow(measure(rod, 1e-3), target);
+    EXPECT_NEAR(answer.force.z(), rod.body().mass * 3.0 * w * w * weight * step, 1e-12);
+  }
+}
+
+TEST(Pid, WithoutSetPointWeightAStepIsReachedWithLessOvershoot) {
+  // With Kp b r and the derivative on the error, y/r = (3 w s² + 3 b w² s + w³)/(s + w)³.
+  const auto overshoot = [](double weight) {
+    PidSettings settings = fast_sampling();
+    settings.setpoint_weight = weight;
+    ControlledRod loop(settings, Vector3::Zero());
+    loop.run(2e-5, {}, 1e-5);  // the set point counts from the first one
+    loop.target.pose.position.z() += 1e-3;
+    double most = 0.0;
+    while (loop.time < 0.1) {
+      loop.run(1e-3, {}, 1e-5);
+      most = std::max(most, loop.error() / 1e-3 - 1.0);
+    }
+    return most;
+  };
+  EXPECT_LT(overshoot(0.0), overshoot(1.0));
 }
 
 TEST(Approach, SpeedAndAccelerationAreDerivativesOfTheDistance) {

@@ -1,0 +1,57 @@
+#include "lattice/control/control_settings.h"
+
+#include <cmath>
+
+#include "meshes/files.h"
+
+namespace fingertip::lattice {
+
+namespace {
+
+/// Collects what breaks a rule.
+class Rules {
+ public:
+  void require(bool holds, const char* key, double value, const char* rule, const char* remedy) {
+    if (!holds) found.push_back({key, meshes::to_text(value), rule, remedy});
+  }
+  void positive(const char* key, double value) {
+    require(std::isfinite(value) && value > 0.0, key, value, "must be finite and positive",
+            "give such a value");
+  }
+  void not_negative(const char* key, double value) {
+    require(std::isfinite(value) && value >= 0.0, key, value, "must be finite and not negative",
+            "give such a value");
+  }
+  std::vector<meshes::Violation> found;
+};
+
+}  // namespace
+
+std::vector<meshes::Violation> AdaptiveSettings::violations() const {
+  Rules rules;
+  rules.require(sensitivity >= 1.2 && sensitivity <= 3.0, "controller.sensitivity", sensitivity,
+                "must lie between 1.2 and 3",
+                "2 is a common choice; less is slower, more is nervous");
+  rules.positive("controller.memory", memory);
+  rules.positive("controller.force_noise", force_noise);
+  return rules.found;
+}
+
+std::vector<meshes::Violation> ForceSettings::violations() const {
+  Rules rules;
+  rules.positive("controller.force", force);
+  rules.positive("controller.force_bandwidth", bandwidth);
+  rules.positive("controller.touch_force", touch_force);
+  rules.not_negative("controller.release_force", release_force);
+  rules.require(release_force < touch_force, "controller.release_force", release_force,
+                "must be less than controller.touch_force, or noise switches to and fro",
+                "half of it leaves room for noise");
+  rules.require(touch_force < force, "controller.touch_force", touch_force,
+                "must be less than controller.force, or the touch is never noticed",
+                "a tenth of it, but more than the sensor's noise");
+  rules.not_negative("controller.confirmation", confirmation);
+  rules.not_negative("controller.dwell", dwell);
+  return rules.found;
+}
+
+}  // namespace fingertip::lattice

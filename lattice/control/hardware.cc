@@ -1,0 +1,102 @@
+#include "lattice/control/hardware.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshes/files.h"
+
+namespace fingertip::lattice {
+
+using meshes::Vector3;
+
+namespace {
+
+Vector3 rotation_vector(const Eigen::Quaterniond& orientation) {
+  const Eigen::AngleAxisd turned(orientation);
+  return turned.angle() * turned.axis();
+}
+
+/// Component by component: an actuator that can push no harder must still be able to steer.
+Vector3 limited(const Vector3& wanted, double limit) {
+  return wanted.cwiseMin(limit).cwiseMax(-limit);
+}
+
+Vector3 slowed(const Vector3& wanted, const Vector3& last, double most) {
+  return most > 0.0 ? Vector3(last + limited(wanted - last, most)) : wanted;
+}
+
+}  // namespace
+
+std::vector<meshes::Violation> HardwareSettings::violations() const {
+  std::vector<meshes::Violation> found;
+  const auto require = [&found](bool holds, const char* key, double value, const char* rule) {
+    if (!holds) found.push_back({key, meshes::to_text(value), rule, "give such a value"});
+  };
+  const auto not_negative = [&](const char* key, double value) {
+    require(std::isfinite(value) && value >= 0.0, key, value, "must be finite and not negative");
+  };
+  const auto channel = [&](const char* noise, const char* resolution, const SensorChannel& c) {
+    not_negative(noise, c.noise);
+    not_negative(resolution, c.resolution);
+  };
+  channel("hardware.position_noise", "hardware.position_resolution", position);
+  channel("hardware.orientation_noise", "hardware.orientation_resolution", orientation);
+  channel("hardware.velocity_noise", "hardware.velocity_resolution", velocity);
+  channel("hardware.angular_velocity_noise", "hardware.angular_velocity_resolution",
+          angular_velocity);
+  channel("hardware.force_noise", "hardware.force_resolution", force);
+  channel("hardware.torque_noise", "hardware.torque_resolution", torque);
+  not_negative("hardware.sensor_latency", sensor_latency);
+  not_negative("hardware.actuator_latency", actuator_latency);
+  not_negative("hardware.force_rate", force_rate);
+  not_negative("hardware.torque_rate", torque_rate);
+  return found;
+}
+
+Hardware::Hardware(const HardwareSettings& settings, double force_limit, double torque_limit)
+    : settings_(settings),
+      force_limit_(force_limit),
+      torque_limit_(torque_limit),
+      generator_(settings.seed) {}
+
+void Hardware::reset() {
+  generator_.seed(settings_.seed);
+  last_ = {};
+}
+
+Vector3 Hardware::read(const Vector3& truth, const SensorChannel& channel) {
+  Vector3 reading = truth;
+  if (channel.noise > 0.0) {
+    std::normal_distribution<double> normal(0.0, channel.noise);
+    for (int axis = 0; axis < 3; ++axis) reading[axis] += normal(generator_);
+  }
+  if (channel.resolution > 0.0) {
+    reading = channel.resolution * (reading / channel.resolution).array().round().matrix();
+  }
+  return reading;
+}
+
+Measurement Hardware::sense(const Measurement& truth) {
+  Measurement m = truth;
+  m.pose.position = read(truth.pose.position, settings_.position);
+  const SensorChannel& angle = settings_.orientation;
+  if (angle.noise > 0.0 || angle.resolution > 0.0) {
+    m.pose.orientation = rotation_by(read(rotation_vector(truth.pose.orientation), angle));
+  }
+  m.twist.velocity = read(truth.twist.velocity, settings_.velocity);
+  m.twist.angular_velocity = read(truth.twist.angular_velocity, settings_.angular_velocity);
+  m.wrench.force = read(truth.wrench.force, settings_.force);
+  m.wrench.torque = read(truth.wrench.torque, settings_.torque);
+  if (!settings_.tactile) m.contact.reset();
+  return m;
+}
+
+Wrench Hardware::act(const Wrench& commanded, double duration) {
+  Wrench wrench{limited(commanded.force, force_limit_), limited(commanded.torque, torque_limit_)};
+  wrench.force = slowed(wrench.force, last_.force, duration * settings_.force_rate);
+  wrench.torque = slowed(wrench.torque, last_.torque, duration * settings_.torque_rate);
+  last_ = wrench;
+  return wrench;
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,41 @@
+/// Coarse fingers behind the control interface, and what tests ask of them.
+#pragma once
+
+#include "fixtures.h"
+#include "lattice/virtual_finger.h"
+
+namespace fixtures {
+
+/// A hookean tip at R/5 above a plane `clearance` below its pole.
+inline lattice::FingerSetup coarse_finger(double clearance) {
+  lattice::FingerSetup setup;
+  setup.lattice = settings_for(lattice::ModelKind::hookean, lattice::Kinematics::small, 5);
+  setup.plane.point = Vector3(0.0, 0.0, setup.geometry.tip_radius + clearance);
+  setup.threads = 1;
+  return setup;
+}
+
+/// Of particles and rod [N s].
+inline Vector3 momentum(const lattice::VirtualFinger& finger) {
+  Vector3 sum = finger.finger().rod().momentum();
+  for (const std::uint32_t i : finger.model().particles) {
+    sum += finger.model().mass[i] *
+           (finger.model().grid.axes * finger.finger().state().velocity.at(i));
+  }
+  return sum;
+}
+
+/// Whether two fingers are in the same state to the last bit.
+inline bool same_bits(const lattice::VirtualFinger& a, const lattice::VirtualFinger& b) {
+  const lattice::RodState &one = a.finger().rod(), &other = b.finger().rod();
+  return a.time() == b.time() &&
+         a.finger().state().displacement.component == b.finger().state().displacement.component &&
+         a.finger().state().velocity.component == b.finger().state().velocity.component &&
+         one.centre() == other.centre() && one.momentum() == other.momentum() &&
+         one.pose().orientation.coeffs() == other.pose().orientation.coeffs() &&
+         one.angular_momentum() == other.angular_momentum() &&
+         a.finger().bond().force == b.finger().bond().force &&
+         a.finger().touching() == b.finger().touching() && a.finger().step() == b.finger().step();
+}
+
+}  // namespace fixtures
