@@ -1,0 +1,46 @@
+#include "lattice/integrators/euler_stepper.h"
+
+namespace fingertip::lattice {
+
+void advance(Finger& finger, const Drive& drive) {
+  if (const Wrench* wrench = std::get_if<Wrench>(&drive)) {
+    finger.advance(*wrench);
+  } else {
+    finger.advance(std::get<Motion>(drive)(finger.time() + finger.step()));
+  }
+}
+
+bool outgrown(const Finger& finger, const StepController& steps) {
+  const CellExtremes& cells = finger.extremes();
+  return steps.outdated(cells) || finger.step() > steps.limit(cells) ||
+         !(cells.smallest_jacobian > 0.0);
+}
+
+double safe_step(const Finger& finger, StepController& steps, double span) {
+  const CellExtremes& cells = finger.extremes();
+  if (!(cells.smallest_jacobian > 0.0)) {
+    throw CrushedCells("a cell was turned inside out");
+  }
+  if (steps.outdated(cells)) steps.update(finger.state(), cells);
+  const double step = steps.divide(span, cells);
+  if (!(step > 1e-4 * steps.at_rest(span))) {
+    throw CrushedCells("cells are pressed flat");
+  }
+  return step;
+}
+
+void EulerStepper::begin(const Drive& /*drive*/, double duration) {
+  finger_->set_step(safe_step(*finger_, *steps_, duration));
+  chosen_ = true;
+}
+
+void EulerStepper::step(const Drive& drive, double until) {
+  if (!chosen_ && outgrown(*finger_, *steps_)) {
+    finger_->set_step(safe_step(*finger_, *steps_, until - finger_->time()));
+  }
+  chosen_ = false;
+  advance(*finger_, drive);
+  accept(finger_->step(), true);
+}
+
+}  // namespace fingertip::lattice
