@@ -8,6 +8,8 @@
 
 #include "calibration/moduli_fit.h"
 #include "fem_reference/job.h"
+#include "lattice/control/control_settings.h"
+#include "lattice/grasp/grasp.h"
 #include "lattice/settings.h"
 
 namespace fingertip::studies {
@@ -54,10 +56,34 @@ struct CalibrationOrder {
   unsigned seed = 1;
 };
 
+/// Who moves the rod in mode pid (key controller.type).
+enum class ControllerKind {
+  pid,       ///< lattice::PidController with the gains of [controller]
+  adaptive,  ///< lattice::AdaptivePid
+  force,     ///< lattice::ForceController
+  hybrid,    ///< lattice::HybridController
+  library,   ///< SharedObjectController (studies/control)
+  socket,    ///< SocketController (studies/control)
+};
+
+/// What of section [controller] goes beyond the PID. The stiffness schedules are empty here;
+/// studies/run/controller_choice.h reads the file.
+struct ControllerOrder {
+  ControllerKind kind = ControllerKind::pid;
+  lattice::AdaptiveSettings adaptive;
+  lattice::ForceSettings force;
+  std::filesystem::path schedule;  ///< absolute; empty for none
+  std::filesystem::path library;   ///< shared object, absolute; empty for none
+  std::string address;             ///< where a socket is, see LocalAddress
+  double timeout = 5.0;            ///< for an answer over the socket [s]
+  double connect_timeout = 60.0;   ///< for the first client of the socket [s]
+};
+
 /// SI throughout. The spring constants in `press.lattice` are empty until
 /// `studies/run/press_setup.h` resolves them.
 struct Config {
   lattice::PressSetup press;
+  ControllerOrder controller;
   ConstantsSource constants = ConstantsSource::automatic;
   std::filesystem::path constants_file;           ///< absolute; only for ConstantsSource::file
   std::optional<lattice::Kinematics> kinematics;  ///< as asked for; empty: the model's default
@@ -66,6 +92,9 @@ struct Config {
   std::optional<double> spacing_divisor;          ///< a = R/divisor when given so
   fem_reference::ReferenceJob reference;
   CalibrationOrder calibration;
+  lattice::GripSettings grip;
+  lattice::BlockSettings block;
+  double grasp_gravity = 0.0;  ///< [m/s²]
 };
 
 /// The model's own kinematics: published and network finite, central and hookean small.

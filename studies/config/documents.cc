@@ -22,6 +22,8 @@ std::string_view kind_name(Kind kind) {
     case Kind::number_pair: return "list of 2 numbers";
     case Kind::choice: return "word";
     case Kind::source: return "word or path";
+    case Kind::text: return "text";
+    case Kind::file: return "path";
     case Kind::texts: return "list of texts";
     case Kind::files: return "list of paths";
   }
@@ -55,6 +57,8 @@ nlohmann::json element_schema(const Key& key) {
       schema["enum"] = json::array();
       for (const Choice& choice : key.choices) schema["enum"].push_back(choice.word);
       break;
+    case Kind::text:
+    case Kind::file: schema = {{"type", "string"}}; break;
     case Kind::source:
     case Kind::texts:
     case Kind::files: schema = {{"type", "string"}, {"minLength", 1}}; break;
@@ -134,7 +138,7 @@ std::string explanation(const Key& key) {
   for (const Choice& choice : key.choices) {
     text += fmt::format("  {:<17}{}\n", choice.word, choice.meaning);
   }
-  if (key.kind == Kind::source) text += fmt::format("  {:<17}{}\n", "PATH", "a material.toml");
+  if (key.kind == Kind::source) text += fmt::format("  {:<17}{}\n", "PATH", "a file");
   if (!key.rule.empty()) text += fmt::format("  rule:    {}\n", key.rule);
   const std::string si = si_comment(key, key.preset);
   text += fmt::format("  default: {}{}\n", key.preset, si.empty() ? "" : " = " + si);

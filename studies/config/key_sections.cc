@@ -48,6 +48,11 @@ void assign_samples(Config& config, const Value& value) {
   std::ranges::sort(config.press.protocol.samples);
 }
 
+void assign_duration(Config& config, const Value& value) {
+  config.press.duration.reset();
+  if (value.word.empty()) config.press.duration = value.number;
+}
+
 void assign_time_step(Config& config, const Value& value) {
   config.press.time_step.reset();
   if (value.word.empty()) config.press.time_step = value.number;
@@ -88,6 +93,8 @@ const std::vector<Section>& sections() {
       {"lattice", "The mass-spring model of the tip"},
       {"press", "What is done to the finger"},
       {"controller", "The 6-degree-of-freedom controller that moves the rod in mode pid"},
+      {"hardware", "Sensors and actuators between controller and rod; the defaults are perfect"},
+      {"grasp", "Two fingers that lift a rigid block, with press.contact, press.friction"},
       {"reference", "The continuum (finite elements)"},
       {"calibration", "How spring constants are fitted"},
       {"run", "How to compute"},
@@ -202,10 +209,6 @@ std::vector<Key> press_keys() {
   const auto protocol = [](double meshes::PressProtocol::*member) {
     return [member](Config& config) -> double& { return config.press.protocol.*member; };
   };
-  const auto pid = [](double lattice::PidSettings::*member) {
-    return [member](Config& config) -> double& { return config.press.controller.*member; };
-  };
-  using lattice::PidSettings;
   using meshes::PressProtocol;
   Key samples = with_rule(
       plain("press", "samples", Kind::quantities, "[]", positive,
@@ -213,6 +216,12 @@ std::vector<Key> press_keys() {
             assign_samples),
       "different depths; the largest one becomes the depth of the press", {"press.depth"});
   samples.unit = "m";
+  Key duration = quantity("press", "duration", "auto", "s", positive,
+                          "ends a moving press at this time, if not at its depth before; auto: no "
+                          "such end",
+                          [](Config& config) -> double& { return *config.press.duration; });
+  duration.word = "auto";
+  duration.assign = assign_duration;
   return {
       choice("press", "mode", "pid",
              {{"pid", "dynamics; a controller holds speed and orientation"},
@@ -224,7 +233,7 @@ std::vector<Key> press_keys() {
               {"frictionless", "only the normal gap is held, compressive only"},
               {"coulomb",
                "sticks until the shear exceeds friction times the push, then slides "
-               "(reference only)"}},
+               "(moving lattices and reference)"}},
              "how tip and plane interact", assign_contact),
       plain("press", "friction", Kind::number, "0.5", positive,
             "Coulomb's coefficient of friction, for contact coulomb",
@@ -254,27 +263,10 @@ std::vector<Key> press_keys() {
                "gap between pole and plane at the start, where the rod is at rest",
                protocol(&PressProtocol::clearance)),
       samples,
-      choice("controller", "type", "pid", {{"pid", "PID with anti-windup and filtered derivative"}},
-             "control law", [](Config&, const Value&) {}),
-      quantity("controller", "period", "1 ms", "s", positive, "sampling period",
-               pid(&PidSettings::period)),
-      quantity("controller", "natural_frequency", "60 Hz", "Hz", positive,
-               "of the closed loop with the bare rod; sets all gains",
-               pid(&PidSettings::natural_frequency)),
-      plain("controller", "derivative_filter", Kind::number, "10.0", positive,
-            "N: the derivative is low-passed at N times the natural frequency",
-            [](Config& config, const Value& value) {
-              config.press.controller.derivative_filter = value.number;
-            }),
-      plain("controller", "bond_compensation", Kind::number, "1.0", {0.0, 1.0, true},
-            "share of the measured bond force and torque that is fed forward",
-            [](Config& config, const Value& value) {
-              config.press.controller.bond_compensation = value.number;
-            }),
-      quantity("controller", "force_limit", "20 N", "N", positive,
-               "largest force of the actuator along each axis", pid(&PidSettings::force_limit)),
-      quantity("controller", "torque_limit", "1 N m", "N m", positive,
-               "largest torque of the actuator about each axis", pid(&PidSettings::torque_limit)),
+      quantity("press", "gravity", "0 m/s^2", "m/s^2", not_negative,
+               "acceleration of gravity on rod and tip, toward the plane (moving lattices)",
+               [](Config& config) -> double& { return config.press.gravity; }),
+      duration,
   };
 }
 
@@ -388,13 +380,24 @@ std::vector<Key> run_keys() {
             [](Config& config, const Value& value) { config.press.threads = int(value.number); }),
       choice("run", "integrator", "symplectic-euler",
              {{"symplectic-euler", "velocities first, then positions"},
-              {"explicit-euler", "as printed in the paper's Fig. 4"}},
+              {"explicit-euler", "as printed in the paper's Fig. 4; published lattice"},
+              {"runge-kutta", "order 5(4) by SUNDIALS ARKODE, see run.tolerance"},
+              {"energy-controlled", "symplectic Euler, see run.energy_bound"}},
              "time integration of the lattice",
              [](Config& config, const Value& value) {
-               config.press.integrator = value.word == "symplectic-euler"
-                                             ? lattice::Integrator::symplectic_euler
-                                             : lattice::Integrator::explicit_euler;
+               for (const auto one :
+                    {lattice::Integrator::symplectic_euler, lattice::Integrator::explicit_euler,
+                     lattice::Integrator::runge_kutta, lattice::Integrator::energy_controlled}) {
+                 if (value.word == name(one)) config.press.integrator = one;
+               }
              }),
+      plain("run", "tolerance", Kind::number, "1e-6", {0.0, 1.0, false},
+            "error of a step of runge-kutta, relative to a strain of 1 % in root mean square",
+            [](Config& config, const Value& value) { config.press.tolerance = value.number; }),
+      plain("run", "energy_bound", Kind::number, "1e-7", {0.0, 1.0, false},
+            "energy that a step of energy-controlled may make or lose, per Young's modulus times "
+            "tip_radius^3",
+            [](Config& config, const Value& value) { config.press.energy_bound = value.number; }),
       time_step,
   };
 }

@@ -9,7 +9,10 @@ namespace fingertip::studies {
 
 std::vector<Key> specimen_keys();     ///< [geometry] [rubber] [rod]
 std::vector<Key> lattice_keys();      ///< [lattice]
-std::vector<Key> press_keys();        ///< [press] [controller]
+std::vector<Key> press_keys();        ///< [press]
+std::vector<Key> controller_keys();   ///< [controller]
+std::vector<Key> hardware_keys();     ///< [hardware]
+std::vector<Key> grasp_keys();        ///< [grasp]
 std::vector<Key> reference_keys();    ///< [reference]
 std::vector<Key> calibration_keys();  ///< [calibration]
 std::vector<Key> run_keys();          ///< [run]

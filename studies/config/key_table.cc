@@ -49,7 +49,7 @@ std::string Key::allowed() const {
     text = (range.minimum_allowed ? ">= " : "> ") + meshes::to_text(range.minimum) + suffix;
   if (above) text += (below ? " and <= " : "<= ") + meshes::to_text(range.maximum) + suffix;
   for (const Choice& choice : choices) text += (text.empty() ? "" : " | ") + choice.word;
-  if (kind == Kind::source) text += " | path of a material.toml";
+  if (kind == Kind::source) text += " | path of a file";
   if (!word.empty()) text += (text.empty() ? "or " : ", or ") + word;
   return text;
 }
@@ -57,8 +57,9 @@ std::string Key::allowed() const {
 const std::vector<Key>& key_table() {
   static const std::vector<Key> table = [] {
     std::vector<Key> keys;
-    for (const auto& part : {specimen_keys(), lattice_keys(), press_keys(), reference_keys(),
-                             calibration_keys(), run_keys()}) {
+    for (const auto& part :
+         {specimen_keys(), lattice_keys(), press_keys(), controller_keys(), hardware_keys(),
+          grasp_keys(), reference_keys(), calibration_keys(), run_keys()}) {
       keys.insert(keys.end(), part.begin(), part.end());
     }
     return keys;

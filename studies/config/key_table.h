@@ -22,15 +22,17 @@ enum class Kind {
   boolean,      ///< true or false
   choice,       ///< one of the listed words
   source,       ///< one of the listed words or the path of a file
+  text,         ///< any text, also an empty one
+  file,         ///< path of a file, or an empty text for none
   texts,        ///< list of texts
   files,        ///< list of paths of files
 };
 
 /// A value read from text, in SI.
 struct Value {
-  double number = 0.0;             ///< quantity, number, integer, boolean (0 or 1)
-  std::vector<double> numbers;     ///< quantities, numbers
-  std::string word;                ///< choice, source; for a quantity the word given instead of one
+  double number = 0.0;          ///< quantity, number, integer, boolean (0 or 1)
+  std::vector<double> numbers;  ///< quantities, numbers
+  std::string word;  ///< choice, source, text, file; for a quantity the word given instead of one
   std::vector<std::string> words;  ///< texts, files
 };
 

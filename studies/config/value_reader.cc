@@ -104,6 +104,14 @@ Value read_number_pair(const Key& key, const toml::node& node) {
   return value;
 }
 
+Value read_text(const Key& key, const toml::node& node) {
+  const auto* text = node.as_string();
+  if (text == nullptr) refuse("must be a text", preset_advice(key));
+  Value value;
+  value.word = text->get();
+  return value;
+}
+
 Value read_texts(const Key& key, const toml::node& node) {
   const auto* list = node.as_array();
   const std::string advice = "write e.g. " + key.name + " = [\"one\", \"another\"]";
@@ -150,6 +158,8 @@ Value read_value(const Key& key, const toml::node& node) {
     case Kind::number_pair: return read_number_pair(key, node);
     case Kind::choice:
     case Kind::source: return read_word(key, node);
+    case Kind::text:
+    case Kind::file: return read_text(key, node);
     case Kind::texts:
     case Kind::files: return read_texts(key, node);
     case Kind::integer:
@@ -167,11 +177,13 @@ void locate_files(const Key& key, const std::filesystem::path& base, Value& valu
     file = std::filesystem::absolute(base / file).lexically_normal().string();
   };
   if (key.kind == Kind::source && !is_choice(key, value.word)) locate(value.word);
+  if (key.kind == Kind::file && !value.word.empty()) locate(value.word);
   if (key.kind == Kind::files) std::ranges::for_each(value.words, locate);
 }
 
 std::string located_literal(const Key& key, const Value& value, const std::string& literal) {
-  if (key.kind == Kind::source) return toml_literal(toml::value<std::string>(value.word));
+  if (key.kind == Kind::source || key.kind == Kind::file)
+    return toml_literal(toml::value<std::string>(value.word));
   if (key.kind != Kind::files) return literal;
   toml::array files;
   for (const std::string& file : value.words) files.push_back(file);

@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "studies/cli/run_verb.h"
+#include "studies/cli/verbs.h"
+#include "studies/config/units.h"
+#include "studies/run/grasp_job.h"
+#include "studies/run/json_file.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+/// "12.3 mN (1.25 gf)"
+std::string in_both(const nlohmann::ordered_json& force) {
+  if (!force.is_number()) return "-";
+  const double newton = force.get<double>();
+  return fmt::format("{:.4g} mN ({:.4g} gf)", convert(newton, "N", "mN"),
+                     convert(newton, "N", "gf"));
+}
+
+void print_row(const char* what, const std::string& value) {
+  fmt::print("{:<44}{}\n", what, value);
+}
+
+void print_grasp(const lattice::GraspSetup& setup, const std::filesystem::path& folder) {
+  const auto summary = read_json(folder / "summary.json");
+  const lattice::FingerSetup& finger = setup.hand.finger;
+  fmt::print("two {} fingers, {} contact: the block was {}\n", lattice::name(finger.lattice.model),
+             meshes::name(finger.contact.mode), summary["fate"].get<std::string>());
+  print_row("grip force per finger, wanted", in_both(summary["wanted_force"]));
+  if (finger.contact.mode == meshes::ContactMode::coulomb) {
+    print_row("least one by m g/(2 mu)", in_both(summary["least_force_at_rest"]));
+    print_row("with the lift's acceleration", in_both(summary["least_force"]));
+  }
+  if (summary["slip_force"].is_number()) {
+    print_row("it slipped, when released, at", in_both(summary["slip_force"]));
+  }
+  if (!summary["held_load"].is_number()) return;
+  print_row("weight carried by the fingers",
+            fmt::format("{:.2f} %", 100.0 * summary["held_load"].get<double>()));
+  print_row("tangential over normal force",
+            fmt::format("{:.4g}", summary["held_ratio"].get<double>()));
+  print_row("slip at the end of the hold",
+            fmt::format("{:.3g} mm", 1e3 * summary["held_slip"].get<double>()));
+}
+
+}  // namespace
+
+int run_grasp(const CommandLine& line) {
+  const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::modes);
+  const lattice::GraspSetup setup = grasp_setup(loaded);
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const JobResult result = session.run({"", grasp_job(setup), false});
+    if (line.quiet) return 0;
+    print_grasp(setup, session.folder().path());
+    if (result.reused) {
+      fmt::print("(result from an earlier run with the same input)\n");
+    } else {
+      fmt::print("computed in {:.2f} s\n", result.wall_time);
+    }
+    fmt::print("run folder: {}\n", session.path_of({}).string());
+    return 0;
+  });
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,162 @@
+#include "studies/run/grasp_job.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "source_hash.h"
+#include "studies/run/jobs.h"
+#include "studies/run/json_file.h"
+#include "studies/run/press_setup.h"
+#include "studies/run/static_press_job.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+ordered_json summary_of(const lattice::GraspSetup& setup, const lattice::GraspOutcome& outcome,
+                        const std::string& status) {
+  const lattice::FingerSetup& finger = setup.hand.finger;
+  return {{"model", lattice::name(finger.lattice.model)},
+          {"contact", meshes::name(finger.contact.mode)},
+          {"status", status},
+          {"fate", lattice::name(outcome.fate)},
+          {"spacing", finger.lattice.spacing},
+          {"wanted_force", setup.grip.force},
+          {"least_force", number_or_null(outcome.least_force)},
+          {"least_force_at_rest", number_or_null(setup.least_force(0.0))},
+          {"slip_force", number_or_null(outcome.slip_force)},
+          {"lift_off_time", number_or_null(outcome.lift_off_time)},
+          {"held_force", number_or_null(outcome.held_force)},
+          {"held_load", number_or_null(outcome.held_load)},
+          {"held_ratio", number_or_null(outcome.held_ratio)},
+          {"held_slip", number_or_null(outcome.held_slip)},
+          {"coupling", outcome.coupling},
+          {"step", outcome.step},
+          {"simulated_time", outcome.simulated_time},
+          {"wall_time", outcome.wall_time}};
+}
+
+/// Keeps the folder up to date while the grasp runs.
+class Recorder {
+ public:
+  Recorder(const lattice::GraspSetup& setup, const fs::path& folder, const JobContext& context)
+      : setup_(setup), folder_(folder), context_(context) {}
+
+  bool observe(const lattice::GraspOutcome& so_far, double fraction) {
+    const bool go_on = context_.report(fraction, "grasping");
+    // The last call before an end by force must be on disk whatever the time.
+    if (!go_on || Clock::now() - written_ > std::chrono::milliseconds(500)) {
+      write(so_far, go_on ? "running" : "interrupted");
+    }
+    return go_on;
+  }
+
+  void write(const lattice::GraspOutcome& outcome, const std::string& status) {
+    lattice::write_grasp_csv(outcome.rows, folder_ / "grasp.csv");
+    write_json(summary_of(setup_, outcome, status), folder_ / "summary.json");
+    written_ = Clock::now();
+  }
+
+ private:
+  const lattice::GraspSetup& setup_;
+  fs::path folder_;
+  const JobContext& context_;
+  Clock::time_point written_;
+};
+
+void run_grasp_job(lattice::GraspSetup setup, const fs::path& folder, const JobContext& context) {
+  setup.hand.finger.threads = context.threads;
+  Recorder recorder(setup, folder, context);
+  lattice::GraspOutcome last;
+  try {
+    const lattice::GraspOutcome outcome =
+        lattice::run_grasp(setup, [&](const lattice::GraspOutcome& so_far, double fraction) {
+          last = so_far;
+          return recorder.observe(so_far, fraction);
+        });
+    recorder.write(outcome, "finished");
+  } catch (const meshes::NotConverged& error) {
+    recorder.write(last, std::string("not converged: ") + error.what());
+    throw;
+  }
+}
+
+ordered_json inputs_of(const lattice::GraspSetup& setup) {
+  const lattice::FingerSetup& finger = setup.hand.finger;
+  const lattice::BlockSettings& block = setup.hand.block;
+  const lattice::GripSettings& grip = setup.grip;
+  const auto vector = [](const meshes::Vector3& v) { return ordered_json{v.x(), v.y(), v.z()}; };
+  return {{"geometry", to_json(finger.geometry)},
+          {"rubber", to_json(finger.rubber)},
+          {"lattice", to_json(finger.lattice)},
+          {"contact", meshes::name(finger.contact.mode)},
+          {"friction", finger.contact.friction},
+          {"time_step", finger.time_step ? ordered_json(*finger.time_step) : ordered_json()},
+          {"clearance", setup.hand.clearance},
+          {"gravity", setup.hand.gravity},
+          {"block",
+           {{"mass", block.mass},
+            {"width", block.width},
+            {"height", block.height},
+            {"eccentricity", vector(block.eccentricity)}}},
+          {"grip",
+           {{"force", grip.force},
+            {"closing_speed", grip.closing_speed},
+            {"time_constant", grip.time_constant},
+            {"lift_height", grip.lift_height},
+            {"lift_speed", grip.lift_speed},
+            {"hold_time", grip.hold_time},
+            {"release_time", grip.release_time},
+            {"slip_limit", grip.slip_limit},
+            {"period", grip.period}}}};
+}
+
+}  // namespace
+
+lattice::GraspSetup grasp_setup(const LoadedConfig& loaded) {
+  LoadedConfig fingers = loaded;  // how one finger would be pressed does not matter
+  meshes::PressProtocol& protocol = fingers.config.press.protocol;
+  const meshes::PressProtocol straight;
+  protocol.mode = meshes::DriveMode::quasi_static;
+  protocol.tilt = straight.tilt;
+  protocol.lateral = straight.lateral;
+  const lattice::PressSetup press = press_setup(fingers);
+  lattice::GraspSetup setup;
+  lattice::FingerSetup& finger = setup.hand.finger;
+  finger.geometry = press.geometry;
+  finger.rubber = press.rubber;
+  finger.lattice = press.lattice;
+  finger.rod = press.rod;
+  const bool rubs = protocol.contact == meshes::ContactMode::coulomb;
+  finger.contact = {protocol.contact, rubs ? protocol.friction : 0.0};
+  finger.integrator = press.integrator;
+  finger.time_step = press.time_step;
+  finger.threads = press.threads;
+  setup.hand.block = loaded.config.block;
+  setup.hand.clearance = protocol.clearance;
+  setup.hand.gravity = loaded.config.grasp_gravity;
+  setup.grip = loaded.config.grip;
+  setup.grip.period = press.controller.period;
+  const std::vector<meshes::Violation> broken = setup.violations();
+  if (!broken.empty()) throw loaded.locate(broken);
+  return setup;
+}
+
+Job grasp_job(const lattice::GraspSetup& setup) {
+  Job job;
+  job.kind = "grasp";
+  job.inputs = inputs_of(setup);
+  job.source_hash = source_hash::lattice;
+  const lattice::FingerSetup& finger = setup.hand.finger;
+  job.weight = 50.0 * std::pow(finger.geometry.tip_radius / (12.0 * finger.lattice.spacing), 4);
+  job.run = [setup](const fs::path& folder, const JobContext& context) {
+    run_grasp_job(setup, folder, context);
+  };
+  return job;
+}
+
+}  // namespace fingertip::studies
