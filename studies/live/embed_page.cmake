@@ -1,0 +1,32 @@
+# cmake -DFOLDER=page -DFILES="a.html;b.js" -DOUTPUT=x.cc -P embed_page.cmake: text files as a table.
+set(table "")
+foreach(name ${FILES})
+  file(READ ${FOLDER}/${name} content)
+  # A raw string literal per piece: compilers need not take literals beyond 65536 characters.
+  string(LENGTH "${content}" length)
+  set(pieces "")
+  set(at 0)
+  while(at LESS length)
+    string(SUBSTRING "${content}" ${at} 8000 piece)
+    string(APPEND pieces "\n     R\"page_text(${piece})page_text\"")
+    math(EXPR at "${at} + 8000")
+  endwhile()
+  set(path "/${name}")
+  if(name STREQUAL "index.html")
+    set(path "/")
+    set(type "text/html; charset=utf-8")
+  elseif(name MATCHES "\\.css$")
+    set(type "text/css; charset=utf-8")
+  elseif(name MATCHES "\\.svg$")
+    set(type "image/svg+xml")
+  else()
+    set(type "text/javascript; charset=utf-8")
+  endif()
+  string(APPEND table "      {\"${path}\", \"${type}\",${pieces}},\n")
+endforeach()
+file(WRITE ${OUTPUT}
+  "#include \"studies/live/page_files.h\"\n\n"
+  "namespace fingertip::studies {\n\n"
+  "const std::vector<PageFile>& page_files() {\n  static const std::vector<PageFile> files = {\n"
+  "${table}  };\n  return files;\n}\n\n"
+  "}  // namespace fingertip::studies\n")

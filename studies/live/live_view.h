@@ -1,0 +1,27 @@
+/// The live view as a whole: simulation, server, and how it ends.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "lattice/settings.h"
+
+namespace fingertip::studies {
+
+struct LiveOptions {
+  int port = 0;                       ///< on 127.0.0.1; 0: a free one
+  std::filesystem::path reference;    ///< run folder or response.csv; empty: none
+  bool paused = false;                ///< at the start
+  double rate = 1.0;                  ///< wanted real-time factor; 0: as fast as it can
+  std::optional<double> exit_after;   ///< [s] of wall time
+  std::function<bool()> interrupted;  ///< asked ten times a second
+};
+
+/// Serves the press of `setup` until interrupted, or until exit_after; `ready` is told the address
+/// as soon as the page can be opened. Throws InvalidInput.
+void run_live_view(const lattice::PressSetup& setup, const LiveOptions& options,
+                   const std::function<void(const std::string& url)>& ready);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,105 @@
+// Buttons and sliders: what the person wants, as messages; what the program says, as their state.
+'use strict';
+
+class Controls {
+  constructor(send) {
+    this.send = send;
+    this.busy = {};
+    this.sliders = {
+      rate: { log: true, text: (v) => v.toPrecision(2) },
+      speed: { log: true, text: (v) => Units.text(v, 'speed') },
+      depth: { text: (v) => Units.text(v, 'length') },
+      natural_frequency: { text: (v) => `${v.toFixed(0)} Hz` },
+      derivative_filter: { text: (v) => v.toFixed(1) },
+      bond_compensation: { text: (v) => `${(100 * v).toFixed(0)} %` },
+    };
+    for (const [name, slider] of Object.entries(this.sliders)) {
+      slider.input = document.getElementById(name);
+      slider.output = document.getElementById(`${name}-value`);
+      slider.input.addEventListener('input', () => {
+        this.busy[name] = performance.now();
+        if (name === 'rate') this.free.checked = false;
+        this.post(name, this.valueOf(name));
+        this.label(name, this.valueOf(name));
+      });
+    }
+    this.free = document.getElementById('free');
+    this.controller = document.getElementById('controller');
+    this.free.addEventListener('change', () => { this.busy.rate = performance.now(); this.post('rate', this.free.checked ? 0 : this.valueOf('rate')); });
+    this.controller.addEventListener('change', () => { this.busy.controller = performance.now(); this.post('controller', this.controller.checked ? 1 : 0); });
+    this.run = document.getElementById('run');
+    this.run.addEventListener('click', () => this.toggle());
+    document.getElementById('step').addEventListener('click', () => this.send({ type: 'step' }));
+    document.getElementById('reset').addEventListener('click', () => this.send({ type: 'reset' }));
+    this.pending = {};
+    document.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  toggle() { this.send({ type: this.status === 'running' ? 'pause' : 'run' }); }
+
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const onControl = event.target.closest('button, input');
+    if (event.key === ' ' && !onControl) { this.toggle(); event.preventDefault(); }
+    if (event.key === 's') this.send({ type: 'step' });
+    if (event.key === 'r') this.send({ type: 'reset' });
+    if (event.key === 'u') document.getElementById('units').click();
+    if (event.key === 't') document.getElementById('theme').click();
+  }
+
+  /// At most 30 messages a second per setting; the last value always arrives.
+  post(name, value) {
+    if (this.pending[name]) { this.pending[name].value = value; return; }
+    this.send({ type: 'set', name, value });
+    this.pending[name] = {};
+    setTimeout(() => {
+      const { value: later } = this.pending[name];
+      delete this.pending[name];
+      if (later !== undefined) this.post(name, later);
+    }, 33);
+  }
+
+  valueOf(name) {
+    const { input, log, span } = this.sliders[name];
+    const share = Number(input.value);
+    return log ? span[0] * (span[1] / span[0]) ** share : span[0] + share * (span[1] - span[0]);
+  }
+
+  label(name, value) {
+    const slider = this.sliders[name];
+    const text = slider.text(value);
+    slider.output.textContent = text;
+    slider.input.setAttribute('aria-valuetext', text);
+  }
+
+  put(name, value) {
+    const { input, log, span } = this.sliders[name];
+    const share = log ? Math.log(value / span[0]) / Math.log(span[1] / span[0]) : (value - span[0]) / (span[1] - span[0]);
+    input.value = share;
+    this.label(name, value);
+  }
+
+  limits(limits) {
+    for (const [name, slider] of Object.entries(this.sliders)) slider.span = limits[name] || [0.01, 1];
+    this.sliders.rate.input.value = 1;
+  }
+
+  /// Settings as the program has them, unless a hand is on the slider.
+  show(status, settings) {
+    const idle = (name) => !(performance.now() - (this.busy[name] || -1e9) < 600);
+    for (const name of Object.keys(this.sliders)) {
+      if (!idle(name)) continue;
+      if (name === 'rate') {
+        if (settings.rate > 0) this.put('rate', settings.rate); else this.label('rate', this.valueOf('rate'));
+        this.free.checked = settings.rate === 0;
+      } else {
+        this.put(name, settings[name]);
+      }
+    }
+    if (idle('controller')) this.controller.checked = settings.controller;
+    this.status = status;
+    const text = status === 'running' ? 'Pause' : 'Run';
+    if (this.run.textContent !== text) this.run.textContent = text;
+    this.run.disabled = status === 'failed';
+  }
+}

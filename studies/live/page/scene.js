@@ -1,0 +1,265 @@
+// The finger in three dimensions. Lengths in cm, so that near and far planes are ordinary numbers.
+'use strict';
+
+class FingerScene {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.scale = 100;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 100);
+    this.camera.up.set(0, 0, -1);  // the rod comes down onto the plane along +z
+    this.camera.position.set(5.4, 9.0, -3.6);
+    this.orbit = new THREE.OrbitControls(this.camera, canvas);
+    this.orbit.target.set(0, 0, -1.2);
+    this.orbit.enableKeys = false;
+    this.orbit.minDistance = 2;
+    this.orbit.maxDistance = 30;
+    this.orbit.update();
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8899aa, 0.85));
+    const sun = new THREE.DirectionalLight(0xffffff, 0.55);
+    sun.position.set(3, 6, -8);
+    this.scene.add(sun);
+    this.overlays = [];
+    this.ready = false;
+  }
+
+  build(scene) {
+    for (const old of [this.tip, this.rod, this.plane, this.forceArrow, this.torqueArrow, this.handLine]) {
+      if (old) this.scene.remove(old);
+    }
+    this.geometry = scene.geometry;
+    this.buildTip(scene);
+    this.buildRod();
+    this.buildPlane();
+    this.forceArrow = FingerScene.arrow(1);
+    this.torqueArrow = FingerScene.arrow(2);
+    this.scene.add(this.forceArrow, this.torqueArrow);
+    const line = new THREE.BufferGeometry();
+    line.setAttribute('position', new THREE.BufferAttribute(new Float32Array(6), 3));
+    this.handLine = new THREE.Line(line, new THREE.LineBasicMaterial());
+    this.handLine.frustumCulled = false;
+    this.handLine.visible = false;
+    this.scene.add(this.handLine);
+    this.recolour();
+    this.ready = true;
+  }
+
+  buildTip(scene) {
+    this.places = new THREE.BufferAttribute(new Float32Array(3 * scene.masses), 3);
+    this.held = new Uint8Array(scene.masses);
+    this.colours = new THREE.BufferAttribute(new Float32Array(3 * scene.masses), 3);
+    const masses = new THREE.BufferGeometry();
+    masses.setAttribute('position', this.places);
+    masses.setAttribute('color', this.colours);
+    this.massMaterial = new THREE.PointsMaterial({ size: 4.5, sizeAttenuation: false, vertexColors: THREE.VertexColors, map: FingerScene.disc(), alphaTest: 0.4, transparent: true });
+    const springs = new THREE.BufferGeometry();
+    springs.setAttribute('position', this.places);
+    springs.setIndex(new THREE.BufferAttribute(new Uint32Array(scene.springs.flat()), 1));
+    this.springMaterial = new THREE.LineBasicMaterial();
+    this.tip = new THREE.Group();
+    this.tip.add(new THREE.LineSegments(springs, this.springMaterial), new THREE.Points(masses, this.massMaterial));
+    this.tip.children.forEach((child) => { child.frustumCulled = false; });
+    this.scene.add(this.tip);
+  }
+
+  buildRod() {
+    const r = this.geometry.rod_radius * this.scale, l = this.geometry.rod_length * this.scale;
+    this.rodMaterial = new THREE.MeshPhongMaterial({ shininess: 40, transparent: true, opacity: 0.8, depthWrite: false });
+    const barrel = new THREE.Mesh(new THREE.CylinderBufferGeometry(r, r, l, 48), this.rodMaterial);
+    barrel.rotation.x = Math.PI / 2;
+    barrel.position.z = -l / 2;
+    const dome = new THREE.Mesh(new THREE.SphereBufferGeometry(r, 48, 24, 0, 2 * Math.PI, 0, Math.PI / 2), this.rodMaterial);
+    dome.rotation.x = Math.PI / 2;
+    this.rod = new THREE.Group();
+    this.rod.add(barrel, dome);
+    this.scene.add(this.rod);
+  }
+
+  buildPlane() {
+    this.planeMaterial = new THREE.MeshPhongMaterial({ side: THREE.DoubleSide, shininess: 5 });
+    const slab = new THREE.Mesh(new THREE.CylinderBufferGeometry(1.75, 1.75, 0.06, 96), this.planeMaterial);
+    slab.rotation.x = Math.PI / 2;
+    slab.position.z = -0.03;
+    this.grid = new THREE.GridHelper(2.4, 12, 0x808080, 0x808080);
+    this.grid.rotation.x = Math.PI / 2;
+    this.grid.position.z = 0.002;
+    this.grid.material.transparent = true;
+    this.grid.material.opacity = 0.35;
+    this.plane = new THREE.Group();
+    this.plane.add(slab, this.grid);
+    this.scene.add(this.plane);
+  }
+
+  static disc() {
+    const canvas = document.createElement('canvas');
+    canvas.width = canvas.height = 32;
+    const pen = canvas.getContext('2d');
+    pen.fillStyle = '#fff';
+    pen.beginPath(); pen.arc(16, 16, 15, 0, 2 * Math.PI); pen.fill();
+    return new THREE.CanvasTexture(canvas);
+  }
+
+  /// A shaft with one head, or two for a torque, along +y, of length 1.
+  static arrow(heads) {
+    const group = new THREE.Group();
+    const material = new THREE.MeshPhongMaterial({ shininess: 20 });
+    const shaft = new THREE.Mesh(new THREE.CylinderBufferGeometry(0.035, 0.035, 1, 16), material);
+    group.add(shaft);
+    for (let k = 0; k < heads; ++k) group.add(new THREE.Mesh(new THREE.ConeBufferGeometry(0.1, 0.24, 24), material));
+    group.userData = { material, shaft };
+    return group;
+  }
+
+  static point(group, from, vector, length) {
+    group.visible = length > 0.02;
+    if (!group.visible) return;
+    group.position.copy(from);
+    group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), vector.clone().normalize());
+    const [shaft, ...heads] = group.children;
+    const head = Math.min(1, length / 0.3);
+    shaft.scale.set(head, Math.max(length - 0.2 * head, 1e-3), head);
+    shaft.position.y = shaft.scale.y / 2;
+    heads.forEach((cone, k) => { cone.scale.setScalar(head); cone.position.y = length - (0.12 + 0.2 * k) * head; });
+  }
+
+  colour(name) {
+    return new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+  }
+
+  recolour() {
+    if (!this.tip) return;
+    this.springMaterial.color = this.colour('--spring');
+    this.rodMaterial.color = this.colour('--rod');
+    this.planeMaterial.color = this.colour('--plane');
+    this.grid.material.color = this.colour('--quiet');
+    this.forceArrow.userData.material.color = this.colour('--force');
+    this.torqueArrow.userData.material.color = this.colour('--torque');
+    this.handLine.material.color = this.colour('--hand');
+    this.massColour = this.colour('--mass');
+    this.heldColour = this.colour('--held');
+    for (const overlay of this.overlays) overlay.lines.material.color = this.colour('--continuum');
+    this.paintMasses();
+  }
+
+  paintMasses() {
+    const { array } = this.colours;
+    for (let i = 0; i < this.held.length; ++i) {
+      const c = this.held[i] ? this.heldColour : this.massColour;
+      array[3 * i] = c.r; array[3 * i + 1] = c.g; array[3 * i + 2] = c.b;
+    }
+    this.colours.needsUpdate = true;
+  }
+
+  /// A surface of the continuum, in the rod's frame.
+  addOverlay(indentation, buffer) {
+    const view = new DataView(buffer);
+    const points = view.getUint32(0, true), edges = view.getUint32(4, true);
+    const floats = new Float32Array(buffer, 8, 6 * points);
+    const rest = floats.subarray(0, 3 * points), moved = floats.subarray(3 * points);
+    const places = new THREE.BufferAttribute(new Float32Array(3 * points), 3);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', places);
+    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(buffer.slice(8 + 24 * points, 8 + 24 * points + 8 * edges)), 1));
+    const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.85 }));
+    lines.frustumCulled = false;
+    lines.visible = false;
+    this.rod.add(lines);
+    this.overlays.push({ indentation, rest, moved, places, lines });
+    this.overlays.sort((a, b) => a.indentation - b.indentation);
+    this.recolour();
+  }
+
+  /// Between two samples, on the same mesh, linear in the indentation; else the nearer one. Returns
+  /// the indentation that is shown, or null.
+  showOverlay(indentation) {
+    const { overlays } = this;
+    if (overlays.length === 0) return null;
+    overlays.forEach((overlay) => { overlay.lines.visible = false; });
+    const depth = Math.min(Math.max(indentation, 0), overlays[overlays.length - 1].indentation);
+    let above = overlays.findIndex((overlay) => overlay.indentation >= depth);
+    if (above < 0) above = overlays.length - 1;
+    const b = overlays[above], a = above > 0 ? overlays[above - 1] : null;
+    const start = a ? a.indentation : 0;
+    let share = b.indentation > start ? (depth - start) / (b.indentation - start) : 1;
+    const same = !a || a.rest.length === b.rest.length;
+    let shown = b;
+    if (!same) { shown = share < 0.5 ? a : b; share = 1; }
+    const { array } = shown.places;
+    for (let i = 0; i < array.length; ++i) {
+      const before = a && same ? a.moved[i] : 0;
+      array[i] = this.scale * (shown.rest[i] + (same ? before + share * (b.moved[i] - before) : shown.moved[i]));
+    }
+    shown.places.needsUpdate = true;
+    shown.lines.visible = true;
+    return same ? depth : shown.indentation;
+  }
+
+  vector(v) { return new THREE.Vector3(v[0], v[1], v[2]).multiplyScalar(this.scale); }
+
+  update(frame, places, held) {
+    const { array } = this.places;
+    for (let i = 0; i < array.length; ++i) array[i] = this.scale * places[i];
+    this.places.needsUpdate = true;
+    this.held.set(held);
+    this.paintMasses();
+    this.rod.position.copy(this.vector(frame.rod.position));
+    this.rod.quaternion.fromArray(frame.rod.orientation);
+    this.plane.position.copy(this.vector(frame.plane.point));
+    this.plane.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), new THREE.Vector3().fromArray(frame.plane.normal));
+    this.endpoint = this.vector(frame.endpoint);
+    this.forceTip = this.arrowTip(this.forceArrow, frame.wrench.force, this.forceUnit);
+    this.torqueTip = this.arrowTip(this.torqueArrow, frame.wrench.torque, this.torqueUnit);
+    this.handLine.visible = Boolean(frame.hand);
+    if (frame.hand) {
+      const place = this.vector(frame.hand.place);
+      const ends = this.handLine.geometry.attributes.position;
+      ends.array.set([...this.endpoint.toArray(), ...place.toArray()]);
+      ends.needsUpdate = true;
+      this.handTip = place;
+    }
+  }
+
+  arrowTip(arrow, values, unit) {
+    const vector = new THREE.Vector3().fromArray(values);
+    const length = vector.length() / unit;
+    FingerScene.point(arrow, this.endpoint, vector, length);
+    return this.endpoint.clone().add(vector.normalize().multiplyScalar(length));
+  }
+
+  /// Where a point of the scene is on the canvas [CSS pixels].
+  project(point) {
+    const p = point.clone().project(this.camera);
+    return [(p.x + 1) / 2 * this.canvas.clientWidth, (1 - p.y) / 2 * this.canvas.clientHeight];
+  }
+
+  /// The point [m] under a place of the canvas, as far away as `through` is.
+  unproject(x, y, through) {
+    const depth = through.clone().project(this.camera).z;
+    const p = new THREE.Vector3(2 * x / this.canvas.clientWidth - 1, 1 - 2 * y / this.canvas.clientHeight, depth);
+    return p.unproject(this.camera).divideScalar(this.scale);
+  }
+
+  onRod(x, y) {
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2(2 * x / this.canvas.clientWidth - 1, 1 - 2 * y / this.canvas.clientHeight), this.camera);
+    const l = this.geometry.rod_length * this.scale, sleeve = this.geometry.sleeve_length * this.scale;
+    const hit = ray.intersectObjects(this.rod.children.slice(0, 2))[0];
+    if (!hit) return false;
+    const inRod = this.rod.worldToLocal(hit.point.clone());
+    return inRod.z < -sleeve && inRod.z >= -l - 0.01;  // what the rubber does not cover
+  }
+
+  draw() {
+    const { canvas } = this;
+    const width = canvas.clientWidth, height = canvas.clientHeight;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    if (canvas.width !== Math.floor(width * ratio) || canvas.height !== Math.floor(height * ratio)) {
+      this.renderer.setPixelRatio(ratio);
+      this.renderer.setSize(width, height, false);
+      this.camera.aspect = width / height;
+      this.camera.updateProjectionMatrix();
+    }
+    this.renderer.render(this.scene, this.camera);
+  }
+}

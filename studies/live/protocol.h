@@ -1,0 +1,78 @@
+/// The language between page and program (README tells it in full): JSON in, JSON and frames out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "studies/live/rig.h"
+
+namespace fingertip::studies {
+
+/// Of the protocol; it changes when an old page could misread a new program.
+inline constexpr int live_protocol_version = 1;
+/// Longest message from a page [bytes].
+inline constexpr std::size_t longest_message = 1024;
+
+/// The page has drawn frame `number` and wants the next one.
+struct Acknowledge {
+  std::uint64_t number = 0;
+};
+enum class Transport { run, pause, step, reset };
+/// One of LiveSettings, or "rate": the wanted real-time factor, 0 for as fast as it can.
+struct Adjust {
+  std::string name;
+  double value = 0.0;
+};
+struct HandHolds {
+  meshes::Vector3 place;  ///< [m]
+};
+struct HandLetsGo {};
+
+using LiveMessage = std::variant<Acknowledge, Transport, Adjust, HandHolds, HandLetsGo>;
+
+/// The message in `text`, or why it is none.
+std::variant<LiveMessage, std::string> parse_message(std::string_view text);
+
+/// What is the same for all frames: the first message to a page. SI.
+struct LiveScene {
+  std::string title;
+  meshes::Geometry geometry;
+  LiveLimits limits;
+  std::vector<std::array<int, 2>> springs;
+  std::size_t masses = 0;
+  double period = 0.0;                           ///< of the controller [s]
+  std::vector<std::array<double, 2>> reference;  ///< indentation [m], normal force [N]
+  std::vector<double> overlays;                  ///< indentations of the continuum's fields [m]
+};
+
+enum class LiveStatus { running, paused, failed };
+
+struct LiveState {
+  LiveSettings settings;
+  double rate = 1.0;  ///< wanted real-time factor; 0: as fast as it can
+};
+
+struct LiveFrame {
+  std::uint64_t number = 0;  ///< from 1
+  std::uint64_t epoch = 0;   ///< counts the resets
+  LiveStatus status = LiveStatus::paused;
+  std::string failure;            ///< why the simulation stopped
+  double real_time_factor = 0.0;  ///< achieved
+  LiveState state;
+  LivePicture picture;
+};
+
+/// "scene" as JSON.
+std::string encode_scene(const LiveScene& scene);
+/// "error" as JSON; text that is no UTF-8 is mended.
+std::string encode_error(const std::string& text);
+/// A frame: uint32 length of the JSON text, the text padded with blanks so that what follows starts
+/// at a multiple of 4, float32 places (3 per mass) and rows (6 each), a byte per mass that tells
+/// whether the plane holds it. Little-endian.
+std::string encode_frame(const LiveFrame& frame, const std::vector<LiveRow>& rows);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,151 @@
+#include "studies/live/rig.h"
+
+#include <algorithm>
+
+#include "lattice/energy.h"
+
+namespace fingertip::studies {
+
+using meshes::Vector3;
+
+namespace {
+
+/// Of the rubber's thickness: deeper no lattice of a live view is asked to go.
+constexpr double deepest = 0.7;
+
+lattice::PressSetup under_control(lattice::PressSetup setup) {
+  setup.protocol.mode = meshes::DriveMode::pid;
+  return setup;
+}
+
+LiveLimits limits_for(const lattice::PressSetup& setup) {
+  LiveLimits limits;
+  limits.depth = {-setup.protocol.clearance,
+                  std::max(setup.protocol.depth, deepest * setup.geometry.thickness())};
+  limits.speed.least = std::min(limits.speed.least, setup.protocol.speed);
+  limits.speed.most = std::max(limits.speed.most, setup.protocol.speed);
+  const lattice::PidSettings& servo = setup.controller;
+  limits.natural_frequency.most = std::max(limits.natural_frequency.most, servo.natural_frequency);
+  limits.natural_frequency.least =
+      std::min(limits.natural_frequency.least, servo.natural_frequency);
+  limits.derivative_filter.most = std::max(limits.derivative_filter.most, servo.derivative_filter);
+  limits.derivative_filter.least =
+      std::min(limits.derivative_filter.least, servo.derivative_filter);
+  limits.reach = 2.0 * setup.geometry.tip_radius;
+  return limits;
+}
+
+double within(double value, const Span& span) {
+  return std::clamp(value, span.least, span.most);
+}
+
+}  // namespace
+
+LiveRig::LiveRig(const lattice::PressSetup& setup)
+    : setup_(under_control(setup)),
+      way_(setup.protocol, setup.geometry),
+      finger_(lattice::finger_setup(setup_, way_)),
+      boundary_(finger_.model(), setup.geometry),
+      limits_(limits_for(setup_)),
+      set_point_(setup.protocol.speed, setup.protocol.clearance + setup.protocol.depth,
+                 setup.protocol.clearance, setup.controller.period) {
+  settings_ = {setup.protocol.speed,
+               setup.protocol.depth,
+               setup.controller.natural_frequency,
+               setup.controller.derivative_filter,
+               setup.controller.bond_compensation,
+               true};
+  lattice::ControlTask task = lattice::control_task(setup_, way_, finger_.rod_body());
+  const Vector3 start = finger_.rod_body().endpoint;
+  task.path = [this, start](double) { return way_.at(start, set_point_.now()); };
+  std::unique_ptr<lattice::Controller> inner;
+  if (setup_.make_controller) inner = setup_.make_controller(task);
+  controller_ = std::make_unique<LiveController>(std::move(inner), task, setup_.controller);
+  loop_ = std::make_unique<lattice::ControlLoop>(finger_, *controller_, setup_.hardware,
+                                                 setup_.controller, task.period);
+}
+
+double LiveRig::indentation() const {
+  return way_.indentation(finger_.rod_body().endpoint, finger_.finger().rod().endpoint(),
+                          setup_.protocol.clearance);
+}
+
+void LiveRig::advance() {
+  loop_->sample();
+  loop_->advance();
+  set_point_.advance();
+  check_sanity();
+}
+
+void LiveRig::check_sanity() const {
+  const double energy = lattice::kinetic_energy(finger_.model(), finger_.finger().state()) +
+                        finger_.finger().elastic_energy();
+  const double largest = 1e3 * setup_.rubber.longitudinal_modulus() * setup_.geometry.tip_volume();
+  const Vector3 travel = finger_.finger().rod().endpoint() - finger_.rod_body().endpoint;
+  if (!(energy < largest)) throw meshes::NotConverged("the lattice blew up");
+  if (!(travel.norm() < 10.0 * setup_.geometry.rod_length)) {
+    throw meshes::NotConverged("the rod flew away");
+  }
+}
+
+void LiveRig::reset() {
+  loop_->reset();
+  set_point_.restart(0.0);
+}
+
+void LiveRig::set(const LiveSettings& wanted) {
+  LiveSettings next = wanted;
+  next.speed = within(wanted.speed, limits_.speed);
+  next.depth = within(wanted.depth, limits_.depth);
+  next.natural_frequency = within(wanted.natural_frequency, limits_.natural_frequency);
+  next.derivative_filter = within(wanted.derivative_filter, limits_.derivative_filter);
+  next.bond_compensation = within(wanted.bond_compensation, limits_.bond_compensation);
+  set_point_.want(next.speed, setup_.protocol.clearance + next.depth);
+  const bool other_gains = next.natural_frequency != settings_.natural_frequency ||
+                           next.derivative_filter != settings_.derivative_filter ||
+                           next.bond_compensation != settings_.bond_compensation;
+  if (other_gains) {
+    lattice::PidSettings servo = controller_->servo();
+    servo.natural_frequency = next.natural_frequency;
+    servo.derivative_filter = next.derivative_filter;
+    servo.bond_compensation = next.bond_compensation;
+    controller_->set_servo(servo);
+  }
+  if (next.controller && !controller_->on()) {
+    // The way is taken up where the rod is now, so that it is not torn there.
+    set_point_.restart(indentation() + setup_.protocol.clearance);
+  }
+  controller_->switch_on(next.controller);
+  settings_ = next;
+}
+
+void LiveRig::hold(const Vector3& place) {
+  const Vector3 start = finger_.rod_body().endpoint;
+  const Vector3 reach = Vector3::Constant(limits_.reach);
+  controller_->hand().hold((place - start).cwiseMin(reach).cwiseMax(-reach) + start);
+}
+
+LiveRow LiveRig::row() const {
+  const lattice::RodState& rod = finger_.finger().rod();
+  LiveRow row;
+  row.time = finger_.time();
+  row.indentation = indentation();
+  row.normal_force = finger_.finger().bond().force.dot(way_.plane.normal);
+  row.speed = -rod.velocity_at(rod.endpoint()).dot(way_.plane.normal);
+  row.commanded_speed = set_point_.now().speed;
+  row.tilt = Eigen::AngleAxisd(rod.pose().orientation).angle();
+  return row;
+}
+
+LivePicture LiveRig::picture() const {
+  LivePicture picture;
+  picture.row = row();
+  picture.measured = finger_.read();
+  picture.commanded = loop_->commanded();
+  picture.hand = controller_->hand().last();
+  picture.hand_place = controller_->hand().place();
+  picture.finger = lattice::take_picture(finger_.finger(), boundary_, picture.row.indentation);
+  return picture;
+}
+
+}  // namespace fingertip::studies

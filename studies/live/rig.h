@@ -1,0 +1,101 @@
+/// The finger, its controller and the hand behind the live view: no threads, no network.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "lattice/boundary_view.h"
+#include "lattice/control/control_loop.h"
+#include "lattice/press_task.h"
+#include "studies/live/live_controller.h"
+#include "studies/live/moving_set_point.h"
+
+namespace fingertip::studies {
+
+/// What sliders set. SI.
+struct LiveSettings {
+  double speed = 0.01;              ///< of the approach [m/s]
+  double depth = 0.003;             ///< wanted indentation, negative above the plane [m]
+  double natural_frequency = 60.0;  ///< [Hz]
+  double derivative_filter = 10.0;
+  double bond_compensation = 1.0;
+  bool controller = true;  ///< whether the controller acts
+};
+
+/// Least and largest value of a slider.
+struct Span {
+  double least = 0.0, most = 0.0;
+};
+
+struct LiveLimits {
+  Span speed{1.0e-3, 0.2};
+  Span depth;
+  Span natural_frequency{5.0, 120.0};
+  Span derivative_filter{2.0, 50.0};
+  Span bond_compensation{0.0, 1.0};
+  double reach = 0.0;  ///< of the hand, each coordinate from the endpoint's start [m]
+};
+
+/// One line of the plots, once per controller period. SI.
+struct LiveRow {
+  double time = 0.0, indentation = 0.0, normal_force = 0.0, speed = 0.0, commanded_speed = 0.0,
+         tilt = 0.0;
+};
+
+/// Everything a picture needs. SI, world axes.
+struct LivePicture {
+  LiveRow row;
+  lattice::Measurement measured;  ///< as a perfect sensor would
+  lattice::Wrench commanded;      ///< by controller and hand, before the actuators' limits
+  lattice::Wrench hand;           ///< of the hand alone
+  std::optional<meshes::Vector3> hand_place;
+  lattice::FingerPicture finger;
+};
+
+class LiveRig {
+ public:
+  /// A press under its controller, whatever the protocol's mode. Throws InvalidInput.
+  explicit LiveRig(const lattice::PressSetup& setup);
+  LiveRig(const LiveRig&) = delete;
+  LiveRig& operator=(const LiveRig&) = delete;
+
+  /// Advances by one controller period. Throws NotConverged when the lattice gives way,
+  /// ControllerFailed.
+  void advance();
+  /// As in the beginning, but for the settings.
+  void reset();
+
+  const LiveSettings& settings() const { return settings_; }
+  /// Takes effect with the next period; values outside of limits() are put to their ends.
+  void set(const LiveSettings& settings);
+  const LiveLimits& limits() const { return limits_; }
+
+  /// The hand takes the endpoint toward `place` [m], within its reach.
+  void hold(const meshes::Vector3& place);
+  void release() { controller_->hand().release(); }
+
+  LivePicture picture() const;
+  LiveRow row() const;
+  const lattice::PressSetup& setup() const { return setup_; }
+  const lattice::BoundaryView& boundary() const { return boundary_; }
+  double period() const { return loop_->period(); }
+  double time() const { return finger_.time(); }
+
+ private:
+  double indentation() const;
+  void check_sanity() const;
+
+  lattice::PressSetup setup_;
+  lattice::PressWay way_;
+  lattice::VirtualFinger finger_;
+  lattice::BoundaryView boundary_;
+  LiveLimits limits_;
+  LiveSettings settings_;
+  MovingSetPoint set_point_;
+  std::unique_ptr<LiveController> controller_;
+  std::unique_ptr<lattice::ControlLoop> loop_;
+};
+
+}  // namespace fingertip::studies

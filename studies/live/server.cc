@@ -1,0 +1,439 @@
+#include "studies/live/server.h"
+
+#include <civetweb.h>
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <pthread.h>
+
+#include <array>
+#include <condition_variable>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "meshes/errors.h"
+#include "studies/live/access.h"
+#include "studies/live/page_files.h"
+
+/// CivetWeb asks for stacks of 100 kB. glibc takes the thread-local variables of all libraries out
+/// of a thread's stack (OpenBLAS, METIS and glog together have 120 kB), so pthread_create() would
+/// refuse. This stands in front of the C library's function, in the whole program, and lets nobody
+/// have less than a megabyte, which costs addresses, not memory.
+extern "C" int pthread_attr_setstacksize(pthread_attr_t* attributes, std::size_t size) noexcept {
+  using Function = int (*)(pthread_attr_t*, std::size_t);
+  static const auto original =
+      reinterpret_cast<Function>(dlsym(RTLD_NEXT, "pthread_attr_setstacksize"));
+  constexpr std::size_t least = 1UL << 20U;
+  return original(attributes, size < least ? least : size);
+}
+
+namespace fingertip::studies {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t rows_per_frame = 600;
+constexpr double rest_allowance = 2.0;  ///< burst of messages over their rate
+
+double seconds_now() {
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+/// Everything a browser must not do with the page.
+std::string security_headers(int port) {
+  return fmt::format(
+      "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: "
+      "no-referrer\r\nX-Frame-Options: DENY\r\nContent-Security-Policy: default-src 'self'; "
+      "connect-src 'self' ws://127.0.0.1:{0} ws://localhost:{0}; style-src 'self' "
+      "'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; "
+      "form-action 'none'\r\n",
+      port);
+}
+
+std::string_view header(const mg_connection* connection, const char* name) {
+  const char* value = mg_get_header(connection, name);
+  return value != nullptr ? value : "";
+}
+
+Credentials credentials_of(const mg_connection* connection) {
+  const mg_request_info* request = mg_get_request_info(connection);
+  return {header(connection, "Host"), header(connection, "Origin"), header(connection, "Cookie"),
+          request->query_string != nullptr ? request->query_string : ""};
+}
+
+std::string file_content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw meshes::InvalidInput({"three.js", file.string(), "the file cannot be read",
+                                "install the Debian package libjs-three"});
+  }
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Client {
+  explicit Client(const ServerOptions& options)
+      : rate(options.messages_per_second, rest_allowance * options.messages_per_second) {}
+
+  std::mutex mutex;  ///< held while writing; guards what follows
+  bool open = true;
+  std::uint64_t sent = 0, acknowledged = 0, epoch = 0, next_row = 0;
+  RateLimit rate;
+};
+
+}  // namespace
+
+class LiveServer::Implementation {
+ public:
+  Implementation(Simulation& simulation, const Reference& reference, const std::string& title,
+                 const ServerOptions& options);
+  ~Implementation();
+
+  void frame_ready();
+  int port() const { return port_; }
+  const Access& access() const { return *access_; }
+  int clients() const {
+    const std::lock_guard lock(mutex_);
+    return int(clients_.size());
+  }
+
+ private:
+  using ClientMap = std::map<const mg_connection*, std::shared_ptr<Client>>;
+
+  void start();
+  void route();
+  void collect_files();
+  int serve(mg_connection* connection);
+  bool refuse(mg_connection* connection);
+  void answer(mg_connection* connection, std::string_view type, std::string_view content) const;
+  void greet(mg_connection* connection);
+  bool take(mg_connection* connection, int bits, std::string_view text);
+  void forget(const mg_connection* connection);
+  std::shared_ptr<Client> client(const mg_connection* connection) const;
+  void stream();
+  void send_frame(mg_connection* connection, Client& client, const LiveFrame& frame);
+
+  Simulation& simulation_;
+  const Reference& reference_;
+  ServerOptions options_;
+  std::string scene_;
+  std::map<std::string, std::pair<std::string, std::string>, std::less<>> files_;  ///< type, text
+  mg_context* context_ = nullptr;
+  int port_ = 0;
+  std::unique_ptr<Access> access_;
+
+  mutable std::mutex mutex_;  ///< guards clients_, work_, stopping_
+  std::condition_variable wake_;
+  ClientMap clients_;
+  bool work_ = false, stopping_ = false;
+  std::thread sender_;
+};
+
+LiveServer::Implementation::Implementation(Simulation& simulation, const Reference& reference,
+                                           const std::string& title, const ServerOptions& options)
+    : simulation_(simulation), reference_(reference), options_(options) {
+  const LiveRig& rig = simulation.rig();
+  LiveScene scene;
+  scene.title = title;
+  scene.geometry = rig.setup().geometry;
+  scene.limits = rig.limits();
+  scene.springs = rig.boundary().springs();
+  scene.masses = rig.boundary().size();
+  scene.period = rig.period();
+  for (const meshes::PressSample& sample : reference.response.samples())
+    scene.reference.push_back({sample.indentation, sample.normal_force});
+  for (const Overlay& overlay : reference.overlays) scene.overlays.push_back(overlay.indentation);
+  scene_ = encode_scene(scene);
+  collect_files();
+  start();
+  sender_ = std::thread([this] { stream(); });
+}
+
+LiveServer::Implementation::~Implementation() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  sender_.join();
+  mg_stop(context_);
+  mg_exit_library();
+}
+
+void LiveServer::Implementation::collect_files() {
+  for (const PageFile& file : page_files())
+    files_[std::string(file.path)] = {std::string(file.type), std::string(file.content)};
+  const std::filesystem::path three =
+      options_.three_folder.empty() ? "/usr/share/javascript/three" : options_.three_folder;
+  const char* script = "text/javascript; charset=utf-8";
+  files_["/three.min.js"] = {script, file_content(three / "three.min.js")};
+  files_["/OrbitControls.js"] = {script,
+                                 file_content(three / "examples/js/controls/OrbitControls.js")};
+  for (std::size_t i = 0; i < reference_.overlays.size(); ++i) {
+    files_[fmt::format("/overlay/{}", i)] = {"application/octet-stream",
+                                             encode_overlay(reference_.overlays[i])};
+  }
+}
+
+void LiveServer::Implementation::start() {
+  mg_init_library(0);
+  const std::string where = fmt::format("127.0.0.1:{}", options_.port);
+  const std::string threads = std::to_string(3 * options_.most_clients);
+  const char* options[] = {"listening_ports",
+                           where.c_str(),
+                           "num_threads",
+                           threads.c_str(),
+                           "request_timeout_ms",
+                           "2000",
+                           "websocket_timeout_ms",
+                           "10000",
+                           "enable_websocket_ping_pong",
+                           "yes",
+                           "enable_keep_alive",
+                           "no",
+                           "tcp_nodelay",
+                           "1",
+                           nullptr};
+  mg_callbacks callbacks{};
+  callbacks.log_message = [](const mg_connection*, const char*) { return 1; };  // not on stderr
+  context_ = mg_start(&callbacks, this, options);
+  mg_server_port ports[1];
+  if (context_ == nullptr || mg_get_server_ports(context_, 1, ports) != 1) {
+    if (context_ != nullptr) mg_stop(context_);
+    mg_exit_library();
+    throw meshes::InvalidInput({"--port", std::to_string(options_.port),
+                                "127.0.0.1 does not give this port",
+                                "choose another one, or 0 for a free one"});
+  }
+  port_ = ports[0].port;
+  access_ = std::make_unique<Access>(port_, random_token());
+  route();
+}
+
+void LiveServer::Implementation::route() {
+  mg_set_request_handler(
+      context_, "**",
+      [](mg_connection* connection, void* self) {
+        return static_cast<Implementation*>(self)->serve(connection);
+      },
+      this);
+  // Here, not in the connect handler: it may answer.
+  mg_set_auth_handler(
+      context_, "/stream$",
+      [](mg_connection* connection, void* self) {
+        return static_cast<Implementation*>(self)->refuse(connection) ? 0 : 1;
+      },
+      this);
+  mg_set_websocket_handler(
+      context_, "/stream$", [](const mg_connection*, void*) { return 0; },
+      [](mg_connection* connection, void* self) {
+        static_cast<Implementation*>(self)->greet(connection);
+      },
+      [](mg_connection* connection, int bits, char* data, std::size_t size, void* self) {
+        return static_cast<Implementation*>(self)->take(connection, bits, {data, size}) ? 1 : 0;
+      },
+      [](const mg_connection* connection, void* self) {
+        static_cast<Implementation*>(self)->forget(connection);
+      },
+      this);
+}
+
+/// Whether the websocket was refused.
+bool LiveServer::Implementation::refuse(mg_connection* connection) {
+  if (!access_->may_connect(credentials_of(connection))) {
+    mg_send_http_error(connection, 403, "%s", "wrong host, origin or token");
+    return true;
+  }
+  const std::lock_guard lock(mutex_);
+  if (stopping_ || int(clients_.size()) >= options_.most_clients) {
+    mg_send_http_error(connection, 503, "%s", "too many pages are connected");
+    return true;
+  }
+  return false;
+}
+
+int LiveServer::Implementation::serve(mg_connection* connection) {
+  const mg_request_info* request = mg_get_request_info(connection);
+  if (!access_->may_read(credentials_of(connection))) {
+    mg_send_http_error(connection, 403, "%s",
+                       "wrong host, origin or token: open the address that fingertip printed");
+    return 403;
+  }
+  const std::string_view method = request->request_method;
+  const auto file = files_.find(std::string_view(request->local_uri));
+  if (method != "GET" && method != "HEAD") {
+    mg_send_http_error(connection, 405, "%s", "pages are read, nothing else");
+    return 405;
+  }
+  if (file == files_.end()) {
+    mg_send_http_error(connection, 404, "%s", "there is no such page");
+    return 404;
+  }
+  answer(connection, file->second.first, method == "GET" ? file->second.second : "");
+  return 200;
+}
+
+void LiveServer::Implementation::answer(mg_connection* connection, std::string_view type,
+                                        std::string_view content) const {
+  const std::string head = fmt::format(
+      "HTTP/1.1 200 OK\r\nContent-Type: {}\r\nContent-Length: {}\r\n{}Set-Cookie: "
+      "{}={}; Path=/; HttpOnly; SameSite=Strict\r\nConnection: close\r\n\r\n",
+      type, content.size(), security_headers(port_), access_->cookie_name(), access_->token());
+  mg_write(connection, head.data(), head.size());
+  mg_write(connection, content.data(), content.size());
+}
+
+std::shared_ptr<Client> LiveServer::Implementation::client(const mg_connection* connection) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = clients_.find(connection);
+  return found == clients_.end() ? nullptr : found->second;
+}
+
+void LiveServer::Implementation::greet(mg_connection* connection) {
+  const auto us = std::make_shared<Client>(options_);
+  // The present frame may be old, for nobody may have watched: only newer ones are for it.
+  us->sent = us->acknowledged = simulation_.frame()->number;
+  const std::lock_guard writing(us->mutex);
+  bool full = false;
+  {
+    const std::lock_guard lock(mutex_);
+    // A crowd that comes at once may find the last place free together.
+    full = int(clients_.size()) >= options_.most_clients;
+    if (!full) clients_.emplace(connection, us);
+  }
+  if (full) {
+    mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_CONNECTION_CLOSE, "", 0);
+    return;
+  }
+  mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_TEXT, scene_.data(), scene_.size());
+  simulation_.watched_by(clients());
+  frame_ready();
+}
+
+/// Whether the connection may stay.
+bool LiveServer::Implementation::take(mg_connection* connection, int bits, std::string_view text) {
+  const std::shared_ptr<Client> us = client(connection);
+  if (!us) return false;
+  const int opcode = bits & 0x0f;
+  if (opcode == MG_WEBSOCKET_OPCODE_CONNECTION_CLOSE) return false;
+  if (opcode == MG_WEBSOCKET_OPCODE_PING || opcode == MG_WEBSOCKET_OPCODE_PONG) return true;
+  const auto complain = [&](const std::string& why) {
+    const std::string error = encode_error(why);
+    const std::lock_guard lock(us->mutex);
+    mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_TEXT, error.data(), error.size());
+  };
+  {
+    const std::unique_lock lock(us->mutex);
+    if (!us->rate.pass(seconds_now())) return false;
+  }
+  const bool whole = (bits & 0x80) != 0 && opcode == MG_WEBSOCKET_OPCODE_TEXT;
+  if (!whole || text.size() > longest_message) {
+    complain("messages are short texts in one piece");
+    return false;
+  }
+  const auto parsed = parse_message(text);
+  if (const std::string* why = std::get_if<std::string>(&parsed)) {
+    complain(*why);
+    return true;
+  }
+  const LiveMessage& message = std::get<LiveMessage>(parsed);
+  if (const Acknowledge* seen = std::get_if<Acknowledge>(&message)) {
+    {
+      const std::lock_guard lock(us->mutex);
+      if (seen->number <= us->sent) us->acknowledged = std::max(us->acknowledged, seen->number);
+    }
+    frame_ready();
+  } else if (!simulation_.post(message)) {
+    complain("too many orders at once");
+  }
+  return true;
+}
+
+void LiveServer::Implementation::forget(const mg_connection* connection) {
+  std::shared_ptr<Client> us;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = clients_.find(connection);
+    if (found == clients_.end()) return;
+    us = found->second;
+    clients_.erase(found);
+  }
+  {
+    // The sender may be writing to it; afterwards it will not.
+    const std::lock_guard lock(us->mutex);
+    us->open = false;
+  }
+  simulation_.watched_by(clients());
+}
+
+void LiveServer::Implementation::frame_ready() {
+  {
+    const std::lock_guard lock(mutex_);
+    work_ = true;
+  }
+  wake_.notify_all();
+}
+
+void LiveServer::Implementation::stream() {
+  while (true) {
+    ClientMap clients;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [this] { return work_ || stopping_; });
+      if (stopping_) return;
+      work_ = false;
+      clients = clients_;
+    }
+    const std::shared_ptr<const LiveFrame> frame = simulation_.frame();
+    for (auto& [connection, client] : clients) {
+      const std::lock_guard lock(client->mutex);
+      const bool waits = client->open && client->acknowledged == client->sent;
+      if (!waits || client->sent == frame->number) continue;
+      // The connection outlives this: forget() waits for the client's mutex.
+      send_frame(const_cast<mg_connection*>(connection), *client, *frame);
+    }
+  }
+}
+
+void LiveServer::Implementation::send_frame(mg_connection* connection, Client& client,
+                                            const LiveFrame& frame) {
+  if (client.epoch != frame.epoch) client.next_row = 0;
+  client.epoch = frame.epoch;
+  const LiveRows rows = simulation_.rows_from(client.next_row, rows_per_frame);
+  client.next_row = rows.first;
+  const std::string bytes = encode_frame(frame, rows.rows);
+  client.sent = frame.number;
+  const int written =
+      mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_BINARY, bytes.data(), bytes.size());
+  if (written <= 0) client.open = false;
+}
+
+LiveServer::LiveServer(Simulation& simulation, const Reference& reference, const std::string& title,
+                       const ServerOptions& options)
+    : implementation_(std::make_unique<Implementation>(simulation, reference, title, options)) {}
+
+LiveServer::~LiveServer() = default;
+
+void LiveServer::frame_ready() {
+  implementation_->frame_ready();
+}
+
+int LiveServer::port() const {
+  return implementation_->port();
+}
+
+const std::string& LiveServer::token() const {
+  return implementation_->access().token();
+}
+
+std::string LiveServer::url() const {
+  return fmt::format("http://127.0.0.1:{}/?token={}", port(), token());
+}
+
+int LiveServer::clients() const {
+  return implementation_->clients();
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,244 @@
+// The live view in a real browser: elements, values, transport, sliders, hand, reload.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+
+#include "chromium.h"
+#include "lattice/constants.h"
+#include "studies/live/server.h"
+
+using namespace fingertip;
+
+namespace {
+
+lattice::PressSetup coarse_press() {
+  lattice::PressSetup setup;
+  setup.lattice.spacing = setup.geometry.tip_radius / 5.0;
+  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  setup.protocol.speed = 0.05;
+  setup.threads = 1;
+  return setup;
+}
+
+/// A reference that the page can draw: a curve and a patch of a surface at two depths.
+studies::Reference small_reference() {
+  studies::Reference reference;
+  for (const double depth : {0.5e-3, 1e-3, 2e-3, 3e-3}) {
+    meshes::PressSample sample;
+    sample.indentation = depth;
+    sample.normal_force = 0.03 * std::pow(depth / 1e-3, 1.7);
+    reference.response.append(sample);
+  }
+  for (const double depth : {1e-3, 3e-3}) {
+    studies::SurfaceMesh patch;
+    for (int i = 0; i < 24; ++i) {
+      const double angle = 2.0 * M_PI * i / 24.0;
+      patch.rest.push_back(0.01 * meshes::Vector3(std::cos(angle), 0.0, std::sin(angle)));
+      patch.displacement.push_back({0.0, 0.0, -depth * std::max(0.0, std::sin(angle))});
+      patch.edges.push_back({std::uint32_t(i), std::uint32_t((i + 1) % 24)});
+    }
+    reference.overlays.push_back({depth, patch});
+  }
+  return reference;
+}
+
+class LivePage : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (browser::chromium_program().empty())
+      GTEST_SKIP() << "Chromium is not installed (./fingertip test installs it)";
+    simulation_ = std::make_unique<studies::Simulation>(coarse_press(), true, 1.0, [this] {
+      if (studies::LiveServer* server = listener_) server->frame_ready();
+    });
+    server_ = std::make_unique<studies::LiveServer>(*simulation_, reference_, "test lattice",
+                                                    studies::ServerOptions{});
+    listener_ = server_.get();
+    page_ = std::make_unique<browser::Chromium>(1280, 800);
+    page_->open(server_->url());
+    ASSERT_TRUE(page_->wait_for(connected));
+  }
+  void TearDown() override {
+    if (!page_) return;
+    for (const std::string& complaint : page_->complaints()) ADD_FAILURE() << complaint;
+    page_.reset();
+    simulation_->stop();
+    listener_ = nullptr;
+  }
+
+  /// The number that an element shows.
+  double shown(const std::string& id) {
+    return page_->evaluate("parseFloat(document.getElementById('" + id +
+                           "').textContent.replace('\\u2212', '-'))");
+  }
+  std::string text(const std::string& id) {
+    return page_->evaluate("document.getElementById('" + id + "').textContent");
+  }
+  /// Waits until the page shows the simulation's last frame, both at rest.
+  void settle() {
+    std::uint64_t before = 0, now = simulation_->frame()->number;
+    do {
+      before = now;
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      now = simulation_->frame()->number;
+    } while (now != before);
+    ASSERT_TRUE(page_->wait_for(fmt::format("document.body.dataset.frame === '{}'", now)));
+  }
+  void slide(const std::string& id, double share) {
+    page_->evaluate(fmt::format(
+        "(() => {{ const s = document.getElementById('{}'); s.value = {}; s.dispatchEvent(new "
+        "Event('input', {{ bubbles: true }})); }})()",
+        id, share));
+  }
+
+  static constexpr const char* connected =
+      "document.getElementById('status').textContent === 'paused'";
+  studies::Reference reference_ = small_reference();
+  std::atomic<studies::LiveServer*> listener_ = nullptr;
+  std::unique_ptr<studies::Simulation> simulation_;
+  std::unique_ptr<studies::LiveServer> server_;
+  std::unique_ptr<browser::Chromium> page_;
+};
+
+/// Pairs of visible texts that overlap, or texts cut off by their box.
+constexpr const char* crowded = R"((() => {
+  const shown = [...document.querySelectorAll('h1, header p, header button, figcaption, #readings dt, #readings dd, .label, #legend li, fieldset legend, .slider span, .slider output, .check, .buttons button, #notice')]
+    .filter((e) => e.offsetParent !== null && e.textContent.trim() !== '');
+  const found = [];
+  const boxes = shown.map((e) => e.getBoundingClientRect());
+  for (let i = 0; i < shown.length; ++i) {
+    const e = shown[i], b = boxes[i];
+    if (e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0) found.push('cut: ' + e.textContent);
+    if (b.right > innerWidth + 1 || b.bottom > innerHeight + 1 || b.left < -1 || b.top < -1) found.push('outside: ' + e.textContent);
+    for (let j = i + 1; j < shown.length; ++j) {
+      if (e.contains(shown[j]) || shown[j].contains(e)) continue;
+      const c = boxes[j];
+      if (b.left < c.right - 1 && c.left < b.right - 1 && b.top < c.bottom - 1 && c.top < b.bottom - 1) found.push(e.textContent + ' | ' + shown[j].textContent);
+    }
+  }
+  return found;
+})())";
+
+}  // namespace
+
+TEST_F(LivePage, ShowsWhatTheServerSays) {
+  EXPECT_EQ(text("title"), "test lattice");
+  EXPECT_EQ(page_->evaluate("location.search"), "");  // the token does not stay in the address
+  page_->click("#run");
+  ASSERT_TRUE(page_->wait_for("document.getElementById('status').textContent === 'running'"));
+  ASSERT_TRUE(
+      page_->wait_for("parseFloat(document.getElementById('normal-force').textContent) > "
+                      "3.0",
+                      60.0));
+  EXPECT_GT(shown("achieved"), 0.0);
+  page_->click("#run");
+  ASSERT_TRUE(page_->wait_for(connected));
+  settle();
+  const auto frame = simulation_->frame();
+  const studies::LiveRow& row = frame->picture.row;
+  EXPECT_GT(row.normal_force, 0.0);
+  EXPECT_NEAR(shown("indentation"), 100.0 * row.indentation, 0.51e-4);
+  EXPECT_NEAR(shown("normal-force"), row.normal_force / 9.80665e-3, 0.51e-2);
+  EXPECT_NEAR(shown("torque"), frame->picture.measured.wrench.torque.norm() / 9.80665e-5, 0.51e-2);
+  EXPECT_NEAR(shown("time"), row.time, 0.51e-3);
+  EXPECT_NEAR(shown("touching"), frame->picture.measured.contact->touching, 0.0);
+  page_->click("#units");
+  ASSERT_TRUE(
+      page_->wait_for("document.getElementById('normal-force').textContent.endsWith(' N')"));
+  EXPECT_NEAR(shown("indentation"), 1e3 * row.indentation, 0.51e-3);
+  EXPECT_NEAR(shown("normal-force"), row.normal_force, 0.51e-4);
+}
+
+TEST_F(LivePage, StepsResetsAndObeysSliders) {
+  const double period = simulation_->rig().period();
+  for (int i = 1; i <= 3; ++i) {
+    page_->click("#step");
+    ASSERT_TRUE(page_->wait_for(
+        fmt::format("document.getElementById('time').textContent === '{:.3f} s'", i * period)));
+  }
+  slide("depth", 0.8);
+  slide("natural_frequency", 0.25);
+  page_->click("#free");
+  settle();
+  const studies::LiveState& state = simulation_->frame()->state;
+  const studies::LiveLimits& limits = simulation_->rig().limits();
+  EXPECT_NEAR(state.settings.depth,
+              limits.depth.least + 0.8 * (limits.depth.most - limits.depth.least), 1e-9);
+  EXPECT_NEAR(state.settings.natural_frequency, 5.0 + 0.25 * 115.0, 1e-6);
+  EXPECT_EQ(state.rate, 0.0);
+  EXPECT_NEAR(shown("depth-value"), 100.0 * state.settings.depth, 0.51e-4);
+  page_->click("#reset");
+  ASSERT_TRUE(page_->wait_for("document.getElementById('time').textContent === '0.000 s'"));
+  page_->evaluate("document.activeElement.blur()");
+  page_->press_key("s");  // by keyboard
+  ASSERT_TRUE(page_->wait_for(
+      fmt::format("document.getElementById('time').textContent === '{:.3f} s'", period)));
+}
+
+TEST_F(LivePage, TheHandPullsTheRodAndFeelsIt) {
+  page_->click("#controller");  // off: the rod is free
+  page_->click("#run");
+  ASSERT_TRUE(page_->wait_for("document.getElementById('status').textContent === 'running'"));
+  page_->drag("#handle", 60.0, 0.0);
+  ASSERT_TRUE(page_->wait_for("parseFloat(document.getElementById('hand-force').textContent) > 0"));
+  // The rod follows the hand and the spring relaxes.
+  ASSERT_TRUE(
+      page_->wait_for("parseFloat(document.getElementById('hand-force').textContent) < 0.5", 60.0));
+  const meshes::Vector3 start(0.0, 0.0, -0.03);
+  const auto held = simulation_->frame();
+  EXPECT_GT((held->picture.finger.endpoint - start).norm(), 1e-3);
+  page_->release_mouse();
+  ASSERT_TRUE(page_->wait_for("document.getElementById('hand-force').textContent === '–'"));
+}
+
+TEST_F(LivePage, ComesBackAfterAReload) {
+  page_->click("#run");
+  ASSERT_TRUE(page_->wait_for("parseFloat(document.getElementById('time').textContent) > 0.02"));
+  page_->reload();
+  ASSERT_TRUE(page_->wait_for("document.getElementById('status').textContent === 'running'"));
+  // The simulation went on, and the curve is whole: the page has the rows from the start again.
+  ASSERT_TRUE(page_->wait_for("fingertipPage.rows.length > 20 && fingertipPage.rows[0][0] < 5e-3"));
+}
+
+TEST_F(LivePage, NoTextOverlapsAtTwoSizesInBothThemes) {
+  page_->click("#free");
+  page_->click("#run");
+  ASSERT_TRUE(
+      page_->wait_for("parseFloat(document.getElementById('indentation').textContent) > "
+                      "0.2",
+                      60.0));
+  page_->drag("#handle", 30.0, 10.0);
+  page_->click("#run");
+  const char* folder = std::getenv("FINGERTIP_SCREENSHOTS");  // where to keep the pictures
+  for (const char* theme : {"light", "dark"}) {
+    page_->evaluate(
+        fmt::format("document.documentElement.dataset.theme !== '{}' && "
+                    "document.getElementById('theme').click()",
+                    theme));
+    for (const auto& [width, height] : {std::pair{1280, 800}, std::pair{1600, 1000}}) {
+      page_->resize(width, height);
+      std::this_thread::sleep_for(std::chrono::milliseconds(600));
+      EXPECT_EQ(page_->evaluate(crowded), nlohmann::json::array()) << theme << ' ' << width;
+      const nlohmann::json scrolls = page_->evaluate(
+          "document.documentElement.scrollHeight > innerHeight || "
+          "document.documentElement.scrollWidth > innerWidth");
+      EXPECT_EQ(scrolls, false) << theme << ' ' << width;
+      if (folder != nullptr)
+        page_->screenshot(std::filesystem::path(folder) / fmt::format("{}_{}.png", theme, width));
+    }
+  }
+}
+
+TEST_F(LivePage, TheSceneIsDrawn) {
+  // WebGL without a graphics card: some pixels of the canvas are the plane's, the rod's, the tip's.
+  const nlohmann::json pixels = page_->evaluate(
+      "(() => { const s = fingertipPage.scene; s.draw(); const g = s.renderer.getContext(); const "
+      "w "
+      "= g.drawingBufferWidth, h = g.drawingBufferHeight; const p = new Uint8Array(4 * w * h); "
+      "g.readPixels(0, 0, w, h, g.RGBA, g.UNSIGNED_BYTE, p); let n = 0; for (let i = 3; i < "
+      "p.length; i += 4) n += p[i] > 0; return n / (w * h); })()");
+  EXPECT_GT(pixels.get<double>(), 0.1);
+  EXPECT_LT(pixels.get<double>(), 0.9);
+}

@@ -1,0 +1,149 @@
+#include "studies/live/protocol.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <random>
+
+using namespace fingertip;
+using namespace fingertip::studies;
+
+namespace {
+
+template <class Message>
+Message parsed(const std::string& text) {
+  const auto result = parse_message(text);
+  EXPECT_TRUE(std::holds_alternative<LiveMessage>(result)) << text;
+  return std::get<Message>(std::get<LiveMessage>(result));
+}
+
+bool refused(const std::string& text) {
+  return std::holds_alternative<std::string>(parse_message(text));
+}
+
+LiveFrame small_frame() {
+  LiveFrame frame;
+  frame.number = 7;
+  frame.epoch = 2;
+  frame.status = LiveStatus::running;
+  frame.picture.row = {0.5, 1e-3, 0.25, 0.01, 0.011, 2e-4};
+  frame.picture.finger.boundary = {{0.1, 0.2, 0.3}, {-0.1, -0.2, -0.3}};
+  frame.picture.finger.held = {0, 1};
+  return frame;
+}
+
+}  // namespace
+
+TEST(Protocol, TakesEveryMessage) {
+  EXPECT_EQ(parsed<Transport>(R"({"type":"run"})"), Transport::run);
+  EXPECT_EQ(parsed<Transport>(R"({"type":"pause"})"), Transport::pause);
+  EXPECT_EQ(parsed<Transport>(R"({"type":"step"})"), Transport::step);
+  EXPECT_EQ(parsed<Transport>(R"({"type":"reset"})"), Transport::reset);
+  EXPECT_EQ(parsed<Acknowledge>(R"({"type":"ack","frame":12})").number, 12u);
+  const auto change = parsed<Adjust>(R"({"type":"set","name":"depth","value":-0.001})");
+  EXPECT_EQ(change.name, "depth");
+  EXPECT_EQ(change.value, -0.001);
+  EXPECT_EQ(parsed<HandHolds>(R"({"type":"hold","place":[1,2.5,-3e-2]})").place,
+            meshes::Vector3(1.0, 2.5, -0.03));
+  parsed<HandLetsGo>(R"({"type":"release"})");
+}
+
+TEST(Protocol, RefusesWhatItDoesNotKnow) {
+  for (const char* text : {"",
+                           "{",
+                           "[]",
+                           "null",
+                           "7",
+                           "\"run\"",
+                           "{}",
+                           R"({"type":7})",
+                           R"({"type":"fly"})",
+                           R"({"type":"ack"})",
+                           R"({"type":"ack","frame":-1})",
+                           R"({"type":"ack","frame":1.5})",
+                           R"({"type":"set"})",
+                           R"({"type":"set","name":"depth"})",
+                           R"({"type":"set","name":"depth","value":"1"})",
+                           R"({"type":"set","name":"depth","value":1e99})",
+                           R"({"type":"set","name":"mass","value":1})",
+                           R"({"type":"set","name":3,"value":1})",
+                           R"({"type":"hold"})",
+                           R"({"type":"hold","place":[1,2]})",
+                           R"({"type":"hold","place":[1,2,null]})",
+                           R"({"type":"hold","place":[1,2,1e300]})",
+                           R"({"type":"hold","place":[1,2,3,4]})",
+                           R"({"type":"run"} trailing)",
+                           "\xff\xfe{}"})
+    EXPECT_TRUE(refused(text)) << text;
+  EXPECT_TRUE(refused(std::string(longest_message + 1, ' ')));
+  EXPECT_TRUE(refused(std::string(longest_message, '[')));
+}
+
+TEST(Protocol, MutatedMessagesNeverBreakIt) {
+  const std::vector<std::string> seeds = {
+      R"({"type":"set","name":"speed","value":0.05})", R"({"type":"hold","place":[0.1,-0.2,3e-3]})",
+      R"({"type":"ack","frame":18446744073709551615})", R"({"type":"step"})"};
+  std::mt19937 random(1996);
+  const auto pick = [&](std::size_t n) { return std::size_t(random()) % n; };
+  int accepted = 0;
+  for (int i = 0; i < 50000; ++i) {
+    std::string text = seeds[pick(seeds.size())];
+    for (std::size_t k = 0, changes = 1 + pick(4); k < changes; ++k) {
+      switch (pick(4)) {
+        case 0: text[pick(text.size())] = char(random()); break;
+        case 1: text.insert(pick(text.size()), 1, char(random())); break;
+        case 2: text.erase(pick(text.size()), 1 + pick(5)); break;
+        default: text += seeds[pick(seeds.size())].substr(pick(15)); break;
+      }
+      if (text.empty()) text = "{";
+    }
+    const auto result = parse_message(text);
+    if (const auto* message = std::get_if<LiveMessage>(&result)) {
+      ++accepted;
+      if (const auto* change = std::get_if<Adjust>(message)) {
+        EXPECT_TRUE(std::isfinite(change->value));
+      } else if (const auto* hold = std::get_if<HandHolds>(message)) {
+        EXPECT_TRUE(hold->place.allFinite());
+      }
+    } else {
+      // The answer is good JSON whatever came.
+      const auto answer = nlohmann::json::parse(encode_error(std::get<std::string>(result)));
+      EXPECT_EQ(answer.at("type"), "error");
+    }
+  }
+  EXPECT_GT(accepted, 500);
+}
+
+TEST(Protocol, FramesAreLaidOutAsTheReadmeSays) {
+  const std::string bytes = encode_frame(small_frame(), {small_frame().picture.row});
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data(), 4);
+  ASSERT_EQ(length % 4, 0u);
+  const auto json = nlohmann::json::parse(bytes.substr(4, length));
+  EXPECT_EQ(json.at("number"), 7);
+  EXPECT_EQ(json.at("status"), "running");
+  EXPECT_EQ(json.at("masses"), 2);
+  EXPECT_EQ(json.at("rows"), 1);
+  EXPECT_EQ(json.at("normal_force"), 0.25);
+  EXPECT_FALSE(json.contains("hand"));
+  ASSERT_EQ(bytes.size(), 4 + length + 2 * 12 + 24 + 2);
+  std::vector<float> numbers(12);
+  std::memcpy(numbers.data(), bytes.data() + 4 + length, 48);
+  EXPECT_EQ(numbers[2], 0.3f);
+  EXPECT_EQ(numbers[6], 0.5f);
+  EXPECT_EQ(numbers[8], 0.25f);
+  EXPECT_EQ(bytes.back(), 1);
+}
+
+TEST(Protocol, NumbersThatAreNoneBecomeNull) {
+  LiveFrame frame = small_frame();
+  frame.picture.row.normal_force = std::nan("");
+  frame.failure = "\xff";
+  const std::string bytes = encode_frame(frame, {});
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data(), 4);
+  const auto json = nlohmann::json::parse(bytes.substr(4, length));
+  EXPECT_TRUE(json.at("normal_force").is_null());
+}

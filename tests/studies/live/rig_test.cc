@@ -1,0 +1,161 @@
+#include "studies/live/rig.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lattice/press.h"
+#include "live_press.h"
+
+using namespace fingertip;
+using namespace fingertip::studies;
+using meshes::Vector3;
+
+TEST(MovingSetPoint, ArrivesWithoutJumpsOrOvershoot) {
+  for (const double speed : {1e-3, 0.01, 0.2}) {
+    MovingSetPoint point(speed, 3.5e-3, 0.5e-3, 1e-3);
+    const double most = std::max(0.5, speed * speed / 0.5e-3);
+    double furthest = 0.0;
+    lattice::SetPoint before = point.now();
+    for (int i = 0; i < 4000; ++i) {
+      point.advance();
+      const lattice::SetPoint now = point.now();
+      EXPECT_LE(std::abs(now.speed - before.speed), most * 1e-3 * (1.0 + 1e-9));
+      // The trapezoid of the speeds is the way.
+      EXPECT_NEAR(now.distance - before.distance, 0.5e-3 * (now.speed + before.speed), 2e-10);
+      EXPECT_LE(std::abs(now.speed), speed * (1.0 + 1e-9));
+      furthest = std::max(furthest, now.distance);
+      before = now;
+    }
+    EXPECT_NEAR(before.distance, 3.5e-3, 1e-12) << speed;
+    EXPECT_EQ(before.speed, 0.0);
+    EXPECT_LT(furthest, 3.5e-3 * (1.0 + 1e-6)) << speed;
+  }
+}
+
+TEST(MovingSetPoint, TurnsBackWhenTheGoalMoves) {
+  MovingSetPoint point(0.05, 3e-3, 0.5e-3, 1e-3);
+  for (int i = 0; i < 30; ++i) point.advance();
+  EXPECT_NEAR(point.now().speed, 0.05, 1e-9);
+  point.want(0.01, 0.2e-3);
+  for (int i = 0; i < 1000; ++i) point.advance();
+  EXPECT_NEAR(point.now().distance, 0.2e-3, 1e-12);
+}
+
+TEST(Hand, PullsLikeASpringWithinItsLimit) {
+  const lattice::RodBody rod = lattice::rod_body({}, {});
+  Hand hand(rod.inertia_at_endpoint());
+  lattice::Measurement m;
+  m.pose.position = rod.endpoint;
+  EXPECT_TRUE(hand.wrench(m).force.isZero(0.0));
+  for (const Vector3& way :
+       {Vector3(1e-3, 0.0, 0.0), Vector3(0.0, -2e-3, 0.0), Vector3(1e-3, 1e-3, 1e-3)}) {
+    hand.hold(rod.endpoint + way);
+    EXPECT_LT((hand.wrench(m).force - 100.0 * way).norm(), 1e-14);  // k = 100 N/m
+    // The force alone would turn the rod about its centre of mass; the torque prevents it.
+    const Vector3 about_centre =
+        hand.last().torque + (rod.endpoint - rod.centre).cross(hand.last().force);
+    EXPECT_LT(about_centre.norm(), 1e-15);
+  }
+  hand.hold(Vector3(100.0, 0.0, 0.0));
+  EXPECT_NEAR(hand.wrench(m).force.norm(), 5.0, 1e-12);
+  hand.release();
+  EXPECT_TRUE(hand.wrench(m).force.isZero(0.0));
+}
+
+TEST(Hand, AFreeRodComesToTheHandleWithoutSwinging) {
+  lattice::RodState rod(lattice::rod_body({}, {}));
+  Hand hand(rod.body().inertia_at_endpoint());
+  const Vector3 start = rod.endpoint(), way(3e-3, 1e-3, -2e-3);
+  hand.hold(start + way);
+  const double frequency = std::sqrt(100.0 / rod.body().mass), period = 1e-4;
+  for (int i = 1; i <= 1000; ++i) {
+    lattice::Measurement m;
+    m.pose = {rod.endpoint(), rod.pose().orientation};
+    m.twist = {rod.velocity_at(rod.endpoint()), rod.angular_velocity()};
+    rod.kick(hand.wrench(m), rod.endpoint(), period);
+    rod.drift(period);
+    // Critically damped: 1 - (1 + w t) exp(-w t).
+    const double t = i * period, w = frequency;
+    const Vector3 expected = start + (1.0 - (1.0 + w * t) * std::exp(-w * t)) * way;
+    EXPECT_LT((rod.endpoint() - expected).norm(), 0.02 * way.norm()) << t;
+  }
+  EXPECT_LT(Eigen::AngleAxisd(rod.pose().orientation).angle(), 1e-6);
+}
+
+TEST(LiveRig, PressesLikeThePressVerb) {
+  // The way starts differently; once both rods have come to the same speed, forces agree.
+  lattice::PressSetup setup = coarse_press();
+  setup.protocol.speed = 0.01;
+  setup.protocol.clearance = 1e-3;
+  const lattice::PressOutcome press = lattice::run_press(setup);
+  LiveRig rig(setup);
+  LiveSettings deeper = rig.settings();
+  deeper.depth = 1.3e-3;  // so that the rod has not begun to slow down at the press's depth
+  rig.set(deeper);
+  int compared = 0;
+  while (rig.row().indentation < 0.98e-3) {
+    rig.advance();
+    const LiveRow row = rig.row();
+    if (row.indentation < 0.6e-3) continue;  // the tips still shake from their starts
+    const double expected = press.response.normal_force_at(row.indentation);
+    EXPECT_NEAR(row.normal_force, expected, 0.01 * expected) << row.indentation;
+    ++compared;
+  }
+  EXPECT_GT(compared, 5);
+}
+
+TEST(LiveRig, ResetRepeatsTheSameBits) {
+  LiveRig rig(coarse_press());
+  const auto run = [&] {
+    for (int i = 0; i < 15; ++i) rig.advance();
+    return rig.picture();
+  };
+  const LivePicture first = run();
+  rig.hold(Vector3(0.001, 0.0, -0.03));
+  rig.advance();
+  rig.reset();
+  EXPECT_EQ(rig.row().time, 0.0);
+  const LivePicture second = run();
+  EXPECT_EQ(first.row.normal_force, second.row.normal_force);
+  EXPECT_EQ(first.finger.boundary, second.finger.boundary);
+}
+
+TEST(LiveRig, SlidersStayWithinTheirLimitsAndGainsChangeOnTheWay) {
+  LiveRig rig(coarse_press());
+  LiveSettings wild;
+  wild.speed = 1e5;
+  wild.depth = -1e5;
+  wild.natural_frequency = 0.0;
+  wild.derivative_filter = 1e5;
+  wild.bond_compensation = -3.0;
+  rig.set(wild);
+  const LiveLimits& limits = rig.limits();
+  EXPECT_EQ(rig.settings().speed, limits.speed.most);
+  EXPECT_EQ(rig.settings().depth, limits.depth.least);
+  EXPECT_EQ(rig.settings().natural_frequency, limits.natural_frequency.least);
+  EXPECT_EQ(rig.settings().bond_compensation, 0.0);
+  LiveSettings calm;
+  calm.speed = 0.05;
+  calm.depth = 0.5e-3;
+  rig.set(calm);
+  for (int i = 0; i < 60; ++i) rig.advance();
+  EXPECT_NEAR(rig.row().indentation, 0.5e-3, 0.02e-3);
+}
+
+TEST(LiveRig, TheHandsForceIsTheContactForceAtRest) {
+  // Controller off: what holds the pressed rod is the hand alone, and the plane's reaction.
+  LiveRig rig(coarse_press());
+  LiveSettings settings = rig.settings();
+  settings.controller = false;
+  rig.set(settings);
+  rig.hold(Vector3(0.0, 0.0, -0.03 + 2e-3));
+  for (int i = 0; i < 600; ++i) rig.advance();
+  const LivePicture picture = rig.picture();
+  EXPECT_GT(picture.row.normal_force, 0.01);
+  EXPECT_NEAR(picture.hand.force.z(), picture.row.normal_force, 0.01 * picture.row.normal_force);
+  EXPECT_NEAR(picture.row.speed, 0.0, 1e-4);
+  rig.release();
+  for (int i = 0; i < 20; ++i) rig.advance();
+  EXPECT_LT(rig.row().speed, 0.0);  // pushed away
+}

@@ -1,0 +1,52 @@
+// The real program: the verb's options, its address, its end.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <regex>
+#include <thread>
+
+#include "../program.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+const std::string coarse = "lattice.spacing=tip_radius/4";
+
+std::string quoted_address(const std::string& out) {
+  const std::regex address(R"(http://127\.0\.0\.1:[1-9]\d*/\?token=[0-9a-f]{32}\n)");
+  std::smatch match;
+  return std::regex_search(out, match, address) ? match.str() : "";
+}
+
+}  // namespace
+
+TEST(LiveVerb, PrintsItsAddressAndEndsByItself) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program(folder.path(), {"live", "--set", coarse, "--exit-after", "0.3"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(quoted_address(result.out), "") << result.out;
+  EXPECT_TRUE(made_in(folder.path()).empty());
+}
+
+TEST(LiveVerb, EndsCleanlyWhenInterrupted) {
+  const TemporaryFolder folder;
+  Program program(folder.path(), {"live", "--set", coarse, "--rate", "0", "--exit-after", "60"});
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  program.send(SIGINT);
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(quoted_address(result.out), "") << result.out;
+}
+
+TEST(LiveVerb, RefusesWhatItCannotUse) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program(folder.path(), {"live", "--reference", "nothing"}).code, 2);
+  EXPECT_EQ(run_program(folder.path(), {"live", "--port", "99999"}).code, 2);
+  EXPECT_EQ(run_program(folder.path(), {"live", "--rate", "2"}).code, 2);
+  const ProgramResult empty =
+      run_program(folder.path(), {"live", "--set", coarse, "--reference", folder.path().string()});
+  EXPECT_EQ(empty.code, 2);
+  EXPECT_NE(empty.err.find("response.csv"), std::string::npos) << empty.err;
+}
