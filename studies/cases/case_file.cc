@@ -19,6 +19,10 @@ bool sets_key(const CaseVariant& variant, const std::string& key) {
 
 }  // namespace
 
+std::string full_name(const CaseVariant& variant) {
+  return (variant.series.empty() ? "" : variant.series + ", ") + variant.name;
+}
+
 fs::path cases_folder() {
   const char* const chosen = std::getenv("FINGERTIP_CASES");
   return chosen != nullptr && *chosen != '\0' ? fs::path(chosen) : fs::path(FINGERTIP_CASES_FOLDER);
@@ -79,8 +83,7 @@ LoadedConfig variant_config(const Case& one, const CaseVariant& variant) {
 
 ConfigError at_variant(const ConfigError& error, const CaseVariant& variant) {
   std::vector<Problem> problems = error.problems();
-  const std::string who =
-      " (variant " + variant.series + (variant.series.empty() ? "" : ", ") + variant.name + ")";
+  const std::string who = " (variant " + full_name(variant) + ")";
   for (Problem& problem : problems) {
     if (sets_key(variant, problem.key)) problem.place = variant.place;
     problem.place += who;

@@ -27,6 +27,16 @@ struct CaseVariant {
   std::string place;                                    ///< where it is written, "file:line"
 };
 
+/// A press in time of a case on virtual control.
+struct CasePress : CaseVariant {
+  bool continuum = false;  ///< measured against the transient continuum at the same speed
+  bool snapshots = false;  ///< drawn in the report
+  std::string beside;      ///< full name of the press its forces are compared with; may be empty
+};
+
+/// "series, name", or the name alone.
+std::string full_name(const CaseVariant& variant);
+
 /// What a press's force error is made of. Each part is a series whose x is a compliance in units of
 /// the press's own (x = 1): its share is the error at x = 1 minus the error continued to x = 0.
 struct CaseBudget {
@@ -40,10 +50,11 @@ struct Case {
   std::string description;
   std::string abscissa;  ///< label of the variants' x, with its unit in brackets
   std::vector<CaseCriterion> criteria;
-  std::vector<CaseVariant> variants;  ///< empty for a case of the core plan
+  std::vector<CaseVariant> variants;  ///< of a study
   std::vector<CaseBudget> budgets;
   std::vector<CaseVariant> fits;         ///< calibrations that are compared; then no variants
   std::vector<CaseVariant> predictions;  ///< static presses that every fit is asked to predict
+  std::vector<CasePress> presses;        ///< under controllers; then no variants and fits
   LoadedConfig loaded;
   std::string text;  ///< the table [case] as TOML, to be kept in parameters.toml
 };

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "studies/cases/control_measures.h"
 #include "studies/cases/fit_measures.h"
 #include "studies/cases/measures.h"
 #include "studies/cases/variant_measures.h"
@@ -67,6 +68,7 @@ class CaseReader {
     each(table, "variant", &CaseReader::read_variant);
     each(table, "fit", &CaseReader::read_fit);
     each(table, "prediction", &CaseReader::read_prediction);
+    each(table, "press", &CaseReader::read_press);
     each(table, "budget", &CaseReader::read_budget);
     each(table, "criteria", &CaseReader::read_criterion);
     return problems_;
@@ -74,8 +76,8 @@ class CaseReader {
 
  private:
   void read_entry(const std::string& name, const toml::node& node) {
-    static const std::set<std::string> lists = {"variant", "budget", "fit", "prediction",
-                                                "criteria"};
+    static const std::set<std::string> lists = {"variant",    "budget", "fit",
+                                                "prediction", "press",  "criteria"};
     const bool list = lists.contains(name);
     if (name == "title") {
       target_.title = text(node, "case.title");
@@ -86,7 +88,8 @@ class CaseReader {
     } else if (!list || !node.is_array_of_tables()) {
       problem(node, "case." + name, "", "unknown entry of [case]",
               "use title, description, x, [[case.variant]], [[case.budget]], [[case.fit]], "
-              "[[case.prediction]] and [[case.criteria]] with name, measure, limit");
+              "[[case.prediction]], [[case.press]] and [[case.criteria]] with name, measure, "
+              "limit");
     }
   }
 
@@ -117,10 +120,7 @@ class CaseReader {
     criterion.name = entry["name"].value_or(std::string());
     criterion.measure = entry["measure"].value_or(std::string());
     criterion.limit = entry["limit"].value_or(std::nan(""));
-    const std::vector<std::string> measures = !target_.fits.empty() ? fit_measure_names(target_)
-                                              : target_.variants.empty()
-                                                  ? measure_names()
-                                                  : variant_measure_names(target_);
+    const std::vector<std::string> measures = measures_of_case();
     if (criterion.name.empty() || !std::isfinite(criterion.limit) || entry.size() != 3) {
       problem(entry, "case.criteria", criterion.name, "needs exactly name, measure and limit",
               "complete the entry");
@@ -129,6 +129,41 @@ class CaseReader {
               "the nearest one is " + nearest_word(criterion.measure, measures));
     }
     target_.criteria.push_back(std::move(criterion));
+  }
+
+  std::vector<std::string> measures_of_case() const {
+    if (!target_.fits.empty()) return fit_measure_names(target_);
+    if (!target_.presses.empty()) return control_measure_names(target_);
+    return target_.variants.empty() ? measure_names() : variant_measure_names(target_);
+  }
+
+  void read_press(const toml::table& entry) {
+    CasePress press;
+    toml::table common = entry;
+    const auto take = [&](const char* name, auto& value) {
+      using Value = std::remove_reference_t<decltype(value)>;
+      const toml::node* node = entry.get(name);
+      if (node == nullptr) return;
+      common.erase(name);
+      if (const auto found = node->value_exact<Value>()) {
+        value = *found;
+      } else {
+        problem(*node, fmt::format("case.press.{}", name), toml_literal(*node),
+                "must be of another type", "use continuum and snapshots = true, beside = \"NAME\"");
+      }
+    };
+    take("continuum", press.continuum);
+    take("snapshots", press.snapshots);
+    take("beside", press.beside);
+    std::vector<CaseVariant> before(target_.presses.begin(), target_.presses.end());
+    const bool known =
+        press.beside.empty() || std::ranges::find(before, press.beside, full_name) != before.end();
+    if (!known)
+      problem(entry, "case.press.beside", press.beside, "must be a press above",
+              "name it \"series, name\"");
+    read_run(common, "press", before);
+    static_cast<CaseVariant&>(press) = std::move(before.back());
+    target_.presses.push_back(std::move(press));
   }
 
   void read_variant(const toml::table& entry) { read_run(entry, "variant", target_.variants); }
@@ -147,7 +182,7 @@ class CaseReader {
       } else if (name == "x" && node.is_number() && std::isfinite(*node.value<double>())) {
         variant.x = *node.value<double>();
       } else if (name == "set" && node.is_table()) {
-        read_settings(*node.as_table(), variant);
+        read_settings(*node.as_table(), kind, variant);
       } else {
         problem(node, "case." + kind + "." + name, toml_literal(node), "no such entry of a " + kind,
                 "use name, series (texts), x (a number) and set = { \"section.key\" = value }");
@@ -162,15 +197,16 @@ class CaseReader {
     runs.push_back(std::move(variant));
   }
 
-  void read_settings(const toml::table& settings, CaseVariant& variant) {
+  void read_settings(const toml::table& settings, const std::string& kind, CaseVariant& variant) {
     for (const auto& [key, value] : settings) {
       const std::string name(key.str());
       if (value.is_table()) {
         problem(value, "case.variant.set", name, "must be a full key and its value",
                 "put the key in quotes: \"" + name + ".key\" = value");
-      } else if (derived_keys().contains(name)) {
+      } else if (derived_keys().contains(name) && !(kind == "press" && name == "press.mode")) {
         problem(value, name, toml_literal(value),
-                "a variant is a static press, measured against the continuum of its kinematics",
+                "a variant is a static press, measured against the continuum of its kinematics, a "
+                "press is measured against the transient one",
                 "leave it out, or set lattice.kinematics");
       } else {
         variant.sets.push_back(setting(name, value, file_.parent_path()));
@@ -234,6 +270,12 @@ std::string case_toml(const Case& one) {
   for (const CaseVariant& variant : one.variants) text += run_toml("variant", variant);
   for (const CaseVariant& fit : one.fits) text += run_toml("fit", fit);
   for (const CaseVariant& prediction : one.predictions) text += run_toml("prediction", prediction);
+  for (const CasePress& press : one.presses) {
+    text += run_toml("press", press);
+    if (press.continuum) text += "continuum = true\n";
+    if (press.snapshots) text += "snapshots = true\n";
+    if (!press.beside.empty()) text += "beside = " + quoted(press.beside) + "\n";
+  }
   for (const CaseBudget& budget : one.budgets) {
     std::string parts;
     for (const std::string& part : budget.parts)

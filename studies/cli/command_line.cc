@@ -32,7 +32,10 @@ constexpr Verb verbs[] = {
     {"validate", "the whole path for a case: fit, press, continuum, judgement, report", "CASE",
      "cases to validate (default: 01_paper_rubber)", everything},
     {"press", "press the lattice", "", "", everything},
+    {"live", "press the lattice in a web page: look, set, drag; on this machine only", "", "",
+     config_options},
     {"modes", "natural frequencies of the lattice bonded to a fixed rod", "", "", everything},
+    {"grasp", "let two fingers grasp and lift a rigid block", "", "", everything},
     {"reference", "press the continuum (finite elements)", "", "", everything},
     {"calibrate", "fit the spring constants of lattice.model to the rubber", "", "", everything},
     {"compare", "compare force curves with the continuum's or the first one's", "RUN",
@@ -46,6 +49,7 @@ constexpr Verb verbs[] = {
 };
 
 constexpr int most_ranks = 1024;
+constexpr int most_pictures = 2000;
 
 constexpr const char* footer =
     "`./fingertip test` runs the tests; it belongs to the launcher script beside README.md.\n"
@@ -70,6 +74,25 @@ void add_run(CLI::App& app, CommandLine& line, std::string& progress, std::strin
       ->check(CLI::IsMember({"auto"}));
 }
 
+void add_live(CLI::App& sub, CommandLine& line) {
+  sub.add_option("--threads", line.config.threads, "threads to use; 0: all cores")->type_name("N");
+  sub.add_option("--port", line.port, "port on 127.0.0.1; 0 (default): a free one")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535));
+  sub.add_option("--reference", line.reference,
+                 "run whose force curve, and fields where it has them, are drawn beside it")
+      ->type_name("RUN")
+      ->check(CLI::ExistingPath);
+  sub.add_flag("--paused", line.paused, "start paused");
+  sub.add_option("--rate", line.rate,
+                 "wanted real-time factor, 0.01 to 1 (default); 0: as fast as it can")
+      ->type_name("X")
+      ->check(CLI::Range(0.0, 1.0));
+  sub.add_option("--exit-after", line.exit_after, "end after so many seconds")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
+}
+
 void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& progress,
               std::string& resume) {
   CLI::App& sub = *app.add_subcommand(verb.name, verb.help);
@@ -87,6 +110,15 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
         ->type_name("N")
         ->check(CLI::Range(1, most_ranks));
   }
+  if (name == "press") {
+    sub.add_option("--movie", line.movie,
+                   "pictures for ParaView in movie/, evenly spaced in time; 40 without a number")
+        ->type_name("N")
+        ->expected(0, 1)
+        ->default_str("40")
+        ->check(CLI::Range(2, most_pictures));
+  }
+  if (name == "live") add_live(sub, line);
   if (name == "validate") sub.add_flag("--all", line.all, "every case in studies/cases");
   if (name == "explain") {
     sub.add_flag("--schema", line.schema, "JSON Schema of configuration files");

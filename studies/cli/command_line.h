@@ -20,10 +20,16 @@ struct CommandLine {
   bool force = false;
   bool resume = false;
   bool quiet = false;
-  int ranks = 1;          ///< MPI processes of reference
-  bool all = false;       ///< validate --all
-  bool schema = false;    ///< explain --schema
-  bool markdown = false;  ///< explain --markdown
+  int ranks = 1;                     ///< MPI processes of reference
+  int movie = 0;                     ///< pictures of press --movie, 0: none
+  bool all = false;                  ///< validate --all
+  int port = 0;                      ///< of live; 0: a free one
+  std::filesystem::path reference;   ///< of live: run folder or response.csv
+  bool paused = false;               ///< live: at the start
+  double rate = 1.0;                 ///< live: wanted real-time factor, 0: any
+  std::optional<double> exit_after;  ///< live: wall time [s]
+  bool schema = false;               ///< explain --schema
+  bool markdown = false;             ///< explain --markdown
   ProgressStyle progress = ProgressStyle::off;
   std::vector<std::string> words;  ///< everything as typed, for the manifest
 };

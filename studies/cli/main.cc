@@ -5,6 +5,7 @@
 #include <exception>
 #include <map>
 
+#include "lattice/control/controller.h"
 #include "meshes/errors.h"
 #include "studies/cli/verbs.h"
 #include "studies/run/blas_threads.h"
@@ -16,7 +17,8 @@ using namespace fingertip;
 int dispatch(const studies::CommandLine& line) {
   static const std::map<std::string, int (*)(const studies::CommandLine&)> verbs = {
       {"validate", studies::run_validate},   {"press", studies::run_press},
-      {"modes", studies::run_modes},         {"reference", studies::run_reference},
+      {"live", studies::run_live},           {"modes", studies::run_modes},
+      {"grasp", studies::run_grasp},         {"reference", studies::run_reference},
       {"calibrate", studies::run_calibrate}, {"compare", studies::run_compare},
       {"report", studies::run_report},       {"check", studies::run_check},
       {"explain", studies::run_explain},     {"init", studies::run_init},
@@ -43,6 +45,9 @@ int main(int argc, char** argv) {
     for (const meshes::Violation& violation : error.violations()) complain(to_string(violation));
     return 2;
   } catch (const meshes::NotConverged& error) {
+    complain(error.what());
+    return 3;
+  } catch (const lattice::ControllerFailed& error) {
     complain(error.what());
     return 3;
   } catch (const meshes::Interrupted& error) {

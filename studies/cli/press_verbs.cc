@@ -123,14 +123,22 @@ void put_warnings(const std::filesystem::path& folder, const std::vector<std::st
 int run_press(const CommandLine& line) {
   const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::press);
   const lattice::PressSetup setup = press_setup(loaded);
+  if (line.movie > 0 && setup.protocol.mode == meshes::DriveMode::equilibrium) {
+    throw ConfigError({{"--movie", "press.mode", "static", "a press without time has no movie",
+                        "choose pid or quasi-static"}});
+  }
   return run_in_folder(line, loaded, {}, [&](Session& session) {
-    const JobResult result = session.run({"", press_job(setup), false});
+    const JobResult result = session.run({"", press_job(setup, line.movie), false});
     put_warnings(session.folder().path(), loaded.notes);
     if (!line.quiet) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
       print_response(session.folder().path(), setup.protocol.samples);
       print_press_facts(session.folder().path());
+      if (line.movie > 0) {
+        fmt::print("movie for ParaView: {}\n",
+                   (session.folder().path() / "movie/movie.pvd").string());
+      }
       print_folder(session, result);
     }
     return 0;

@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "lattice/control/controller.h"
 #include "meshes/errors.h"
 #include "studies/run/cache.h"
 #include "studies/run/interrupt.h"
@@ -73,6 +74,8 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
     return code;
   } catch (const ProcessLost& error) {
     throw ProcessLost(end("process lost", 3, error));
+  } catch (const lattice::ControllerFailed& error) {
+    throw lattice::ControllerFailed(end("controller failed", 3, error));
   } catch (const meshes::NotConverged& error) {
     throw meshes::NotConverged(end("not converged", 3, error));
   } catch (const meshes::Interrupted& error) {

@@ -7,7 +7,9 @@ namespace fingertip::studies {
 
 int run_validate(const CommandLine& line);
 int run_press(const CommandLine& line);
+int run_live(const CommandLine& line);
 int run_modes(const CommandLine& line);
+int run_grasp(const CommandLine& line);
 int run_reference(const CommandLine& line);
 int run_calibrate(const CommandLine& line);
 int run_compare(const CommandLine& line);

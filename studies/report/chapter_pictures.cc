@@ -88,7 +88,7 @@ Series anchored_series(const ModelData& model) {
   const std::vector<double> anchored = model.boundary.numbers("anchored");
   const double travel = rod_travel(model);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (anchored[i] != 1.0) continue;
+    if (anchored[i] == 0.0) continue;
     series.x.push_back(to_cm(x[i]));
     series.y.push_back(to_cm(z[i] - travel));
   }

@@ -1,4 +1,4 @@
-/// Force curves and controller tracking.
+/// Force curves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +9,6 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-constexpr double speed_limit = 2.0;  ///< tolerated deviation from the commanded speed [%]
-constexpr double tilt_limit = 0.1;   ///< tolerated tilt [°]
 const std::string above = "outside top center horizontal";
 
 Series force_series(const meshes::PressResponse& response, const std::string& name) {
@@ -125,95 +123,6 @@ Table response_table(const RunData& run) {
   return table;
 }
 
-/// Values of a trace column in display units against time.
-Series trace_series(const ModelData& model, const std::vector<double>& time,
-                    std::vector<double> values) {
-  return {model_label(model.name), model.name, time,
-          std::move(values),       {},         model_style(model.name)};
-}
-
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
-}
-
-/// Deviation from the commanded speed in percent; NaN while nothing is commanded.
-std::vector<double> speed_deviation(const CsvTable& trace) {
-  std::vector<double> speed = trace.numbers("speed [m/s]");
-  const std::vector<double> command = trace.numbers("commanded_speed [m/s]");
-  for (std::size_t i = 0; i < speed.size(); ++i) {
-    speed[i] = command[i] > 0.0 ? 100.0 * (speed[i] / command[i] - 1.0) : meshes::unknown;
-  }
-  return speed;
-}
-
-Figure tracking_figure(const RunData& run) {
-  Figure figure;
-  figure.name = "tracking";
-  figure.height = 860;
-  Panel speed, deviation, tilt, force;
-  double most_tilt = tilt_limit, end = 0.0;
-  speed.y_label = "approach speed [cm/s]";
-  speed.key = "bottom right";
-  deviation.y_label = "speed off command [%]";
-  deviation.y_range = Range{-6.0, 6.0};
-  deviation.band = Band{-speed_limit, speed_limit};
-  tilt.y_label = "tilt [°]";
-  tilt.band = Band{0.0, tilt_limit};
-  force.y_label = "normal force [gf]";
-  force.x_label = speed.x_label = deviation.x_label = tilt.x_label = "time [s]";
-  deviation.key = tilt.key = force.key = "";
-  for (const ModelData& model : run.models) {
-    if (model.trace.empty()) continue;
-    const std::vector<double> time = model.trace.numbers("time [s]");
-    end = std::fmax(end, time.back());
-    const auto column = [&](const char* name, double factor) {
-      return trace_series(model, time, scaled(model.trace.numbers(name), factor));
-    };
-    speed.series.push_back(column("speed [m/s]", 100.0));
-    deviation.series.push_back(trace_series(model, time, speed_deviation(model.trace)));
-    tilt.series.push_back(column("tilt [rad]", degree_per_radian));
-    for (double degree : tilt.series.back().y) most_tilt = std::fmax(most_tilt, degree);
-    force.series.push_back(column("normal_force [N]", 1.0 / newton_per_gf));
-    const double touch = number_at(model.summary, "first_touch_time");
-    if (!std::isfinite(touch)) continue;
-    for (Panel* panel : {&speed, &deviation, &tilt, &force}) {
-      panel->markers.push_back({touch, model_style(model.name).colour});
-    }
-  }
-  tilt.y_range = Range{0.0, 1.15 * most_tilt};
-  for (Panel* panel : {&speed, &deviation, &tilt, &force}) panel->x_range = Range{0.0, end};
-  figure.panels = {speed, deviation, tilt, force};
-  return figure;
-}
-
-Table tracking_table(const RunData& run) {
-  Table table;
-  table.caption =
-      "Speed error where it counts: from 50 ms after the start, except the first 20 ms after first "
-      "touch, which have a column of their own. Limits: 2 % and 0.1°.";
-  table.header = {{"Model", "", Grade::none},
-                  {"First touch", "s", Grade::none},
-                  {"Speed error", "largest", Grade::none},
-                  {"Speed error", "at first touch", Grade::none},
-                  {"Tilt", "largest", Grade::none},
-                  {"Peak force", "gf", Grade::none}};
-  for (const ModelData& model : run.models) {
-    if (model.trace.empty()) continue;
-    const nlohmann::json tracking = object_at(model.summary, "tracking");
-    double peak = meshes::unknown;
-    for (double f : model.trace.numbers("normal_force [N]")) peak = std::fmax(peak, f);
-    table.rows.push_back(
-        {{model_label(model.name), "", Grade::none},
-         {number(number_at(model.summary, "first_touch_time"), 4), "", Grade::none},
-         {percent_magnitude(number_at(tracking, "speed_deviation")), "", Grade::none},
-         {percent_magnitude(number_at(tracking, "speed_deviation_at_touch")), "", Grade::none},
-         {number(number_at(tracking, "tilt_deg"), 2) + "°", "", Grade::none},
-         {number(to_gf(peak)), with_prefix(peak, "N"), Grade::none}});
-  }
-  return table;
-}
-
 }  // namespace
 
 Chapter force_chapter(const RunData& run) {
@@ -243,26 +152,6 @@ Chapter force_chapter(const RunData& run) {
         "further layer of points that reaches the plane shows as a step."});
   }
   if (!run.depths.empty()) chapter.blocks.push_back(response_table(run));
-  return chapter;
-}
-
-Chapter control_chapter(const RunData& run) {
-  Chapter chapter{"control", "Under the controller", {}};
-  const Figure figure = tracking_figure(run);
-  if (figure.panels.front().series.empty()) return chapter;
-  chapter.blocks.push_back(Paragraph{"",
-                                     "A six-degree-of-freedom PID pushes the rod's endpoint so "
-                                     "that approach speed and orientation "
-                                     "stay constant before, during and after contact: the task of "
-                                     "the 1996 paper. It sees only pose, "
-                                     "twist and wrench at the endpoint."});
-  chapter.blocks.push_back(FigureBlock{figure,
-                                       "Speed, speed error, tilt and contact force over time",
-                                       "Dotted verticals: first touch of each model in its colour. "
-                                       "Shaded: what is tolerated, 2 % of the "
-                                       "commanded speed (except just after the start and just "
-                                       "after first touch) and 0.1° of tilt."});
-  chapter.blocks.push_back(tracking_table(run));
   return chapter;
 }
 

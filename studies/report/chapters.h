@@ -17,8 +17,10 @@ std::string answer(const RunData& run);
 Chapter verdict_chapter(const RunData& run);
 /// Force against indentation of continuum and lattices, and the relative error.
 Chapter force_chapter(const RunData& run);
-/// Speed, tilt and force under the controller.
+/// Speed, tilt and force of the models under the controller.
 Chapter control_chapter(const RunData& run);
+/// The models at a few moments of their presses.
+Chapter snapshots_chapter(const RunData& run);
 /// Elastic constants against direction, the calibrations and the cubes.
 Chapter elasticity_chapter(const RunData& run);
 /// The mesh and the lattices.

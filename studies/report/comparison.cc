@@ -9,6 +9,7 @@
 #include "meshes/errors.h"
 #include "meshes/files.h"
 #include "studies/report/document.h"
+#include "studies/report/moving_press.h"
 #include "studies/report/report.h"
 #include "studies/report/run_data.h"
 
@@ -156,6 +157,19 @@ Table difference_table(const std::vector<Curve>& curves) {
   return table;
 }
 
+/// Those of the runs that are presses in time.
+std::vector<MovingPress> moving_presses(const std::vector<fs::path>& runs) {
+  std::vector<MovingPress> presses;
+  for (const fs::path& run : runs) {
+    if (!fs::exists(run / "trace.csv")) continue;
+    MovingPress press = read_moving_press(run, folder_name(run));
+    press.style = numbered_style(presses.size());
+    press.style.point = 0;
+    presses.push_back(std::move(press));
+  }
+  return presses;
+}
+
 /// The largest difference and the relative L² difference over the common depth.
 std::string summary_sentence(const std::vector<Curve>& curves) {
   std::string text = fmt::format("Against {}: ", curves.front().label);
@@ -200,6 +214,7 @@ void write_comparison(const std::vector<fs::path>& runs, const fs::path& out_fol
   page.subtitle = "Relative differences are against " + curves.front().label;
   page.answer = summary_sentence(curves);
   page.chapters.push_back(std::move(chapter));
+  page.chapters.push_back(control_chapter(moving_presses(runs)));
   fs::create_directories(out_folder);
   publish(page, out_folder, "comparison.html");
   write_csv(curves, out_folder / "comparison.csv");

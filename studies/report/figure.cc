@@ -83,6 +83,17 @@ std::string decorations(const Panel& panel) {
         "lc rgb '{1}' lw 1 dt (2,3)\n",
         marker.x, marker.colour);
   }
+  for (const Arrow& arrow : panel.arrows) {
+    const auto head = [&](double along) {
+      return fmt::format(
+          "set arrow from first {:.8g}, first {:.8g} to first {:.8g}, first {:.8g} head filled "
+          "front size screen 0.012,20 lc rgb '{}' lw 2\n",
+          arrow.x1, arrow.y1, arrow.x1 + along * (arrow.x2 - arrow.x1),
+          arrow.y1 + along * (arrow.y2 - arrow.y1), arrow.colour);
+    };
+    text += head(1.0);
+    if (arrow.two_heads) text += head(0.8);
+  }
   for (const Text& label : panel.texts) {
     text += fmt::format("set label {} at first {:.8g}, first {:.8g} center tc rgb '#444444'\n",
                         gnuplot_string(label.text), label.x, label.y);
@@ -167,6 +178,7 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   text += axis(panel, false) + axis(panel, true);
   text += panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n";
   text += panel.key.empty() ? "unset key\n" : "set key " + panel.key + " Left reverse samplen 3\n";
+  text += panel.bare ? "unset border\nunset xtics\nunset ytics\nunset grid\n" : "";
   text += decorations(panel);
   if (std::none_of(panel.series.begin(), panel.series.end(), has_points)) {
     // An empty panel keeps its place in the layout.

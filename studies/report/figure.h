@@ -60,6 +60,13 @@ struct Text {
   std::string text;
 };
 
+/// From a point to another, with one head or, for moments, two.
+struct Arrow {
+  double x1, y1, x2, y2;
+  std::string colour;
+  bool two_heads = false;
+};
+
 /// A surface in space, coloured by a value. Drawn with all three axes from -extent to extent.
 struct Surface {
   struct Point {
@@ -79,6 +86,8 @@ struct Panel {
   std::optional<Band> band;
   std::vector<Marker> markers;
   std::vector<Text> texts;
+  std::vector<Arrow> arrows = {};
+  bool bare = false;             ///< a picture: without axes
   bool equal_scales = false;     ///< one unit is as long on x as on y
   int log_x = 0, log_y = 0;      ///< base of a logarithmic axis, 2 or 10; 0 for a linear one.
                                  ///< A range given for base 10 must be finite and positive.

@@ -4,6 +4,7 @@
 
 #include "studies/report/calibration_chapters.h"
 #include "studies/report/chapters.h"
+#include "studies/report/moving_press.h"
 
 namespace fingertip::studies {
 namespace reporting {
@@ -61,10 +62,11 @@ Page core_page(const RunData& run) {
   page.title = run.title.empty() ? "Soft fingertip: lattice against continuum" : run.title;
   page.subtitle = with_case(
       run, "Validation of mass-spring fingertips against a continuum of the same specimen");
-  page.chapters = {verdict_chapter(run),      force_chapter(run),    control_chapter(run),
-                   elasticity_chapter(run),   pictures_chapter(run), published_chapter(run),
-                   equilibrium_chapter(run),  reasons_chapter(run),  continuum_chapter(run),
-                   verification_chapter(run), cost_chapter(run),     provenance_chapter(run)};
+  page.chapters = {verdict_chapter(run),   force_chapter(run),        control_chapter(run),
+                   snapshots_chapter(run), elasticity_chapter(run),   pictures_chapter(run),
+                   published_chapter(run), equilibrium_chapter(run),  reasons_chapter(run),
+                   continuum_chapter(run), verification_chapter(run), cost_chapter(run),
+                   provenance_chapter(run)};
   page.not_run = missing_parts(run);
   return page;
 }
@@ -91,6 +93,37 @@ Page calibration_page(const RunData& run) {
   return page;
 }
 
+/// Presses under controllers.
+Page control_page(const RunData& run) {
+  const std::vector<MovingPress> presses = read_moving_presses(run);
+  Page page;
+  page.title = run.title.empty() ? "Soft fingertip: virtual control" : run.title;
+  page.subtitle = with_case(
+      run, "Presses of mass-spring fingertips under controllers that take them for hardware");
+  page.chapters = {verdict_chapter(run), control_chapter(presses), snapshots_chapter(presses),
+                   speed_chapter(presses), provenance_chapter(run)};
+  return page;
+}
+
+/// The run of `press` itself, where it took time.
+bool is_moving_press(const RunData& run) {
+  return run.models.empty() && std::filesystem::exists(run.folder / "trace.csv");
+}
+
+Page press_page(const RunData& run) {
+  MovingPress press = read_moving_press(run.folder, "press");
+  press.style = numbered_style(0);
+  press.style.point = 0;
+  press.pictured = true;
+  Page page;
+  page.title = "Soft fingertip: a press under its controller";
+  page.subtitle = with_case(run, "A mass-spring fingertip pressed against a plane");
+  page.answer = control_answer({press});
+  page.chapters = {control_chapter(std::vector{press}), snapshots_chapter(std::vector{press}),
+                   provenance_chapter(run)};
+  return page;
+}
+
 /// The chapters on fits come before the provenance, the last.
 void add_fits(Page& page, const CalibrationData& calibration) {
   std::vector<Chapter> chapters = fit_chapters(calibration);
@@ -100,9 +133,11 @@ void add_fits(Page& page, const CalibrationData& calibration) {
 }
 
 Page report_page(const RunData& run) {
+  if (is_moving_press(run)) return press_page(run);
   const CalibrationData calibration = read_calibration(run);
   const bool fits_alone = !calibration.empty() && run.models.empty() && run.variants.empty();
   Page page = fits_alone             ? calibration_page(run)
+              : !run.presses.empty() ? control_page(run)
               : run.variants.empty() ? core_page(run)
                                      : study_page(run);
   if (!run.status.empty() && run.status != "ok") page.status = "Status of the run: " + run.status;

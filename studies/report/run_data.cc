@@ -92,6 +92,8 @@ ModelData read_model(const fs::path& folder, const std::string& name, const json
   model.trace = read_csv(folder / name / "trace.csv");
   model.boundary = read_csv(folder / name / "boundary.csv");
   model.boundary_springs = read_csv(folder / name / "boundary_springs.csv");
+  model.snapshots = read_csv(folder / name / "snapshots.csv");
+  model.snapshot_points = read_csv(folder / name / "snapshot_points.csv");
   return model;
 }
 
@@ -260,6 +262,7 @@ RunData read_run(const fs::path& folder) {
   run.variants = read_csv(folder / "variants.csv");
   run.study = object_at(summary, "variants");
   run.calibration = object_at(summary, "calibration");
+  run.presses = array_at(summary, "presses");
   for (const std::string& name : ordered_models(models)) {
     run.models.push_back(read_model(folder, name, models.at(name)));
     run.models.back().force_error.resize(run.depths.size(), meshes::unknown);

@@ -59,7 +59,7 @@ struct ModelData {
   nlohmann::json summary;                     ///< NAME/summary.json; an empty object when absent
   nlohmann::json calibration;                 ///< calibration_NAME/calibration.json, likewise
   meshes::PressResponse response;             ///< empty when absent
-  CsvTable trace, boundary, boundary_springs;
+  CsvTable trace, boundary, boundary_springs, snapshots, snapshot_points;
 
   /// Relative force error at the last depth reached; NaN when there is none.
   double last_force_error() const;
@@ -91,6 +91,7 @@ struct RunData {
   CsvTable variants;              ///< of a study
   nlohmann::json study;           ///< "variants" of its summary.json; an empty object otherwise
   nlohmann::json calibration;     ///< "calibration" of its summary.json, likewise
+  nlohmann::json presses;         ///< "presses" of a case on virtual control; else an empty array
   std::vector<ModelData> models;  ///< published, central, hookean, then any others
 
   const ModelData* model(const std::string& name) const;

@@ -7,6 +7,7 @@
 
 #include "studies/report/calibration_chapters.h"
 #include "studies/report/chapters.h"
+#include "studies/report/moving_press.h"
 #include "studies/report/report.h"
 
 namespace fingertip::studies::reporting {
@@ -189,6 +190,8 @@ std::string text_table(const RunData& run) {
 
 std::string answer(const RunData& run) {
   if (!run.variants.empty()) return variants_answer(run) + criteria_sentence(run);
+  if (!run.presses.empty())
+    return control_answer(read_moving_presses(run)) + criteria_sentence(run);
   std::string text;
   if (!run.reference.empty()) {
     const double depth = run.reference.depth();
@@ -229,9 +232,10 @@ std::string verdict_text(const std::filesystem::path& run_folder) {
   const RunData run = read_run(run_folder);
   const CalibrationData calibration = read_calibration(run);
   const bool fits_alone = !calibration.empty() && run.models.empty();
-  std::string text = !run.variants.empty() ? variants_text(run)
-                     : fits_alone          ? calibration_text(calibration)
-                                           : text_table(run);
+  std::string text = !run.variants.empty()  ? variants_text(run)
+                     : !run.presses.empty() ? control_text(read_moving_presses(run))
+                     : fits_alone           ? calibration_text(calibration)
+                                            : text_table(run);
   for (const Criterion& criterion : run.criteria) {
     text += fmt::format("{} {}: {} (limit {})\n", criterion.passed ? "met    " : "NOT MET",
                         criterion.name, plain_number(criterion.value, "{:.3g}"),

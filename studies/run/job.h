@@ -36,6 +36,9 @@ struct Job {
   double weight = 1.0;  ///< expected share of the work, for the progress bar
   /// `run` goes on from what an earlier attempt at the equal job left in the folder.
   bool resumable = false;
+  /// false: equal inputs may give another result, so that it is neither kept nor looked for in the
+  /// cache.
+  bool repeatable = true;
 
   /// SHA-256 over kind, inputs and source hash.
   std::string key() const;

@@ -132,6 +132,7 @@ ordered_json to_json(const meshes::PressProtocol& protocol) {
                        {"depth", protocol.depth},
                        {"tilt", protocol.tilt},
                        {"lateral", protocol.lateral}};
+  if (protocol.contact == meshes::ContactMode::coulomb) json["friction"] = protocol.friction;
   if (protocol.mode != meshes::DriveMode::equilibrium) {
     json["speed"] = protocol.speed;
     json["clearance"] = protocol.clearance;

@@ -1,14 +1,17 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <ostream>
+#include <optional>
 
 #include "calibration/moduli.h"
 #include "lattice/press.h"
 #include "meshes/files.h"
 #include "source_hash.h"
+#include "studies/run/controller_choice.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/movie.h"
+#include "studies/run/snapshot_files.h"
 #include "studies/run/static_press_job.h"
 #include "studies/run/tracking.h"
 
@@ -44,10 +47,15 @@ ordered_json census_of(const lattice::LatticeCensus& census) {
 ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome,
                         const std::string& status) {
   ordered_json summary = press_summary_head(setup, status);
+  summary["geometry"] = to_json(setup.geometry);
   summary["moduli"] =
       to_json(calibration::homogenised_moduli(setup.lattice.constants, setup.lattice.spacing));
   summary["step"] = step_of(outcome.step);
   summary["census"] = census_of(outcome.census);
+  summary["steps"] = {{"accepted", outcome.steps.accepted},
+                      {"rejected", outcome.steps.rejected},
+                      {"forced", outcome.steps.forced},
+                      {"force_evaluations", outcome.force_evaluations}};
   summary["simulated_time"] = outcome.simulated_time;
   summary["wall_time"] = outcome.wall_time;
   summary["real_time_factor"] = outcome.real_time_factor();
@@ -63,24 +71,6 @@ ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOu
   return summary;
 }
 
-void write_boundary(const lattice::PressOutcome& outcome, const fs::path& folder) {
-  const auto put = [](std::ostream& out, const meshes::Vector3& point) {
-    for (int axis = 0; axis < 3; ++axis) out << meshes::to_text(point[axis]) << ',';
-  };
-  meshes::write_atomically(folder / "boundary.csv", [&](std::ostream& out) {
-    out << "x [m],y [m],z [m],deformed_x [m],deformed_y [m],deformed_z [m],anchored\n";
-    for (std::size_t i = 0; i < outcome.boundary_rest.size(); ++i) {
-      put(out, outcome.boundary_rest[i]);
-      put(out, outcome.boundary_deformed[i]);
-      out << int(outcome.boundary_anchored[i]) << '\n';
-    }
-  });
-  meshes::write_atomically(folder / "boundary_springs.csv", [&](std::ostream& out) {
-    out << "i,j\n";
-    for (const auto& [i, j] : outcome.boundary_springs) out << i << ',' << j << '\n';
-  });
-}
-
 /// Keeps the folder up to date while the press runs.
 class Recorder {
  public:
@@ -89,8 +79,9 @@ class Recorder {
 
   bool observe(const lattice::PressOutcome& so_far, double fraction) {
     const bool go_on = context_.report(fraction, "pressing");
-    // The last call before an end by force must be on disk whatever the time.
-    if (!go_on || Clock::now() - written_ > std::chrono::milliseconds(500)) {
+    // The last call before an end by force, or a failure (0 then), must be on disk whatever the
+    // time.
+    if (!go_on || fraction == 0.0 || Clock::now() - written_ > std::chrono::milliseconds(500)) {
       write(so_far, go_on ? "running" : "interrupted");
     }
     return go_on;
@@ -110,24 +101,53 @@ class Recorder {
   Clock::time_point written_;
 };
 
-void run_press_job(lattice::PressSetup setup, const fs::path& folder, const JobContext& context) {
+void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path& folder,
+                   const JobContext& context) {
   setup.threads = context.threads;
   Recorder recorder(setup, folder, context);
+  std::optional<Movie> movie;
+  if (movie_pictures > 0) movie.emplace(folder / "movie", setup.geometry);
+  const auto observe = [&](const lattice::PressOutcome& so_far, double fraction) {
+    return recorder.observe(so_far, fraction);
+  };
+  const auto show = [&](const lattice::BoundaryView& view, const lattice::FingerPicture& picture) {
+    movie->add(view, picture);
+  };
   try {
     const lattice::PressOutcome outcome =
-        lattice::run_press(setup, [&](const lattice::PressOutcome& so_far, double fraction) {
-          return recorder.observe(so_far, fraction);
-        });
+        lattice::run_press(setup, observe, {movie_pictures, show});
     recorder.write(outcome, "finished");
     write_boundary(outcome, folder);
+    write_snapshots(outcome, folder);
     context.log("step " + meshes::to_text(outcome.step.step) + " s: " + outcome.step.explanation);
   } catch (const meshes::NotConverged& error) {
     set_press_status(folder, std::string("not converged: ") + error.what());
+    throw;
+  } catch (const lattice::ControllerFailed& error) {
+    set_press_status(folder, std::string("controller failed: ") + error.what());
     throw;
   } catch (const meshes::Interrupted&) {
     set_press_status(folder, "interrupted");
     throw;
   }
+}
+
+ordered_json hardware_inputs(const lattice::HardwareSettings& hardware) {
+  const auto channel = [](const lattice::SensorChannel& c) {
+    return ordered_json{{"noise", c.noise}, {"resolution", c.resolution}};
+  };
+  return {{"position", channel(hardware.position)},
+          {"orientation", channel(hardware.orientation)},
+          {"velocity", channel(hardware.velocity)},
+          {"angular_velocity", channel(hardware.angular_velocity)},
+          {"force", channel(hardware.force)},
+          {"torque", channel(hardware.torque)},
+          {"tactile", hardware.tactile},
+          {"sensor_latency", hardware.sensor_latency},
+          {"actuator_latency", hardware.actuator_latency},
+          {"force_rate", hardware.force_rate},
+          {"torque_rate", hardware.torque_rate},
+          {"seed", hardware.seed}};
 }
 
 ordered_json inputs_of(const lattice::PressSetup& setup) {
@@ -138,32 +158,40 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
       {"lattice", to_json(setup.lattice)},
       {"integrator", lattice::name(setup.integrator)},
       {"time_step", setup.time_step ? ordered_json(*setup.time_step) : ordered_json()},
+      {"gravity", setup.gravity},
+      {"duration", setup.duration ? ordered_json(*setup.duration) : ordered_json()},
       {"period", setup.controller.period}};  // steps divide it, whatever moves the rod
+  if (setup.integrator == lattice::Integrator::runge_kutta) inputs["tolerance"] = setup.tolerance;
+  if (setup.integrator == lattice::Integrator::energy_controlled)
+    inputs["energy_bound"] = setup.energy_bound;
   if (setup.protocol.mode == meshes::DriveMode::pid) {
     const lattice::PidSettings& pid = setup.controller;
     inputs["rod_density"] = setup.rod.density;
-    inputs["controller"] = {{"natural_frequency", pid.natural_frequency},
-                            {"derivative_filter", pid.derivative_filter},
-                            {"bond_compensation", pid.bond_compensation},
-                            {"force_limit", pid.force_limit},
-                            {"torque_limit", pid.torque_limit}};
+    inputs["controller"] = {
+        {"natural_frequency", pid.natural_frequency}, {"derivative_filter", pid.derivative_filter},
+        {"bond_compensation", pid.bond_compensation}, {"force_limit", pid.force_limit},
+        {"torque_limit", pid.torque_limit},           {"setpoint_weight", pid.setpoint_weight},
+        {"identity", setup.controller_identity}};
+    inputs["hardware"] = hardware_inputs(setup.hardware);
   }
   return inputs;
 }
 
 }  // namespace
 
-Job press_job(const lattice::PressSetup& setup) {
+Job press_job(const lattice::PressSetup& setup, int movie_pictures) {
   if (setup.protocol.mode == meshes::DriveMode::equilibrium) return static_press_job(setup);
   Job job;
   job.kind = "press";
   job.inputs = inputs_of(setup);
+  if (movie_pictures > 0) job.inputs["movie"] = movie_pictures;
   job.source_hash = source_hash::lattice;
+  job.repeatable = repeatable(setup);
   // Masses ~ 1/a³, steps ~ 1/a: 10 units at R/12.
   const double finer = setup.geometry.tip_radius / (12.0 * setup.lattice.spacing);
   job.weight = 10.0 * std::pow(finer, 4);
-  job.run = [setup](const fs::path& folder, const JobContext& context) {
-    run_press_job(setup, folder, context);
+  job.run = [setup, movie_pictures](const fs::path& folder, const JobContext& context) {
+    run_press_job(setup, movie_pictures, folder, context);
   };
   return job;
 }

@@ -5,6 +5,7 @@
 #include "meshes/files.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
+#include "studies/run/controller_choice.h"
 
 namespace fingertip::studies {
 
@@ -144,6 +145,7 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded) {
   } else {
     setup.lattice.constants = resolve_constants(loaded);
   }
+  choose_controller(loaded, setup);
   const std::vector<meshes::Violation> broken = setup.violations();
   if (!broken.empty()) throw loaded.locate(broken);
   return setup;

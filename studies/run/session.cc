@@ -7,6 +7,7 @@
 #include <exception>
 #include <thread>
 
+#include "lattice/control/controller.h"
 #include "meshes/errors.h"
 #include "studies/run/interrupt.h"
 
@@ -36,7 +37,7 @@ bool Session::reuse(const PlannedJob& planned, JobResult& result) {
     folder_.log(result.name + ": kept from the resumed run");
     return true;
   }
-  if (cache_.holds(planned.job)) {
+  if (planned.job.repeatable && cache_.holds(planned.job)) {
     clear(planned);
     if (cache_.fetch(planned.job, target) && usable()) {
       folder_.log(result.name + ": from the cache, " + planned.job.key().substr(0, 16));
@@ -68,6 +69,9 @@ void Session::compute(const PlannedJob& planned, JobResult& result, int threads)
   } catch (const ProcessLost& error) {
     folder_.log(result.name + ": " + error.what());
     throw;
+  } catch (const lattice::ControllerFailed& error) {
+    folder_.log(result.name + ": " + error.what());
+    throw;
   } catch (const meshes::NotConverged& error) {
     result.status = std::string("not converged: ") + error.what();
     if (!planned.exhibit) {
@@ -87,7 +91,7 @@ JobResult Session::run_with(const PlannedJob& planned, int threads) {
     result.reused = false;
     folder_.log(result.name + ": started");
     compute(planned, result, threads);
-    if (!cache_.store(planned.job, path_of(planned))) {
+    if (planned.job.repeatable && !cache_.store(planned.job, path_of(planned))) {
       folder_.log(result.name + ": could not be cached");
     }
     folder_.log(fmt::format("{}: {} in {:.2f} s", result.name, result.status, result.wall_time));

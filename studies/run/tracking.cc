@@ -17,7 +17,7 @@ Tracking measure_tracking(const std::vector<lattice::TraceRow>& trace, double fi
   Tracking tracking;
   for (const lattice::TraceRow& row : trace) {
     tracking.tilt = larger(tracking.tilt, std::abs(row.tilt));
-    if (row.time < settling_time || row.commanded_speed == 0.0) continue;
+    if (row.time < settling_time || row.commanded_speed == 0.0 || row.force_mode) continue;
     const double deviation =
         std::abs(row.speed - row.commanded_speed) / std::abs(row.commanded_speed);
     const bool touching = row.time >= first_touch && row.time < first_touch + touch_time;

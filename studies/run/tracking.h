@@ -7,7 +7,8 @@
 
 namespace fingertip::studies {
 
-/// Largest deviations over a trace; NaN where the trace has no row to judge.
+/// Largest deviations over a trace, of speed while the controller does not control the contact
+/// force instead; NaN where the trace has no row to judge.
 struct Tracking {
   /// |speed - command| / |command| from 50 ms after the start, without the first 20 ms after
   /// first touch; dimensionless.

@@ -157,6 +157,11 @@ TEST_F(PlantedTree, BadFormIsCaught) {
   expect_caught(architecture::check_form, "lattice/planted.h", "longer than 600");
 }
 
+TEST_F(PlantedTree, CHeadersAreInNoNamespace) {
+  plant("studies/interface.h", "/// For C.\n#pragma once\nextern \"C\" {\nint answer(void);\n}\n");
+  for (const auto& finding : architecture::check_form(root_)) ADD_FAILURE() << to_string(finding);
+}
+
 TEST_F(PlantedTree, MissingReadmeIsCaught) {
   fs::remove(root_ / "lattice/README.md");
   expect_caught(architecture::check_readmes, "lattice", "README.md");

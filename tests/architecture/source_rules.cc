@@ -136,17 +136,19 @@ class CycleSearch {
 void check_namespaces(const SourceFile& file, Findings& findings) {
   static const std::regex opening(R"(^\s*namespace\s+fingertip::(\w+))");
   static const std::regex program(R"(^int main\()");
-  bool own = false, is_program = false;
+  static const std::regex interface(R"(^extern "C" \{)");
+  bool own = false, has_none = false;  // programs and C headers are not in any namespace
   std::smatch match;
   for (std::size_t i = 0; i < file.lines.size(); ++i) {
-    is_program = is_program || std::regex_search(file.lines[i], program);
+    has_none = has_none || std::regex_search(file.lines[i], program) ||
+               std::regex_search(file.lines[i], interface);
     if (!std::regex_search(file.lines[i], match, opening)) continue;
     if (match[1] == file.room)
       own = true;
     else
       findings.push_back({file.path, int(i) + 1, "opens the namespace of room " + match[1].str()});
   }
-  if (!own && !is_program)
+  if (!own && !has_none)
     findings.push_back({file.path, 0, "lacks namespace fingertip::" + file.room});
 }
 

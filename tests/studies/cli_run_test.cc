@@ -68,6 +68,27 @@ TEST(Run, EqualInputComesFromTheCache) {
   EXPECT_NE(read_text(folder / "two/log.txt").find("from the cache"), std::string::npos);
 }
 
+TEST(Run, AMovieIsPartOfAPressWithAKeyOfItsOwn) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(folder.path(), with(coarse_press, {"--out", "plain"})).code, 0);
+  EXPECT_FALSE(fs::exists(folder / "plain/movie"));
+  EXPECT_TRUE(fs::exists(folder / "plain/snapshot_points.csv"));
+  const std::vector<std::string> filmed = with(coarse_press, {"--movie", "5"});
+  const ProgramResult first = run_program(folder.path(), with(filmed, {"--out", "one"}));
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(first.out.find("earlier run"), std::string::npos) << first.out;
+  EXPECT_TRUE(fs::exists(folder / "one/movie/frame_0004.vtu"));
+  EXPECT_FALSE(fs::exists(folder / "one/movie/frame_0005.vtu"));
+  const ProgramResult again = run_program(folder.path(), with(filmed, {"--out", "two"}));
+  EXPECT_NE(again.out.find("earlier run"), std::string::npos) << again.out;
+  EXPECT_EQ(read_text(folder / "one/movie/movie.pvd"), read_text(folder / "two/movie/movie.pvd"));
+  EXPECT_EQ(read_text(folder / "plain/trace.csv"), read_text(folder / "one/trace.csv"));
+  const ProgramResult none = run_program(
+      folder.path(), {"press", "--movie", "--set", "press.mode=static", "--out", "none"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("a press without time has no movie"), std::string::npos) << none.err;
+}
+
 TEST(Run, ForceReplacesAndResumeKeeps) {
   const TemporaryFolder folder;
   const auto words = with(coarse_press, {"--out", "run"});

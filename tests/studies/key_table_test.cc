@@ -94,6 +94,16 @@ TEST(KeyTable, DefaultsAreThoseOfTheRooms) {
   EXPECT_EQ(resolved.press.controller.period, rooms.controller.period);
   EXPECT_EQ(resolved.press.controller.natural_frequency, rooms.controller.natural_frequency);
   EXPECT_EQ(resolved.press.controller.derivative_filter, rooms.controller.derivative_filter);
+  EXPECT_EQ(resolved.press.controller.setpoint_weight, rooms.controller.setpoint_weight);
+  const ControllerOrder order;
+  EXPECT_EQ(resolved.controller.adaptive.sensitivity, order.adaptive.sensitivity);
+  EXPECT_EQ(resolved.controller.adaptive.memory, order.adaptive.memory);
+  EXPECT_EQ(resolved.controller.force.force, order.force.force);
+  EXPECT_EQ(resolved.controller.force.bandwidth, order.force.bandwidth);
+  EXPECT_EQ(resolved.controller.force.touch_force, order.force.touch_force);
+  EXPECT_EQ(resolved.controller.force.release_force, order.force.release_force);
+  EXPECT_EQ(resolved.controller.force.confirmation, order.force.confirmation);
+  EXPECT_EQ(resolved.controller.force.dwell, order.force.dwell);
   EXPECT_EQ(resolved.press.controller.bond_compensation, rooms.controller.bond_compensation);
   EXPECT_EQ(resolved.press.controller.force_limit, rooms.controller.force_limit);
   EXPECT_EQ(resolved.press.controller.torque_limit, rooms.controller.torque_limit);

@@ -225,14 +225,18 @@ std::string refusal(void (*check)(const LoadedConfig&), std::vector<std::string>
 
 TEST(Checks, WhatAPressCannotDoIsRefusedToTheValidationAlone) {
   for (const char* set :
-       {"press.contact=coulomb", "press.tilt=5 deg", "press.lateral=1 mm",
+       {"press.tilt=5 deg", "press.lateral=1 mm",
         "lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]", "lattice.contact_stiffness=2"}) {
     EXPECT_EQ(refusal(check_all, {set}), "") << set;
     EXPECT_NO_THROW(reference_order(load_config({{}, {set}, {}}))) << set;
     EXPECT_EQ(refusal(check_validation, {set}).find("--set " + std::string(set)), 0U) << set;
     EXPECT_THROW(setup_of({set, "lattice.model=published"}), ConfigError) << set;
   }
-  EXPECT_THROW(setup_of({"press.contact=coulomb"}), ConfigError);
+  const std::string coulomb = "press.contact=coulomb";
+  EXPECT_EQ(refusal(check_validation, {coulomb}), "");
+  EXPECT_NO_THROW(setup_of({coulomb, "lattice.model=published"}));
+  EXPECT_THROW(setup_of({coulomb, "press.mode=static"}), ConfigError);
+  EXPECT_EQ(refusal(check_all, {coulomb, "press.mode=static"}), "");
   EXPECT_EQ(refusal(check_validation, {}), "");
   EXPECT_EQ(refusal(check_validation, {"reference.mode=transient"}), "");
   EXPECT_NE(refusal(check_validation, {"reference.mode=modes"}), "");
@@ -340,6 +344,8 @@ TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
   EXPECT_EQ(key({}), key({"lattice.constants=rule"}));
   EXPECT_EQ(key({}), key({"reference.degree=1"}));
   EXPECT_NE(key({}), key({"press.speed=2 cm/s"}));
+  EXPECT_EQ(key({}), key({"press.friction=0.1"})) << "stick has no coefficient";
+  EXPECT_NE(key({"press.contact=coulomb"}), key({"press.contact=coulomb", "press.friction=0.1"}));
   EXPECT_NE(key({}), key({"rod.density=2 g/cm^3"}));
   // A whole number of steps makes a period, whatever moves the rod.
   EXPECT_NE(key({"press.mode=quasi-static"}),

@@ -43,3 +43,12 @@ TEST(Tracking, WithoutTouchEverythingAfterTheStartCounts) {
 TEST(Tracking, AnEmptyTraceSaysNothing) {
   EXPECT_TRUE(std::isnan(measure_tracking({}, 0.0).speed_deviation));
 }
+
+TEST(Tracking, SpeedDoesNotCountWhileTheForceIsControlled) {
+  auto trace = steady_trace();
+  for (std::size_t n = 80; n < trace.size(); ++n) {
+    trace[n].speed = 0.0;
+    trace[n].force_mode = true;
+  }
+  EXPECT_LT(measure_tracking(trace, 0.070).speed_deviation, 1e-12);
+}

@@ -1,0 +1,92 @@
+#include "studies/cases/control_measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/report/moving_press.h"
+#include "studies/run/json_file.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the case asks for the measure of this press.
+bool is_meant(const CasePress& press, const std::string& measure) {
+  if (measure == "force_error") return press.continuum;
+  if (measure == "change") return !press.beside.empty();
+  return true;
+}
+
+/// Every name under which the press is judged: its own and that of its series.
+std::vector<std::string> judged_names(const CasePress& press) {
+  std::vector<std::string> names = {full_name(press)};
+  if (!press.series.empty()) names.push_back(press.series);
+  return names;
+}
+
+}  // namespace
+
+const std::vector<std::string>& press_measures() {
+  static const std::vector<std::string> names = {"speed_deviation", "speed_deviation_at_touch",
+                                                 "tilt_deg",        "momentum_defect",
+                                                 "force_error",     "change",
+                                                 "force_overshoot", "mode_switches"};
+  return names;
+}
+
+PressMeasures tracking_measures(const fs::path& folder) {
+  PressMeasures measures;
+  if (fs::exists(folder / "summary.json")) {
+    const nlohmann::json summary = reporting::read_json(folder / "summary.json");
+    const nlohmann::json tracking = reporting::object_at(summary, "tracking");
+    for (const char* name : {"speed_deviation", "speed_deviation_at_touch", "tilt_deg"})
+      measures[name] = reporting::number_at(tracking, name);
+    measures["momentum_defect"] = reporting::number_at(summary, "momentum_defect");
+  }
+  const reporting::CsvTable trace = reporting::read_csv(folder / "trace.csv");
+  measures["force_overshoot"] = reporting::force_overshoot(trace);
+  measures["mode_switches"] = reporting::mode_switches(trace);
+  std::erase_if(measures, [](const auto& entry) { return std::isnan(entry.second); });
+  return measures;
+}
+
+std::vector<std::string> control_measure_names(const Case& one) {
+  std::vector<std::string> names = {"presses.not_converged", "reference.force_error"};
+  for (const CasePress& press : one.presses) {
+    for (const std::string& judged : judged_names(press)) {
+      for (const std::string& measure : press_measures()) {
+        const std::string name = judged + "." + measure;
+        if (is_meant(press, measure) && std::ranges::find(names, name) == names.end())
+          names.push_back(name);
+      }
+    }
+  }
+  return names;
+}
+
+std::map<std::string, double> take_control_measures(const Case& one,
+                                                    const std::vector<PressMeasures>& presses,
+                                                    std::size_t not_converged,
+                                                    double reference_error) {
+  std::map<std::string, double> taken;
+  taken["presses.not_converged"] = double(not_converged);
+  taken["reference.force_error"] = reference_error;
+  for (std::size_t i = 0; i < one.presses.size(); ++i) {
+    for (const std::string& measure : press_measures()) {
+      if (!is_meant(one.presses[i], measure)) continue;
+      const auto found = presses[i].find(measure);
+      const double value = found == presses[i].end() ? std::nan("") : found->second;
+      for (const std::string& judged : judged_names(one.presses[i])) {
+        const auto [entry, is_new] = taken.insert({judged + "." + measure, value});
+        const bool unknown = std::isnan(value) || std::isnan(entry->second);
+        if (!is_new) entry->second = unknown ? std::nan("") : std::max(entry->second, value);
+      }
+    }
+  }
+  std::erase_if(taken, [](const auto& entry) { return std::isnan(entry.second); });
+  return taken;
+}
+
+}  // namespace fingertip::studies

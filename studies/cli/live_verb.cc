@@ -1,0 +1,33 @@
+#include "studies/live/live_view.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "studies/cli/run_verb.h"
+#include "studies/cli/verbs.h"
+#include "studies/run/interrupt.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+int run_live(const CommandLine& line) {
+  const LoadedConfig loaded = load_checked(line);
+  const lattice::PressSetup setup = press_setup(loaded);
+  watch_for_interrupts();
+  LiveOptions options;
+  options.port = line.port;
+  options.reference = line.reference;
+  options.paused = line.paused;
+  options.rate = line.rate;
+  options.exit_after = line.exit_after;
+  options.interrupted = interrupted;
+  run_live_view(setup, options, [&line](const std::string& url) {
+    if (!line.quiet) fmt::print("open this address in a browser on this machine; Ctrl-C ends:\n");
+    fmt::print("{}\n", url);
+    std::fflush(stdout);
+  });
+  return 0;
+}
+
+}  // namespace fingertip::studies

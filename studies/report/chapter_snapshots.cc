@@ -1,0 +1,325 @@
+/// Pictures of the finger at a few moments of a press, like Fig. 6 of the paper.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "meshes/geometry.h"
+#include "studies/report/chapters.h"
+#include "studies/report/continuum_figures.h"
+#include "studies/report/moving_press.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+using meshes::Vector3;
+
+constexpr const char* force_colour = "#D55E00";
+constexpr const char* torque_colour = "#0072B2";
+constexpr const char* held_colour = "#CC79A7";
+
+/// Parallel projection: the plane below, seen from somewhat above it and from the side.
+class Camera {
+ public:
+  /// `up`: the plane's normal, toward the rod, at the start.
+  explicit Camera(const Vector3& up) {
+    const double elevation = 14.0 / degree_per_radian, azimuth = 25.0 / degree_per_radian;
+    const Vector3 t1 = (Vector3::UnitX() - up * up.x()).normalized(), t2 = up.cross(t1);
+    right_ = std::cos(azimuth) * t1 + std::sin(azimuth) * t2;
+    const Vector3 ahead = up.cross(right_);
+    toward_ = -std::cos(elevation) * ahead + std::sin(elevation) * up;
+    above_ = std::sin(elevation) * ahead + std::cos(elevation) * up;
+  }
+
+  double x(const Vector3& place) const { return to_cm(place.dot(right_)); }
+  double y(const Vector3& place) const { return to_cm(place.dot(above_)); }
+  /// Whether a surface with this outer normal can be seen.
+  bool faces(const Vector3& normal) const { return normal.dot(toward_) > 0.0; }
+  /// Toward the viewer.
+  const Vector3& toward() const { return toward_; }
+
+ private:
+  Vector3 right_, above_, toward_;
+};
+
+/// Rows of three columns as vectors: NAME_x UNIT and so on.
+std::vector<Vector3> vectors(const CsvTable& table, const std::string& name,
+                             const std::string& unit) {
+  std::vector<std::vector<double>> parts;
+  for (const char* axis : {"x", "y", "z"}) parts.push_back(table.numbers(name + axis + unit));
+  std::vector<Vector3> result;
+  for (std::size_t i = 0; i < parts[0].size(); ++i)
+    result.emplace_back(parts[0][i], parts[1][i], parts[2][i]);
+  return result;
+}
+
+/// A snapshot as the files tell it.
+struct Snapshot {
+  std::string moment;
+  double time, indentation;
+  Vector3 endpoint, force, torque, plane, normal;
+  Eigen::AngleAxisd turn;
+  std::vector<Vector3> points;
+  std::vector<double> held;
+};
+
+std::vector<Snapshot> snapshots_of(const MovingPress& press) {
+  const CsvTable& table = press.snapshots;
+  const auto moments = table.texts("moment");
+  const auto time = table.numbers("time [s]"), indentation = table.numbers("indentation [m]");
+  const auto endpoint = vectors(table, "endpoint_", " [m]"),
+             turn = vectors(table, "turn_", " [rad]");
+  const auto force = vectors(table, "force_", " [N]"), torque = vectors(table, "torque_", " [N m]");
+  const auto plane = vectors(table, "plane_", " [m]"), normal = vectors(table, "normal_", "");
+  std::vector<Snapshot> result;
+  for (std::size_t s = 0; s < moments.size(); ++s) {
+    const double angle = turn[s].norm();
+    const Eigen::AngleAxisd turned(angle,
+                                   angle > 0.0 ? Vector3(turn[s] / angle) : Vector3::UnitZ());
+    result.push_back({moments[s],
+                      time[s],
+                      indentation[s],
+                      endpoint[s],
+                      force[s],
+                      torque[s],
+                      plane[s],
+                      normal[s],
+                      turned,
+                      {},
+                      {}});
+  }
+  const auto number = press.snapshot_points.numbers("snapshot");
+  const auto points = vectors(press.snapshot_points, "", " [m]");
+  const auto held = press.snapshot_points.numbers("held");
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (!(number[i] >= 0.0 && number[i] < double(result.size()))) continue;
+    result[std::size_t(number[i])].points.push_back(points[i]);
+    result[std::size_t(number[i])].held.push_back(held[i]);
+  }
+  return result;
+}
+
+/// Radius and lengths of the specimen [m].
+struct Shape {
+  double tip_radius, rod_radius, rod_length, sleeve_length;
+};
+
+/// Where the outer surface faces, of a place at rest on it.
+Vector3 outer_normal(const Vector3& rest) {
+  return Vector3(rest.x(), rest.y(), std::max(rest.z(), 0.0)).normalized();
+}
+
+class Drawing {
+ public:
+  Drawing(const MovingPress& press, const Snapshot& first, double largest_force,
+          double largest_torque)
+      : camera_(first.normal), largest_force_(largest_force), largest_torque_(largest_torque) {
+    const nlohmann::json geometry = object_at(press.summary, "geometry");
+    shape_ = {number_at(geometry, "tip_radius"), number_at(geometry, "rod_radius"),
+              number_at(geometry, "rod_length"), number_at(geometry, "sleeve_length")};
+    rest_ = vectors(press.boundary, "", " [m]");
+    first_ = press.boundary_springs.numbers("i");
+    second_ = press.boundary_springs.numbers("j");
+  }
+
+  Panel panel(const Snapshot& snapshot) const {
+    Panel panel;
+    panel.title = fmt::format("{}, {:.4g} s", snapshot.moment, snapshot.time);
+    panel.equal_scales = true;
+    panel.key = "";
+    panel.bare = true;
+    add_plane(panel, snapshot);
+    add_rod(panel, snapshot);
+    add_tip(panel, snapshot);
+    add_arrow(panel, snapshot, snapshot.force, largest_force_, force_colour, "force");
+    add_arrow(panel, snapshot, snapshot.torque, largest_torque_, torque_colour, "torque");
+    return panel;
+  }
+
+ private:
+  void join(Series& series, const Vector3& from, const Vector3& to) const {
+    add_segment(series, camera_.x(from), camera_.y(from), camera_.x(to), camera_.y(to));
+  }
+  void add(Series& series, const Vector3& place) const {
+    series.x.push_back(camera_.x(place));
+    series.y.push_back(camera_.y(place));
+  }
+
+  void add_plane(Panel& panel, const Snapshot& snapshot) const {
+    Series square{"", "plane", {}, {}, {}, thin("#999999", 1.0)};
+    const Vector3& n = snapshot.normal;
+    const Vector3 t1 = (Vector3::UnitX() - n * n.x()).normalized(), t2 = n.cross(t1);
+    const double half = 1.5 * shape_.tip_radius;
+    for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}})
+      add(square, snapshot.plane + half * (a * t1 + b * t2));
+    Series area = square;
+    area.filled = true;
+    panel.series.push_back(std::move(area));
+    panel.series.push_back(std::move(square));
+  }
+
+  /// A ring of the rod (as it lies in the finger's frame), its part on the viewer's side or all.
+  void add_ring(Series& series, const Snapshot& snapshot, double height, bool front_only) const {
+    constexpr int steps = 72;
+    for (int k = 0; k < steps; ++k) {
+      const auto at = [&](int step) {
+        const double angle = 2.0 * std::numbers::pi * step / steps;
+        return Vector3(shape_.rod_radius * std::cos(angle), shape_.rod_radius * std::sin(angle), 0);
+      };
+      const Vector3 from = at(k), to = at(k + 1), up(0.0, 0.0, height);
+      if (front_only && !camera_.faces(snapshot.turn * (from + to))) continue;
+      join(series, placed(snapshot, from + up), placed(snapshot, to + up));
+    }
+  }
+
+  Vector3 placed(const Snapshot& snapshot, const Vector3& in_rod) const {
+    return snapshot.endpoint + snapshot.turn * (in_rod + Vector3(0.0, 0.0, shape_.rod_length));
+  }
+
+  /// Outside of the sleeve the rod's outline is solid, inside it is dashed.
+  void add_rod(Panel& panel, const Snapshot& snapshot) const {
+    Series seen{"", "rod", {}, {}, {}, {"#222222", "", 1.6, 0, true}};
+    Series hidden{"", "rod inside the tip", {}, {}, {}, {"#222222", "(5,4)", 1.0, 0, true}};
+    const double top = -shape_.rod_length, rim = -shape_.sleeve_length;
+    const Vector3 axis = snapshot.turn * Vector3::UnitZ();
+    const Vector3 side = snapshot.turn.inverse() *
+                         Vector3(shape_.rod_radius * axis.cross(camera_.toward()).normalized());
+    add_ring(seen, snapshot, top, false);
+    add_ring(seen, snapshot, rim, true);
+    for (const double sign : {-1.0, 1.0}) {
+      const auto at = [&](double z) { return placed(snapshot, sign * side + Vector3(0, 0, z)); };
+      join(seen, at(top), at(rim));
+      join(hidden, at(rim), at(0.0));
+    }
+    add_dome(hidden, snapshot);
+    panel.series.push_back(std::move(hidden));
+    panel.series.push_back(std::move(seen));
+  }
+
+  /// The outline of the rod's hemisphere: half of the circle that faces the viewer.
+  void add_dome(Series& series, const Snapshot& snapshot) const {
+    const Vector3 axis = snapshot.turn * Vector3::UnitZ();
+    const Vector3 side = axis.cross(camera_.toward()).normalized();
+    const Vector3 below = camera_.toward().cross(side).normalized();
+    const double sign = below.dot(axis) > 0.0 ? 1.0 : -1.0;
+    const Vector3 centre = placed(snapshot, Vector3::Zero());
+    for (int k = 0; k <= 36; ++k) {
+      const double angle = std::numbers::pi * k / 36.0;
+      add(series,
+          centre + shape_.rod_radius * (std::cos(angle) * side + sign * std::sin(angle) * below));
+    }
+  }
+
+  /// Springs on the viewer's side, and what the plane holds, which lies at the back of the tip.
+  void add_tip(Panel& panel, const Snapshot& snapshot) const {
+    Series springs{"", "springs", {}, {}, {}, thin("#3f7f6f", 0.6)};
+    const auto visible = [&](std::size_t i) {
+      return camera_.faces(snapshot.turn * outer_normal(rest_[i]));
+    };
+    const std::size_t count = std::min(rest_.size(), snapshot.points.size());
+    for (std::size_t s = 0; s < first_.size(); ++s) {
+      const auto i = std::size_t(first_[s]), j = std::size_t(second_[s]);
+      if (i >= count || j >= count || !visible(i) || !visible(j)) continue;
+      join(springs, snapshot.points[i], snapshot.points[j]);
+    }
+    Series held{"", "held by the plane", {}, {}, {}, {held_colour, "", 1.0, 7, false, 0.3}};
+    for (std::size_t i = 0; i < count; ++i)
+      if (snapshot.held[i] > 0.0) add(held, snapshot.points[i]);
+    panel.series.push_back(std::move(springs));
+    panel.series.push_back(std::move(held));
+  }
+
+  /// An arrow from the endpoint, the largest of the press as long as the tip's radius, and what it
+  /// stands for. A vector that is round-off has none.
+  void add_arrow(Panel& panel, const Snapshot& snapshot, const Vector3& vector, double largest,
+                 const std::string& colour, const std::string& name) const {
+    const bool force = name == "force";
+    if (!(largest > 0.0 && vector.norm() > 1e-3 * largest)) return;
+    const Vector3 end = snapshot.endpoint + 1.2 * shape_.tip_radius / largest * vector;
+    Series shaft{"", name, {}, {}, {}, {colour, "", 2.4, 0, true}};
+    add(shaft, snapshot.endpoint);
+    add(shaft, end);
+    panel.arrows.push_back({shaft.x[0], shaft.y[0], shaft.x[1], shaft.y[1], colour, !force});
+    panel.series.push_back(std::move(shaft));
+  }
+
+  Camera camera_;
+  Shape shape_{};
+  double largest_force_, largest_torque_;
+  std::vector<Vector3> rest_;
+  std::vector<double> first_, second_;
+};
+
+/// The values at the endpoint, below the picture.
+std::string wrench_text(const Snapshot& snapshot, double largest_torque) {
+  const double depth = to_cm(snapshot.indentation);
+  const double torque = largest_torque > 0.0 ? to_cm(to_gf(snapshot.torque.norm())) : 0.0;
+  return fmt::format("{:.3f} cm {}, force {:.3f} gf, torque {:.3f} gf cm", std::abs(depth),
+                     depth < 0.0 ? "away" : "deep", to_gf(snapshot.force.norm()), torque);
+}
+
+/// The same part of space for all panels.
+void frame(Figure& figure) {
+  Range x{meshes::unknown, meshes::unknown}, y = x;
+  const auto include = [](Range& range, const std::vector<double>& values) {
+    for (const double value : values) {
+      range.from = std::fmin(range.from, value);
+      range.to = std::fmax(range.to, value);
+    }
+  };
+  for (const Panel& panel : figure.panels)
+    for (const Series& series : panel.series) include(x, series.x), include(y, series.y);
+  const double room = 0.05 * (y.to - y.from);
+  for (Panel& panel : figure.panels) {
+    panel.x_range = Range{x.from - room, x.to + room};
+    panel.y_range = Range{y.from - 3.0 * room, y.to + room};
+    panel.texts.front().x = 0.5 * (x.from + x.to);
+    panel.texts.front().y = y.from - 1.5 * room;
+  }
+}
+
+FigureBlock figure_of(const MovingPress& press, std::size_t number) {
+  const std::vector<Snapshot> snapshots = snapshots_of(press);
+  double largest_force = 0.0, largest_torque = 0.0;
+  for (const Snapshot& one : snapshots) {
+    largest_force = std::max(largest_force, one.force.norm());
+    largest_torque = std::max(largest_torque, one.torque.norm());
+  }
+  // Of a straight press there is nothing but round-off.
+  if (largest_torque < 1e-6 * largest_force * 0.01) largest_torque = 0.0;
+  const Drawing drawing(press, snapshots.front(), largest_force, largest_torque);
+  Figure figure{fmt::format("snapshots_{}", number), 900, 860, 2, {}};
+  for (const Snapshot& one : snapshots) {
+    figure.panels.push_back(drawing.panel(one));
+    figure.panels.back().texts.push_back({0.0, 0.0, wrench_text(one, largest_torque)});
+  }
+  frame(figure);
+  return {figure, "Snapshots: " + press.label,
+          "Masses' springs of the tip's boundary on the viewer's side, the rod (dashed inside the "
+          "tip) and the plane, all to one scale; dots: points that the plane holds, seen through "
+          "the tip. Orange arrow: force of the tip on the rod at its endpoint" +
+              std::string(largest_torque > 0.0 ? "; blue, with two heads: its torque" : "") +
+              ", the longest arrow of a kind being the largest of the four."};
+}
+
+}  // namespace
+
+Chapter snapshots_chapter(const std::vector<MovingPress>& presses) {
+  Chapter chapter{"snapshots", "Snapshots", {}};
+  for (const MovingPress& press : presses) {
+    const bool complete = !press.snapshots.empty() && !press.snapshot_points.empty() &&
+                          !press.boundary.empty() &&
+                          object_at(press.summary, "geometry").contains("rod_length");
+    if (press.pictured && complete)
+      chapter.blocks.push_back(figure_of(press, chapter.blocks.size() + 1));
+  }
+  return chapter;
+}
+
+Chapter snapshots_chapter(const RunData& run) {
+  return snapshots_chapter(presses_of_models(run));
+}
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,93 @@
+#include "studies/report/moving_press.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fingertip::studies::reporting {
+
+namespace fs = std::filesystem;
+
+double MovingPress::approach_speed() const {
+  return largest_magnitude(trace.numbers("commanded_speed [m/s]"));
+}
+
+bool MovingPress::controls_force() const {
+  return largest_magnitude(trace.numbers("force_mode")) > 0.0;
+}
+
+MovingPress read_moving_press(const fs::path& folder, const std::string& label) {
+  MovingPress press;
+  press.label = label;
+  press.summary = read_json(folder / "summary.json");
+  press.status = text_at(press.summary, "status");
+  press.trace = read_csv(folder / "trace.csv");
+  press.boundary = read_csv(folder / "boundary.csv");
+  press.boundary_springs = read_csv(folder / "boundary_springs.csv");
+  press.snapshots = read_csv(folder / "snapshots.csv");
+  press.snapshot_points = read_csv(folder / "snapshot_points.csv");
+  if (fs::exists(folder / "response.csv"))
+    press.response = meshes::PressResponse::read_csv(folder / "response.csv");
+  return press;
+}
+
+std::vector<MovingPress> read_moving_presses(const RunData& run) {
+  std::vector<MovingPress> presses;
+  std::vector<std::string> series;
+  for (const nlohmann::json& entry : run.presses) {
+    const std::string name = text_at(entry, "series");
+    const std::string label = (name.empty() ? "" : name + ", ") + text_at(entry, "name");
+    MovingPress press = read_moving_press(run.folder / text_at(entry, "folder"), label);
+    if (std::ranges::find(series, name) == series.end()) series.push_back(name);
+    press.style = numbered_style(std::size_t(std::ranges::find(series, name) - series.begin()));
+    press.style.point = 0;
+    press.status = text_at(entry, "status");
+    press.beside = text_at(entry, "beside");
+    press.change = number_at(entry, "change");
+    press.force_error = number_at(entry, "force_error");
+    press.pictured = entry.contains("pictured") && entry.at("pictured") == true;
+    const fs::path continuum = run.folder / text_at(entry, "continuum") / "response.csv";
+    if (!text_at(entry, "continuum").empty() && fs::exists(continuum))
+      press.reference = meshes::PressResponse::read_csv(continuum);
+    presses.push_back(std::move(press));
+  }
+  return presses;
+}
+
+std::vector<MovingPress> presses_of_models(const RunData& run) {
+  std::vector<MovingPress> presses;
+  for (const ModelData& model : run.models) {
+    MovingPress press;
+    press.label = model_label(model.name);
+    press.style = model_style(model.name);
+    press.status = text_at(model.summary, "status");
+    press.summary = model.summary;
+    press.trace = model.trace;
+    press.boundary = model.boundary;
+    press.boundary_springs = model.boundary_springs;
+    press.snapshots = model.snapshots;
+    press.snapshot_points = model.snapshot_points;
+    presses.push_back(std::move(press));
+  }
+  if (!presses.empty()) presses.back().pictured = true;
+  return presses;
+}
+
+double force_overshoot(const CsvTable& trace) {
+  const std::vector<double> force = trace.numbers("normal_force [N]");
+  const std::vector<double> wanted = trace.numbers("wanted_force [N]");
+  const std::vector<double> mode = trace.numbers("force_mode");
+  double most = meshes::unknown;
+  for (std::size_t i = 0; i < force.size(); ++i)
+    if (mode[i] > 0.0 && wanted[i] > 0.0) most = std::fmax(most, force[i] / wanted[i] - 1.0);
+  return std::isnan(most) ? most : std::max(most, 0.0);
+}
+
+double mode_switches(const CsvTable& trace) {
+  const std::vector<double> mode = trace.numbers("force_mode");
+  if (mode.empty() || std::isnan(mode.front())) return meshes::unknown;
+  double switches = 0.0;
+  for (std::size_t i = 1; i < mode.size(); ++i) switches += mode[i] != mode[i - 1] ? 1.0 : 0.0;
+  return switches;
+}
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,100 @@
+// Cases on virtual control: what a case file's presses become, and what they are judged by.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/cases/case_file.h"
+#include "studies/cases/control_measures.h"
+#include "studies/cases/plan.h"
+#include "studies/cases/validation.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip::studies;
+
+namespace {
+
+Case case_with(const TemporaryFolder& folder, const std::string& table) {
+  write_text(folder / "case.toml",
+             "[press]\nsamples = [\"0.1 cm\", \"0.2 cm\"]\n[case]\ntitle = \"t\"\n" + table);
+  return load_case(folder / "case.toml", {});
+}
+
+std::string refusal(const TemporaryFolder& folder, const std::string& table) {
+  try {
+    check_case(case_with(folder, table));
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::string two_presses =
+    "[[case.press]]\nseries = \"s\"\nname = \"a\"\ncontinuum = true\n"
+    "set = { \"press.speed\" = \"5 cm/s\" }\n"
+    "[[case.press]]\nseries = \"s\"\nname = \"b\"\nsnapshots = true\nbeside = \"s, a\"\n"
+    "set = { \"press.speed\" = \"5 cm/s\", \"run.time_step\" = \"20 us\" }\n";
+
+}  // namespace
+
+TEST(ControlCase, PlansPressesAndTheContinuaAtTheirSpeeds) {
+  const TemporaryFolder folder;
+  const Case one = case_with(folder, two_presses);
+  ASSERT_EQ(one.presses.size(), 2u);
+  EXPECT_TRUE(one.presses[0].continuum);
+  EXPECT_TRUE(one.presses[1].snapshots);
+  EXPECT_EQ(one.presses[1].beside, "s, a");
+  const std::vector<PlannedJob> jobs = control_plan(one)->jobs();
+  ASSERT_EQ(jobs.size(), 3u);
+  EXPECT_EQ(jobs[0].job.kind, "reference");
+  EXPECT_EQ(jobs[0].job.inputs["analysis"], "transient");
+  EXPECT_NEAR(jobs[0].job.inputs["speed"].get<double>(), 0.05, 1e-12);
+  for (std::size_t i : {1, 2}) EXPECT_EQ(jobs[i].job.kind, "press");
+  // What is written into parameters.toml is the same case again.
+  const TemporaryFolder other;
+  write_text(other / "case.toml", "[press]\nsamples = [\"0.1 cm\", \"0.2 cm\"]\n" + one.text);
+  EXPECT_EQ(load_case(other / "case.toml", {}).text, one.text);
+}
+
+TEST(ControlCase, RefusesWhatIsNoPressInTime) {
+  const TemporaryFolder folder;
+  const std::string head = "[[case.press]]\nname = \"a\"\n";
+  EXPECT_TRUE(has(refusal(folder, head + "set = { \"press.mode\" = \"static\" }\n"),
+                  "a press under a controller takes time"));
+  EXPECT_TRUE(
+      has(refusal(folder, head + "set = { \"reference.mode\" = \"static\" }\n"), "reference.mode"));
+  EXPECT_TRUE(has(refusal(folder, head + "beside = \"b\"\nset = {}\n"), "must be a press above"));
+  EXPECT_TRUE(has(refusal(folder, head + "continuum = 1\nset = {}\n"), "must be of another type"));
+  EXPECT_TRUE(has(refusal(folder, head + "contiuum = true\nset = {}\n"), "no such entry"));
+  EXPECT_TRUE(has(refusal(folder, head + "set = {}\n[[case.criteria]]\nname = \"c\"\n"
+                                         "measure = \"a.change\"\nlimit = 1.0\n"),
+                  "unknown measure"));
+}
+
+TEST(ControlCase, ASeriesIsJudgedByItsWorstPress) {
+  const TemporaryFolder folder;
+  const Case one = case_with(folder, two_presses);
+  const std::vector<std::string> names = control_measure_names(one);
+  for (const char* name : {"s.speed_deviation", "s, a.force_error", "s.force_error", "s, b.change"})
+    EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
+  EXPECT_EQ(std::ranges::find(names, "s, a.change"), names.end());
+  auto taken = take_control_measures(one,
+                                     {{{"speed_deviation", 0.01}, {"force_error", 0.02}},
+                                      {{"speed_deviation", 0.03}, {"change", 0.001}}},
+                                     0, 0.004);
+  EXPECT_EQ(taken.at("s.speed_deviation"), 0.03);
+  EXPECT_EQ(taken.at("s, a.speed_deviation"), 0.01);
+  EXPECT_EQ(taken.at("s.force_error"), 0.02);  // b is not meant to have one
+  EXPECT_EQ(taken.at("s.change"), 0.001);
+  EXPECT_EQ(taken.at("reference.force_error"), 0.004);
+  EXPECT_FALSE(taken.contains("s.force_overshoot"));
+  // A press that did not finish leaves its series without a measure.
+  taken = take_control_measures(one, {{{"speed_deviation", 0.01}}, {}}, 1, 0.004);
+  EXPECT_FALSE(taken.contains("s.speed_deviation"));
+  EXPECT_EQ(taken.at("presses.not_converged"), 1.0);
+}

@@ -1,0 +1,197 @@
+// Chapters on presses under controllers, from traces whose numbers are known.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "page_check.h"
+#include "studies/report/moving_press.h"
+#include "studies/report/report.h"
+#include "synthetic_run.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace fingertip;
+using namespace studies::reporting;
+using nlohmann::json;
+using report_testing::write_file;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+CsvTable table(std::vector<std::string> names, std::vector<std::vector<std::string>> rows) {
+  return {std::move(names), std::move(rows)};
+}
+
+/// A sphere of points round the origin of radius 1 cm, 40 around and 20 up, joined along circles.
+void write_sphere(const fs::path& folder) {
+  std::string points = "x [m],y [m],z [m],deformed_x [m],deformed_y [m],deformed_z [m],anchored\n";
+  std::string springs = "i,j\n", snapshots = "snapshot,x [m],y [m],z [m],held\n";
+  for (int row = 1; row < 20; ++row) {
+    for (int k = 0; k < 40; ++k) {
+      const double polar = M_PI * row / 40.0, around = 2.0 * M_PI * k / 40.0;
+      const std::string place =
+          fmt::format("{},{},{}", 0.01 * std::sin(polar) * std::cos(around),
+                      0.01 * std::sin(polar) * std::sin(around), 0.01 * std::cos(polar));
+      points += place + "," + place + ",0\n";
+      springs += fmt::format("{},{}\n", 40 * (row - 1) + k, 40 * (row - 1) + (k + 1) % 40);
+      snapshots += "0," + place + (row == 1 ? ",1\n" : ",0\n");
+    }
+  }
+  write_file(folder / "boundary.csv", points);
+  write_file(folder / "boundary_springs.csv", springs);
+  write_file(folder / "snapshot_points.csv", snapshots);
+  write_file(folder / "snapshots.csv",
+             "moment,time [s],indentation [m],endpoint_x [m],endpoint_y [m],endpoint_z [m],"
+             "turn_x [rad],turn_y [rad],turn_z [rad],force_x [N],force_y [N],force_z [N],"
+             "torque_x [N m],torque_y [N m],torque_z [N m],plane_x [m],plane_y [m],plane_z [m],"
+             "normal_x,normal_y,normal_z\nend,0.3,0.002,0,0,-0.03,0,0,0,0,0,-0.0980665,0,"
+             "0.000980665,0,0,0,0.01,0,0,-1\n");
+}
+
+void write_press(const fs::path& folder, double speed, bool force_control) {
+  std::string trace =
+      "time [s],indentation [m],commanded_speed [m/s],speed [m/s],tilt [rad],normal_force [N],"
+      "lateral_force [N],torque [N m],command_force [N],plane_force [N],anchored";
+  trace += force_control ? ",wanted_force [N],force_mode\n" : "\n";
+  for (int i = 0; i <= 100; ++i) {
+    const double force = 0.002 * i;
+    trace += fmt::format("{},{},{},{},0,{},0,0,{},{},0", 0.003 * i, 1e-5 * i, speed, 1.004 * speed,
+                         force, force, force);
+    trace += force_control ? fmt::format(",0.19,{}\n", i > 30 ? 1 : 0) : "\n";
+  }
+  write_file(folder / "trace.csv", trace);
+  const json summary = {
+      {"status", "finished"},
+      {"geometry",
+       {{"tip_radius", 0.01},
+        {"rod_radius", 0.005},
+        {"sleeve_length", 0.015},
+        {"rod_length", 0.03}}},
+      {"first_touch_time", 0.1},
+      {"tracking",
+       {{"speed_deviation", 0.004}, {"speed_deviation_at_touch", 0.021}, {"tilt_deg", 0.003}}}};
+  write_file(folder / "summary.json", summary.dump());
+}
+
+fs::path write_run(const TemporaryFolder& folder) {
+  const fs::path run = folder.path() / "run";
+  json presses = json::array();
+  for (const auto& [name, speed] : {std::pair{"1 cm/s", 0.01}, {"20 cm/s", 0.2}}) {
+    write_press(run / "presses" / name, speed, false);
+    presses.push_back({{"series", "s"},
+                       {"name", name},
+                       {"folder", std::string("presses/") + name},
+                       {"continuum", ""},
+                       {"beside", ""},
+                       {"pictured", speed < 0.1},
+                       {"status", "finished"}});
+  }
+  write_sphere(run / "presses" / "1 cm/s");
+  write_press(run / "presses" / "force", 0.01, true);
+  presses.push_back({{"series", ""},
+                     {"name", "force"},
+                     {"folder", "presses/force"},
+                     {"continuum", ""},
+                     {"beside", "s, 1 cm/s"},
+                     {"change", 0.0012},
+                     {"pictured", false},
+                     {"status", "finished"}});
+  write_file(run / "summary.json",
+             json{{"case", "11"}, {"title", "Control <1>"}, {"status", "ok"}, {"presses", presses}}
+                 .dump());
+  return run;
+}
+
+}  // namespace
+
+TEST(ControlReport, OvershootAndChangesOfModeAreThoseOfTheTrace) {
+  const CsvTable trace = table({"normal_force [N]", "wanted_force [N]", "force_mode"},
+                               {{"0.5", "0.1", "0"},  // approaching: no matter
+                                {"0.05", "0.1", "1"},
+                                {"0.104", "0.1", "1"},
+                                {"0.09", "0.1", "1"},
+                                {"0.0", "", "0"},
+                                {"0.1", "0.1", "1"}});
+  EXPECT_NEAR(force_overshoot(trace), 0.04, 1e-12);
+  EXPECT_EQ(mode_switches(trace), 3.0);
+  const CsvTable plain = table({"normal_force [N]"}, {{"0.5"}});
+  EXPECT_TRUE(std::isnan(force_overshoot(plain)));
+  EXPECT_TRUE(std::isnan(mode_switches(plain)));
+}
+
+TEST(ControlReport, ShowsSpeedsSideBySideSnapshotsAndForceControl) {
+  const TemporaryFolder folder;
+  const fs::path run = write_run(folder);
+  studies::write_report(run);
+  const std::string html = read_text(run / "report.html");
+  EXPECT_EQ(report_testing::structure_faults(html), std::vector<std::string>());
+  EXPECT_EQ(report_testing::outside_references(html), std::vector<std::string>());
+  for (const char* chapter : {"control", "snapshots", "speed"})
+    EXPECT_TRUE(has(html, fmt::format("<section id=\"{}\">", chapter))) << chapter;
+  for (const char* figure : {"tracking", "force_control", "snapshots_1"})
+    EXPECT_TRUE(fs::exists(run / "figures" / fmt::format("{}.svg", figure))) << figure;
+  EXPECT_FALSE(fs::exists(run / "figures/snapshots_2.svg"));
+  const std::string text = report_testing::visible_text(html);
+  EXPECT_TRUE(has(text, "2.1 %"));   // at first touch
+  EXPECT_TRUE(has(text, "+5.3 %"));  // 0.2 N where 0.19 N was wanted
+  EXPECT_TRUE(has(text, "0.12 %"));  // the change against another press
+  EXPECT_TRUE(has(text, "Control <1>"));
+  const std::string svg = read_text(run / "figures/snapshots_1.svg");
+  EXPECT_TRUE(has(svg, "0.200 cm deep, force 10.000 gf, torque 10.000 gf cm"));
+}
+
+TEST(ControlReport, SnapshotsHideTheBackOfTheTip) {
+  const TemporaryFolder folder;
+  const fs::path run = write_run(folder);
+  studies::write_report(run);
+  const CsvTable points = read_csv(run / "figures/snapshots_1.csv");
+  const auto series = points.texts("series");
+  const auto drawn = std::ranges::count(series, "springs") / 3;
+  // A normal at polar angle p, measured from the pole below, and azimuth f faces a viewer 14
+  // degrees above the plane where cos f > tan 14 / tan p.
+  double visible = 0.0;
+  for (int row = 1; row < 20; ++row) {
+    const double bound = std::tan(14.0 * M_PI / 180.0) / std::tan(M_PI * row / 40.0);
+    if (bound < 1.0) visible += 40.0 * std::acos(bound) / M_PI;
+  }
+  // At either end of a row a spring may be left out or more.
+  EXPECT_NEAR(double(drawn), visible - 19.0, 25.0);
+  EXPECT_EQ(std::ranges::count(series, "held by the plane"), 40);
+  EXPECT_EQ(std::ranges::count(series, "force"), 2);
+  EXPECT_EQ(std::ranges::count(series, "torque"), 2);
+}
+
+TEST(ControlReport, AComparisonOfPressesInTimeShowsThemUnderControl) {
+  const TemporaryFolder folder;
+  const fs::path run = write_run(folder);
+  std::vector<fs::path> runs;
+  for (const char* name : {"1 cm/s", "20 cm/s"}) {
+    runs.push_back(run / "presses" / name);
+    std::string response =
+        "indentation [m],normal_force [N],lateral_force_x [N],lateral_force_y [N],torque_x [N m],"
+        "torque_y [N m],torque_z [N m],contact_radius [m],max_pressure [Pa],force_error [N],"
+        "time [s]\n";
+    for (const double depth : {0.001, 0.002})
+      response += fmt::format("{},{},0,0,0,0,0,,,,0\n", depth, 100.0 * depth);
+    write_file(runs.back() / "response.csv", response);
+  }
+  studies::write_comparison(runs, folder / "out");
+  EXPECT_TRUE(has(read_text(folder / "out/comparison.html"), "<section id=\"control\">"));
+  EXPECT_TRUE(fs::exists(folder / "out/figures/tracking.svg"));
+}
+
+TEST(ControlReport, APressAloneHasItsControlAndSnapshots) {
+  const TemporaryFolder folder;
+  const fs::path press = write_run(folder) / "presses/1 cm/s";
+  studies::write_report(press);
+  const std::string html = read_text(press / "report.html");
+  for (const char* chapter : {"control", "snapshots"})
+    EXPECT_TRUE(has(html, fmt::format("<section id=\"{}\">", chapter))) << chapter;
+  EXPECT_FALSE(has(html, "id=\"not-run\""));
+  EXPECT_TRUE(has(report_testing::visible_text(html), "within 0.40 % of its set point"));
+}
