@@ -56,4 +56,12 @@ Chapter snapshots_chapter(const std::vector<MovingPress>& presses);
 /// they are compared with.
 Chapter speed_chapter(const std::vector<MovingPress>& presses);
 
+/// Whether `presses` differ in how time is integrated: their rods are prescribed, nothing is
+/// controlled.
+bool compares_integrators(const std::vector<MovingPress>& presses);
+/// The same three for them; the chapter has no blocks for presses of another kind.
+std::string integrators_answer(const std::vector<MovingPress>& presses);
+std::string integrators_text(const std::vector<MovingPress>& presses);
+Chapter integrators_chapter(const std::vector<MovingPress>& presses);
+
 }  // namespace fingertip::studies::reporting

@@ -93,9 +93,19 @@ Page calibration_page(const RunData& run) {
   return page;
 }
 
+/// Presses with prescribed motion, one integrator beside the other.
+Page integrators_page(const RunData& run, const std::vector<MovingPress>& presses) {
+  Page page;
+  page.title = run.title.empty() ? "Soft fingertip: integrators" : run.title;
+  page.subtitle = with_case(run, "What time steps of a mass-spring fingertip cost and err");
+  page.chapters = {verdict_chapter(run), integrators_chapter(presses), provenance_chapter(run)};
+  return page;
+}
+
 /// Presses under controllers.
 Page control_page(const RunData& run) {
   const std::vector<MovingPress> presses = read_moving_presses(run);
+  if (compares_integrators(presses)) return integrators_page(run, presses);
   Page page;
   page.title = run.title.empty() ? "Soft fingertip: virtual control" : run.title;
   page.subtitle = with_case(

@@ -190,8 +190,11 @@ std::string text_table(const RunData& run) {
 
 std::string answer(const RunData& run) {
   if (!run.variants.empty()) return variants_answer(run) + criteria_sentence(run);
-  if (!run.presses.empty())
-    return control_answer(read_moving_presses(run)) + criteria_sentence(run);
+  if (!run.presses.empty()) {
+    const std::vector<MovingPress> presses = read_moving_presses(run);
+    return (compares_integrators(presses) ? integrators_answer(presses) : control_answer(presses)) +
+           criteria_sentence(run);
+  }
   std::string text;
   if (!run.reference.empty()) {
     const double depth = run.reference.depth();
@@ -227,13 +230,22 @@ Chapter verdict_chapter(const RunData& run) {
 
 namespace fingertip::studies {
 
+namespace {
+
+std::string moving_text(const std::vector<reporting::MovingPress>& presses) {
+  return reporting::compares_integrators(presses) ? reporting::integrators_text(presses)
+                                                  : reporting::control_text(presses);
+}
+
+}  // namespace
+
 std::string verdict_text(const std::filesystem::path& run_folder) {
   using namespace reporting;
   const RunData run = read_run(run_folder);
   const CalibrationData calibration = read_calibration(run);
   const bool fits_alone = !calibration.empty() && run.models.empty();
   std::string text = !run.variants.empty()  ? variants_text(run)
-                     : !run.presses.empty() ? control_text(read_moving_presses(run))
+                     : !run.presses.empty() ? moving_text(read_moving_presses(run))
                      : fits_alone           ? calibration_text(calibration)
                                             : text_table(run);
   for (const Criterion& criterion : run.criteria) {

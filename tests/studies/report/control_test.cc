@@ -195,3 +195,41 @@ TEST(ControlReport, APressAloneHasItsControlAndSnapshots) {
   EXPECT_FALSE(has(html, "id=\"not-run\""));
   EXPECT_TRUE(has(report_testing::visible_text(html), "within 0.40 % of its set point"));
 }
+
+TEST(IntegratorReport, ShowsCostAgainstErrorAndNoControl) {
+  const TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  json presses = json::array();
+  for (const auto& [name, evaluations, change] :
+       {std::tuple{"1e-8", 9000, 0.0}, {"4 us", 500, 0.002}, {"2 us", 1000, 0.001}}) {
+    const fs::path press = run / "presses" / name;
+    write_press(press, 0.05, false);
+    json summary = json::parse(read_text(press / "summary.json"));
+    summary["mode"] = "quasi-static";
+    summary["wall_time"] = 1e-4 * evaluations;
+    summary["steps"] = {
+        {"accepted", evaluations}, {"rejected", 3}, {"force_evaluations", evaluations}};
+    write_file(press / "summary.json", summary.dump());
+    presses.push_back({{"series", change > 0.0 ? "symplectic-euler" : "runge-kutta"},
+                       {"name", name},
+                       {"folder", std::string("presses/") + name},
+                       {"continuum", ""},
+                       {"beside", change > 0.0 ? "runge-kutta, 1e-8" : ""},
+                       {"pictured", false},
+                       {"status", "finished"}});
+    if (change > 0.0) presses.back()["change"] = change;
+  }
+  write_file(run / "summary.json",
+             json{{"case", "10"}, {"title", "I"}, {"status", "ok"}, {"presses", presses}}.dump());
+  studies::write_report(run);
+  const std::string html = read_text(run / "report.html");
+  EXPECT_EQ(report_testing::structure_faults(html), std::vector<std::string>());
+  EXPECT_TRUE(has(html, "<section id=\"integrators\">"));
+  EXPECT_FALSE(has(html, "<section id=\"control\">"));
+  const CsvTable figure = read_csv(run / "figures/cost_of_integrators.csv");
+  EXPECT_EQ(figure.numbers("force evaluations of the press [1]"),
+            (std::vector<double>{500.0, 1000.0}));
+  EXPECT_TRUE(has(report_testing::visible_text(html),
+                  "the force of symplectic-euler, 2 us comes closest, within 0.10 %"));
+  EXPECT_TRUE(has(studies::verdict_text(run), "0.2000 %"));
+}

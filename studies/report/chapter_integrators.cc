@@ -1,0 +1,135 @@
+/// Cost of integrators against the error of the force.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/report/chapters.h"
+#include "studies/report/moving_press.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+double steps_of(const MovingPress& press, const char* what) {
+  return number_at(object_at(press.summary, "steps"), what);
+}
+
+/// What stands before the comma of "symplectic-euler, 1 us", and after it.
+std::string integrator_of(const MovingPress& press) {
+  return press.label.substr(0, press.label.find(", "));
+}
+std::string setting_of(const MovingPress& press) {
+  const std::size_t comma = press.label.find(", ");
+  return comma == std::string::npos ? "" : press.label.substr(comma + 2);
+}
+
+bool is_compared(const MovingPress& press) {
+  return !press.beside.empty() && std::isfinite(press.change);
+}
+
+/// A curve per integrator, its points by increasing cost.
+std::vector<Series> cost_series(const std::vector<MovingPress>& presses) {
+  std::vector<Series> all;
+  std::vector<const MovingPress*> sorted;
+  for (const MovingPress& press : presses)
+    if (is_compared(press)) sorted.push_back(&press);
+  std::ranges::stable_sort(
+      sorted, {}, [](const MovingPress* press) { return steps_of(*press, "force_evaluations"); });
+  for (const MovingPress* press : sorted) {
+    const std::string name = integrator_of(*press);
+    auto found = std::ranges::find(all, name, &Series::label);
+    if (found == all.end()) {
+      Style style = press->style;
+      style.point = 7 + 2 * int(all.size());
+      style.point_size = 0.9;
+      found = all.insert(all.end(), Series{name, "", {}, {}, {}, style});
+    }
+    found->x.push_back(steps_of(*press, "force_evaluations"));
+    found->y.push_back(100.0 * press->change);
+  }
+  return all;
+}
+
+Figure cost_figure(const std::vector<MovingPress>& presses) {
+  Panel panel;
+  panel.x_label = "force evaluations of the press [1]";
+  panel.y_label = "largest difference of the force [%]";
+  panel.log_x = panel.log_y = 10;
+  panel.key = "top right";
+  panel.series = cost_series(presses);
+  return {"cost_of_integrators", 820, 460, 1, {panel}};
+}
+
+Table cost_table(const std::vector<MovingPress>& presses) {
+  double cheapest = meshes::unknown;
+  for (const MovingPress& press : presses)
+    cheapest = std::fmin(cheapest, number_at(press.summary, "wall_time"));
+  Table table;
+  table.caption =
+      "Steps and force evaluations of each press, its wall time as a multiple of the quickest "
+      "press of this run, and the largest difference of the normal force at the samples from the "
+      "press it is compared with.";
+  table.header = {plain("Integrator"),
+                  plain("Step or bound"),
+                  plain("Steps"),
+                  plain("rejected"),
+                  plain("Force evaluations"),
+                  plain("Wall time", "quickest = 1"),
+                  plain("Momentum balance"),
+                  plain("Difference of the force")};
+  for (const MovingPress& press : presses) {
+    const double wall = number_at(press.summary, "wall_time");
+    table.rows.push_back(
+        {plain(integrator_of(press)), plain(setting_of(press)),
+         plain(count(steps_of(press, "accepted"))), plain(count(steps_of(press, "rejected"))),
+         plain(count(steps_of(press, "force_evaluations"))), plain(number(wall / cheapest, 3)),
+         plain(number(number_at(press.summary, "momentum_defect"), 2)),
+         plain(is_compared(press) ? percent_magnitude(press.change) : "–",
+               press.beside.empty() ? "the measure" : "")});
+  }
+  return table;
+}
+
+}  // namespace
+
+bool compares_integrators(const std::vector<MovingPress>& presses) {
+  return !presses.empty() && std::ranges::all_of(presses, [](const MovingPress& press) {
+    return text_at(press.summary, "mode") == "quasi-static" && press.summary.contains("steps");
+  });
+}
+
+std::string integrators_answer(const std::vector<MovingPress>& presses) {
+  const MovingPress* best = nullptr;
+  for (const MovingPress& press : presses)
+    if (is_compared(press) && (!best || press.change < best->change)) best = &press;
+  if (!best) return "No press has another one to be compared with.";
+  return fmt::format(
+      "Beside {}, the force of {} comes closest, within {}, for {} force evaluations.",
+      best->beside, best->label, percent_magnitude(best->change),
+      count(steps_of(*best, "force_evaluations")));
+}
+
+std::string integrators_text(const std::vector<MovingPress>& presses) {
+  std::string text = fmt::format("{:<36}{:>12}{:>12}{:>16}{:>14}\n", "press", "steps", "rejected",
+                                 "evaluations", "difference");
+  for (const MovingPress& press : presses)
+    text += fmt::format("{:<36}{:>12.0f}{:>12.0f}{:>16.0f}{:>14}\n", press.label.substr(0, 35),
+                        steps_of(press, "accepted"), steps_of(press, "rejected"),
+                        steps_of(press, "force_evaluations"),
+                        is_compared(press) ? fmt::format("{:.4f} %", 100.0 * press.change) : "-");
+  return text + "largest difference of the normal force from the press compared with\n";
+}
+
+Chapter integrators_chapter(const std::vector<MovingPress>& presses) {
+  Chapter chapter{"integrators", "Cost against error", {}};
+  if (!compares_integrators(presses)) return chapter;
+  chapter.blocks.push_back(
+      FigureBlock{cost_figure(presses), "Difference of the force against force evaluations",
+                  "Each point is one press: its cost in evaluations of all internal forces, and "
+                  "how far its normal force is at most from the press it is compared with, at the "
+                  "samples. Down and left is better."});
+  chapter.blocks.push_back(cost_table(presses));
+  return chapter;
+}
+
+}  // namespace fingertip::studies::reporting
