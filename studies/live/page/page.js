@@ -237,7 +237,7 @@ class Page {
     for (const plot of [this.forcePlot, this.errorPlot, this.speedPlot, this.tiltPlot]) plot.draw();
     const now = error(frame.indentation, frame.normal_force);
     const sign = now >= 0 ? '+' : '';
-    element('reference-error').textContent = Number.isFinite(now) ? Units.minus(`${sign}${now.toFixed(2)} % to the reference`) : '';
+    element('reference-error').textContent = Number.isFinite(now) ? Units.minus(`${sign}${now.toFixed(2)} % off`) : '';
     const off = frame.speed - frame.commanded_speed;
     element('speed-error').textContent = `${Units.minus((100 * off / frame.settings.speed).toFixed(2))} % of the approach speed`;
     element('tilt-now').textContent = `${(frame.tilt * 180 / Math.PI).toFixed(4)}°`;
