@@ -257,7 +257,7 @@ double TiedContact::radius(const State& state) const {
     const double facing = std::abs(outer_normal(tie.rest).dot(plane_.normal));
     loaded.push_back({{place.dot(t1), place.dot(t2)}, points_[number].push, facing * tie.area});
   }
-  return contact_patch(std::move(loaded), 1, model_->spacing()).radius;
+  return contact_radius(loaded);
 }
 
 std::vector<std::uint8_t> TiedContact::held() const {

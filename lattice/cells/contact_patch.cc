@@ -21,7 +21,21 @@ void add_mirror_images(std::vector<LoadedPoint>& points, const Vector2d& mirror)
   }
 }
 
-double hertzian_radius(const std::vector<LoadedPoint>& points) {
+double pressure_around(const Vector2d& place, const std::vector<LoadedPoint>& points,
+                       double width) {
+  double force = 0.0, area = 0.0;
+  for (const LoadedPoint& p : points) {
+    const double weight = 1.0 - (p.place - place).squaredNorm() / (width * width);
+    if (weight <= 0.0) continue;
+    force += weight * p.force;
+    area += weight * p.area;
+  }
+  return force / area;
+}
+
+}  // namespace
+
+double contact_radius(const std::vector<LoadedPoint>& points) {
   double sum = 0.0;
   Vector2d centre = Vector2d::Zero();
   for (const LoadedPoint& p : points) {
@@ -39,26 +53,12 @@ double hertzian_radius(const std::vector<LoadedPoint>& points) {
   return std::pow(25.0 * std::max(moments.determinant(), 0.0), 0.25);
 }
 
-double pressure_around(const Vector2d& place, const std::vector<LoadedPoint>& points,
-                       double width) {
-  double force = 0.0, area = 0.0;
-  for (const LoadedPoint& p : points) {
-    const double weight = 1.0 - (p.place - place).squaredNorm() / (width * width);
-    if (weight <= 0.0) continue;
-    force += weight * p.force;
-    area += weight * p.area;
-  }
-  return force / area;
-}
-
-}  // namespace
-
 ContactPatch contact_patch(std::vector<LoadedPoint> points, int sectors, double width) {
   const std::size_t own = points.size();
   if (sectors > 1) add_mirror_images(points, {1.0, -1.0});
   if (sectors > 2) add_mirror_images(points, {-1.0, 1.0});
   ContactPatch patch;
-  patch.radius = hertzian_radius(points);
+  patch.radius = contact_radius(points);
   for (std::size_t i = 0; i < own; ++i) {
     if (points[i].force <= 0.0) continue;
     patch.max_pressure =

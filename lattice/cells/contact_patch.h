@@ -34,4 +34,8 @@ struct ContactPatch {
 /// t1, t2 >= 0. Zeros without a loaded point.
 ContactPatch contact_patch(std::vector<LoadedPoint> points, int sectors, double width);
 
+/// The radius alone [m], of a whole contact: its cost grows with the number of points, that of the
+/// pressure with its square.
+double contact_radius(const std::vector<LoadedPoint>& points);
+
 }  // namespace fingertip::lattice
