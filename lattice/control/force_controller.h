@@ -6,7 +6,7 @@
 #include "lattice/control/control_settings.h"
 #include "lattice/control/pid.h"
 #include "lattice/control/stiffness_estimator.h"
-#include "lattice/control/task.h"
+#include "lattice/control/way_to_plane.h"
 
 namespace fingertip::lattice {
 
@@ -59,13 +59,10 @@ class ForceController final : public Controller {
   Pid& pid() { return pid_; }
 
  private:
-  ControlTask task_;
   ForceSettings settings_;
   Pid pid_;
   ForceLoop loop_;
-  Target start_;
-  double reference_ = 0.0;  ///< commanded way toward the plane [m]
-  double speed_ = 0.0;      ///< its velocity [m/s]
+  WayToPlane way_;
 };
 
 /// Throws InvalidInput for settings that break a rule alone or with the servo.

@@ -41,14 +41,12 @@ class HybridController final : public Controller {
   ForceSettings settings_;
   Pid pid_;
   ForceLoop loop_;
-  Target start_;
+  WayToPlane way_;
   ControlMode mode_ = ControlMode::position;
   int switches_ = 0;
   double changed_ = 0.0;    ///< when the mode changed last [s]
   double otherwise_ = 0.0;  ///< for how long the force has spoken for the other mode [s]
   double inertial_ = 0.0;   ///< what the tip's inertia may still exert [N]
-  double reference_ = 0.0;  ///< commanded way toward the plane at the next sample [m]
-  double speed_ = 0.0;      ///< commanded last [m/s]
 };
 
 }  // namespace fingertip::lattice
