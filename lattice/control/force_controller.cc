@@ -86,10 +86,7 @@ double ForceLoop::speed(double force, double position, double velocity, double s
 
 ForceController::ForceController(const PidSettings& pid, const ForceSettings& settings,
                                  const ControlTask& task)
-    : settings_(settings),
-      pid_(pid, task.inertia),
-      loop_(settings, task, pid.natural_frequency),
-      way_(task) {
+    : pid_(pid, task.inertia), loop_(settings, task, pid.natural_frequency), way_(task) {
   check(settings, pid);
 }
 
@@ -100,7 +97,7 @@ void ForceController::reset() {
 }
 
 ControllerReport ForceController::report() const {
-  return {ControlMode::force, loop_.stiffness(), settings_.force};
+  return {ControlMode::force, loop_.stiffness(), loop_.settings().force};
 }
 
 Command ForceController::command(const Measurement& m) {

@@ -13,7 +13,6 @@ constexpr double speeding_up = 0.030;  // to the approach's speed, when it is re
 HybridController::HybridController(const PidSettings& pid, const ForceSettings& settings,
                                    const ControlTask& task)
     : task_(task),
-      settings_(settings),
       pid_(pid, task.inertia),
       loop_(settings, task, pid.natural_frequency),
       way_(task) {
@@ -31,7 +30,7 @@ void HybridController::reset() {
 
 ControllerReport HybridController::report() const {
   if (mode_ == ControlMode::position) return {};
-  return {mode_, loop_.stiffness(), settings_.force};
+  return {mode_, loop_.stiffness(), loop_.settings().force};
 }
 
 double HybridController::touch_threshold(double time) {
@@ -39,7 +38,7 @@ double HybridController::touch_threshold(double time) {
       switches_ == 0 ? task_.path(time).acceleration.velocity.dot(task_.normal) : 0.0;
   inertial_ = std::max(inertial_ * std::exp(-task_.period / swinging),
                        task_.inertia(0, 0) * std::abs(accelerating));
-  return settings_.touch_force + inertial_;
+  return loop_.settings().touch_force + inertial_;
 }
 
 void HybridController::choose_mode(const Measurement& m, double force) {
@@ -47,10 +46,10 @@ void HybridController::choose_mode(const Measurement& m, double force) {
   const double threshold = touch_threshold(m.time);
   const bool may_touch = !m.contact || m.contact->touching > 0;
   const bool speaks =
-      approaching ? may_touch && force > threshold : force < settings_.release_force;
+      approaching ? may_touch && force > threshold : force < loop_.settings().release_force;
   otherwise_ = speaks ? otherwise_ + task_.period : 0.0;
-  const bool rested = approaching || m.time - changed_ >= settings_.dwell;
-  if (!rested || !speaks || otherwise_ < settings_.confirmation) return;
+  const bool rested = approaching || m.time - changed_ >= loop_.settings().dwell;
+  if (!rested || !speaks || otherwise_ < loop_.settings().confirmation) return;
   mode_ = approaching ? ControlMode::force : ControlMode::position;
   ++switches_;
   changed_ = m.time;

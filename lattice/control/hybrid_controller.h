@@ -19,7 +19,7 @@ namespace fingertip::lattice {
 /// The sensor also feels the tip's own inertia. It weighs less than the rod (a heavier one could
 /// not be controlled), so while the way accelerates by a the threshold is touch_force + M |a|,
 /// fading with 10 ms afterwards, as the tip swings.
-class HybridController final : public Controller {
+class HybridController final : public Controller, public HoldsForce {
  public:
   /// Throws InvalidInput for settings that break a rule.
   HybridController(const PidSettings& pid, const ForceSettings& settings, const ControlTask& task);
@@ -27,6 +27,8 @@ class HybridController final : public Controller {
   Command command(const Measurement& measurement) override;
   void reset() override;
   ControllerReport report() const override;
+  const ForceSettings& force_settings() const override { return loop_.settings(); }
+  void set_force(double force) override { loop_.set_force(force); }
 
   ControlMode mode() const { return mode_; }
   int switches() const { return switches_; }  ///< changes of mode so far
@@ -38,7 +40,6 @@ class HybridController final : public Controller {
   Target approach(double time);
 
   ControlTask task_;
-  ForceSettings settings_;
   Pid pid_;
   ForceLoop loop_;
   WayToPlane way_;
