@@ -58,6 +58,11 @@ Eigen::Quaterniond rotation_by(const Vector3& turn) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle));
 }
 
+Vector3 rotation_vector(const Eigen::Quaterniond& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * turn.axis();
+}
+
 RodState::RodState(const RodBody& body) : body_(body), centre_(body.centre) {}
 
 Pose RodState::pose() const {

@@ -94,5 +94,7 @@ class RodState {
 
 /// Rotation by the vector `turn` (axis times angle [rad]).
 Eigen::Quaterniond rotation_by(const meshes::Vector3& turn);
+/// Its inverse: axis times angle [rad] of a unit quaternion, no longer than pi.
+meshes::Vector3 rotation_vector(const Eigen::Quaterniond& rotation);
 
 }  // namespace fingertip::lattice

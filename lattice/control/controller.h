@@ -38,6 +38,10 @@ struct Target {
 /// A wrench at the endpoint [N, N m], or a set point that the built-in servo turns into one.
 using Command = std::variant<Wrench, Target>;
 
+/// Whether every component is a finite number.
+bool finite(const Wrench& wrench);
+bool finite(const Target& target);
+
 /// Thrown when a controller died, hangs, or commands what is no number. What was computed so far is
 /// kept.
 class ControllerFailed : public std::runtime_error {

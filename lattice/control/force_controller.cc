@@ -8,8 +8,6 @@
 
 namespace fingertip::lattice {
 
-using meshes::Vector3;
-
 namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
@@ -88,37 +86,23 @@ double ForceLoop::speed(double force, double position, double velocity, double s
 
 ForceController::ForceController(const PidSettings& pid, const ForceSettings& settings,
                                  const ControlTask& task)
-    : task_(task),
-      settings_(settings),
-      pid_(pid, task.inertia),
-      loop_(settings, task, pid.natural_frequency),
-      start_(task.path(0.0)) {
+    : pid_(pid, task.inertia), loop_(settings, task, pid.natural_frequency), way_(task) {
   check(settings, pid);
 }
 
 void ForceController::reset() {
   pid_.reset();
   loop_.reset();
-  reference_ = speed_ = 0.0;
+  way_.reset();
 }
 
 ControllerReport ForceController::report() const {
-  return {ControlMode::force, loop_.stiffness(), settings_.force};
+  return {ControlMode::force, loop_.stiffness(), loop_.settings().force};
 }
 
 Command ForceController::command(const Measurement& m) {
-  const Vector3 toward = -task_.normal;
-  const double position = toward.dot(m.pose.position - start_.pose.position);
-  const double wanted =
-      loop_.speed(task_.normal.dot(m.wrench.force), position, toward.dot(m.twist.velocity), speed_);
-  // At its limit the actuator cannot follow: the reference must not run away from the rod.
-  const bool runs_away = pid_.saturated() && wanted * (reference_ - position) > 0.0;
-  speed_ = runs_away ? 0.0 : wanted;
-  Target target = start_;
-  target.pose.position += reference_ * toward;
-  target.twist.velocity = speed_ * toward;
-  reference_ += task_.period * speed_;
-  return pid_.follow(m, target);
+  const double speed = loop_.speed(way_.force(m), way_.position(m), way_.velocity(m), way_.speed());
+  return pid_.follow(m, way_.go_on(speed, m, pid_.saturated()));
 }
 
 }  // namespace fingertip::lattice

@@ -6,7 +6,7 @@
 #include "lattice/control/control_settings.h"
 #include "lattice/control/pid.h"
 #include "lattice/control/stiffness_estimator.h"
-#include "lattice/control/task.h"
+#include "lattice/control/way_to_plane.h"
 
 namespace fingertip::lattice {
 
@@ -28,6 +28,8 @@ class ForceLoop {
   double speed(double force, double position, double velocity, double speed_so_far);
   void reset();
   double stiffness() const { return stiffness_; }  ///< k that was used last [N/m]
+  const ForceSettings& settings() const { return settings_; }
+  void set_force(double force) { settings_.force = force; }  ///< f_d [N] from now on
 
  private:
   double stiffness_at(double force, double position, double velocity);
@@ -46,9 +48,18 @@ class ForceLoop {
   double stiffness_ = 0.0;
 };
 
+/// What a controller offers that holds a contact force.
+class HoldsForce {
+ public:
+  virtual ~HoldsForce() = default;
+  virtual const ForceSettings& force_settings() const = 0;
+  /// Another contact force from now on [N], above force_settings().touch_force.
+  virtual void set_force(double force) = 0;
+};
+
 /// Holds a contact force along the plane's normal and the pose along all other axes: ForceLoop on
 /// a Pid that follows the position it integrates. In free space it approaches at the task's speed.
-class ForceController final : public Controller {
+class ForceController final : public Controller, public HoldsForce {
  public:
   /// Throws InvalidInput for settings that break a rule.
   ForceController(const PidSettings& pid, const ForceSettings& settings, const ControlTask& task);
@@ -56,16 +67,14 @@ class ForceController final : public Controller {
   Command command(const Measurement& measurement) override;
   void reset() override;
   ControllerReport report() const override;
+  const ForceSettings& force_settings() const override { return loop_.settings(); }
+  void set_force(double force) override { loop_.set_force(force); }
   Pid& pid() { return pid_; }
 
  private:
-  ControlTask task_;
-  ForceSettings settings_;
   Pid pid_;
   ForceLoop loop_;
-  Target start_;
-  double reference_ = 0.0;  ///< commanded way toward the plane [m]
-  double speed_ = 0.0;      ///< its velocity [m/s]
+  WayToPlane way_;
 };
 
 /// Throws InvalidInput for settings that break a rule alone or with the servo.

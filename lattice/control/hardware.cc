@@ -11,12 +11,6 @@ using meshes::Vector3;
 
 namespace {
 
-Vector3 rotation_vector(const Eigen::Quaterniond& orientation) {
-  const Eigen::AngleAxisd turned(orientation);
-  return turned.angle() * turned.axis();
-}
-
-/// Component by component: an actuator that can push no harder must still be able to steer.
 Vector3 limited(const Vector3& wanted, double limit) {
   return wanted.cwiseMin(limit).cwiseMax(-limit);
 }
@@ -26,6 +20,10 @@ Vector3 slowed(const Vector3& wanted, const Vector3& last, double most) {
 }
 
 }  // namespace
+
+Wrench limited(const Wrench& wanted, double force_limit, double torque_limit) {
+  return {limited(wanted.force, force_limit), limited(wanted.torque, torque_limit)};
+}
 
 std::vector<meshes::Violation> HardwareSettings::violations() const {
   std::vector<meshes::Violation> found;
@@ -92,7 +90,7 @@ Measurement Hardware::sense(const Measurement& truth) {
 }
 
 Wrench Hardware::act(const Wrench& commanded, double duration) {
-  Wrench wrench{limited(commanded.force, force_limit_), limited(commanded.torque, torque_limit_)};
+  Wrench wrench = limited(commanded, force_limit_, torque_limit_);
   wrench.force = slowed(wrench.force, last_.force, duration * settings_.force_rate);
   wrench.torque = slowed(wrench.torque, last_.torque, duration * settings_.torque_rate);
   last_ = wrench;

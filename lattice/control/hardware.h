@@ -35,6 +35,10 @@ struct HardwareSettings {
   std::vector<meshes::Violation> violations() const;
 };
 
+/// What an actuator makes of a wrench that may exceed its limits [N], [N m]: each component for
+/// itself, for one that can push no harder must still be able to steer.
+Wrench limited(const Wrench& wanted, double force_limit, double torque_limit);
+
 /// Turns true measurements into readings and commanded wrenches into those that act. Latencies are
 /// the control loop's matter, which knows the times.
 class Hardware {

@@ -19,7 +19,7 @@ namespace fingertip::lattice {
 /// The sensor also feels the tip's own inertia. It weighs less than the rod (a heavier one could
 /// not be controlled), so while the way accelerates by a the threshold is touch_force + M |a|,
 /// fading with 10 ms afterwards, as the tip swings.
-class HybridController final : public Controller {
+class HybridController final : public Controller, public HoldsForce {
  public:
   /// Throws InvalidInput for settings that break a rule.
   HybridController(const PidSettings& pid, const ForceSettings& settings, const ControlTask& task);
@@ -27,6 +27,8 @@ class HybridController final : public Controller {
   Command command(const Measurement& measurement) override;
   void reset() override;
   ControllerReport report() const override;
+  const ForceSettings& force_settings() const override { return loop_.settings(); }
+  void set_force(double force) override { loop_.set_force(force); }
 
   ControlMode mode() const { return mode_; }
   int switches() const { return switches_; }  ///< changes of mode so far
@@ -38,17 +40,14 @@ class HybridController final : public Controller {
   Target approach(double time);
 
   ControlTask task_;
-  ForceSettings settings_;
   Pid pid_;
   ForceLoop loop_;
-  Target start_;
+  WayToPlane way_;
   ControlMode mode_ = ControlMode::position;
   int switches_ = 0;
   double changed_ = 0.0;    ///< when the mode changed last [s]
   double otherwise_ = 0.0;  ///< for how long the force has spoken for the other mode [s]
   double inertial_ = 0.0;   ///< what the tip's inertia may still exert [N]
-  double reference_ = 0.0;  ///< commanded way toward the plane at the next sample [m]
-  double speed_ = 0.0;      ///< commanded last [m/s]
 };
 
 }  // namespace fingertip::lattice

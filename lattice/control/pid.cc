@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-namespace fingertip::lattice {
+#include "lattice/control/hardware.h"
 
-using meshes::Vector3;
+namespace fingertip::lattice {
 
 namespace {
 
@@ -20,9 +20,9 @@ Vector6 together(const Wrench& wrench) {
 
 /// Displacement and rotation vector.
 Vector6 way_from(const Pose& origin, const Pose& pose) {
-  const Eigen::AngleAxisd turn(pose.orientation * origin.orientation.conjugate());
   Vector6 way;
-  way << pose.position - origin.position, turn.angle() * turn.axis();
+  way << pose.position - origin.position,
+      rotation_vector(pose.orientation * origin.orientation.conjugate());
   return way;
 }
 
@@ -39,13 +39,6 @@ void Pid::reset() {
   start_.reset();
   first_ = true;
   saturated_ = false;
-}
-
-Pid::Vector6 Pid::limited(const Vector6& wrench) const {
-  // Axis by axis: an actuator that can push no harder must still be able to steer.
-  Vector6 limit;
-  limit << Vector3::Constant(settings_.force_limit), Vector3::Constant(settings_.torque_limit);
-  return wrench.cwiseMin(limit).cwiseMax(-limit);
 }
 
 /// Of the proportional part: b r - y = (r - y) + (b - 1) r.
@@ -75,9 +68,8 @@ void Pid::carry(const Wrench& wrench) {
 }
 
 Wrench Pid::follow(const Measurement& m, const Target& target, const Wrench& extra) {
-  const Eigen::AngleAxisd turn(target.pose.orientation * m.pose.orientation.conjugate());
-  Vector6 error, rate, feed_forward;
-  error << target.pose.position - m.pose.position, turn.angle() * turn.axis();
+  const Vector6 error = way_from(m.pose, target.pose);
+  Vector6 rate, feed_forward;
   rate << target.twist.velocity - m.twist.velocity,
       target.twist.angular_velocity - m.twist.angular_velocity;
   feed_forward << target.acceleration.velocity, target.acceleration.angular_velocity;
@@ -101,11 +93,12 @@ Wrench Pid::follow(const Measurement& m, const Target& target, const Wrench& ext
                                3.0 * omega_ * derivative_;
   const Vector6 wanted =
       inertia_ * acceleration - settings_.bond_compensation * bond_ + together(extra);
-  const Vector6 wrench = limited(wanted);
-  saturated_ = wrench != wanted;
-  const Vector6 excess = inverse_inertia_ * (wrench - wanted);
+  const Wrench wrench =
+      limited({wanted.head<3>(), wanted.tail<3>()}, settings_.force_limit, settings_.torque_limit);
+  saturated_ = together(wrench) != wanted;
+  const Vector6 excess = inverse_inertia_ * (together(wrench) - wanted);
   integral_ += settings_.period * (std::pow(omega_, 3) * error + omega_ * excess);
-  return {wrench.head<3>(), wrench.tail<3>()};
+  return wrench;
 }
 
 }  // namespace fingertip::lattice

@@ -42,7 +42,6 @@ class Pid {
 
  private:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
-  Vector6 limited(const Vector6& wrench) const;
   Vector6 weighted(const Vector6& error) const;
   Vector6 share_without_integral() const;
 

@@ -53,19 +53,14 @@ lattice::Target target_of(const fingertip_target& c) {
   return target;
 }
 
-bool finite(const lattice::Twist& twist) {
-  return twist.velocity.allFinite() && twist.angular_velocity.allFinite();
-}
-
 void check(const lattice::Wrench& wrench) {
-  if (!wrench.force.allFinite() || !wrench.torque.allFinite()) {
+  if (!finite(wrench)) {
     throw ControllerFailed("the controller commanded a wrench that is not finite");
   }
 }
 
 void check(const lattice::Target& target) {
-  if (!target.pose.position.allFinite() || !target.pose.orientation.coeffs().allFinite() ||
-      !finite(target.twist) || !finite(target.acceleration)) {
+  if (!finite(target)) {
     throw ControllerFailed("the controller commanded a target that is not finite");
   }
   if (!(std::abs(target.pose.orientation.norm() - 1.0) <= 1e-6)) {

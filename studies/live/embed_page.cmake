@@ -1,16 +1,9 @@
 # cmake -DFOLDER=page -DFILES="a.html;b.js" -DOUTPUT=x.cc -P embed_page.cmake: text files as a table.
+include(${CMAKE_CURRENT_LIST_DIR}/../raw_literals.cmake)
 set(table "")
 foreach(name ${FILES})
   file(READ ${FOLDER}/${name} content)
-  # A raw string literal per piece: compilers need not take literals beyond 65536 characters.
-  string(LENGTH "${content}" length)
-  set(pieces "")
-  set(at 0)
-  while(at LESS length)
-    string(SUBSTRING "${content}" ${at} 8000 piece)
-    string(APPEND pieces "\n     R\"page_text(${piece})page_text\"")
-    math(EXPR at "${at} + 8000")
-  endwhile()
+  raw_literals("${content}" page_text "     " pieces)
   set(path "/${name}")
   if(name STREQUAL "index.html")
     set(path "/")

@@ -22,9 +22,8 @@ lattice::Wrench Hand::wrench(const lattice::Measurement& m) {
   meshes::Vector3 way = *place_ - m.pose.position;
   const double longest = settings_.force_limit / settings_.stiffness;
   if (way.norm() > longest) way *= longest / way.norm();
-  const Eigen::AngleAxisd turn(*orientation_ * m.pose.orientation.conjugate());
   Eigen::Matrix<double, 6, 1> error, rate;
-  error << way, turn.angle() * turn.axis();
+  error << way, lattice::rotation_vector(*orientation_ * m.pose.orientation.conjugate());
   rate << m.twist.velocity, m.twist.angular_velocity;
   const Eigen::Matrix<double, 6, 1> wrench =
       inertia_ * (frequency_ * frequency_ * error - 2.0 * frequency_ * rate);

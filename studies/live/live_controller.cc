@@ -9,6 +9,7 @@ using lattice::Wrench;
 LiveController::LiveController(std::unique_ptr<lattice::Controller> inner,
                                const lattice::ControlTask& task, const lattice::PidSettings& servo)
     : inner_(std::move(inner)),
+      force_loop_(dynamic_cast<lattice::HoldsForce*>(inner_.get())),
       task_(task),
       servo_settings_(servo),
       servo_(servo, task.inertia),

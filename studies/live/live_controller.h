@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "lattice/control/pid.h"
+#include "lattice/control/force_controller.h"
 #include "lattice/control/task.h"
 #include "studies/live/hand.h"
 
@@ -27,11 +27,14 @@ class LiveController final : public lattice::Controller {
   bool on() const { return on_; }
   const lattice::PidSettings& servo() const { return servo_settings_; }
   void set_servo(const lattice::PidSettings& settings);
+  /// What holds a contact force, or null.
+  lattice::HoldsForce* force_loop() const { return force_loop_; }
   Hand& hand() { return hand_; }
   const Hand& hand() const { return hand_; }
 
  private:
   std::unique_ptr<lattice::Controller> inner_;
+  lattice::HoldsForce* force_loop_;  ///< of inner_
   lattice::ControlTask task_;
   lattice::PidSettings servo_settings_;
   lattice::Pid servo_;

@@ -25,9 +25,14 @@ std::optional<double> number_in(const Json& message, const char* name) {
 }
 
 Parsed parse_adjustment(const Json& message) {
-  static constexpr const char* names[] = {
-      "speed",      "depth", "natural_frequency", "derivative_filter", "bond_compensation",
-      "controller", "rate"};
+  static constexpr const char* names[] = {"speed",
+                                          "depth",
+                                          "natural_frequency",
+                                          "derivative_filter",
+                                          "bond_compensation",
+                                          "controller",
+                                          "contact_force",
+                                          "rate"};
   const auto name = message.find("name");
   const std::optional<double> value = number_in(message, "value");
   if (!value) return "set: value must be a number";
@@ -70,6 +75,17 @@ Json span_json(const Span& span) {
   return {span.least, span.most};
 }
 
+Json limits_json(const LiveLimits& limits) {
+  Json json = {{"speed", span_json(limits.speed)},
+               {"depth", span_json(limits.depth)},
+               {"natural_frequency", span_json(limits.natural_frequency)},
+               {"derivative_filter", span_json(limits.derivative_filter)},
+               {"bond_compensation", span_json(limits.bond_compensation)},
+               {"reach", limits.reach}};
+  if (limits.contact_force) json["contact_force"] = span_json(*limits.contact_force);
+  return json;
+}
+
 const char* name(LiveStatus status) {
   switch (status) {
     case LiveStatus::running: return "running";
@@ -91,6 +107,7 @@ Json settings_json(const LiveState& state) {
           {"derivative_filter", s.derivative_filter},
           {"bond_compensation", s.bond_compensation},
           {"controller", s.controller},
+          {"contact_force", s.contact_force},
           {"rate", state.rate}};
 }
 
@@ -164,7 +181,6 @@ Parsed parse_message(std::string_view text) {
 }
 
 std::string encode_scene(const LiveScene& scene) {
-  const LiveLimits& limits = scene.limits;
   return text_of({{"type", "scene"},
                   {"protocol", live_protocol_version},
                   {"title", scene.title},
@@ -173,13 +189,7 @@ std::string encode_scene(const LiveScene& scene) {
                     {"rod_radius", scene.geometry.rod_radius},
                     {"sleeve_length", scene.geometry.sleeve_length},
                     {"rod_length", scene.geometry.rod_length}}},
-                  {"limits",
-                   {{"speed", span_json(limits.speed)},
-                    {"depth", span_json(limits.depth)},
-                    {"natural_frequency", span_json(limits.natural_frequency)},
-                    {"derivative_filter", span_json(limits.derivative_filter)},
-                    {"bond_compensation", span_json(limits.bond_compensation)},
-                    {"reach", limits.reach}}},
+                  {"limits", limits_json(scene.limits)},
                   {"masses", scene.masses},
                   {"springs", scene.springs},
                   {"period", scene.period},

@@ -23,8 +23,8 @@ struct Reference {
 
 /// Of a run folder: DIR/response.csv, or that of DIR/reference (a validate run), and the fields
 /// listed in fields/press.pvd beside it (a continuum's). `file` may also be a response.csv. Of a
-/// symmetric half the other half is added. Throws InvalidInput when there is no curve or a file is
-/// damaged.
+/// symmetric half or quarter the rest is added. Throws InvalidInput when there is no curve or a
+/// file is damaged.
 Reference read_reference(const std::filesystem::path& file);
 
 /// An overlay for the page: uint32 number of points and of edges, float32 rest places and

@@ -35,6 +35,12 @@ LiveLimits limits_for(const lattice::PressSetup& setup) {
   return limits;
 }
 
+/// About the configured force; at the lower end the touch is still noticed.
+Span contact_forces(const lattice::ForceSettings& settings) {
+  const double least = std::max(0.2 * settings.force, 1.5 * settings.touch_force);
+  return {std::min(least, settings.force), 3.0 * settings.force};
+}
+
 double within(double value, const Span& span) {
   return std::clamp(value, span.least, span.most);
 }
@@ -49,18 +55,18 @@ LiveRig::LiveRig(const lattice::PressSetup& setup)
       limits_(limits_for(setup_)),
       set_point_(setup.protocol.speed, setup.protocol.clearance + setup.protocol.depth,
                  setup.protocol.clearance, setup.controller.period) {
-  settings_ = {setup.protocol.speed,
-               setup.protocol.depth,
-               setup.controller.natural_frequency,
-               setup.controller.derivative_filter,
-               setup.controller.bond_compensation,
-               true};
+  settings_ = {setup.protocol.speed, setup.protocol.depth, setup.controller.natural_frequency,
+               setup.controller.derivative_filter, setup.controller.bond_compensation};
   lattice::ControlTask task = lattice::control_task(setup_, way_, finger_.rod_body());
   const Vector3 start = finger_.rod_body().endpoint;
   task.path = [this, start](double) { return way_.at(start, set_point_.now()); };
   std::unique_ptr<lattice::Controller> inner;
   if (setup_.make_controller) inner = setup_.make_controller(task);
   controller_ = std::make_unique<LiveController>(std::move(inner), task, setup_.controller);
+  if (const lattice::HoldsForce* held = controller_->force_loop()) {
+    settings_.contact_force = held->force_settings().force;
+    limits_.contact_force = contact_forces(held->force_settings());
+  }
   loop_ = std::make_unique<lattice::ControlLoop>(finger_, *controller_, setup_.hardware,
                                                  setup_.controller, task.period);
 }
@@ -110,6 +116,11 @@ void LiveRig::set(const LiveSettings& wanted) {
     servo.derivative_filter = next.derivative_filter;
     servo.bond_compensation = next.bond_compensation;
     controller_->set_servo(servo);
+  }
+  next.contact_force = 0.0;
+  if (limits_.contact_force) {
+    next.contact_force = within(wanted.contact_force, *limits_.contact_force);
+    controller_->force_loop()->set_force(next.contact_force);
   }
   if (next.controller && !controller_->on()) {
     // The way is taken up where the rod is now, so that it is not torn there.

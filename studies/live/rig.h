@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lattice/boundary_view.h"
@@ -21,7 +22,8 @@ struct LiveSettings {
   double natural_frequency = 60.0;  ///< [Hz]
   double derivative_filter = 10.0;
   double bond_compensation = 1.0;
-  bool controller = true;  ///< whether the controller acts
+  bool controller = true;      ///< whether the controller acts
+  double contact_force = 0.0;  ///< that a controller of force holds [N]; 0 with any other one
 };
 
 /// Least and largest value of a slider.
@@ -35,6 +37,7 @@ struct LiveLimits {
   Span natural_frequency{5.0, 120.0};
   Span derivative_filter{2.0, 50.0};
   Span bond_compensation{0.0, 1.0};
+  std::optional<Span> contact_force;  ///< where the controller holds one
   double reach = 0.0;  ///< of the hand, each coordinate from the endpoint's start [m]
 };
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <condition_variable>
 #include <fstream>
+#include <future>
 #include <iterator>
 #include <map>
 #include <mutex>
@@ -114,6 +115,8 @@ class LiveServer::Implementation {
   std::shared_ptr<Client> client(const mg_connection* connection) const;
   void stream();
   void send_frame(mg_connection* connection, Client& client, const LiveFrame& frame);
+  void say_goodbye();
+  void stop();
 
   Simulation& simulation_;
   const Reference& reference_;
@@ -158,8 +161,36 @@ LiveServer::Implementation::~Implementation() {
   }
   wake_.notify_all();
   sender_.join();
-  mg_stop(context_);
+  say_goodbye();
+  stop();
   mg_exit_library();
+}
+
+/// So that a page knows at once, and its thread here ends with its answer.
+void LiveServer::Implementation::say_goodbye() {
+  ClientMap clients;
+  {
+    const std::lock_guard lock(mutex_);
+    clients = clients_;
+  }
+  for (auto& [connection, client] : clients) {
+    const std::lock_guard lock(client->mutex);
+    if (!client->open) continue;
+    mg_websocket_write(const_cast<mg_connection*>(connection), MG_WEBSOCKET_OPCODE_CONNECTION_CLOSE,
+                       "", 0);
+  }
+}
+
+/// CivetWeb's threads look up from their sockets every two seconds, and no option changes that
+/// (before its version 1.17). A visitor wakes the one that waits for visitors, which ends the rest.
+void LiveServer::Implementation::stop() {
+  using namespace std::chrono_literals;
+  const std::future<void> stopped = std::async(std::launch::async, [this] { mg_stop(context_); });
+  for (int visits = 0; visits < 10 && stopped.wait_for(20ms) != std::future_status::ready;
+       ++visits) {
+    char error[128] = "";
+    mg_close_connection(mg_connect_client("127.0.0.1", port_, 0, error, sizeof error));
+  }
 }
 
 void LiveServer::Implementation::collect_files() {

@@ -160,6 +160,7 @@ void Simulation::adjust(const Adjust& order) {
   if (order.name == "natural_frequency") settings.natural_frequency = order.value;
   if (order.name == "derivative_filter") settings.derivative_filter = order.value;
   if (order.name == "bond_compensation") settings.bond_compensation = order.value;
+  if (order.name == "contact_force") settings.contact_force = order.value;
   if (order.name == "controller") settings.controller = order.value != 0.0;
   rig_.set(settings);
 }

@@ -169,6 +169,30 @@ std::vector<std::uint32_t> joined(const std::vector<Vector3>& points, double siz
 constexpr std::array<std::array<unsigned, 4>, 6> faces{
     {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 3, 7, 4}, {1, 2, 6, 5}}};
 
+/// Whether all of the mesh lies on one side of the plane through 0 across `axis`.
+bool ends_at_symmetry_plane(const SurfaceMesh& mesh, Eigen::Index axis) {
+  double least = 0.0, most = 0.0;
+  for (const Vector3& p : mesh.rest) {
+    least = std::min(least, p[axis]);
+    most = std::max(most, p[axis]);
+  }
+  return std::min(-least, most) <= 1e-3 * std::max(-least, most);
+}
+
+void add_mirror_image(SurfaceMesh& mesh, Eigen::Index axis) {
+  const std::size_t points = mesh.rest.size(), edges = mesh.edges.size();
+  Vector3 mirror = Vector3::Ones();
+  mirror[axis] = -1.0;
+  for (std::size_t i = 0; i < points; ++i) {
+    mesh.rest.push_back(mesh.rest[i].cwiseProduct(mirror));
+    mesh.displacement.push_back(mesh.displacement[i].cwiseProduct(mirror));
+  }
+  for (std::size_t e = 0; e < edges; ++e) {
+    const auto [i, j] = mesh.edges[e];
+    mesh.edges.push_back({i + std::uint32_t(points), j + std::uint32_t(points)});
+  }
+}
+
 }  // namespace
 
 HexahedralField read_vtu(const std::filesystem::path& path) {
@@ -238,22 +262,11 @@ SurfaceMesh outer_surface(const HexahedralField& field) {
   return surface;
 }
 
-SurfaceMesh completed(const SurfaceMesh& half) {
-  double least = 0.0, most = 0.0;
-  for (const Vector3& p : half.rest) {
-    least = std::min(least, p.y());
-    most = std::max(most, p.y());
+SurfaceMesh completed(const SurfaceMesh& part) {
+  SurfaceMesh whole = part;
+  for (const Eigen::Index axis : {0, 1}) {
+    if (ends_at_symmetry_plane(whole, axis)) add_mirror_image(whole, axis);
   }
-  const double size = std::max(-least, most);
-  if (std::min(-least, most) > 1e-3 * size) return half;
-  SurfaceMesh whole = half;
-  const auto count = std::uint32_t(half.rest.size());
-  const Vector3 mirror(1.0, -1.0, 1.0);
-  for (std::size_t i = 0; i < count; ++i) {
-    whole.rest.push_back(half.rest[i].cwiseProduct(mirror));
-    whole.displacement.push_back(half.displacement[i].cwiseProduct(mirror));
-  }
-  for (const auto& [i, j] : half.edges) whole.edges.push_back({i + count, j + count});
   return whole;
 }
 

@@ -31,7 +31,7 @@ HexahedralField read_vtu(const std::filesystem::path& file);
 /// Coincident points become one.
 SurfaceMesh outer_surface(const HexahedralField& field);
 
-/// With the mirror image in y = 0 added when the mesh ends there.
-SurfaceMesh completed(const SurfaceMesh& half);
+/// With the mirror images in x = 0 and y = 0 added, in each of the two where the mesh ends there.
+SurfaceMesh completed(const SurfaceMesh& part);
 
 }  // namespace fingertip::studies

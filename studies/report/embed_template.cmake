@@ -1,14 +1,7 @@
 # cmake -DINPUT=... -DOUTPUT=... -P embed_template.cmake: a text file as a C++ function.
+include(${CMAKE_CURRENT_LIST_DIR}/../raw_literals.cmake)
 file(READ ${INPUT} content)
-# A raw string literal per piece: compilers need not take literals beyond 65536 characters.
-string(LENGTH "${content}" length)
-set(pieces "")
-set(at 0)
-while(at LESS length)
-  string(SUBSTRING "${content}" ${at} 8000 piece)
-  string(APPEND pieces "\n    R\"mustache(${piece})mustache\"")
-  math(EXPR at "${at} + 8000")
-endwhile()
+raw_literals("${content}" mustache "    " pieces)
 file(WRITE ${OUTPUT}
   "#include \"studies/report/page_template.h\"\n\n"
   "namespace fingertip::studies::reporting {\n\n"

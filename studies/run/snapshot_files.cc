@@ -56,12 +56,11 @@ void write_snapshots(const lattice::PressOutcome& outcome, const fs::path& folde
            "normal_x,normal_y,normal_z\n";
     for (std::size_t s = 0; s < snapshots.size(); ++s) {
       const FingerPicture& one = snapshots[s];
-      const Eigen::AngleAxisd turn(one.rod.orientation);
       out << moment(s, snapshots.size()) << ',' << meshes::to_text(one.time) << ','
           << meshes::to_text(one.indentation);
       for (const Vector3& value :
-           {one.endpoint, Vector3(turn.angle() * turn.axis()), one.on_rod.force, one.on_rod.torque,
-            one.plane.point, one.plane.normal})
+           {one.endpoint, lattice::rotation_vector(one.rod.orientation), one.on_rod.force,
+            one.on_rod.torque, one.plane.point, one.plane.normal})
         put(out, value);
       out << '\n';
     }

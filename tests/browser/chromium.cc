@@ -3,6 +3,7 @@
 #include <civetweb.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,19 +23,32 @@ namespace {
 
 constexpr auto patience = 30s;
 
-pid_t start(const fs::path& program, const std::vector<std::string>& arguments) {
-  std::vector<char*> words;
-  std::string name = program.string();
-  words.push_back(name.data());
-  std::vector<std::string> copies = arguments;
-  for (std::string& word : copies) words.push_back(word.data());
-  words.push_back(nullptr);
+std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> raw;
+  for (std::string& word : words) raw.push_back(word.data());
+  raw.push_back(nullptr);
+  return raw;
+}
+
+/// This program's environment with another folder for temporary files.
+std::vector<std::string> environment_with(const fs::path& temporary) {
+  std::vector<std::string> variables = {"TMPDIR=" + temporary.string()};
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    if (!std::string_view(*variable).starts_with("TMPDIR=")) variables.emplace_back(*variable);
+  }
+  return variables;
+}
+
+/// Starts a command whose temporary files go to `temporary`.
+pid_t start(std::vector<std::string> command, const fs::path& temporary) {
+  std::vector<std::string> environment = environment_with(temporary);
+  const std::vector<char*> words = pointers(command), variables = pointers(environment);
   const pid_t child = fork();
   if (child == 0) {
     setpgid(0, 0);  // so that all of its processes can be ended together
     const int nowhere = open("/dev/null", O_RDWR);
     for (int stream = 0; stream < 3; ++stream) dup2(nowhere, stream);
-    execv(words[0], words.data());
+    execve(words[0], words.data(), variables.data());
     _exit(127);
   }
   return child;
@@ -79,16 +93,14 @@ fs::path chromium_program() {
 }
 
 Chromium::Chromium(int width, int height) {
-  std::string folder = (fs::temp_directory_path() / "fingertip_chromium_XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  profile_ = folder;
+  prctl(PR_SET_CHILD_SUBREAPER, 1);  // so that end() can wait for all of its processes
   process_ = start(
-      chromium_program(),
-      {"--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader",
+      {chromium_program(), "--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader",
        "--enable-unsafe-swiftshader", "--no-first-run", "--disable-extensions",
        "--disable-background-networking", "--disable-dev-shm-usage", "--hide-scrollbars",
-       "--remote-debugging-port=0", "--user-data-dir=" + folder,
-       "--window-size=" + std::to_string(width) + "," + std::to_string(height), "about:blank"});
+       "--remote-debugging-port=0", "--user-data-dir=" + profile_.path().string(),
+       "--window-size=" + std::to_string(width) + "," + std::to_string(height), "about:blank"},
+      profile_.path());
   mg_init_library(0);
   try {
     attach();
@@ -100,7 +112,7 @@ Chromium::Chromium(int width, int height) {
 }
 
 void Chromium::attach() {
-  const auto [port, path] = wait_for_target(profile_);
+  const auto [port, path] = wait_for_target(profile_.path());
   char error[256] = "";
   connection_ = mg_connect_websocket_client("127.0.0.1", port, 0, error, sizeof error, path.c_str(),
                                             nullptr, &Chromium::on_data, nullptr, this);
@@ -119,12 +131,7 @@ void Chromium::end() {
   if (connection_ != nullptr) mg_close_connection(connection_);
   mg_exit_library();
   kill(-process_, SIGKILL);
-  waitpid(process_, nullptr, 0);
-  std::error_code ignored;
-  for (int tries = 0; tries < 20 && fs::exists(profile_, ignored); ++tries) {
-    fs::remove_all(profile_, ignored);  // its processes may still be writing
-    std::this_thread::sleep_for(20ms);
-  }
+  while (waitpid(-process_, nullptr, 0) > 0) continue;  // none may still be writing
 }
 
 int Chromium::on_data(mg_connection*, int bits, char* data, std::size_t size, void* self) {

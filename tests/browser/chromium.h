@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/temporary_folder.h"
+
 struct mg_connection;
 
 namespace browser {
@@ -55,7 +57,7 @@ class Chromium {
   void mouse(const char* type, double x, double y, int buttons);
   static int on_data(mg_connection* connection, int bits, char* data, std::size_t size, void* self);
 
-  std::filesystem::path profile_;
+  TemporaryFolder profile_;
   pid_t process_ = -1;
   mg_connection* connection_ = nullptr;
   std::string session_;  ///< with the page

@@ -2,26 +2,19 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
 
 #include "chromium.h"
-#include "lattice/constants.h"
+#include "lattice/control/force_controller.h"
 #include "studies/live/server.h"
+#include "tests/coarse_press.h"
 
 using namespace fingertip;
 
 namespace {
-
-lattice::PressSetup coarse_press() {
-  lattice::PressSetup setup;
-  setup.lattice.spacing = setup.geometry.tip_radius / 5.0;
-  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
-  setup.protocol.speed = 0.05;
-  setup.threads = 1;
-  return setup;
-}
 
 /// A reference that the page can draw: a curve and a patch of a surface at two depths.
 studies::Reference small_reference() {
@@ -47,10 +40,15 @@ studies::Reference small_reference() {
 
 class LivePage : public testing::Test {
  protected:
+  virtual lattice::PressSetup press() const {
+    lattice::PressSetup setup = coarse_press();
+    setup.protocol.depth = 3e-3;
+    return setup;
+  }
   void SetUp() override {
     if (browser::chromium_program().empty())
       GTEST_SKIP() << "Chromium is not installed (./fingertip test installs it)";
-    simulation_ = std::make_unique<studies::Simulation>(coarse_press(), true, 1.0, [this] {
+    simulation_ = std::make_unique<studies::Simulation>(press(), true, 1.0, [this] {
       if (studies::LiveServer* server = listener_) server->frame_ready();
     });
     server_ = std::make_unique<studies::LiveServer>(*simulation_, reference_, "test lattice",
@@ -100,6 +98,18 @@ class LivePage : public testing::Test {
   std::unique_ptr<studies::Simulation> simulation_;
   std::unique_ptr<studies::LiveServer> server_;
   std::unique_ptr<browser::Chromium> page_;
+};
+
+class LiveForcePage : public LivePage {
+ protected:
+  lattice::PressSetup press() const override {
+    lattice::PressSetup setup = coarse_press();
+    setup.make_controller = [](const lattice::ControlTask& task) {
+      return std::make_unique<lattice::ForceController>(lattice::PidSettings{},
+                                                        lattice::ForceSettings{}, task);
+    };
+    return setup;
+  }
 };
 
 /// Pairs of visible texts that overlap, or texts cut off by their box.
@@ -158,6 +168,7 @@ TEST_F(LivePage, StepsResetsAndObeysSliders) {
     ASSERT_TRUE(page_->wait_for(
         fmt::format("document.getElementById('time').textContent === '{:.3f} s'", i * period)));
   }
+  EXPECT_EQ(page_->evaluate("document.getElementById('contact_force').offsetParent"), nullptr);
   slide("depth", 0.8);
   slide("natural_frequency", 0.25);
   page_->click("#free");
@@ -175,6 +186,42 @@ TEST_F(LivePage, StepsResetsAndObeysSliders) {
   page_->press_key("s");  // by keyboard
   ASSERT_TRUE(page_->wait_for(
       fmt::format("document.getElementById('time').textContent === '{:.3f} s'", period)));
+}
+
+TEST_F(LivePage, PlotsShowEveryTick) {
+  // What a plot writes, with its box; the last tick lies close to the right end.
+  const nlohmann::json written = page_->evaluate(R"((() => {
+    const canvas = document.getElementById('plot-force'), pen = canvas.getContext('2d');
+    const plot = new Plot(canvas, { x: () => 'indentation [cm]', y: () => 'force [gf]' }, [{ colour: '--accent' }]);
+    plot.series[0].points = [[0, 0], [0.21, 30]];
+    const texts = [], write = pen.fillText;
+    pen.fillText = (text, x, y) => {
+      const size = pen.measureText(text), left = x - size.actualBoundingBoxLeft, right = x + size.actualBoundingBoxRight;
+      const box = [left, y - size.actualBoundingBoxAscent, right, y + size.actualBoundingBoxDescent];
+      const over = texts.some((t) => t.box[0] < box[2] && box[0] < t.box[2] && t.box[1] < box[3] && box[1] < t.box[3]);
+      const out = left < -1 || right > canvas.clientWidth + 1 || box[3] > canvas.clientHeight + 1;
+      texts.push({ text, box, bad: over || out });
+    };
+    plot.draw();
+    pen.fillText = write;
+    return [texts.map((t) => t.text), texts.filter((t) => t.bad).map((t) => t.text)];
+  })())");
+  for (const char* text : {"0.0", "0.1", "0.2", "indentation [cm]", "force [gf]"})
+    EXPECT_EQ(std::ranges::count(written[0], text), 1) << text << " in " << written[0];
+  EXPECT_TRUE(written[1].empty()) << written[1];
+}
+
+TEST_F(LiveForcePage, SetsTheContactForce) {
+  EXPECT_TRUE(page_->wait_for("document.getElementById('contact_force').offsetParent !== null"));
+  slide("contact_force", 0.5);
+  page_->click("#step");
+  ASSERT_TRUE(page_->wait_for(
+      "document.getElementById('contact_force-value').textContent.endsWith(' gf')"));
+  settle();
+  const studies::Span span = *simulation_->rig().limits().contact_force;
+  EXPECT_NEAR(simulation_->frame()->state.settings.contact_force, 0.5 * (span.least + span.most),
+              1e-9);
+  EXPECT_EQ(page_->evaluate(crowded), nlohmann::json::array());
 }
 
 TEST_F(LivePage, TheHandPullsTheRodAndFeelsIt) {

@@ -7,6 +7,7 @@
 
 #include "fixtures.h"
 #include "lattice/press.h"
+#include "tests/coarse_press.h"
 
 using namespace fingertip;
 using namespace fixtures;
@@ -21,15 +22,6 @@ namespace {
 /// Distance from the true outer surface: the hemisphere above z = 0, the cylinder below.
 double off_surface(const Vector3& place, double radius) {
   return std::abs(Vector3(place.x(), place.y(), std::max(place.z(), 0.0)).norm() - radius);
-}
-
-lattice::PressSetup small_press() {
-  lattice::PressSetup setup;
-  setup.lattice = settings_for(ModelKind::hookean, Kinematics::small, 5);
-  setup.protocol.depth = 1e-3;
-  setup.protocol.speed = 0.05;
-  setup.protocol.clearance = 2e-3;
-  return setup;
 }
 
 }  // namespace
@@ -86,7 +78,7 @@ TEST(BoundaryView, FollowsALinearMotionExactly) {
 }
 
 TEST(PressPictures, SnapshotsAreBeforeContactAtTouchAtHalfDepthAndAtTheEnd) {
-  const lattice::PressSetup setup = small_press();
+  const lattice::PressSetup setup = coarse_press(2e-3);
   const lattice::PressOutcome outcome = lattice::run_press(setup);
   ASSERT_EQ(outcome.snapshots.size(), 4u);
   const auto& [before, touch, half, full] = std::tie(outcome.snapshots[0], outcome.snapshots[1],
@@ -109,7 +101,7 @@ TEST(PressPictures, SnapshotsAreBeforeContactAtTouchAtHalfDepthAndAtTheEnd) {
 }
 
 TEST(PressPictures, AFilmIsEvenInTimeFromStartToEnd) {
-  const lattice::PressSetup setup = small_press();
+  const lattice::PressSetup setup = coarse_press(2e-3);
   std::vector<double> times;
   std::size_t places = 0;
   const lattice::PressFilm film{9, [&](const BoundaryView& view, const FingerPicture& picture) {

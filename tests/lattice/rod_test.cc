@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -99,4 +100,16 @@ TEST(RodState, PoseMovesBodyPointsRigidly) {
   const Vector3 a(0.001, 0.002, 0.003), b(-0.004, 0.0, -0.02);
   EXPECT_NEAR((rod.pose() * a - rod.pose() * b).norm(), (a - b).norm(), 1e-15);
   EXPECT_NEAR((rod.pose() * rod.body().centre - rod.centre()).norm(), 0.0, 1e-15);
+}
+
+TEST(Rotations, VectorAndQuaternionAreInverse) {
+  EXPECT_EQ(lattice::rotation_vector(Eigen::Quaterniond::Identity()).norm(), 0.0);
+  for (const double angle : {1e-12, 1e-3, 1.0, 3.1}) {
+    const Vector3 turn = angle * Vector3(1.0, -2.0, 2.0) / 3.0;
+    const Eigen::Quaterniond rotation = lattice::rotation_by(turn);
+    EXPECT_LT((lattice::rotation_vector(rotation) - turn).norm(), 1e-14 * std::max(angle, 1.0));
+    // The same rotation with the other sign.
+    const Eigen::Quaterniond other(-rotation.coeffs());
+    EXPECT_LT((lattice::rotation_vector(other) - turn).norm(), 1e-14 * std::max(angle, 1.0));
+  }
 }

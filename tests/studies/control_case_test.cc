@@ -5,34 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/cases/case_file.h"
+#include "case_tables.h"
 #include "studies/cases/control_measures.h"
 #include "studies/cases/plan.h"
-#include "studies/cases/validation.h"
-#include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
 
 namespace {
-
-Case case_with(const TemporaryFolder& folder, const std::string& table) {
-  write_text(folder / "case.toml",
-             "[press]\nsamples = [\"0.1 cm\", \"0.2 cm\"]\n[case]\ntitle = \"t\"\n" + table);
-  return load_case(folder / "case.toml", {});
-}
-
-std::string refusal(const TemporaryFolder& folder, const std::string& table) {
-  try {
-    check_case(case_with(folder, table));
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return {};
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 const std::string two_presses =
     "[[case.press]]\nseries = \"s\"\nname = \"a\"\ncontinuum = true\n"

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "lattice/press.h"
+#include "tests/coarse_press.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -85,21 +86,11 @@ std::map<int, int> cells_of(const std::string& piece) {
   return counts;
 }
 
-lattice::PressSetup coarse_press() {
-  lattice::PressSetup setup;
-  setup.lattice.spacing = 0.01 / 5;
-  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
-  setup.protocol.depth = 1e-3;
-  setup.protocol.speed = 0.1;
-  setup.protocol.clearance = 2e-3;
-  return setup;
-}
-
 }  // namespace
 
 TEST(Movie, FramesHoldTipRodAndPlaneAsVtkReadsThem) {
   const TemporaryFolder folder;
-  const lattice::PressSetup setup = coarse_press();
+  const lattice::PressSetup setup = coarse_press(2e-3);
   Movie movie(folder / "movie", setup.geometry);
   std::size_t places = 0, springs = 0;
   const lattice::PressOutcome outcome = lattice::run_press(

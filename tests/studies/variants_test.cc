@@ -5,37 +5,15 @@
 #include <cmath>
 #include <set>
 
-#include "studies/cases/case_file.h"
+#include "case_tables.h"
 #include "studies/cases/plan.h"
-#include "studies/cases/validation.h"
 #include "studies/cases/variant_measures.h"
 #include "studies/config/documents.h"
-#include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// The case whose table [case] ends with `table`, after a static press of two samples.
-Case case_with(const TemporaryFolder& folder, const std::string& table) {
-  write_text(folder / "case.toml",
-             "[press]\nsamples = [\"0.1 cm\", \"0.2 cm\"]\n[case]\ntitle = \"t\"\n" + table);
-  return load_case(folder / "case.toml", {});
-}
-
-std::string refusal(const TemporaryFolder& folder, const std::string& table) {
-  try {
-    check_case(case_with(folder, table));
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return {};
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// How many continua and presses a case of the project plans.
 std::pair<std::size_t, std::size_t> planned(const std::string& name) {

@@ -9,6 +9,7 @@ class Controls {
       rate: { log: true, text: (v) => v.toPrecision(2) },
       speed: { log: true, text: (v) => Units.text(v, 'speed') },
       depth: { text: (v) => Units.text(v, 'length') },
+      contact_force: { text: (v) => Units.text(v, 'force') },
       natural_frequency: { text: (v) => `${v.toFixed(0)} Hz` },
       derivative_filter: { text: (v) => v.toFixed(1) },
       bond_compensation: { text: (v) => `${(100 * v).toFixed(0)} %` },
@@ -79,8 +80,13 @@ class Controls {
     this.label(name, value);
   }
 
+  /// What the controller does not have is not shown.
   limits(limits) {
-    for (const [name, slider] of Object.entries(this.sliders)) slider.span = limits[name] || [0.01, 1];
+    const spans = { rate: [0.01, 1], ...limits };
+    for (const [name, slider] of Object.entries(this.sliders)) {
+      slider.span = spans[name];
+      slider.input.parentElement.hidden = !slider.span;
+    }
     this.sliders.rate.input.value = 1;
   }
 
@@ -88,7 +94,7 @@ class Controls {
   show(status, settings) {
     const idle = (name) => !(performance.now() - (this.busy[name] || -1e9) < 600);
     for (const name of Object.keys(this.sliders)) {
-      if (!idle(name)) continue;
+      if (!idle(name) || !this.sliders[name].span) continue;
       if (name === 'rate') {
         if (settings.rate > 0) this.put('rate', settings.rate); else this.label('rate', this.valueOf('rate'));
         this.free.checked = settings.rate === 0;

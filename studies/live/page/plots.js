@@ -57,7 +57,7 @@ class Plot {
     const rows = Plot.steps(y0, y1, Math.max(2, Math.floor(height / 42)));
     const texts = rows.ticks.map((y) => Units.minus(y.toFixed(rows.decimals)));
     const left = 8 + Math.max(...texts.map((text) => pen.measureText(text).width), 20);
-    const right = width - 10, top = 20, bottom = height - 20;
+    const right = width - 10, top = 20, bottom = height - 33;
     const X = (x) => left + (x - x0) / (x1 - x0) * (right - left);
     const Y = (y) => bottom - (y - y0) / (y1 - y0) * (bottom - top);
 
@@ -70,8 +70,6 @@ class Plot {
       pen.beginPath(); pen.moveTo(left, Y(y)); pen.lineTo(right, Y(y)); pen.stroke();
       pen.fillText(texts[i], left - 5, Y(y));
     });
-    const xName = this.axes.x();
-    const free = right - pen.measureText(xName).width - 14;
     const columns = Plot.steps(x0, x1, Math.max(2, Math.floor((right - left) / 80)));
     pen.textBaseline = 'top';
     for (const x of columns.ticks) {
@@ -79,10 +77,10 @@ class Plot {
       const text = Units.minus(x.toFixed(columns.decimals));
       const half = pen.measureText(text).width / 2;
       pen.textAlign = 'center';
-      if (X(x) + half < free && X(x) - half >= 0) pen.fillText(text, X(x), bottom + 5);
+      pen.fillText(text, Math.min(Math.max(X(x), half), width - half), bottom + 5);
     }
     pen.textAlign = 'right';
-    pen.fillText(xName, right, bottom + 5);
+    pen.fillText(this.axes.x(), right, bottom + 19);
     pen.textAlign = 'left';
     pen.textBaseline = 'top';
     pen.fillText(this.axes.y(), 0, 2);

@@ -137,6 +137,14 @@ TEST(Protocol, FramesAreLaidOutAsTheReadmeSays) {
   EXPECT_EQ(bytes.back(), 1);
 }
 
+TEST(Protocol, TellsTheLimitsOfAContactForceWhereOneIsHeld) {
+  LiveScene scene;
+  const auto limits = [&] { return nlohmann::json::parse(encode_scene(scene)).at("limits"); };
+  EXPECT_FALSE(limits().contains("contact_force"));
+  scene.limits.contact_force = Span{0.02, 0.3};
+  EXPECT_EQ(limits().at("contact_force"), nlohmann::json({0.02, 0.3}));
+}
+
 TEST(Protocol, NumbersThatAreNoneBecomeNull) {
   LiveFrame frame = small_frame();
   frame.picture.row.normal_force = std::nan("");

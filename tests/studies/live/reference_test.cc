@@ -46,19 +46,19 @@ std::string packed(const std::string& bytes) {
   return base64(raw(header)) + base64(block);
 }
 
-/// A quarter of a shell, 0 <= angle <= pi about z and 0 <= height, of hexahedra that share no
+/// Part of a shell about z, from angle 0 on, `eighths` of half a turn, of hexahedra that share no
 /// points; displaced by a linear field.
 struct Shell {
   std::vector<float> points, moved;
   std::vector<std::int32_t> corners, offsets;
   std::vector<std::uint8_t> types;
 
-  Shell() {
+  explicit Shell(int eighths = 8) {
     const auto place = [](int i, int j, int k) {
       const double radius = k == 0 ? 0.5 : 1.0, angle = M_PI * i / 8.0, height = -0.2 * j;
       return Vector3(radius * std::cos(angle), radius * std::sin(angle), height);
     };
-    for (int i = 0; i < 8; ++i)
+    for (int i = 0; i < eighths; ++i)
       for (int j = 0; j < 3; ++j) {
         for (int corner = 0; corner < 8; ++corner) {
           const int around[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -113,6 +113,28 @@ TEST(SurfaceFields, FindsTheOuterSurfaceAndItsDisplacement) {
   EXPECT_EQ(whole.rest.size(), 2 * half.rest.size());
   EXPECT_EQ(whole.edges.size(), 2 * half.edges.size());
   EXPECT_EQ(completed(whole).rest.size(), whole.rest.size());
+}
+
+TEST(SurfaceFields, AQuarterBecomesTheWholeTip) {
+  const TemporaryFolder folder;
+  write(folder.path() / "a.vtu", Shell(4).text());
+  const SurfaceMesh quarter = outer_surface(read_vtu(folder.path() / "a.vtu"));
+  const SurfaceMesh whole = completed(quarter);
+  ASSERT_EQ(whole.rest.size(), 4 * quarter.rest.size());
+  EXPECT_EQ(whole.edges.size(), 4 * quarter.edges.size());
+  for (const auto& [i, j] : whole.edges)
+    EXPECT_LT((whole.rest[i] - whole.rest[j]).norm(), 0.5);  // neighbours stay neighbours
+  for (const Vector3& mirror : {Vector3(-1, 1, 1), Vector3(1, -1, 1), Vector3(-1, -1, 1)}) {
+    for (std::size_t i = 0; i < quarter.rest.size(); ++i) {
+      std::size_t found = 0;
+      for (std::size_t k = 0; k < whole.rest.size(); ++k) {
+        const bool here = whole.rest[k] == mirror.cwiseProduct(quarter.rest[i]);
+        found +=
+            here && whole.displacement[k] == mirror.cwiseProduct(quarter.displacement[i]) ? 1 : 0;
+      }
+      EXPECT_GE(found, 1u);
+    }
+  }
 }
 
 TEST(SurfaceFields, DamagedFilesAreRefused) {

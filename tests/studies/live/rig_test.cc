@@ -4,8 +4,9 @@
 
 #include <cmath>
 
+#include "lattice/control/force_controller.h"
 #include "lattice/press.h"
-#include "live_press.h"
+#include "tests/coarse_press.h"
 
 using namespace fingertip;
 using namespace fingertip::studies;
@@ -158,4 +159,29 @@ TEST(LiveRig, TheHandsForceIsTheContactForceAtRest) {
   rig.release();
   for (int i = 0; i < 20; ++i) rig.advance();
   EXPECT_LT(rig.row().speed, 0.0);  // pushed away
+}
+
+TEST(LiveRig, AContactForceIsHeldAndChangedOnTheWay) {
+  lattice::PressSetup setup = coarse_press();
+  lattice::ForceSettings force;
+  force.force = 0.05;
+  setup.make_controller = [&](const lattice::ControlTask& task) {
+    return std::make_unique<lattice::ForceController>(lattice::PidSettings{}, force, task);
+  };
+  LiveRig rig(setup);
+  ASSERT_TRUE(rig.limits().contact_force);
+  EXPECT_EQ(rig.settings().contact_force, 0.05);
+  const auto settle = [&] {
+    for (int i = 0; i < 400; ++i) rig.advance();  // twelve time constants of 5 Hz
+    return rig.row().normal_force;
+  };
+  EXPECT_NEAR(settle(), 0.05, 5e-4);
+  LiveSettings settings = rig.settings();
+  settings.contact_force = 0.08;
+  rig.set(settings);
+  EXPECT_NEAR(settle(), 0.08, 8e-4);
+  settings.contact_force = 1e5;
+  rig.set(settings);
+  EXPECT_EQ(rig.settings().contact_force, rig.limits().contact_force->most);
+  EXPECT_FALSE(LiveRig(coarse_press()).limits().contact_force);
 }

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "live_press.h"
+#include "tests/coarse_press.h"
 
 using namespace fingertip;
 using namespace fingertip::studies;
