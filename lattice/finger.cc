@@ -37,6 +37,15 @@ void Finger::find_forces(double step) {
   now_.extremes = internal_forces(now_.state, force_);
   if (!gravity_.isZero(0.0)) weigh_particles(force_);
   now_.bond = surfaces_->hold(now_.state, now_.rod, now_.plane, step, force_);
+  if (now_.scaling && step > 0.0) spread_accelerations();
+}
+
+void Finger::spread_accelerations() {
+  if (!accelerations_) accelerations_ = std::make_unique<AccelerationFields>(*model_);
+  now_.scaling->accelerate(surfaces_->inertia(step_), team_, *accelerations_, force_);
+  const Wrench more = surfaces_->hand_over(now_.state, now_.rod, accelerations_->changes);
+  now_.bond.force += more.force;
+  now_.bond.torque += more.torque;
 }
 
 CellExtremes Finger::internal_forces(const State& state, VectorField& force) {

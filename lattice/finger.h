@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lattice/forces.h"
+#include "lattice/mass_scaling.h"
 #include "lattice/model.h"
 #include "lattice/parallel.h"
 #include "lattice/plane.h"
@@ -30,6 +31,7 @@ struct FingerMemory {
   Wrench bond{};                                                ///< on the rod about its endpoint
   Wrench plane_impulse{};                                       ///< of the last step
   CellExtremes extremes{};                                      ///< at the start of the last step
+  std::shared_ptr<const MassScaling> scaling{};  ///< null: plain masses
   meshes::Vector3 expected_momentum = meshes::Vector3::Zero();  ///< [N s]
   bool balance_started = false;
   double momentum_defect = 0.0;
@@ -55,6 +57,14 @@ class Finger {
   void advance(const Wrench& applied);
   /// One step with the rod's motion prescribed.
   void advance(const RodMotion& at_end);
+
+  /// From now on, while steps have the length it was made for, particles accelerate by it; null:
+  /// by their masses alone.
+  void scale_masses(std::shared_ptr<const MassScaling> scaling) {
+    now_.scaling = std::move(scaling);
+  }
+
+  const MassScaling* mass_scaling() const { return now_.scaling.get(); }
 
   /// For integrators of their own: forces at a state that is only tried, nothing changes. `force`
   /// receives all forces on the particles [N] (Surfaces::attempt).
@@ -122,6 +132,7 @@ class Finger {
 
  private:
   void find_forces(double step);
+  void spread_accelerations();
   void weigh_particles(VectorField& force) const;
   void move_particles();
   void close_step(const meshes::Vector3& on_rod);
@@ -139,6 +150,7 @@ class Finger {
   meshes::Vector3 gravity_ = meshes::Vector3::Zero();
   FingerMemory now_;
   VectorField force_;
+  std::unique_ptr<AccelerationFields> accelerations_;  ///< once masses are scaled
   long evaluations_ = 0;
   std::vector<meshes::Vector3> partial_momentum_;  ///< of fixed portions of the particles
 };

@@ -15,6 +15,7 @@ std::string_view name(Integrator integrator) {
     case Integrator::symplectic_euler: return "symplectic-euler";
     case Integrator::explicit_euler: return "explicit-euler";
     case Integrator::runge_kutta: return "runge-kutta";
+    case Integrator::mass_scaled: return "mass-scaled";
     case Integrator::energy_controlled: return "energy-controlled";
   }
   return {};
@@ -222,6 +223,15 @@ std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
                      "take symplectic-euler; explicit-euler is for the published model"});
   }
   add_adaptive_steps(found, setup);
+  const bool springs = lattice.model == ModelKind::published || lattice.model == ModelKind::central;
+  const bool volume =
+      lattice.model == ModelKind::hookean && lattice.kinematics == Kinematics::finite;
+  if (setup.integrator == Integrator::mass_scaled && (springs || volume)) {
+    found.push_back({"run.integrator", std::string(name(setup.integrator)),
+                     "masses are scaled cell by cell, so the model must consist of cells: hookean "
+                     "at small strain, or network",
+                     "take symplectic-euler, or another model"});
+  }
   return found;
 }
 

@@ -22,6 +22,7 @@ enum class Integrator {
   symplectic_euler,   ///< v first, then x with the new v; the default
   explicit_euler,     ///< as printed in the paper's Fig. 4: x with the old v, then v
   runge_kutta,        ///< explicit, of order 5, its step chosen by the estimated error
+  mass_scaled,        ///< symplectic Euler with inertia against deformation, at long steps
   energy_controlled,  ///< symplectic Euler, its step chosen by the energy it gains or loses
 };
 std::string_view name(Integrator integrator);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "lattice/forces.h"
@@ -72,6 +73,16 @@ Matrix6 unit_spring_on_rod(const Vector3& rest, const RodBody& rod) {
   return motion.transpose() * motion;
 }
 
+/// Largest eigenvalue of a form of the rod's motion beside its inertia.
+double largest_ratio(const Matrix6& form, const RodBody& rod) {
+  Matrix6 inertia = Matrix6::Zero();
+  inertia.topLeftCorner<3, 3>() = rod.mass * Matrix3d::Identity();
+  inertia.bottomRightCorner<3, 3>() = rod.inertia;
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6>(form, inertia, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
 /// Largest eigenvalue of the rod's own block: bond on a rod whose particles stand still.
 double rod_bound(const LatticeModel& model, Quantity quantity, const RodBody& rod) {
   Matrix6 stiffness = Matrix6::Zero();
@@ -83,13 +94,7 @@ double rod_bound(const LatticeModel& model, Quantity quantity, const RodBody& ro
       stiffness += tie.stiffness * unit_spring_on_rod(tie.rest, rod);
     }
   }
-  Matrix6 inertia = Matrix6::Zero();
-  inertia.topLeftCorner<3, 3>() = rod.mass * Matrix3d::Identity();
-  inertia.bottomRightCorner<3, 3>() = rod.inertia;
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6>(stiffness, inertia,
-                                                           Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+  return largest_ratio(stiffness, rod);
 }
 
 /// Of K with the rod free: |u_p - u_r|² <= (1 + e)|u_p|² + (1 + 1/e)|u_r|² for every e > 0
@@ -223,6 +228,16 @@ SpectralBounds rod_bounds(const LatticeModel& model, const RodBody& rod) {
   bounds.stiffness = rod_bound(model, Quantity::stiffness, rod);
   bounds.damping = rod_bound(model, Quantity::damping, rod);
   return bounds;
+}
+
+double bonded_inertia_ratio(const LatticeModel& model, const RodBody& rod) {
+  std::set<std::uint32_t> particles;
+  for (const TiedPoint& tie : model.bond) particles.insert(tie.corners.begin(), tie.corners.end());
+  Matrix6 carried = Matrix6::Zero();
+  for (const std::uint32_t i : particles) {
+    carried += model.mass[i] * unit_spring_on_rod(model.rest_position(i), rod);
+  }
+  return largest_ratio(carried, rod);
 }
 
 SpectralBounds spectral_estimate(const LatticeModel& model, const State& at, int steps) {

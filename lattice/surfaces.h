@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "lattice/mass_scaling.h"
 #include "lattice/model.h"
 #include "lattice/parallel.h"
 #include "lattice/plane.h"
@@ -36,6 +38,14 @@ class Surfaces {
   /// origin.
   virtual Wrench settle(State& state, const VectorField& force, const Plane& plane,
                         double step) = 0;
+
+  /// Inertia that the ties added in the last hold() with that step [s]; empty where there are none.
+  virtual std::span<const TieInertia> inertia(double step) = 0;
+  /// To be told when the particles in inertia() accelerate by so much more [m/s²], along the grid's
+  /// axes, than the forces said: returns what the rod gets of that, about its endpoint; the plane's
+  /// part enters settle().
+  virtual Wrench hand_over(const State& state, const RodState& rod,
+                           std::span<const meshes::Vector3> changes) = 0;
 
   /// What rod and plane exert at one moment.
   struct Trial {

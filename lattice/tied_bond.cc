@@ -107,6 +107,12 @@ Wrench TiedBond::add(const State& state, const RodState& rod, double step, Vecto
   return on_rod;
 }
 
+void TiedBond::list_inertia(double step, std::vector<TieInertia>& ties) const {
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    ties.push_back({points_[p], step * step * sum_[p], Eigen::Matrix3d::Zero()});
+  }
+}
+
 double TiedBond::energy(const State& state, const RodState& rod) const {
   std::vector<Row> slips(points_.size(), Row::Zero());
   find_slips(state, rod, 0.0, slips);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lattice/mass_scaling.h"
 #include "lattice/model.h"
 #include "lattice/parallel.h"
 #include "lattice/rod.h"
@@ -42,6 +43,8 @@ class TiedBond {
   /// contact's takes is noted there.
   Wrench add(const State& state, const RodState& rod, double step, VectorField& force,
              std::vector<SharedLoad>* shared = nullptr);
+  /// What the particles' inertia against the rod is in steps of `step` [s], by increasing index.
+  void list_inertia(double step, std::vector<TieInertia>& ties) const;
   double energy(const State& state, const RodState& rod) const;  ///< [J]
 
  private:

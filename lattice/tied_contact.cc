@@ -175,6 +175,7 @@ Wrench TiedContact::unload(const State& state, double step, VectorField& force,
   const Eigen::Matrix3d along = normal * normal.transpose();
   const Eigen::Matrix3d aside = Eigen::Matrix3d::Identity() - along;
   Wrench sum;
+  held_.clear();
   for (const std::uint32_t particle : loaded_) {
     const std::uint32_t i = particles_[particle];
     const Load& load = loads_[particle];
@@ -192,10 +193,30 @@ Wrench TiedContact::unload(const State& state, double step, VectorField& force,
     const Vector3 given = model_->grid.axes * (taken - others);
     sum.force += given;
     sum.torque += position(*model_, state, i).cross(given);
+    held_.push_back({particle, load.stiffness, load.aside});
     loads_[particle] = Load{};
   }
   loaded_.clear();
   return sum;
+}
+
+void TiedContact::add_inertia(double step, std::vector<TieInertia>& ties) const {
+  const auto of_bond = std::ptrdiff_t(ties.size());
+  const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
+  const Eigen::Matrix3d along = normal * normal.transpose();
+  for (const Held& held : held_) {
+    const std::uint32_t i = particles_[held.particle];
+    const Eigen::Matrix3d inertia =
+        step * step * (held.stiffness * along + held.aside * (Eigen::Matrix3d::Identity() - along));
+    if (bonded_[held.particle] != 0) {
+      const auto place =
+          std::lower_bound(ties.begin(), ties.begin() + of_bond, i,
+                           [](const TieInertia& tie, std::uint32_t p) { return tie.particle < p; });
+      place->contact = inertia;
+    } else {
+      ties.push_back({i, 0.0, inertia});
+    }
+  }
 }
 
 /// So many that every point has its turn before the fastest particle has come half the margin

@@ -55,6 +55,10 @@ class TiedContact {
   /// what that one remembers and looks only at the points that are near to it. Cheap.
   void try_from(const TiedContact& accepted);
 
+  /// Adds the inertia against the plane that particles had in the last add() with that step [s].
+  /// `ties` starts with those of the bond, by increasing index.
+  void add_inertia(double step, std::vector<TieInertia>& ties) const;
+
   double energy() const { return energy_; }  ///< of the ties at the last add() [J]
   int touching() const { return touching_; }
   int sliding() const { return sliding_; }  ///< of those touching, in the last step (coulomb)
@@ -110,6 +114,11 @@ class TiedContact {
   std::vector<std::uint8_t> bonded_;      ///< per contact particle: 1 where the bond holds it, too
   std::vector<Load> loads_;               ///< per contact particle, zero between calls
   std::vector<std::uint32_t> loaded_;     ///< contact particles with a load
+  struct Held {
+    std::uint32_t particle = 0;  ///< contact particle
+    double stiffness = 0.0, aside = 0.0;
+  };
+  std::vector<Held> held_;  ///< those that had one in the last add()
   int touching_ = 0, sliding_ = 0;
   double energy_ = 0.0;
 };

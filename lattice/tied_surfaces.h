@@ -17,6 +17,9 @@ class TiedSurfaces : public Surfaces {
   std::unique_ptr<Surfaces> clone() const override { return std::make_unique<TiedSurfaces>(*this); }
   Wrench hold(const State& state, const RodState& rod, const Plane& plane, double step,
               VectorField& force) override;
+  std::span<const TieInertia> inertia(double step) override;
+  Wrench hand_over(const State& state, const RodState& rod,
+                   std::span<const meshes::Vector3> changes) override;
   Trial attempt(const State& state, const RodState& rod, const Plane& plane,
                 VectorField& force) override;
   Wrench settle(State&, const VectorField&, const Plane&, double step) override {
@@ -39,8 +42,9 @@ class TiedSurfaces : public Surfaces {
   TiedBond bond_;
   TiedContact contact_;
   std::optional<TiedContact> trial_;  ///< contact_ as attempt() needs it, made by the first one
-  std::vector<SharedLoad> shared_;    ///< particles on both surfaces
-  Wrench on_tip_;                     ///< of the plane, about the world's origin
+  std::vector<TieInertia> inertia_;
+  std::vector<SharedLoad> shared_;  ///< particles on both surfaces
+  Wrench on_tip_;                   ///< of the plane, about the world's origin
 };
 
 }  // namespace fingertip::lattice

@@ -17,6 +17,10 @@ constexpr double largest_volume_change = 0.1;
 /// Growth of the cells' extremes that the step leaves room for.
 constexpr double room = 1.2;
 
+/// Of mass_scaled [s]: a quarter of the usual control period.
+constexpr double usual_step = 2.5e-4;
+constexpr double longest_scaled = 1e-3;
+
 /// What a Lanczos estimate, which comes from below, may lack.
 constexpr double margin = 1.05;
 
@@ -31,6 +35,18 @@ SpectralBounds tied_bounds(SpectralBounds held, double growth, double rod) {
   held.stiffness = std::max(growth * held.stiffness, rod);
   held.damping *= growth;
   return held;
+}
+
+/// With scaled masses the rubber sets no limit. Of the ties' stiffness K the rod feels K m/(m + dt²
+/// d), which is at most m/dt²: a rod that is heavier than its bond's particles is stable at any
+/// step, 3 m/M <= 4. Steps above `longest_scaled` see too little of a contact that grows.
+SpectralBounds scaled_bounds(const LatticeModel& model, const RodBody* rod, double rod_stiffness) {
+  SpectralBounds bounds;
+  bounds.stiffness = 4.0 / (longest_scaled * longest_scaled);
+  if (rod != nullptr && 3.0 * bonded_inertia_ratio(model, *rod) > 4.0) {
+    bounds.stiffness = std::max(bounds.stiffness, rod_stiffness);
+  }
+  return bounds;
 }
 
 double safety(const LatticeModel& model) {
@@ -101,7 +117,10 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
       integrator_(integrator),
       safety_(safety(model)),
       rod_stiffness_(tied_rod(model, rod)) {
-  const SpectralBounds bounds = tightest_bounds(model, rod);
+  const bool scaled = integrator == Integrator::mass_scaled;
+  const SpectralBounds bounds =
+      scaled ? scaled_bounds(model, rod, rod_stiffness_) : tightest_bounds(model, rod);
+  if (scaled && !wanted) wanted = usual_step;
   report_.omega0 = paper_frequency(model);
   report_.paper_bound = 1.0 / report_.omega0;
   report_.spectral_bound = largest_stable_step(bounds, integrator);
@@ -111,7 +130,8 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
          "explicit Euler is unstable at any step without damping: it adds energy to every mode",
          "use symplectic-euler, or give rubber.retardation_time a positive value"});
   }
-  why_ = ruling(bounds, integrator, report_.spectral_bound);
+  why_ = scaled ? "with scaled masses only the rod on its ties and the contact's detail rule"
+                : ruling(bounds, integrator, report_.spectral_bound);
   if (wanted && !(*wanted > 0.0 && *wanted <= report_.spectral_bound)) {
     refuse(*wanted, report_.spectral_bound, why_);
   }
@@ -131,6 +151,10 @@ void StepController::update(const State& state, const CellExtremes& now) {
   const SpectralBounds bounds =
       tied_bounds(spectral_estimate(*model_, state, lanczos_steps), room * margin, rod_stiffness_);
   now_.present = std::min(largest_, safety_ * largest_stable_step(bounds, integrator_));
+  now_.reference = now;
+}
+
+void StepController::note(const CellExtremes& now) {
   now_.reference = now;
 }
 

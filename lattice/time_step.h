@@ -56,6 +56,8 @@ class StepController {
   bool outdated(const CellExtremes& now) const;
   /// Computes it.
   void update(const State& state, const CellExtremes& now);
+  /// Takes note that whoever relies on the cells' extremes has looked at them now.
+  void note(const CellExtremes& now);
 
   /// Largest step [s] that is safe while not outdated, and changes no cell's volume by more than a
   /// tenth.

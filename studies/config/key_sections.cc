@@ -378,19 +378,23 @@ std::vector<Key> run_keys() {
       plain("run", "threads", Kind::integer, "0", {0, 1024, true},
             "threads to use, 0 for all cores; results do not depend on it",
             [](Config& config, const Value& value) { config.press.threads = int(value.number); }),
-      choice("run", "integrator", "symplectic-euler",
-             {{"symplectic-euler", "velocities first, then positions"},
-              {"explicit-euler", "as printed in the paper's Fig. 4; published lattice"},
-              {"runge-kutta", "order 5(4) by SUNDIALS ARKODE, see run.tolerance"},
-              {"energy-controlled", "symplectic Euler, see run.energy_bound"}},
-             "time integration of the lattice",
-             [](Config& config, const Value& value) {
-               for (const auto one :
-                    {lattice::Integrator::symplectic_euler, lattice::Integrator::explicit_euler,
-                     lattice::Integrator::runge_kutta, lattice::Integrator::energy_controlled}) {
-                 if (value.word == name(one)) config.press.integrator = one;
-               }
-             }),
+      choice(
+          "run", "integrator", "symplectic-euler",
+          {{"symplectic-euler", "velocities first, then positions"},
+           {"explicit-euler", "as printed in the paper's Fig. 4; published lattice"},
+           {"runge-kutta", "order 5(4) by SUNDIALS ARKODE, see run.tolerance"},
+           {"mass-scaled",
+            "symplectic Euler at long steps, with inertia against deformation; for slow presses"},
+           {"energy-controlled", "symplectic Euler, see run.energy_bound"}},
+          "time integration of the lattice",
+          [](Config& config, const Value& value) {
+            for (const auto one :
+                 {lattice::Integrator::symplectic_euler, lattice::Integrator::explicit_euler,
+                  lattice::Integrator::mass_scaled, lattice::Integrator::runge_kutta,
+                  lattice::Integrator::energy_controlled}) {
+              if (value.word == name(one)) config.press.integrator = one;
+            }
+          }),
       plain("run", "tolerance", Kind::number, "1e-6", {0.0, 1.0, false},
             "error of a step of runge-kutta, relative to a strain of 1 % in root mean square",
             [](Config& config, const Value& value) { config.press.tolerance = value.number; }),

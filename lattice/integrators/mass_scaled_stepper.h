@@ -1,0 +1,31 @@
+/// Symplectic Euler at steps that neither stiffness nor damping of the rubber limits.
+#pragma once
+
+#include "lattice/integrators/stepper.h"
+
+namespace fingertip::lattice {
+
+/// Steps of `run.time_step`, or a quarter of a millisecond, shorter where the rod on its ties or
+/// the change of a cell's volume asks for it, with masses scaled to them (mass_scaling.h). The
+/// scaling is made anew when the length changes and when cells may have stiffened by what it leaves
+/// room for: when their extremes have, or the volume of the fastest by a tenth.
+class MassScaledStepper : public Stepper {
+ public:
+  MassScaledStepper(Finger& finger, StepController& steps) : finger_(&finger), steps_(&steps) {}
+
+  void begin(const Drive& drive, double duration) override;
+  void step(const Drive& drive, double until) override;
+  double memory() const override { return changed_; }
+  void recall(double memory) override { changed_ = memory; }
+  std::string explanation() const override;
+
+ private:
+  void scale();
+
+  Finger* finger_;
+  StepController* steps_;
+  double changed_ = 0.0;  ///< largest change of a cell's volume since the scaling was made
+  int products_ = 0;      ///< most per step
+};
+
+}  // namespace fingertip::lattice
