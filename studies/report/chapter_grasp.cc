@@ -51,32 +51,32 @@ Style points_style(std::size_t i, bool filled) {
   return style;
 }
 
-/// How high the block came, against grip force over the limit.
+/// How high the block came, against grip force over the limit; those that are released are held.
 Figure fate_figure(const std::vector<GraspRun>& grasps) {
   Panel panel;
   panel.x_label = "grip force over m (g + a)/(2 mu), less 1 [%]";
-  panel.y_label = "height at the end of the hold [cm]";
-  panel.key = "top left";
+  panel.y_label = "height of the block over the lift [1]";
+  panel.key = "center right";
   panel.markers.push_back({0.0, "#444444"});
-  double most = 0.0;
   std::size_t i = 0;
   for (const std::string& name : series_names(grasps)) {
     Series held{name + ": held", "", {}, {}, {}, points_style(i, true)};
     Series lost{name + ": lost", "", {}, {}, {}, points_style(i, false)};
     for (const GraspRun& grasp : grasps) {
-      if (grasp.series != name || grasp.rows.empty() || grasp.limit() <= 0.0) continue;
+      if (grasp.series != name || grasp.rows.empty() || !(grasp.limit() > 0.0)) continue;
+      if (grasp.released()) continue;
       const Span hold = phase_span(grasp, "hold");
       const std::vector<double> height = grasp.rows.numbers("height [m]");
       Series& series = grasp.held() ? held : lost;
       series.x.push_back(100.0 * (grasp.grip() / grasp.limit() - 1.0));
-      series.y.push_back(to_cm(hold.end > hold.begin ? height[hold.end - 1] : height.back()));
-      most = std::max(most, series.y.back());
+      const double reached = hold.end > hold.begin ? height[hold.end - 1] : height.back();
+      series.y.push_back(reached / number_at(grasp.summary, "lift_height"));
     }
     for (const Series& series : {held, lost})
       if (!series.x.empty()) panel.series.push_back(series);
     ++i;
   }
-  panel.y_range = Range{-0.05 * most, 1.4 * most};
+  panel.y_range = Range{-0.1, 1.1};
   return {"grasp_fate", 820, 400, 1, {panel}};
 }
 
@@ -132,7 +132,7 @@ Panel friction_panel(const GraspRun& grasp, const std::string& title, const std:
   panel.title = title;
   panel.x_label = x_label;
   panel.y_label = "over mu n [1]";
-  panel.key = "bottom right";
+  panel.key = "center right";
   const double per_mu = 1.0 / number_at(grasp.summary, "friction");
   const std::vector<double> normal = grasp.normal();
   const auto curve = [&](const char* label, const std::vector<double>& force, std::size_t style) {
@@ -264,17 +264,16 @@ std::string grasp_answer(const std::vector<GraspRun>& grasps) {
   std::string text = "No grasp held.";
   if (std::isfinite(weakest))
     text = fmt::format(
-        "The weakest grip that holds the block is {} from the friction limit m (g + "
-        "a)/(2 mu)",
+        "The weakest grip that holds the block is off the friction limit m (g + a)/(2 mu) by {}",
         percent(weakest));
   if (std::isfinite(weakest))
     text += std::isfinite(strongest)
-                ? fmt::format(", the strongest that does not {}.", percent(strongest))
+                ? fmt::format(", the strongest that does not by {}.", percent(strongest))
                 : ".";
   const std::vector<GraspRun> released = released_of(grasps);
   if (!released.empty()) {
     const GraspRun& last = released.back();
-    text += fmt::format(" As the grip falls, the block begins to slip {} from m g/(2 mu) ({}).",
+    text += fmt::format(" Where the grip falls, the block begins to slip at m g/(2 mu) {} ({}).",
                         off(number_at(last.summary, "slip_force"), last.rest_limit()), last.label);
   }
   return text;
@@ -304,9 +303,10 @@ Chapter grasp_chapter(const std::vector<GraspRun>& grasps) {
       "and, where asked, let the grip force fall. Points that touch obey Coulomb's law one by one; "
       "that the block obeys it as a whole is what comes out."});
   if (grasps.size() > 1)
-    chapter.blocks.push_back(
-        FigureBlock{fate_figure(grasps), "Height of the block against grip force",
-                    "Filled: held; open: not. The vertical is the friction limit."});
+    chapter.blocks.push_back(FigureBlock{
+        fate_figure(grasps), "Height of the block against grip force",
+        "Filled: held; open: not. The vertical is the friction limit, with the acceleration of "
+        "each lift."});
   const std::vector<GraspRun> released = released_of(grasps);
   if (!released.empty())
     chapter.blocks.push_back(

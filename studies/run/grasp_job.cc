@@ -29,6 +29,7 @@ ordered_json summary_of(const lattice::GraspSetup& setup, const lattice::GraspOu
           {"least_force", number_or_null(outcome.least_force)},
           {"least_force_at_rest", number_or_null(setup.least_force(0.0))},
           {"friction", finger.contact.friction},
+          {"lift_height", setup.grip.lift_height},
           {"slip_force", number_or_null(outcome.slip_force)},
           {"slip_ratio", number_or_null(outcome.slip_ratio)},
           {"sliding_ratio", number_or_null(outcome.sliding_ratio)},
