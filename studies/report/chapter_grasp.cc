@@ -169,6 +169,7 @@ Figure friction_figure(const std::vector<GraspRun>& grasps) {
         friction_panel(*fell, "the grip falls: " + fell->label, "slip of the block [mm]",
                        part(fell->rows.numbers("slip [m]"), span, millimetres), span));
     figure.panels.back().x_range = Range{0.0, 0.5};
+    if (figure.panels.size() > 1) figure.panels.front().key.clear();  // they share a legend
   }
   figure.columns = int(figure.panels.size());
   return figure;
@@ -311,7 +312,7 @@ Chapter grasp_chapter(const std::vector<GraspRun>& grasps) {
   if (!released.empty())
     chapter.blocks.push_back(
         FigureBlock{release_figure(released), "Grip force against slip while the grip falls",
-                    "Time runs from top left to bottom right. Dashed: the friction limit."});
+                    "Time runs from top left to bottom right. Dotted: the friction limit."});
   Figure friction = friction_figure(grasps);
   if (!friction.panels.empty())
     chapter.blocks.push_back(FigureBlock{
