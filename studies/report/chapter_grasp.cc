@@ -194,12 +194,13 @@ Figure time_figure(const GraspRun& grasp) {
   const double limit = to_gf(grasp.rest_limit());
   forces.series = {curve("grip of each finger", grasp.normal(), to_gf(1.0), 0),
                    curve("tangential force of each finger", grasp.tangential(), to_gf(1.0), 1)};
-  forces.series.push_back({"m g/(2 mu)",
-                           "",
-                           {0.0, time.back()},
-                           {limit, limit},
-                           {},
-                           {"#000000", "(4,4)", 1.2, 0, true}});
+  if (limit > 0.0)  // there is none without Coulomb's friction
+    forces.series.push_back({"m g/(2 mu)",
+                             "",
+                             {0.0, time.back()},
+                             {limit, limit},
+                             {},
+                             {"#000000", "(4,4)", 1.2, 0, true}});
   ways.series = {
       curve("rise of the fingers", grasp.rows.numbers("finger_height [m]"), to_cm(1.0), 0),
       curve("rise of the block", grasp.rows.numbers("height [m]"), to_cm(1.0), 1),
@@ -209,7 +210,7 @@ Figure time_figure(const GraspRun& grasp) {
 
 /// "+1.2 %" of `value` against `wanted`.
 std::string off(double value, double wanted) {
-  return std::isfinite(value) ? percent(value / wanted - 1.0) : "–";
+  return std::isfinite(value / wanted) ? percent(value / wanted - 1.0) : "–";
 }
 
 Table grasp_table(const std::vector<GraspRun>& grasps) {
@@ -263,14 +264,16 @@ std::string grasp_answer(const std::vector<GraspRun>& grasps) {
       strongest = std::fmax(strongest, surplus);
   }
   std::string text = "No grasp held.";
-  if (std::isfinite(weakest))
+  if (grasps.size() == 1) {
+    text = fmt::format("The block was {}.", grasps.front().fate());
+  } else if (std::isfinite(weakest)) {
     text = fmt::format(
-        "The weakest grip that holds the block is off the friction limit m (g + a)/(2 mu) by {}",
-        percent(weakest));
-  if (std::isfinite(weakest))
-    text += std::isfinite(strongest)
-                ? fmt::format(", the strongest that does not by {}.", percent(strongest))
-                : ".";
+        "The weakest grip that holds the block is off the friction limit m (g + a)/(2 mu) by {}{}.",
+        percent(weakest),
+        std::isfinite(strongest)
+            ? fmt::format(", the strongest that does not by {}", percent(strongest))
+            : "");
+  }
   const std::vector<GraspRun> released = released_of(grasps);
   if (!released.empty()) {
     const GraspRun& last = released.back();
@@ -320,9 +323,10 @@ Chapter grasp_chapter(const std::vector<GraspRun>& grasps) {
         "Slip begins when the sum of the points' friction reaches mu n (dashed). Its resultant is "
         "smaller, since squeezing presses the rubber outward against friction and the points are "
         "still pulled toward the contact's centre; sliding turns them all along the load."});
-  if (!released.empty())
+  const GraspRun& shown = released.empty() ? grasps.back() : released.back();
+  if (!shown.rows.empty())
     chapter.blocks.push_back(FigureBlock{
-        time_figure(released.back()), "A grasp in time: " + released.back().label,
+        time_figure(shown), "A grasp in time: " + shown.label,
         "Squeeze, load, lift, hold, release; forces are means over a step of the communication."});
   chapter.blocks.push_back(grasp_table(grasps));
   return chapter;

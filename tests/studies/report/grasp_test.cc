@@ -119,4 +119,20 @@ TEST(GraspReport, AGraspAloneHasItsPage) {
   const std::string html = read_text(grasp / "report.html");
   EXPECT_TRUE(has(html, "<section id=\"grasp\">"));
   EXPECT_FALSE(has(html, "id=\"not-run\""));
+  EXPECT_TRUE(has(report_testing::visible_text(html), "The block was held. Where the grip falls"));
+}
+
+TEST(GraspReport, WithoutCoulombsFrictionThereIsNoLimit) {
+  const TemporaryFolder folder;
+  const fs::path grasp = folder.path() / "stick";
+  write_grasp(grasp, 0.06, "held", false);
+  json summary = json::parse(read_text(grasp / "summary.json"));
+  for (const char* key : {"friction", "least_force", "least_force_at_rest"}) summary[key] = 0.0;
+  write_file(grasp / "summary.json", summary.dump());
+  studies::write_report(grasp);
+  const std::string text = report_testing::visible_text(read_text(grasp / "report.html"));
+  EXPECT_TRUE(has(text, "The block was held."));
+  EXPECT_FALSE(has(text, "inf"));
+  EXPECT_TRUE(fs::exists(grasp / "figures/grasp_in_time.svg"));
+  EXPECT_FALSE(has(read_text(grasp / "figures/grasp_in_time.csv"), "m g/(2 mu)"));
 }
