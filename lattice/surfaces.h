@@ -10,6 +10,7 @@
 #include "lattice/model.h"
 #include "lattice/parallel.h"
 #include "lattice/plane.h"
+#include "lattice/point_load.h"
 #include "lattice/rod.h"
 #include "lattice/state.h"
 #include "meshes/geometry.h"
@@ -66,6 +67,9 @@ class Surfaces {
   /// How many of them slide (coulomb; without friction none is said to).
   virtual int sliding() const = 0;
   virtual double contact_radius(const State& state) const = 0;  ///< [m], 0 without contact
+  /// What the plane does to each point that touches it; none where contact acts between steps
+  /// (published).
+  virtual std::vector<PointLoad> point_loads(const State& /*state*/) const { return {}; }
   /// Per boundary particle of the model: 1 where it sticks to the plane or touches it without
   /// friction, 2 where it slides (coulomb), else 0.
   virtual std::vector<std::uint8_t> held() const = 0;

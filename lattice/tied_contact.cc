@@ -244,7 +244,7 @@ Wrench TiedContact::add(const State& state, const Plane& plane, double step, Vec
     }
     look_at(number, state, step);
     const Pull tie = pull(number);
-    points_[number].push = tie.force.dot(model_->grid.axes.transpose() * plane_.normal);
+    points_[number].force = model_->grid.axes * tie.force;
     if (tie.force.isZero(0.0)) continue;
     ++touching_;
     if (points_[number].sliding) ++sliding_;
@@ -266,6 +266,20 @@ void TiedContact::try_from(const TiedContact& accepted) {
   for (const std::uint32_t number : near_) points_[number] = accepted.points_[number];
 }
 
+/// Along the normal, at the last add() [N].
+double TiedContact::push(std::size_t number) const {
+  return points_[number].force.dot(plane_.normal);
+}
+
+std::vector<PointLoad> TiedContact::point_loads(const State& state) const {
+  std::vector<PointLoad> loads;
+  for (const std::uint32_t number : near_) {
+    if (!(push(number) > 0.0)) continue;
+    loads.push_back({place_of(number, state, 0.0), points_[number].force});
+  }
+  return loads;
+}
+
 double TiedContact::radius(const State& state) const {
   const Vector3 t1 = first_tangent(plane_.normal), t2 = t1.cross(plane_.normal);
   std::vector<LoadedPoint> loaded;
@@ -276,7 +290,7 @@ double TiedContact::radius(const State& state) const {
       place += model_->grid.axes * shift(tie, state, 0.0);
     }
     const double facing = std::abs(outer_normal(tie.rest).dot(plane_.normal));
-    loaded.push_back({{place.dot(t1), place.dot(t2)}, points_[number].push, facing * tie.area});
+    loaded.push_back({{place.dot(t1), place.dot(t2)}, push(number), facing * tie.area});
   }
   return contact_radius(loaded);
 }
@@ -284,7 +298,7 @@ double TiedContact::radius(const State& state) const {
 std::vector<std::uint8_t> TiedContact::held() const {
   std::vector<std::uint8_t> touched(model_->points(), 0), result;
   for (const std::uint32_t number : near_) {
-    if (!(points_[number].push > 0.0)) continue;
+    if (!(push(number) > 0.0)) continue;
     const std::uint8_t how = points_[number].sliding ? 2 : 1;
     for (const std::uint32_t corner : model_->outer[number].corners) {
       touched[corner] = touched[corner] == 1 ? 1 : how;

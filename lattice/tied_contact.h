@@ -6,6 +6,7 @@
 
 #include "lattice/model.h"
 #include "lattice/plane.h"
+#include "lattice/point_load.h"
 #include "lattice/state.h"
 #include "lattice/tied_bond.h"
 #include "meshes/press_protocol.h"
@@ -64,6 +65,8 @@ class TiedContact {
   int sliding() const { return sliding_; }  ///< of those touching, in the last step (coulomb)
   /// Of the patch that the forces of the last add() act on (contact_patch) [m].
   double radius(const State& state) const;
+  /// What each tie that acts does to the tip, at the last add().
+  std::vector<PointLoad> point_loads(const State& state) const;
   /// Per boundary particle of the model: 1 where a tie that acts hangs on it, 2 if all of
   /// these slide (coulomb).
   std::vector<std::uint8_t> held() const;
@@ -77,7 +80,7 @@ class TiedContact {
     double gap = 0.0;                                 ///< at the end of the last step looked at [m]
     meshes::Vector3 place = meshes::Vector3::Zero();  ///< there, relative to the plane (fixed) [m]
     meshes::Vector3 anchor = meshes::Vector3::Zero();  ///< where it is held, likewise [m]
-    double push = 0.0;                                 ///< along the normal, last add() [N]
+    meshes::Vector3 force = meshes::Vector3::Zero();   ///< world axes, last add() [N]
   };
   /// What a tie does: its force on the tip along the grid's axes [N] and how much of its stiffness
   /// acts in the plane, 0 to 1.
@@ -97,6 +100,7 @@ class TiedContact {
   void look_at(std::size_t point, const State& state, double ahead);
   void drag_anchor(std::size_t point, const State& state, const Plane& now);
   Pull pull(std::size_t point) const;
+  double push(std::size_t point) const;
   void load(std::size_t point, const Pull& pull);
   Wrench unload(const State& state, double step, VectorField& force,
                 std::vector<SharedLoad>* shared);

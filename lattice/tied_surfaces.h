@@ -32,6 +32,9 @@ class TiedSurfaces : public Surfaces {
   int touching() const override { return contact_.touching(); }
   int sliding() const override { return contact_.sliding(); }
   double contact_radius(const State& state) const override { return contact_.radius(state); }
+  std::vector<PointLoad> point_loads(const State& state) const override {
+    return contact_.point_loads(state);
+  }
   std::vector<std::uint8_t> held() const override { return contact_.held(); }
 
  private:

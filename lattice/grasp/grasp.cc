@@ -60,6 +60,31 @@ HandSetup with_prescribed_rods(HandSetup hand) {
   return hand;
 }
 
+/// Of a finger's points: sums of GraspRow::point_friction and inward_friction.
+void sum_friction(const Finger& finger, double& magnitudes, double& inward) {
+  const std::vector<PointLoad> loads = finger.point_loads();
+  const Vector3 normal = finger.plane().normal;
+  Vector3 centre = Vector3::Zero();
+  double pushes = 0.0;
+  for (const PointLoad& load : loads) {
+    pushes += load.force.dot(normal);
+    centre += load.force.dot(normal) * load.place;
+  }
+  if (!(pushes > 0.0)) return;
+  centre /= pushes;
+  for (const PointLoad& load : loads) {
+    const Vector3 friction = load.force - load.force.dot(normal) * normal;
+    Vector3 way = centre - load.place;
+    way -= way.dot(normal) * normal;
+    magnitudes += friction.norm();
+    if (way.norm() > 0.0) inward += friction.dot(way.normalized());
+  }
+}
+
+double ratio_of(const GraspRow& row) {
+  return (row.tangential[0] + row.tangential[1]) / (row.normal[0] + row.normal[1]);
+}
+
 class Grasp {
  public:
   Grasp(const GraspSetup& setup, const GraspObserver& observer);
@@ -72,6 +97,7 @@ class Grasp {
   void run_period();
   void judge(const GraspRow& row);
   void note_slip(const GraspRow& row);
+  void check_momentum(const GraspRow& row);
   void summarise();
   void report(bool in_any_case);
   [[noreturn]] void give_up(const std::string& why);
@@ -81,8 +107,10 @@ class Grasp {
   Hand hand_;
   GripControl control_;
   Course course_;
-  double stuck_ = 0.0;  // when some point did not slide for the last time [s]
-  double sag_ = 0.0;    // of the block against the rods when it left its support [m]
+  double stuck_ = 0.0;      // when some point did not slide for the last time [s]
+  double sag_ = 0.0;        // of the block against the rods when it left its support [m]
+  Vector3 first_momentum_;  // [N s]
+  double worst_defect_ = 0.0, largest_given_ = 0.0;  // of the momentum, by a finger in a period
   GraspOutcome outcome_;
   Clock::time_point started_, last_report_;
 };
@@ -91,7 +119,8 @@ Grasp::Grasp(const GraspSetup& setup, const GraspObserver& observer)
     : setup_(setup),
       observer_(observer),
       hand_(with_prescribed_rods(setup.hand), setup.grip.period),
-      control_(setup.grip) {
+      control_(setup.grip),
+      first_momentum_(hand_.momentum()) {
   course_.start = -setup.grip.period;
   course_.duration = setup.grip.period;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -121,6 +150,7 @@ GraspRow Grasp::look() const {
     row.tangential[i] = (force - row.normal[i] * inward).norm();
     row.touching[i] = hand_.finger(i).finger().touching();
     row.sliding[i] = hand_.finger(i).finger().sliding();
+    sum_friction(hand_.finger(i).finger(), row.point_friction[i], row.inward_friction[i]);
     row.load += force.z();
   }
   if (!hand_.supported()) row.slip = row.finger_height - row.height - sag_;
@@ -169,16 +199,28 @@ void Grasp::judge(const GraspRow& row) {
     outcome_.fate = GraspFate::dropped;
   }
   note_slip(row);
+  check_momentum(row);
 }
 
-/// The force from which all points slide until the end.
+/// When all points slide until the end.
 void Grasp::note_slip(const GraspRow& row) {
-  if (row.phase != GripPhase::release) return;
   if (!all_slide(row)) {
-    outcome_.slip_force = meshes::unknown;
-  } else if (std::isnan(outcome_.slip_force)) {
-    outcome_.slip_force = 0.5 * (row.normal[0] + row.normal[1]);
+    outcome_.slip_force = outcome_.slip_ratio = outcome_.sliding_ratio = meshes::unknown;
+    return;
   }
+  outcome_.sliding_ratio = ratio_of(row);
+  if (!std::isnan(outcome_.slip_force)) return;
+  outcome_.slip_force = 0.5 * (row.normal[0] + row.normal[1]);
+  outcome_.slip_ratio = outcome_.sliding_ratio;
+}
+
+void Grasp::check_momentum(const GraspRow& row) {
+  const double defect = (hand_.momentum() - first_momentum_ - hand_.impulse()).norm();
+  if (!(defect <= worst_defect_)) worst_defect_ = defect;  // keeps a NaN visible
+  const double force = std::max(std::hypot(row.normal[0], row.tangential[0]),
+                                std::hypot(row.normal[1], row.tangential[1]));
+  largest_given_ = std::max(largest_given_, force * setup_.grip.period);
+  outcome_.momentum_defect = largest_given_ > 0.0 ? worst_defect_ / largest_given_ : 0.0;
 }
 
 /// Means over the hold.

@@ -38,6 +38,9 @@ struct GraspRow {
   /// slide.
   std::array<double, 2> normal{}, tangential{};
   std::array<int, 2> touching{}, sliding{};
+  /// Per finger, at its points: sum of the magnitudes of their tangential forces, mu times `normal`
+  /// where all slide, and of their parts on the tip toward the contact's centre [N].
+  std::array<double, 2> point_friction{}, inward_friction{};
   double load = 0.0;  ///< upward force of both fingers on the block [N]
   double slip = 0.0;  ///< of the block down along the fingers since it left its support [m]
 };
@@ -59,9 +62,13 @@ struct GraspOutcome {
   /// tangential over normal force.
   double held_force = meshes::unknown, held_load = meshes::unknown, held_ratio = meshes::unknown;
   double held_slip = meshes::unknown;  ///< at the end of hold_time [m]
-  /// While the grip is released: mean normal force per finger at the moment from which every
-  /// touching point of both fingers slides until the block is gone [N].
-  double slip_force = meshes::unknown;
+  /// At the moment from which every touching point of both fingers slides until the end: mean
+  /// normal force per finger [N], tangential over normal force.
+  double slip_force = meshes::unknown, slip_ratio = meshes::unknown;
+  double sliding_ratio = meshes::unknown;  ///< the latter at the end, if all points slide there
+  /// Largest difference between what the momentum of tips and block is and what rods, gravity and
+  /// support have given, over the largest impulse of a finger within a period.
+  double momentum_defect = 0.0;
   double coupling = 0.0;                         ///< Hand::coupling()
   double step = 0.0;                             ///< of the communication [s]
   double simulated_time = 0.0, wall_time = 0.0;  ///< [s]

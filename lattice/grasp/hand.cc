@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <set>
 
+#include "lattice/energy.h"
 #include "meshes/files.h"
 
 namespace fingertip::lattice {
@@ -87,13 +88,24 @@ double Hand::find_coupling() const {
   return solver.eigenvalues().maxCoeff();
 }
 
+Vector3 Hand::momentum() const {
+  Vector3 sum = block_.momentum();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const VirtualFinger& finger = *fingers_[i];
+    sum += bases_[i].orientation * linear_momentum(finger.model(), finger.finger().state());
+  }
+  return sum;
+}
+
 void Hand::advance() {
   Wrench impulse;  // on the block, about the world's origin
   for (std::size_t i = 0; i < 2; ++i) {
     VirtualFinger& finger = *fingers_[i];
     finger.move_plane(face_plane(setup_.block, block_, sides[i], bases_[i]));
     Wrench on_tip;
+    Vector3 from_rod = Vector3::Zero();
     finger.do_step(step_, [&] {
+      from_rod -= finger.finger().step() * finger.finger().bond().force;
       on_tip.force += finger.finger().plane_impulse().force;
       on_tip.torque += finger.finger().plane_impulse().torque;
       return true;
@@ -102,15 +114,19 @@ void Hand::advance() {
     on_block_[i] = {-given.force / step_, -given.torque / step_};
     impulse.force -= given.force;
     impulse.torque -= given.torque;
+    impulse_ += bases_[i].orientation * from_rod +
+                step_ * finger.model().total_mass() * Vector3(0.0, 0.0, -setup_.gravity);
   }
   const Vector3 weight(0.0, 0.0, -setup_.block.mass * setup_.gravity);
   const double upward = impulse.force.z() + step_ * weight.z();
   if (supported_ && upward <= 0.0) {
     support_force_ = -upward / step_;
+    impulse_ -= impulse.force;  // weight and support together
     return;
   }
   supported_ = false;
   support_force_ = 0.0;
+  impulse_ += step_ * weight;
   block_.drift(step_);
   block_.kick(impulse, Vector3::Zero(), 1.0);
   block_.kick({weight, Vector3::Zero()}, block_.centre(), step_);

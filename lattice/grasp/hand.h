@@ -54,6 +54,12 @@ class Hand {
   /// world's origin.
   const Wrench& on_block(std::size_t side) const { return on_block_[side]; }
 
+  /// Momentum of both tips and the block, world axes [N s], summed afresh; the rods are told how to
+  /// move or pull from outside.
+  meshes::Vector3 momentum() const;
+  /// What rods, gravity and support have given them so far [N s]: momentum() changes by as much.
+  const meshes::Vector3& impulse() const { return impulse_; }
+
   /// rho(M⁻¹ M_c), M the 6 x 6 mass matrix of the block and M_c that of the particles that may
   /// touch it (README: light blocks). Fingers and block are stable together below 1.
   double coupling() const { return coupling_; }
@@ -71,6 +77,7 @@ class Hand {
   double coupling_ = 0.0;
   std::array<Wrench, 2> on_block_;
   double support_force_ = 0.0;
+  meshes::Vector3 impulse_ = meshes::Vector3::Zero();
 };
 
 }  // namespace fingertip::lattice

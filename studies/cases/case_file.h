@@ -55,6 +55,7 @@ struct Case {
   std::vector<CaseVariant> fits;         ///< calibrations that are compared; then no variants
   std::vector<CaseVariant> predictions;  ///< static presses that every fit is asked to predict
   std::vector<CasePress> presses;        ///< under controllers; then no variants and fits
+  std::vector<CaseVariant> grasps;       ///< of a rigid block; then none of those above
   LoadedConfig loaded;
   std::string text;  ///< the table [case] as TOML, to be kept in parameters.toml
 };

@@ -9,6 +9,7 @@
 
 #include "studies/cases/control_measures.h"
 #include "studies/cases/fit_measures.h"
+#include "studies/cases/grasp_measures.h"
 #include "studies/cases/measures.h"
 #include "studies/cases/variant_measures.h"
 #include "studies/config/key_table.h"
@@ -69,6 +70,7 @@ class CaseReader {
     each(table, "fit", &CaseReader::read_fit);
     each(table, "prediction", &CaseReader::read_prediction);
     each(table, "press", &CaseReader::read_press);
+    each(table, "grasp", &CaseReader::read_grasp);
     each(table, "budget", &CaseReader::read_budget);
     each(table, "criteria", &CaseReader::read_criterion);
     return problems_;
@@ -76,8 +78,8 @@ class CaseReader {
 
  private:
   void read_entry(const std::string& name, const toml::node& node) {
-    static const std::set<std::string> lists = {"variant",    "budget", "fit",
-                                                "prediction", "press",  "criteria"};
+    static const std::set<std::string> lists = {"variant", "budget", "fit",     "prediction",
+                                                "press",   "grasp",  "criteria"};
     const bool list = lists.contains(name);
     if (name == "title") {
       target_.title = text(node, "case.title");
@@ -88,8 +90,8 @@ class CaseReader {
     } else if (!list || !node.is_array_of_tables()) {
       problem(node, "case." + name, "", "unknown entry of [case]",
               "use title, description, x, [[case.variant]], [[case.budget]], [[case.fit]], "
-              "[[case.prediction]], [[case.press]] and [[case.criteria]] with name, measure, "
-              "limit");
+              "[[case.prediction]], [[case.press]], [[case.grasp]] and [[case.criteria]] with "
+              "name, measure, limit");
     }
   }
 
@@ -134,6 +136,7 @@ class CaseReader {
   std::vector<std::string> measures_of_case() const {
     if (!target_.fits.empty()) return fit_measure_names(target_);
     if (!target_.presses.empty()) return control_measure_names(target_);
+    if (!target_.grasps.empty()) return grasp_measure_names(target_);
     return target_.variants.empty() ? measure_names() : variant_measure_names(target_);
   }
 
@@ -167,6 +170,7 @@ class CaseReader {
   }
 
   void read_variant(const toml::table& entry) { read_run(entry, "variant", target_.variants); }
+  void read_grasp(const toml::table& entry) { read_run(entry, "grasp", target_.grasps); }
   void read_fit(const toml::table& entry) { read_run(entry, "fit", target_.fits); }
   void read_prediction(const toml::table& entry) {
     read_run(entry, "prediction", target_.predictions);
@@ -276,6 +280,7 @@ std::string case_toml(const Case& one) {
     if (press.snapshots) text += "snapshots = true\n";
     if (!press.beside.empty()) text += "beside = " + quoted(press.beside) + "\n";
   }
+  for (const CaseVariant& grasp : one.grasps) text += run_toml("grasp", grasp);
   for (const CaseBudget& budget : one.budgets) {
     std::string parts;
     for (const std::string& part : budget.parts)

@@ -19,13 +19,6 @@ bool is_meant(const CasePress& press, const std::string& measure) {
   return true;
 }
 
-/// Every name under which the press is judged: its own and that of its series.
-std::vector<std::string> judged_names(const CasePress& press) {
-  std::vector<std::string> names = {full_name(press)};
-  if (!press.series.empty()) names.push_back(press.series);
-  return names;
-}
-
 }  // namespace
 
 const std::vector<std::string>& press_measures() {
@@ -36,8 +29,8 @@ const std::vector<std::string>& press_measures() {
   return names;
 }
 
-PressMeasures tracking_measures(const fs::path& folder) {
-  PressMeasures measures;
+RunMeasures tracking_measures(const fs::path& folder) {
+  RunMeasures measures;
   if (fs::exists(folder / "summary.json")) {
     const nlohmann::json summary = reporting::read_json(folder / "summary.json");
     const nlohmann::json tracking = reporting::object_at(summary, "tracking");
@@ -67,7 +60,7 @@ std::vector<std::string> control_measure_names(const Case& one) {
 }
 
 std::map<std::string, double> take_control_measures(const Case& one,
-                                                    const std::vector<PressMeasures>& presses,
+                                                    const std::vector<RunMeasures>& presses,
                                                     std::size_t not_converged,
                                                     double reference_error) {
   std::map<std::string, double> taken;
@@ -76,13 +69,7 @@ std::map<std::string, double> take_control_measures(const Case& one,
   for (std::size_t i = 0; i < one.presses.size(); ++i) {
     for (const std::string& measure : press_measures()) {
       if (!is_meant(one.presses[i], measure)) continue;
-      const auto found = presses[i].find(measure);
-      const double value = found == presses[i].end() ? std::nan("") : found->second;
-      for (const std::string& judged : judged_names(one.presses[i])) {
-        const auto [entry, is_new] = taken.insert({judged + "." + measure, value});
-        const bool unknown = std::isnan(value) || std::isnan(entry->second);
-        if (!is_new) entry->second = unknown ? std::nan("") : std::max(entry->second, value);
-      }
+      enter(one.presses[i], measure, presses[i], taken);
     }
   }
   std::erase_if(taken, [](const auto& entry) { return std::isnan(entry.second); });

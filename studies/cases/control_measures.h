@@ -1,22 +1,15 @@
 /// What presses in time under their controllers are judged by.
 #pragma once
 
-#include <map>
-#include <string>
-#include <vector>
-
-#include "studies/cases/case_file.h"
+#include "studies/cases/judged_runs.h"
 
 namespace fingertip::studies {
-
-/// Measures of one press; a measure that it does not have, or that could not be taken, is absent.
-using PressMeasures = std::map<std::string, double>;
 
 /// What a press of a case may be measured by (studies/cases/README.md says what each is).
 const std::vector<std::string>& press_measures();
 
 /// From summary.json and trace.csv in the press's folder.
-PressMeasures tracking_measures(const std::filesystem::path& folder);
+RunMeasures tracking_measures(const std::filesystem::path& folder);
 
 /// All measures a criterion of this case may name: of every press by its full name, and of a series
 /// the largest of its presses.
@@ -25,7 +18,7 @@ std::vector<std::string> control_measure_names(const Case& one);
 /// Their values, `presses` in the order of the case; what could not be taken is absent. A series
 /// has a measure when all of its presses have that are meant to have it.
 std::map<std::string, double> take_control_measures(const Case& one,
-                                                    const std::vector<PressMeasures>& presses,
+                                                    const std::vector<RunMeasures>& presses,
                                                     std::size_t not_converged,
                                                     double reference_error);
 

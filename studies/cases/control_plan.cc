@@ -48,7 +48,7 @@ class ControlPlan : public Plan {
 
  private:
   void add(const CasePress& press);
-  PressMeasures measure(std::size_t place, const fs::path& folder) const;
+  RunMeasures measure(std::size_t place, const fs::path& folder) const;
   double change(std::size_t place, const fs::path& folder) const;
   double force_error(std::size_t place, const fs::path& folder) const;
 
@@ -57,7 +57,7 @@ class ControlPlan : public Plan {
   std::vector<PlannedJob> jobs_, continua_;
   std::map<std::string, std::string> folder_of_key_;
   std::set<std::string> folders_;
-  std::vector<PressMeasures> measures_;
+  std::vector<RunMeasures> measures_;
   std::size_t not_converged_ = 0;
   double reference_error_ = std::nan("");
 };
@@ -143,8 +143,8 @@ double ControlPlan::change(std::size_t place, const fs::path& folder) const {
                             response_in(folder / wanted.folder), wanted.setup.protocol.samples);
 }
 
-PressMeasures ControlPlan::measure(std::size_t place, const fs::path& folder) const {
-  PressMeasures measures = tracking_measures(folder / presses_[place].folder);
+RunMeasures ControlPlan::measure(std::size_t place, const fs::path& folder) const {
+  RunMeasures measures = tracking_measures(folder / presses_[place].folder);
   measures["force_error"] = force_error(place, folder);
   measures["change"] = change(place, folder);
   std::erase_if(measures, [](const auto& entry) { return std::isnan(entry.second); });
@@ -158,7 +158,7 @@ ordered_json ControlPlan::conclude(const fs::path& folder, const std::vector<Job
     const auto job = std::ranges::find(results, presses_[i].folder, &JobResult::name);
     if (!job->ok()) ++not_converged_;
     // What an incomplete press did so far must not pass for what it did.
-    measures_.push_back(job->ok() ? measure(i, folder) : PressMeasures());
+    measures_.push_back(job->ok() ? measure(i, folder) : RunMeasures());
     ordered_json entry = {{"series", press.series},       {"name", press.name},
                           {"folder", presses_[i].folder}, {"continuum", presses_[i].continuum},
                           {"beside", press.beside},       {"pictured", press.snapshots},

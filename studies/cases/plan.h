@@ -1,6 +1,6 @@
 /// What a case computes and what it concludes from it. A case with variants compares static
-/// presses, one with fits calibrations and what they predict, one with presses controllers; others
-/// follow the core plan.
+/// presses, one with fits calibrations and what they predict, one with presses controllers, one
+/// with grasps how a block is held; others follow the core plan.
 #pragma once
 
 #include <filesystem>
@@ -48,6 +48,9 @@ std::unique_ptr<Plan> calibration_plan(const Case& one);
 
 /// Presses under controllers, and the continua at their speeds.
 std::unique_ptr<Plan> control_plan(const Case& one);
+
+/// Two fingers that grasp a block, at one grip force after another.
+std::unique_ptr<Plan> grasp_plan(const Case& one);
 
 /// A static press per variant and the continua they are measured against.
 std::unique_ptr<Plan> variants_plan(const Case& one);

@@ -16,6 +16,7 @@ using nlohmann::ordered_json;
 std::unique_ptr<Plan> plan_for(const Case& one) {
   if (!one.fits.empty()) return calibration_plan(one);
   if (!one.presses.empty()) return control_plan(one);
+  if (!one.grasps.empty()) return grasp_plan(one);
   return one.variants.empty() ? core_plan(one) : variants_plan(one);
 }
 
@@ -37,7 +38,7 @@ ordered_json judged(const std::vector<CaseCriterion>& criteria,
 }  // namespace
 
 void check_case(const Case& one) {
-  if (one.variants.empty() && one.fits.empty() && one.presses.empty()) {
+  if (one.variants.empty() && one.fits.empty() && one.presses.empty() && one.grasps.empty()) {
     check_validation(one.loaded);
   } else {
     plan_for(one)->jobs();

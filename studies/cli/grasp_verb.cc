@@ -36,7 +36,9 @@ void print_grasp(const lattice::GraspSetup& setup, const std::filesystem::path& 
     print_row("with the lift's acceleration", in_both(summary["least_force"]));
   }
   if (summary["slip_force"].is_number()) {
-    print_row("it slipped, when released, at", in_both(summary["slip_force"]));
+    print_row("every point slides from", in_both(summary["slip_force"]));
+    print_row("tangential over normal force there",
+              fmt::format("{:.4g}", summary["slip_ratio"].get<double>()));
   }
   if (!summary["held_load"].is_number()) return;
   print_row("weight carried by the fingers",

@@ -4,6 +4,7 @@
 
 #include "studies/report/calibration_chapters.h"
 #include "studies/report/chapters.h"
+#include "studies/report/grasp_run.h"
 #include "studies/report/moving_press.h"
 
 namespace fingertip::studies {
@@ -115,6 +116,16 @@ Page control_page(const RunData& run) {
   return page;
 }
 
+/// A block between two fingers; of the verb `grasp` itself, or of a case.
+Page grasp_page(const RunData& run, const std::vector<GraspRun>& grasps) {
+  Page page;
+  page.title = run.title.empty() ? "Soft fingertips: a grasp" : run.title;
+  page.subtitle = with_case(run, "Two mass-spring fingertips lift a rigid block");
+  page.answer = grasp_answer(grasps);
+  page.chapters = {verdict_chapter(run), grasp_chapter(grasps), provenance_chapter(run)};
+  return page;
+}
+
 /// The run of `press` itself, where it took time.
 bool is_moving_press(const RunData& run) {
   return run.models.empty() && std::filesystem::exists(run.folder / "trace.csv");
@@ -144,10 +155,13 @@ void add_fits(Page& page, const CalibrationData& calibration) {
 
 Page report_page(const RunData& run) {
   if (is_moving_press(run)) return press_page(run);
+  if (std::filesystem::exists(run.folder / "grasp.csv"))
+    return grasp_page(run, {read_grasp(run.folder, "", "grasp")});
   const CalibrationData calibration = read_calibration(run);
   const bool fits_alone = !calibration.empty() && run.models.empty() && run.variants.empty();
   Page page = fits_alone             ? calibration_page(run)
               : !run.presses.empty() ? control_page(run)
+              : !run.grasps.empty()  ? grasp_page(run, read_grasps(run))
               : run.variants.empty() ? core_page(run)
                                      : study_page(run);
   if (!run.status.empty() && run.status != "ok") page.status = "Status of the run: " + run.status;

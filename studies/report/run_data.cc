@@ -263,6 +263,7 @@ RunData read_run(const fs::path& folder) {
   run.study = object_at(summary, "variants");
   run.calibration = object_at(summary, "calibration");
   run.presses = array_at(summary, "presses");
+  run.grasps = array_at(summary, "grasps");
   for (const std::string& name : ordered_models(models)) {
     run.models.push_back(read_model(folder, name, models.at(name)));
     run.models.back().force_error.resize(run.depths.size(), meshes::unknown);

@@ -92,6 +92,7 @@ struct RunData {
   nlohmann::json study;           ///< "variants" of its summary.json; an empty object otherwise
   nlohmann::json calibration;     ///< "calibration" of its summary.json, likewise
   nlohmann::json presses;         ///< "presses" of a case on virtual control; else an empty array
+  nlohmann::json grasps;          ///< "grasps" of a case on grasps; else an empty array
   std::vector<ModelData> models;  ///< published, central, hookean, then any others
 
   const ModelData* model(const std::string& name) const;

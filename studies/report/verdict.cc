@@ -7,6 +7,7 @@
 
 #include "studies/report/calibration_chapters.h"
 #include "studies/report/chapters.h"
+#include "studies/report/grasp_run.h"
 #include "studies/report/moving_press.h"
 #include "studies/report/report.h"
 
@@ -195,6 +196,7 @@ std::string answer(const RunData& run) {
     return (compares_integrators(presses) ? integrators_answer(presses) : control_answer(presses)) +
            criteria_sentence(run);
   }
+  if (!run.grasps.empty()) return grasp_answer(read_grasps(run)) + criteria_sentence(run);
   std::string text;
   if (!run.reference.empty()) {
     const double depth = run.reference.depth();
@@ -246,6 +248,7 @@ std::string verdict_text(const std::filesystem::path& run_folder) {
   const bool fits_alone = !calibration.empty() && run.models.empty();
   std::string text = !run.variants.empty()  ? variants_text(run)
                      : !run.presses.empty() ? moving_text(read_moving_presses(run))
+                     : !run.grasps.empty()  ? grasp_text(read_grasps(run))
                      : fits_alone           ? calibration_text(calibration)
                                             : text_table(run);
   for (const Criterion& criterion : run.criteria) {

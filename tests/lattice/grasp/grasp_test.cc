@@ -37,6 +37,29 @@ GraspSetup rubbing() {
   return setup;
 }
 
+/// Squeezing presses the rubber outward, so friction pulls the points toward the centre. The load
+/// turns it; what they carry together never exceeds what they carry one by one, nor that mu n.
+void expect_friction_of_points(const GraspOutcome& outcome) {
+  bool loaded = false;
+  for (const lattice::GraspRow& row : outcome.rows) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double most = 0.5 * row.normal[side];
+      if (row.phase == lattice::GripPhase::load && !loaded) {
+        EXPECT_GT(row.inward_friction[side], 0.2 * most);
+        EXPECT_LT(row.tangential[side], 0.05 * most);
+      }
+      if (row.phase != lattice::GripPhase::load) continue;
+      EXPECT_LT(row.point_friction[side], 1.002 * most);
+      EXPECT_LT(row.tangential[side], 1.002 * row.point_friction[side]);
+    }
+    loaded = loaded || row.phase == lattice::GripPhase::load;
+  }
+  EXPECT_TRUE(loaded);
+  const lattice::GraspRow& last = outcome.rows.back();
+  EXPECT_NEAR(last.point_friction[0], 0.5 * last.normal[0], 1e-3 * last.normal[0]);
+  EXPECT_LT(last.inward_friction[0], 0.05 * last.normal[0]);
+}
+
 }  // namespace
 
 TEST(Grasp, CarriesTheWeightByTangentialForces) {
@@ -53,6 +76,12 @@ TEST(Grasp, CarriesTheWeightByTangentialForces) {
   EXPECT_NEAR(last.normal[0], last.normal[1], 1e-9 * last.normal[0]);
   EXPECT_NEAR(last.tangential[0], last.tangential[1], 1e-9 * last.tangential[0]);
   EXPECT_LT(last.tilt, 1e-12);
+}
+
+TEST(Grasp, MomentumOfTipsAndBlockBalances) {
+  // Against what rods, gravity and support gave, support and lift-off included.
+  EXPECT_GT(sticking().momentum_defect, 0.0);
+  EXPECT_LT(sticking().momentum_defect, 1e-10);
 }
 
 TEST(Grasp, NewtonHoldsForTheBlockInEveryPeriod) {
@@ -102,6 +131,10 @@ TEST(GraspAtTheFrictionLimit, DoesNotLiftThreePercentBelow) {
   EXPECT_EQ(last.sliding[0], last.touching[0]);
   // Both contacts slide and carry what friction can.
   EXPECT_NEAR(last.load, 0.5 * (last.normal[0] + last.normal[1]), 0.01 * last.load);
+  EXPECT_NEAR(outcome.slip_ratio, 0.5, 0.03 * 0.5);
+  EXPECT_NEAR(outcome.sliding_ratio, 0.5, 0.01 * 0.5);
+  EXPECT_LT(outcome.momentum_defect, 1e-10);
+  expect_friction_of_points(outcome);
 }
 
 TEST(GraspAtTheFrictionLimit, DropsTheBlockWhereTheGripFallsBelow) {

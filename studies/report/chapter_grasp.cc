@@ -1,0 +1,335 @@
+/// Grasps of a rigid block: what grip force holds it, and how it slips.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/report/grasp_run.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+constexpr double millimetres = 1e3;  ///< per metre
+
+/// Rows of a phase.
+struct Span {
+  std::size_t begin = 0, end = 0;
+};
+Span phase_span(const GraspRun& grasp, const std::string& phase) {
+  const std::vector<std::string> phases = grasp.rows.texts("phase");
+  const auto first = std::ranges::find(phases, phase);
+  const auto last =
+      std::find_if(first, phases.end(), [&](const std::string& other) { return other != phase; });
+  return {std::size_t(first - phases.begin()), std::size_t(last - phases.begin())};
+}
+
+std::vector<double> part(const std::vector<double>& values, const Span& span, double factor = 1.0) {
+  std::vector<double> some;
+  for (std::size_t i = span.begin; i < span.end; ++i) some.push_back(factor * values[i]);
+  return some;
+}
+
+std::vector<double> ratio(const std::vector<double>& values, const std::vector<double>& by,
+                          double factor) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < values.size(); ++i) result.push_back(factor * values[i] / by[i]);
+  return result;
+}
+
+std::vector<std::string> series_names(const std::vector<GraspRun>& grasps) {
+  std::vector<std::string> names;
+  for (const GraspRun& grasp : grasps)
+    if (std::ranges::find(names, grasp.series) == names.end()) names.push_back(grasp.series);
+  return names;
+}
+
+Style points_style(std::size_t i, bool filled) {
+  Style style = numbered_style(i);
+  style.point = filled ? 7 : 6;
+  style.point_size = 1.0;
+  style.line = false;
+  return style;
+}
+
+/// How high the block came, against grip force over the limit; those that are released are held.
+Figure fate_figure(const std::vector<GraspRun>& grasps) {
+  Panel panel;
+  panel.x_label = "grip force over m (g + a)/(2 mu), less 1 [%]";
+  panel.y_label = "height of the block over the lift [1]";
+  panel.key = "center right";
+  panel.markers.push_back({0.0, "#444444"});
+  std::size_t i = 0;
+  for (const std::string& name : series_names(grasps)) {
+    Series held{name + ": held", "", {}, {}, {}, points_style(i, true)};
+    Series lost{name + ": lost", "", {}, {}, {}, points_style(i, false)};
+    for (const GraspRun& grasp : grasps) {
+      if (grasp.series != name || grasp.rows.empty() || !(grasp.limit() > 0.0)) continue;
+      if (grasp.released()) continue;
+      const Span hold = phase_span(grasp, "hold");
+      const std::vector<double> height = grasp.rows.numbers("height [m]");
+      Series& series = grasp.held() ? held : lost;
+      series.x.push_back(100.0 * (grasp.grip() / grasp.limit() - 1.0));
+      const double reached = hold.end > hold.begin ? height[hold.end - 1] : height.back();
+      series.y.push_back(reached / number_at(grasp.summary, "lift_height"));
+    }
+    for (const Series& series : {held, lost})
+      if (!series.x.empty()) panel.series.push_back(series);
+    ++i;
+  }
+  panel.y_range = Range{-0.1, 1.1};
+  return {"grasp_fate", 820, 400, 1, {panel}};
+}
+
+/// Grip force against slip while the grip falls.
+Figure release_figure(const std::vector<GraspRun>& released) {
+  Panel panel;
+  panel.x_label = "slip of the block along the fingers [mm]";
+  panel.y_label = "grip force per finger [gf]";
+  panel.key = "top right";
+  double far = 0.0, highest = 0.0, lowest = to_gf(released.front().rest_limit());
+  for (std::size_t i = 0; i < released.size(); ++i) {
+    const GraspRun& grasp = released[i];
+    const Span span = phase_span(grasp, "release");
+    Style style = numbered_style(i);
+    style.point = 0;
+    Series curve{grasp.label,
+                 "",
+                 part(grasp.rows.numbers("slip [m]"), span, millimetres),
+                 part(grasp.normal(), span, to_gf(1.0)),
+                 {},
+                 style};
+    const double slip_force = to_gf(number_at(grasp.summary, "slip_force"));
+    Series onset{i + 1 == released.size() ? "all points slide" : "",
+                 "all points slide",
+                 {},
+                 {},
+                 {},
+                 points_style(i, true)};
+    for (std::size_t k = 0; k < curve.y.size(); ++k) {
+      if (onset.x.empty() && curve.y[k] <= slip_force * (1.0 + 1e-9)) {
+        onset.x = {curve.x[k]};
+        onset.y = {curve.y[k]};
+      }
+    }
+    far = std::max(far, largest_magnitude(curve.x));
+    highest = std::max(highest, largest_magnitude(curve.y));
+    lowest = std::min(lowest, curve.y.back());
+    panel.series.push_back(std::move(curve));
+    panel.series.push_back(std::move(onset));
+  }
+  const double limit = to_gf(released.front().rest_limit());
+  panel.series.push_back(
+      {"m g/(2 mu)", "", {0.0, far}, {limit, limit}, {}, {"#000000", "(4,4)", 1.2, 0, true}});
+  panel.x_range = Range{0.0, far};
+  panel.y_range = Range{lowest - 0.1 * (highest - lowest), highest + 0.1 * (highest - lowest)};
+  return {"grasp_release", 820, 430, 1, {panel}};
+}
+
+/// What the points' friction is, and what of it adds up, over mu times the normal force.
+Panel friction_panel(const GraspRun& grasp, const std::string& title, const std::string& x_label,
+                     const std::vector<double>& x, const Span& span) {
+  Panel panel;
+  panel.title = title;
+  panel.x_label = x_label;
+  panel.y_label = "over mu n [1]";
+  panel.key = "center right";
+  const double per_mu = 1.0 / number_at(grasp.summary, "friction");
+  const std::vector<double> normal = grasp.normal();
+  const auto curve = [&](const char* label, const std::vector<double>& force, std::size_t style) {
+    Style look = numbered_style(style);
+    look.point = 0;
+    panel.series.push_back({label, "", x, part(ratio(force, normal, per_mu), span), {}, look});
+  };
+  curve("sum of the points' |t|", grasp.point_friction(), 0);
+  curve("their resultant |t|", grasp.tangential(), 1);
+  curve("toward the centre", grasp.inward_friction(), 2);
+  panel.series[0].style.dash = "(9,5)";
+  panel.series[1].style.dash.clear();
+  panel.y_range = Range{-0.05, 1.08};
+  return panel;
+}
+
+/// The last that grew its load in vain, and the last whose grip fell.
+Figure friction_figure(const std::vector<GraspRun>& grasps) {
+  Figure figure{"grasp_friction", 980, 400, 0, {}};
+  const auto slid = std::find_if(grasps.rbegin(), grasps.rend(), [](const GraspRun& grasp) {
+    return grasp.fate() == "not lifted" && std::isfinite(number_at(grasp.summary, "slip_ratio"));
+  });
+  if (slid != grasps.rend()) {
+    const Span span = phase_span(*slid, "load");
+    figure.panels.push_back(
+        friction_panel(*slid, "the load grows: " + slid->label, "rise of the fingers [mm]",
+                       part(slid->rows.numbers("finger_height [m]"), span, millimetres), span));
+  }
+  const auto fell = std::find_if(grasps.rbegin(), grasps.rend(),
+                                 [](const GraspRun& grasp) { return grasp.released(); });
+  if (fell != grasps.rend()) {
+    const Span span = phase_span(*fell, "release");
+    figure.panels.push_back(
+        friction_panel(*fell, "the grip falls: " + fell->label, "slip of the block [mm]",
+                       part(fell->rows.numbers("slip [m]"), span, millimetres), span));
+    figure.panels.back().x_range = Range{0.0, 0.5};
+    if (figure.panels.size() > 1) figure.panels.front().key.clear();  // they share a legend
+  }
+  figure.columns = int(figure.panels.size());
+  return figure;
+}
+
+/// Forces and ways of one grasp.
+Figure time_figure(const GraspRun& grasp) {
+  const std::vector<double> time = grasp.rows.numbers("time [s]");
+  const auto curve = [&](const char* label, const std::vector<double>& values, double factor,
+                         std::size_t i) {
+    Style style = numbered_style(i);
+    style.point = 0;
+    return Series{label, "", time, part(values, {0, values.size()}, factor), {}, style};
+  };
+  Panel forces, ways;
+  forces.x_label = ways.x_label = "time [s]";
+  forces.y_label = "force [gf]";
+  ways.y_label = "way [cm]";
+  forces.key = "bottom right";
+  ways.key = "top left";
+  forces.x_range = ways.x_range = Range{0.0, time.back()};
+  const double limit = to_gf(grasp.rest_limit());
+  forces.series = {curve("grip of each finger", grasp.normal(), to_gf(1.0), 0),
+                   curve("tangential force of each finger", grasp.tangential(), to_gf(1.0), 1)};
+  if (limit > 0.0)  // there is none without Coulomb's friction
+    forces.series.push_back({"m g/(2 mu)",
+                             "",
+                             {0.0, time.back()},
+                             {limit, limit},
+                             {},
+                             {"#000000", "(4,4)", 1.2, 0, true}});
+  ways.series = {
+      curve("rise of the fingers", grasp.rows.numbers("finger_height [m]"), to_cm(1.0), 0),
+      curve("rise of the block", grasp.rows.numbers("height [m]"), to_cm(1.0), 1),
+      curve("indentation", grasp.rows.numbers("indentation [m]"), to_cm(1.0), 2)};
+  return {"grasp_in_time", 860, 620, 1, {forces, ways}};
+}
+
+/// "+1.2 %" of `value` against `wanted`.
+std::string off(double value, double wanted) {
+  return std::isfinite(value / wanted) ? percent(value / wanted - 1.0) : "–";
+}
+
+Table grasp_table(const std::vector<GraspRun>& grasps) {
+  Table table;
+  table.caption =
+      "Two contacts carry at most mu times their normal force each: the block is held iff the grip "
+      "force is above m (g + a)/(2 mu), a the lift's largest acceleration. Where every point of "
+      "both contacts begins to slide for good, and at the end of the sliding, |t|/(mu n) is given "
+      "less 1.";
+  table.header = {plain("Grasp"),
+                  plain("Grip force", "gf"),
+                  plain("Over the limit", "m (g + a)/(2 mu)"),
+                  plain("Fate"),
+                  plain("Load", "over weight, less 1"),
+                  plain("All slide from", "gf, over m g/(2 mu)"),
+                  plain("|t|/(mu n) there", "less 1"),
+                  plain("at the end", "less 1"),
+                  plain("Momentum balance")};
+  for (const GraspRun& grasp : grasps) {
+    const nlohmann::json& s = grasp.summary;
+    const double mu = number_at(s, "friction"), slip = number_at(s, "slip_force");
+    const bool fell = grasp.released() && std::isfinite(slip);
+    table.rows.push_back(
+        {plain(grasp.label, grasp.status == "finished" || grasp.status == "ok" ? "" : grasp.status),
+         plain(number(to_gf(grasp.grip())), with_prefix(grasp.grip(), "N")),
+         plain(off(grasp.grip(), grasp.limit())), plain(grasp.fate()),
+         plain(off(number_at(s, "held_load"), 1.0)),
+         fell ? plain(number(to_gf(slip)), off(slip, grasp.rest_limit())) : plain("–"),
+         plain(off(number_at(s, "slip_ratio"), mu)), plain(off(number_at(s, "sliding_ratio"), mu)),
+         plain(number(number_at(s, "momentum_defect"), 2))});
+  }
+  return table;
+}
+
+std::vector<GraspRun> released_of(const std::vector<GraspRun>& grasps) {
+  std::vector<GraspRun> some;
+  for (const GraspRun& grasp : grasps)
+    if (grasp.released()) some.push_back(grasp);
+  return some;
+}
+
+}  // namespace
+
+std::string grasp_answer(const std::vector<GraspRun>& grasps) {
+  double weakest = meshes::unknown, strongest = meshes::unknown;
+  for (const GraspRun& grasp : grasps) {
+    const double surplus = grasp.grip() / grasp.limit() - 1.0;
+    if (grasp.held())
+      weakest = std::fmin(weakest, surplus);
+    else if (!grasp.fate().empty())
+      strongest = std::fmax(strongest, surplus);
+  }
+  std::string text = "No grasp held.";
+  if (grasps.size() == 1) {
+    text = fmt::format("The block was {}.", grasps.front().fate());
+  } else if (std::isfinite(weakest)) {
+    text = fmt::format(
+        "The weakest grip that holds the block is off the friction limit m (g + a)/(2 mu) by {}{}.",
+        percent(weakest),
+        std::isfinite(strongest)
+            ? fmt::format(", the strongest that does not by {}", percent(strongest))
+            : "");
+  }
+  const std::vector<GraspRun> released = released_of(grasps);
+  if (!released.empty()) {
+    const GraspRun& last = released.back();
+    text += fmt::format(" Where the grip falls, the block begins to slip at m g/(2 mu) {} ({}).",
+                        off(number_at(last.summary, "slip_force"), last.rest_limit()), last.label);
+  }
+  return text;
+}
+
+std::string grasp_text(const std::vector<GraspRun>& grasps) {
+  std::string text = fmt::format("{:<36}{:>12}{:>12}{:>14}{:>14}{:>14}\n", "grasp", "grip [gf]",
+                                 "over limit", "fate", "slips at [gf]", "t/(mu n) there");
+  for (const GraspRun& grasp : grasps) {
+    const double slip = to_gf(number_at(grasp.summary, "slip_force"));
+    const double share =
+        number_at(grasp.summary, "slip_ratio") / number_at(grasp.summary, "friction");
+    text += fmt::format("{:<36}{:>12.4f}{:>10.2f} %{:>14}{:>14}{:>14}\n", grasp.label.substr(0, 35),
+                        to_gf(grasp.grip()), 100.0 * (grasp.grip() / grasp.limit() - 1.0),
+                        grasp.fate(), std::isfinite(slip) ? fmt::format("{:.4f}", slip) : "-",
+                        std::isfinite(share) ? fmt::format("{:.4f}", share) : "-");
+  }
+  return text + "limit: m (g + a)/(2 mu)\n";
+}
+
+Chapter grasp_chapter(const std::vector<GraspRun>& grasps) {
+  Chapter chapter{"grasp", "Grasp", {}};
+  if (grasps.empty()) return chapter;
+  chapter.blocks.push_back(Paragraph{
+      "",
+      "Two fingers squeeze a rigid block under force control, take up its weight, lift it, hold it "
+      "and, where asked, let the grip force fall. Points that touch obey Coulomb's law one by one; "
+      "that the block obeys it as a whole is what comes out."});
+  if (grasps.size() > 1)
+    chapter.blocks.push_back(FigureBlock{
+        fate_figure(grasps), "Height of the block against grip force",
+        "Filled: held; open: not. The vertical is the friction limit, with the acceleration of "
+        "each lift."});
+  const std::vector<GraspRun> released = released_of(grasps);
+  if (!released.empty())
+    chapter.blocks.push_back(
+        FigureBlock{release_figure(released), "Grip force against slip while the grip falls",
+                    "Time runs from top left to bottom right. Dotted: the friction limit."});
+  Figure friction = friction_figure(grasps);
+  if (!friction.panels.empty())
+    chapter.blocks.push_back(FigureBlock{
+        std::move(friction), "Friction of the points, and their resultant",
+        "Slip begins when the sum of the points' friction reaches mu n (dashed). Its resultant is "
+        "smaller, since squeezing presses the rubber outward against friction and the points are "
+        "still pulled toward the contact's centre; sliding turns them all along the load."});
+  const GraspRun& shown = released.empty() ? grasps.back() : released.back();
+  if (!shown.rows.empty())
+    chapter.blocks.push_back(FigureBlock{
+        time_figure(shown), "A grasp in time: " + shown.label,
+        "Squeeze, load, lift, hold, release; forces are means over a step of the communication."});
+  chapter.blocks.push_back(grasp_table(grasps));
+  return chapter;
+}
+
+}  // namespace fingertip::studies::reporting
