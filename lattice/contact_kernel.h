@@ -27,7 +27,7 @@ struct ContactMemory {
   Lanes push;     ///< along the normal, in the last hold() [N]
 };
 
-/// Eight points of one cell of the grid. A group with fewer repeats its first point with no
+/// Eight points of one cell of the grid. A group of fewer repeats its first point, without
 /// stiffness.
 struct ContactGroup {
   std::uint32_t corner[lanes];    ///< grid indices of the cell's corners
@@ -74,10 +74,11 @@ struct ContactKernels {
   /// 0 [m/s].
   double (*closing)(const double* const* velocity, const double* normal,
                     const std::uint32_t* particles, std::size_t count);
-  /// Notes where the points of a group will be at the end of the step; the smallest gap [m].
-  double (*look)(const ContactArrays&, std::size_t group);
-  /// The same with anchors brought up to date, and adds the ties' pull to the loads; `loaded` has
-  /// `count` entries so far.
+  /// Whether a point of the group will be nearer to the plane than `margin` at the end of the step.
+  /// If none is, notes where they will be.
+  bool (*look)(const ContactArrays&, double margin, std::size_t group);
+  /// Notes where the points of a group will be, brings anchors up to date and adds the ties' pull
+  /// to the loads; `loaded` has `count` entries so far.
   GroupFindings (*hold)(const ContactArrays&, Grip grip, std::size_t group, std::size_t& count);
 };
 

@@ -95,20 +95,21 @@ struct ContactBody : Packs<Pack> {
                                            t[6] * x.x + t[7] * x.y + t[8] * x.z};
   }
 
-  static double look(const ContactArrays& a, std::size_t number) {
+  static bool look(const ContactArrays& a, double margin, std::size_t number) {
     const ContactGroup& group = a.groups[number];
-    ContactMemory& memory = a.memory[number];
     const Corners then = corners(a, group, a.ahead);
-    double smallest = 1e300;
-    for (std::size_t lane = 0; lane < lanes; lane += width) {
-      const Vector place = places(group, then, a.then, lane);
-      const Pack gap = dot(broadcast(a.normal), place);
-      store(memory.place, lane, place);
-      store(memory.gap, lane, gap);
-      const double least = std::experimental::hmin(gap);
-      smallest = least < smallest ? least : smallest;
+    std::array<Vector, parts> place;
+    std::array<Pack, parts> gap;
+    for (std::size_t part = 0; part < parts; ++part) {
+      place[part] = places(group, then, a.then, part * width);
+      gap[part] = dot(broadcast(a.normal), place[part]);
+      if (any_of(gap[part] < margin)) return true;
     }
-    return smallest;
+    for (std::size_t part = 0; part < parts; ++part) {
+      store(a.memory[number].place, part * width, place[part]);
+      store(a.memory[number].gap, part * width, gap[part]);
+    }
+    return false;
   }
 
   /// The part of a tie in the plane, not longer than `longest`; its share of what it was.

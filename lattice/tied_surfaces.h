@@ -28,7 +28,7 @@ class TiedSurfaces : public Surfaces {
   double energy(const State& state, const RodState& rod) const override;
   int touching() const override { return contact_.touching(); }
   int sliding() const override { return contact_.sliding(); }
-  double contact_radius(const State& state) const override { return contact_.radius(state); }
+  double contact_radius(const State&) const override { return contact_.radius(); }
   std::vector<std::uint8_t> held() const override { return contact_.held(); }
 
  private:
