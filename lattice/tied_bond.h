@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "lattice/bond_kernel.h"
 #include "lattice/mass_scaling.h"
 #include "lattice/model.h"
 #include "lattice/parallel.h"
@@ -48,26 +51,28 @@ class TiedBond {
   double energy(const State& state, const RodState& rod) const;  ///< [J]
 
  private:
-  struct Entry {
-    std::uint32_t row = 0;  ///< number of the particle
-    double value = 0.0;     ///< K_ij [N/m]
-  };
-  using Row = Eigen::Array4d;  ///< a vector, padded for the processor
+  using Field = std::array<std::vector<double>, 3>;
 
-  /// Slips after `ahead` seconds at the present velocities.
-  void find_slips(const State& state, const RodState& rod, double ahead,
-                  std::vector<Row>& slips) const;
-  Row pull(std::size_t particle, const std::vector<Row>& slips) const;  ///< Σ_j K_ij s_j [N]
-  void share(SharedLoad& load, double step, VectorField& force);
+  void number_particles();
+  std::uint32_t number_of(std::uint32_t point) const;  ///< of a particle of the bond
+  kernel::BondArrays arrays(const State& state, Field& slip, Field& pull) const;
+  kernel::Carried carried(const RodState& rod, double ahead) const;
+  Wrench share(SharedLoad& load, const State& state, double square, VectorField& force);
 
   const LatticeModel* model_;
   Team* team_;
-  std::vector<std::uint32_t> points_;  ///< grid index per particle of the bond
-  std::vector<meshes::Vector3> rest_;  ///< X_i [m]
-  std::vector<double> sum_;            ///< d_i [N/m]
-  std::vector<std::uint32_t> first_;   ///< per particle: of its entries; one more at the end
-  std::vector<Entry> entries_;
-  std::vector<Row> slips_, pulls_;  ///< along the grid's axes [m], [N]
+  const kernel::BondKernels* kernels_;
+  std::size_t slices_ = 0;             ///< of particles, the last one filled up
+  std::vector<std::uint32_t> points_;  ///< grid index per particle of the bond; neighbours near
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>
+      numbers_;               ///< (grid index, number) of all, increasing
+  Field rest_;                ///< X_i along the grid's axes [m]
+  std::vector<double> mass_;  ///< [kg]
+  std::vector<double> sum_;   ///< d_i [N/m]
+  std::vector<std::uint32_t> first_, column_;
+  std::vector<kernel::Lanes> value_;     ///< K_ij [N/m]; as in kernel::BondArrays
+  Field slip_, pull_;                    ///< along the grid's axes [m], [N]
+  std::vector<kernel::Pulled> partial_;  ///< of fixed portions of the slices
 };
 
 }  // namespace fingertip::lattice

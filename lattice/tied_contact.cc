@@ -14,190 +14,200 @@ namespace {
 
 constexpr double most_turns = 16.0;  // steps until every point has been looked at
 
-/// Of a moving plane toward any point of the tip [m/s].
-double fastest_approach(const Plane& plane, const LatticeModel& model) {
-  double fastest = 0.0;
-  for (const TiedPoint& tie : model.outer) {
-    fastest = std::max(fastest, plane.normal.dot(plane.velocity_at(tie.rest)));
-  }
-  return fastest;
-}
+using Cell = std::array<std::uint32_t, 8>;  // its corners
 
-/// The part of a tie `stretch` in the plane, not longer than `longest`; its share of what it was.
-struct Clipped {
-  Vector3 aside;
-  double share = 1.0;
-};
-Clipped clip(const Vector3& stretch, const Vector3& normal, double longest) {
-  Clipped result{stretch - stretch.dot(normal) * normal};
-  const double length = result.aside.norm();
-  if (length > longest) {
-    result.share = longest / length;
-    result.aside *= result.share;
+/// The points of every cell, in the order of the cells' first points.
+std::vector<std::vector<std::uint32_t>> points_by_cell(const std::vector<TiedPoint>& points) {
+  std::vector<std::vector<std::uint32_t>> result;
+  std::map<Cell, std::size_t> number;
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    const auto [found, is_new] = number.emplace(points[p].corners, result.size());
+    if (is_new) result.emplace_back();
+    result[found->second].push_back(p);
   }
   return result;
 }
 
-/// The normal in the axes of Plane::fixed; the same at any time.
-Vector3 fixed_normal(const Plane& plane) {
-  return plane.turned.conjugate() * plane.normal;
+/// Lane `lane` of a group becomes this point, or if it only fills up one that is tied to nothing.
+void set_point(kernel::ContactGroup& group, std::size_t lane, const TiedPoint& tie,
+               const Vector3& rest, bool fills_up) {
+  double size = 0.0;
+  for (const double weight : tie.weights) size += std::abs(weight);
+  group.stiffness.at[lane] = fills_up ? 0.0 : tie.stiffness;
+  group.inertia.at[lane] = size * group.stiffness.at[lane];
+  for (std::size_t c = 0; c < 3; ++c) group.rest[c].at[lane] = rest[Eigen::Index(c)];
+  for (std::size_t c = 0; c < 8; ++c) {
+    group.weight[c].at[lane] = tie.weights[c];
+    group.share[lane].at[c] = tie.weights[c];
+  }
+}
+
+/// From places along the grid's axes to such that are fixed to the plane.
+kernel::PlaneFrame frame_of(const Plane& plane, const Eigen::Matrix3d& axes) {
+  const Eigen::Matrix3d turn = plane.turned.conjugate().toRotationMatrix() * axes;
+  const Vector3 shift = -(plane.turned.conjugate() * plane.point);
+  kernel::PlaneFrame frame{};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) frame.turn[3 * row + column] = turn(row, column);
+    frame.shift[row] = shift[row];
+  }
+  return frame;
+}
+
+kernel::Grip grip_of(const ContactLaw& law) {
+  switch (law.mode) {
+    case meshes::ContactMode::frictionless: return kernel::Grip::frictionless;
+    case meshes::ContactMode::coulomb: return kernel::Grip::coulomb;
+    default: return kernel::Grip::stick;
+  }
+}
+
+Vector3 at(const kernel::Lanes* field, std::size_t lane) {
+  return {field[0].at[lane], field[1].at[lane], field[2].at[lane]};
 }
 
 }  // namespace
 
-TiedContact::TiedContact(const LatticeModel& model, const Plane& plane, const ContactLaw& law)
-    : model_(&model), plane_(plane), law_(law), margin_(0.5 * model.spacing()) {
+std::shared_ptr<const TiedContact::Shape> TiedContact::shape_of(const LatticeModel& model) {
+  const Eigen::Matrix3d to_grid = model.grid.axes.transpose();
+  auto shape = std::make_shared<Shape>();
   std::map<std::uint32_t, std::uint32_t> number;
   for (const TiedPoint& tie : model.outer) {
     for (const std::uint32_t corner : tie.corners) number.emplace(corner, 0);
+    shape->centre += tie.rest / double(model.outer.size());
   }
   for (auto& [particle, n] : number) {
-    n = std::uint32_t(particles_.size());
-    particles_.push_back(particle);
+    n = std::uint32_t(shape->particles.size());
+    shape->particles.push_back(particle);
+    shape->rest.push_back(to_grid * model.rest_position(particle));
   }
-  for (const TiedPoint& tie : model.outer) {
-    Point point;
-    for (std::size_t c = 0; c < 8; ++c) point.corners[c] = number.at(tie.corners[c]);
-    point.place = plane.fixed(tie.rest);
-    point.gap = plane.gap(tie.rest);
-    points_.push_back(point);
+  for (const std::vector<std::uint32_t>& cell : points_by_cell(model.outer)) {
+    for (std::size_t first = 0; first < cell.size(); first += lanes) {
+      kernel::ContactGroup group{};
+      for (std::size_t c = 0; c < 8; ++c) {
+        group.corner[c] = model.outer[cell[first]].corners[c];
+        group.particle[c] = number.at(group.corner[c]);
+      }
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const bool fills_up = first + lane >= cell.size();
+        const std::uint32_t point = cell[fills_up ? first : first + lane];
+        const TiedPoint& tie = model.outer[point];
+        set_point(group, lane, tie, to_grid * tie.rest, fills_up);
+        shape->points.push_back(point);
+        shape->outward.push_back(outer_normal(tie.rest));
+        shape->reach = std::max(shape->reach, (tie.rest - shape->centre).norm());
+      }
+      shape->groups.push_back(group);
+    }
   }
-  loads_.resize(particles_.size());
-  bonded_.resize(particles_.size(), 0);
-  loaded_.reserve(particles_.size());
-  near_.reserve(points_.size());
+  shape->bonded.resize(shape->particles.size(), 0);
   for (const TiedPoint& tie : model.bond) {
     for (const std::uint32_t corner : tie.corners) {
       const auto found = number.find(corner);
-      if (found != number.end()) bonded_[found->second] = 1;
+      if (found != number.end()) shape->bonded[found->second] = 1;
     }
   }
-  look_around(State(model), 0.0, points_.size());
+  return shape;
 }
 
-/// Where a point of the surface will be [m].
-Vector3 TiedContact::place_of(std::size_t number, const State& state, double ahead) const {
-  const TiedPoint& tie = model_->outer[number];
-  return tie.rest + model_->grid.axes * shift(tie, state, ahead);
+TiedContact::TiedContact(const LatticeModel& model, const Plane& plane, const ContactLaw& law)
+    : model_(&model),
+      kernels_(&kernel::select_contact()),
+      shape_(shape_of(model)),
+      plane_(plane),
+      law_(law),
+      margin_(0.5 * model.spacing()),
+      memory_(shape_->groups.size()),
+      is_near_(shape_->groups.size(), 0),
+      loads_(shape_->particles.size()),
+      loaded_(shape_->particles.size()) {
+  near_.reserve(shape_->groups.size());
+  const State rest(model);
+  look_around(arrays(rest, plane, 0.0), shape_->groups.size());
 }
 
-/// Points that have come near are looked at in every step from now on.
-void TiedContact::look_around(const State& state, double ahead, std::size_t looks) {
+kernel::ContactArrays TiedContact::arrays(const State& state, const Plane& now, double step) {
+  kernel::ContactArrays a{};
+  const Vector3 normal = plane_.turned.conjugate() * plane_.normal;  // the same at any time
+  for (std::size_t c = 0; c < 3; ++c) {
+    a.displacement[c] = state.displacement.component[c].data();
+    a.velocity[c] = state.velocity.component[c].data();
+    a.normal[c] = normal[Eigen::Index(c)];
+  }
+  a.groups = shape_->groups.data();
+  a.memory = memory_.data();
+  a.loads = loads_.data();
+  a.loaded = loaded_.data();
+  a.now = frame_of(now, model_->grid.axes);
+  a.then = frame_of(plane_, model_->grid.axes);
+  a.ahead = step;
+  a.friction = law_.friction;
+  return a;
+}
+
+/// Groups that have come near are looked at in every step from now on.
+void TiedContact::look_around(const kernel::ContactArrays& arrays, std::size_t looks) {
   for (std::size_t n = 0; n < looks; ++n, ++next_look_) {
-    if (next_look_ >= points_.size()) next_look_ = 0;
-    Point& point = points_[next_look_];
-    if (point.near) continue;
-    const Vector3 place = place_of(next_look_, state, ahead);
-    const double gap = plane_.gap(place);
-    if (gap < margin_) {
-      // Where it was when last looked at tells look_at() where it crossed, had it come this fast.
-      point.near = true;
-      near_.push_back(std::uint32_t(next_look_));
-    } else {
-      point.place = plane_.fixed(place);
-      point.gap = gap;
-    }
+    if (next_look_ >= is_near_.size()) next_look_ = 0;
+    if (is_near_[next_look_] != 0) continue;
+    // Where points were when last looked at tells hold() where they crossed, had they come this
+    // fast.
+    if (!kernels_->look(arrays, margin_, next_look_)) continue;
+    is_near_[next_look_] = 1;
+    near_.push_back(std::uint32_t(next_look_));
   }
 }
 
-/// Brings gap and anchor of a near point up to date.
-void TiedContact::look_at(std::size_t number, const State& state, double ahead) {
-  Point& point = points_[number];
-  const Vector3 world = place_of(number, state, ahead);
-  const Vector3 place = plane_.fixed(world);
-  const double gap = plane_.gap(world);
-  if (law_.mode != meshes::ContactMode::frictionless && !point.anchored && gap < 0.0) {
-    const double before = std::max(point.gap, 0.0);
-    const double fraction = before / (before - gap);
-    point.anchor = (1.0 - fraction) * point.place + fraction * place;
-    point.anchored = true;
-  } else if (point.anchored && gap > 0.0) {
-    point.anchored = point.sliding = false;
+void TiedContact::hold_near(const kernel::ContactArrays& arrays) {
+  const kernel::Grip grip = grip_of(law_);
+  touching_ = sliding_ = 0;
+  energy_ = 0.0;
+  loaded_count_ = 0;
+  std::size_t kept = 0;
+  for (const std::uint32_t group : near_) {
+    const kernel::GroupFindings found = kernels_->hold(arrays, grip, group, loaded_count_);
+    touching_ += found.touching;
+    sliding_ += found.sliding;
+    energy_ += found.energy;
+    // Far again: released only when nothing acts.
+    is_near_[group] = found.anchored || found.smallest_gap < 2.0 * margin_;
+    if (is_near_[group] != 0) near_[kept++] = group;
   }
-  point.place = place;
-  point.gap = gap;
-}
-
-/// Brings the anchor of a tie to where slip has left it by `now`, the start of a step.
-void TiedContact::drag_anchor(std::size_t number, const State& state, const Plane& now) {
-  Point& point = points_[number];
-  point.sliding = false;
-  const Vector3 world = place_of(number, state, 0.0), normal = fixed_normal(now);
-  const double depth = -now.gap(world);
-  if (!(depth > 0.0)) return;  // not yet there: anchored where it will be
-  const Vector3 place = now.fixed(world), stretch = point.anchor - place;
-  const Clipped kept = clip(stretch, normal, law_.friction * depth);
-  if (kept.share >= 1.0) return;
-  point.anchor = place + stretch.dot(normal) * normal + kept.aside;
-  point.sliding = true;
-}
-
-TiedContact::Pull TiedContact::pull(std::size_t number) const {
-  const Point& point = points_[number];
-  const double stiffness = model_->outer[number].stiffness;
-  const Eigen::Matrix3d to_grid = model_->grid.axes.transpose();
-  if (law_.mode == meshes::ContactMode::frictionless) {
-    return {-stiffness * std::min(point.gap, 0.0) * (to_grid * plane_.normal), 0.0};
-  }
-  if (!point.anchored) return {};
-  Vector3 stretch = point.anchor - point.place;
-  double share = 1.0;
-  if (law_.mode == meshes::ContactMode::coulomb) {
-    const Vector3 normal = fixed_normal(plane_);
-    const double depth = std::max(-point.gap, 0.0);
-    const Clipped kept = clip(stretch, normal, law_.friction * depth);
-    share = kept.share;
-    if (share < 1.0) stretch = depth * normal + kept.aside;
-  }
-  return {stiffness * (to_grid * (plane_.turned * stretch)), share};
-}
-
-void TiedContact::load(std::size_t number, const Pull& pull) {
-  const TiedPoint& tie = model_->outer[number];
-  double weights = 0.0;
-  for (const double w : tie.weights) weights += std::abs(w);
-  for (std::size_t c = 0; c < 8; ++c) {
-    const std::uint32_t particle = points_[number].corners[c];
-    Load& load = loads_[particle];
-    if (!load.loaded) loaded_.push_back(particle);
-    load.loaded = true;
-    load.force += tie.weights[c] * pull.force;
-    const double stiffness = tie.stiffness * std::abs(tie.weights[c]) * weights;
-    load.stiffness += stiffness;
-    load.aside += pull.aside * stiffness;
-  }
+  near_.resize(kept);
 }
 
 /// Passes the loads on to the particles; returns what the plane gives them altogether.
 Wrench TiedContact::unload(const State& state, double step, VectorField& force,
                            std::vector<SharedLoad>* shared) {
   const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
-  const Eigen::Matrix3d along = normal * normal.transpose();
-  const Eigen::Matrix3d aside = Eigen::Matrix3d::Identity() - along;
-  Wrench sum;
+  const double square = step * step;
   held_.clear();
-  for (const std::uint32_t particle : loaded_) {
-    const std::uint32_t i = particles_[particle];
-    const Load& load = loads_[particle];
+  Vector3 sum = Vector3::Zero(), moment = Vector3::Zero();  // along the grid's axes
+  for (std::size_t n = 0; n < loaded_count_; ++n) {
+    const std::uint32_t particle = loaded_[n], i = shape_->particles[particle];
+    const kernel::ContactLoad& load = loads_[particle];
     const Vector3 others = force.at(i);
-    Vector3 taken = others + load.force;
-    if (shared != nullptr && bonded_[particle] != 0) {
-      shared->push_back({i, load.stiffness * along + load.aside * aside, Vector3::Zero()});
+    Vector3 taken = others + Eigen::Map<const Vector3>(load.force);
+    if (shared != nullptr && shape_->bonded[particle] != 0) {
+      const Eigen::Matrix3d along = normal * normal.transpose();
+      shared->push_back(
+          {i, load.stiffness * along + load.aside * (Eigen::Matrix3d::Identity() - along),
+           Vector3::Zero()});
     } else {
-      const double heavy = step * step * load.stiffness, heavy_aside = step * step * load.aside;
       const double mass = model_->mass[i];
-      taken = mass / (mass + heavy) * (along * taken).eval() +
-              mass / (mass + heavy_aside) * (aside * taken).eval();
+      const double share = mass / (mass + square * load.stiffness);
+      const double share_aside = mass / (mass + square * load.aside);
+      const Vector3 along = normal.dot(taken) * normal;
+      taken = share * along + share_aside * (taken - along);
     }
     force.set(i, taken);
-    const Vector3 given = model_->grid.axes * (taken - others);
-    sum.force += given;
-    sum.torque += position(*model_, state, i).cross(given);
+    const Vector3 given = taken - others;
+    sum += given;
+    moment += (shape_->rest[particle] + state.displacement.at(i)).cross(given);
     held_.push_back({particle, load.stiffness, load.aside});
-    loads_[particle] = Load{};
+    loads_[particle] = {};
   }
-  loaded_.clear();
-  return sum;
+  return {model_->grid.axes * sum, model_->grid.axes * moment};
 }
 
 void TiedContact::add_inertia(double step, std::vector<TieInertia>& ties) const {
@@ -205,10 +215,10 @@ void TiedContact::add_inertia(double step, std::vector<TieInertia>& ties) const 
   const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
   const Eigen::Matrix3d along = normal * normal.transpose();
   for (const Held& held : held_) {
-    const std::uint32_t i = particles_[held.particle];
+    const std::uint32_t i = shape_->particles[held.particle];
     const Eigen::Matrix3d inertia =
         step * step * (held.stiffness * along + held.aside * (Eigen::Matrix3d::Identity() - along));
-    if (bonded_[held.particle] != 0) {
+    if (shape_->bonded[held.particle] != 0) {
       const auto place =
           std::lower_bound(ties.begin(), ties.begin() + of_bond, i,
                            [](const TieInertia& tie, std::uint32_t p) { return tie.particle < p; });
@@ -219,89 +229,80 @@ void TiedContact::add_inertia(double step, std::vector<TieInertia>& ties) const 
   }
 }
 
-/// So many that every point has its turn before the fastest particle has come half the margin
+/// So many that every group has its turn before the fastest particle has come half the margin
 /// nearer.
 std::size_t TiedContact::looks_per_step(const State& state, double step) const {
   const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
-  double closing = 0.0;
-  for (const std::uint32_t i : particles_) {
-    closing = std::max(closing, -normal.dot(state.velocity.at(i)));
-  }
-  if (!plane_.at_rest()) closing += fastest_approach(plane_, *model_);
+  const double* velocity[3];
+  for (std::size_t c = 0; c < 3; ++c) velocity[c] = state.velocity.component[c].data();
+  double closing = kernels_->closing(velocity, normal.data(), shape_->particles.data(),
+                                     shape_->particles.size());
+  // Of a moving plane toward any point: its velocity is linear in the place.
+  const double turning = plane_.normal.cross(plane_.angular_velocity).norm();
+  closing += std::max(
+      0.0, plane_.normal.dot(plane_.velocity_at(shape_->centre)) + turning * shape_->reach);
   const double turns = std::clamp(0.5 * margin_ / (closing * step), 1.0, most_turns);
-  return std::size_t(double(points_.size()) / std::floor(turns)) + 1;
+  return std::size_t(double(is_near_.size()) / std::floor(turns)) + 1;
 }
 
 Wrench TiedContact::add(const State& state, const Plane& plane, double step, VectorField& force,
                         std::vector<SharedLoad>* shared) {
   plane_ = plane.after(step);
-  if (!is_trial_) look_around(state, step, looks_per_step(state, step));
-  touching_ = sliding_ = 0;
-  energy_ = 0.0;
-  for (const std::uint32_t number : near_) {
-    if (law_.mode == meshes::ContactMode::coulomb && points_[number].anchored) {
-      drag_anchor(number, state, plane);
-    }
-    look_at(number, state, step);
-    const Pull tie = pull(number);
-    points_[number].force = model_->grid.axes * tie.force;
-    if (tie.force.isZero(0.0)) continue;
-    ++touching_;
-    if (points_[number].sliding) ++sliding_;
-    energy_ += 0.5 * tie.force.squaredNorm() / model_->outer[number].stiffness;
-    load(number, tie);
-  }
-  // Far again: released only when nothing acts.
-  std::erase_if(near_, [this](std::uint32_t number) {
-    Point& point = points_[number];
-    point.near = point.anchored || point.gap < 2.0 * margin_;
-    return !point.near;
-  });
+  const kernel::ContactArrays all = arrays(state, plane, step);
+  if (!is_trial_) look_around(all, looks_per_step(state, step));
+  hold_near(all);
   return unload(state, step, force, shared);
 }
 
 void TiedContact::try_from(const TiedContact& accepted) {
   is_trial_ = true;
   near_ = accepted.near_;
-  for (const std::uint32_t number : near_) points_[number] = accepted.points_[number];
-}
-
-/// Along the normal, at the last add() [N].
-double TiedContact::push(std::size_t number) const {
-  return points_[number].force.dot(plane_.normal);
+  for (const std::uint32_t group : near_) memory_[group] = accepted.memory_[group];
 }
 
 std::vector<PointLoad> TiedContact::point_loads(const State& state) const {
-  std::vector<PointLoad> loads;
-  for (const std::uint32_t number : near_) {
-    if (!(push(number) > 0.0)) continue;
-    loads.push_back({place_of(number, state, 0.0), points_[number].force});
+  std::vector<PointLoad> found;
+  for (const std::uint32_t group : near_) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!(memory_[group].push.at[lane] > 0.0)) continue;
+      const TiedPoint& tie = model_->outer[shape_->points[group * lanes + lane]];
+      const Vector3 force = {memory_[group].force[0].at[lane], memory_[group].force[1].at[lane],
+                             memory_[group].force[2].at[lane]};
+      found.push_back(
+          {tie.rest + model_->grid.axes * shift(tie, state, 0.0), plane_.turned * force});
+    }
   }
-  return loads;
+  return found;
 }
 
-double TiedContact::radius(const State& state) const {
+double TiedContact::radius() const {
   const Vector3 t1 = first_tangent(plane_.normal), t2 = t1.cross(plane_.normal);
   std::vector<LoadedPoint> loaded;
-  for (const std::uint32_t number : near_) {
-    const TiedPoint& tie = model_->outer[number];
-    Vector3 place = tie.rest;
-    if (model_->kinematics == Kinematics::finite) {
-      place += model_->grid.axes * shift(tie, state, 0.0);
+  loaded.reserve(std::size_t(touching_));
+  for (const std::uint32_t group : near_) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const double push = memory_[group].push.at[lane];
+      if (push == 0.0) continue;
+      const TiedPoint& tie = model_->outer[shape_->points[group * lanes + lane]];
+      const Vector3 place = model_->kinematics == Kinematics::finite
+                                ? plane_.turned * at(memory_[group].place, lane)
+                                : tie.rest;
+      const double facing = std::abs(shape_->outward[group * lanes + lane].dot(plane_.normal));
+      loaded.push_back({{place.dot(t1), place.dot(t2)}, push, facing * tie.area});
     }
-    const double facing = std::abs(outer_normal(tie.rest).dot(plane_.normal));
-    loaded.push_back({{place.dot(t1), place.dot(t2)}, push(number), facing * tie.area});
   }
   return contact_radius(loaded);
 }
 
 std::vector<std::uint8_t> TiedContact::held() const {
   std::vector<std::uint8_t> touched(model_->points(), 0), result;
-  for (const std::uint32_t number : near_) {
-    if (!(push(number) > 0.0)) continue;
-    const std::uint8_t how = points_[number].sliding ? 2 : 1;
-    for (const std::uint32_t corner : model_->outer[number].corners) {
-      touched[corner] = touched[corner] == 1 ? 1 : how;
+  for (const std::uint32_t group : near_) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!(memory_[group].push.at[lane] > 0.0)) continue;
+      const std::uint8_t how = memory_[group].sliding.at[lane] != 0.0 ? 2 : 1;
+      for (const std::uint32_t corner : shape_->groups[group].corner) {
+        touched[corner] = touched[corner] == 1 ? 1 : how;
+      }
     }
   }
   for (const std::uint32_t particle : model_->boundary) result.push_back(touched[particle]);

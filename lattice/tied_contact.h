@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "lattice/contact_kernel.h"
 #include "lattice/model.h"
 #include "lattice/plane.h"
 #include "lattice/point_load.h"
@@ -37,8 +39,10 @@ namespace fingertip::lattice {
 /// Euler with diagonal inertia stable. A tie that slides steadily feels none of it, its force is mu
 /// n.
 ///
-/// Only points near the plane are looked at in every step, the others in turn, so many per step
-/// that none comes nearer unseen by more than half of what counts as near (a/2).
+/// Points of a cell hang on the same eight particles and are treated together, eight at a time
+/// (contact_kernel.h). Only cells with a point near the plane are looked at in every step, the
+/// others in turn, so many per step that none comes nearer unseen by more than half of what counts
+/// as near (a/2).
 class TiedContact {
  public:
   /// Model must outlive it; the points must be clear of the plane.
@@ -64,7 +68,7 @@ class TiedContact {
   int touching() const { return touching_; }
   int sliding() const { return sliding_; }  ///< of those touching, in the last step (coulomb)
   /// Of the patch that the forces of the last add() act on (contact_patch) [m].
-  double radius(const State& state) const;
+  double radius() const;
   /// What each tie that acts does to the tip, at the last add().
   std::vector<PointLoad> point_loads(const State& state) const;
   /// Per boundary particle of the model: 1 where a tie that acts hangs on it, 2 if all of
@@ -72,57 +76,45 @@ class TiedContact {
   std::vector<std::uint8_t> held() const;
 
  private:
-  struct Point {
-    std::array<std::uint32_t, 8> corners{};  ///< numbers of contact particles
-    bool near = false;                       ///< looked at in every step
-    bool anchored = false;
-    bool sliding = false;                             ///< slipped in the last step (coulomb)
-    double gap = 0.0;                                 ///< at the end of the last step looked at [m]
-    meshes::Vector3 place = meshes::Vector3::Zero();  ///< there, relative to the plane (fixed) [m]
-    meshes::Vector3 anchor = meshes::Vector3::Zero();  ///< where it is held, likewise [m]
-    meshes::Vector3 force = meshes::Vector3::Zero();   ///< world axes, last add() [N]
+  /// What never changes: the points by cells.
+  struct Shape {
+    std::vector<kernel::ContactGroup> groups;
+    std::vector<std::uint32_t> points;     ///< numbers in model.outer, `lanes` per group
+    std::vector<meshes::Vector3> outward;  ///< outer_normal of these
+    std::vector<std::uint32_t> particles;  ///< grid index per contact particle
+    std::vector<meshes::Vector3> rest;     ///< of these, along the grid's axes [m]
+    std::vector<std::uint8_t> bonded;      ///< 1 where the bond holds a contact particle, too
+    meshes::Vector3 centre = meshes::Vector3::Zero();  ///< of the points [m]
+    double reach = 0.0;                                ///< farthest point from there [m]
   };
-  /// What a tie does: its force on the tip along the grid's axes [N] and how much of its stiffness
-  /// acts in the plane, 0 to 1.
-  struct Pull {
-    meshes::Vector3 force = meshes::Vector3::Zero();
-    double aside = 1.0;
-  };
-  struct Load {
-    meshes::Vector3 force = meshes::Vector3::Zero();  ///< along the grid's axes [N]
-    double stiffness = 0.0;  ///< Σ_j |K_ij| of the ties that act, along the normal [N/m]
-    double aside = 0.0;      ///< and in the plane
-    bool loaded = false;
-  };
+  static std::shared_ptr<const Shape> shape_of(const LatticeModel& model);
 
-  meshes::Vector3 place_of(std::size_t point, const State& state, double ahead) const;
-  void look_around(const State& state, double ahead, std::size_t looks);
-  void look_at(std::size_t point, const State& state, double ahead);
-  void drag_anchor(std::size_t point, const State& state, const Plane& now);
-  Pull pull(std::size_t point) const;
-  double push(std::size_t point) const;
-  void load(std::size_t point, const Pull& pull);
+  kernel::ContactArrays arrays(const State& state, const Plane& now, double step);
+  void look_around(const kernel::ContactArrays& arrays, std::size_t looks);
+  void hold_near(const kernel::ContactArrays& arrays);
   Wrench unload(const State& state, double step, VectorField& force,
                 std::vector<SharedLoad>* shared);
   std::size_t looks_per_step(const State& state, double step) const;
 
   const LatticeModel* model_;
+  const kernel::ContactKernels* kernels_;
+  std::shared_ptr<const Shape> shape_;
   Plane plane_;  ///< as it will be at the end of the step
   ContactLaw law_;
-  double margin_;                    ///< gap below which a point is near [m]
-  std::vector<Point> points_;        ///< in the order of model.outer
-  std::vector<std::uint32_t> near_;  ///< points that are near, in the order they came
+  double margin_;                              ///< gap below which a point is near [m]
+  std::vector<kernel::ContactMemory> memory_;  ///< per group
+  std::vector<std::uint8_t> is_near_;          ///< per group: looked at in every step
+  std::vector<std::uint32_t> near_;            ///< groups that are near, in the order they came
   std::size_t next_look_ = 0;
   bool is_trial_ = false;
-  std::vector<std::uint32_t> particles_;  ///< grid index per contact particle
-  std::vector<std::uint8_t> bonded_;      ///< per contact particle: 1 where the bond holds it, too
-  std::vector<Load> loads_;               ///< per contact particle, zero between calls
-  std::vector<std::uint32_t> loaded_;     ///< contact particles with a load
+  std::vector<kernel::ContactLoad> loads_;  ///< per contact particle, zero between calls
+  std::vector<std::uint32_t> loaded_;       ///< contact particles with a load
+  std::size_t loaded_count_ = 0;
   struct Held {
     std::uint32_t particle = 0;  ///< contact particle
     double stiffness = 0.0, aside = 0.0;
   };
-  std::vector<Held> held_;  ///< those that had one in the last add()
+  std::vector<Held> held_;  ///< those that had a load in the last add()
   int touching_ = 0, sliding_ = 0;
   double energy_ = 0.0;
 };

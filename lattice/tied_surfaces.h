@@ -31,7 +31,7 @@ class TiedSurfaces : public Surfaces {
   double energy(const State& state, const RodState& rod) const override;
   int touching() const override { return contact_.touching(); }
   int sliding() const override { return contact_.sliding(); }
-  double contact_radius(const State& state) const override { return contact_.radius(state); }
+  double contact_radius(const State&) const override { return contact_.radius(); }
   std::vector<PointLoad> point_loads(const State& state) const override {
     return contact_.point_loads(state);
   }
@@ -45,9 +45,9 @@ class TiedSurfaces : public Surfaces {
   TiedBond bond_;
   TiedContact contact_;
   std::optional<TiedContact> trial_;  ///< contact_ as attempt() needs it, made by the first one
-  std::vector<TieInertia> inertia_;
-  std::vector<SharedLoad> shared_;  ///< particles on both surfaces
-  Wrench on_tip_;                   ///< of the plane, about the world's origin
+  std::vector<TieInertia> inertia_;   ///< of the last inertia()
+  std::vector<SharedLoad> shared_;    ///< particles on both surfaces
+  Wrench on_tip_;                     ///< of the plane, about the world's origin
 };
 
 }  // namespace fingertip::lattice

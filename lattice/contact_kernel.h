@@ -1,0 +1,95 @@
+/// Interface of the vectorised kernels of the contact: raw arrays only, as in kernel.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lattice/lanes.h"
+
+namespace fingertip::lattice::kernel {
+
+/// What the plane's ties on one particle come to.
+struct ContactLoad {
+  double force[3];   ///< along the grid's axes [N]
+  double stiffness;  ///< Σ_j |K_ij| of the ties that act, along the normal [N/m]
+  double aside;      ///< and in the plane
+  double loaded;     ///< 1 if any acts, else all is 0
+};
+
+/// What is remembered of the eight points of a group. Places are relative to the plane, in axes
+/// that are fixed to it; flags are 0 or 1.
+struct ContactMemory {
+  Lanes place[3];   ///< at the end of the last step looked at [m]
+  Lanes anchor[3];  ///< where the point is held [m]
+  Lanes gap;        ///< at the end of the last step looked at [m]
+  Lanes anchored;
+  Lanes sliding;   ///< slipped in the last step (coulomb)
+  Lanes push;      ///< along the normal, in the last hold() [N]
+  Lanes force[3];  ///< then, on the tip [N]
+};
+
+/// Eight points of one cell of the grid. A group of fewer repeats its first point, without
+/// stiffness.
+struct ContactGroup {
+  std::uint32_t corner[lanes];    ///< grid indices of the cell's corners
+  std::uint32_t particle[lanes];  ///< the same as numbers of contact particles
+  Lanes weight[lanes];            ///< per corner: of the points
+  Lanes share[lanes];             ///< per point: of the corners (the same, transposed)
+  Lanes rest[3];                  ///< along the grid's axes [m]
+  Lanes stiffness;                ///< [N/m]
+  Lanes inertia;                  ///< stiffness times Σ |weight| [N/m]
+};
+
+/// From a place along the grid's axes to one fixed to the plane: turn x + shift.
+struct PlaneFrame {
+  double turn[9];
+  double shift[3];
+};
+
+struct ContactArrays {
+  const double* displacement[3];  ///< per grid point, along the grid's axes [m]
+  const double* velocity[3];      ///< [m/s]
+  const ContactGroup* groups;
+  ContactMemory* memory;  ///< per group
+  ContactLoad* loads;     ///< per contact particle
+  std::uint32_t* loaded;  ///< contact particles with a load, in the order they came
+  PlaneFrame now, then;   ///< at the start and at the end of the step
+  double normal[3];       ///< of the plane, in its own axes
+  double ahead;           ///< length of the step [s]
+  double friction;        ///< Coulomb's coefficient
+};
+
+enum class Grip { frictionless, stick, coulomb };
+
+/// What hold() found in a group.
+struct GroupFindings {
+  double energy = 0.0;  ///< of its ties [J]
+  int touching = 0;
+  int sliding = 0;        ///< of these (coulomb)
+  double smallest_gap;    ///< [m]
+  bool anchored = false;  ///< any point
+};
+
+struct ContactKernels {
+  /// Largest speed along -normal (grid's axes) among particles with these grid indices, at least
+  /// 0 [m/s].
+  double (*closing)(const double* const* velocity, const double* normal,
+                    const std::uint32_t* particles, std::size_t count);
+  /// Whether a point of the group will be nearer to the plane than `margin` at the end of the step.
+  /// If none is, notes where they will be.
+  bool (*look)(const ContactArrays&, double margin, std::size_t group);
+  /// Notes where the points of a group will be, brings anchors up to date and adds the ties' pull
+  /// to the loads; `loaded` has `count` entries so far.
+  GroupFindings (*hold)(const ContactArrays&, Grip grip, std::size_t group, std::size_t& count);
+};
+
+/// For the widest instruction set of the running processor.
+const ContactKernels& select_contact();
+/// For 2, 4 or 8 doubles per register; the caller makes sure that the processor has it.
+const ContactKernels& select_contact(int width);
+
+const ContactKernels& contact_width2();
+const ContactKernels& contact_width4();
+const ContactKernels& contact_width8();
+
+}  // namespace fingertip::lattice::kernel

@@ -1,0 +1,118 @@
+// Prints what the parts of a time step of the default press cost (network, finite, stick) on one
+// thread, at first touch and deep in the rubber: microseconds of processor time, medians. Not a
+// test: lattice/README.md quotes it. Usage: lattice_measure_step [steps per radius = 12]
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "fixtures.h"
+#include "lattice/energy.h"
+#include "lattice/tied_bond.h"
+#include "lattice/tied_contact.h"
+#include "lattice/virtual_finger.h"
+
+using namespace fingertip;
+using namespace fixtures;
+
+namespace {
+
+constexpr double speed = 0.05;  // of the rod [m/s]
+
+double processor_microseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e6 * double(time.tv_sec) + 1e-3 * double(time.tv_nsec);
+}
+
+/// Prints the median of `repeats` single runs.
+template <typename Work>
+void print(const std::string& what, int repeats, const Work& work) {
+  std::vector<double> times;
+  for (int i = 0; i < repeats; ++i) {
+    const double start = processor_microseconds();
+    work();
+    times.push_back(processor_microseconds() - start);
+  }
+  std::nth_element(times.begin(), times.begin() + repeats / 2, times.end());
+  std::printf("  %-44s %9.2f us\n", what.c_str(), times[std::size_t(repeats / 2)]);
+}
+
+lattice::FingerSetup prescribed_finger(int per_radius) {
+  lattice::FingerSetup setup;
+  setup.lattice =
+      settings_for(lattice::ModelKind::network, lattice::Kinematics::finite, per_radius);
+  setup.plane = {Vector3(0.0, 0.0, setup.geometry.tip_radius), -Vector3::UnitZ()};
+  setup.plane.point.z() += 1e-5;
+  setup.contact = meshes::ContactMode::stick;
+  setup.prescribed = true;
+  setup.threads = 1;
+  return setup;
+}
+
+void measure_step(const lattice::VirtualFinger& pressed) {
+  const lattice::Finger& finger = pressed.finger();
+  const lattice::LatticeModel& model = pressed.model();
+  const double step = finger.step();
+  lattice::Team team(1);
+  lattice::InternalForces internal(model, team);
+  lattice::TiedBond bond(model, team);
+  lattice::TiedContact contact(model, finger.plane(), meshes::ContactMode::stick);
+  lattice::VectorField force(model.points());
+  for (int i = 0; i < 20; ++i) contact.add(finger.state(), finger.plane(), step, force);
+  print("internal forces", 500, [&] { internal.accumulate(finger.state(), force); });
+  print("contact", 500, [&] { contact.add(finger.state(), finger.plane(), step, force); });
+  print("bond", 500, [&] { bond.add(finger.state(), finger.rod(), step, force); });
+  lattice::RodState rod = finger.rod();
+  print("rod", 500, [&] {
+    rod.kick({Vector3(1e-9, 0.0, 0.0), Vector3::Zero()}, rod.endpoint(), step);
+    rod.drift(step);
+  });
+}
+
+void measure_period(const lattice::VirtualFinger& pressed) {
+  const lattice::Finger& finger = pressed.finger();
+  double sink = 0.0;
+  print("VirtualFinger::read", 200, [&] { sink += pressed.read().contact->radius; });
+  print("elastic energy of the cells", 50,
+        [&] { sink += lattice::elastic_energy(pressed.model(), finger.state()); });
+  print("energy of the bond", 200, [&] { sink += finger.bond_energy(); });
+  print("kinetic energy", 200,
+        [&] { sink += lattice::kinetic_energy(pressed.model(), finger.state()); });
+  lattice::StepController steps(pressed.model(), nullptr, lattice::Integrator::symplectic_euler,
+                                {});
+  print("spectrum, a new one", 5, [&] { steps.update(finger.state(), finger.extremes()); });
+  if (!(sink == sink)) std::printf("  not a number\n");
+}
+
+void measure(lattice::VirtualFinger& finger, double depth) {
+  finger.write([](double time) {
+    return lattice::RodMotion{Vector3(0.0, 0.0, speed * time), Vector3(0.0, 0.0, speed)};
+  });
+  finger.do_step(depth / speed - finger.finger().time());
+  std::printf("indentation %.3f mm, %d points touch, step %.1f us\n", 1e3 * depth,
+              finger.finger().touching(), 1e6 * finger.finger().step());
+  measure_step(finger);
+  measure_period(finger);
+  const double step = finger.finger().step();
+  const long before = finger.finger().force_evaluations();
+  const double start = processor_microseconds();
+  finger.do_step(100.0 * step);
+  std::printf("  %-44s %9.2f us\n", "whole step",
+              (processor_microseconds() - start) /
+                  double(finger.finger().force_evaluations() - before));
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  const int per_radius = count > 1 ? std::atoi(values[1]) : 12;
+  if (per_radius < 4) return 2;
+  lattice::VirtualFinger finger(prescribed_finger(per_radius));
+  std::printf("R/%d: %zu particles, %zu points on the bond, %zu on the outer surface\n", per_radius,
+              finger.model().particles.size(), finger.model().bond.size(),
+              finger.model().outer.size());
+  for (const double depth : {1e-4, 1e-3, 3e-3}) measure(finger, depth);
+}
