@@ -52,9 +52,8 @@ struct BondKernels {
   Pulled (*take)(const BondArrays&, double square, std::size_t begin, std::size_t end);
 };
 
-/// For the widest instruction set of the running processor.
-const BondKernels& select_bond();
-/// For 2, 4 or 8 doubles per register; the caller makes sure that the processor has it.
+/// For 2, 4 or 8 doubles per register, the caller makes sure that the processor has it, or 0 for
+/// the widest that it has.
 const BondKernels& select_bond(int width);
 
 const BondKernels& bond_width2();

@@ -7,15 +7,12 @@
 namespace fingertip::lattice::kernel {
 
 const ContactKernels& select_contact(int width) {
-  switch (width) {
+  switch (width == 0 ? supported_width() : width) {
     case 2: return contact_width2();
     case 4: return contact_width4();
     case 8: return contact_width8();
     default: throw std::invalid_argument("kernel::select_contact: width must be 2, 4 or 8");
   }
-}
-const ContactKernels& select_contact() {
-  return select_contact(supported_width());
 }
 
 }  // namespace fingertip::lattice::kernel

@@ -83,9 +83,8 @@ struct ContactKernels {
   GroupFindings (*hold)(const ContactArrays&, Grip grip, std::size_t group, std::size_t& count);
 };
 
-/// For the widest instruction set of the running processor.
-const ContactKernels& select_contact();
-/// For 2, 4 or 8 doubles per register; the caller makes sure that the processor has it.
+/// For 2, 4 or 8 doubles per register, the caller makes sure that the processor has it, or 0 for
+/// the widest that it has.
 const ContactKernels& select_contact(int width);
 
 const ContactKernels& contact_width2();

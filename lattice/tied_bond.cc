@@ -48,8 +48,8 @@ Vector3 vector(const double* values) {
 
 }  // namespace
 
-TiedBond::TiedBond(const LatticeModel& model, Team& team)
-    : model_(&model), team_(&team), kernels_(&kernel::select_bond()) {
+TiedBond::TiedBond(const LatticeModel& model, Team& team, int width)
+    : model_(&model), team_(&team), kernels_(&kernel::select_bond(width)) {
   const Matrix matrix = matrix_of(model.bond);
   for (const auto& [point, row] : matrix) points_.push_back(point);
   std::sort(points_.begin(), points_.end(), [&](std::uint32_t a, std::uint32_t b) {

@@ -38,8 +38,9 @@ struct SharedLoad {
 /// exactly what the particles do not.
 class TiedBond {
  public:
-  /// Model and team must outlive it.
-  TiedBond(const LatticeModel& model, Team& team);
+  /// Model and team must outlive it. `width`: doubles per register (2, 4, 8), 0 for the widest the
+  /// processor has.
+  TiedBond(const LatticeModel& model, Team& team, int width = 0);
 
   /// Adds the bond to `force`, which holds all other forces on the particles; returns its wrench on
   /// the rod about the rod's endpoint. Particles in `shared` are heavier by both inertias; what the

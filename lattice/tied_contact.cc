@@ -110,9 +110,10 @@ std::shared_ptr<const TiedContact::Shape> TiedContact::shape_of(const LatticeMod
   return shape;
 }
 
-TiedContact::TiedContact(const LatticeModel& model, const Plane& plane, const ContactLaw& law)
+TiedContact::TiedContact(const LatticeModel& model, const Plane& plane, const ContactLaw& law,
+                         int width)
     : model_(&model),
-      kernels_(&kernel::select_contact()),
+      kernels_(&kernel::select_contact(width)),
       shape_(shape_of(model)),
       plane_(plane),
       law_(law),

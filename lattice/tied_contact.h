@@ -45,8 +45,9 @@ namespace fingertip::lattice {
 /// as near (a/2).
 class TiedContact {
  public:
-  /// Model must outlive it; the points must be clear of the plane.
-  TiedContact(const LatticeModel& model, const Plane& plane, const ContactLaw& law);
+  /// Model must outlive it; the points must be clear of the plane. `width`: doubles per register
+  /// (2, 4, 8), 0 for the widest the processor has.
+  TiedContact(const LatticeModel& model, const Plane& plane, const ContactLaw& law, int width = 0);
 
   /// Adds the plane's forces to `force`, which holds the internal ones; returns their sum, the
   /// plane's on the tip [N], and their moment about the world's origin [N m]. `step` [s] may be 0:

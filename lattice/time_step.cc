@@ -136,22 +136,49 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
     refuse(*wanted, report_.spectral_bound, why_);
   }
   largest_ = now_.present = wanted ? *wanted : safety_ * report_.spectral_bound;
+  if (!scaled && model.kinematics == Kinematics::finite && !model.cell_lattice.empty()) {
+    search_ = std::make_unique<SpectrumSearch>(model);
+    search_->settle(now_.search);
+  }
+}
+
+/// Of what bounds the spectrum, since it was computed.
+double StepController::growth(const CellExtremes& now) const {
+  return std::max(now.stiffening / now_.reference.stiffening,
+                  now.thickening / now_.reference.thickening);
 }
 
 bool StepController::outdated(const CellExtremes& now) const {
-  const double growth = std::max(now.stiffening / now_.reference.stiffening,
-                                 now.thickening / now_.reference.thickening);
   const double decline = std::min(now.stiffening / now_.reference.stiffening,
                                   now.thickening / now_.reference.thickening);
-  return growth > room || decline < 1.0 / (room * room);
+  return growth(now) > room || decline < 1.0 / (room * room);
+}
+
+void StepController::adopt(const SpectralBounds& estimate, const CellExtremes& at) {
+  const SpectralBounds bounds = tied_bounds(estimate, room * margin, rod_stiffness_);
+  now_.present = std::min(largest_, safety_ * largest_stable_step(bounds, integrator_));
+  now_.reference = at;
 }
 
 void StepController::update(const State& state, const CellExtremes& now) {
-  constexpr int lanczos_steps = 30;
-  const SpectralBounds bounds =
-      tied_bounds(spectral_estimate(*model_, state, lanczos_steps), room * margin, rod_stiffness_);
-  now_.present = std::min(largest_, safety_ * largest_stable_step(bounds, integrator_));
-  now_.reference = now;
+  if (search_ == nullptr) return;
+  search_->begin(now_.search, state);
+  while (now_.search.active) search_->advance(now_.search);
+  adopt(now_.search.found, now);
+}
+
+void StepController::follow(const State& state, const CellExtremes& now) {
+  constexpr int steps_per_portion = 4;
+  if (search_ == nullptr) return;
+  if (!now_.search.active) {
+    if (!outdated(now)) return;
+    search_->begin(now_.search, state);
+    now_.begun = now;
+    now_.steps = 0;
+  }
+  if (++now_.steps % steps_per_portion != 0) return;
+  search_->advance(now_.search);
+  if (!now_.search.active) adopt(now_.search.found, now_.begun);
 }
 
 void StepController::note(const CellExtremes& now) {
@@ -159,8 +186,10 @@ void StepController::note(const CellExtremes& now) {
 }
 
 double StepController::limit(const CellExtremes& now) const {
-  if (!(now.fastest > 0.0)) return now_.present;
-  return std::min(now_.present, largest_volume_change / now.fastest);
+  // Both eigenvalues grow no faster than the extremes, so the stable step shrinks no faster.
+  const double step = now_.present * std::min(1.0, room / growth(now));
+  if (!(now.fastest > 0.0)) return step;
+  return std::min(step, largest_volume_change / now.fastest);
 }
 
 double StepController::divide(double span, const CellExtremes& now) const {

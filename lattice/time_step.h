@@ -1,6 +1,7 @@
 /// Choice of the time step.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "lattice/rod.h"
 #include "lattice/settings.h"
 #include "lattice/spectrum.h"
+#include "lattice/spectrum_search.h"
 #include "lattice/state.h"
 
 namespace fingertip::lattice {
@@ -44,7 +46,9 @@ SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod);
 ///
 /// Compression stiffens cells. CellExtremes bound by how much, but far too generously where slivers
 /// deform wildly. So they only say when it is time to look: once they have grown by `room` since
-/// the spectrum was last computed, it is computed anew about the present state.
+/// the spectrum was last computed, it is computed anew about the present state, at once (update) or
+/// in portions, a force evaluation in every fourth step (follow). Until then the step shrinks as
+/// the bound grows.
 class StepController {
  public:
   /// Throws InvalidInput (key run.time_step) when `wanted` is not positive or exceeds the stable
@@ -58,9 +62,11 @@ class StepController {
   void update(const State& state, const CellExtremes& now);
   /// Takes note that whoever relies on the cells' extremes has looked at them now.
   void note(const CellExtremes& now);
+  /// To be called in every step by those who do not wait: begins to compute it when it is outdated
+  /// and goes on with that.
+  void follow(const State& state, const CellExtremes& now);
 
-  /// Largest step [s] that is safe while not outdated, and changes no cell's volume by more than a
-  /// tenth.
+  /// Largest step [s] that is safe, and changes no cell's volume by more than a tenth.
   double limit(const CellExtremes& now) const;
   /// The step that divides `span` [s] > 0 evenly and does not exceed the limit [s].
   double divide(double span, const CellExtremes& now) const;
@@ -73,17 +79,24 @@ class StepController {
   struct Memory {
     double present = 0.0;    ///< [s]
     CellExtremes reference;  ///< when the spectrum was computed
+    CellExtremes begun;      ///< when the present search was begun
+    int steps = 0;           ///< since the search went on
+    SpectrumSearch::Memory search;
   };
   const Memory& memory() const { return now_; }
   void recall(const Memory& memory) { now_ = memory; }
 
  private:
+  double growth(const CellExtremes& now) const;
+  void adopt(const SpectralBounds& estimate, const CellExtremes& at);
+
   const LatticeModel* model_;
   Integrator integrator_;
   double safety_;
   double rod_stiffness_ = 0.0;  ///< what the free rod adds to the bounds [1/s²]
   double largest_ = 0.0;        ///< at rest [s]
   Memory now_;
+  std::unique_ptr<SpectrumSearch> search_;  ///< null where cells do not stiffen
   StepReport report_;
   std::string why_;
 };

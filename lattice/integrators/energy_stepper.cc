@@ -37,6 +37,8 @@ double EnergyStepper::try_step(const Drive& drive, double step) {
 
 void EnergyStepper::step(const Drive& drive, double until) {
   const double left = until - finger_->time();
+  const CellExtremes& cells = finger_->extremes();
+  if (steps_->outdated(cells)) steps_->update(finger_->state(), cells);
   const double stable = safe_step(*finger_, *steps_, left);
   const double floor = smallest_share * stable;
   double wanted = next_ > 0.0 ? std::min(next_, stable) : stable;

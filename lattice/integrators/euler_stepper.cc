@@ -12,16 +12,14 @@ void advance(Finger& finger, const Drive& drive) {
 
 bool outgrown(const Finger& finger, const StepController& steps) {
   const CellExtremes& cells = finger.extremes();
-  return steps.outdated(cells) || finger.step() > steps.limit(cells) ||
-         !(cells.smallest_jacobian > 0.0);
+  return finger.step() > steps.limit(cells) || !(cells.smallest_jacobian > 0.0);
 }
 
-double safe_step(const Finger& finger, StepController& steps, double span) {
+double safe_step(const Finger& finger, const StepController& steps, double span) {
   const CellExtremes& cells = finger.extremes();
   if (!(cells.smallest_jacobian > 0.0)) {
     throw CrushedCells("a cell was turned inside out");
   }
-  if (steps.outdated(cells)) steps.update(finger.state(), cells);
   const double step = steps.divide(span, cells);
   if (!(step > 1e-4 * steps.at_rest(span))) {
     throw CrushedCells("cells are pressed flat");
@@ -35,6 +33,7 @@ void EulerStepper::begin(const Drive& /*drive*/, double duration) {
 }
 
 void EulerStepper::step(const Drive& drive, double until) {
+  steps_->follow(finger_->state(), finger_->extremes());
   if (!chosen_ && outgrown(*finger_, *steps_)) {
     finger_->set_step(safe_step(*finger_, *steps_, until - finger_->time()));
   }

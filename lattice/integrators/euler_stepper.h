@@ -26,8 +26,8 @@ void advance(Finger& finger, const Drive& drive);
 /// Whether the present step no longer suits the cells.
 bool outgrown(const Finger& finger, const StepController& steps);
 
-/// The largest safe step [s]; computes the spectrum anew where that is due. Throws CrushedCells;
-/// `span` [s] is what a lattice at rest would divide.
-double safe_step(const Finger& finger, StepController& steps, double span);
+/// The largest safe step [s]. Throws CrushedCells; `span` [s] is what a lattice at rest would
+/// divide.
+double safe_step(const Finger& finger, const StepController& steps, double span);
 
 }  // namespace fingertip::lattice

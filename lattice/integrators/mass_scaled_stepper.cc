@@ -33,8 +33,8 @@ void MassScaledStepper::begin(const Drive& /*drive*/, double duration) {
 
 void MassScaledStepper::step(const Drive& drive, double until) {
   const CellExtremes& cells = finger_->extremes();
-  if (finger_->step() > steps_->limit(cells)) begin(drive, until - finger_->time());
   if (steps_->outdated(cells) || changed_ > largest_change) scale();
+  if (finger_->step() > steps_->limit(cells)) begin(drive, until - finger_->time());
   advance(*finger_, drive);
   changed_ += finger_->step() * finger_->extremes().fastest;
   accept(finger_->step(), true);

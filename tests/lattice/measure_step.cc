@@ -83,7 +83,14 @@ void measure_period(const lattice::VirtualFinger& pressed) {
         [&] { sink += lattice::kinetic_energy(pressed.model(), finger.state()); });
   lattice::StepController steps(pressed.model(), nullptr, lattice::Integrator::symplectic_euler,
                                 {});
-  print("spectrum, a new one", 5, [&] { steps.update(finger.state(), finger.extremes()); });
+  print("largest eigenvalues, at once", 5,
+        [&] { steps.update(finger.state(), finger.extremes()); });
+  lattice::SpectrumSearch search(pressed.model());
+  lattice::SpectrumSearch::Memory memory;
+  print("largest eigenvalues, a portion", 46, [&] {
+    if (!memory.active) search.begin(memory, finger.state());
+    search.advance(memory);
+  });
   if (!(sink == sink)) std::printf("  not a number\n");
 }
 
@@ -100,9 +107,9 @@ void measure(lattice::VirtualFinger& finger, double depth) {
   const long before = finger.finger().force_evaluations();
   const double start = processor_microseconds();
   finger.do_step(100.0 * step);
-  std::printf("  %-44s %9.2f us\n", "whole step",
-              (processor_microseconds() - start) /
-                  double(finger.finger().force_evaluations() - before));
+  std::printf(
+      "  %-44s %9.2f us\n", "whole step",
+      (processor_microseconds() - start) / double(finger.finger().force_evaluations() - before));
 }
 
 }  // namespace

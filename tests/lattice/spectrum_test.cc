@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "fixtures.h"
+#include "lattice/spectrum_search.h"
 #include "lattice/time_step.h"
 
 using namespace fingertip;
@@ -153,4 +154,32 @@ TEST(SpectralEstimate, OfAHookeanCellIsItsBreathing) {
                                                   {1, 1, 1}, rubber.density, 0.0);
   const double breathing = 12.0 * rubber.bulk_modulus() / (rubber.density * a * a);
   EXPECT_NEAR(lattice::spectral_estimate(model).stiffness, breathing, 1e-6 * breathing);
+}
+
+TEST(SpectrumSearch, FollowsATipThatIsSqueezedHereAndThere) {
+  // A squeeze that wanders through the tip: the uppermost mode changes its place.
+  const auto model = fixtures::tip(fingertip::lattice::ModelKind::network,
+                                   fingertip::lattice::Kinematics::finite, 6);
+  fingertip::lattice::SpectrumSearch search(model);
+  fingertip::lattice::SpectrumSearch::Memory memory;
+  search.settle(memory);
+  const auto rest = fingertip::lattice::spectral_estimate(model);
+  EXPECT_NEAR(memory.found.stiffness, rest.stiffness, 0.01 * rest.stiffness);
+  EXPECT_NEAR(memory.found.damping, rest.damping, 0.01 * rest.damping);
+  for (int n = 0; n <= 10; ++n) {
+    fingertip::lattice::State state(model);
+    const fingertip::meshes::Vector3 centre(2e-3 * (n - 5), 1e-3, 5e-3);
+    for (const std::size_t i : model.particles) {
+      const fingertip::meshes::Vector3 arm = model.rest_position(i) - centre;
+      state.displacement.set(i, -0.3 * std::exp(-arm.squaredNorm() / 9e-6) * arm);
+    }
+    const auto known = fingertip::lattice::spectral_estimate(model, state, 80);
+    int portions = 0;
+    for (search.begin(memory, state); memory.active; ++portions) search.advance(memory);
+    EXPECT_LT(portions, 30);
+    EXPECT_LT(memory.found.stiffness, 1.01 * known.stiffness) << n;
+    EXPECT_GT(memory.found.stiffness, 0.95 * known.stiffness) << n;
+    EXPECT_LT(memory.found.damping, 1.01 * known.damping) << n;
+    EXPECT_GT(memory.found.damping, 0.95 * known.damping) << n;
+  }
 }

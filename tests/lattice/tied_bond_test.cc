@@ -7,6 +7,7 @@
 #include <map>
 
 #include "fixtures.h"
+#include "lattice/kernel.h"
 
 using namespace fingertip;
 using namespace fixtures;
@@ -259,4 +260,18 @@ TEST(TiedBond, TwoThreadsGiveTheSameBits) {
   EXPECT_EQ(difference(s.model, one, other), 0.0);
   EXPECT_EQ(a.force, b.force);
   EXPECT_EQ(a.torque, b.torque);
+}
+
+TEST(TiedBond, EveryRegisterWidthGivesTheSameBits) {
+  Scene s;
+  const VectorField others = s.field(6);
+  VectorField expected = others;
+  const Wrench wrench = TiedBond(s.model, s.team, 2).add(s.state, s.rod, 1e-4, expected);
+  for (int width = 4; width <= lattice::kernel::supported_width(); width *= 2) {
+    VectorField force = others;
+    const Wrench same = TiedBond(s.model, s.team, width).add(s.state, s.rod, 1e-4, force);
+    EXPECT_EQ(difference(s.model, force, expected), 0.0) << width;
+    EXPECT_EQ(same.force, wrench.force) << width;
+    EXPECT_EQ(same.torque, wrench.torque) << width;
+  }
 }

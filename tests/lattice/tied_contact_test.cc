@@ -7,6 +7,7 @@
 
 #include "fixtures.h"
 #include "lattice/energy.h"
+#include "lattice/kernel.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/static_contact.h"
@@ -352,5 +353,28 @@ TEST(TiedContact, AFastTipIsLookedAtWholeInEveryStep) {
     VectorField force(s.model.points());
     contact.add(state, s.plane, step, force);
     EXPECT_EQ(contact.touching(), s.penetrating(s.pressed(1.0))) << name(mode);
+  }
+}
+
+TEST(TiedContact, EveryRegisterWidthGivesTheSameBits) {
+  const Scene s;
+  for (const lattice::ContactLaw& law : all_laws) {
+    TiedContact narrow(s.model, s.plane, law, 2);
+    for (int width = 4; width <= lattice::kernel::supported_width(); width *= 2) {
+      TiedContact wide(s.model, s.plane, law, width), fresh = narrow;
+      for (int n = 1; n <= 20; ++n) {
+        State state = s.pressed(n / 20.0);
+        state.velocity = random_state(s.model, 0.0, 0.05, unsigned(n)).velocity;
+        VectorField expected(s.model.points()), force = expected;
+        const lattice::Wrench a = fresh.add(state, s.plane, 1e-4, expected);
+        const lattice::Wrench b = wide.add(state, s.plane, 1e-4, force);
+        EXPECT_EQ(difference(s.model, force, expected), 0.0) << name(law.mode) << width;
+        EXPECT_EQ(a.force, b.force);
+        EXPECT_EQ(a.torque, b.torque);
+        EXPECT_EQ(fresh.energy(), wide.energy());
+        EXPECT_EQ(fresh.sliding(), wide.sliding());
+      }
+      EXPECT_GT(wide.touching(), 0);
+    }
   }
 }
