@@ -41,6 +41,10 @@ constexpr Verb verbs[] = {
     {"compare", "compare force curves with the continuum's or the first one's", "RUN",
      "run folders", out_options},
     {"report", "write report.html anew", "RUN", "run folders of validate", 0U},
+    {"export", "write an undamped lattice ([exchange]) for LAMMPS", "", "",
+     config_options | out_options},
+    {"import", "take back what LAMMPS made of it: table, deviation, time, frames", "RUN",
+     "folder of an export", 0U},
     {"check", "check a configuration file", "FILE", "the file", config_options},
     {"explain", "explain a configuration key, or list all", "KEY", "section.key", 0U},
     {"init", "write a commented configuration with every key", "FILE",
@@ -93,6 +97,17 @@ void add_live(CLI::App& sub, CommandLine& line) {
       ->check(CLI::NonNegativeNumber);
 }
 
+void add_export(CLI::App& sub) {
+  sub.add_option("--format", "of which program; lammps is the only one")
+      ->check(CLI::IsMember({"lammps"}));
+}
+
+void add_import(CLI::App& sub, CommandLine& line) {
+  sub.add_flag("--compare", line.compare, "march the lattice ourselves and tell the deviation");
+  sub.add_flag("--frames", line.frames, "write frames/ for ParaView");
+  sub.add_option("--threads", line.config.threads, "threads to use; 0: all cores")->type_name("N");
+}
+
 void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& progress,
               std::string& resume) {
   CLI::App& sub = *app.add_subcommand(verb.name, verb.help);
@@ -119,6 +134,8 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
         ->check(CLI::Range(2, most_pictures));
   }
   if (name == "live") add_live(sub, line);
+  if (name == "export") add_export(sub);
+  if (name == "import") add_import(sub, line);
   if (name == "validate") sub.add_flag("--all", line.all, "every case in studies/cases");
   if (name == "explain") {
     sub.add_flag("--schema", line.schema, "JSON Schema of configuration files");

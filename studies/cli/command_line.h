@@ -28,6 +28,8 @@ struct CommandLine {
   bool paused = false;               ///< live: at the start
   double rate = 1.0;                 ///< live: wanted real-time factor, 0: any
   std::optional<double> exit_after;  ///< live: wall time [s]
+  bool compare = false;              ///< import --compare
+  bool frames = false;               ///< import --frames
   bool schema = false;               ///< explain --schema
   bool markdown = false;             ///< explain --markdown
   ProgressStyle progress = ProgressStyle::off;

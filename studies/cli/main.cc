@@ -20,6 +20,7 @@ int dispatch(const studies::CommandLine& line) {
       {"live", studies::run_live},           {"modes", studies::run_modes},
       {"grasp", studies::run_grasp},         {"reference", studies::run_reference},
       {"calibrate", studies::run_calibrate}, {"compare", studies::run_compare},
+      {"export", studies::run_export},       {"import", studies::run_import},
       {"report", studies::run_report},       {"check", studies::run_check},
       {"explain", studies::run_explain},     {"init", studies::run_init},
       {"doctor", studies::run_doctor}};

@@ -79,6 +79,18 @@ struct ControllerOrder {
   double connect_timeout = 60.0;   ///< for the first client of the socket [s]
 };
 
+/// Section [exchange]: what is handed to another program.
+struct ExchangeOrder {
+  bool cube = false;            ///< a free cube instead of the fingertip
+  int cells = 8;                ///< along its edge
+  bool hangs_on_rod = true;     ///< else the tip is free
+  bool has_wall = false;        ///< an elastic wall comes
+  double wall_stiffness = 1.0;  ///< over that of an axis spring
+  long steps = 1000;
+  long every = 100;         ///< steps between frames; 0: none
+  double agitation = 0.01;  ///< random displacements at the start over the spacing
+};
+
 /// SI throughout. The spring constants in `press.lattice` are empty until
 /// `studies/run/press_setup.h` resolves them.
 struct Config {
@@ -92,6 +104,7 @@ struct Config {
   std::optional<double> spacing_divisor;          ///< a = R/divisor when given so
   fem_reference::ReferenceJob reference;
   CalibrationOrder calibration;
+  ExchangeOrder exchange;
   lattice::GripSettings grip;
   lattice::BlockSettings block;
   double grasp_gravity = 0.0;  ///< [m/s²]

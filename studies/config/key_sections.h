@@ -15,6 +15,7 @@ std::vector<Key> hardware_keys();     ///< [hardware]
 std::vector<Key> grasp_keys();        ///< [grasp]
 std::vector<Key> reference_keys();    ///< [reference]
 std::vector<Key> calibration_keys();  ///< [calibration]
+std::vector<Key> exchange_keys();     ///< [exchange]
 std::vector<Key> run_keys();          ///< [run]
 
 }  // namespace fingertip::studies

@@ -1,16 +1,14 @@
 #include "studies/run/movie.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <ostream>
 #include <utility>
 
 #include "meshes/files.h"
+#include "studies/run/vtk_text.h"
 
 namespace fingertip::studies {
 
@@ -20,59 +18,8 @@ using meshes::Vector3;
 
 namespace {
 
-constexpr std::uint8_t vertex = 1, line = 3, triangle = 5, quadrangle = 9;  // VTK's numbers
 constexpr std::size_t around = 32;    ///< points around the rod
 constexpr std::size_t latitudes = 8;  ///< rings of its hemisphere
-
-std::string base64(const std::string& bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
-  const int length =
-      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                      reinterpret_cast<const unsigned char*>(bytes.data()), int(bytes.size()));
-  text.resize(std::size_t(length));
-  return text;
-}
-
-template <class Number>
-void append(std::string& bytes, Number number) {
-  char raw[sizeof(Number)];
-  std::memcpy(raw, &number, sizeof(Number));
-  bytes.append(raw, sizeof(Number));
-}
-
-/// An array in VTK's inline binary format: its size in bytes as UInt64, then the numbers.
-std::string data_array(const char* type, const char* name, int components,
-                       const std::string& numbers) {
-  std::string bytes;
-  append(bytes, std::uint64_t(numbers.size()));
-  return fmt::format(
-      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}"
-      "</DataArray>\n",
-      type, name, components, base64(bytes + numbers));
-}
-
-std::string vectors(const char* name, const std::vector<Vector3>& values) {
-  std::string numbers;
-  for (const Vector3& value : values)
-    for (int axis = 0; axis < 3; ++axis) append(numbers, float(value[axis]));
-  return data_array("Float32", name, 3, numbers);
-}
-
-template <class Number>
-std::string scalars(const char* type, const char* name, const std::vector<Number>& values) {
-  std::string numbers;
-  for (const Number value : values) append(numbers, value);
-  return data_array(type, name, 1, numbers);
-}
-
-std::string field(const char* name, const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += ' ' + meshes::to_text(value);
-  return fmt::format(
-      "<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" NumberOfTuples=\"1\" "
-      "format=\"ascii\">{} </DataArray>\n",
-      name, values.size(), text);
-}
 
 std::vector<double> list(const Vector3& value) {
   return {value.x(), value.y(), value.z()};
@@ -81,25 +28,14 @@ std::vector<double> list(const Vector3& value) {
 std::string piece_text(const MoviePiece& piece) {
   return fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", piece.points.size(),
                      piece.types.size()) +
-         "<PointData Vectors=\"displacement\">\n" + vectors("displacement", piece.displacement) +
-         scalars("UInt8", "held", piece.held) + "</PointData>\n<CellData>\n" +
-         scalars("Int32", "part", std::vector<std::int32_t>(piece.types.size(), piece.part)) +
-         "</CellData>\n<Points>\n" + vectors("Points", piece.points) + "</Points>\n<Cells>\n" +
-         scalars("Int32", "connectivity", piece.connectivity) +
-         scalars("Int32", "offsets", piece.offsets) + scalars("UInt8", "types", piece.types) +
-         "</Cells>\n</Piece>\n";
-}
-
-std::string file_head(const char* type) {
-  const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-  return fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"{}\" "
-      "header_type=\"UInt64\">\n",
-      type, order);
-}
-
-std::string frame_name(std::size_t frame) {
-  return fmt::format("frame_{:04d}.vtu", frame);
+         "<PointData Vectors=\"displacement\">\n" +
+         vtk::vectors("displacement", piece.displacement) +
+         vtk::scalars("UInt8", "held", piece.held) + "</PointData>\n<CellData>\n" +
+         vtk::scalars("Int32", "part", std::vector<std::int32_t>(piece.types.size(), piece.part)) +
+         "</CellData>\n<Points>\n" + vtk::vectors("Points", piece.points) + "</Points>\n<Cells>\n" +
+         vtk::scalars("Int32", "connectivity", piece.connectivity) +
+         vtk::scalars("Int32", "offsets", piece.offsets) +
+         vtk::scalars("UInt8", "types", piece.types) + "</Cells>\n</Piece>\n";
 }
 
 /// The places minus the first ones, which become the places when there are none yet.
@@ -129,9 +65,10 @@ MoviePiece Movie::tip_piece(const BoundaryView& view, const FingerPicture& pictu
   piece.held = picture.held;
   for (std::size_t p = 0; p < view.size(); ++p) {
     piece.displacement.emplace_back(picture.boundary[p] - view.rest()[p]);
-    piece.add_cell(vertex, {p});
+    piece.add_cell(vtk::vertex, {p});
   }
-  for (const auto& [i, j] : view.springs()) piece.add_cell(line, {std::size_t(i), std::size_t(j)});
+  for (const auto& [i, j] : view.springs())
+    piece.add_cell(vtk::line, {std::size_t(i), std::size_t(j)});
   return piece;
 }
 
@@ -155,13 +92,13 @@ MoviePiece Movie::rod_piece(const FingerPicture& picture) const {
   piece.points.push_back(picture.rod * Vector3(0.0, 0.0, r));
   for (std::size_t k = 0; k < around; ++k) {
     const std::size_t next = (k + 1) % around;
-    piece.add_cell(triangle, {0, 1 + next, 1 + k});
+    piece.add_cell(vtk::triangle, {0, 1 + next, 1 + k});
     for (std::size_t ring = 0; ring < latitudes; ++ring) {
       const std::size_t below = 1 + ring * around, above = below + around;
-      piece.add_cell(quadrangle, {below + k, below + next, above + next, above + k});
+      piece.add_cell(vtk::quadrangle, {below + k, below + next, above + next, above + k});
     }
     const std::size_t last = 1 + latitudes * around;
-    piece.add_cell(triangle, {last + k, last + next, pole});
+    piece.add_cell(vtk::triangle, {last + k, last + next, pole});
   }
   piece.held.assign(piece.points.size(), 0);
   return piece;
@@ -175,7 +112,7 @@ MoviePiece Movie::plane_piece(const FingerPicture& picture) const {
   const double half = 1.5 * geometry_.tip_radius;
   for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
     piece.points.push_back(picture.plane.place(half * (a * t1 + b * t2)));
-  piece.add_cell(quadrangle, {0, 1, 2, 3});
+  piece.add_cell(vtk::quadrangle, {0, 1, 2, 3});
   piece.held.assign(piece.points.size(), 0);
   return piece;
 }
@@ -185,11 +122,13 @@ void Movie::add(const BoundaryView& view, const FingerPicture& picture) {
   MoviePiece rod = rod_piece(picture), plane = plane_piece(picture);
   rod.displacement = moved_since(first_rod_, rod.points);
   plane.displacement = moved_since(first_plane_, plane.points);
-  meshes::write_atomically(folder_ / frame_name(frames()), [&](std::ostream& out) {
-    out << file_head("UnstructuredGrid") << "<UnstructuredGrid>\n<FieldData>\n"
-        << field("TimeValue", {picture.time}) << field("indentation", {picture.indentation})
-        << field("endpoint", list(picture.endpoint)) << field("force", list(picture.on_rod.force))
-        << field("torque", list(picture.on_rod.torque)) << "</FieldData>\n"
+  meshes::write_atomically(folder_ / vtk::frame_name(frames()), [&](std::ostream& out) {
+    out << vtk::file_head("UnstructuredGrid") << "<UnstructuredGrid>\n<FieldData>\n"
+        << vtk::field("TimeValue", {picture.time})
+        << vtk::field("indentation", {picture.indentation})
+        << vtk::field("endpoint", list(picture.endpoint))
+        << vtk::field("force", list(picture.on_rod.force))
+        << vtk::field("torque", list(picture.on_rod.torque)) << "</FieldData>\n"
         << piece_text(tip) << piece_text(rod) << piece_text(plane)
         << "</UnstructuredGrid>\n</VTKFile>\n";
   });
@@ -198,14 +137,7 @@ void Movie::add(const BoundaryView& view, const FingerPicture& picture) {
 }
 
 void Movie::write_series() const {
-  meshes::write_atomically(folder_ / "movie.pvd", [&](std::ostream& out) {
-    out << file_head("Collection") << "<Collection>\n";
-    for (std::size_t frame = 0; frame < frames(); ++frame) {
-      out << fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n",
-                         meshes::to_text(times_[frame]), frame_name(frame));
-    }
-    out << "</Collection>\n</VTKFile>\n";
-  });
+  vtk::write_series(folder_ / "movie.pvd", times_);
 }
 
 }  // namespace fingertip::studies

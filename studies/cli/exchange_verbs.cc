@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "studies/cli/run_verb.h"
+#include "studies/cli/verbs.h"
+#include "studies/exchange/lammps_files.h"
+#include "studies/exchange/lammps_import.h"
+#include "studies/run/interrupt.h"
+#include "studies/run/json_file.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+nlohmann::ordered_json summary_of(const UndampedBody& body, const LammpsCensus& census) {
+  return {{"format", "lammps"},
+          {"model", lattice::name(body.model.kind)},
+          {"spacing", body.model.spacing()},
+          {"masses", census.masses},
+          {"anchors", census.anchors},
+          {"springs", census.springs},
+          {"bond_types", census.bond_types},
+          {"step", body.step},
+          {"left_out", {"dampers"}}};
+}
+
+nlohmann::ordered_json summary_of(const LammpsImport& run) {
+  nlohmann::ordered_json summary = {
+      {"frames", run.rows.size()},
+      {"broke_off", run.broke_off},
+      {"deviation", number_or_null(run.worst_deviation())},
+      {"velocity_deviation", number_or_null(run.worst_velocity_deviation())},
+      {"timing", nullptr}};
+  if (run.timing) {
+    summary["timing"] = {{"loop_time", run.timing->loop_time},
+                         {"ranks", run.timing->ranks},
+                         {"steps", run.timing->steps},
+                         {"springs", run.springs},
+                         {"ns_per_spring_step", run.timing->ns_per_spring_step(run.springs)}};
+  }
+  return summary;
+}
+
+void print_import(const LammpsImport& run, const fs::path& folder) {
+  fmt::print("{} frames{}\n", run.rows.size(),
+             run.broke_off ? ", and one that breaks off (LAMMPS was stopped, or is at work)" : "");
+  if (run.timing) {
+    fmt::print("{} steps on {} ranks in {:.3g} s: {:.3g} ns per spring and step\n",
+               run.timing->steps, run.timing->ranks, run.timing->loop_time,
+               run.timing->ns_per_spring_step(run.springs));
+  }
+  if (!std::isnan(run.worst_deviation())) {
+    fmt::print(
+        "largest deviation from our own march: positions {:.2g} of the spacing, velocities "
+        "{:.2g}\n",
+        run.worst_deviation(), run.worst_velocity_deviation());
+  }
+  fmt::print("trajectory: {}\n", (folder / "trajectory.csv").string());
+}
+
+/// The folder of an export, or a refusal.
+fs::path exported(const CommandLine& line) {
+  if (line.arguments.size() != 1) {
+    throw ConfigError({{"import", "", "", "needs one folder", "give what export has written to"}});
+  }
+  const fs::path folder = line.arguments.front();
+  if (!fs::exists(folder / "parameters.toml") || !fs::exists(folder / lammps_data)) {
+    throw ConfigError({{"RUN " + folder.string(), "", "", "is not the folder of an export",
+                        "give what fingertip export has written to"}});
+  }
+  return folder;
+}
+
+}  // namespace
+
+int run_export(const CommandLine& line) {
+  const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::modes);
+  const UndampedBody body = undamped_body(loaded);
+  const std::vector<meshes::Violation> beyond = beyond_lammps(body.model);
+  if (!beyond.empty()) throw loaded.locate(beyond);
+  const ExchangeOrder& order = loaded.config.exchange;
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const fs::path& folder = session.folder().path();
+    const LammpsCensus census = write_lammps(body, {order.steps, order.every}, folder);
+    write_json(summary_of(body, census), folder / "summary.json");
+    session.folder().log("dampers are left out: LAMMPS has none along bonds");
+    if (line.quiet) return 0;
+    fmt::print("{} masses, {} springs, {} anchors, without dampers; step {:.3g} s\n", census.masses,
+               census.springs, census.anchors, body.step);
+    fmt::print("run it:       cd {} && lmp -in {}\n", folder.string(), lammps_script);
+    fmt::print("take it back: fingertip import --compare {}\n", folder.string());
+    return 0;
+  });
+}
+
+int run_import(const CommandLine& line) {
+  const fs::path folder = exported(line);
+  ConfigSource source = line.config;
+  source.file = folder / "parameters.toml";
+  const LoadedConfig loaded = load_config(source);
+  const UndampedBody body = undamped_body(loaded);
+  watch_for_interrupts();
+  const LammpsImport run =
+      import_lammps(body, folder, {line.compare, line.frames, loaded.config.press.threads},
+                    [](long) { return !interrupted(); });
+  write_json(summary_of(run), folder / "import.json");
+  if (!line.quiet) print_import(run, folder);
+  return 0;
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,54 @@
+/// A lattice without dampers that stands or flies alone: what other programs can march, too.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lattice/model.h"
+#include "lattice/plane.h"
+#include "lattice/rod.h"
+#include "lattice/state.h"
+#include "studies/config/loader.h"
+
+namespace fingertip::studies {
+
+/// A plane that pushes every mass behind it with -k gap along its normal; no friction.
+struct SoftWall {
+  lattice::Plane plane;    ///< at time 0; `velocity` holds on
+  double stiffness = 0.0;  ///< k per mass [N/m]
+
+  /// On a mass at `place` at `time` [s]: [N], zero in front of the wall.
+  meshes::Vector3 force(const meshes::Vector3& place, double time) const;
+  double energy(const meshes::Vector3& place, double time) const;  ///< ½ k gap² behind it [J]
+
+ private:
+  double gap(const meshes::Vector3& place, double time) const;
+};
+
+/// What is marched: m a = springs + ligaments to the rod at rest + wall + m g.
+struct UndampedBody {
+  lattice::LatticeModel model;  ///< no dampers, no tied surfaces
+  lattice::RodBody rod;         ///< at rest for ever; of use only to ligaments
+  std::optional<SoftWall> wall;
+  meshes::Vector3 gravity = meshes::Vector3::Zero();  ///< [m/s²]
+  /// Positions at time 0 and velocities half a step earlier, as symplectic Euler has them.
+  lattice::State start;
+  double step = 0.0;  ///< [s]
+};
+
+/// The lattice that [exchange] of `loaded` asks for, with everything else from the other sections.
+/// The step is run.time_step or 0.8 of the largest stable one. Throws ConfigError where a wall
+/// cannot be as the press asks.
+UndampedBody undamped_body(const LoadedConfig& loaded);
+
+/// Random displacements and velocities, components uniform in ±agitation a and ±agitation a
+/// sqrt(k1/m); the same on every machine and for any number of threads.
+lattice::State agitated(const lattice::LatticeModel& model, double agitation);
+
+/// The forces of everything on the masses at time `time` [s] [N]; `internal` [N] are those of the
+/// springs.
+void add_outer_forces(const UndampedBody& body, const lattice::State& state, double time,
+                      lattice::VectorField& internal);
+
+}  // namespace fingertip::studies
