@@ -1,0 +1,49 @@
+/// Threads that march a lattice through time together, each in a time step of its own.
+#pragma once
+
+#include <memory>
+
+namespace fingertip::lattice::springs {
+
+/// Sweeps planes 0, 1, ... of step after step, where plane z of a step needs planes up to z + 1 of
+/// the step before and leaves the planes below z alone. Thread t takes the steps t, t + T, ...
+/// (in groups of `group` steps, which it sweeps interleaved so that planes stay in its cache) and
+/// stays two planes behind the thread before it: no barrier, and every step does the same whatever
+/// the number of threads. Waiting threads spin, and yield their core when that takes long.
+class Wavefront {
+ public:
+  /// Makes `threads` - 1 threads ready besides the calling one; they sleep between runs.
+  explicit Wavefront(int threads);
+  ~Wavefront();
+  Wavefront(const Wavefront&) = delete;
+  Wavefront& operator=(const Wavefront&) = delete;
+
+  int threads() const;
+
+  /// Calls sweep(level, plane) for every plane of `steps` steps on `threads` threads of those made
+  /// ready. At any time the steps in flight have distinct levels 0 ... threads * group - 1.
+  /// Allocates nothing; `sweep` must not throw.
+  template <typename Sweep>
+  void run(int steps, int planes, int threads, int group, const Sweep& sweep) {
+    run(steps, planes, threads, group, {&sweep, [](const void* self, int level, int plane) {
+                                          (*static_cast<const Sweep*>(self))(level, plane);
+                                        }});
+  }
+
+ private:
+  struct Crew;
+  /// A borrowed callable: unlike std::function it never allocates.
+  struct Borrowed {
+    const void* self = nullptr;
+    void (*call)(const void* self, int level, int plane) = nullptr;
+  };
+  struct Task {
+    int steps = 0, planes = 0, threads = 1, group = 1;
+    Borrowed sweep;
+  };
+  void run(int steps, int planes, int threads, int group, Borrowed sweep);
+
+  std::unique_ptr<Crew> crew_;
+};
+
+}  // namespace fingertip::lattice::springs
