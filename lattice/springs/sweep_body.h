@@ -294,8 +294,8 @@ struct Sweep {
     last.velocity = load(row.motion + (slots - 1) * motion_slot + 3 * W);
     last.force = load(row.force + (slots - 1) * force_slot);
     one_batch(last, along_row(row, slots - 1));
-    FINGERTIP_UNROLL for (int c = 0; c < 3; ++c)
-      last.force.along[c].store(row.force + (slots - 1) * force_slot + c * W);
+    FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) last.force.along[c].store(
+        row.force + (slots - 1) * force_slot + c * W);
   }
 
   FINGERTIP_INLINE void copy_seams(const Row& row, std::ptrdiff_t slots) {
