@@ -106,7 +106,7 @@ struct Wavefront::Crew {
     }
     if (t.threads > 1) wake.notify_all();
     march(t, 0);
-    if (t.groups() > 0) finished_of(t.groups() - 1).wait_for(std::int64_t(t.groups()) * t.planes);
+    if (t.steps > 0) finished_of(t.steps - 1).wait_for(std::int64_t(t.steps) * t.planes);
   }
 };
 
