@@ -28,6 +28,10 @@ struct CommandLine {
   bool paused = false;               ///< live: at the start
   double rate = 1.0;                 ///< live: wanted real-time factor, 0: any
   std::optional<double> exit_after;  ///< live: wall time [s]
+  bool quick = false;                ///< bench --quick
+  std::filesystem::path json;        ///< of bench: where its document goes, too
+  std::filesystem::path history;     ///< of bench: folder of the history; empty: in the cache
+  std::string isa;                   ///< of bench: the widest to measure; empty: all there is
   bool schema = false;               ///< explain --schema
   bool markdown = false;             ///< explain --markdown
   ProgressStyle progress = ProgressStyle::off;

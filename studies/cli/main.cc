@@ -22,7 +22,7 @@ int dispatch(const studies::CommandLine& line) {
       {"calibrate", studies::run_calibrate}, {"compare", studies::run_compare},
       {"report", studies::run_report},       {"check", studies::run_check},
       {"explain", studies::run_explain},     {"init", studies::run_init},
-      {"doctor", studies::run_doctor}};
+      {"doctor", studies::run_doctor},       {"bench", studies::run_bench}};
   return verbs.at(line.verb)(line);
 }
 
