@@ -54,6 +54,7 @@ SweepConstants<Real> constants_of(const SpringProblem& problem) {
     constants.family[c] = {
         Real(stiffness),
         Real(stiffness * rest_length / scale),
+        Real(1.0),
         {Real(scale), Real(scale / 2.0), Real(scale * 3.0 / 8.0), Real(scale * 5.0 / 16.0)}};
   }
   constants.gain = Real(problem.step / problem.mass);

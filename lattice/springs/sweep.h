@@ -33,6 +33,7 @@ template <typename Real>
 struct ClassConstants {
   Real stiffness;  ///< k
   Real pull;       ///< k l0/s (undamped: k l0)
+  Real one;        ///< 1: read when needed, as it must not occupy a register
   Real series[4];  ///< s times 1, 1/2, 3/8, 5/16: (1 - e)^(-1/2)
 };
 

@@ -24,22 +24,25 @@ struct Sweep {
   static constexpr std::ptrdiff_t W = Pack::width;
   static constexpr std::ptrdiff_t motion_slot = axes_per_slot * W, force_slot = 3 * W;
 
-  struct Force {
+  /// Three components of a slot's masses.
+  struct Vector {
     Pack along[3];
   };
+  struct Own {
+    Vector position, velocity, force;
+  };
 
-  /// Ends, class and lanes of N springs: `own` is the mass the force is for, `other` its neighbour.
+  /// N springs of one slot to other ones: where these are, what belongs to the springs.
   template <int N>
   struct Ends {
-    const Real* own[N];
-    const Real* other[N];
+    const Real* motion[N];
+    Real* force[N];
     const Class* family[N];
     const Mask* mask[N];
   };
 
-  /// N springs on their way from ends to coefficients. The chain of operations is long and each
-  /// waits for the one before, so springs of two batches take turns: `keep` holds that order
-  /// against the compiler's own.
+  /// N springs on their way to coefficients. The chain of operations is long and each waits for
+  /// the one before, so springs take turns; `keep` holds that order against the compiler's own.
   template <int N>
   struct Batch {
     Pack square[N];  ///< |d|², then the error of the root's estimate
@@ -49,20 +52,18 @@ struct Sweep {
   };
 
   template <int C, int N>
-  FINGERTIP_INLINE void measure(Batch<N>& b, const Ends<N>& e) {
+  FINGERTIP_INLINE void measure(Batch<N>& b, const Own& own, const Ends<N>& e) {
     FINGERTIP_UNROLL for (int q = 0; q < N; ++q) {
-      const Pack d = Pack::load(e.other[q] + C * W) - Pack::load(e.own[q] + C * W);
+      const Pack d = own.position.along[C] - Pack::load(e.motion[q] + C * W);
       b.square[q] = C == 0 ? d * d : multiply_add(d, d, b.square[q]);
       keep(b.square[q]);
       if constexpr (Damped) {
-        const Pack w = Pack::load(e.other[q] + (3 + C) * W) - Pack::load(e.own[q] + (3 + C) * W);
+        const Pack w = own.velocity.along[C] - Pack::load(e.motion[q] + (3 + C) * W);
         b.rate[q] = C == 0 ? d * w : multiply_add(d, w, b.rate[q]);
         keep(b.rate[q]);
       }
     }
   }
-
-  static constexpr int refinements = 9;
 
   /// One of the operations that lead from |d|² and w·d to the coefficient.
   template <int Step>
@@ -72,7 +73,7 @@ struct Sweep {
       constexpr bool cubic = Pack::root_terms == 4;
       if constexpr (Step == 0) root = root_estimate(square);
       if constexpr (Step == 1) square = square * root;
-      if constexpr (Step == 2) square = subtract_product(Pack::all(1), square, root);
+      if constexpr (Step == 2) square = subtract_product(Pack::all(c.one), square, root);
       if constexpr (Step == 3) {
         series = multiply_add(square, Pack::all(c.series[cubic ? 3 : 1]),
                               Pack::all(c.series[cubic ? 2 : 0]));
@@ -102,13 +103,15 @@ struct Sweep {
     }
   }
 
-  /// All of it, for springs that have no other batch to take turns with.
   template <int N>
-  FINGERTIP_INLINE void find_coefficients(Batch<N>& b, const Ends<N>& e) {
-    measure<0>(b, e);
-    measure<1>(b, e);
-    measure<2>(b, e);
+  FINGERTIP_INLINE void measure_all(Batch<N>& b, const Own& own, const Ends<N>& e) {
+    measure<0>(b, own, e);
+    measure<1>(b, own, e);
+    measure<2>(b, own, e);
     refine<0>(b, e);
+  }
+  template <int N>
+  FINGERTIP_INLINE void refine_all(Batch<N>& b, const Ends<N>& e) {
     refine<1>(b, e);
     refine<2>(b, e);
     refine<3>(b, e);
@@ -119,32 +122,33 @@ struct Sweep {
     refine<8>(b, e);
   }
 
-  /// Adds the forces of springs to one common neighbour: to `own[q]` in registers, to the
-  /// neighbour's in memory.
-  template <int N>
-  FINGERTIP_INLINE void apply(const Batch<N>& b, const Ends<N>& e, Force* const (&own)[N],
-                              Real* other) {
-    FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) {
-      Pack reaction = Pack::load(other + c * W);
-      FINGERTIP_UNROLL for (int q = 0; q < N; ++q) {
-        const Pack t = b.root[q] * (Pack::load(e.other[q] + c * W) - Pack::load(e.own[q] + c * W));
-        own[q]->along[c] = own[q]->along[c] + t;
-        reaction = reaction - t;
-      }
-      reaction.store(other + c * W);
-    }
+  /// The coefficients of one batch while the lengths of the next are measured.
+  template <int N, int M>
+  FINGERTIP_INLINE void overlap(Batch<N>& b, const Ends<N>& e, Batch<M>& next, const Own& own,
+                                const Ends<M>& f) {
+    refine<1>(b, e);
+    measure<0>(next, own, f);
+    refine<2>(b, e);
+    refine<3>(b, e);
+    measure<1>(next, own, f);
+    refine<4>(b, e);
+    refine<5>(b, e);
+    measure<2>(next, own, f);
+    refine<6>(b, e);
+    refine<7>(b, e);
+    refine<0>(next, f);
+    refine<8>(b, e);
   }
 
-  /// Adds the forces of springs from one mass to N neighbours: to `own` in registers, to the
-  /// others' in memory.
+  /// Adds the springs' forces to the slot's, in registers, and to the others', in memory.
   template <int N>
-  FINGERTIP_INLINE void apply_fan(const Batch<N>& b, const Ends<N>& e, Force& own,
-                                  Real* const (&other)[N]) {
+  FINGERTIP_INLINE void apply(const Batch<N>& b, Own& own, const Ends<N>& e) {
     FINGERTIP_UNROLL for (int q = 0; q < N; ++q) {
       FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) {
-        const Pack t = b.root[q] * (Pack::load(e.other[q] + c * W) - Pack::load(e.own[q] + c * W));
-        own.along[c] = own.along[c] + t;
-        (Pack::load(other[q] + c * W) - t).store(other[q] + c * W);
+        const Pack t = b.root[q] * (own.position.along[c] - Pack::load(e.motion[q] + c * W));
+        own.force.along[c] = own.force.along[c] - t;
+        keep(own.force.along[c]);
+        (t + Pack::load(e.force[q] + c * W)).store(e.force[q] + c * W);
       }
     }
   }
@@ -156,97 +160,96 @@ struct Sweep {
     const Mask* masks;
     unsigned links;
     std::ptrdiff_t to_motion[linked_rows];
-    Real* linked_force[linked_rows];
+    std::ptrdiff_t to_force[linked_rows];
     const SweepConstants<Real>* constants;
   };
 
-  static constexpr int family_of(int row, int dx) { return (row & 1) + (dx != 0 ? 1 : 0); }
-  static constexpr int mask_of(int row, int dx) { return 1 + 3 * row + dx + 1; }
+  /// Hides from the compiler where a pointer comes from, so that addresses are formed as this
+  /// pointer plus a number instead of kept in a register each.
+  template <typename T>
+  FINGERTIP_INLINE T* base(T* pointer) {
+    asm volatile("" : "+r"(pointer));
+    return pointer;
+  }
 
-  template <int Lower, int Upper, int R>
-  FINGERTIP_INLINE Ends<1 + Lower + Upper> ends(const Row& row, std::ptrdiff_t slot) {
-    Ends<1 + Lower + Upper> e;
-    FINGERTIP_UNROLL for (int q = 0; q < 1 + Lower + Upper; ++q) {
-      const int own = q - Lower;  // slot of the mass, dx = -own
-      e.own[q] = row.motion + (slot + own) * motion_slot;
-      e.other[q] = row.motion + row.to_motion[R] + slot * motion_slot;
-      e.family[q] = &row.constants->family[family_of(R, own)];
-      e.mask[q] = row.masks + (slot + own) * masks_per_slot + mask_of(R, -own);
+  /// Springs to the three slots of linked row R; with `Along` also the one to the next slot of the
+  /// own row.
+  template <int R, bool Along>
+  FINGERTIP_INLINE Ends<Along ? 4 : 3> ends(const Row& row, std::ptrdiff_t slot, const Mask* masks,
+                                            const SweepConstants<Real>* constants) {
+    Ends<Along ? 4 : 3> e;
+    const Real* motion = base(row.motion + row.to_motion[R] + slot * motion_slot);
+    Real* force = base(row.force + row.to_force[R] + slot * force_slot);
+    FINGERTIP_UNROLL for (int q = 0; q < 3; ++q) {
+      e.motion[q] = motion + (q - 1) * motion_slot;
+      e.force[q] = force + (q - 1) * force_slot;
+      e.family[q] = &constants->family[(R & 1) + (q != 1 ? 1 : 0)];
+      e.mask[q] = masks + 1 + 3 * R + q;
+    }
+    if constexpr (Along) {
+      e.motion[3] = row.motion + (slot + 1) * motion_slot;
+      e.force[3] = row.force + (slot + 1) * force_slot;
+      e.family[3] = &constants->family[0];
+      e.mask[3] = masks;
     }
     return e;
   }
+  FINGERTIP_INLINE Ends<1> along_row(const Row& row, std::ptrdiff_t slot) {
+    return {{row.motion + (slot + 1) * motion_slot},
+            {row.force + (slot + 1) * force_slot},
+            {&row.constants->family[0]},
+            {row.masks + slot * masks_per_slot}};
+  }
 
-  template <int Lower, int Upper, int R>
-  FINGERTIP_INLINE void linked(const Row& row, std::ptrdiff_t slot, Force& below, Force& here,
-                               Force& above) {
-    constexpr int N = 1 + Lower + Upper;
-    const Ends<N> e = ends<Lower, Upper, R>(row, slot);
+  template <int N>
+  FINGERTIP_INLINE void one_batch(Own& own, const Ends<N>& e) {
     Batch<N> b;
-    find_coefficients(b, e);
-    Real* other = row.linked_force[R] + slot * force_slot;
-    if constexpr (N == 3) {
-      Force* const own[3] = {&below, &here, &above};
-      apply(b, e, own, other);
-    } else if constexpr (Lower == 1) {
-      Force* const own[2] = {&below, &here};
-      apply(b, e, own, other);
-    } else if constexpr (Upper == 1) {
-      Force* const own[2] = {&here, &above};
-      apply(b, e, own, other);
-    } else {
-      Force* const own[1] = {&here};
-      apply(b, e, own, other);
-    }
+    measure_all(b, own, e);
+    refine_all(b, e);
+    apply(b, own, e);
   }
 
-  /// The spring along the row from `slot` to the next one.
-  FINGERTIP_INLINE void along_row(const Row& row, std::ptrdiff_t slot, Force& here, Force& above) {
-    const Real* own = row.motion + slot * motion_slot;
-    const Ends<1> e{{own},
-                    {own + motion_slot},
-                    {&row.constants->family[0]},
-                    {row.masks + slot * masks_per_slot}};
-    Batch<1> b;
-    find_coefficients(b, e);
-    FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) {
-      const Pack t = b.root[0] * (Pack::load(e.other[0] + c * W) - Pack::load(e.own[0] + c * W));
-      here.along[c] = here.along[c] + t;
-      above.along[c] = above.along[c] - t;
-    }
+  template <bool Along>
+  FINGERTIP_INLINE void all_springs(const Row& row, std::ptrdiff_t slot, Own& own) {
+    const Mask* masks = base(row.masks + slot * masks_per_slot);
+    const SweepConstants<Real>* constants = base(row.constants);
+    const auto e0 = ends<0, false>(row, slot, masks, constants);
+    const auto e1 = ends<1, false>(row, slot, masks, constants);
+    const auto e2 = ends<2, false>(row, slot, masks, constants);
+    const auto e3 = ends<3, Along>(row, slot, masks, constants);
+    Batch<3> b0, b1, b2;
+    Batch<Along ? 4 : 3> b3;
+    measure_all(b0, own, e0);
+    overlap(b0, e0, b1, own, e1);
+    apply(b0, own, e0);
+    overlap(b1, e1, b2, own, e2);
+    apply(b1, own, e1);
+    overlap(b2, e2, b3, own, e3);
+    apply(b2, own, e2);
+    refine_all(b3, e3);
+    apply(b3, own, e3);
+  }
+  template <bool Along>
+  FINGERTIP_INLINE void some_springs(const Row& row, std::ptrdiff_t slot, Own& own) {
+    const Mask* masks = base(row.masks + slot * masks_per_slot);
+    const SweepConstants<Real>* constants = base(row.constants);
+    if (row.links & 1u) one_batch(own, ends<0, false>(row, slot, masks, constants));
+    if (row.links & 2u) one_batch(own, ends<1, false>(row, slot, masks, constants));
+    if (row.links & 4u) one_batch(own, ends<2, false>(row, slot, masks, constants));
+    if (row.links & 8u) one_batch(own, ends<3, false>(row, slot, masks, constants));
+    if constexpr (Along) one_batch(own, along_row(row, slot));
   }
 
-  /// Springs of the own slot to the linked rows' slots at dx = Dx, which lie beyond the row's end.
-  template <int R, int Dx>
-  FINGERTIP_INLINE void beyond(const Row& row, std::ptrdiff_t slot, Force& here) {
-    if ((row.links >> R & 1u) == 0) return;
-    const Real* own = row.motion + slot * motion_slot;
-    const Ends<1> e{{own},
-                    {own + row.to_motion[R] + Dx * motion_slot},
-                    {&row.constants->family[family_of(R, Dx)]},
-                    {row.masks + slot * masks_per_slot + mask_of(R, Dx)}};
-    Batch<1> b;
-    find_coefficients(b, e);
-    Real* const other[1] = {row.linked_force[R] + (slot + Dx) * force_slot};
-    apply_fan(b, e, here, other);
+  FINGERTIP_INLINE Vector load(const Real* from) {
+    return {{Pack::load(from), Pack::load(from + W), Pack::load(from + 2 * W)}};
   }
-  template <int Dx>
-  FINGERTIP_INLINE void beyond(const Row& row, std::ptrdiff_t slot, Force& here) {
-    beyond<0, Dx>(row, slot, here);
-    beyond<1, Dx>(row, slot, here);
-    beyond<2, Dx>(row, slot, here);
-    beyond<3, Dx>(row, slot, here);
-  }
-
-  FINGERTIP_INLINE void integrate(const Row& row, std::ptrdiff_t slot, Force force) {
+  FINGERTIP_INLINE void integrate(const Row& row, std::ptrdiff_t slot, Own own) {
     const SweepConstants<Real>& k = *row.constants;
     Real* motion = row.motion + slot * motion_slot;
     Real* spent = row.force + slot * force_slot;
-    Pack x[3], v[3];
-    FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) {
-      x[c] = Pack::load(motion + c * W);
-      v[c] = Pack::load(motion + (3 + c) * W);
-      Pack::all(0).store(spent + c * W);
-    }
+    FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) Pack::all(0).store(spent + c * W);
+    const Pack* x = own.position.along;
+    const Pack* v = own.velocity.along;
     Pack depth = Pack::all(k.height);
     FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) depth =
         subtract_product(depth, Pack::all(k.normal[c]), x[c]);
@@ -256,34 +259,17 @@ struct Sweep {
       FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) push =
           subtract_product(push, Pack::all(k.plane_damping * k.normal[c]), v[c]);
       push = where(touches, maximum(push, Pack::all(0)));
-      FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) force.along[c] =
-          multiply_add(push, Pack::all(k.normal[c]), force.along[c]);
+      FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) own.force.along[c] =
+          multiply_add(push, Pack::all(k.normal[c]), own.force.along[c]);
     }
     const auto masses = Pack::mask(row.masks + slot * masks_per_slot + mass_mask);
     FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) {
       const Pack faster =
-          multiply_add(force.along[c], Pack::all(k.gain), v[c]) + Pack::all(k.gravity_step[c]);
+          multiply_add(own.force.along[c], Pack::all(k.gain), v[c]) + Pack::all(k.gravity_step[c]);
       const Pack further = multiply_add(faster, Pack::all(k.step), x[c]);
       select(masses, faster, v[c]).store(motion + (3 + c) * W);
       select(masses, further, x[c]).store(motion + c * W);
     }
-  }
-
-  FINGERTIP_INLINE Force load_force(const Real* from) {
-    return {{Pack::load(from), Pack::load(from + W), Pack::load(from + 2 * W)}};
-  }
-
-  /// Everything of one slot between its neighbours below and above; then the slot below has all
-  /// its forces and moves on.
-  template <int Lower, int Upper>
-  FINGERTIP_INLINE void slot(const Row& row, std::ptrdiff_t s, Force& below, Force& here,
-                             Force& above) {
-    if (row.links & 1u) linked<Lower, Upper, 0>(row, s, below, here, above);
-    if (row.links & 2u) linked<Lower, Upper, 1>(row, s, below, here, above);
-    if (row.links & 4u) linked<Lower, Upper, 2>(row, s, below, here, above);
-    if (row.links & 8u) linked<Lower, Upper, 3>(row, s, below, here, above);
-    if constexpr (Upper == 1) along_row(row, s, here, above);
-    if constexpr (Lower == 1) integrate(row, s - 1, below);
   }
 
   /// What the rows before left in the seam slots belongs to the masses at the other end.
@@ -300,16 +286,16 @@ struct Sweep {
     }
   }
 
-  /// The springs along the row from its last slot to the first one, a lane further.
+  /// The springs along the row from its last slot to the first one, a lane further: to the seam
+  /// slot after the last, whose masses they are.
   FINGERTIP_INLINE void close_row(const Row& row, std::ptrdiff_t slots) {
-    Force here = load_force(row.force + (slots - 1) * force_slot);
-    Force above{{Pack::all(0), Pack::all(0), Pack::all(0)}};
-    along_row(row, slots - 1, here, above);
-    FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) here.along[c].store(
+    Own last;
+    last.position = load(row.motion + (slots - 1) * motion_slot);
+    last.velocity = load(row.motion + (slots - 1) * motion_slot + 3 * W);
+    last.force = load(row.force + (slots - 1) * force_slot);
+    one_batch(last, along_row(row, slots - 1));
+    FINGERTIP_UNROLL for (int c = 0; c < 3; ++c) last.force.along[c].store(
         row.force + (slots - 1) * force_slot + c * W);
-    FINGERTIP_UNROLL for (int c = 0; c < 3;
-                          ++c)(Pack::load(row.force + c * W) + previous_lane(above.along[c]))
-        .store(row.force + c * W);
   }
 
   FINGERTIP_INLINE void copy_seams(const Row& row, std::ptrdiff_t slots) {
@@ -321,28 +307,23 @@ struct Sweep {
     }
   }
 
+  /// All springs of one slot, then its step in time.
+  template <bool Along>
+  FINGERTIP_INLINE void sweep_slot(const Row& row, std::ptrdiff_t slot) {
+    const Real* motion = row.motion + slot * motion_slot;
+    Own own{load(motion), load(motion + 3 * W), load(row.force + slot * force_slot)};
+    if ((row.links & all_rows_linked) == all_rows_linked)
+      all_springs<Along>(row, slot, own);
+    else
+      some_springs<Along>(row, slot, own);
+    integrate(row, slot, own);
+  }
+
   static void sweep_row(const Row& row, std::ptrdiff_t slots) {
-    gather_seams(row, slots);
     close_row(row, slots);
-    Force below{}, here = load_force(row.force), above{};
-    beyond<-1>(row, 0, here);
-    if (slots == 1) {
-      slot<0, 0>(row, 0, below, here, above);
-    } else {
-      above = load_force(row.force + force_slot);
-      slot<0, 1>(row, 0, below, here, above);
-      for (std::ptrdiff_t s = 1; s < slots - 1; ++s) {
-        below = here;
-        here = above;
-        above = load_force(row.force + (s + 1) * force_slot);
-        slot<1, 1>(row, s, below, here, above);
-      }
-      below = here;
-      here = above;
-      slot<1, 0>(row, slots - 1, below, here, above);
-    }
-    beyond<1>(row, slots - 1, here);
-    integrate(row, slots - 1, here);
+    gather_seams(row, slots);
+    for (std::ptrdiff_t slot = 0; slot < slots - 1; ++slot) sweep_slot<true>(row, slot);
+    sweep_slot<false>(row, slots - 1);
     copy_seams(row, slots);
   }
 
@@ -364,10 +345,10 @@ struct Sweep {
       row.to_motion[1] = motion_plane - motion_row;
       row.to_motion[2] = motion_plane;
       row.to_motion[3] = motion_plane + motion_row;
-      row.linked_force[0] = row.force + force_row;
-      row.linked_force[1] = next_plane + (y - 1) * force_row;
-      row.linked_force[2] = next_plane + y * force_row;
-      row.linked_force[3] = next_plane + (y + 1) * force_row;
+      row.to_force[0] = force_row;
+      row.to_force[1] = next_plane - this_plane - force_row;
+      row.to_force[2] = next_plane - this_plane;
+      row.to_force[3] = next_plane - this_plane + force_row;
       row.constants = &grid.constants;
       sweep_row(row, slots);
     }

@@ -1,51 +1,49 @@
 #include "lattice/springs/wavefront.h"
 
+#include <emmintrin.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <thread>
 #include <vector>
-
-#if defined(__x86_64__)
-#include <emmintrin.h>
-#endif
 
 namespace fingertip::lattice::springs {
 
 namespace {
 
-void rest_a_little(int& spins) {
-  constexpr int patience = 2000;  // some 20 us: longer than a plane takes
-  if (++spins < patience) {
-    _mm_pause();
-  } else {
-    std::this_thread::yield();
-  }
-}
+/// A counter on cache lines of its own.
+struct alignas(128) Counter {
+  std::atomic<std::int64_t> value{0};
 
-/// Planes that one thread has finished since a run began, on a cache line of its own.
-struct alignas(128) Progress {
-  std::atomic<long> planes{0};
-
-  void wait_for(long needed) const {
-    for (int spins = 0; planes.load(std::memory_order_acquire) < needed;) rest_a_little(spins);
+  /// Spins for some 20 us, longer than a plane takes, then lets others have the core.
+  void wait_for(std::int64_t needed) const {
+    constexpr int patience = 2000;
+    for (int spins = 0; value.load(std::memory_order_acquire) < needed; ++spins) {
+      if (spins < patience)
+        _mm_pause();
+      else
+        std::this_thread::yield();
+    }
   }
 };
 
 }  // namespace
 
 struct Wavefront::Crew {
-  std::vector<Progress> progress;
   std::vector<std::thread> threads;
   std::mutex mutex;
   std::condition_variable wake;
-  long runs = 0;  // guarded by the mutex, like `leaving` and `task`
+  Task task;  // guarded by the mutex, like `leaving`
   bool leaving = false;
-  Task task;
-  std::atomic<int> busy{0};
+  Counter next;                   ///< next group to be taken: task.run << 32 | group
+  std::vector<Counter> finished;  ///< of group g, in place g % size: g * planes + planes swept
 
-  explicit Crew(int count) : progress(std::size_t(count)) {
+  // At most as many groups are in flight as there are threads; one more place keeps the group
+  // before the oldest of them.
+  explicit Crew(int count) : finished(std::size_t(count) + 1) {
     for (int t = 1; t < count; ++t) threads.emplace_back([this, t] { serve(t); });
   }
   ~Crew() {
@@ -58,40 +56,66 @@ struct Wavefront::Crew {
   }
 
   void serve(int self) {
-    for (long seen = 0;;) {
+    for (std::int64_t seen = 0;;) {
       Task mine;
       {
         std::unique_lock lock(mutex);
-        wake.wait(lock, [&] { return leaving || runs != seen; });
+        wake.wait(lock, [&] { return leaving || task.run != seen; });
         if (leaving) return;
-        seen = runs;
         mine = task;
       }
-      if (self >= mine.threads) continue;
-      march(mine, self);
-      busy.fetch_sub(1, std::memory_order_release);
+      seen = mine.run;
+      if (self < mine.threads) march(mine, self);
     }
   }
 
-  /// The groups self, self + threads, ... of steps.
+  Counter& finished_of(int group) { return finished[std::size_t(group) % finished.size()]; }
+
+  /// The next group of this run; -1 when all are taken. A thread that woke up too late finds
+  /// another run's number and takes nothing.
+  int take(const Task& t) {
+    std::int64_t seen = next.value.load(std::memory_order_acquire);
+    while (seen >> 32 == t.run && int(seen & 0xffffffff) < t.groups()) {
+      if (next.value.compare_exchange_weak(seen, seen + 1, std::memory_order_acq_rel))
+        return int(seen & 0xffffffff);
+    }
+    return -1;
+  }
+
   void march(const Task& t, int self) {
-    const int groups = (t.steps + t.group - 1) / t.group;
-    const Progress& ahead = progress[std::size_t((self + t.threads - 1) % t.threads)];
-    Progress& mine = progress[std::size_t(self)];
-    long finished = 0;
-    for (int g = self; g < groups; g += t.threads) {
-      const int depth = std::min(t.group, t.steps - g * t.group);
-      const long before = g == 0 ? 0 : long((g - 1) / t.threads) * t.planes;
-      for (int front = 0; front < t.planes + 2 * (depth - 1); ++front) {
-        for (int k = 0; k < depth; ++k) {
-          const int plane = front - 2 * k;
-          if (plane < 0 || plane >= t.planes) continue;
-          if (k == 0 && g > 0) ahead.wait_for(before + std::min(plane + 2, t.planes));
-          t.sweep.call(t.sweep.self, self * t.group + k, plane);
-          if (k == depth - 1) mine.planes.store(++finished, std::memory_order_release);
+    for (int g = take(t); g >= 0; g = take(t)) sweep_group(t, self, g);
+  }
+
+  void sweep_group(const Task& t, int self, int group) {
+    const int depth = std::min(t.group, t.steps - group * t.group);
+    for (int front = 0; front < t.planes + 2 * (depth - 1); ++front) {
+      for (int k = 0; k < depth; ++k) {
+        const int plane = front - 2 * k;
+        if (plane < 0 || plane >= t.planes) continue;
+        if (k == 0 && group > 0) {
+          finished_of(group - 1).wait_for(std::int64_t(group - 1) * t.planes +
+                                          std::min(plane + 2, t.planes));
+        }
+        t.sweep.call(t.sweep.self, self * t.group + k, plane);
+        if (k == depth - 1) {
+          finished_of(group).value.store(std::int64_t(group) * t.planes + plane + 1,
+                                         std::memory_order_release);
         }
       }
     }
+  }
+
+  void run(Task t) {
+    for (Counter& counter : finished) counter.value.store(0, std::memory_order_relaxed);
+    {
+      const std::lock_guard lock(mutex);
+      t.run = task.run + 1;
+      task = t;
+      next.value.store(t.run << 32, std::memory_order_release);
+    }
+    if (t.threads > 1) wake.notify_all();
+    march(t, 0);
+    if (t.groups() > 0) finished_of(t.groups() - 1).wait_for(std::int64_t(t.groups()) * t.planes);
   }
 };
 
@@ -99,23 +123,11 @@ Wavefront::Wavefront(int threads) : crew_(std::make_unique<Crew>(threads)) {}
 Wavefront::~Wavefront() = default;
 
 int Wavefront::threads() const {
-  return int(crew_->progress.size());
+  return int(crew_->threads.size()) + 1;
 }
 
 void Wavefront::run(int steps, int planes, int threads, int group, Borrowed sweep) {
-  const Task task{steps, planes, threads, group, sweep};
-  for (Progress& p : crew_->progress) p.planes.store(0, std::memory_order_relaxed);
-  if (threads > 1) {
-    crew_->busy.store(threads - 1, std::memory_order_relaxed);
-    {
-      const std::lock_guard lock(crew_->mutex);
-      crew_->task = task;
-      ++crew_->runs;
-    }
-    crew_->wake.notify_all();
-  }
-  crew_->march(task, 0);
-  for (int spins = 0; crew_->busy.load(std::memory_order_acquire) > 0;) rest_a_little(spins);
+  crew_->run({steps, planes, threads, group, 0, sweep});
 }
 
 }  // namespace fingertip::lattice::springs

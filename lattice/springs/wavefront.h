@@ -1,15 +1,17 @@
 /// Threads that march a lattice through time together, each in a time step of its own.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 namespace fingertip::lattice::springs {
 
 /// Sweeps planes 0, 1, ... of step after step, where plane z of a step needs planes up to z + 1 of
-/// the step before and leaves the planes below z alone. Thread t takes the steps t, t + T, ...
-/// (in groups of `group` steps, which it sweeps interleaved so that planes stay in its cache) and
-/// stays two planes behind the thread before it: no barrier, and every step does the same whatever
-/// the number of threads. Waiting threads spin, and yield their core when that takes long.
+/// the step before and leaves the planes below z alone. A thread takes the next step that nobody
+/// has taken (or group of `group` steps, which it sweeps interleaved so that planes stay in its
+/// cache) and stays two planes behind the step before: no barrier, and every step does the same
+/// whoever takes it. Waiting threads spin, and yield their core when that takes long. A thread that
+/// gets no core takes no step, and the others go on without it.
 class Wavefront {
  public:
   /// Makes `threads` - 1 threads ready besides the calling one; they sleep between runs.
@@ -39,7 +41,10 @@ class Wavefront {
   };
   struct Task {
     int steps = 0, planes = 0, threads = 1, group = 1;
+    std::int64_t run = 0;  ///< number of this task
     Borrowed sweep;
+
+    int groups() const { return (steps + group - 1) / group; }
   };
   void run(int steps, int planes, int threads, int group, Borrowed sweep);
 

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "lattice/springs/spring_lattice.h"
 #include "lattice/springs/spring_problem.h"
 #include "meshes/cubic_grid.h"
 
@@ -31,6 +32,13 @@ inline SpringProblem box(int nx, int ny, int nz) {
   problem.plane.height = 0.1 * spacing;
   problem.plane.stiffness = 200.0;
   problem.plane.damping = 0.01;
+  return problem;
+}
+
+/// The same far above the plane, without gravity.
+inline SpringProblem floating(SpringProblem problem) {
+  problem.gravity.setZero();
+  problem.plane.height = -1.0;
   return problem;
 }
 
@@ -82,6 +90,13 @@ inline Motion shaken(const SpringProblem& problem, unsigned seed) {
     motion.velocities(i) = 0.1 * unit(random);
   }
   return motion;
+}
+
+/// Register widths, in doubles, of all kernels that the running processor can execute.
+inline std::vector<int> widths() {
+  std::vector<int> all;
+  for (int width = 2; width <= lattice::springs::widest(); width *= 2) all.push_back(width);
+  return all;
 }
 
 inline double largest(const Eigen::Matrix3Xd& values) {
