@@ -168,6 +168,7 @@ KernelRound read_kernel_round(const fs::path& file) {
           entry.contains("amount") ? number("amount") : sample.springs * number("steps");
       sample.wall_cost = number("real_time") / amount;
       sample.cost = sample.threads == 1 ? number("cpu_time") / amount : sample.wall_cost;
+      if (entry.contains("rate")) sample.cost = sample.wall_cost = 1e9 / number("rate");
       add(round, sample);
     }
   } catch (const nlohmann::json::exception& error) {

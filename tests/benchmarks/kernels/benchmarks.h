@@ -1,7 +1,7 @@
 /// The groups of benchmarks of fingertip-kernels. Every one reports real time and the counters
 /// `masses`, `springs` (per step), `steps` (per iteration) and `operations` (multiply-adds per
-/// spring, 0 where not counted) or, for probes, `amount` (multiply-adds, bytes per iteration); its
-/// name is NAME/isa:ISA/precision:PRECISION/threads:N/size:N.
+/// spring, 0 where not counted) or, for probes, `rate` [1/s] or `amount` (multiply-adds, bytes per
+/// iteration); its name is NAME/isa:ISA/precision:PRECISION/threads:N/size:N.
 #pragma once
 
 #include <string>

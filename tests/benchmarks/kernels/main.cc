@@ -6,6 +6,7 @@
 //   S]
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +16,7 @@
 
 #include "benchmarks.h"
 #include "lattice/kernel.h"
+#include "multiply_rate.h"
 #include "probes.h"
 
 namespace kernel_benchmarks {
@@ -30,13 +32,15 @@ std::string full_name(const std::string& name, int width, const std::string& pre
 }
 
 void register_probes(const Scope& scope) {
+  using fingertip::lattice::springs::Precision;
   for (int width = 2; width <= scope.widest; width *= 2) {
     benchmark::RegisterBenchmark(
         full_name("multiply-add", width, "float64", 1, 0).c_str(),
         [width](benchmark::State& state) {
-          constexpr long rounds = 10000;
-          for (auto _ : state) benchmark::DoNotOptimize(kernel_probes::multiply_add(width, rounds));
-          state.counters["amount"] = double(rounds * kernel_probes::chains * width);
+          double rate = 0.0;
+          for (auto _ : state)
+            rate = std::max(rate, spring_peers::multiply_rate(width, Precision::float64));
+          state.counters["rate"] = rate;
         })
         ->MinTime(scope.seconds)
         ->UseRealTime();

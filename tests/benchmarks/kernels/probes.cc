@@ -1,19 +1,9 @@
 #include "probes.h"
 
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 namespace kernel_probes {
-
-double multiply_add(int width, long rounds) {
-  switch (width) {
-    case 2: return multiply_add_width2(rounds);
-    case 4: return multiply_add_width4(rounds);
-    case 8: return multiply_add_width8(rounds);
-    default: throw std::invalid_argument("multiply_add: width must be 2, 4 or 8");
-  }
-}
 
 void stream(const double* from, double* to, std::size_t count, double factor) {
   for (std::size_t i = 0; i < count; ++i) to[i] = from[i] + factor;

@@ -5,6 +5,7 @@
 #include "benchmarks.h"
 #include "edge_list.h"
 #include "lattice/springs/spring_lattice.h"
+#include "multiply_rate.h"
 
 namespace kernel_benchmarks {
 
@@ -33,11 +34,7 @@ Eigen::Matrix3Xd shaken(const springs::SpringProblem& problem) {
   return positions;
 }
 
-/// Multiply-adds of a damped spring and its share of the integration (physics: half stencil).
-constexpr double spring_operations = 17.0;
-
-/// Steps per call: several thousand million springs' worth of nothing would be lost to starting
-/// threads otherwise.
+/// Steps per call, enough for what it takes to wake the threads not to count.
 int steps_for(std::size_t spring_count) {
   return spring_count < 1000000 ? 64 : 16;
 }
@@ -62,7 +59,8 @@ void register_engine(int size, int width, springs::Precision precision, int thre
         springs::SpringLattice lattice(problem, {precision, width, threads});
         const Eigen::Matrix3Xd positions = shaken(problem);
         lattice.set_motion(positions, 0.0 * positions);
-        measure(state, lattice, steps_for(lattice.springs()), spring_operations);
+        measure(state, lattice, steps_for(lattice.springs()),
+                spring_peers::multiply_operations_per_spring);
       })
       ->MinTime(seconds)
       ->UseRealTime();
