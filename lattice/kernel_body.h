@@ -93,8 +93,8 @@ struct Body {
     const double rest = a.spacing * __builtin_sqrt(double(s.family) + 1.0);
     // Absent neighbours may coincide with the point: the floor keeps 0 * (1/0) out of the sum.
     const Pack floor = 1e-24 * a.spacing * a.spacing;
-    const Pack square = std::experimental::max(d.x * d.x + d.y * d.y + d.z * d.z, floor);
-    const Pack inverse_length = Pack(1.0) / std::experimental::sqrt(square);
+    const Pack square = max(d.x * d.x + d.y * d.y + d.z * d.z, floor);
+    const Pack inverse_length = Pack(1.0) / sqrt(square);
     const Pack rate = (d.x * w.x + d.y * w.y + d.z * w.z) * inverse_length;
     const Pack magnitude =
         weight * (Pack(a.stiffness[s.family]) * (Pack(1.0) - Pack(rest) * inverse_length) +

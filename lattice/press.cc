@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <memory>
 #include <sstream>
 
@@ -18,6 +19,13 @@ namespace fingertip::lattice {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Of the calling thread [s].
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
 
 LatticeCensus take_census(const PressSetup& setup, const LatticeModel& model) {
   LatticeCensus census;
@@ -60,6 +68,7 @@ class Press {
   double wall_time() const {
     return std::chrono::duration<double>(Clock::now() - started_).count();
   }
+  ElapsedTime elapsed() const { return {wall_time(), processor_time() - processor_start_}; }
 
   const PressSetup& setup_;
   const PressObserver& observer_;
@@ -74,6 +83,7 @@ class Press {
   PressInstant start_of_step_;
   double time_limit_ = 0.0;
   Clock::time_point started_, last_report_;
+  double processor_start_ = 0.0;  // [s]
 };
 
 Press::Press(const PressSetup& setup, const PressObserver& observer, const PressFilm& film)
@@ -177,6 +187,7 @@ void Press::look_after() {
       loop_ ? loop_->commanded() : Wrench{-instant.bond.force, -instant.bond.torque};
   recorder_.add_trace(instant, approach_.at(instant.time), held,
                       controller_ ? controller_->report() : ControllerReport{});
+  outcome_.elapsed.push_back(elapsed());
   check_sanity();
   report(false);
 }
@@ -223,6 +234,7 @@ void Press::give_up(const std::string& why) {
 
 PressOutcome Press::run() {
   started_ = last_report_ = Clock::now();
+  processor_start_ = processor_time();
   pictures_.look(indentation());
   try {
     while (run_period()) continue;

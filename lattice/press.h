@@ -49,9 +49,17 @@ struct LatticeCensus {
   double added_mass = 0.0;          ///< what light particles at cut cells were given [kg]
 };
 
+/// What a press had taken when a row of its trace was written [s]. Another run takes another time:
+/// no part of trace.csv.
+struct ElapsedTime {
+  double wall = 0.0;
+  double processor = 0.0;  ///< of the thread that presses; with one thread all there is
+};
+
 struct PressOutcome {
   meshes::PressResponse response;  ///< at the sample depths and evenly in between
   std::vector<TraceRow> trace;
+  std::vector<ElapsedTime> elapsed;  ///< one per row of `trace`
   StepReport step;
   StepCount steps;
   long force_evaluations = 0;  ///< of springs and cells

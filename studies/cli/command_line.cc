@@ -49,6 +49,8 @@ constexpr Verb verbs[] = {
     {"explain", "explain a configuration key, or list all", "KEY", "section.key", 0U},
     {"init", "write a commented configuration with every key", "FILE",
      "the file (default: standard output)", out_options},
+    {"bench", "measure speed: kernels, presses against the clock, peers", "", "",
+     run_options | out_options},
     {"doctor", "tell versions, programs, folders and cores", "", "", 0U},
 };
 
@@ -108,6 +110,17 @@ void add_import(CLI::App& sub, CommandLine& line) {
   sub.add_option("--threads", line.config.threads, "threads to use; 0: all cores")->type_name("N");
 }
 
+void add_bench(CLI::App& sub, CommandLine& line) {
+  sub.add_option("--json", line.json, "write what was measured to this file, too")
+      ->type_name("FILE");
+  sub.add_flag("--quick", line.quick, "coarse lattices and few repeats: about two minutes");
+  sub.add_option("--history", line.history,
+                 "folder of history.jsonl, which gets a line (default: in the cache)")
+      ->type_name("DIR");
+  sub.add_option("--isa", line.isa, "measure kernels no wider than this one's")
+      ->check(CLI::IsMember({"sse2", "avx2", "avx512"}));
+}
+
 void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& progress,
               std::string& resume) {
   CLI::App& sub = *app.add_subcommand(verb.name, verb.help);
@@ -136,6 +149,7 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
   if (name == "live") add_live(sub, line);
   if (name == "export") add_export(sub);
   if (name == "import") add_import(sub, line);
+  if (name == "bench") add_bench(sub, line);
   if (name == "validate") sub.add_flag("--all", line.all, "every case in studies/cases");
   if (name == "explain") {
     sub.add_flag("--schema", line.schema, "JSON Schema of configuration files");

@@ -30,6 +30,10 @@ struct CommandLine {
   std::optional<double> exit_after;  ///< live: wall time [s]
   bool compare = false;              ///< import --compare
   bool frames = false;               ///< import --frames
+  bool quick = false;                ///< bench --quick
+  std::filesystem::path json;        ///< of bench: where its document goes, too
+  std::filesystem::path history;     ///< of bench: folder of the history; empty: in the cache
+  std::string isa;                   ///< of bench: the widest to measure; empty: all there is
   bool schema = false;               ///< explain --schema
   bool markdown = false;             ///< explain --markdown
   ProgressStyle progress = ProgressStyle::off;

@@ -20,5 +20,6 @@ int run_check(const CommandLine& line);
 int run_explain(const CommandLine& line);
 int run_init(const CommandLine& line);
 int run_doctor(const CommandLine& line);
+int run_bench(const CommandLine& line);
 
 }  // namespace fingertip::studies

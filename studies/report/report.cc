@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "studies/report/bench_page.h"
 #include "studies/report/calibration_chapters.h"
 #include "studies/report/chapters.h"
 #include "studies/report/grasp_run.h"
@@ -174,6 +175,10 @@ Page report_page(const RunData& run) {
 }  // namespace reporting
 
 void write_report(const std::filesystem::path& run_folder) {
+  if (std::filesystem::exists(run_folder / "bench.json")) {
+    reporting::publish(reporting::bench_page(run_folder), run_folder, "report.html");
+    return;
+  }
   const reporting::RunData run = reporting::read_run(run_folder);
   reporting::publish(reporting::report_page(run), run_folder, "report.html");
 }

@@ -8,7 +8,8 @@
 namespace fingertip::studies {
 
 /// Writes `report.html` (self-contained) and the folder `figures/` (one SVG and one CSV per
-/// figure) into the run folder of `validate`, or of a `calibrate` that fitted curves. Everything is
+/// figure) into the run folder of `validate`, of `bench` (it holds bench.json), or of a `calibrate`
+/// that fitted curves. Everything is
 /// read from disk; chapters whose files are missing are left out and named as not run. The old
 /// report stays until the new one is complete.
 /// Throws meshes::InvalidInput when the folder is not one of these (no readable summary.json, nor a

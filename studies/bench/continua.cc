@@ -1,0 +1,85 @@
+#include "studies/bench/continua.h"
+
+#include <fmt/format.h>
+
+#include "studies/bench/pace.h"
+#include "studies/run/jobs.h"
+#include "studies/run/json_file.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+/// "0.00125 m" for every one, as a list in TOML.
+std::string list_of(const std::vector<double>& depths) {
+  std::string text;
+  for (const double depth : depths)
+    text += fmt::format("{}\"{:.9g} m\"", text.empty() ? "" : ",", depth);
+  return "[" + text + "]";
+}
+
+std::vector<double> even(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(from + (to - from) * i / (count - 1));
+  return values;
+}
+
+fem_reference::ReferenceJob order_for(const LoadedConfig& loaded, bool finite,
+                                      const std::vector<double>& depths, int degree,
+                                      double refinement) {
+  return reference_order(
+      loaded.with({"press.contact=stick", "press.samples=" + list_of(depths),
+                   fmt::format("reference.strain={}", finite ? "finite" : "linear"),
+                   fmt::format("reference.degree={}", degree),
+                   fmt::format("reference.refinement={:.9g}", refinement)}));
+}
+
+}  // namespace
+
+Job truth_job(const LoadedConfig& loaded, const BenchPlan& plan, bool finite) {
+  // Dense enough for the interpolation between them to be off by less than a tenth of a per cent.
+  std::vector<double> depths = even(plan.error_from, plan.depth, 9);
+  depths.insert(depths.begin(), 0.5 * plan.error_from);
+  fem_reference::ReferenceJob order =
+      order_for(loaded, finite, depths, plan.reference_degree, plan.reference_refinement);
+  order.tolerance = plan.reference_tolerance;
+  order.estimate_error = plan.reference_error;
+  return reference_job(order);
+}
+
+Job continuum_job(const LoadedConfig& loaded, const BenchPlan& plan,
+                  const ContinuumPlan& continuum) {
+  const int solves = plan.continuum_solves;
+  fem_reference::ReferenceJob order =
+      order_for(loaded, true, even(plan.depth / solves, plan.depth, solves), continuum.degree,
+                continuum.refinement);
+  order.estimate_error = order.write_fields = false;
+  Job job = reference_job(order);
+  job.repeatable = false;
+  return job;
+}
+
+nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
+                                       const ContinuumPlan& continuum,
+                                       const meshes::PressResponse& truth, const BenchPlan& plan,
+                                       double period) {
+  const auto summary = read_json(folder / "summary.json");
+  double seconds = 0.0;
+  for (const auto& sample : summary.at("samples")) seconds += sample.at("wall_time").get<double>();
+  const double rate = double(summary.at("samples").size()) / seconds;
+  const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+  return {{"degree", continuum.degree},
+          {"refinement", continuum.refinement},
+          {"unknowns", summary.at("dofs")},
+          {"solves_per_second", rate},
+          {"real_time_factor", rate * period},
+          {"worst_force_error",
+           number_or_null(worst_force_error(response, truth, plan.error_from, plan.depth))}};
+}
+
+std::string continuum_name(const ContinuumPlan& continuum) {
+  return fmt::format("degree{}_{:.3g}", continuum.degree, continuum.refinement);
+}
+
+}  // namespace fingertip::studies

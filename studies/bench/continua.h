@@ -1,0 +1,32 @@
+/// The continuum: what errors are measured against, and as a way of simulating the press itself.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "meshes/press_response.h"
+#include "studies/bench/plan.h"
+#include "studies/config/loader.h"
+#include "studies/run/job.h"
+
+namespace fingertip::studies {
+
+/// Sticking contact, law A at finite strain or small strain, to the plan's depth.
+Job truth_job(const LoadedConfig& loaded, const BenchPlan& plan, bool finite);
+
+/// One mesh, no error estimate, `plan.continuum_solves` even equilibria to the plan's depth; never
+/// cached.
+Job continuum_job(const LoadedConfig& loaded, const BenchPlan& plan,
+                  const ContinuumPlan& continuum);
+
+/// {"degree", "refinement", "unknowns", "threads", "solves_per_second", "real_time_factor",
+/// "worst_force_error"} of its folder. Quasi-static simulation in real time means one equilibrium
+/// per control period: the factor is solves per second times the controller's `period` [s].
+nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
+                                       const ContinuumPlan& continuum,
+                                       const meshes::PressResponse& truth, const BenchPlan& plan,
+                                       double period);
+
+/// "degree2_0.5"
+std::string continuum_name(const ContinuumPlan& continuum);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,39 @@
+#include "studies/bench/history.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "studies/run/cache.h"
+
+namespace fingertip::studies {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+fs::path history_file(const fs::path& folder) {
+  return (folder.empty() ? Cache::default_folder() / "bench" : folder) / "history.jsonl";
+}
+
+void append_history(const ordered_json& bench, const fs::path& file) {
+  ordered_json line = bench;
+  line.erase("ratio_rounds");
+  for (const char* list : {"kernels", "peers"})
+    for (ordered_json& entry : line[list]) entry.erase("rounds");
+  if (file.has_parent_path()) fs::create_directories(file.parent_path());
+  std::ofstream out(file, std::ios::app);
+  // One write per line: two runs at once do not mix.
+  out << line.dump() + "\n" << std::flush;
+  if (!out) throw std::runtime_error("cannot write " + file.string());
+}
+
+ordered_json read_history(const fs::path& file) {
+  ordered_json runs = ordered_json::array();
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    ordered_json run = ordered_json::parse(line, nullptr, false);
+    if (run.is_object()) runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,21 @@
+/// What earlier runs of `bench` measured.
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+namespace fingertip::studies {
+
+/// The file in `folder`, or in the cache when that is empty.
+std::filesystem::path history_file(const std::filesystem::path& folder);
+
+/// Adds one line: the run without what its single rounds measured. Makes the folder. Throws
+/// std::runtime_error when it cannot be written.
+void append_history(const nlohmann::ordered_json& bench, const std::filesystem::path& file);
+
+/// Every run in the file, oldest first; lines that are no JSON object (a run was killed while it
+/// wrote) are left out. Empty without the file.
+nlohmann::ordered_json read_history(const std::filesystem::path& file);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,203 @@
+#include "studies/bench/kernels.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "meshes/press_response.h"
+#include "studies/bench/child.h"
+#include "studies/bench/lammps.h"
+#include "studies/run/interrupt.h"
+#include "studies/run/json_file.h"
+#include "studies/run/provenance.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// "NAME/isa:X/precision:P/threads:N/size:N/min_time:..." into its parts.
+KernelSample sample_named(const std::string& full) {
+  KernelSample sample;
+  std::istringstream words(full);
+  for (std::string word; std::getline(words, word, '/');) {
+    const auto colon = word.find(':');
+    const std::string key = word.substr(0, colon);
+    const std::string value = colon == word.npos ? "" : word.substr(colon + 1);
+    if (colon == word.npos && sample.name.empty()) sample.name = word;
+    if (key == "isa") sample.isa = value;
+    if (key == "precision") sample.precision = value;
+    if (key == "threads") sample.threads = std::stoi(value);
+    if (key == "size") sample.size = std::stoi(value);
+  }
+  return sample;
+}
+
+std::string key_of(const KernelSample& s) {
+  return fmt::format("{}/{}/{}/{}/{}", s.name, s.isa, s.precision, s.threads, s.size);
+}
+
+void add(KernelRound& round, const KernelSample& sample) {
+  round[key_of(sample)] = sample;
+}
+
+KernelSample peer(const char* name, int size, double springs, double cost) {
+  KernelSample sample;
+  sample.name = name;
+  sample.isa = "as packaged";
+  sample.precision = "float64";
+  sample.size = size;
+  sample.masses = std::pow(size, 3);
+  sample.springs = springs;
+  sample.cost = sample.wall_cost = cost;
+  return sample;
+}
+
+/// Programs beside this one, and the peers.
+class Programs {
+ public:
+  Programs(const BenchPlan& plan, const fs::path& folder, KernelRounds& rounds)
+      : plan_(plan), folder_(folder), rounds_(rounds) {
+    for (const int size : {20, 48})
+      if (std::ranges::count(plan.sizes, size) > 0) peer_sizes_.push_back(size);
+    prepare_lammps();
+    bullet_ = executable_folder() / "fingertip-bullet";
+    if (!plan.bullet) rounds_.missing["bullet"] = "left out";
+    if (plan.bullet && ::access(bullet_.c_str(), X_OK) != 0)
+      rounds_.missing["bullet"] = "fingertip-bullet is not built (package libbullet-dev)";
+  }
+
+  void kernels(int number, KernelRound& round) {
+    const fs::path program = executable_folder() / "fingertip-kernels";
+    if (::access(program.c_str(), X_OK) != 0) {
+      rounds_.missing["kernels"] = "fingertip-kernels is not built (package libbenchmark-dev)";
+      return;
+    }
+    const fs::path out = folder_ / fmt::format("kernels_{}.json", number + 1);
+    std::vector<std::string> words = {program.string(),
+                                      "--threads",
+                                      std::to_string(plan_.threads),
+                                      "--seconds",
+                                      std::to_string(plan_.seconds),
+                                      "--sizes",
+                                      fmt::format("{}", fmt::join(plan_.sizes, ",")),
+                                      "--benchmark_out_format=json",
+                                      "--benchmark_out=" + out.string()};
+    if (plan_.widest > 0) words.insert(words.end(), {"--widest", std::to_string(plan_.widest)});
+    if (number >= plan_.wide_rounds)
+      words.push_back("--benchmark_filter=multiply-add|edge_list|springs/.*float64.*size:(20|48)/");
+    const fs::path log = folder_ / "kernels.log";
+    if (const int code = run_child(words, {}, log); code != 0)
+      throw std::runtime_error(
+          fmt::format("fingertip-kernels ended with {}; see {}", code, log.string()));
+    round.merge(read_kernel_round(out));
+  }
+
+  void lammps(KernelRound& round) {
+    if (rounds_.missing.contains("lammps")) return;
+    for (const int size : peer_sizes_) {
+      const fs::path folder = folder_ / fmt::format("lammps_{}", size), log = folder / "log";
+      const int code =
+          run_child({lammps_.string(), "-in", (folder / "cube.in").string(), "-log", "none"},
+                    {"OMP_NUM_THREADS=1"}, log);
+      const std::string printed = text_of(log);
+      const std::size_t springs = cube_springs(size);
+      const double cost = lammps_cost(printed, springs);
+      if (code != 0 || std::isnan(cost)) {
+        rounds_.missing["lammps"] = fmt::format("lmp ended with {}; see {}", code, log.string());
+        return;
+      }
+      rounds_.versions["lammps"] = lammps_version(printed);
+      add(round, peer("lammps_harmonic", size, double(springs), cost));
+    }
+  }
+
+  void bullet(KernelRound& round) {
+    if (rounds_.missing.contains("bullet")) return;
+    const fs::path log = folder_ / "bullet.json";
+    const int code = run_child({bullet_.string(), "20", plan_.quick ? "20" : "100"}, {}, log);
+    if (code != 0) {
+      rounds_.missing["bullet"] = fmt::format("fingertip-bullet ended with {}", code);
+      return;
+    }
+    const ordered_json found = read_json(log);
+    const double springs = found.at("springs");
+    add(round, peer("bullet_soft_body", 20, springs,
+                    1e9 * found.at("seconds").get<double>() /
+                        (springs * found.at("steps").get<double>())));
+  }
+
+ private:
+  void prepare_lammps() {
+    lammps_ = plan_.lammps.empty() ? fs::path() : program_on_path(plan_.lammps);
+    if (lammps_.empty()) {
+      rounds_.missing["lammps"] =
+          plan_.lammps.empty() ? "left out" : plan_.lammps + " is not on the PATH (package lammps)";
+      return;
+    }
+    for (const int size : peer_sizes_)
+      write_lammps_cube(fs::absolute(folder_) / fmt::format("lammps_{}", size), size,
+                        size > 30 ? 40 : 400);
+  }
+
+  const BenchPlan& plan_;
+  fs::path folder_;
+  KernelRounds& rounds_;
+  std::vector<int> peer_sizes_;
+  fs::path lammps_, bullet_;
+};
+
+}  // namespace
+
+KernelRound read_kernel_round(const fs::path& file) {
+  KernelRound round;
+  const ordered_json all = read_json(file);
+  try {
+    for (const ordered_json& entry : all.at("benchmarks")) {
+      KernelSample sample = sample_named(entry.at("name").get<std::string>());
+      const auto number = [&](const char* key) { return entry.value(key, 0.0); };
+      sample.masses = number("masses");
+      sample.springs = number("springs");
+      sample.operations = number("operations");
+      const double amount =
+          entry.contains("amount") ? number("amount") : sample.springs * number("steps");
+      sample.wall_cost = number("real_time") / amount;
+      sample.cost = sample.threads == 1 ? number("cpu_time") / amount : sample.wall_cost;
+      if (entry.contains("rate")) sample.cost = sample.wall_cost = 1e9 / number("rate");
+      add(round, sample);
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw meshes::InvalidInput({file.string(), "", error.what(), "run the benchmark again"});
+  }
+  return round;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return meshes::unknown;
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+KernelRounds measure_kernels(const BenchPlan& plan, const fs::path& folder,
+                             const JobContext& context) {
+  KernelRounds result;
+  Programs programs(plan, folder, result);
+  for (int number = 0; number < plan.rounds; ++number) {
+    if (!context.report(double(number) / plan.rounds, fmt::format("round {}", number + 1)))
+      throw meshes::Interrupted("stopped by the user");
+    KernelRound round;
+    programs.kernels(number, round);
+    programs.lammps(round);
+    if (number < plan.wide_rounds) programs.bullet(round);
+    result.rounds.push_back(std::move(round));
+  }
+  return result;
+}
+
+}  // namespace fingertip::studies

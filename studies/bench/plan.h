@@ -1,0 +1,56 @@
+/// What `bench` measures, and how long.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lattice/settings.h"
+
+namespace fingertip::studies {
+
+/// A lattice to press.
+struct PressPlan {
+  lattice::ModelKind model = lattice::ModelKind::network;
+  int per_radius = 12;  ///< R/a
+  int threads = 1;
+};
+
+/// A continuum on one mesh.
+struct ContinuumPlan {
+  int degree = 1;
+  double refinement = 0.5;
+};
+
+struct BenchPlan {
+  bool quick = false;
+  // Kernels.
+  int rounds = 5;          ///< of ratios: fingertip-kernels, then the peers
+  int wide_rounds = 3;     ///< of these, with kernels of which no ratio is asked
+  double seconds = 0.1;    ///< per kernel and round [s]
+  std::vector<int> sizes;  ///< masses along the cubes' edges; ratios are of 20 and 48
+  int threads = 2;
+  int widest = 0;              ///< doubles per register, 2, 4 or 8; 0: what the processor has
+  std::string lammps = "lmp";  ///< program; empty: leave it out
+  bool bullet = true;
+  // Presses.
+  std::vector<PressPlan> presses;
+  double depth = 0.003;       ///< [m]
+  double error_from = 0.001;  ///< force errors are taken from this indentation on [m]
+  double reference_tolerance = 0.003;
+  int reference_degree = 2;
+  double reference_refinement = 0.5;
+  bool reference_error = true;  ///< refine the reference until it meets the tolerance
+  bool small_strain = true;     ///< a second reference, of small strain
+  std::vector<ContinuumPlan> continua;
+  int continuum_solves = 30;  ///< equilibria per press of these
+  bool times = true;          ///< of static press and calibration
+};
+
+/// A quarter of an hour on two cores, most of it for R/24.
+BenchPlan full_plan();
+/// R/6 and R/8 only, fewer repeats: about two minutes once the reference is cached.
+BenchPlan quick_plan();
+/// Seconds: to see that everything works, not to measure.
+BenchPlan smallest_plan();
+
+}  // namespace fingertip::studies

@@ -1,0 +1,64 @@
+#include "studies/bench/presses.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lattice/press.h"
+#include "studies/bench/pace.h"
+#include "studies/run/jobs.h"
+#include "studies/run/json_file.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+constexpr double window = 0.01;  // [s]
+
+void run_pace(lattice::PressSetup setup, int threads, const std::filesystem::path& folder,
+              const JobContext& context) {
+  setup.threads = threads;
+  const lattice::PressOutcome outcome =
+      lattice::run_press(setup, [&](const lattice::PressOutcome&, double fraction) {
+        return context.report(fraction, "pressing");
+      });
+  const Pace pace = slowest_pace(outcome, window);
+  outcome.response.write_csv(folder / "response.csv");
+  write_json({{"real_time_factor", number_or_null(pace.wall)},
+              {"real_time_factor_processor",
+               threads == 1 ? number_or_null(pace.processor) : nlohmann::ordered_json()},
+              {"whole_press_factor", number_or_null(outcome.real_time_factor())},
+              {"step", outcome.step.step},
+              {"steps", outcome.steps.accepted},
+              {"particles", outcome.census.particles}},
+             folder / "pace.json");
+}
+
+}  // namespace
+
+LoadedConfig press_config(const LoadedConfig& loaded, const PressPlan& press, double depth) {
+  const std::string model(lattice::name(press.model));
+  return loaded.with({"press.contact=stick", fmt::format("press.depth=\"{:.12g} m\"", depth),
+                      "lattice.model=" + model,
+                      fmt::format("lattice.spacing=tip_radius/{}", press.per_radius)});
+}
+
+Job pace_job(const LoadedConfig& loaded, const PressPlan& press, double depth) {
+  const lattice::PressSetup setup = press_setup(press_config(loaded, press, depth));
+  Job job = press_job(setup);
+  job.kind = "pace";
+  job.inputs["threads"] = press.threads;
+  job.repeatable = false;
+  job.run = [setup, threads = press.threads](const std::filesystem::path& folder,
+                                             const JobContext& context) {
+    run_pace(setup, threads, folder, context);
+  };
+  return job;
+}
+
+std::string press_name(const PressPlan& press) {
+  return fmt::format("{}_R{}_{}t", lattice::name(press.model), press.per_radius, press.threads);
+}
+
+}  // namespace fingertip::studies

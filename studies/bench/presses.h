@@ -1,0 +1,21 @@
+/// Presses of the default fingertip against the clock.
+#pragma once
+
+#include "studies/bench/plan.h"
+#include "studies/config/loader.h"
+#include "studies/run/job.h"
+
+namespace fingertip::studies {
+
+/// The default specimen and press of `loaded` with sticking contact, this lattice and depth.
+LoadedConfig press_config(const LoadedConfig& loaded, const PressPlan& press, double depth);
+
+/// File: pace.json {"real_time_factor", "real_time_factor_processor" (null with more threads than
+/// one), "whole_press_factor", "step", "steps", "particles"}, and response.csv. Never cached: it is
+/// the time that matters.
+Job pace_job(const LoadedConfig& loaded, const PressPlan& press, double depth);
+
+/// "network_R12_1t"
+std::string press_name(const PressPlan& press);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,141 @@
+#include "studies/bench/ratios.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "meshes/press_response.h"
+#include "studies/run/json_file.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* isas[] = {"sse2", "avx2", "avx512"};
+
+double cost_in(const KernelRound& round, const std::string& key, bool wall = false) {
+  const auto found = round.find(key);
+  if (found == round.end()) return meshes::unknown;
+  return wall ? found->second.wall_cost : found->second.cost;
+}
+
+std::vector<double> costs(const KernelRounds& rounds, const std::string& key) {
+  std::vector<double> all;
+  for (const KernelRound& round : rounds.rounds)
+    if (const double cost = cost_in(round, key); std::isfinite(cost)) all.push_back(cost);
+  return all;
+}
+
+std::string probe_key(const std::string& name, const std::string& isa) {
+  return name + "/" + isa + "/float64/1/0";
+}
+
+std::string springs_key(int threads, int size) {
+  return fmt::format("springs/avx512/float64/{}/{}", threads, size);
+}
+
+bool is_probe(const KernelSample& s) {
+  return s.size == 0;
+}
+bool is_peer(const KernelSample& s) {
+  return s.isa == "as packaged";
+}
+
+/// Operations over the rate at which multiply-adds can be done, over the time taken.
+double roofline_fraction(const KernelSample& s, double cost, double multiply_add) {
+  if (!(s.operations > 0.0)) return meshes::unknown;
+  const double lanes = s.precision == "float32" ? 0.5 : 1.0;
+  return s.operations * multiply_add * lanes / (cost * s.threads);
+}
+
+}  // namespace
+
+ordered_json probes_of(const KernelRounds& rounds) {
+  const auto rate = [&](const std::string& key) {
+    return number_or_null(1e9 / median(costs(rounds, key)));
+  };
+  ordered_json result = {{"multiply_adds_per_second", ordered_json::object()}};
+  for (const char* isa : isas)
+    result["multiply_adds_per_second"][isa] = rate(probe_key("multiply-add", isa));
+  result["bandwidth_L2"] = rate(probe_key("bandwidth_L2", "sse2"));
+  result["bandwidth_DRAM"] = rate(probe_key("bandwidth_DRAM", "sse2"));
+  return result;
+}
+
+ordered_json kernels_of(const KernelRounds& rounds, bool peers) {
+  ordered_json list = ordered_json::array();
+  std::set<std::string> done;
+  for (const KernelRound& any : rounds.rounds) {
+    for (const auto& [key, s] : any) {
+      if (is_probe(s) || is_peer(s) != peers || !done.insert(key).second) continue;
+      const std::vector<double> all = costs(rounds, key);
+      const double cost = median(all);
+      const double bound = median(costs(rounds, probe_key("multiply-add", s.isa)));
+      list.push_back({{"name", s.name},
+                      {"isa", s.isa},
+                      {"precision", s.precision},
+                      {"threads", s.threads},
+                      {"masses", s.masses},
+                      {"ns_per_spring_step", cost},
+                      {"springs", s.springs},
+                      {"operations_per_spring",
+                       s.operations > 0.0 ? ordered_json(s.operations) : ordered_json()},
+                      {"roofline_fraction", number_or_null(roofline_fraction(s, cost, bound))},
+                      {"rounds", all}});
+    }
+  }
+  return list;
+}
+
+Ratios ratios_of(const KernelRounds& rounds) {
+  Ratios result{ordered_json::object(), ordered_json::object(), ordered_json::object()};
+  const auto why = [&](const std::string& name) -> std::string {
+    if (rounds.missing.contains("kernels")) return rounds.missing.at("kernels");
+    const bool measured = !costs(rounds, probe_key("multiply-add", "avx512")).empty();
+    if (!measured) return "needs AVX-512, which this processor lacks or the run left out";
+    if (name.starts_with("lammps") && rounds.missing.contains("lammps"))
+      return rounds.missing.at("lammps");
+    return "not measured with these sizes and threads";
+  };
+  const auto add = [&](const std::string& name,
+                       const std::function<double(const KernelRound&)>& f) {
+    std::vector<double> all;
+    for (const KernelRound& round : rounds.rounds)
+      if (const double value = f(round); std::isfinite(value)) all.push_back(value);
+    result.values[name] = number_or_null(median(all));
+    result.rounds[name] = all;
+    if (all.empty()) result.missing[name] = why(name);
+  };
+  const auto against = [](const std::string& peer, int threads, int size) {
+    return [=](const KernelRound& r) {
+      return cost_in(r, peer + "/float64/1/" + std::to_string(size)) /
+             cost_in(r, springs_key(threads, size));
+    };
+  };
+  add("edge_list_48_1t", against("edge_list/sse2", 1, 48));
+  add("edge_list_20_1t", against("edge_list/sse2", 1, 20));
+  add("edge_list_48_2t", against("edge_list/sse2", 2, 48));
+  add("edge_list_20_2t", against("edge_list/sse2", 2, 20));
+  add("lammps_48_1t", against("lammps_harmonic/as packaged", 1, 48));
+  add("lammps_20_1t", against("lammps_harmonic/as packaged", 1, 20));
+  for (const int size : {48, 20}) {
+    add(fmt::format("roofline_{}_1t", size), [size](const KernelRound& r) {
+      const auto found = r.find(springs_key(1, size));
+      if (found == r.end()) return meshes::unknown;
+      return roofline_fraction(found->second, found->second.cost,
+                               cost_in(r, probe_key("multiply-add", "avx512")));
+    });
+  }
+  for (const int size : {20, 48}) {
+    add(fmt::format("threads_{}", size), [size](const KernelRound& r) {
+      return cost_in(r, springs_key(1, size), true) / cost_in(r, springs_key(2, size), true);
+    });
+  }
+  return result;
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "studies/report/bench_figures.h"
+#include "studies/report/format.h"
+#include "studies/report/run_data.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+using nlohmann::json;
+
+/// What one core of its own would give, where that was measured.
+double pace_of(const json& press) {
+  const double processor = number_at(press, "real_time_factor_processor");
+  return std::isfinite(processor) ? processor : number_at(press, "real_time_factor");
+}
+
+struct Family {
+  std::string label, model, error_key;
+  bool hollow = false;
+};
+
+/// The presses of a model on one thread, each point with its R/n.
+void add_family(Panel& panel, const json& bench, const Family& family) {
+  Series series;
+  series.label = family.label;
+  series.style = model_style(family.model);
+  series.style.point = family.hollow ? 6 : 7;
+  series.style.point_size = 0.9;
+  if (family.hollow) series.style.dash = "(2,3)";
+  for (const json& press : array_at(bench, "press")) {
+    if (text_at(press, "model") != family.model || number_at(press, "threads") != 1.0) continue;
+    const double error = 100.0 * number_at(press, family.error_key), pace = pace_of(press);
+    if (!std::isfinite(error) || !std::isfinite(pace)) continue;
+    series.x.push_back(pace);
+    series.y.push_back(error);
+    if (!family.hollow)
+      panel.texts.push_back(
+          {pace, 0.86 * error, fmt::format("R/{:.0f}", 1.0 / number_at(press, "spacing_over_R"))});
+  }
+  if (!series.x.empty()) panel.series.push_back(std::move(series));
+}
+
+void add_continua(Panel& panel, const json& bench) {
+  std::map<int, Series> by_degree;
+  for (const json& one : array_at(bench, "continua")) {
+    const double error = 100.0 * number_at(one, "worst_force_error");
+    const double pace = number_at(one, "real_time_factor");
+    if (!std::isfinite(error) || !std::isfinite(pace)) continue;
+    const int degree = int(number_at(one, "degree"));
+    Series& series = by_degree[degree];
+    series.label = fmt::format("quasi-static FEM, Q{}", degree);
+    series.style = model_style("reference");
+    series.style.point = degree == 1 ? 4 : 5;
+    series.style.point_size = 0.9;
+    if (degree == 1) series.style.dash = "(6,3)";
+    series.x.push_back(pace);
+    series.y.push_back(error);
+    panel.texts.push_back({pace, 0.86 * error, count(number_at(one, "unknowns")) + " unknowns"});
+  }
+  for (auto& [degree, series] : by_degree) panel.series.push_back(std::move(series));
+}
+
+/// The range of logarithmic data with room at both ends, and `include` in it.
+Range roomy(const std::vector<Series>& all, bool vertical, double include) {
+  double low = include, high = include;
+  for (const Series& series : all)
+    for (const double value : vertical ? series.y : series.x) {
+      low = std::fmin(low, value);
+      high = std::fmax(high, value);
+    }
+  return {low / 1.6, high * 1.6};
+}
+
+}  // namespace
+
+Figure pace_figure(const json& bench) {
+  Panel panel;
+  panel.x_label = "real-time factor in the slowest 10 ms [1]";
+  panel.y_label = "largest force error, 0.1 to 0.3 cm [%]";
+  panel.log_x = panel.log_y = 10;
+  panel.key = "outside right top";
+  add_family(panel, bench, {"network", "network", "worst_force_error"});
+  add_family(panel, bench, {"hookean", "hookean", "worst_force_error"});
+  add_family(panel, bench,
+             {"hookean, against small strain", "hookean", "worst_force_error_small_strain", true});
+  add_family(panel, bench, {"published (1996)", "published", "worst_force_error"});
+  add_continua(panel, bench);
+  if (panel.series.empty()) return {"pace", 0, 0, 1, {}};
+  panel.x_range = roomy(panel.series, false, 1.0);
+  panel.y_range = roomy(panel.series, true, 2.0);
+  panel.band = Band{panel.y_range->from, 2.0};
+  panel.markers = {{1.0, "#444444"}};
+  return {"pace", 940, 520, 1, {panel}};
+}
+
+Figure growth_figure(const json& bench) {
+  Panel panel;
+  panel.x_label = "masses";
+  panel.y_label = "ns per spring and step";
+  panel.log_x = panel.log_y = 10;
+  panel.key = "outside right top";
+  const auto curve = [&](const std::string& label, const std::string& name, double threads,
+                         std::size_t style) {
+    std::map<double, double> points;
+    for (const json& kernel : array_at(bench, "kernels")) {
+      if (text_at(kernel, "name") != name || text_at(kernel, "precision") != "float64" ||
+          number_at(kernel, "threads") != threads)
+        continue;
+      const double cost = number_at(kernel, "ns_per_spring_step");
+      const auto [at, fresh] = points.try_emplace(number_at(kernel, "masses"), cost);
+      if (!fresh) at->second = std::fmin(at->second, cost);  // the widest registers
+    }
+    Series series;
+    series.label = label;
+    series.style = numbered_style(style);
+    for (const auto& [masses, cost] : points) {
+      series.x.push_back(masses);
+      series.y.push_back(cost);
+    }
+    if (!series.x.empty()) panel.series.push_back(std::move(series));
+  };
+  curve("edge list, 1 thread", "edge_list", 1, 0);
+  curve("spring engine, 1 thread", "springs", 1, 1);
+  curve("spring engine, 2 threads", "springs", 2, 2);
+  if (panel.series.empty()) return {"growth", 0, 0, 1, {}};
+  const Range span = roomy(panel.series, false, panel.series.front().x.front());
+  const auto bound = [&](const std::string& label, double cost, const char* dash) {
+    if (!std::isfinite(cost)) return;
+    Series series;
+    series.label = label;
+    series.x = {span.from, span.to};
+    series.y = {cost, cost};
+    series.style = {"#777777", dash, 1.4, 0, true};
+    panel.series.push_back(std::move(series));
+  };
+  const json probes = object_at(bench, "probes");
+  double rate = 0.0;
+  const json rates = object_at(probes, "multiply_adds_per_second");
+  for (const auto& [isa, value] : rates.items())
+    if (value.is_number()) rate = std::fmax(rate, value.get<double>());
+  bound("17 multiply-adds, 1 core", 1e9 * 17.0 / rate, "(6,3)");
+  // Position and velocity of a mass read and written, shared by its 12.4 springs at 48³.
+  bound("memory, 7.7 bytes", 1e9 * 7.7 / number_at(probes, "bandwidth_DRAM"), "(2,3)");
+  panel.x_range = span;
+  panel.y_range = roomy(panel.series, true, panel.series.front().y.front());
+  return {"growth", 860, 430, 1, {panel}};
+}
+
+Figure history_figure(const json& history) {
+  Panel panel;
+  panel.x_label = "run";
+  panel.y_label = "ratio";
+  panel.log_y = 10;
+  panel.key = "outside right top";
+  std::size_t style = 0;
+  for (const char* name : {"edge_list_48_1t", "edge_list_20_1t", "lammps_48_1t", "lammps_20_1t",
+                           "threads_48", "roofline_48_1t"}) {
+    Series series;
+    series.label = name;
+    series.style = numbered_style(style++);
+    for (std::size_t i = 0; i < history.size(); ++i) {
+      const double value = number_at(object_at(history[i], "ratios"), name);
+      if (!(value > 0.0)) continue;
+      series.x.push_back(double(i + 1));
+      series.y.push_back(value);
+    }
+    if (!series.x.empty()) panel.series.push_back(std::move(series));
+  }
+  if (history.size() < 2 || panel.series.empty()) return {"history", 0, 0, 1, {}};
+  panel.x_range = Range{0.5, double(history.size()) + 0.5};
+  return {"history", 860, 400, 1, {panel}};
+}
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,19 @@
+/// The figures of a `bench` run. Without data they have no panels.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "studies/report/figure.h"
+
+namespace fingertip::studies::reporting {
+
+/// Error of the force against the real-time factor: every way of simulating the press.
+Figure pace_figure(const nlohmann::json& bench);
+
+/// Cost per spring and step against the number of masses, and what bounds it.
+Figure growth_figure(const nlohmann::json& bench);
+
+/// Ratios from run to run.
+Figure history_figure(const nlohmann::json& history);
+
+}  // namespace fingertip::studies::reporting

@@ -1,0 +1,103 @@
+// fingertip-kernels: the functions that `fingertip bench` measures, each by itself, once. The verb
+// calls it several times in turn with its peers and takes medians of ratios. Prints what Google
+// Benchmark prints; its options (--benchmark_out=FILE ...) hold.
+//
+//   fingertip-kernels [--widest 2|4|8] [--threads N] [--sizes N,N,...] [--per-radius N] [--seconds
+//   S]
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "benchmarks.h"
+#include "lattice/kernel.h"
+#include "multiply_rate.h"
+#include "probes.h"
+
+namespace kernel_benchmarks {
+
+const char* isa_name(int width) {
+  return width == 8 ? "avx512" : width == 4 ? "avx2" : "sse2";
+}
+
+std::string full_name(const std::string& name, int width, const std::string& precision, int threads,
+                      int size) {
+  return name + "/isa:" + isa_name(width) + "/precision:" + precision +
+         "/threads:" + std::to_string(threads) + "/size:" + std::to_string(size);
+}
+
+void register_probes(const Scope& scope) {
+  using fingertip::lattice::springs::Precision;
+  for (int width = 2; width <= scope.widest; width *= 2) {
+    benchmark::RegisterBenchmark(
+        full_name("multiply-add", width, "float64", 1, 0).c_str(),
+        [width](benchmark::State& state) {
+          double rate = 0.0;
+          for (auto _ : state)
+            rate = std::max(rate, spring_peers::multiply_rate(width, Precision::float64));
+          state.counters["rate"] = rate;
+        })
+        ->MinTime(scope.seconds)
+        ->UseRealTime();
+  }
+  const auto bandwidth = [&](const std::string& name, std::size_t bytes) {
+    benchmark::RegisterBenchmark(full_name(name, 2, "float64", 1, 0).c_str(),
+                                 [bytes](benchmark::State& state) {
+                                   const std::size_t count = bytes / 2 / sizeof(double);
+                                   const auto from = std::make_unique<double[]>(count),
+                                              to = std::make_unique<double[]>(count);
+                                   for (auto _ : state) {
+                                     kernel_probes::stream(from.get(), to.get(), count, 1.0);
+                                     benchmark::ClobberMemory();
+                                   }
+                                   state.counters["amount"] = double(bytes);
+                                 })
+        ->MinTime(scope.seconds)
+        ->UseRealTime();
+  };
+  bandwidth("bandwidth_L2", kernel_probes::cache_bytes(2, 1 << 20) / 2);
+  bandwidth("bandwidth_DRAM", 4 * kernel_probes::cache_bytes(3, 16 << 20));
+}
+
+}  // namespace kernel_benchmarks
+
+namespace {
+
+/// The value of `--name value` among the words, which then lack both; `otherwise` without it.
+std::string option(int& argc, char** argv, const char* name, const std::string& otherwise) {
+  for (int i = 1; i + 1 < argc; ++i) {
+    if (std::strcmp(argv[i], name) != 0) continue;
+    const std::string value = argv[i + 1];
+    for (int j = i; j + 2 <= argc; ++j) argv[j] = argv[j + 2];
+    argc -= 2;
+    return value;
+  }
+  return otherwise;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int able = fingertip::lattice::kernel::supported_width();
+  kernel_benchmarks::Scope scope;
+  scope.widest = std::stoi(option(argc, argv, "--widest", std::to_string(able)));
+  scope.threads = std::stoi(option(argc, argv, "--threads", "1"));
+  scope.per_radius = std::stoi(option(argc, argv, "--per-radius", "12"));
+  scope.seconds = std::stod(option(argc, argv, "--seconds", "0.1"));
+  std::istringstream sizes(option(argc, argv, "--sizes", "20,48"));
+  for (std::string size; std::getline(sizes, size, ',');) scope.sizes.push_back(std::stoi(size));
+  benchmark::Initialize(&argc, argv);
+  if (scope.widest > able || benchmark::ReportUnrecognizedArguments(argc, argv)) {
+    std::fprintf(stderr, "fingertip-kernels: this processor has registers of %d doubles\n", able);
+    return 2;
+  }
+  kernel_benchmarks::register_probes(scope);
+  kernel_benchmarks::register_springs(scope);
+  kernel_benchmarks::register_tips(scope);
+  benchmark::RunSpecifiedBenchmarks();
+}

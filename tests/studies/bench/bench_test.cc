@@ -1,0 +1,108 @@
+// The whole of `bench` with its smallest plan: everything but the numbers is real.
+#include "studies/bench/bench.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "studies/bench/history.h"
+#include "studies/report/report.h"
+#include "studies/run/json_file.h"
+#include "studies/run/provenance.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip;
+using nlohmann::ordered_json;
+using studies::BenchPlan;
+
+namespace {
+
+bool kernels_are_built() {
+  return ::access((studies::executable_folder() / "fingertip-kernels").c_str(), X_OK) == 0;
+}
+
+/// Runs the plan in `folder`/run and leaves bench.json there.
+ordered_json bench_in(const TemporaryFolder& folder, const BenchPlan& plan) {
+  const studies::LoadedConfig loaded = studies::load_config({});
+  studies::RunFolder run({"bench", folder / "run", false, false, {}}, loaded);
+  studies::Progress progress(studies::ProgressStyle::off);
+  studies::Session session(run, progress, studies::Cache(folder / "cache"), 1);
+  const ordered_json bench = studies::run_bench(session, loaded, plan);
+  studies::write_json(bench, folder / "run/bench.json");
+  run.finish("finished", 0);
+  return bench;
+}
+
+void expect_number_or_null(const ordered_json& value, const std::string& what) {
+  EXPECT_TRUE(value.is_null() || (value.is_number() && value.get<double>() > 0.0)) << what;
+}
+
+/// The names and types others rely on.
+void expect_contract(const ordered_json& bench) {
+  ASSERT_TRUE(bench.at("kernels").is_array());
+  for (const ordered_json& kernel : bench.at("kernels")) {
+    EXPECT_TRUE(kernel.at("name").is_string());
+    EXPECT_TRUE(kernel.at("isa").is_string());
+    EXPECT_TRUE(kernel.at("precision") == "float64" || kernel.at("precision") == "float32");
+    EXPECT_GE(kernel.at("threads").get<int>(), 1);
+    EXPECT_GT(kernel.at("masses").get<double>(), 0.0);
+    EXPECT_GT(kernel.at("ns_per_spring_step").get<double>(), 0.0) << kernel.dump();
+  }
+  for (const char* name :
+       {"edge_list_48_1t", "edge_list_20_1t", "edge_list_48_2t", "edge_list_20_2t", "lammps_48_1t",
+        "lammps_20_1t", "roofline_48_1t", "roofline_20_1t", "threads_20", "threads_48"}) {
+    expect_number_or_null(bench.at("ratios").at(name), name);
+    EXPECT_EQ(bench.at("ratios").at(name).is_null(), bench.at("missing_ratios").contains(name));
+  }
+  for (const ordered_json& press : bench.at("press")) {
+    for (const char* name : {"model", "kinematics", "contact", "mode"})
+      EXPECT_TRUE(press.at(name).is_string()) << name;
+    for (const char* name : {"speed", "spacing_over_R", "threads"})
+      EXPECT_GT(press.at(name).get<double>(), 0.0) << name;
+    expect_number_or_null(press.at("real_time_factor"), "real_time_factor");
+    expect_number_or_null(press.at("worst_force_error"), "worst_force_error");
+  }
+  EXPECT_TRUE(bench.at("machine").at("cpu").is_string());
+  EXPECT_TRUE(bench.at("date").is_string());
+}
+
+}  // namespace
+
+TEST(Bench, TheSmallestRunKeepsTheContractAndMakesAPage) {
+  const TemporaryFolder folder;
+  const ordered_json bench = bench_in(folder, studies::smallest_plan());
+  expect_contract(bench);
+  EXPECT_EQ(bench.at("kernels").empty(), !kernels_are_built());
+  ASSERT_EQ(bench.at("press").size(), 1u);
+  const ordered_json& press = bench.at("press")[0];
+  EXPECT_EQ(press.at("model"), "network");
+  EXPECT_EQ(press.at("kinematics"), "finite");
+  EXPECT_EQ(press.at("mode"), "pid");
+  EXPECT_DOUBLE_EQ(press.at("spacing_over_R").get<double>(), 0.25);
+  EXPECT_TRUE(press.at("real_time_factor").is_number());
+  EXPECT_TRUE(press.at("worst_force_error").is_number());
+  studies::append_history(bench, folder / "history.jsonl");
+  studies::append_history(bench, folder / "history.jsonl");
+  studies::write_json(studies::read_history(folder / "history.jsonl"), folder / "run/history.json");
+  studies::write_report(folder / "run");
+  const std::string page = read_text(folder / "run/report.html");
+  EXPECT_NE(page.find("Error against speed"), std::string::npos);
+  EXPECT_NE(page.find("edge_list_48_1t"), std::string::npos);
+  EXPECT_NE(studies::bench_text(bench).find("network"), std::string::npos);
+}
+
+TEST(Bench, WithoutAvx512AndPeersTheRatiosAreNull) {
+  const TemporaryFolder folder;
+  BenchPlan plan = studies::smallest_plan();
+  plan.widest = 2;
+  plan.lammps = "a-program-that-is-not-there";
+  plan.bullet = false;
+  plan.presses.clear();
+  const ordered_json bench = bench_in(folder, plan);
+  expect_contract(bench);
+  EXPECT_EQ(bench.at("machine").at("isa_measured"), "sse2");
+  for (const auto& [name, value] : bench.at("ratios").items()) EXPECT_TRUE(value.is_null()) << name;
+  for (const ordered_json& kernel : bench.at("kernels")) EXPECT_EQ(kernel.at("isa"), "sse2");
+  EXPECT_TRUE(bench.at("peers").empty());
+  EXPECT_EQ(bench.at("missing_programs").at("lammps"),
+            "a-program-that-is-not-there is not on the PATH (package lammps)");
+}

@@ -1,0 +1,101 @@
+#include "studies/bench/ratios.h"
+
+#include <gtest/gtest.h>
+
+#include "studies/bench/lammps.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip::studies;
+
+namespace {
+
+void put(KernelRound& round, const std::string& name, const std::string& isa, int threads, int size,
+         double cost, double operations = 0.0) {
+  KernelSample s;
+  s.name = name;
+  s.isa = isa;
+  s.precision = "float64";
+  s.threads = threads;
+  s.size = size;
+  s.masses = s.springs = 1.0;
+  s.operations = operations;
+  s.cost = s.wall_cost = cost;
+  round[name + "/" + isa + "/float64/" + std::to_string(threads) + "/" + std::to_string(size)] = s;
+}
+
+KernelRound round_with(double slower) {
+  KernelRound round;
+  put(round, "multiply-add", "avx512", 1, 0, 0.01 * slower);
+  for (const int size : {20, 48}) {
+    put(round, "edge_list", "sse2", 1, size, 4.0 * slower);
+    put(round, "springs", "avx512", 1, size, 0.5 * slower, 17.0);
+    put(round, "springs", "avx512", 2, size, 0.25 * slower, 17.0);
+    put(round, "lammps_harmonic", "as packaged", 1, size, 5.0 * slower);
+  }
+  return round;
+}
+
+}  // namespace
+
+TEST(Ratios, AreFormedWithinARoundSoThatABusyMachineCancels) {
+  KernelRounds rounds;
+  for (const double slower : {1.0, 5.0, 2.0}) rounds.rounds.push_back(round_with(slower));
+  const Ratios ratios = ratios_of(rounds);
+  const std::map<std::string, double> expected = {
+      {"edge_list_48_1t", 8.0},  {"edge_list_20_1t", 8.0}, {"edge_list_48_2t", 16.0},
+      {"edge_list_20_2t", 16.0}, {"lammps_48_1t", 10.0},   {"lammps_20_1t", 10.0},
+      {"roofline_48_1t", 0.34},  {"roofline_20_1t", 0.34}, {"threads_20", 2.0},
+      {"threads_48", 2.0}};
+  ASSERT_EQ(ratios.values.size(), expected.size());
+  for (const auto& [name, value] : expected)
+    EXPECT_NEAR(ratios.values.at(name).get<double>(), value, 1e-12) << name;
+  EXPECT_TRUE(ratios.missing.empty());
+}
+
+TEST(Ratios, WithoutAvx512AllAreNullAndSayWhy) {
+  KernelRounds rounds;
+  rounds.rounds.emplace_back();
+  put(rounds.rounds[0], "multiply-add", "avx2", 1, 0, 0.02);
+  put(rounds.rounds[0], "edge_list", "sse2", 1, 20, 4.0);
+  put(rounds.rounds[0], "springs", "avx2", 1, 20, 1.0, 17.0);
+  const Ratios ratios = ratios_of(rounds);
+  EXPECT_EQ(ratios.values.size(), 10u);
+  for (const auto& [name, value] : ratios.values.items()) {
+    EXPECT_TRUE(value.is_null()) << name;
+    EXPECT_NE(ratios.missing.at(name).get<std::string>().find("AVX-512"), std::string::npos);
+  }
+}
+
+TEST(Ratios, AMissingPeerCostsItsRatiosOnly) {
+  KernelRounds rounds;
+  rounds.rounds.push_back(round_with(1.0));
+  std::erase_if(rounds.rounds[0], [](const auto& one) { return one.first.starts_with("lammps"); });
+  rounds.missing["lammps"] = "lmp is not on the PATH";
+  const Ratios ratios = ratios_of(rounds);
+  EXPECT_TRUE(ratios.values.at("lammps_48_1t").is_null());
+  EXPECT_EQ(ratios.missing.at("lammps_48_1t"), "lmp is not on the PATH");
+  EXPECT_TRUE(ratios.values.at("edge_list_48_1t").is_number());
+}
+
+TEST(Lammps, CubeHasTheBondsOfTheHalfStencil) {
+  // n³ points: 3 n²(n-1) along axes, 6 n (n-1)² face and 4 (n-1)³ body diagonals.
+  for (const int n : {2, 3, 20}) {
+    const std::size_t expected = std::size_t(3 * n * n * (n - 1) + 6 * n * (n - 1) * (n - 1) +
+                                             4 * (n - 1) * (n - 1) * (n - 1));
+    EXPECT_EQ(cube_springs(n), expected);
+  }
+  const TemporaryFolder folder;
+  write_lammps_cube(folder.path(), 3, 10);
+  const std::string data = read_text(folder / "cube.data");
+  EXPECT_NE(data.find("27 atoms\n158 bonds"), std::string::npos);
+  EXPECT_EQ(std::count(data.begin(), data.end(), '\n'), 21 + 27 + 158);
+}
+
+TEST(Lammps, CostIsProcessorTimePerBondAndStep) {
+  const std::string printed =
+      "LAMMPS (29 Sep 2021 - Update 2)\nLoop time of 2.0 on 1 procs for 100 steps with 8 atoms\n"
+      "50.0% CPU use with 1 MPI tasks x 1 OpenMP threads\n";
+  EXPECT_DOUBLE_EQ(lammps_cost(printed, 1000), 1e4);
+  EXPECT_EQ(lammps_version(printed), "29 Sep 2021 - Update 2");
+  EXPECT_TRUE(std::isnan(lammps_cost("ERROR: no such file", 1000)));
+}
