@@ -23,6 +23,8 @@ struct CellBody : PackAlgebra<Pack> {
   static constexpr std::ptrdiff_t width = std::ptrdiff_t(Pack::size());
   static constexpr std::ptrdiff_t block = std::ptrdiff_t(lanes);
 
+  static constexpr int chunks = int(block / width);
+
   /// A vector per bilinear mode.
   struct Modes {
     Vector yz, zx, xy, xyz;
@@ -53,81 +55,94 @@ struct CellBody : PackAlgebra<Pack> {
     [[gnu::always_inline]] Vector product() const { return {(*this)[4], (*this)[5], (*this)[6]}; }
   };
 
-  /// What the cells of the packs so far exert on the points at their right, row by row along x
-  /// (corner bits y, z) and component by component. A point's force takes the sum of what its left
-  /// and its right cell exert at once, formed the same way whatever the width.
-  using Carry = Pack[4][3];
-
-  /// Sums over the eight corners of one component, with the signs of x, y, z and their products.
-  struct Sums {
-    Pack x, y, z, yz, zx, xy, xyz;
+  /// One component on the four edges' ends where two neighbours along y meet: of sums (s) and
+  /// differences (d) along x the sum over both rows, and the upper row's less the lower one's (_z).
+  struct Side {
+    Pack s, d, s_z, d_z;
   };
+  /// By components.
+  using Sides = Side[3];
 
-  [[gnu::always_inline]] static Sums sums(const CellArrays& a, const double* field) {
-    const auto left = [&](int r) { return load(field + row_offset(a, r)); };
-    const auto right = [&](int r) { return load(field + row_offset(a, r) + 1); };
-    const Pack l0 = left(0), l1 = left(1), l2 = left(2), l3 = left(3);
-    const Pack r0 = right(0), r1 = right(1), r2 = right(2), r3 = right(3);
-    const Pack s0 = r0 + l0, s1 = r1 + l1, s2 = r2 + l2, s3 = r3 + l3;
-    const Pack d0 = r0 - l0, d1 = r1 - l1, d2 = r2 - l2, d3 = r3 - l3;
-    const Pack low = d0 + d1, high = d2 + d3, low_slope = d1 - d0, high_slope = d3 - d2;
-    return {low + high, (s1 - s0) + (s3 - s2),  (s2 + s3) - (s0 + s1), (s3 - s2) - (s1 - s0),
-            high - low, low_slope + high_slope, high_slope - low_slope};
+  /// At the row of points `field` and the one above it.
+  [[gnu::always_inline]] static Side side(const CellArrays& a, const double* field, double factor) {
+    const Pack l0 = load(field), r0 = load(field + 1);
+    const Pack l1 = load(field + a.plane), r1 = load(field + a.plane + 1);
+    const Pack s0 = r0 + l0, s1 = r1 + l1, d0 = r0 - l0, d1 = r1 - l1, f = factor;
+    return {f * (s1 + s0), f * (d1 + d0), f * (s1 - s0), f * (d1 - d0)};
   }
 
-  /// The field times `factor`. Absent cells are at rest whatever their corners hold.
+  /// What sides along y make of a cell. Absent cells are at rest whatever their corners hold.
   template <bool Whole>
-  [[gnu::always_inline]] static Field read(const CellArrays& a, const double* const* field,
-                                           std::ptrdiff_t i, double factor, const Cut& cut) {
-    const Sums x = sums(a, field[0] + i), y = sums(a, field[1] + i), z = sums(a, field[2] + i);
-    const double unit = factor / a.spacing;
-    const Pack quarter = 0.25 * unit, half = 0.5 * unit, one = unit;
-    Field f{{scaled(quarter, {x.x, y.x, z.x}), scaled(quarter, {x.y, y.y, z.y}),
-             scaled(quarter, {x.z, y.z, z.z})},
-            {scaled(half, {x.yz, y.yz, z.yz}), scaled(half, {x.zx, y.zx, z.zx}),
-             scaled(half, {x.xy, y.xy, z.xy}), scaled(one, {x.xyz, y.xyz, z.xyz})}};
+  [[gnu::always_inline]] static Field between(const Sides& low, const Sides& high, const Cut& cut) {
+    const auto each = [&](const auto& function) {
+      return Vector{function(low[0], high[0]), function(low[1], high[1]),
+                    function(low[2], high[2])};
+    };
+    Field f{{each([](const Side& l, const Side& h) { return h.d + l.d; }),
+             each([](const Side& l, const Side& h) { return h.s - l.s; }),
+             each([](const Side& l, const Side& h) { return h.s_z + l.s_z; })},
+            {each([](const Side& l, const Side& h) { return h.s_z - l.s_z; }),
+             each([](const Side& l, const Side& h) { return h.d_z + l.d_z; }),
+             each([](const Side& l, const Side& h) { return h.d - l.d; }),
+             each([](const Side& l, const Side& h) { return h.d_z - l.d_z; })}};
     if constexpr (!Whole) {
       const auto absent = cut.fraction() == Pack(0.0);
-      for (Vector* v : {&f.H.x, &f.H.y, &f.H.z, &f.q.yz, &f.q.zx, &f.q.xy, &f.q.xyz}) {
-        where(absent, v->x) = Pack(0.0);
-        where(absent, v->y) = Pack(0.0);
-        where(absent, v->z) = Pack(0.0);
+      if (any_of(absent)) {
+        for (Vector* v : {&f.H.x, &f.H.y, &f.H.z, &f.q.yz, &f.q.zx, &f.q.xy, &f.q.xyz}) {
+          where(absent, v->x) = Pack(0.0);
+          where(absent, v->y) = Pack(0.0);
+          where(absent, v->z) = Pack(0.0);
+        }
       }
       const Vector m = cut.mean(), p = cut.product();
       f.H.x = f.H.x + scaled(m.z, f.q.zx) + scaled(m.y, f.q.xy) + scaled(p.x, f.q.xyz);
       f.H.y = f.H.y + scaled(m.z, f.q.yz) + scaled(m.x, f.q.xy) + scaled(p.y, f.q.xyz);
       f.H.z = f.H.z + scaled(m.y, f.q.yz) + scaled(m.x, f.q.zx) + scaled(p.z, f.q.xyz);
+      f.q = root(f.q, cut);
     }
     return f;
   }
 
-  /// bending Omega q.
+  /// R q, and below Rᵀ g: cut cells know their modes by R q, whose stiffness is 1.
+  [[gnu::always_inline]] static Modes root(const Modes& q, const Cut& cut) {
+    return {
+        scaled(cut[7], q.yz) + scaled(cut[8], q.zx) + scaled(cut[9], q.xy) + scaled(cut[10], q.xyz),
+        scaled(cut[11], q.zx) + scaled(cut[12], q.xy) + scaled(cut[13], q.xyz),
+        scaled(cut[14], q.xy) + scaled(cut[15], q.xyz), scaled(cut[16], q.xyz)};
+  }
+  [[gnu::always_inline]] static Modes transposed_root(const Modes& g, const Cut& cut) {
+    return {scaled(cut[7], g.yz), scaled(cut[8], g.yz) + scaled(cut[11], g.zx),
+            scaled(cut[9], g.yz) + scaled(cut[12], g.zx) + scaled(cut[14], g.xy),
+            scaled(cut[10], g.yz) + scaled(cut[13], g.zx) + scaled(cut[15], g.xy) +
+                scaled(cut[16], g.xyz)};
+  }
+
+  /// Stiffness of the modes times q, in the units of `area`.
   template <bool Whole>
-  [[gnu::always_inline]] static Modes bend(double bending, const Modes& q, const Cut& cut) {
+  [[gnu::always_inline]] static Modes bend(const CellMaterial& m, const Pack& area,
+                                           const Modes& q) {
     if constexpr (Whole) {
-      const Pack bilinear = 0.5 * bending, trilinear = 0.1875 * bending;
+      const Pack one = area * Pack(m.bending), bilinear = Pack(2.0) * one,
+                 trilinear = Pack(3.0) * one;
       return {scaled(bilinear, q.yz), scaled(bilinear, q.zx), scaled(bilinear, q.xy),
               scaled(trilinear, q.xyz)};
     } else {
-      const auto row = [&](int v0, int v1, int v2, int v3) {
-        return scaled(Pack(bending), scaled(cut[v0], q.yz) + scaled(cut[v1], q.zx) +
-                                         scaled(cut[v2], q.xy) + scaled(cut[v3], q.xyz));
-      };
-      return {row(7, 8, 9, 10), row(8, 11, 12, 13), row(9, 12, 14, 15), row(10, 13, 15, 16)};
+      return q;
     }
   }
 
+  /// `area`, here and below: a²/4 times the rubber's fraction, which makes stresses forces.
   template <bool Whole>
-  [[gnu::always_inline]] static Response cubic(const CellMaterial& m, const Field& u,
-                                               const Cut& cut) {
+  [[gnu::always_inline]] static Response cubic(const CellMaterial& m, const Pack& area,
+                                               const Field& u) {
     const Columns& H = u.H;
-    const Pack trace = Pack(m.c12) * (H.x.x + H.y.y + H.z.z), excess = m.c11 - m.c12;
-    const Pack yz = Pack(m.c44) * (H.z.y + H.y.z), zx = Pack(m.c44) * (H.x.z + H.z.x),
-               xy = Pack(m.c44) * (H.y.x + H.x.y);
+    const Pack c12 = area * Pack(m.c12), c44 = area * Pack(m.c44);
+    const Pack trace = c12 * (H.x.x + H.y.y + H.z.z), excess = area * Pack(m.c11 - m.c12);
+    const Pack yz = c44 * (H.z.y + H.y.z), zx = c44 * (H.x.z + H.z.x), xy = c44 * (H.y.x + H.x.y);
     return {{{excess * H.x.x + trace, xy, zx},
              {xy, excess * H.y.y + trace, yz},
              {zx, yz, excess * H.z.z + trace}},
-            bend<Whole>(m.bending, u.q, cut)};
+            bend<Whole>(m, area, u.q)};
   }
 
   [[gnu::always_inline]] static void extend(Extremes& e, const Pack& jacobian, const Pack& tangent,
@@ -139,8 +154,9 @@ struct CellBody : PackAlgebra<Pack> {
 
   /// `w`: velocities times tau, as everywhere below.
   template <bool Rates>
-  [[gnu::always_inline]] static Response volume(const CellMaterial& m, const Field& u,
-                                                const Field& w, Extremes& extremes) {
+  [[gnu::always_inline]] static Response volume(const CellMaterial& m, const Pack& area,
+                                                const Field& u, const Field& w,
+                                                Extremes& extremes) {
     const Columns F = Algebra::plus_one(u.H), cofactor = Algebra::cofactor(F);
     const Pack J = dot(F.x, cofactor.x), inverse = Pack(1.0) / abs(J);
     const Pack square = Algebra::gershgorin(cofactor);  // J² g
@@ -151,30 +167,30 @@ struct CellBody : PackAlgebra<Pack> {
       extremes.rate = max(extremes.rate, abs(rate) * inverse);
       excess += rate;
     }
-    return {Algebra::multiple(Pack(m.kappa) * excess, cofactor), {}};
+    return {Algebra::multiple(area * Pack(m.kappa) * excess, cofactor), {}};
   }
 
   template <bool Rates, bool Whole>
-  [[gnu::always_inline]] static Response network(const CellMaterial& m, const Field& u,
-                                                 const Field& w, const Cut& cut,
+  [[gnu::always_inline]] static Response network(const CellMaterial& m, const Pack& area,
+                                                 const Field& u, const Field& w,
                                                  Extremes& extremes) {
     const Columns F = Algebra::plus_one(u.H);
     Columns T = Algebra::cofactor(F);
-    const Pack J = dot(F.x, T.x), G = m.shear, lambda = m.lambda;
+    const Pack J = dot(F.x, T.x), lambda = m.lambda, G = area * Pack(m.shear);
     T = Algebra::multiple(Pack(1.0) / J, T);  // F⁻ᵀ
-    const Pack pressure = lambda * Algebra::log(J) - G, g = Algebra::gershgorin(T);
+    const Pack pressure = lambda * Algebra::log(J) - Pack(m.shear), g = Algebra::gershgorin(T);
     extend(extremes, J, (abs(pressure) + lambda) * g, g);
     Response r;
-    r.h = bend<Whole>(m.bending, u.q, cut);
+    r.h = bend<Whole>(m, area, u.q);
     if constexpr (Rates) {
       const Columns L = Algebra::times_transposed(w.H, T);
       const Modes slip{w.q.yz - L * u.q.yz, w.q.zx - L * u.q.zx, w.q.xy - L * u.q.xy,
                        w.q.xyz - L * u.q.xyz};
-      const Modes drags = bend<Whole>(m.bending, slip, cut);
+      const Modes drags = bend<Whole>(m, area, slip);
       r.h = {r.h.yz + drags.yz, r.h.zx + drags.zx, r.h.xy + drags.xy, r.h.xyz + drags.xyz};
       // Kirchhoff stress but for the part G F Fᵀ.
       Columns A = Algebra::twice_symmetric(G, L);
-      const Pack trace = L.x.x + L.y.y + L.z.z, diagonal = pressure + lambda * trace;
+      const Pack trace = L.x.x + L.y.y + L.z.z, diagonal = area * (pressure + lambda * trace);
       extremes.rate = max(extremes.rate, abs(trace));
       A = {A.x - drag<0>(drags, u.q), A.y - drag<1>(drags, u.q), A.z - drag<2>(drags, u.q)};
       A.x.x += diagonal;
@@ -182,8 +198,9 @@ struct CellBody : PackAlgebra<Pack> {
       A.z.z += diagonal;
       r.P = {scaled(G, F.x) + A * T.x, scaled(G, F.y) + A * T.y, scaled(G, F.z) + A * T.z};
     } else {
-      r.P = {scaled(G, F.x) + scaled(pressure, T.x), scaled(G, F.y) + scaled(pressure, T.y),
-             scaled(G, F.z) + scaled(pressure, T.z)};
+      const Pack p = area * pressure;
+      r.P = {scaled(G, F.x) + scaled(p, T.x), scaled(G, F.y) + scaled(p, T.y),
+             scaled(G, F.z) + scaled(p, T.z)};
     }
     return r;
   }
@@ -197,109 +214,143 @@ struct CellBody : PackAlgebra<Pack> {
            scaled(Algebra::template entry<K>(q.xyz), g.xyz);
   }
 
-  /// Hands the response on to the corners. `Bent`: whether it has modes.
+  /// Hands the response on to the sides: forces on the rows of points, with the sign reversed.
+  /// `Bent`: whether it has modes. `low` receives what belongs there, `high` is overwritten.
   template <bool Bent, bool Whole>
-  [[gnu::always_inline]] static void write(const CellArrays& a, Response r, const Cut& cut,
-                                           std::ptrdiff_t i, Carry& carry) {
-    const double linear = -0.25 * a.spacing * a.spacing, bilinear = 2.0 * linear,
-                 trilinear = 4.0 * linear;  // -a³ times the factors of read()
-    Pack share = 1.0;
+  [[gnu::always_inline]] static void share_out(Response r, const Cut& cut, Sides& low,
+                                               Sides& high) {
     if constexpr (!Whole) {
-      share = cut.fraction();
       const Vector m = cut.mean(), p = cut.product();
       const Columns& P = r.P;
       const Modes fold{scaled(m.z, P.y) + scaled(m.y, P.z), scaled(m.z, P.x) + scaled(m.x, P.z),
                        scaled(m.y, P.x) + scaled(m.x, P.y),
                        scaled(p.x, P.x) + scaled(p.y, P.y) + scaled(p.z, P.z)};
-      r.h = Bent ? Modes{r.h.yz + fold.yz, r.h.zx + fold.zx, r.h.xy + fold.xy, r.h.xyz + fold.xyz}
-                 : fold;
+      if constexpr (Bent) {
+        const Modes h = transposed_root(r.h, cut);
+        r.h = {h.yz + fold.yz, h.zx + fold.zx, h.xy + fold.xy, h.xyz + fold.xyz};
+      } else {
+        r.h = fold;
+      }
     }
-    const Pack first = share * Pack(linear), second = share * Pack(bilinear),
-               third = share * Pack(trilinear);
-    const Columns P = Algebra::multiple(first, r.P);
-    if constexpr (Bent || !Whole) {
-      const Modes h{scaled(second, r.h.yz), scaled(second, r.h.zx), scaled(second, r.h.xy),
-                    scaled(third, r.h.xyz)};
-      spread<0>(a, P, h, i, carry);
-      spread<1>(a, P, h, i, carry);
-      spread<2>(a, P, h, i, carry);
+    share_out<Bent || !Whole, 0>(r, low[0], high[0]);
+    share_out<Bent || !Whole, 1>(r, low[1], high[1]);
+    share_out<Bent || !Whole, 2>(r, low[2], high[2]);
+  }
+  /// Component C.
+  template <bool Bent, int C>
+  [[gnu::always_inline]] static void share_out(const Response& r, Side& low, Side& high) {
+    const Pack x = Algebra::template entry<C>(r.P.x), y = Algebra::template entry<C>(r.P.y),
+               z = Algebra::template entry<C>(r.P.z);
+    if constexpr (Bent) {
+      const Pack yz = Algebra::template entry<C>(r.h.yz), zx = Algebra::template entry<C>(r.h.zx),
+                 xy = Algebra::template entry<C>(r.h.xy), xyz = Algebra::template entry<C>(r.h.xyz);
+      low = {low.s - y, low.d + (x - xy), low.s_z + (z - yz), low.d_z + (zx - xyz)};
+      high = {y, x + xy, z + yz, zx + xyz};
     } else {
-      spread<0>(a, P, i, carry);
-      spread<1>(a, P, i, carry);
-      spread<2>(a, P, i, carry);
+      low = {low.s - y, low.d + x, low.s_z + z, low.d_z};
+      high = {y, x, z, Pack(0.0)};
     }
   }
 
-  template <int C>
-  [[gnu::always_inline]] static void spread(const CellArrays& a, const Columns& P, const Modes& h,
-                                            std::ptrdiff_t i, Carry& carry) {
-    const Pack x = Algebra::template entry<C>(P.x), y = Algebra::template entry<C>(P.y),
-               z = Algebra::template entry<C>(P.z), yz = Algebra::template entry<C>(h.yz),
-               zx = Algebra::template entry<C>(h.zx), xy = Algebra::template entry<C>(h.xy),
-               xyz = Algebra::template entry<C>(h.xyz);
-    // Parts odd in x (they change sign from left to right) and even in x, per row.
-    const Pack below = x - xy, above = x + xy, low = zx - xyz, high = zx + xyz;
-    const Pack rise = y - yz, steep = y + yz;
-    put<C>(a, 0, below - low, -(rise + z), i, carry);
-    put<C>(a, 1, above - high, rise - z, i, carry);
-    put<C>(a, 2, below + low, z - steep, i, carry);
-    put<C>(a, 3, above + high, z + steep, i, carry);
-  }
-  template <int C>
-  [[gnu::always_inline]] static void spread(const CellArrays& a, const Columns& P, std::ptrdiff_t i,
-                                            Carry& carry) {
-    const Pack x = Algebra::template entry<C>(P.x), y = Algebra::template entry<C>(P.y),
-               z = Algebra::template entry<C>(P.z);
-    put<C>(a, 0, x, -(y + z), i, carry);
-    put<C>(a, 1, x, y - z, i, carry);
-    put<C>(a, 2, x, z - y, i, carry);
-    put<C>(a, 3, x, z + y, i, carry);
-  }
-  template <int C>
-  [[gnu::always_inline]] static void put(const CellArrays& a, int row, const Pack& odd,
-                                         const Pack& even, std::ptrdiff_t i, Carry& carry) {
-    double* const force = a.force[C] + i + row_offset(a, row);
-    const Pack left = even - odd, right = even + odd;
-    store(force, load(force) + (left + Algebra::shifted(carry[row][C], right)));
-    carry[row][C] = right;
-  }
+  /// What the cells of the packs so far exert on the points at their right, by rows (along z) and
+  /// components. A point's force takes the sum of what its left and its right cells exert at once,
+  /// formed the same way whatever the width.
+  using Carry = Pack[2][3];
 
-  /// From a cell's lowest corner to row `row` of its corners along x.
-  [[gnu::always_inline]] static std::ptrdiff_t row_offset(const CellArrays& a, int row) {
-    return (row & 1) * a.row + (row >> 1) * a.plane;
-  }
-
-  /// Adds what is left for the points at the block's right end.
-  [[gnu::always_inline]] static void close(const CellArrays& a, std::ptrdiff_t end,
-                                           const Carry& carry) {
-    for (int r = 0; r < 4; ++r) {
-      for (int c = 0; c < 3; ++c) a.force[c][end + row_offset(a, r)] += carry[r][c][width - 1];
-    }
-  }
-
-  template <CellLawKind Law, bool Rates, bool Whole>
-  [[gnu::always_inline]] static void evaluate(const CellArrays& a, const CellBlock& b,
-                                              Extremes& extremes) {
-    Carry carry;
+  [[gnu::always_inline]] static void clear(Carry& carry) {
     for (auto& row : carry) {
       for (Pack& component : row) component = 0.0;
     }
-    for (std::ptrdiff_t lane = 0; lane < block; lane += width) {
+  }
+
+  /// Adds the forces on a row of points and on the one above it.
+  [[gnu::always_inline]] static void write(const CellArrays& a, const Sides& sides,
+                                           std::ptrdiff_t i, Carry& carry) {
+    for (int c = 0; c < 3; ++c) {
+      const Side& side = sides[c];
+      put(a.force[c] + i, side.s - side.s_z, side.d - side.d_z, carry[0][c]);
+      put(a.force[c] + i + a.plane, side.s + side.s_z, side.d + side.d_z, carry[1][c]);
+    }
+  }
+  [[gnu::always_inline]] static void put(double* force, const Pack& sum, const Pack& difference,
+                                         Pack& carry) {
+    const Pack left = sum - difference, right = sum + difference;
+    store(force, load(force) - (left + Algebra::shifted(carry, right)));
+    carry = right;
+  }
+  /// Adds what is left for the points at the block's right end.
+  [[gnu::always_inline]] static void close(const CellArrays& a, std::ptrdiff_t end,
+                                           const Carry& carry) {
+    for (int c = 0; c < 3; ++c) {
+      a.force[c][end] -= carry[0][c][width - 1];
+      a.force[c][end + a.plane] -= carry[1][c][width - 1];
+    }
+  }
+
+  /// Neighbours along y share a side: what has been read there, and the forces so far.
+  struct Shared {
+    Sides u, w, force;
+  };
+  /// Those along a block.
+  using Border = Shared[chunks];
+
+  template <bool Rates>
+  [[gnu::always_inline]] static void read(const CellArrays& a, std::ptrdiff_t i, Sides& u,
+                                          Sides& w) {
+    const double factor = 0.25 / a.spacing, rate = factor * a.material.retardation_time;
+    for (int c = 0; c < 3; ++c) {
+      u[c] = side(a, a.displacement[c] + i, factor);
+      if constexpr (Rates) w[c] = side(a, a.velocity[c] + i, rate);
+    }
+  }
+
+  /// Between the borders `low` and `high`, the second of which is written.
+  template <CellLawKind Law, bool Rates, bool Whole>
+  [[gnu::always_inline]] static void evaluate(const CellArrays& a, const CellBlock& b, Border& lows,
+                                              Border& highs, Extremes& extremes) {
+    Carry carry;
+    clear(carry);
+    for (int chunk = 0; chunk < chunks; ++chunk) {
+      const std::ptrdiff_t lane = chunk * width, i = std::ptrdiff_t(b.first) + lane;
       const Cut cut{Whole ? nullptr : a.cut + b.cut + lane};
-      const std::ptrdiff_t i = std::ptrdiff_t(b.first) + lane;
       const CellMaterial& m = a.material;
-      const Field u = read<Whole>(a, a.displacement, i, 1.0, cut);
+      Shared &low = lows[chunk], &high = highs[chunk];
+      read<Rates>(a, i + a.row, high.u, high.w);
+      const Field u = between<Whole>(low.u, high.u, cut);
       Field w;
-      if constexpr (Rates) w = read<Whole>(a, a.velocity, i, m.retardation_time, cut);
+      if constexpr (Rates) w = between<Whole>(low.w, high.w, cut);
+      Pack area = 0.25 * a.spacing * a.spacing;
+      if constexpr (!Whole) area *= cut.fraction();
       if constexpr (Law == CellLawKind::cubic) {
-        write<true, Whole>(a, cubic<Whole>(m, u, cut), cut, i, carry);
+        share_out<true, Whole>(cubic<Whole>(m, area, u), cut, low.force, high.force);
       } else if constexpr (Law == CellLawKind::volume) {
-        write<false, Whole>(a, volume<Rates>(m, u, w, extremes), cut, i, carry);
+        share_out<false, Whole>(volume<Rates>(m, area, u, w, extremes), cut, low.force, high.force);
       } else {
-        write<true, Whole>(a, network<Rates, Whole>(m, u, w, cut, extremes), cut, i, carry);
+        share_out<true, Whole>(network<Rates, Whole>(m, area, u, w, extremes), cut, low.force,
+                               high.force);
       }
+      write(a, low.force, i, carry);
     }
     close(a, std::ptrdiff_t(b.first) + block, carry);
+  }
+
+  /// Begins a column of blocks, which follow one another along y.
+  template <bool Rates>
+  [[gnu::always_inline]] static void open(const CellArrays& a, std::ptrdiff_t first, Border& low) {
+    for (int chunk = 0; chunk < chunks; ++chunk) {
+      read<Rates>(a, first + chunk * width, low[chunk].u, low[chunk].w);
+      for (Side& side : low[chunk].force) side = {0.0, 0.0, 0.0, 0.0};
+    }
+  }
+  /// Adds what is left for the column's last points.
+  [[gnu::always_inline]] static void finish(const CellArrays& a, std::ptrdiff_t first,
+                                            const Border& high) {
+    Carry carry;
+    clear(carry);
+    for (int chunk = 0; chunk < chunks; ++chunk) {
+      write(a, high[chunk].force, first + chunk * width, carry);
+    }
+    close(a, first + block, carry);
   }
 
   template <CellLawKind Law, bool Rates>
@@ -307,11 +358,20 @@ struct CellBody : PackAlgebra<Pack> {
                     std::size_t end, CellBounds& bounds) {
     const CellArrays a = arrays;  // a copy that no store can alias
     Extremes extremes{bounds.smallest_jacobian, bounds.tangent, bounds.viscosity, bounds.fastest};
+    Border borders[2];
     for (std::size_t b = begin; b < end; ++b) {
+      const std::ptrdiff_t first = std::ptrdiff_t(blocks[b].first);
+      Border &low = borders[b % 2], &high = borders[(b + 1) % 2];
+      if (b == begin || std::ptrdiff_t(blocks[b - 1].first) + a.row != first) {
+        open<Rates>(a, first, low);
+      }
       if (blocks[b].cut == CellBlock::whole) {
-        evaluate<Law, Rates, true>(a, blocks[b], extremes);
+        evaluate<Law, Rates, true>(a, blocks[b], low, high, extremes);
       } else {
-        evaluate<Law, Rates, false>(a, blocks[b], extremes);
+        evaluate<Law, Rates, false>(a, blocks[b], low, high, extremes);
+      }
+      if (b + 1 == end || first + a.row != std::ptrdiff_t(blocks[b + 1].first)) {
+        finish(a, first + a.row, high);
       }
     }
     bounds = {hmin(extremes.jacobian), hmax(extremes.tangent), hmax(extremes.viscosity),

@@ -1,6 +1,9 @@
 #include "lattice/cells/cell_lattice.h"
 
+#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
+#include <compare>
 #include <numeric>
 #include <stdexcept>
 
@@ -16,57 +19,58 @@ namespace {
 
 using CutValues = std::array<double, CellLattice::cut_values>;
 
-/// Coordinate d of corner c about the cell's centre.
+/// Coordinate d of corner c, in [-1, 1] from end to end.
 double coordinate(int c, int d) {
-  return (c >> d & 1) != 0 ? 0.5 : -0.5;
+  return (c >> d & 1) != 0 ? 1.0 : -1.0;
 }
 
-/// Adds the variance of the gradients of the four edges along direction d, each weighted with its
-/// share of the rubber, as a quadratic form in the bilinear modes yz, zx, xy, xyz. An edge at
-/// (s, t) across d has the gradient H_d + q_m s + q_n t + q_xyz s t. Summed over pairs of edges,
-/// so that slivers, whose edges share very unevenly, lose no digits.
-void add_edge_variance(const CornerMoments& moments, double fraction, int d,
-                       std::array<std::array<double, 4>, 4>& omega) {
+/// Pairs of the four parallel edges, along each of three directions.
+constexpr int edge_pairs = 18;
+
+/// The variance of the gradients of the four edges along direction d, each weighted with its share
+/// of the rubber, as a sum of squares of linear forms in the bilinear modes yz, zx, xy, xyz, one
+/// per pair of edges: Var = Σ w_e w_f (g_e - g_f)². An edge at (s, t) across d has the gradient H_d
+/// + q_m s + q_n t + q_xyz s t. Slivers, whose edges share very unevenly, lose no digits.
+void put_edge_variance(const CornerMoments& moments, double fraction, int d,
+                       Eigen::Matrix<double, edge_pairs, 4>& forms) {
   const int first = (d + 1) % 3, second = (d + 2) % 3;
-  std::array<double, 4> weight{};
-  std::array<std::array<double, 4>, 4> slope{};  // of an edge's gradient by each mode
+  Eigen::Vector4d weight = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d slope = Eigen::Matrix4d::Zero();  // of an edge's (row's) gradient by each mode
   for (int c = 0; c < 8; ++c) {
-    const std::size_t edge = std::size_t((c >> first & 1) + 2 * (c >> second & 1));
+    const int edge = (c >> first & 1) + 2 * (c >> second & 1);
     const double s = coordinate(c, first), t = coordinate(c, second);
     weight[edge] += moments[std::size_t(c)] / fraction;
     // Mode m is the product of the coordinates other than m.
-    slope[edge][std::size_t(second)] = s;
-    slope[edge][std::size_t(first)] = t;
-    slope[edge][3] = s * t;
+    slope(edge, second) = s;
+    slope(edge, first) = t;
+    slope(edge, 3) = s * t;
   }
-  for (std::size_t e = 0; e < 4; ++e) {
-    for (std::size_t f = 0; f < e; ++f) {
-      for (std::size_t m = 0; m < 4; ++m) {
-        for (std::size_t n = 0; n < 4; ++n) {
-          omega[m][n] +=
-              weight[e] * weight[f] * (slope[e][m] - slope[f][m]) * (slope[e][n] - slope[f][n]);
-        }
-      }
+  int row = d * edge_pairs / 3;
+  for (int e = 0; e < 4; ++e) {
+    for (int f = 0; f < e; ++f) {
+      forms.row(row++) = std::sqrt(weight[e] * weight[f]) * (slope.row(e) - slope.row(f));
     }
   }
 }
 
-CutValues cut_values_of(const CutCell& cell) {
+CutValues cut_values_of(const CutCell& cell, double spacing, const CellMaterial& material) {
   const CornerMoments moments = corner_moments(cell);
   const double fraction = std::accumulate(moments.begin(), moments.end(), 0.0);
   CutValues values{fraction};
-  std::array<std::array<double, 4>, 4> omega{};
+  Eigen::Matrix<double, edge_pairs, 4> forms;
   for (int d = 0; d < 3; ++d) {
     for (int c = 0; c < 8; ++c) {
       const double share = moments[std::size_t(c)] / fraction;
       values[std::size_t(1 + d)] += share * coordinate(c, d);
       values[std::size_t(4 + d)] += share * coordinate(c, (d + 1) % 3) * coordinate(c, (d + 2) % 3);
     }
-    add_edge_variance(moments, fraction, d, omega);
+    put_edge_variance(moments, fraction, d, forms);
   }
+  forms *= std::sqrt(0.25 * spacing * spacing * fraction * material.bending);
+  const Eigen::Matrix4d root = forms.householderQr().matrixQR().topRows<4>();
   std::size_t next = 7;
-  for (std::size_t m = 0; m < 4; ++m) {
-    for (std::size_t n = m; n < 4; ++n) values[next++] = omega[m][n];
+  for (int m = 0; m < 4; ++m) {
+    for (int n = m; n < 4; ++n) values[next++] = root(m, n);
   }
   return values;
 }
@@ -93,16 +97,66 @@ void check(const CubicGrid& grid, const std::vector<CutCell>& cells) {
   }
 }
 
-/// Makes the cells [begin, end), which follow one another within `lanes`, a block.
-void add_block(const CubicGrid& grid, const CutCell* begin, const CutCell* end,
-               CellLattice& lattice) {
-  CellBlock block{std::uint32_t(lowest_corner(grid, *begin)), CellBlock::whole};
-  if (end - begin != std::ptrdiff_t(lanes) || !std::all_of(begin, end, is_whole)) {
+/// Which block a cell belongs to when some block begins at i = `phase`; blocks follow one another
+/// along y, then along x, then along z.
+struct Place {
+  int k, column, j;
+
+  auto operator<=>(const Place&) const = default;
+};
+
+Place place_of(const CutCell& cell, int phase) {
+  const int size = int(lanes);
+  return {cell.index[2], (cell.index[0] + size - phase) / size, cell.index[1]};
+}
+
+using Block = std::vector<const CutCell*>;
+
+/// The cells block by block.
+std::vector<Block> blocks_of(const std::vector<CutCell>& cells, int phase) {
+  Block sorted;
+  for (const CutCell& cell : cells) sorted.push_back(&cell);
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const CutCell* a, const CutCell* b) {
+    return place_of(*a, phase) < place_of(*b, phase);
+  });
+  std::vector<Block> blocks;
+  for (const CutCell* cell : sorted) {
+    if (blocks.empty() || place_of(*blocks.back().front(), phase) != place_of(*cell, phase)) {
+      blocks.emplace_back();
+    }
+    blocks.back().push_back(cell);
+  }
+  return blocks;
+}
+
+bool is_whole(const Block& block) {
+  return block.size() == lanes &&
+         std::all_of(block.begin(), block.end(), [](const CutCell* c) { return is_whole(*c); });
+}
+
+/// Where blocks begin so that they cost least.
+int best_phase(const std::vector<CutCell>& cells) {
+  constexpr std::size_t whole_cost = 2, cut_cost = 3;  // README of this folder: measured
+  std::array<std::size_t, lanes> costs{};
+  for (std::size_t phase = 0; phase < lanes; ++phase) {
+    for (const Block& block : blocks_of(cells, int(phase))) {
+      costs[phase] += is_whole(block) ? whole_cost : cut_cost;
+    }
+  }
+  return int(std::min_element(costs.begin(), costs.end()) - costs.begin());
+}
+
+void add_block(const CubicGrid& grid, const Block& cells, int phase, CellLattice& lattice) {
+  const int begin = (place_of(*cells.front(), phase).column - 1) * int(lanes) + phase;
+  const std::ptrdiff_t first =
+      std::ptrdiff_t(lowest_corner(grid, *cells.front())) - (cells.front()->index[0] - begin);
+  CellBlock block{std::uint32_t(first), CellBlock::whole};
+  if (!is_whole(cells)) {
     block.cut = std::uint32_t(lattice.cut.size());
     lattice.cut.resize(lattice.cut.size() + CellLattice::cut_values * lanes, 0.0);
-    for (const CutCell* cell = begin; cell != end; ++cell) {
-      const CutValues values = cut_values_of(*cell);
-      double* lane = lattice.cut.data() + block.cut + (cell->index[0] - begin->index[0]);
+    for (const CutCell* cell : cells) {
+      const CutValues values = cut_values_of(*cell, grid.spacing, lattice.material);
+      double* lane = lattice.cut.data() + block.cut + (cell->index[0] - begin);
       for (std::size_t v = 0; v < values.size(); ++v) lane[v * lanes] = values[v];
     }
   }
@@ -130,20 +184,16 @@ CellLattice lay_out(const CubicGrid& grid, const std::vector<CutCell>& cells,
   lattice.spacing = grid.spacing;
   lattice.row = grid.size[0];
   lattice.plane = lattice.row * grid.size[1];
-  const CutCell* const last = cells.data() + cells.size();
-  for (const CutCell* begin = cells.data(); begin != last;) {
-    const std::size_t limit = lowest_corner(grid, *begin) + lanes;
-    const CutCell* end = begin;
-    // The free points at the end of every row keep a block from reaching the next.
-    while (end != last && lowest_corner(grid, *end) < limit) ++end;
-    const int k = begin->index[2];
+  const int phase = best_phase(cells);
+  int plane = 0;  // cells begin at 1
+  for (const Block& block : blocks_of(cells, phase)) {
+    const int k = block.front()->index[2];
     auto& planes = lattice.planes[std::size_t(k % 2)];
-    const std::uint32_t block = std::uint32_t(lattice.blocks.size());
-    const bool opens = block == 0 || (begin - 1)->index[2] != k;
-    if (opens) planes.push_back({block, block});
+    const std::uint32_t next = std::uint32_t(lattice.blocks.size());
+    if (k != plane) planes.push_back({next, next});
+    plane = k;
     ++planes.back().last;
-    add_block(grid, begin, end, lattice);
-    begin = end;
+    add_block(grid, block, phase, lattice);
   }
   for (auto& planes : lattice.planes) interleave(planes);
   return lattice;

@@ -12,11 +12,14 @@
 
 namespace fingertip::lattice {
 
-/// Immutable. Blocks are sorted by grid index and do not overlap.
+/// Immutable. Blocks do not overlap and begin a multiple of `lanes` apart along x: those of a plane
+/// are sorted along x, and where they begin at the same x, along y, so that a block mostly follows
+/// its neighbour along y and shares a side with it.
 struct CellLattice {
   /// Per lane of a cut block, value by value (value v of lane l at cut + v * lanes + l): the volume
-  /// fraction (0: absent), the means over the rubber of x, y, z, yz, zx, xy with the cell's centre
-  /// as origin and a as unit, and the upper triangle of Omega, row by row.
+  /// fraction (0: absent), the means over the rubber of x, y, z, yz, zx, xy, the cell being
+  /// [-1, 1]³, and the upper triangle, row by row, of the matrix R with RᵀR = a²/4 fraction bending
+  /// Omega [√N].
   static constexpr std::size_t cut_values = 17;
 
   CellMaterial material;

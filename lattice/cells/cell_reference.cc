@@ -22,20 +22,26 @@ struct Cell {
   double fraction = 1.0;
   Vector3 mean = Vector3::Zero();     ///< of x, y, z over the rubber
   Vector3 product = Vector3::Zero();  ///< of yz, zx, xy
-  Matrix4d omega = Eigen::Vector4d(0.5, 0.5, 0.5, 0.1875).asDiagonal();
+  Matrix4d bent = Matrix4d::Zero();   ///< bending Omega [Pa]
 };
 
 Cell cell_of(const CellLattice& cells, const CellBlock& block, std::size_t lane) {
   Cell cell;
   cell.lowest = block.first + lane;
-  if (block.cut == CellBlock::whole) return cell;
+  if (block.cut == CellBlock::whole) {
+    cell.bent = cells.material.bending * Eigen::Vector4d(2.0, 2.0, 2.0, 3.0).asDiagonal();
+    return cell;
+  }
   const auto value = [&](std::size_t v) { return cells.cut[block.cut + v * lanes + lane]; };
   cell.fraction = value(0);
   cell.mean = {value(1), value(2), value(3)};
   cell.product = {value(4), value(5), value(6)};
+  if (cell.fraction == 0.0) return cell;  // absent
+  Matrix4d root = Matrix4d::Zero();
   std::size_t next = 7;
   for (int m = 0; m < 4; ++m)
-    for (int n = m; n < 4; ++n) cell.omega(m, n) = cell.omega(n, m) = value(next++);
+    for (int n = m; n < 4; ++n) root(m, n) = value(next++);
+  cell.bent = root.transpose() * root / (0.25 * cells.spacing * cells.spacing * cell.fraction);
   return cell;
 }
 
@@ -67,17 +73,16 @@ Vector3 signs_of(int c) {
 Vector3 mean_slope(const Cell& cell, double spacing, int c) {
   const Vector3 s = signs_of(c), m = cell.mean, p = cell.product;
   const double x = s.x(), y = s.y(), z = s.z();
-  return Vector3(x * (0.25 + 0.5 * (z * m.z() + y * m.y()) + y * z * p.x()),
-                 y * (0.25 + 0.5 * (z * m.z() + x * m.x()) + z * x * p.y()),
-                 z * (0.25 + 0.5 * (y * m.y() + x * m.x()) + x * y * p.z())) /
-         spacing;
+  return Vector3(x * (1.0 + z * m.z() + y * m.y() + y * z * p.x()),
+                 y * (1.0 + z * m.z() + x * m.x() + z * x * p.y()),
+                 z * (1.0 + y * m.y() + x * m.x() + x * y * p.z())) /
+         (4.0 * spacing);
 }
 
 /// Per corner, the weights of its displacement in the bilinear modes [1/m].
 Eigen::Vector4d mode_weights(double spacing, int c) {
   const Vector3 s = signs_of(c);
-  return Eigen::Vector4d(0.5 * s.y() * s.z(), 0.5 * s.z() * s.x(), 0.5 * s.x() * s.y(), s.prod()) /
-         spacing;
+  return Eigen::Vector4d(s.y() * s.z(), s.z() * s.x(), s.x() * s.y(), s.prod()) / (4.0 * spacing);
 }
 
 struct Deformation {
@@ -101,8 +106,8 @@ Matrix3d cofactor(const Matrix3d& F) {
   return result;
 }
 
-double energy_density(const CellMaterial& m, const Deformation& d, const Matrix4d& omega) {
-  const double bending = 0.5 * m.bending * (d.q * omega * d.q.transpose()).trace();
+double energy_density(const CellMaterial& m, const Deformation& d, const Matrix4d& bent) {
+  const double bending = 0.5 * (d.q * bent * d.q.transpose()).trace();
   if (m.kind == CellLawKind::cubic) {
     const Matrix3d strain = 0.5 * (d.H + d.H.transpose());
     const Vector3 normal = strain.diagonal();
@@ -124,23 +129,23 @@ struct Response {
   Modes h = Modes::Zero();
 };
 
-Response elastic_response(const CellMaterial& m, const Deformation& d, const Matrix4d& omega) {
+Response elastic_response(const CellMaterial& m, const Deformation& d, const Matrix4d& bent) {
   if (m.kind == CellLawKind::cubic) {
     Matrix3d P = m.c44 * (d.H + d.H.transpose());
     P.diagonal() = (m.c11 - m.c12) * d.H.diagonal();
     P.diagonal().array() += m.c12 * d.H.trace();
-    return {P, m.bending * d.q * omega};
+    return {P, d.q * bent};
   }
   const Matrix3d F = Matrix3d::Identity() + d.H;
   const double J = F.determinant();
   if (m.kind == CellLawKind::volume) return {m.kappa * (J - 1.0) * cofactor(F), Modes::Zero()};
   const Matrix3d P = m.shear * F + (m.lambda * std::log(J) - m.shear) * F.inverse().transpose();
-  return {P, m.bending * d.q * omega};
+  return {P, d.q * bent};
 }
 
 /// `rate`: the same of the velocity [1/s].
 Response viscous_response(const CellMaterial& m, const Deformation& d, const Deformation& rate,
-                          const Matrix4d& omega) {
+                          const Matrix4d& bent) {
   const double tau = m.retardation_time;
   const Matrix3d F = Matrix3d::Identity() + d.H;
   if (m.kind == CellLawKind::volume) {
@@ -148,7 +153,7 @@ Response viscous_response(const CellMaterial& m, const Deformation& d, const Def
     return {tau * m.kappa * slope.cwiseProduct(rate.H).sum() * slope, Modes::Zero()};
   }
   const Matrix3d inverse = F.inverse(), L = rate.H * inverse, D = 0.5 * (L + L.transpose());
-  const Modes g = tau * m.bending * (rate.q - L * d.q) * omega;
+  const Modes g = tau * (rate.q - L * d.q) * bent;
   const Matrix3d T = tau * (m.lambda * D.trace() * Matrix3d::Identity() + 2.0 * m.shear * D);
   return {T * inverse.transpose() - g * (inverse * d.q).transpose(), g};
 }
@@ -160,7 +165,7 @@ double cell_energy(const CellLattice& cells, const VectorField& displacement) {
   double sum = 0.0;
   for_all_cells(cells, [&](const Cell& cell) {
     sum += cell.fraction * cube *
-           energy_density(cells.material, deformation(cells, cell, displacement), cell.omega);
+           energy_density(cells.material, deformation(cells, cell, displacement), cell.bent);
   });
   return sum;
 }
@@ -171,9 +176,9 @@ void reference_cell_forces(const CellLattice& cells, const VectorField& displace
   const bool rates = m.kind != CellLawKind::cubic && m.retardation_time > 0.0;
   for_all_cells(cells, [&](const Cell& cell) {
     const Deformation d = deformation(cells, cell, displacement);
-    Response r = elastic_response(m, d, cell.omega);
+    Response r = elastic_response(m, d, cell.bent);
     if (rates) {
-      const Response v = viscous_response(m, d, deformation(cells, cell, velocity), cell.omega);
+      const Response v = viscous_response(m, d, deformation(cells, cell, velocity), cell.bent);
       r.P += v.P;
       r.h += v.h;
     }

@@ -54,6 +54,17 @@ void check_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   if (!found.empty()) throw meshes::InvalidInput(found);
 }
 
+/// The grid, its directions renamed in turn so that x is the one nearest the finger's axis: rows of
+/// whole cells are longest there, and forces are computed row by row (cell_lattice.h).
+CubicGrid grid_of(const Geometry& geometry, const LatticeSettings& settings) {
+  Eigen::Index nearest = 0;
+  settings.axes.row(2).cwiseAbs().maxCoeff(&nearest);
+  Eigen::Matrix3d order = Eigen::Matrix3d::Zero();
+  for (Eigen::Index d = 0; d < 3; ++d) order((nearest + d) % 3, d) = 1.0;
+  return meshes::covering_grid(geometry, settings.spacing, order.transpose() * settings.offset, 1,
+                               settings.axes * order);
+}
+
 /// Leaves the cells of the sector alone.
 void keep_sector(const CubicGrid& grid, int sectors, std::vector<CutCell>& cells) {
   if (sectors == 1) return;
@@ -85,8 +96,7 @@ std::vector<TiedPoint> tied_surface(const GridCells& cells, const Geometry& geom
 CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSettings& settings,
                int sectors, int row_margin) {
   check_tip(geometry, rubber, settings, sectors);
-  CubicGrid grid =
-      meshes::covering_grid(geometry, settings.spacing, settings.offset, 1, settings.axes);
+  CubicGrid grid = grid_of(geometry, settings);
   grid.size[0] += row_margin;
   std::vector<CutCell> cut = meshes::cut_cells(geometry, grid, smallest_fraction);
   keep_sector(grid, sectors, cut);

@@ -129,10 +129,11 @@ struct PackAlgebra {
   /// f - s (f - R), R = s² (2/3 + 2/5 s² + 2/7 s⁴ + ...); what is left out is below 3e-17 ln(1 +
   /// f).
   [[gnu::always_inline]] static Pack correction(const Pack& f) {
-    const Pack s = f / (Pack(2.0) + f), z = s * s;
-    Pack series = 2.0 / 21.0;
-    for (int n = 19; n >= 3; n -= 2) series = series * z + Pack(2.0 / n);
-    return s * (f - z * series);
+    const Pack s = f / (Pack(2.0) + f), z = s * s, z2 = z * z, z4 = z2 * z2;
+    // Pairs of terms first (Estrin): everything waits for this sum.
+    const auto pair = [&](int n) { return Pack(2.0 / n) + Pack(2.0 / (n + 2)) * z; };
+    const Pack low = pair(3) + pair(7) * z2, middle = pair(11) + pair(15) * z2, high = pair(19);
+    return s * (f - z * (low + z4 * (middle + z4 * high)));
   }
 };
 
