@@ -30,6 +30,9 @@ struct CommandLine {
   std::optional<double> exit_after;  ///< live: wall time [s]
   bool compare = false;              ///< import --compare
   bool frames = false;               ///< import --frames
+  std::string shard;                 ///< sweep --shard, "i/N"; empty: all
+  bool collect = false;              ///< sweep --collect
+  bool list = false;                 ///< sweep --list
   bool schema = false;               ///< explain --schema
   bool markdown = false;             ///< explain --markdown
   ProgressStyle progress = ProgressStyle::off;
