@@ -64,7 +64,7 @@ std::vector<std::string> stable_columns(const fs::path& table) {
 
 int bash(const fs::path& folder, const std::string& command) {
   return std::system(("cd '" + folder.string() +
-                      "' && export XDG_CACHE_HOME=cache FINGERTIP=" + FINGERTIP_PROGRAM +
+                      "' && export XDG_CACHE_HOME=$PWD/cache FINGERTIP=" + FINGERTIP_PROGRAM +
                       " SWEEP=" + examples + "/sweep.toml; { " + command + "; } > words 2>&1")
                          .c_str());
 }
