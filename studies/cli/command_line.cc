@@ -41,6 +41,8 @@ constexpr Verb verbs[] = {
     {"compare", "compare force curves with the continuum's or the first one's", "RUN",
      "run folders", out_options},
     {"report", "write report.html anew", "RUN", "run folders of validate", 0U},
+    {"sweep", "run a verb for all combinations of values, whole or in shards", "VERB",
+     "press (default), modes, reference or grasp", everything},
     {"export", "write an undamped lattice ([exchange]) for LAMMPS", "", "",
      config_options | out_options},
     {"import", "take back what LAMMPS made of it: table, deviation, time, frames", "RUN",
@@ -99,6 +101,12 @@ void add_live(CLI::App& sub, CommandLine& line) {
       ->check(CLI::NonNegativeNumber);
 }
 
+void add_sweep(CLI::App& sub, CommandLine& line) {
+  sub.add_option("--shard", line.shard, "compute the i-th of N parts only")->type_name("i/N");
+  sub.add_flag("--collect", line.collect, "write the table of what shards have computed in --out");
+  sub.add_flag("--list", line.list, "tell the points instead of computing them");
+}
+
 void add_export(CLI::App& sub) {
   sub.add_option("--format", "of which program; lammps is the only one")
       ->check(CLI::IsMember({"lammps"}));
@@ -147,6 +155,7 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
         ->check(CLI::Range(2, most_pictures));
   }
   if (name == "live") add_live(sub, line);
+  if (name == "sweep") add_sweep(sub, line);
   if (name == "export") add_export(sub);
   if (name == "import") add_import(sub, line);
   if (name == "bench") add_bench(sub, line);

@@ -34,6 +34,9 @@ struct CommandLine {
   std::filesystem::path json;        ///< of bench: where its document goes, too
   std::filesystem::path history;     ///< of bench: folder of the history; empty: in the cache
   std::string isa;                   ///< of bench: the widest to measure; empty: all there is
+  std::string shard;                 ///< sweep --shard, "i/N"; empty: all
+  bool collect = false;              ///< sweep --collect
+  bool list = false;                 ///< sweep --list
   bool schema = false;               ///< explain --schema
   bool markdown = false;             ///< explain --markdown
   ProgressStyle progress = ProgressStyle::off;

@@ -23,7 +23,8 @@ int dispatch(const studies::CommandLine& line) {
       {"export", studies::run_export},       {"import", studies::run_import},
       {"report", studies::run_report},       {"check", studies::run_check},
       {"explain", studies::run_explain},     {"init", studies::run_init},
-      {"doctor", studies::run_doctor},       {"bench", studies::run_bench}};
+      {"doctor", studies::run_doctor},       {"bench", studies::run_bench},
+      {"sweep", studies::run_sweep}};
   return verbs.at(line.verb)(line);
 }
 

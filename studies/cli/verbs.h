@@ -16,6 +16,7 @@ int run_compare(const CommandLine& line);
 int run_report(const CommandLine& line);
 int run_export(const CommandLine& line);
 int run_import(const CommandLine& line);
+int run_sweep(const CommandLine& line);
 int run_check(const CommandLine& line);
 int run_explain(const CommandLine& line);
 int run_init(const CommandLine& line);

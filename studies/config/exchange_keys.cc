@@ -18,7 +18,7 @@ void assign_plane(Config& config, const Value& value) {
   config.exchange.has_wall = value.word == "wall";
 }
 
-/// A fixed cube of masses would be told by its memory only.
+/// 350 million springs; the model alone takes some 10 GB then.
 constexpr double most_cells = 300;
 constexpr double most_steps = 1e9;
 constexpr double most_agitation = 0.2;

@@ -108,7 +108,9 @@ void Reader::read_file(const std::filesystem::path& file) {
   try {
     const toml::table root = toml::parse(content.str(), file.string());
     for (const auto& [section, node] : root) {
-      if (section.str() != "case") read_section(std::string(section.str()), node, file);
+      // [case] and [sweep] are read by those who know them.
+      if (section.str() != "case" && section.str() != "sweep")
+        read_section(std::string(section.str()), node, file);
     }
   } catch (const toml::parse_error& error) {
     problems_.push_back({file.string() + ":" + std::to_string(error.source().begin.line), "", "",

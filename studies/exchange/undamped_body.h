@@ -46,8 +46,7 @@ UndampedBody undamped_body(const LoadedConfig& loaded);
 /// sqrt(k1/m); the same on every machine and for any number of threads.
 lattice::State agitated(const lattice::LatticeModel& model, double agitation);
 
-/// The forces of everything on the masses at time `time` [s] [N]; `internal` [N] are those of the
-/// springs.
+/// Adds ligaments, wall and weight at `time` [s] to the forces of the springs, `internal` [N].
 void add_outer_forces(const UndampedBody& body, const lattice::State& state, double time,
                       lattice::VectorField& internal);
 

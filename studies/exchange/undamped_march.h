@@ -33,11 +33,11 @@ class UndampedMarch {
   long steps_ = 0;
 };
 
-/// The rows and frames of a trajectory tell these of a synchronised state.
 struct Energies {
   double kinetic = 0.0;  ///< [J]
   double elastic = 0.0;  ///< of springs, ligaments and wall [J]
 };
+/// Of a synchronised state at `time` [s].
 Energies energies(const UndampedBody& body, const lattice::State& state, double time);
 
 /// Force of the ligaments on the rod and of the masses on the wall [N].

@@ -1,0 +1,227 @@
+#include "studies/sweep/sweep_order.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include <toml++/toml.h>
+
+#include "studies/config/key_table.h"
+#include "studies/config/units.h"
+#include "studies/config/value_reader.h"
+#include "studies/run/digest.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+constexpr std::size_t most_points = 1000000;
+constexpr std::size_t id_digits = 12;
+
+const std::vector<std::string>& verbs() {
+  static const std::vector<std::string> all = {"press", "modes", "reference", "grasp"};
+  return all;
+}
+
+bool takes_a_list(const Key& key) {
+  return key.kind == Kind::quantities || key.kind == Kind::numbers ||
+         key.kind == Kind::number_pair || key.kind == Kind::texts || key.kind == Kind::files;
+}
+
+/// Whether this value of `key` is a list of values for it.
+bool is_axis(const Key& key, const toml::node& node) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) return false;
+  return !takes_a_list(key) || (!list->empty() && list->front().is_array());
+}
+
+/// Collects axes and problems.
+class SweepReader {
+ public:
+  std::string verb;
+  std::map<std::string, std::vector<std::string>> axes;  ///< key: literals, without repetitions
+  std::vector<Problem> problems;
+
+  void read_file(const std::filesystem::path& file) {
+    file_ = file;
+    toml::table root;
+    try {
+      root = toml::parse_file(file.string());
+    } catch (const toml::parse_error&) {
+      return;  // told by load_config
+    }
+    if (const toml::table* table = root["sweep"].as_table()) read_table(*table, "");
+  }
+
+  /// Takes --set texts that are axes, returns the others.
+  std::vector<std::string> read_sets(const std::vector<std::string>& sets) {
+    std::vector<std::string> others;
+    for (const std::string& text : sets) {
+      if (!read_set(text)) others.push_back(text);
+    }
+    return others;
+  }
+
+ private:
+  void read_table(const toml::table& table, const std::string& prefix) {
+    for (const auto& [name, node] : table) {
+      const std::string key = prefix + std::string(name.str());
+      const std::string place = file_.string() + ":" + std::to_string(node.source().begin.line);
+      if (key == "verb" && node.is_string()) {
+        verb = node.as_string()->get();
+      } else if (const toml::table* inner = node.as_table()) {
+        read_table(*inner, key + ".");
+      } else if (const Key* known = find_key(key); known == nullptr) {
+        problems.push_back({place, "sweep." + key, "", "unknown key",
+                            "the nearest valid key is " + nearest_key(key)});
+      } else {
+        take(*known, node, place, file_.parent_path());
+      }
+    }
+  }
+
+  bool read_set(const std::string& text) {
+    const auto equals = text.find('=');
+    const Key* key = find_key(text.substr(0, equals));
+    if (equals == text.npos || key == nullptr) return false;
+    toml::table parsed;
+    try {
+      parsed = toml::parse("v = " + text.substr(equals + 1));
+    } catch (const toml::parse_error&) {
+      return false;
+    }
+    if (parsed.size() != 1 || !is_axis(*key, *parsed.get("v"))) return false;
+    take(*key, *parsed.get("v"), "--set " + text, {});
+    return true;
+  }
+
+  void take(const Key& key, const toml::node& node, const std::string& place,
+            const std::filesystem::path& base) {
+    const std::string name = key.full_name();
+    if (!is_axis(key, node) || node.as_array()->empty()) {
+      problems.push_back({place, name, toml_literal(node), "a sweep varies lists of values",
+                          "write a list in brackets, or the single value in its own section"});
+      return;
+    }
+    std::vector<std::string>& values = axes[name];
+    values.clear();
+    for (const toml::node& one : *node.as_array()) {
+      try {
+        Value value = read_value(key, one);
+        locate_files(key, base, value);
+        const std::string literal = located_literal(key, value, toml_literal(one));
+        if (std::ranges::find(values, literal) == values.end()) values.push_back(literal);
+      } catch (const UnitError& error) {
+        problems.push_back({place, name, unquoted(toml_literal(one)), error.rule, error.remedy});
+      }
+    }
+  }
+
+  std::filesystem::path file_;
+};
+
+/// What identifies a point apart from its own settings.
+std::string common_text(const std::string& verb, const LoadedConfig& base,
+                        const std::set<std::string>& axes) {
+  std::string text = verb + "\n";
+  for (const auto& [name, entry] : base.entries) {
+    if (!entry.given || name == "run.threads" || axes.contains(name)) continue;
+    text += name + "=" + entry.literal + "\n";
+  }
+  return text;
+}
+
+std::vector<SweepPoint> combinations(const SweepReader& reader) {
+  std::vector<SweepPoint> points(1);
+  for (const auto& [key, values] : reader.axes) {
+    std::vector<SweepPoint> more;
+    for (const SweepPoint& point : points) {
+      for (const std::string& value : values) {
+        more.push_back(point);
+        more.back().settings[key] = value;
+      }
+    }
+    points = std::move(more);
+    if (points.size() > most_points) break;
+  }
+  return points;
+}
+
+void check(const SweepReader& reader, const std::string& verb) {
+  std::vector<Problem> problems = reader.problems;
+  if (std::ranges::find(verbs(), verb) == verbs().end()) {
+    problems.push_back({"sweep", "verb", verb,
+                        "a sweep consists of press, modes, reference or grasp",
+                        "the nearest one is " + nearest_word(verb, verbs())});
+  }
+  if (reader.axes.empty() && problems.empty()) {
+    problems.push_back({"sweep", "", "", "no key has a list of values",
+                        "write e.g. --set 'lattice.spacing=[\"tip_radius/6\", \"tip_radius/8\"]', "
+                        "or a table [sweep]"});
+  }
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
+}  // namespace
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, shard.number);
+  const bool slash = number.ec == std::errc() && number.ptr != end && *number.ptr == '/';
+  const auto of = slash ? std::from_chars(number.ptr + 1, end, shard.of) : number;
+  if (!slash || of.ec != std::errc() || of.ptr != end || shard.number < 1 ||
+      shard.number > shard.of) {
+    throw ConfigError(
+        {{"--shard " + text, "", "", "must be i/N with 1 <= i <= N", "write e.g. --shard 1/8"}});
+  }
+  return shard;
+}
+
+SweepOrder read_sweep(const ConfigSource& source, const std::string& verb) {
+  SweepReader reader;
+  if (!source.file.empty()) reader.read_file(source.file);
+  ConfigSource shared = source;
+  shared.sets = reader.read_sets(source.sets);
+  SweepOrder order;
+  order.verb = !verb.empty() ? verb : reader.verb.empty() ? "press" : reader.verb;
+  check(reader, order.verb);
+  order.base = load_config(shared);
+  for (const auto& [key, values] : reader.axes) order.axes.push_back(key);
+  order.points = combinations(reader);
+  if (order.points.size() > most_points) {
+    throw ConfigError({{"sweep", "", "", "more than a million points", "shorten an axis"}});
+  }
+  const std::string common =
+      common_text(order.verb, order.base, {order.axes.begin(), order.axes.end()});
+  for (SweepPoint& point : order.points) {
+    point.id = sha256(common + settings_text(point)).substr(0, id_digits);
+  }
+  std::ranges::sort(order.points, {}, &SweepPoint::id);
+  return order;
+}
+
+std::vector<SweepPoint> points_of(const SweepOrder& order, const Shard& shard) {
+  std::vector<SweepPoint> points;
+  for (std::size_t p = std::size_t(shard.number - 1); p < order.points.size();
+       p += std::size_t(shard.of)) {
+    points.push_back(order.points[p]);
+  }
+  return points;
+}
+
+LoadedConfig config_of(const SweepOrder& order, const SweepPoint& point) {
+  std::vector<std::string> sets;
+  for (const auto& [key, value] : point.settings) sets.push_back(key + "=" + value);
+  return order.base.with(sets);
+}
+
+std::string settings_text(const SweepPoint& point) {
+  std::string text;
+  for (const auto& [key, value] : point.settings) {
+    text += (text.empty() ? "" : "; ") + key + "=" + value;
+  }
+  return text;
+}
+
+}  // namespace fingertip::studies

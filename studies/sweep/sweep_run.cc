@@ -1,0 +1,171 @@
+#include "studies/sweep/sweep_run.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "lattice/control/controller.h"
+#include "meshes/errors.h"
+#include "studies/run/cache.h"
+#include "studies/run/grasp_job.h"
+#include "studies/run/interrupt.h"
+#include "studies/run/jobs.h"
+#include "studies/run/json_file.h"
+#include "studies/run/press_setup.h"
+#include "studies/run/progress.h"
+#include "studies/run/run_folder.h"
+#include "studies/run/session.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Held by at most one process; the system releases it when that one ends, however it ends.
+class FileLock {
+ public:
+  explicit FileLock(const fs::path& file)
+      : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)),
+        held_(descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {}
+  ~FileLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  bool held() const { return held_; }
+
+ private:
+  int descriptor_;
+  bool held_;
+};
+
+nlohmann::ordered_json content_of(const SweepOrder& order) {
+  auto points = nlohmann::ordered_json::array();
+  for (const SweepPoint& point : order.points) {
+    points.push_back({{"id", point.id}, {"settings", point.settings}});
+  }
+  return {{"verb", order.verb}, {"axes", order.axes}, {"points", points}};
+}
+
+Job job_of(const SweepOrder& order, const SweepPoint& point) {
+  LoadedConfig loaded = config_of(order, point);
+  check_all(loaded);
+  if (order.verb == "reference") return reference_job(reference_order(loaded));
+  const bool press = order.verb == "press";
+  loaded = with_material(loaded, press ? LatticeUse::press : LatticeUse::modes);
+  if (press) return press_job(press_setup(loaded));
+  if (order.verb == "modes") return modes_job(press_setup(loaded), loaded.config.lattice_modes);
+  return grasp_job(grasp_setup(loaded));
+}
+
+/// What a process that was killed before it had noted what it was doing has left.
+void clear_fragment(const fs::path& folder) {
+  if (fs::exists(folder) && !fs::exists(folder / "manifest.json")) fs::remove_all(folder);
+}
+
+/// The job in a run folder of its own.
+PointResult compute(const SweepOrder& order, const PlannedPoint& planned, const fs::path& folder,
+                    const std::vector<std::string>& command_line) {
+  const auto& [point, job] = planned;
+  clear_fragment(folder);
+  Progress progress(ProgressStyle::off);
+  RunFolder run({order.verb, folder, false, true, command_line}, config_of(order, point));
+  Session session(run, progress, Cache(Cache::default_folder()), 1);
+  const auto failed = [&](const char* status, const std::exception& error) {
+    run.finish(status, 3, {{"error", error.what()}});
+    return PointResult{point.id, std::string("failed: ") + error.what(), false};
+  };
+  try {
+    const JobResult result = session.run({"", job, true});
+    run.finish(result.ok() ? "finished" : "not converged", result.ok() ? 0 : 3);
+    return {point.id, result.status, result.reused};
+  } catch (const meshes::Interrupted& error) {
+    run.finish("interrupted", 130, {{"error", error.what()}});
+    throw;
+  } catch (const ProcessLost& error) {
+    return failed("process lost", error);
+  } catch (const lattice::ControllerFailed& error) {
+    return failed("controller failed", error);
+  } catch (const meshes::InvalidInput& error) {
+    return failed("bad input", error);
+  }
+}
+
+PointResult run_point(const SweepOrder& order, const PlannedPoint& planned, const fs::path& folder,
+                      const std::vector<std::string>& command_line) {
+  const auto& [point, job] = planned;
+  const FileLock lock(folder / "locks" / point.id);
+  if (!lock.held()) return {point.id, "at work elsewhere", false};
+  const fs::path own = folder / "points" / point.id;
+  const std::string status = marked_status(job, own);
+  if (!status.empty()) return {point.id, status, true};
+  return compute(order, planned, own, command_line);
+}
+
+}  // namespace
+
+std::vector<PlannedPoint> plan(const SweepOrder& order, const std::vector<SweepPoint>& points) {
+  std::vector<PlannedPoint> planned;
+  for (const SweepPoint& point : points) planned.push_back({point, job_of(order, point)});
+  return planned;
+}
+
+void claim_folder(const SweepOrder& order, const fs::path& folder) {
+  const auto refuse = [&](const char* rule) {
+    throw ConfigError({{"--out " + folder.string(), "", "", rule, "choose another folder"}});
+  };
+  const auto content = content_of(order);
+  if (fs::exists(folder / sweep_file)) {
+    if (read_json(folder / sweep_file) != content) refuse("the folder belongs to another sweep");
+    return;
+  }
+  const auto foreign = [](const fs::directory_entry& item) {
+    const fs::path name = item.path().filename();
+    return name != "points" && name != "locks" && !name.string().starts_with(sweep_file);
+  };
+  if (fs::exists(folder) && std::any_of(fs::directory_iterator(folder), {}, foreign)) {
+    refuse("exists and is not the folder of a sweep");
+  }
+  fs::create_directories(folder / "points");
+  fs::create_directories(folder / "locks");
+  write_json(content, folder / sweep_file);
+}
+
+std::vector<PointResult> run_points(const SweepOrder& order,
+                                    const std::vector<PlannedPoint>& points, const fs::path& folder,
+                                    int threads, const std::vector<std::string>& command_line,
+                                    const std::function<void(const PointResult&)>& tell) {
+  std::vector<PointResult> results(points.size());
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::size_t p = next++; p < points.size(); p = next++) {
+      try {
+        if (interrupted()) throw meshes::Interrupted("the sweep was stopped");
+        results[p] = run_point(order, points[p], folder, command_line);
+        const std::lock_guard lock(mutex);
+        tell(results[p]);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = points.size();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> lanes;
+    for (int lane = 0; lane < std::max(1, threads); ++lane) lanes.emplace_back(work);
+  }
+  if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+}  // namespace fingertip::studies
