@@ -29,11 +29,12 @@ struct CutTip {
 };
 
 /// `sectors` = 4, 2 or 1 asks for the quarter (x, y >= 0), half (y >= 0) or whole tip; mirror
-/// planes must go through grid points. `row_margin` adds that many empty points at the end of every
-/// row of the grid. Throws InvalidInput for a specimen that breaks a rule, the published model, a
-/// spacing above (R - r)/2 or below R/320, a rotation or offset out of range, constants that are
-/// negative or without a diagonal, nu < 0 in the network at finite strain, sectors the grid's
-/// symmetry does not have, and a lattice in several pieces.
+/// planes must go through grid points. The directions of `cells.grid()` are those
+/// of the settings, renamed in turn so that x is nearest the finger's axis. `row_margin` adds that
+/// many empty points at the end of every row of the grid. Throws InvalidInput for a specimen that
+/// breaks a rule, the published model, a spacing above (R - r)/2 or below R/320, a rotation or
+/// offset out of range, constants that are negative or without a diagonal, nu < 0 in the network at
+/// finite strain, sectors the grid's symmetry does not have, and a lattice in several pieces.
 CutTip cut_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
                const LatticeSettings& settings, int sectors, int row_margin = 0);
 

@@ -39,7 +39,8 @@ struct RigidTip {
   /// The plane's force on the tip displaced by `shift`.
   Vector3 force(const Vector3& shift) {
     State state(model);
-    for (const std::size_t i : model.particles) state.displacement.set(i, shift);
+    const Vector3 along_grid = model.grid.axes.transpose() * shift;
+    for (const std::size_t i : model.particles) state.displacement.set(i, along_grid);
     VectorField force(model.points());
     return contact.add(state, plane_above(), 0.0, force).force;
   }

@@ -136,7 +136,8 @@ TEST(SymplecticEuler, KeepsTheEnergyOfAnUndampedFingerUpToItsRipple) {
     for (const std::uint32_t i : f.model().particles) {
       const Vector3 place = f.model().rest_position(i);
       const double way = std::max(0.0, place.z());
-      f.state().velocity.set(i, Vector3(500.0 * way * way, 0.0, 0.0));
+      f.state().velocity.set(
+          i, f.model().grid.axes.transpose() * Vector3(500.0 * way * way, 0.0, 0.0));
     }
     const auto energy = [&] {
       return lattice::elastic_energy(f.model(), f.state()) + f.bond_energy() +
@@ -174,7 +175,7 @@ TEST(RungeKutta, AFreeFingerConservesMomentumEnergyAndAngularMomentum) {
     Vector3 sum = f.rod().angular_momentum() + f.rod().centre().cross(f.rod().momentum());
     for (const std::uint32_t i : f.model().particles) {
       sum += lattice::position(f.model(), f.state(), i)
-                 .cross(f.model().mass[i] * f.state().velocity.at(i));
+                 .cross(f.model().mass[i] * (f.model().grid.axes * f.state().velocity.at(i)));
     }
     return sum;
   };
@@ -218,7 +219,7 @@ TEST(Surfaces, RememberNothingOfWhatIsTried) {
   const auto moved = [&](double down, double aside) {
     lattice::State state(f.model());
     for (const std::uint32_t i : f.model().particles) {
-      state.displacement.set(i, Vector3(aside, 0.0, down));
+      state.displacement.set(i, f.model().grid.axes.transpose() * Vector3(aside, 0.0, down));
     }
     return state;
   };
@@ -260,8 +261,8 @@ TEST(EnergyControlledStep, KeepsItsBoundAndShrinksAtImpact) {
   setup.energy_bound = 1e-7;
   VirtualFinger finger(setup);
   lattice::Finger& f = finger.finger();
-  const Vector3 velocity(0.0, 0.0, 0.05);
-  for (const std::uint32_t i : f.model().particles) f.state().velocity.set(i, velocity);
+  const Vector3 velocity(0.0, 0.0, 0.05), along_grid = f.model().grid.axes.transpose() * velocity;
+  for (const std::uint32_t i : f.model().particles) f.state().velocity.set(i, along_grid);
   f.rod().set_velocity(velocity, {});
   const auto energy = [&] {
     double sum = lattice::elastic_energy(f.model(), f.state()) + f.bond_energy() +

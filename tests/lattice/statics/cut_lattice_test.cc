@@ -86,8 +86,15 @@ double area_of(const std::vector<TiedPoint>& points) {
 /// `apart` between points.
 VectorXd traction_forces(const LatticeBody& body, const Geometry& geometry,
                          const LatticeSettings& settings, const Matrix3d& stress, double apart) {
+  // The grid's directions, whatever their order.
+  const auto& corners = body.cells.front().corners;
+  Matrix3d axes;
+  for (int d = 0; d < 3; ++d) {
+    axes.col(d) =
+        (body.rest[corners[std::size_t(1 << d)]] - body.rest[corners[0]]) / settings.spacing;
+  }
   const auto local = [&](const Vector3& at) {
-    return Vector3(settings.axes.transpose() * (at - body.rest.front()) / settings.spacing);
+    return Vector3(axes.transpose() * (at - body.rest.front()) / settings.spacing);
   };
   std::map<std::array<int, 3>, const MeanCell*> cell_at;
   for (const MeanCell& cell : body.cells) {
