@@ -227,7 +227,7 @@ Page bench_page(const std::filesystem::path& run_folder) {
   const json bench = read_json(run_folder / "bench.json");
   json history = json::array();
   if (const auto file = run_folder / "history.json"; std::filesystem::exists(file))
-    history = read_json(file);
+    history = array_at(read_json(file), "runs");
   Page page;
   page.title = "Soft fingertip: speed";
   page.subtitle = "What kernels, presses and peers cost on this machine, " + text_at(bench, "date");
