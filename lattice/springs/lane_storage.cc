@@ -163,11 +163,6 @@ std::size_t LaneStorage<Real>::motion_count() const {
 }
 
 template <typename Real>
-std::size_t LaneStorage<Real>::motion_bytes() const {
-  return motion_count() * sizeof(Real);
-}
-
-template <typename Real>
 std::size_t LaneStorage<Real>::force_buffer() const {
   return motion_count() / std::size_t(grid_.planes);  // two planes of half as many components
 }

@@ -46,8 +46,6 @@ class LaneStorage {
 
   /// Reals of the force buffer of one step in flight.
   std::size_t force_buffer() const;
-  /// Bytes of motion that a step reads and writes.
-  std::size_t motion_bytes() const;
 
  private:
   using Point = std::array<int, 3>;  ///< along a row, row, plane

@@ -47,13 +47,6 @@ SweepPlane<Real> choose(const SweepOffer& offer, bool damped) {
   }
 }
 
-/// Steps that a thread sweeps interleaved: one while what a step touches stays in the cache of a
-/// core (second level), else so many that a plane is used several times when it comes.
-int steps_per_group(std::size_t motion_bytes) {
-  constexpr std::size_t cached = std::size_t(24) << 20;
-  return motion_bytes <= cached ? 1 : 4;
-}
-
 template <typename Real>
 class LaneEngine : public Engine {
  public:
@@ -62,10 +55,8 @@ class LaneEngine : public Engine {
         storage_(problem, width * int(sizeof(double) / sizeof(Real))),
         sweep_(choose<Real>(
             offer(width), *std::max_element(problem.damping.begin(), problem.damping.end()) > 0.0)),
-        group_(steps_per_group(storage_.motion_bytes())),
         wavefront_(threads) {
-    for (int level = 0; level < threads * group_; ++level)
-      forces_.emplace_back(storage_.force_buffer());
+    for (int thread = 0; thread < threads; ++thread) forces_.emplace_back(storage_.force_buffer());
     const Eigen::Matrix3Xd rest = rest_positions(problem);
     set_motion(rest, Eigen::Matrix3Xd::Zero(3, rest.cols()));
   }
@@ -81,8 +72,8 @@ class LaneEngine : public Engine {
     return storage_.get(LaneStorage<Real>::Quantity::velocity);
   }
   void run(int steps, int threads) override {
-    wavefront_.run(steps, storage_.grid().planes, threads, group_, [this](int level, int plane) {
-      sweep_(storage_.grid(), plane, forces_[std::size_t(level)].data());
+    wavefront_.run(steps, storage_.grid().planes, threads, [this](int thread, int plane) {
+      sweep_(storage_.grid(), plane, forces_[std::size_t(thread)].data());
     });
   }
   int threads() const override { return wavefront_.threads(); }
@@ -95,7 +86,6 @@ class LaneEngine : public Engine {
   int width_;
   LaneStorage<Real> storage_;
   SweepPlane<Real> sweep_;
-  int group_;
   Wavefront wavefront_;
   std::vector<Arena<Real>> forces_;
 };

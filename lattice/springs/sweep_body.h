@@ -1,9 +1,9 @@
 /// The sweep itself, compiled once per instruction set (sweep_width2/4/8.cc). Included by those
 /// files only. `Pack` is one of their registers; its type keeps the instantiations apart.
 ///
-/// README.md explains layout and order. In short: a neighbouring slot is taken against the three
-/// own slots it has springs to, so that its masses are loaded once and their reactions stored
-/// once, while the forces on the own slots stay in registers.
+/// README.md explains layout and order. In short: a slot's masses and the forces on them stay in
+/// registers while it meets its 13 neighbouring slots, whose forces are read, added to and written
+/// back; then it moves on in time.
 #pragma once
 
 #include <cstddef>
@@ -307,9 +307,22 @@ struct Sweep {
     }
   }
 
+  /// Calls into the cache what the next row but one will touch of the next plane: rows are too
+  /// short, and too many are read at once, for the processor to foresee it.
+  FINGERTIP_INLINE void fetch_ahead(const Row& row, std::ptrdiff_t slot) {
+    const Real* motion = row.motion + 2 * row.to_motion[0] + row.to_motion[2] + slot * motion_slot;
+    const Real* force = row.force + 2 * row.to_force[0] + row.to_force[2] + slot * force_slot;
+    constexpr std::ptrdiff_t line = 64 / std::ptrdiff_t(sizeof(Real));
+    FINGERTIP_UNROLL for (std::ptrdiff_t i = 0; i < motion_slot; i += line)
+        __builtin_prefetch(motion + i, 1);
+    FINGERTIP_UNROLL for (std::ptrdiff_t i = 0; i < force_slot; i += line)
+        __builtin_prefetch(force + i, 1);
+  }
+
   /// All springs of one slot, then its step in time.
   template <bool Along>
   FINGERTIP_INLINE void sweep_slot(const Row& row, std::ptrdiff_t slot) {
+    fetch_ahead(row, slot);
     const Real* motion = row.motion + slot * motion_slot;
     Own own{load(motion), load(motion + 3 * W), load(row.force + slot * force_slot)};
     if ((row.links & all_rows_linked) == all_rows_linked)

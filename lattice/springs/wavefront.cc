@@ -38,11 +38,11 @@ struct Wavefront::Crew {
   std::condition_variable wake;
   Task task;  // guarded by the mutex, like `leaving`
   bool leaving = false;
-  Counter next;                   ///< next group to be taken: task.run << 32 | group
-  std::vector<Counter> finished;  ///< of group g, in place g % size: g * planes + planes swept
+  Counter next;                   ///< next step to be taken: task.run << 32 | step
+  std::vector<Counter> finished;  ///< of step n, in place n % size: n * planes + planes swept
 
-  // At most as many groups are in flight as there are threads; one more place keeps the group
-  // before the oldest of them.
+  // At most as many steps are in flight as there are threads; one more place keeps the step before
+  // the oldest of them.
   explicit Crew(int count) : finished(std::size_t(count) + 1) {
     for (int t = 1; t < count; ++t) threads.emplace_back([this, t] { serve(t); });
   }
@@ -69,13 +69,13 @@ struct Wavefront::Crew {
     }
   }
 
-  Counter& finished_of(int group) { return finished[std::size_t(group) % finished.size()]; }
+  Counter& finished_of(int step) { return finished[std::size_t(step) % finished.size()]; }
 
-  /// The next group of this run; -1 when all are taken. A thread that woke up too late finds
+  /// The next step of this run; -1 when all are taken. A thread that woke up too late finds
   /// another run's number and takes nothing.
   int take(const Task& t) {
     std::int64_t seen = next.value.load(std::memory_order_acquire);
-    while (seen >> 32 == t.run && int(seen & 0xffffffff) < t.groups()) {
+    while (seen >> 32 == t.run && int(seen & 0xffffffff) < t.steps) {
       if (next.value.compare_exchange_weak(seen, seen + 1, std::memory_order_acq_rel))
         return int(seen & 0xffffffff);
     }
@@ -83,24 +83,15 @@ struct Wavefront::Crew {
   }
 
   void march(const Task& t, int self) {
-    for (int g = take(t); g >= 0; g = take(t)) sweep_group(t, self, g);
-  }
-
-  void sweep_group(const Task& t, int self, int group) {
-    const int depth = std::min(t.group, t.steps - group * t.group);
-    for (int front = 0; front < t.planes + 2 * (depth - 1); ++front) {
-      for (int k = 0; k < depth; ++k) {
-        const int plane = front - 2 * k;
-        if (plane < 0 || plane >= t.planes) continue;
-        if (k == 0 && group > 0) {
-          finished_of(group - 1).wait_for(std::int64_t(group - 1) * t.planes +
-                                          std::min(plane + 2, t.planes));
+    for (int step = take(t); step >= 0; step = take(t)) {
+      for (int plane = 0; plane < t.planes; ++plane) {
+        if (step > 0) {
+          finished_of(step - 1).wait_for(std::int64_t(step - 1) * t.planes +
+                                         std::min(plane + 2, t.planes));
         }
-        t.sweep.call(t.sweep.self, self * t.group + k, plane);
-        if (k == depth - 1) {
-          finished_of(group).value.store(std::int64_t(group) * t.planes + plane + 1,
-                                         std::memory_order_release);
-        }
+        t.sweep.call(t.sweep.self, self, plane);
+        finished_of(step).value.store(std::int64_t(step) * t.planes + plane + 1,
+                                      std::memory_order_release);
       }
     }
   }
@@ -115,7 +106,7 @@ struct Wavefront::Crew {
     }
     if (t.threads > 1) wake.notify_all();
     march(t, 0);
-    if (t.groups() > 0) finished_of(t.groups() - 1).wait_for(std::int64_t(t.groups()) * t.planes);
+    if (t.steps > 0) finished_of(t.steps - 1).wait_for(std::int64_t(t.steps) * t.planes);
   }
 };
 
@@ -126,8 +117,8 @@ int Wavefront::threads() const {
   return int(crew_->threads.size()) + 1;
 }
 
-void Wavefront::run(int steps, int planes, int threads, int group, Borrowed sweep) {
-  crew_->run({steps, planes, threads, group, 0, sweep});
+void Wavefront::run(int steps, int planes, int threads, Borrowed sweep) {
+  crew_->run({steps, planes, threads, 0, sweep});
 }
 
 }  // namespace fingertip::lattice::springs

@@ -8,8 +8,7 @@ namespace fingertip::lattice::springs {
 
 /// Sweeps planes 0, 1, ... of step after step, where plane z of a step needs planes up to z + 1 of
 /// the step before and leaves the planes below z alone. A thread takes the next step that nobody
-/// has taken (or group of `group` steps, which it sweeps interleaved so that planes stay in its
-/// cache) and stays two planes behind the step before: no barrier, and every step does the same
+/// has taken and stays two planes behind the step before: no barrier, and every step does the same
 /// whoever takes it. Waiting threads spin, and yield their core when that takes long. A thread that
 /// gets no core takes no step, and the others go on without it.
 class Wavefront {
@@ -22,14 +21,13 @@ class Wavefront {
 
   int threads() const;
 
-  /// Calls sweep(level, plane) for every plane of `steps` steps on `threads` threads of those made
-  /// ready. At any time the steps in flight have distinct levels 0 ... threads * group - 1.
-  /// Allocates nothing; `sweep` must not throw.
+  /// Calls sweep(thread, plane) for every plane of `steps` steps on `threads` threads of those made
+  /// ready, 0 being the calling one. Allocates nothing; `sweep` must not throw.
   template <typename Sweep>
-  void run(int steps, int planes, int threads, int group, const Sweep& sweep) {
-    run(steps, planes, threads, group, {&sweep, [](const void* self, int level, int plane) {
-                                          (*static_cast<const Sweep*>(self))(level, plane);
-                                        }});
+  void run(int steps, int planes, int threads, const Sweep& sweep) {
+    run(steps, planes, threads, {&sweep, [](const void* self, int thread, int plane) {
+                                   (*static_cast<const Sweep*>(self))(thread, plane);
+                                 }});
   }
 
  private:
@@ -37,16 +35,14 @@ class Wavefront {
   /// A borrowed callable: unlike std::function it never allocates.
   struct Borrowed {
     const void* self = nullptr;
-    void (*call)(const void* self, int level, int plane) = nullptr;
+    void (*call)(const void* self, int thread, int plane) = nullptr;
   };
   struct Task {
-    int steps = 0, planes = 0, threads = 1, group = 1;
+    int steps = 0, planes = 0, threads = 1;
     std::int64_t run = 0;  ///< number of this task
     Borrowed sweep;
-
-    int groups() const { return (steps + group - 1) / group; }
   };
-  void run(int steps, int planes, int threads, int group, Borrowed sweep);
+  void run(int steps, int planes, int threads, Borrowed sweep);
 
   std::unique_ptr<Crew> crew_;
 };

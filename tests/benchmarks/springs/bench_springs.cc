@@ -28,6 +28,18 @@ double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// A body standing on a level plane, its lowest layer a tenth of the spacing inside.
+SpringProblem standing(SpringProblem problem) {
+  problem.plane.normal = Eigen::Vector3d::UnitZ();
+  return problem;
+}
+SpringProblem cube(int n) {
+  return standing(box(n, n, n));
+}
+SpringProblem tip_of_twelve() {
+  return standing(fingertip_body(12));
+}
+
 /// Something that simulates a problem, set in motion.
 struct Runner {
   std::function<void(int steps)> run;
@@ -136,23 +148,23 @@ void print_ratios(const std::string& name, const SpringProblem& problem) {
 }
 
 void print_mask_cost() {
-  const Runner tip = engine(fingertip_body(12), Precision::float64, 0, 1);
-  const Runner cube = engine(box(48, 48, 48), Precision::float64, 0, 1);
-  Fastest masked(tip), full(cube);
+  const Runner tip = engine(tip_of_twelve(), Precision::float64, 0, 1);
+  const Runner whole = engine(cube(48), Precision::float64, 0, 1);
+  Fastest masked(tip), full(whole);
   for (int round = 0; round < 200; ++round) {
     masked.measure();
     full.measure();
   }
   std::printf("tip R/12: lane efficiency %.3f, speed per lane %.3f of 48^3\n", tip.lane_efficiency,
-              full.spring() * cube.lane_efficiency / (masked.spring() * tip.lane_efficiency));
+              full.spring() * whole.lane_efficiency / (masked.spring() * tip.lane_efficiency));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::strcmp(argv[1], "--ratios") == 0) {
-    for (const int n : {20, 48}) print_ratios(std::to_string(n) + "^3", box(n, n, n));
-    print_ratios("tip R/12", fingertip_body(12));
+    for (const int n : {20, 48}) print_ratios(std::to_string(n) + "^3", cube(n));
+    print_ratios("tip R/12", tip_of_twelve());
     print_mask_cost();
     return 0;
   }
@@ -160,16 +172,16 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   for (const int n : {20, 48, 100}) {
     const std::string name = std::to_string(n) + "^3";
-    const SpringProblem problem = box(n, n, n);
+    const SpringProblem problem = cube(n);
     add(
         name + "/edge list", [=] { return edge_list(problem); }, 0.0);
     add_engines(name, problem, true);
   }
-  const SpringProblem tip = fingertip_body(12);
+  const SpringProblem tip = tip_of_twelve();
   add(
       "tip R|12/edge list", [=] { return edge_list(tip); }, 0.0);
   add_engines("tip R|12", tip, false);
-  for (const int n : {22, 32, 64, 80}) add_engines(std::to_string(n) + "^3", box(n, n, n), false);
+  for (const int n : {22, 32, 64, 80}) add_engines(std::to_string(n) + "^3", cube(n), false);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
