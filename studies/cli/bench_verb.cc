@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <fstream>
+#include <vector>
 
 #include "studies/bench/bench.h"
 #include "studies/bench/history.h"
@@ -23,13 +23,15 @@ int run_bench(const CommandLine& line) {
   const LoadedConfig loaded = load_checked(line);
   BenchPlan plan = line.quick ? quick_plan() : full_plan();
   plan.widest = width_of(line.isa);
+  std::erase_if(plan.presses,
+                [&](const PressPlan& press) { return press.per_radius > line.finest; });
   const std::filesystem::path history = history_file(line.history);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const nlohmann::ordered_json bench = run_bench(session, loaded, plan);
     const std::filesystem::path& folder = session.folder().path();
     write_json(bench, folder / "bench.json");
     append_history(bench, history);
-    write_json(read_history(history), folder / "history.json");
+    write_json({{"runs", read_history(history)}}, folder / "history.json");
     write_report(folder);
     if (!line.json.empty()) write_json(bench, line.json);
     if (line.quiet) return 0;

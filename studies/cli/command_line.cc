@@ -125,6 +125,9 @@ void add_bench(CLI::App& sub, CommandLine& line) {
   sub.add_option("--history", line.history,
                  "folder of history.jsonl, which gets a line (default: in the cache)")
       ->type_name("DIR");
+  sub.add_option("--finest", line.finest, "press no lattice finer than R/N; default 24")
+      ->type_name("N")
+      ->check(CLI::Range(6, 24));
   sub.add_option("--isa", line.isa, "measure kernels no wider than this one's")
       ->check(CLI::IsMember({"sse2", "avx2", "avx512"}));
 }

@@ -33,6 +33,7 @@ struct CommandLine {
   bool quick = false;                ///< bench --quick
   std::filesystem::path json;        ///< of bench: where its document goes, too
   std::filesystem::path history;     ///< of bench: folder of the history; empty: in the cache
+  int finest = 24;                   ///< of bench: no press on a lattice finer than R/finest
   std::string isa;                   ///< of bench: the widest to measure; empty: all there is
   std::string shard;                 ///< sweep --shard, "i/N"; empty: all
   bool collect = false;              ///< sweep --collect

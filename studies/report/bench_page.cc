@@ -39,7 +39,7 @@ Table press_table(const json& bench) {
     table.rows.push_back(
         {plain(fmt::format("{}, {}", text_at(press, "model"), text_at(press, "kinematics"))),
          plain(spacing_text(press)),
-         plain(number(number_at(press, "threads"), 2)),
+         plain(count(number_at(press, "threads"))),
          plain(number(number_at(press, "real_time_factor"), 3),
                std::isfinite(processor) ? number(processor, 3) : ""),
          {percent_magnitude(error), std::isfinite(small) ? percent_magnitude(small) : "",
@@ -99,7 +99,7 @@ Table kernel_table(const json& bench, const char* list, const std::string& capti
     const double fraction = number_at(kernel, "roofline_fraction");
     table.rows.push_back({plain(text_at(kernel, "name")), plain(text_at(kernel, "isa")),
                           plain(text_at(kernel, "precision")),
-                          plain(number(number_at(kernel, "threads"), 2)),
+                          plain(count(number_at(kernel, "threads"))),
                           plain(count(number_at(kernel, "masses"))),
                           plain(number(number_at(kernel, "ns_per_spring_step"), 3)),
                           plain(number(number_at(kernel, "operations_per_spring"), 3)),
@@ -227,7 +227,7 @@ Page bench_page(const std::filesystem::path& run_folder) {
   const json bench = read_json(run_folder / "bench.json");
   json history = json::array();
   if (const auto file = run_folder / "history.json"; std::filesystem::exists(file))
-    history = read_json(file);
+    history = array_at(read_json(file), "runs");
   Page page;
   page.title = "Soft fingertip: speed";
   page.subtitle = "What kernels, presses and peers cost on this machine, " + text_at(bench, "date");

@@ -82,7 +82,8 @@ TEST(Bench, TheSmallestRunKeepsTheContractAndMakesAPage) {
   EXPECT_TRUE(press.at("worst_force_error").is_number());
   studies::append_history(bench, folder / "history.jsonl");
   studies::append_history(bench, folder / "history.jsonl");
-  studies::write_json(studies::read_history(folder / "history.jsonl"), folder / "run/history.json");
+  studies::write_json({{"runs", studies::read_history(folder / "history.jsonl")}},
+                      folder / "run/history.json");
   studies::write_report(folder / "run");
   const std::string page = read_text(folder / "run/report.html");
   EXPECT_NE(page.find("Error against speed"), std::string::npos);
