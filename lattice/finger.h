@@ -31,7 +31,7 @@ struct FingerMemory {
   Wrench bond{};                                                ///< on the rod about its endpoint
   Wrench plane_impulse{};                                       ///< of the last step
   CellExtremes extremes{};                                      ///< at the start of the last step
-  std::shared_ptr<const MassScaling> scaling{};  ///< null: plain masses
+  std::shared_ptr<const MassScaling> scaling{};                 ///< null: plain masses
   meshes::Vector3 expected_momentum = meshes::Vector3::Zero();  ///< [N s]
   bool balance_started = false;
   double momentum_defect = 0.0;

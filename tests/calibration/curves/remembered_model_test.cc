@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "tests/temporary_folder.h"
 #include "fit_fixtures.h"
+#include "tests/temporary_folder.h"
 
 using namespace fit_fixtures;
 
