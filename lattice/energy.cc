@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "lattice/cells/cell_forces.h"
+#include "lattice/cells/cell_energy.h"
 
 namespace fingertip::lattice {
 
@@ -31,7 +31,7 @@ double spring_energy(const LatticeModel& model, const State& state, int s) {
 }  // namespace
 
 double elastic_energy(const LatticeModel& model, const State& state) {
-  double energy = cell_energy(model.cell_lattice, state.displacement);
+  double energy = fast_cell_energy(model.cell_lattice, state.displacement);
   if (!model.has_springs()) return energy;
   for (int s = 0; s < directions; ++s) energy += spring_energy(model, state, s);
   return energy;

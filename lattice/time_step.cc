@@ -19,7 +19,7 @@ constexpr double room = 1.2;
 
 /// Of mass_scaled [s]: a quarter of the usual control period.
 constexpr double usual_step = 2.5e-4;
-constexpr double longest_scaled = 1e-3;
+constexpr double longest_scaled = 5e-4;
 
 /// What a Lanczos estimate, which comes from below, may lack.
 constexpr double margin = 1.05;

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <experimental/simd>
+#include <limits>
 
+#include "lattice/cells/cell_energy_kernel.h"
 #include "lattice/cells/cell_kernel.h"
 #include "lattice/cells/pack_algebra.h"
 #include "lattice/stencil.h"
@@ -376,6 +378,81 @@ struct CellBody : PackAlgebra<Pack> {
     }
     bounds = {hmin(extremes.jacobian), hmax(extremes.tangent), hmax(extremes.viscosity),
               hmax(extremes.rate)};
+  }
+
+  [[gnu::always_inline]] static Pack power(const Columns& A, const Columns& C) {
+    return dot(A.x, C.x) + dot(A.y, C.y) + dot(A.z, C.z);
+  }
+
+  /// Energy of the cells of a pack; the modes' is half of what is conjugate to them times
+  /// themselves. A stress in the units of `area` is 4 a times too small for an energy.
+  template <CellLawKind Law, bool Whole>
+  [[gnu::always_inline]] static Pack energy_of(const CellArrays& a, const Pack& area,
+                                               const Field& u, Pack& smallest_jacobian) {
+    const CellMaterial& m = a.material;
+    const Pack twice = 2.0 * a.spacing, four = 4.0 * a.spacing;
+    if constexpr (Law == CellLawKind::cubic) {
+      const Response r = cubic<Whole>(m, area, u);
+      return twice * (power(r.P, u.H) + modes_times(r.h, u.q));
+    }
+    const Columns F = Algebra::plus_one(u.H);
+    const Pack J = dot(F.x, Algebra::cross(F.y, F.z));
+    if constexpr (Law == CellLawKind::volume) {
+      const Pack excess = J - Pack(1.0);
+      return twice * area * Pack(m.kappa) * excess * excess;
+    }
+    smallest_jacobian = min(smallest_jacobian, J);
+    // |F|² - 3 written so that it does not cancel at small strain.
+    const Pack excess = Pack(2.0) * (u.H.x.x + u.H.y.y + u.H.z.z) + power(u.H, u.H);
+    const Pack log_J = Algebra::log(J);
+    const Pack law =
+        Pack(0.5 * m.shear) * excess + (Pack(0.5 * m.lambda) * log_J - Pack(m.shear)) * log_J;
+    return four * area * law + twice * modes_times(bend<Whole>(m, area, u.q), u.q);
+  }
+  [[gnu::always_inline]] static Pack modes_times(const Modes& g, const Modes& q) {
+    return dot(g.yz, q.yz) + dot(g.zx, q.zx) + dot(g.xy, q.xy) + dot(g.xyz, q.xyz);
+  }
+
+  template <CellLawKind Law, bool Whole>
+  [[gnu::always_inline]] static void add_energy(const CellArrays& a, const CellBlock& b, Pack* sum,
+                                                Pack& smallest_jacobian) {
+    for (int chunk = 0; chunk < chunks; ++chunk) {
+      const std::ptrdiff_t lane = chunk * width, i = std::ptrdiff_t(b.first) + lane;
+      const Cut cut{Whole ? nullptr : a.cut + b.cut + lane};
+      Sides low, high, none;
+      read<false>(a, i, low, none);
+      read<false>(a, i + a.row, high, none);
+      Pack area = 0.25 * a.spacing * a.spacing;
+      if constexpr (!Whole) area *= cut.fraction();
+      sum[chunk] +=
+          energy_of<Law, Whole>(a, area, between<Whole>(low, high, cut), smallest_jacobian);
+    }
+  }
+
+  template <CellLawKind Law>
+  static double energy(const CellArrays& arrays, const CellBlock* blocks, std::size_t count) {
+    Pack sum[chunks], smallest_jacobian = 1.0;
+    for (Pack& s : sum) s = 0.0;
+    for (std::size_t b = 0; b < count; ++b) {
+      if (blocks[b].cut == CellBlock::whole) {
+        add_energy<Law, true>(arrays, blocks[b], sum, smallest_jacobian);
+      } else {
+        add_energy<Law, false>(arrays, blocks[b], sum, smallest_jacobian);
+      }
+    }
+    if (!(hmin(smallest_jacobian) > 0.0)) return std::numeric_limits<double>::infinity();
+    double lane[block], total = 0.0;  // lane by lane: the same whatever the width
+    for (int chunk = 0; chunk < chunks; ++chunk) store(lane + chunk * width, sum[chunk]);
+    for (const double value : lane) total += value;
+    return total;
+  }
+
+  static CellEnergy select_energy(CellLawKind law) {
+    switch (law) {
+      case CellLawKind::cubic: return energy<CellLawKind::cubic>;
+      case CellLawKind::volume: return energy<CellLawKind::volume>;
+      default: return energy<CellLawKind::network>;
+    }
   }
 
   static CellSweep select(CellLawKind law, bool rates) {

@@ -11,4 +11,8 @@ CellSweep cells_width2(CellLawKind law, bool rates) {
   return CellBody<Pack>::select(law, rates);
 }
 
+CellEnergy cell_energy_width2(CellLawKind law) {
+  return CellBody<Pack>::select_energy(law);
+}
+
 }  // namespace fingertip::lattice::kernel

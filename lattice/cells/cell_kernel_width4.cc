@@ -10,4 +10,8 @@ CellSweep cells_width4(CellLawKind law, bool rates) {
   return CellBody<Pack>::select(law, rates);
 }
 
+CellEnergy cell_energy_width4(CellLawKind law) {
+  return CellBody<Pack>::select_energy(law);
+}
+
 }  // namespace fingertip::lattice::kernel
