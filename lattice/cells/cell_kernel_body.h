@@ -322,7 +322,7 @@ struct CellBody : PackAlgebra<Pack> {
       Field w;
       if constexpr (Rates) w = between<Whole>(low.w, high.w, cut);
       Pack area = 0.25 * a.spacing * a.spacing;
-      if constexpr (!Whole) area *= cut.fraction();
+      if constexpr (!Whole) area = area * cut.fraction();
       if constexpr (Law == CellLawKind::cubic) {
         share_out<true, Whole>(cubic<Whole>(m, area, u), cut, low.force, high.force);
       } else if constexpr (Law == CellLawKind::volume) {
@@ -423,9 +423,9 @@ struct CellBody : PackAlgebra<Pack> {
       read<false>(a, i, low, none);
       read<false>(a, i + a.row, high, none);
       Pack area = 0.25 * a.spacing * a.spacing;
-      if constexpr (!Whole) area *= cut.fraction();
-      sum[chunk] +=
-          energy_of<Law, Whole>(a, area, between<Whole>(low, high, cut), smallest_jacobian);
+      if constexpr (!Whole) area = area * cut.fraction();
+      sum[chunk] = sum[chunk] + energy_of<Law, Whole>(a, area, between<Whole>(low, high, cut),
+                                                      smallest_jacobian);
     }
   }
 

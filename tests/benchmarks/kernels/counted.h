@@ -17,6 +17,7 @@ class Counted {
     bool set;
     friend Mask operator&&(Mask a, Mask b) { return {a.set && b.set}; }
     friend bool all_of(Mask a) { return a.set; }
+    friend bool any_of(Mask a) { return a.set; }
   };
 
   inline static double operations = 0.0;
