@@ -1,18 +1,13 @@
 #include "lattice/kernel.h"
 
-#include <stdexcept>
+#include "lattice/by_width.h"
 
 namespace fingertip::lattice::kernel {
 
 namespace {
 
 Offer offer(int width) {
-  switch (width) {
-    case 2: return offer_width2();
-    case 4: return offer_width4();
-    case 8: return offer_width8();
-    default: throw std::invalid_argument("kernel::select: width must be 2, 4 or 8");
-  }
+  return by_width(width, offer_width2, offer_width4, offer_width8)();
 }
 
 }  // namespace

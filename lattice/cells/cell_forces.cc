@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <mutex>
 
+#include "lattice/cells/cell_arrays.h"
+
 namespace fingertip::lattice {
 
 namespace {
@@ -44,16 +46,8 @@ CellForces::CellForces(const CellLattice& cells, Team& team, int width)
 
 CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
                              VectorField& force) const {
-  kernel::CellArrays arrays{{},
-                            {},
-                            {},
-                            cells_->cut.data(),
-                            cells_->row,
-                            cells_->plane,
-                            cells_->spacing,
-                            cells_->material};
+  kernel::CellArrays arrays = cell_arrays(*cells_, displacement);
   for (std::size_t c = 0; c < 3; ++c) {
-    arrays.displacement[c] = displacement.component[c].data();
     arrays.velocity[c] = velocity.component[c].data();
     arrays.force[c] = force.component[c].data();
   }
