@@ -123,11 +123,14 @@ void raise_light_masses(LatticeModel& model, const CutTip& tip, double density) 
   }
 }
 
-/// Of the bending modulus in the largest stiffness at rest.
-double bending_share(const CellMaterial& m) {
-  const double stiffness =
+/// For models whose energy is that of their cells alone (mass_scaling.h).
+void list_edges(LatticeModel& model, const CutTip& tip) {
+  const CellMaterial& m = tip.recipe.material;
+  const double largest =
       m.kind == CellLawKind::cubic ? m.c11 + 2.0 * m.c12 : 3.0 * m.lambda + 2.0 * m.shear;
-  return stiffness > 0.0 ? m.bending / stiffness : 0.0;
+  for (const CutCell& cell : tip.cells.cells()) {
+    model.edges.push_back(cell_edges(corner_moments(cell), m.bending / largest));
+  }
 }
 
 /// From particle numbers to grid indices.
@@ -145,10 +148,7 @@ LatticeModel build_cut_model(const meshes::Geometry& geometry, const meshes::Rub
   CutTip tip = cut_tip(geometry, rubber, settings, 1, row_margin);
   LatticeModel model = build_model(tip.cells, settings.model, tip.recipe, rubber.density);
   raise_light_masses(model, tip, rubber.density);
-  const CellMaterial& material = tip.recipe.material;
-  for (const CutCell& cell : tip.cells.cells()) {
-    model.edges.push_back(cell_edges(corner_moments(cell), bending_share(material)));
-  }
+  if (tip.recipe.cell_law && !tip.recipe.central_springs) list_edges(model, tip);
   find_boundary(model, geometry);
   model.bond = on_grid(std::move(tip.bond), tip.cells);
   model.outer = on_grid(std::move(tip.outer), tip.cells);

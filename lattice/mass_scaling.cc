@@ -113,8 +113,7 @@ AccelerationFields::AccelerationFields(const LatticeModel& model)
 
 MassScaling::MassScaling(const LatticeModel& model, const State& state, double step, double room)
     : model_(&model), step_(step) {
-  if (model.edges.empty() || model.cell_lattice.empty() || model.has_springs() ||
-      model.cell_lattice.material.kind == CellLawKind::volume) {
+  if (model.edges.empty()) {
     throw std::invalid_argument("MassScaling: the model must consist of cut cells with a law");
   }
   for (auto& edge : edge_) edge.assign(model.points(), 0.0);

@@ -71,9 +71,7 @@ class MassScaling {
   void accelerate(std::span<const TieInertia> ties, Team& team, AccelerationFields& scratch,
                   VectorField& force) const;
 
-  double step() const { return step_; }         ///< [s]
   int products() const { return stages_ - 1; }  ///< with S, per step
-  double largest() const { return largest_; }   ///< X, an upper bound by Gershgorin's rows
 
  private:
   void add_cell(std::size_t cell, const State& state, double room);
@@ -86,7 +84,7 @@ class MassScaling {
   const LatticeModel* model_;
   double step_;
   std::array<std::vector<double>, 3> edge_;  ///< of S, from a point to the next along x, y, z [kg]
-  double largest_ = 0.0;
+  double largest_ = 0.0;                     ///< X, an upper bound by Gershgorin's rows
   int stages_ = 1;
   double w0_ = 1.0, w1_ = 1.0;
 };

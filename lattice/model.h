@@ -61,7 +61,7 @@ struct LatticeModel {
   std::vector<std::uint32_t> cells;      ///< grid indices of the cells' lowest corners
   std::vector<std::uint32_t> blocks;     ///< first points of the runs of `lanes` points that
                                          ///< cover every particle once
-  std::vector<CellEdges> edges;          ///< per cell; of models with true surfaces
+  std::vector<CellEdges> edges;          ///< per cell; if cut cells alone store energy
   CellLattice cell_lattice;              ///< the cells that carry a law; may be empty
   std::size_t fibres = 0;                ///< edges that carry a share of the cells' energy
   /// Particles of the outer skin: fewer than 26 neighbours and nearer to the outer surface than

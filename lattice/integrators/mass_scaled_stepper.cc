@@ -33,8 +33,13 @@ void MassScaledStepper::begin(const Drive& /*drive*/, double duration) {
 
 void MassScaledStepper::step(const Drive& drive, double until) {
   const CellExtremes& cells = finger_->extremes();
-  if (steps_->outdated(cells) || changed_ > largest_change) scale();
-  if (finger_->step() > steps_->limit(cells)) begin(drive, until - finger_->time());
+  bool stale = steps_->outdated(cells) || changed_ > largest_change;
+  if (stale) steps_->note(cells);
+  if (finger_->step() > steps_->limit(cells)) {
+    finger_->set_step(steps_->divide(until - finger_->time(), cells));
+    stale = true;
+  }
+  if (stale) scale();
   advance(*finger_, drive);
   changed_ += finger_->step() * finger_->extremes().fastest;
   accept(finger_->step(), true);
