@@ -123,7 +123,7 @@ void raise_light_masses(LatticeModel& model, const CutTip& tip, double density) 
   }
 }
 
-/// For models whose energy is that of their cells alone (mass_scaling.h).
+/// For models whose energy is that of their cells alone (scaling/).
 void list_edges(LatticeModel& model, const CutTip& tip) {
   const CellMaterial& m = tip.recipe.material;
   const double largest =

@@ -1,5 +1,6 @@
 #include "lattice/finger.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "lattice/energy.h"
@@ -37,15 +38,54 @@ void Finger::find_forces(double step) {
   now_.extremes = internal_forces(now_.state, force_);
   if (!gravity_.isZero(0.0)) weigh_particles(force_);
   now_.bond = surfaces_->hold(now_.state, now_.rod, now_.plane, step, force_);
-  if (now_.scaling && step > 0.0) spread_accelerations();
 }
 
-void Finger::spread_accelerations() {
-  if (!accelerations_) accelerations_ = std::make_unique<AccelerationFields>(*model_);
-  now_.scaling->accelerate(surfaces_->inertia(step_), team_, *accelerations_, force_);
-  const Wrench more = surfaces_->hand_over(now_.state, now_.rod, accelerations_->changes);
-  now_.bond.force += more.force;
-  now_.bond.torque += more.torque;
+void Finger::scale_masses(std::shared_ptr<MassScaling> scaling) {
+  scaling->make(now_.state, surfaces_->bond_inertia(step_), step_, team_);
+  now_.scaling = std::move(scaling);
+}
+
+/// About the world's origin, along the grid's axes.
+Vector6 Finger::along_grid(const Vector3& force, const Vector3& torque) const {
+  Vector6 wrench;
+  wrench << model_->grid.axes.transpose() * force, model_->grid.axes.transpose() * torque;
+  return wrench;
+}
+
+/// Of a free rod under `applied` at its endpoint.
+OuterLoads::Rod Finger::rod_load(const Wrench& applied) const {
+  const RodState& rod = now_.rod;
+  const Vector3 weight = rod.body().mass * gravity_, centre = rod.centre();
+  const Eigen::Matrix3d axes = model_->grid.axes, inertia = rod.world_inertia();
+  const Vector3 turning = rod.angular_velocity().cross(rod.angular_momentum());
+  OuterLoads::Rod load;
+  load.load =
+      along_grid(applied.force + weight, applied.torque + rod.endpoint().cross(applied.force) +
+                                             centre.cross(weight) - turning);
+  load.inertia = point_inertia(rod.body().mass, axes.transpose() * centre);
+  load.inertia.bottomRightCorner<3, 3>() += axes.transpose() * inertia * axes;
+  return load;
+}
+
+void Finger::spread_accelerations(const Wrench* applied) {
+  const MassScaling& scaling = *now_.scaling;
+  if (!accelerations_) accelerations_ = std::make_unique<AccelerationFields>(scaling.fields());
+  OuterLoads outer;
+  outer.plane = surfaces_->plane_hold(step_);
+  outer.gravity = model_->grid.axes.transpose() * gravity_;
+  if (applied != nullptr) {
+    outer.rod = rod_load(*applied);
+    // Of what is new in the load the rod alone takes the first moment's share.
+    outer.rod->expected =
+        now_.rod_acceleration + outer.rod->inertia.ldlt().solve(outer.rod->load - now_.rod_load);
+    now_.rod_load = outer.rod->load;
+  }
+  const Reactions reactions = scaling.accelerate(now_.state, outer, team_, *accelerations_, force_);
+  now_.rod_acceleration = reactions.rod;
+  const Eigen::Matrix3d& axes = model_->grid.axes;
+  const Vector3 bond = axes * reactions.bond.head<3>();
+  now_.bond = {bond, axes * reactions.bond.tail<3>() - now_.rod.endpoint().cross(bond)};
+  surfaces_->set_plane_wrench({axes * reactions.plane.head<3>(), axes * reactions.plane.tail<3>()});
 }
 
 CellExtremes Finger::internal_forces(const State& state, VectorField& force) {
@@ -89,6 +129,7 @@ void Finger::move_particles() {
 
 void Finger::advance(const Wrench& applied) {
   find_forces(step_);
+  if (now_.scaling) spread_accelerations(&applied);
   RodState& rod = now_.rod;
   const Vector3 momentum_before = rod.momentum();
   const Vector3 endpoint = rod.endpoint(), weight = rod.body().mass * gravity_;
@@ -109,6 +150,7 @@ void Finger::advance(const Wrench& applied) {
 
 void Finger::advance(const RodMotion& at_end) {
   find_forces(step_);
+  if (now_.scaling) spread_accelerations(nullptr);
   const Vector3 momentum_before = now_.rod.momentum();
   now_.rod.prescribe(at_end.travel, at_end.velocity);
   move_particles();

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "lattice/forces.h"
-#include "lattice/mass_scaling.h"
 #include "lattice/model.h"
 #include "lattice/parallel.h"
 #include "lattice/plane.h"
 #include "lattice/rod.h"
+#include "lattice/scaling/mass_scaling.h"
 #include "lattice/settings.h"
 #include "lattice/state.h"
 #include "lattice/surfaces.h"
@@ -27,11 +27,14 @@ struct FingerMemory {
   State state;
   RodState rod;
   Plane plane;
-  double time = 0.0;                                            ///< [s]
-  Wrench bond{};                                                ///< on the rod about its endpoint
-  Wrench plane_impulse{};                                       ///< of the last step
-  CellExtremes extremes{};                                      ///< at the start of the last step
-  std::shared_ptr<const MassScaling> scaling{};                 ///< null: plain masses
+  double time = 0.0;                             ///< [s]
+  Wrench bond{};                                 ///< on the rod about its endpoint
+  Wrench plane_impulse{};                        ///< of the last step
+  CellExtremes extremes{};                       ///< at the start of the last step
+  std::shared_ptr<const MassScaling> scaling{};  ///< null: plain masses
+  Vector6 rod_acceleration =
+      Vector6::Zero();                 ///< of a free rod in the last step with scaled masses
+  Vector6 rod_load = Vector6::Zero();  ///< what acted on it but for the bond
   meshes::Vector3 expected_momentum = meshes::Vector3::Zero();  ///< [N s]
   bool balance_started = false;
   double momentum_defect = 0.0;
@@ -58,11 +61,9 @@ class Finger {
   /// One step with the rod's motion prescribed.
   void advance(const RodMotion& at_end);
 
-  /// From now on, while steps have the length it was made for, particles accelerate by it; null:
-  /// by their masses alone.
-  void scale_masses(std::shared_ptr<const MassScaling> scaling) {
-    now_.scaling = std::move(scaling);
-  }
+  /// From now on particles accelerate by this scaling, made for steps of the present length about
+  /// the present state.
+  void scale_masses(std::shared_ptr<MassScaling> scaling);
 
   const MassScaling* mass_scaling() const { return now_.scaling.get(); }
 
@@ -134,7 +135,9 @@ class Finger {
 
  private:
   void find_forces(double step);
-  void spread_accelerations();
+  Vector6 along_grid(const meshes::Vector3& force, const meshes::Vector3& torque) const;
+  OuterLoads::Rod rod_load(const Wrench& applied) const;
+  void spread_accelerations(const Wrench* applied);
   void weigh_particles(VectorField& force) const;
   void move_particles();
   void close_step(const meshes::Vector3& on_rod);

@@ -16,10 +16,9 @@ class ParticleSurfaces : public Surfaces {
   }
   Wrench hold(const State& state, const RodState& rod, const Plane& plane, double step,
               VectorField& force) override;
-  std::span<const TieInertia> inertia(double /*step*/) override { return {}; }
-  Wrench hand_over(const State&, const RodState&, std::span<const meshes::Vector3>) override {
-    return {};
-  }
+  std::span<const BondInertia> bond_inertia(double /*step*/) override { return {}; }
+  PlaneHold plane_hold(double /*step*/) override { return {}; }
+  void set_plane_wrench(const Wrench& /*on_tip*/) override {}
   Wrench settle(State& state, const VectorField& force, const Plane& plane, double step) override;
   double bond_energy(const State& state, const RodState& rod) const override;
   double energy(const State& state, const RodState& rod) const override {

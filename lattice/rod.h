@@ -65,6 +65,7 @@ class RodState {
   meshes::Vector3 velocity_at(const meshes::Vector3& point) const;  ///< of the rod at a world point
   const meshes::Vector3& momentum() const { return momentum_; }     ///< [N s]
   const meshes::Vector3& angular_momentum() const { return spin_; }  ///< about the centre [N m s]
+  Eigen::Matrix3d world_inertia() const;  ///< about the centre, world axes [kg m²]
   double kinetic_energy() const;                                     ///< [J]
   const RodBody& body() const { return body_; }
 
@@ -83,8 +84,6 @@ class RodState {
                  const meshes::Vector3& momentum, const meshes::Vector3& angular_momentum);
 
  private:
-  Eigen::Matrix3d world_inertia() const;
-
   RodBody body_;
   meshes::Vector3 centre_;
   Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();

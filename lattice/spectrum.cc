@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <set>
 #include <vector>
 
 #include "lattice/forces.h"
@@ -228,16 +227,6 @@ SpectralBounds rod_bounds(const LatticeModel& model, const RodBody& rod) {
   bounds.stiffness = rod_bound(model, Quantity::stiffness, rod);
   bounds.damping = rod_bound(model, Quantity::damping, rod);
   return bounds;
-}
-
-double bonded_inertia_ratio(const LatticeModel& model, const RodBody& rod) {
-  std::set<std::uint32_t> particles;
-  for (const TiedPoint& tie : model.bond) particles.insert(tie.corners.begin(), tie.corners.end());
-  Matrix6 carried = Matrix6::Zero();
-  for (const std::uint32_t i : particles) {
-    carried += model.mass[i] * unit_spring_on_rod(model.rest_position(i), rod);
-  }
-  return largest_ratio(carried, rod);
 }
 
 SpectralBounds spectral_estimate(const LatticeModel& model, const State& at, int steps) {

@@ -27,10 +27,6 @@ SpectralBounds spectral_bounds(const LatticeModel& model, const RodBody* rod);
 /// retardation times.
 SpectralBounds rod_bounds(const LatticeModel& model, const RodBody& rod);
 
-/// Largest ratio, over all motions of the rod, of the inertia of the bond's particles, were they to
-/// move with it, to its own; 0 without a tied bond.
-double bonded_inertia_ratio(const LatticeModel& model, const RodBody& rod);
-
 /// Largest eigenvalues at rest by the Lanczos method with the rod held, from below; converged to a
 /// few parts in 10⁴. Tied surfaces are left out: they do not limit the step (tied_bond.h).
 /// Retardation times as in spectral_bounds.

@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "lattice/mass_scaling.h"
 #include "lattice/model.h"
 #include "lattice/parallel.h"
 #include "lattice/plane.h"
 #include "lattice/point_load.h"
 #include "lattice/rod.h"
 #include "lattice/state.h"
+#include "lattice/tie_inertia.h"
 #include "meshes/geometry.h"
 #include "meshes/press_protocol.h"
 
@@ -40,13 +40,14 @@ class Surfaces {
   virtual Wrench settle(State& state, const VectorField& force, const Plane& plane,
                         double step) = 0;
 
-  /// Inertia that the ties added in the last hold() with that step [s]; empty where there are none.
-  virtual std::span<const TieInertia> inertia(double step) = 0;
-  /// To be told when the particles in inertia() accelerate by so much more [m/s²], along the grid's
-  /// axes, than the forces said: returns what the rod gets of that, about its endpoint; the plane's
-  /// part enters settle().
-  virtual Wrench hand_over(const State& state, const RodState& rod,
-                           std::span<const meshes::Vector3> changes) = 0;
+  /// Inertia against the rod in steps of `step` [s], by increasing index; empty where there is
+  /// none.
+  virtual std::span<const BondInertia> bond_inertia(double step) = 0;
+  /// How the plane held in the last hold() with that step [s].
+  virtual PlaneHold plane_hold(double step) = 0;
+  /// To be told what the plane does to the tip in the end, if particles accelerate otherwise than
+  /// by the forces of the last hold(): [N] and [N m] about the world's origin. It enters settle().
+  virtual void set_plane_wrench(const Wrench& on_tip) = 0;
 
   /// What rod and plane exert at one moment.
   struct Trial {

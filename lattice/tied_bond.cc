@@ -192,9 +192,10 @@ Wrench TiedBond::add(const State& state, const RodState& rod, double step, Vecto
   return on_rod;
 }
 
-void TiedBond::list_inertia(double step, std::vector<TieInertia>& ties) const {
+void TiedBond::list_inertia(double step, std::vector<BondInertia>& ties) const {
+  ties.clear();
   for (const auto& [point, number] : numbers_) {
-    ties.push_back({point, step * step * sum_[number], Eigen::Matrix3d::Zero()});
+    ties.push_back({point, step * step * sum_[number]});
   }
 }
 

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "lattice/bond_kernel.h"
-#include "lattice/mass_scaling.h"
 #include "lattice/model.h"
 #include "lattice/parallel.h"
 #include "lattice/rod.h"
 #include "lattice/state.h"
+#include "lattice/tie_inertia.h"
 
 namespace fingertip::lattice {
 
@@ -48,7 +48,7 @@ class TiedBond {
   Wrench add(const State& state, const RodState& rod, double step, VectorField& force,
              std::vector<SharedLoad>* shared = nullptr);
   /// What the particles' inertia against the rod is in steps of `step` [s], by increasing index.
-  void list_inertia(double step, std::vector<TieInertia>& ties) const;
+  void list_inertia(double step, std::vector<BondInertia>& ties) const;
   double energy(const State& state, const RodState& rod) const;  ///< [J]
 
  private:

@@ -211,22 +211,12 @@ Wrench TiedContact::unload(const State& state, double step, VectorField& force,
   return {model_->grid.axes * sum, model_->grid.axes * moment};
 }
 
-void TiedContact::add_inertia(double step, std::vector<TieInertia>& ties) const {
-  const auto of_bond = std::ptrdiff_t(ties.size());
-  const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
-  const Eigen::Matrix3d along = normal * normal.transpose();
+void TiedContact::list_inertia(double step, std::vector<ContactInertia>& ties) const {
+  const double square = step * step;
+  ties.clear();
   for (const Held& held : held_) {
-    const std::uint32_t i = shape_->particles[held.particle];
-    const Eigen::Matrix3d inertia =
-        step * step * (held.stiffness * along + held.aside * (Eigen::Matrix3d::Identity() - along));
-    if (shape_->bonded[held.particle] != 0) {
-      const auto place =
-          std::lower_bound(ties.begin(), ties.begin() + of_bond, i,
-                           [](const TieInertia& tie, std::uint32_t p) { return tie.particle < p; });
-      place->contact = inertia;
-    } else {
-      ties.push_back({i, 0.0, inertia});
-    }
+    ties.push_back(
+        {shape_->particles[held.particle], square * held.stiffness, square * held.aside});
   }
 }
 

@@ -10,6 +10,7 @@
 #include "lattice/plane.h"
 #include "lattice/point_load.h"
 #include "lattice/state.h"
+#include "lattice/tie_inertia.h"
 #include "lattice/tied_bond.h"
 #include "meshes/press_protocol.h"
 
@@ -61,9 +62,10 @@ class TiedContact {
   /// what that one remembers and looks only at the points that are near to it. Cheap.
   void try_from(const TiedContact& accepted);
 
-  /// Adds the inertia against the plane that particles had in the last add() with that step [s].
-  /// `ties` starts with those of the bond, by increasing index.
-  void add_inertia(double step, std::vector<TieInertia>& ties) const;
+  /// The inertia against the plane that particles had in the last add() with that step [s].
+  void list_inertia(double step, std::vector<ContactInertia>& ties) const;
+  /// Of the plane at the end of the last step, along the grid's axes.
+  meshes::Vector3 normal() const { return model_->grid.axes.transpose() * plane_.normal; }
 
   double energy() const { return energy_; }  ///< of the ties at the last add() [J]
   int touching() const { return touching_; }

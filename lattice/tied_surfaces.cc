@@ -10,6 +10,8 @@ TiedSurfaces::TiedSurfaces(const LatticeModel& model, const Plane& plane, const 
                            Team& team)
     : model_(&model), bond_(model, team), contact_(model, plane, law) {
   shared_.reserve(model.boundary.size());
+  bond_inertia_.reserve(8 * model.bond.size());
+  plane_inertia_.reserve(model.boundary.size());
 }
 
 Wrench TiedSurfaces::hold(const State& state, const RodState& rod, const Plane& plane, double step,
@@ -41,29 +43,15 @@ Wrench TiedSurfaces::hold_with(TiedContact& contact, const State& state, const R
   return on_rod;
 }
 
-std::span<const TieInertia> TiedSurfaces::inertia(double step) {
-  inertia_.clear();
-  bond_.list_inertia(step, inertia_);
-  contact_.add_inertia(step, inertia_);
-  return inertia_;
+std::span<const BondInertia> TiedSurfaces::bond_inertia(double step) {
+  bond_.list_inertia(step, bond_inertia_);
+  return bond_inertia_;
 }
 
-Wrench TiedSurfaces::hand_over(const State& state, const RodState& rod,
-                               std::span<const meshes::Vector3> changes) {
-  const Eigen::Matrix3d& axes = model_->grid.axes;
-  const meshes::Vector3 endpoint = rod.endpoint();
-  Wrench on_rod;
-  for (std::size_t n = 0; n < inertia_.size(); ++n) {
-    const TieInertia& tie = inertia_[n];
-    const meshes::Vector3 at = position(*model_, state, tie.particle);
-    const meshes::Vector3 to_rod = axes * (tie.bond * changes[n]);
-    const meshes::Vector3 to_plane = axes * (tie.contact * changes[n]);
-    on_rod.force += to_rod;
-    on_rod.torque += (at - endpoint).cross(to_rod);
-    on_tip_.force -= to_plane;
-    on_tip_.torque -= at.cross(to_plane);
-  }
-  return on_rod;
+PlaneHold TiedSurfaces::plane_hold(double step) {
+  contact_.list_inertia(step, plane_inertia_);
+  const Eigen::Matrix3d to_grid = model_->grid.axes.transpose();
+  return {plane_inertia_, contact_.normal(), {to_grid * on_tip_.force, to_grid * on_tip_.torque}};
 }
 
 double TiedSurfaces::energy(const State& state, const RodState& rod) const {

@@ -17,9 +17,9 @@ class TiedSurfaces : public Surfaces {
   std::unique_ptr<Surfaces> clone() const override { return std::make_unique<TiedSurfaces>(*this); }
   Wrench hold(const State& state, const RodState& rod, const Plane& plane, double step,
               VectorField& force) override;
-  std::span<const TieInertia> inertia(double step) override;
-  Wrench hand_over(const State& state, const RodState& rod,
-                   std::span<const meshes::Vector3> changes) override;
+  std::span<const BondInertia> bond_inertia(double step) override;
+  PlaneHold plane_hold(double step) override;
+  void set_plane_wrench(const Wrench& on_tip) override { on_tip_ = on_tip; }
   Trial attempt(const State& state, const RodState& rod, const Plane& plane,
                 VectorField& force) override;
   Wrench settle(State&, const VectorField&, const Plane&, double step) override {
@@ -45,9 +45,10 @@ class TiedSurfaces : public Surfaces {
   TiedBond bond_;
   TiedContact contact_;
   std::optional<TiedContact> trial_;  ///< contact_ as attempt() needs it, made by the first one
-  std::vector<TieInertia> inertia_;   ///< of the last inertia()
-  std::vector<SharedLoad> shared_;    ///< particles on both surfaces
-  Wrench on_tip_;                     ///< of the plane, about the world's origin
+  std::vector<BondInertia> bond_inertia_;      ///< of the last bond_inertia()
+  std::vector<ContactInertia> plane_inertia_;  ///< of the last plane_hold()
+  std::vector<SharedLoad> shared_;             ///< particles on both surfaces
+  Wrench on_tip_;                              ///< of the plane, about the world's origin
 };
 
 }  // namespace fingertip::lattice

@@ -37,15 +37,11 @@ SpectralBounds tied_bounds(SpectralBounds held, double growth, double rod) {
   return held;
 }
 
-/// With scaled masses the rubber sets no limit. Of the ties' stiffness K the rod feels K m/(m + dt²
-/// d), which is at most m/dt²: a rod that is heavier than its bond's particles is stable at any
-/// step, 3 m/M <= 4. Steps above `longest_scaled` see too little of a contact that grows.
-SpectralBounds scaled_bounds(const LatticeModel& model, const RodBody* rod, double rod_stiffness) {
+/// With scaled masses neither rubber nor ties set a limit. Steps above `longest_scaled` see too
+/// little of a contact that grows.
+SpectralBounds scaled_bounds() {
   SpectralBounds bounds;
   bounds.stiffness = 4.0 / (longest_scaled * longest_scaled);
-  if (rod != nullptr && 3.0 * bonded_inertia_ratio(model, *rod) > 4.0) {
-    bounds.stiffness = std::max(bounds.stiffness, rod_stiffness);
-  }
   return bounds;
 }
 
@@ -119,7 +115,7 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
       rod_stiffness_(tied_rod(model, rod)) {
   const bool scaled = integrator == Integrator::mass_scaled;
   const SpectralBounds bounds =
-      scaled ? scaled_bounds(model, rod, rod_stiffness_) : tightest_bounds(model, rod);
+      scaled ? scaled_bounds() : tightest_bounds(model, rod);
   if (scaled && !wanted) wanted = usual_step;
   report_.omega0 = paper_frequency(model);
   report_.paper_bound = 1.0 / report_.omega0;
@@ -130,7 +126,7 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
          "explicit Euler is unstable at any step without damping: it adds energy to every mode",
          "use symplectic-euler, or give rubber.retardation_time a positive value"});
   }
-  why_ = scaled ? "with scaled masses only the rod on its ties and the contact's detail rule"
+  why_ = scaled ? "with scaled masses only the contact's detail rules"
                 : ruling(bounds, integrator, report_.spectral_bound);
   if (wanted && !(*wanted > 0.0 && *wanted <= report_.spectral_bound)) {
     refuse(*wanted, report_.spectral_bound, why_);

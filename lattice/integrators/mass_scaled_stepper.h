@@ -1,6 +1,9 @@
 /// Symplectic Euler at steps that neither stiffness nor damping of the rubber limits.
 #pragma once
 
+#include <array>
+#include <memory>
+
 #include "lattice/integrators/stepper.h"
 
 namespace fingertip::lattice {
@@ -11,21 +14,24 @@ namespace fingertip::lattice {
 /// room for: when their extremes have, or the volume of the fastest by a tenth.
 class MassScaledStepper : public Stepper {
  public:
-  MassScaledStepper(Finger& finger, StepController& steps) : finger_(&finger), steps_(&steps) {}
+  MassScaledStepper(Finger& finger, StepController& steps)
+      : finger_(&finger),
+        steps_(&steps),
+        ground_(std::make_shared<ScalingGround>(finger.model())) {}
 
   void begin(const Drive& drive, double duration) override;
   void step(const Drive& drive, double until) override;
   double memory() const override { return changed_; }
   void recall(double memory) override { changed_ = memory; }
-  std::string explanation() const override;
 
  private:
   void scale();
 
   Finger* finger_;
   StepController* steps_;
+  std::shared_ptr<ScalingGround> ground_;
+  std::array<std::shared_ptr<MassScaling>, 2> made_;  ///< one may be the finger's
   double changed_ = 0.0;  ///< largest change of a cell's volume since the scaling was made
-  int products_ = 0;      ///< most per step
 };
 
 }  // namespace fingertip::lattice

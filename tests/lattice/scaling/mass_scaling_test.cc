@@ -1,11 +1,12 @@
-#include "lattice/mass_scaling.h"
+#include "lattice/scaling/mass_scaling.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fixtures.h"
+#include "../fixtures.h"
+#include "lattice/energy.h"
 #include "lattice/forces.h"
 #include "lattice/press.h"
 #include "lattice/virtual_finger.h"
@@ -31,6 +32,14 @@ LatticeModel coarse(ModelKind kind) {
   settings.constants = lattice::hookean_constants({}, settings.spacing);
   settings.offset = Vector3(0.3, -0.2, 0.1);  // slivers everywhere
   return lattice::build_tip({}, {}, settings);
+}
+
+MassScaling scaling_of(const LatticeModel& model, const State& state, double room = 1.3,
+                       std::span<const lattice::BondInertia> bond = {}) {
+  MassScaling scaling(std::make_shared<lattice::ScalingGround>(model));
+  lattice::Team team(1);
+  scaling.make(state, bond, step, team, room);
+  return scaling;
 }
 
 VectorXd packed(const LatticeModel& model, const VectorField& field) {
@@ -75,9 +84,11 @@ VectorXd stepped_stiffness(const LatticeModel& model, const State& at, const Vec
 /// W f: accelerations; by the masses alone without scaling.
 VectorXd response(const LatticeModel& model, const MassScaling* scaling, const VectorXd& f) {
   lattice::Team team(1);
-  AccelerationFields fields(model);
   VectorField force = spread(model, f);
-  if (scaling != nullptr) scaling->accelerate({}, team, fields, force);
+  if (scaling != nullptr) {
+    AccelerationFields fields = scaling->fields();
+    scaling->accelerate(State(model), {}, team, fields, force);
+  }
   for (const std::uint32_t i : model.particles) force.set(i, model.inverse_mass[i] * force.at(i));
   return packed(model, force);
 }
@@ -112,7 +123,7 @@ class LongSteps : public testing::TestWithParam<std::pair<ModelKind, double>> {}
 TEST_P(LongSteps, AreStableForEveryMotion) {
   const LatticeModel model = coarse(GetParam().first);
   const State state = compressed(model, GetParam().second);
-  const MassScaling scaling(model, state, step, 1.0);
+  const MassScaling scaling = scaling_of(model, state, 1.0);
   EXPECT_LE(largest_product(model, state, &scaling), 4.0);
   EXPECT_GT(largest_product(model, state, &scaling), 0.5);
   EXPECT_GT(largest_product(model, state, nullptr), 16.0);
@@ -120,12 +131,12 @@ TEST_P(LongSteps, AreStableForEveryMotion) {
 
 TEST(MassScaling, RespondsSymmetrically) {
   const LatticeModel model = coarse(ModelKind::network);
-  const MassScaling scaling(model, compressed(model, 0.2), step);
+  const MassScaling scaling = scaling_of(model, compressed(model, 0.2));
   const VectorXd f = packed(model, random_state(model, 1.0, 0.0, 1).displacement);
   const VectorXd g = packed(model, random_state(model, 1.0, 0.0, 2).displacement);
   const double one = f.dot(response(model, &scaling, g)),
                other = g.dot(response(model, &scaling, f));
-  EXPECT_NEAR(one, other, 1e-11 * std::abs(f.dot(response(model, &scaling, f))));
+  EXPECT_NEAR(one, other, 1e-5 * std::abs(f.dot(response(model, &scaling, f))));
   EXPECT_GT(f.dot(response(model, &scaling, f)), 0.0);
 }
 
@@ -134,69 +145,94 @@ INSTANTIATE_TEST_SUITE_P(Lattices, LongSteps,
                                          std::pair(ModelKind::network, 0.0),
                                          std::pair(ModelKind::network, 0.3)));
 
-TEST(MassScaling, WeightAcceleratesAllAlikeAndMomentumIsThatOfTheForces) {
+TEST(MassScaling, TendsToPlainMassesWithTheStep) {
   const LatticeModel model = coarse(ModelKind::network);
-  const MassScaling scaling(model, State(model), step);
-  EXPECT_GT(scaling.products(), 2);
-  lattice::Team team(1);
-  AccelerationFields fields(model);
-  VectorField weight(model.points());
-  for (const std::uint32_t i : model.particles) weight.set(i, model.mass[i] * Vector3(1, -2, 3));
-  VectorField force = weight;
-  scaling.accelerate({}, team, fields, force);
-  for (const std::uint32_t i : model.particles) {
-    EXPECT_LT((force.at(i) - weight.at(i)).norm(), 1e-12 * weight.at(i).norm());
+  const VectorXd f = packed(model, random_state(model, 1.0, 0.0, 1).displacement),
+                 plain = response(model, nullptr, f);
+  double before = 1e300;
+  for (const double shorter : {1e-5, 1e-6, 1e-7}) {
+    MassScaling scaling = scaling_of(model, State(model));
+    lattice::Team team(1);
+    scaling.make(State(model), {}, shorter, team);
+    const double error = (response(model, &scaling, f) - plain).norm() / plain.norm();
+    EXPECT_LT(error, 0.3 * before);
+    before = error;
   }
-  const VectorField random = random_state(model, 1.0, 0.0, 7).displacement;
-  force = random;
-  scaling.accelerate({}, team, fields, force);
-  Vector3 defect = Vector3::Zero();
-  double size = 0.0, change = 0.0;
-  for (const std::uint32_t i : model.particles) {
-    defect += force.at(i) - random.at(i);
-    size += random.at(i).norm();
-    change += (force.at(i) - random.at(i)).norm();
-  }
-  EXPECT_LT(defect.norm(), 1e-13 * size);
-  EXPECT_GT(change, 0.5 * size);
+  EXPECT_LT(before, 1e-2);
 }
 
-TEST(MassScaling, TiesGetWhatTheParticlesDoNot) {
-  const LatticeModel model = coarse(ModelKind::network);
-  const MassScaling scaling(model, State(model), step);
-  lattice::Team team(1);
-  AccelerationFields fields(model);
-  const VectorField others = random_state(model, 1.0, 0.0, 7).displacement;
-  std::vector<lattice::TieInertia> ties;
-  VectorField force = others;
-  const Vector3 normal = Vector3(1.0, 2.0, -3.0).normalized();
-  for (std::size_t n = 0; n < model.particles.size(); n += 5) {
-    const std::uint32_t i = model.particles[n];
-    ties.push_back({i, double(n % 3) * model.mass[i],
-                    double(n % 2) * 4.0 * model.mass[i] * normal * normal.transpose()});
-    const Eigen::Matrix3d inertia =
-        (model.mass[i] + ties.back().bond) * Eigen::Matrix3d::Identity() + ties.back().contact;
-    force.set(i, model.mass[i] * inertia.inverse() * others.at(i));  // as surfaces leave it
-  }
-  const VectorField before = force;
-  scaling.accelerate(ties, team, fields, force);
-  Vector3 defect = Vector3::Zero();
-  double size = 0.0;
+namespace {
+
+lattice::FingerSetup free_finger() {
+  lattice::FingerSetup setup;
+  setup.lattice = settings_for(ModelKind::network, Kinematics::finite, 6);
+  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  setup.plane = {.point = {0.0, 0.0, 1.0}};
+  setup.integrator = lattice::Integrator::mass_scaled;
+  setup.time_step = 5e-4;
+  setup.threads = 1;
+  return setup;
+}
+
+/// Of rod and rubber about the world's origin [N m s].
+Vector3 angular_momentum(const lattice::VirtualFinger& finger) {
+  const lattice::RodState& rod = finger.finger().rod();
+  const LatticeModel& model = finger.model();
+  Vector3 sum = rod.angular_momentum() + rod.centre().cross(rod.momentum());
   for (const std::uint32_t i : model.particles) {
-    defect += force.at(i) - before.at(i);
-    size += others.at(i).norm();
+    const Vector3 velocity = model.grid.axes * finger.finger().state().velocity.at(i);
+    sum += lattice::position(model, finger.finger().state(), i).cross(model.mass[i] * velocity);
   }
-  for (std::size_t n = 0; n < ties.size(); ++n) {
-    defect += ties[n].bond * fields.changes[n] + ties[n].contact * fields.changes[n];
+  return sum;
+}
+
+}  // namespace
+
+TEST(ScaledFinger, MovesAsOneBodyWhereNothingHoldsIt) {
+  lattice::VirtualFinger finger(free_finger());
+  const double mass = finger.finger().rod().body().mass + finger.model().total_mass();
+  const Vector3 force(0.003, -0.002, 0.01);
+  const auto pull = [&](const Vector3& at_endpoint) {
+    finger.write(lattice::Wrench{force, at_endpoint});
+    finger.do_step(1e-3);
+  };
+  Vector3 turned = Vector3::Zero();
+  for (int n = 0; n < 50; ++n) {
+    const Vector3 before = finger.finger().rod().endpoint();
+    pull(Vector3(2e-6, 0.0, -1e-6));
+    turned += 1e-3 * (Vector3(2e-6, 0.0, -1e-6) +
+                      0.5 * (before + finger.finger().rod().endpoint()).cross(force));
   }
-  EXPECT_LT(defect.norm(), 1e-13 * size);
+  const Vector3 momentum = lattice::linear_momentum(finger.model(), finger.finger().state()) +
+                           finger.finger().rod().momentum();
+  EXPECT_LT((momentum - 0.05 * force).norm(), 1e-10 * momentum.norm());
+  EXPECT_LT((angular_momentum(finger) - turned).norm(), 1e-3 * turned.norm());
+  const Vector3 rubber = lattice::linear_momentum(finger.model(), finger.finger().state());
+  EXPECT_NEAR(rubber.norm() / momentum.norm(), finger.model().total_mass() / mass, 0.05);
+}
+
+TEST(ScaledFinger, ComesToRestOnARodMuchLighterThanItsRubber) {
+  lattice::FingerSetup setup = free_finger();
+  setup.rod.density *= 0.02;
+  lattice::VirtualFinger finger(setup);
+  ASSERT_LT(finger.finger().rod().body().mass, 0.1 * finger.model().total_mass());
+  const Vector3 centre = finger.finger().rod().centre();
+  const auto energy = [&] { return finger.finger().elastic_energy(); };
+  finger.write(lattice::Wrench{Vector3(0.05, 0.02, 0.05), Vector3(1e-4, 1e-4, 0.0)});
+  finger.do_step(2e-3);
+  const double struck = energy();
+  EXPECT_GT(struck, 0.0);
+  finger.write(lattice::Wrench{});
+  finger.do_step(0.3);
+  EXPECT_LT(energy(), 0.01 * struck);
+  EXPECT_LT((finger.finger().rod().centre() - centre).norm(), 0.1);
 }
 
 TEST(MassScaling, RefusesSpringsAndBlocks) {
   const LatticeModel springs = tip(ModelKind::central, Kinematics::small, 4);
   const LatticeModel free = block(ModelKind::network, Kinematics::finite, {2, 2, 2});
   for (const LatticeModel* model : {&springs, &free}) {
-    EXPECT_THROW(MassScaling(*model, State(*model), step), std::invalid_argument);
+    EXPECT_THROW(scaling_of(*model, State(*model)), std::invalid_argument);
   }
   lattice::PressSetup setup;
   setup.lattice = settings_for(ModelKind::central, Kinematics::small, 6);
@@ -223,8 +259,8 @@ lattice::PressSetup press(int per_radius) {
 TEST(MassScaledPress, MeetsThatOfShortSteps) {
   lattice::PressSetup setup = press(6);
   const auto scaled = lattice::run_press(setup);
-  setup.time_step = 1.25e-4;
-  const auto halved = lattice::run_press(setup);
+  setup.time_step = 6.25e-5;
+  const auto quarter = lattice::run_press(setup);
   setup.time_step.reset();
   setup.integrator = lattice::Integrator::symplectic_euler;
   const auto exact = lattice::run_press(setup);
@@ -235,14 +271,14 @@ TEST(MassScaledPress, MeetsThatOfShortSteps) {
     double worst = 0.0;
     for (std::size_t n = 0; n < exact.response.samples().size(); ++n) {
       const auto& sample = exact.response.samples()[n];
-      if (sample.indentation < 0.5e-3) continue;
+      if (sample.indentation < 0.8e-3) continue;
       worst = std::max(
           worst, std::abs(outcome.response.samples()[n].normal_force / sample.normal_force - 1.0));
     }
     return worst;
   };
-  EXPECT_LT(error(scaled), 0.015);
-  EXPECT_LT(error(halved), 0.75 * error(scaled));
+  EXPECT_LT(error(scaled), 0.01);
+  EXPECT_LT(error(quarter), 0.5 * error(scaled));
 }
 
 TEST(MassScaledPress, GoesOnFromASavedStateWithTheSameBitsOnAnyThreads) {

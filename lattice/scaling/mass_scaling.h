@@ -1,0 +1,108 @@
+/// Selective mass scaling: inertia against deformation, so that neither the stiffness nor the
+/// damping of the rubber limits the time step.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lattice/model.h"
+#include "lattice/parallel.h"
+#include "lattice/scaling/carried_rubber.h"
+#include "lattice/scaling/edge_inertia.h"
+#include "lattice/scaling/multigrid.h"
+#include "lattice/state.h"
+#include "lattice/tie_inertia.h"
+
+namespace fingertip::lattice {
+
+/// What scalings of one model have in common.
+struct ScalingGround {
+  const LatticeModel* model;
+  std::shared_ptr<const GridHierarchy> hierarchy;
+  CarriedRubber rubber;
+  EdgeInertiaRule rule;
+  EdgeInertia edges;  ///< scratch
+
+  /// Throws as EdgeInertiaRule does.
+  explicit ScalingGround(const LatticeModel& model);
+};
+
+/// Scratch for MassScaling::accelerate.
+struct AccelerationFields {
+  MultigridFields grids;
+  CarriedRubber::Scratch carried;
+};
+
+/// What acts from outside during a step, along the grid's axes; wrenches are (force, moment about
+/// the origin).
+struct OuterLoads {
+  PlaneHold plane;
+  meshes::Vector3 gravity = meshes::Vector3::Zero();  ///< on the rubber [m/s²]
+  /// A free rod, its inertia against rigid motions and all that acts on it but for the bond; none
+  /// if its motion is prescribed.
+  struct Rod {
+    Matrix6 inertia = Matrix6::Zero();
+    Vector6 load = Vector6::Zero();
+    Vector6 expected = Vector6::Zero();  ///< its acceleration, as far as it is known before
+  };
+  std::optional<Rod> rod;
+};
+
+/// What acts in the end.
+struct Reactions {
+  Vector6 bond = Vector6::Zero();   ///< on the rod
+  Vector6 plane = Vector6::Zero();  ///< on the tip
+  Vector6 rod = Vector6::Zero();    ///< acceleration of a free rod
+};
+
+/// Weights for one step length about one state.
+///
+/// A symplectic Euler step takes v += dt M⁻¹ (f_el - C v) and is stable if dt² K + 2 dt C <= 4 M.
+/// Relative to the rod a V-cycle B <= (D + S)⁻¹ (multigrid.h) takes the place of M⁻¹, D the
+/// particles' mass with the inertia of their ties, S a graph Laplacian with dt² K + 2 dt C <= 4 S
+/// (edge_inertia.h). So B (dt² K + 2 dt C) <= 4 (D + S)⁻¹ S < 4 and the step is stable at any
+/// length. Motions at frequency w are heavier by S, a part w² (dt² + 2 dt tau)/4 times E over their
+/// own modulus. So it is for presses, not for vibrations.
+///
+/// A free rod carries the rubber: particles accelerate by b + (a + w x x), b = B f as if the rod
+/// did not accelerate, and its own (a, w) is what all that acts from outside gives to rod and
+/// rubber as one body, after what b takes:
+///
+///   (I_rod + I_rubber) (a, w) = rod's load + weight + plane - Σ m b,
+///
+/// with moments alike: momentum and angular momentum are those of the outer forces to round-off
+/// whatever B, and what does not deform moves as its mass does. (Ties that act on the rod by
+/// themselves, with the rubber not carried along, are unstable from m/M = 1/3 on, m what they feel
+/// of the rubber: for stiff ties a deviation p goes on as p' = -2 r p - q, q' = -r p, r = m/M. What
+/// is left of that is the plane's push through the rubber, a small part of it.)
+///
+/// Selective mass scaling: Olovsson, Simonsson & Unosson, Int. J. Numer. Meth. Engng 63 (2005)
+/// 1436-1445.
+class MassScaling {
+ public:
+  explicit MassScaling(std::shared_ptr<ScalingGround> ground);
+
+  /// For steps of `step` [s] > 0 from `state` on, while cells stiffen by less than `room`, with
+  /// particles bonded to the rod like `bond`. Allocates nothing.
+  void make(const State& state, std::span<const BondInertia> bond, double step, Team& team,
+            double room = 1.3);
+
+  AccelerationFields fields() const;
+
+  /// Replaces the forces on the particles [N], which are m a of particles whose a is that of the
+  /// forces by their inertia D (Surfaces::hold), by m times the accelerations above.
+  Reactions accelerate(const State& state, const OuterLoads& outer, Team& team,
+                       AccelerationFields& fields, VectorField& force) const;
+
+ private:
+  void set_load(const Vector6& expected, const State& state, const VectorField& force,
+                const PlaneHold& plane, Team& team, MultigridFields::Level& finest) const;
+
+  std::shared_ptr<ScalingGround> ground_;
+  std::vector<double> inertia_;  ///< per point: mass and bond [kg]
+  Multigrid grids_;
+};
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,285 @@
+#include "lattice/scaling/multigrid.h"
+
+#include <algorithm>
+
+#include "lattice/stencil.h"
+
+namespace fingertip::lattice {
+
+namespace {
+
+constexpr std::size_t grain = 64;  // blocks of eight points
+/// Of Jacobi's sweeps, on S alone: where it is small the sweeps are exact.
+constexpr Grain damping = 1.5F;
+constexpr int last_sweeps = 8;  // on the coarsest grid; even, so that B <= A⁻¹
+
+MultigridFields::Field field(std::size_t points) {
+  MultigridFields::Field result;
+  for (auto& component : result) component.assign(points, 0.0F);
+  return result;
+}
+
+void point_to(MultigridFields::Field& field, Grain* (&pointers)[3]) {
+  for (std::size_t c = 0; c < 3; ++c) pointers[c] = field[c].data();
+}
+
+std::array<Grain, 3> at(const MultigridFields::Field& field, std::size_t point) {
+  return {field[0][point], field[1][point], field[2][point]};
+}
+
+void put(MultigridFields::Field& field, std::size_t point, const std::array<Grain, 3>& value) {
+  for (std::size_t c = 0; c < 3; ++c) field[c][point] = value[c];
+}
+
+/// Shares of a level's contact go to the points around.
+void share_contact(const GridLevel& fine, const GridLevel& coarse,
+                   const std::vector<ContactGrain>& from, MultigridFields::Level& to) {
+  for (const ContactGrain& one : to.contact) to.contact_at[one.point] = -1;
+  to.contact.clear();
+  for (const ContactGrain& one : from) {
+    const CoarsePoints points = coarse_points(fine, coarse, one.point);
+    const Grain share = 1.0F / Grain(points.count);
+    for (std::size_t n = 0; n < std::size_t(points.count); ++n) {
+      std::int32_t& place = to.contact_at[points.point[n]];
+      if (place < 0) {
+        place = std::int32_t(to.contact.size());
+        to.contact.push_back({points.point[n], 0.0F, 0.0F});
+      }
+      ContactGrain& sum = to.contact[std::size_t(place)];
+      sum.along += share * one.along;
+      sum.aside += share * one.aside;
+    }
+  }
+}
+
+}  // namespace
+
+MultigridFields::MultigridFields(const GridHierarchy& hierarchy) {
+  for (const GridLevel& level : hierarchy.levels()) {
+    const std::size_t points = level.points();
+    levels.push_back({field(points),
+                      field(points),
+                      field(points),
+                      field(level.sheet_points),
+                      field(level.sheet_points),
+                      {},
+                      std::vector<std::int32_t>(points, -1)});
+    levels.back().contact.reserve(points);
+  }
+}
+
+Multigrid::Multigrid(std::shared_ptr<const GridHierarchy> hierarchy)
+    : hierarchy_(std::move(hierarchy)) {
+  for (const GridLevel& level : hierarchy_->levels()) {
+    Matrix matrix;
+    for (auto& edge : matrix.edge) edge.assign(level.points(), 0.0F);
+    matrix.inertia.assign(level.points(), 0.0F);
+    matrix.diagonal.assign(level.points(), 0.0F);
+    matrix.relaxation.assign(level.points(), 0.0F);
+    matrices_.push_back(std::move(matrix));
+  }
+}
+
+void Multigrid::set(const std::array<std::vector<double>, 3>& edges,
+                    const std::vector<double>& inertia) {
+  Matrix& finest = matrices_.front();
+  for (std::size_t d = 0; d < 3; ++d)
+    std::copy(edges[d].begin(), edges[d].end(), finest.edge[d].begin());
+  std::copy(inertia.begin(), inertia.end(), finest.inertia.begin());
+  for (std::size_t level = 0; level < matrices_.size(); ++level) {
+    finish(level);
+    if (level + 1 < matrices_.size()) coarsen(level);
+  }
+}
+
+void Multigrid::finish(std::size_t level) {
+  const GridLevel& grid = hierarchy_->levels()[level];
+  Matrix& matrix = matrices_[level];
+  for (const std::uint32_t block : grid.blocks) {
+    for (std::size_t p = block; p < block + lanes; ++p) {
+      if (grid.is_node[p] == 0) continue;
+      Grain sum = 0.0F;
+      for (std::size_t d = 0; d < 3; ++d)
+        sum += matrix.edge[d][p] + matrix.edge[d][p - std::size_t(grid.next[d])];
+      matrix.diagonal[p] = sum;
+      matrix.relaxation[p] = 1.0F / (matrix.inertia[p] + damping * sum);
+    }
+  }
+}
+
+/// Of the two points below and above on an axis, which may be the same, each gets half.
+void Multigrid::coarsen(std::size_t level) {
+  const GridLevel& grid = hierarchy_->levels()[level];
+  const Matrix& fine = matrices_[level];
+  Matrix& coarse = matrices_[level + 1];
+  for (auto& edge : coarse.edge) std::fill(edge.begin(), edge.end(), 0.0F);
+  std::fill(coarse.inertia.begin(), coarse.inertia.end(), 0.0F);
+  for (std::size_t b = 0; b < grid.blocks.size(); ++b) {
+    const auto& rows = grid.coarse_rows[b];
+    const std::size_t first = grid.blocks[b], start = first % std::size_t(grid.size[0]);
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const std::size_t p = first + i, below = (start + i + 1) / 2, above = (start + i) / 2 + 1;
+      const Grain inertia = 0.125F * fine.inertia[p], x = 0.0625F * fine.edge[0][p],
+                  y = 0.0625F * fine.edge[1][p], z = 0.0625F * fine.edge[2][p];
+      for (std::size_t n = 0; n < 4; ++n) {
+        coarse.inertia[rows[n] + below] += inertia;
+        coarse.inertia[rows[n] + above] += inertia;
+        coarse.edge[0][rows[n] + below] += x;
+        coarse.edge[1][rows[n & 2] + (n & 1 ? above : below)] += y;
+        coarse.edge[2][rows[n & 1] + (n & 2 ? above : below)] += z;
+      }
+    }
+  }
+}
+
+/// Of one level, for one solve.
+class Multigrid::Cycle {
+ public:
+  Cycle(const Multigrid& grids, const std::array<Grain, 3>& normal, Team& team,
+        MultigridFields& fields)
+      : grids_(&grids), normal_(normal), team_(&team), fields_(&fields) {}
+
+  void run(std::size_t level) {
+    const GridLevel& grid = grids_->hierarchy_->levels()[level];
+    const Matrix& matrix = grids_->matrices_[level];
+    MultigridFields::Level& fields = fields_->levels[level];
+    begin(grid, matrix, fields);
+    if (level + 1 == grids_->matrices_.size()) {
+      for (int n = 1; n < last_sweeps; ++n) smooth(grid, matrix, fields);
+      return;
+    }
+    find_residual(grid, matrix, fields);
+    pass_on(level);
+    run(level + 1);
+    take_back(level);
+    smooth(grid, matrix, fields);
+  }
+
+ private:
+  static sweeps::LevelArrays arrays(const GridLevel& grid, const Matrix& matrix,
+                                    MultigridFields::Level& fields) {
+    sweeps::LevelArrays a{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      a.edge[c] = matrix.edge[c].data();
+      a.load[c] = fields.load[c].data();
+    }
+    point_to(fields.solution, a.solution);
+    point_to(fields.residual, a.residual);
+    a.inertia = matrix.inertia.data();
+    a.relaxation = matrix.relaxation.data();
+    a.next[0] = grid.next[1];
+    a.next[1] = grid.next[2];
+    return a;
+  }
+
+  template <typename Loop>
+  void over(std::size_t count, const Loop& loop) {
+    team_->split(count, grain, loop);
+  }
+
+  /// A damped Jacobi step at a contact's point.
+  std::array<Grain, 3> relaxed(const Matrix& matrix, const ContactGrain& one,
+                               const std::array<Grain, 3>& residual) const {
+    const Grain rubber = matrix.inertia[one.point] + damping * matrix.diagonal[one.point];
+    return product(residual, 1.0F / (rubber + one.along), 1.0F / (rubber + one.aside));
+  }
+
+  /// along n nᵀ u + aside (1 - n nᵀ) u
+  std::array<Grain, 3> product(const std::array<Grain, 3>& u, Grain along, Grain aside) const {
+    const Grain towards = normal_[0] * u[0] + normal_[1] * u[1] + normal_[2] * u[2];
+    std::array<Grain, 3> result{};
+    for (std::size_t c = 0; c < 3; ++c)
+      result[c] = aside * u[c] + (along - aside) * towards * normal_[c];
+    return result;
+  }
+
+  void begin(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
+    const sweeps::LevelArrays a = arrays(grid, matrix, fields);
+    over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::begin(a, grid.blocks.data() + from, to - from);
+    });
+    for (const ContactGrain& one : fields.contact)
+      put(fields.solution, one.point, relaxed(matrix, one, at(fields.load, one.point)));
+  }
+
+  void find_residual(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
+    const sweeps::LevelArrays a = arrays(grid, matrix, fields);
+    over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::find_residual(a, grid.blocks.data() + from, to - from);
+    });
+    for (const ContactGrain& one : fields.contact) {
+      const auto taken = product(at(fields.solution, one.point), one.along, one.aside);
+      for (std::size_t c = 0; c < 3; ++c) fields.residual[c][one.point] -= taken[c];
+    }
+  }
+
+  void smooth(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
+    const sweeps::LevelArrays a = arrays(grid, matrix, fields);
+    over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::smooth(a, grid.blocks.data() + from, to - from);
+    });
+    for (const ContactGrain& one : fields.contact) {
+      const auto before = at(fields.solution, one.point), plain = at(fields.residual, one.point);
+      const auto taken = product(before, one.along, one.aside);
+      std::array<Grain, 3> residual{};
+      for (std::size_t c = 0; c < 3; ++c)
+        residual[c] = (plain[c] - before[c]) / matrix.relaxation[one.point] - taken[c];
+      const auto step = relaxed(matrix, one, residual);
+      put(fields.residual, one.point,
+          {before[0] + step[0], before[1] + step[1], before[2] + step[2]});
+    }
+    std::swap(fields.solution, fields.residual);
+  }
+
+  sweeps::TransferArrays transfer(std::size_t level, MultigridFields::Field& fine,
+                                  MultigridFields::Field& sheet, MultigridFields::Field& coarse) {
+    sweeps::TransferArrays t{};
+    const GridLevel& grid = grids_->hierarchy_->levels()[level];
+    point_to(fine, t.fine);
+    point_to(sheet, t.sheet);
+    point_to(coarse, t.coarse);
+    t.next[0] = grid.next[1];
+    t.next[1] = grid.next[2];
+    return t;
+  }
+
+  void pass_on(std::size_t level) {
+    const GridLevel& grid = grids_->hierarchy_->levels()[level];
+    const GridLevel& coarse = grids_->hierarchy_->levels()[level + 1];
+    MultigridFields::Level &here = fields_->levels[level], &there = fields_->levels[level + 1];
+    const sweeps::TransferArrays t = transfer(level, here.residual, here.gathered, there.load);
+    over(grid.sheet_blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::gather(t, grid.sheet_blocks.data() + from, to - from);
+    });
+    over(coarse.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::contract(t, coarse.blocks.data() + from, grid.coarser_sheets.data() + from,
+                       to - from);
+    });
+    share_contact(grid, coarse, here.contact, there);
+  }
+
+  void take_back(std::size_t level) {
+    const GridLevel& grid = grids_->hierarchy_->levels()[level];
+    const GridLevel& coarse = grids_->hierarchy_->levels()[level + 1];
+    MultigridFields::Level &here = fields_->levels[level], &there = fields_->levels[level + 1];
+    const sweeps::TransferArrays t = transfer(level, here.solution, here.stretched, there.solution);
+    over(coarse.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::stretch(t, coarse.blocks.data() + from, grid.coarser_sheets.data() + from, to - from);
+    });
+    over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::spread(t, grid.blocks.data() + from, grid.parents.data() + from, to - from);
+    });
+  }
+
+  const Multigrid* grids_;
+  std::array<Grain, 3> normal_;
+  Team* team_;
+  MultigridFields* fields_;
+};
+
+void Multigrid::solve(const meshes::Vector3& normal, Team& team, MultigridFields& fields) const {
+  const std::array<Grain, 3> along{Grain(normal[0]), Grain(normal[1]), Grain(normal[2])};
+  Cycle(*this, along, team, fields).run(0);
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,79 @@
+/// An approximate inverse of inertia plus a graph Laplacian, that never exceeds it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lattice/parallel.h"
+#include "lattice/scaling/grid_hierarchy.h"
+#include "lattice/scaling/sweeps.h"
+#include "lattice/state.h"
+
+namespace fingertip::lattice {
+
+using sweeps::Grain;
+
+/// Inertia of a point against a plane [kg]: `along` its normal, `aside` in it.
+struct ContactGrain {
+  std::uint32_t point = 0;
+  Grain along = 0.0F, aside = 0.0F;
+};
+
+/// What Multigrid::solve works with.
+struct MultigridFields {
+  using Field = std::array<std::vector<Grain>, 3>;
+  struct Level {
+    Field load, solution, residual;
+    Field gathered, stretched;  ///< on the sheet to the coarser grid, down and up
+    std::vector<ContactGrain> contact;
+    std::vector<std::int32_t> contact_at;  ///< per point: its place in `contact`, or -1
+  };
+  std::vector<Level> levels;
+  explicit MultigridFields(const GridHierarchy& hierarchy);
+};
+
+/// A = D + S on the finest grid: D a diagonal inertia, S u·u = Σ_edges c (u_i - u_j)², the same for
+/// the three components of a vector. solve() is one V-cycle with one damped Jacobi sweep before and
+/// after, from zero: a fixed symmetric matrix B > 0.
+///
+/// B <= A⁻¹ (as quadratic forms), because every coarser matrix is not below the Galerkin product Pᵀ
+/// A P of the finer: the difference along a fine edge is a mean of differences along coarse ones,
+/// half as large, and a square of a mean is at most the mean of the squares. So a coarse edge gets
+/// a quarter of c times its share, a coarse point the inertia times its share. Then 1 - B A = (1 -
+/// R A)(1 - P Ac⁻¹ Pᵀ A)(1 - R A), whose middle factor is not negative in the product <., A .>, and
+/// neither is the whole. Trottenberg, Oosterlee & Schueller, Multigrid (2001), has the cycle.
+///
+/// What planes add is told with every solve; coarser grids get their shares of it.
+class Multigrid {
+ public:
+  /// Of zero matrices.
+  explicit Multigrid(std::shared_ptr<const GridHierarchy> hierarchy);
+
+  /// `edges`: c of the edge from a point to the next along each axis [kg]; `inertia` per point
+  /// [kg], positive at nodes.
+  void set(const std::array<std::vector<double>, 3>& edges, const std::vector<double>& inertia);
+
+  const GridHierarchy& hierarchy() const { return *hierarchy_; }
+
+  /// levels[0].solution = B levels[0].load; levels[0].contact with its places has been set.
+  /// `normal` of the plane, a unit vector along the grid's axes.
+  void solve(const meshes::Vector3& normal, Team& team, MultigridFields& fields) const;
+
+ private:
+  struct Matrix {
+    std::array<std::vector<Grain>, 3> edge;
+    std::vector<Grain> inertia;     ///< D
+    std::vector<Grain> relaxation;  ///< 1/(D + 3/2 of S's diagonal)
+    std::vector<Grain> diagonal;    ///< of S
+  };
+  class Cycle;
+  void finish(std::size_t level);
+  void coarsen(std::size_t level);
+
+  std::shared_ptr<const GridHierarchy> hierarchy_;
+  std::vector<Matrix> matrices_;
+};
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,132 @@
+#include "lattice/scaling/sweeps.h"
+
+#include "lattice/stencil.h"
+
+namespace fingertip::lattice::sweeps {
+
+FINGERTIP_CLONES void begin(const LevelArrays& level, const std::uint32_t* blocks,
+                            std::size_t count) {
+  for (std::size_t b = 0; b < count; ++b) {
+    const std::size_t first = blocks[b];
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t i = first; i < first + lanes; ++i) {
+        level.solution[c][i] = level.relaxation[i] * level.load[c][i];
+      }
+    }
+  }
+}
+
+namespace {
+
+/// load - (D + S) solution of one component at eight points.
+[[gnu::always_inline]] inline void residual_of(const LevelArrays& level, std::size_t c,
+                                               std::size_t first, Grain (&result)[lanes]) {
+  const std::ptrdiff_t y = level.next[0], z = level.next[1];
+  const Grain *right = level.edge[0] + first, *up = level.edge[1] + first,
+              *far = level.edge[2] + first, *inertia = level.inertia + first;
+  const Grain *from = level.solution[c] + first, *load = level.load[c] + first;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const Grain* u = from + i;
+    const std::ptrdiff_t n = std::ptrdiff_t(i);
+    const Grain sum = right[n] * (u[0] - u[1]) + right[n - 1] * (u[0] - u[-1]) +
+                      up[n] * (u[0] - u[y]) + up[n - y] * (u[0] - u[-y]) + far[n] * (u[0] - u[z]) +
+                      far[n - z] * (u[0] - u[-z]);
+    result[i] = load[n] - inertia[n] * u[0] - sum;
+  }
+}
+
+}  // namespace
+
+FINGERTIP_CLONES void find_residual(const LevelArrays& level, const std::uint32_t* blocks,
+                                    std::size_t count) {
+  for (std::size_t b = 0; b < count; ++b) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      Grain result[lanes];
+      residual_of(level, c, blocks[b], result);
+      for (std::size_t i = 0; i < lanes; ++i) level.residual[c][blocks[b] + i] = result[i];
+    }
+  }
+}
+
+FINGERTIP_CLONES void smooth(const LevelArrays& level, const std::uint32_t* blocks,
+                             std::size_t count) {
+  for (std::size_t b = 0; b < count; ++b) {
+    const Grain* relaxation = level.relaxation + blocks[b];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Grain* from = level.solution[c] + blocks[b];
+      Grain result[lanes];
+      residual_of(level, c, blocks[b], result);
+      for (std::size_t i = 0; i < lanes; ++i) result[i] = from[i] + relaxation[i] * result[i];
+      for (std::size_t i = 0; i < lanes; ++i) level.residual[c][blocks[b] + i] = result[i];
+    }
+  }
+}
+
+FINGERTIP_CLONES void gather(const TransferArrays& arrays, const GridLevel::SheetBlock* blocks,
+                             std::size_t count) {
+  const std::ptrdiff_t y = arrays.next[0], z = arrays.next[1];
+  for (std::size_t b = 0; b < count; ++b) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Grain* from = arrays.fine[c] + blocks[b].row;
+      Grain* const to = arrays.sheet[c] + blocks[b].sheet;
+      Grain result[lanes];
+      for (std::size_t i = 0; i < lanes; ++i) {
+        const Grain* u = from + i;
+        const Grain edges = u[y] + u[-y] + u[z] + u[-z];
+        const Grain corners = u[y + z] + u[y - z] + u[z - y] + u[-y - z];
+        result[i] = u[0] + 0.5F * edges + 0.25F * corners;
+      }
+      for (std::size_t i = 0; i < lanes; ++i) to[i] = result[i];
+    }
+  }
+}
+
+FINGERTIP_CLONES void contract(const TransferArrays& arrays, const std::uint32_t* coarse_blocks,
+                               const std::uint32_t* sheets, std::size_t count) {
+  for (std::size_t b = 0; b < count; ++b) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Grain* from = arrays.sheet[c] + sheets[b];
+      Grain* const to = arrays.coarse[c] + coarse_blocks[b];
+      Grain result[lanes];
+      for (std::size_t i = 0; i < lanes; ++i) {
+        const Grain* u = from + 2 * i;
+        result[i] = u[0] + 0.5F * (u[-1] + u[1]);
+      }
+      for (std::size_t i = 0; i < lanes; ++i) to[i] = result[i];
+    }
+  }
+}
+
+FINGERTIP_CLONES void stretch(const TransferArrays& arrays, const std::uint32_t* coarse_blocks,
+                              const std::uint32_t* sheets, std::size_t count) {
+  for (std::size_t b = 0; b < count; ++b) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Grain* from = arrays.coarse[c] + coarse_blocks[b];
+      Grain* const to = arrays.sheet[c] + sheets[b];
+      Grain result[2 * lanes];
+      for (std::size_t i = 0; i < lanes; ++i) {
+        result[2 * i] = from[i];
+        result[2 * i + 1] = 0.5F * (from[i] + from[i + 1]);
+      }
+      for (std::size_t i = 0; i < 2 * lanes; ++i) to[i] = result[i];
+    }
+  }
+}
+
+FINGERTIP_CLONES void spread(const TransferArrays& arrays, const std::uint32_t* blocks,
+                             const std::array<std::uint32_t, 4>* parents, std::size_t count) {
+  for (std::size_t b = 0; b < count; ++b) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Grain *one = arrays.sheet[c] + parents[b][0], *two = arrays.sheet[c] + parents[b][1],
+                  *three = arrays.sheet[c] + parents[b][2], *four = arrays.sheet[c] + parents[b][3];
+      Grain* const to = arrays.fine[c] + blocks[b];
+      Grain result[lanes];
+      for (std::size_t i = 0; i < lanes; ++i) {
+        result[i] = to[i] + 0.25F * ((one[i] + two[i]) + (three[i] + four[i]));
+      }
+      for (std::size_t i = 0; i < lanes; ++i) to[i] = result[i];
+    }
+  }
+}
+
+}  // namespace fingertip::lattice::sweeps
