@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "lattice/cells/cell_material.h"
+#include "lattice/lanes.h"
 
 namespace fingertip::lattice::kernel {
 
@@ -13,7 +14,7 @@ struct CellArrays {
   const double* displacement[3];
   const double* velocity[3];  ///< read with rates only
   double* force[3];           ///< added to, at the cells' corners [N]
-  const double* cut;
+  const Lanes* cut;
   std::ptrdiff_t row, plane;
   double spacing;
   CellMaterial material;

@@ -153,11 +153,13 @@ void add_block(const CubicGrid& grid, const Block& cells, int phase, CellLattice
   CellBlock block{std::uint32_t(first), CellBlock::whole};
   if (!is_whole(cells)) {
     block.cut = std::uint32_t(lattice.cut.size());
-    lattice.cut.resize(lattice.cut.size() + CellLattice::cut_values * lanes, 0.0);
+    lattice.cut.resize(lattice.cut.size() + CellLattice::cut_values);
     for (const CutCell* cell : cells) {
       const CutValues values = cut_values_of(*cell, grid.spacing, lattice.material);
-      double* lane = lattice.cut.data() + block.cut + (cell->index[0] - begin);
-      for (std::size_t v = 0; v < values.size(); ++v) lane[v * lanes] = values[v];
+      const std::size_t lane = std::size_t(cell->index[0] - begin);
+      for (std::size_t v = 0; v < values.size(); ++v) {
+        lattice.cut[block.cut + v].at[lane] = values[v];
+      }
     }
   }
   lattice.blocks.push_back(block);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lattice/cells/cell_material.h"
+#include "lattice/lanes.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/cut_cells.h"
 
@@ -16,8 +17,8 @@ namespace fingertip::lattice {
 /// are sorted along x, and where they begin at the same x, along y, so that a block mostly follows
 /// its neighbour along y and shares a side with it.
 struct CellLattice {
-  /// Per lane of a cut block, value by value (value v of lane l at cut + v * lanes + l): the volume
-  /// fraction (0: absent), the means over the rubber of x, y, z, yz, zx, xy, the cell being
+  /// Per lane of a cut block, value by value (value v of lane l at cut[block.cut + v].at[l]): the
+  /// volume fraction (0: absent), the means over the rubber of x, y, z, yz, zx, xy, the cell being
   /// [-1, 1]³, and the upper triangle, row by row, of the matrix R with RᵀR = a²/4 fraction bending
   /// Omega [√N].
   static constexpr std::size_t cut_values = 17;
@@ -33,7 +34,7 @@ struct CellLattice {
     std::uint32_t first = 0, last = 0;
   };
   std::array<std::vector<Plane>, 2> planes;  ///< [0]: even k, [1]: odd k
-  std::vector<double> cut;
+  std::vector<kernel::Lanes> cut;
 
   bool empty() const { return blocks.empty(); }
 };

@@ -32,7 +32,7 @@ Cell cell_of(const CellLattice& cells, const CellBlock& block, std::size_t lane)
     cell.bent = cells.material.bending * Eigen::Vector4d(2.0, 2.0, 2.0, 3.0).asDiagonal();
     return cell;
   }
-  const auto value = [&](std::size_t v) { return cells.cut[block.cut + v * lanes + lane]; };
+  const auto value = [&](std::size_t v) { return cells.cut[block.cut + v].at[lane]; };
   cell.fraction = value(0);
   cell.mean = {value(1), value(2), value(3)};
   cell.product = {value(4), value(5), value(6)};

@@ -3,9 +3,29 @@
 #pragma once
 
 #include <experimental/simd>
+#include <type_traits>
 #include <utility>
 
 namespace fingertip::lattice::kernel {
+
+/// Calls `visit` with 0, 1, 2 as constants.
+template <typename Visit>
+[[gnu::always_inline]] inline void for_components(const Visit& visit) {
+  visit(std::integral_constant<int, 0>());
+  visit(std::integral_constant<int, 1>());
+  visit(std::integral_constant<int, 2>());
+}
+/// Member x, y or z.
+template <int K, typename Three>
+[[gnu::always_inline]] inline auto& entry(Three& three) {
+  if constexpr (K == 0) {
+    return three.x;
+  } else if constexpr (K == 1) {
+    return three.y;
+  } else {
+    return three.z;
+  }
+}
 
 template <typename Pack>
 struct PackAlgebra {
@@ -19,13 +39,9 @@ struct PackAlgebra {
       return {a.x - b.x, a.y - b.y, a.z - b.z};
     }
   };
-  /// A matrix by columns.
-  struct Columns {
+  /// A matrix by rows.
+  struct Rows {
     Vector x, y, z;
-
-    [[gnu::always_inline]] friend Vector operator*(const Columns& A, const Vector& v) {
-      return scaled(v.x, A.x) + scaled(v.y, A.y) + scaled(v.z, A.z);
-    }
   };
 
   [[gnu::always_inline]] static Pack load(const double* from) {
@@ -51,7 +67,7 @@ struct PackAlgebra {
   [[gnu::always_inline]] static Vector scaled(const Pack& s, const Vector& v) {
     return {s * v.x, s * v.y, s * v.z};
   }
-  [[gnu::always_inline]] static Columns multiple(const Pack& s, const Columns& A) {
+  [[gnu::always_inline]] static Rows multiple(const Pack& s, const Rows& A) {
     return {scaled(s, A.x), scaled(s, A.y), scaled(s, A.z)};
   }
   [[gnu::always_inline]] static Pack dot(const Vector& a, const Vector& b) {
@@ -60,45 +76,36 @@ struct PackAlgebra {
   [[gnu::always_inline]] static Vector cross(const Vector& a, const Vector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
-  template <int K>
-  [[gnu::always_inline]] static const Pack& entry(const Vector& v) {
-    if constexpr (K == 0) {
-      return v.x;
-    } else if constexpr (K == 1) {
-      return v.y;
-    } else {
-      return v.z;
-    }
+  /// A v.
+  [[gnu::always_inline]] static Vector times(const Rows& A, const Vector& v) {
+    return {dot(A.x, v), dot(A.y, v), dot(A.z, v)};
   }
-
-  [[gnu::always_inline]] static Columns plus_one(Columns H) {
+  /// Aᵀ v.
+  [[gnu::always_inline]] static Vector transposed_times(const Rows& A, const Vector& v) {
+    return scaled(v.x, A.x) + scaled(v.y, A.y) + scaled(v.z, A.z);
+  }
+  [[gnu::always_inline]] static Rows plus_one(Rows H) {
     H.x.x += Pack(1.0);
     H.y.y += Pack(1.0);
     H.z.z += Pack(1.0);
     return H;
   }
   /// det(F) F⁻ᵀ.
-  [[gnu::always_inline]] static Columns cofactor(const Columns& F) {
+  [[gnu::always_inline]] static Rows cofactor(const Rows& F) {
     return {cross(F.y, F.z), cross(F.z, F.x), cross(F.x, F.y)};
   }
-  /// A Bᵀ.
-  [[gnu::always_inline]] static Columns times_transposed(const Columns& A, const Columns& B) {
-    return {scaled(B.x.x, A.x) + scaled(B.y.x, A.y) + scaled(B.z.x, A.z),
-            scaled(B.x.y, A.x) + scaled(B.y.y, A.y) + scaled(B.z.y, A.z),
-            scaled(B.x.z, A.x) + scaled(B.y.z, A.y) + scaled(B.z.z, A.z)};
-  }
-  /// s (A + Aᵀ).
-  [[gnu::always_inline]] static Columns twice_symmetric(const Pack& s, const Columns& A) {
-    const Pack yz = s * (A.y.z + A.z.y), zx = s * (A.z.x + A.x.z), xy = s * (A.x.y + A.y.x);
-    return {{s * (A.x.x + A.x.x), xy, zx},
-            {xy, s * (A.y.y + A.y.y), yz},
-            {zx, yz, s * (A.z.z + A.z.z)}};
-  }
   /// At least the largest eigenvalue of AᵀA (Gershgorin): its largest sum of a row's magnitudes.
-  [[gnu::always_inline]] static Pack gershgorin(const Columns& A) {
-    const Pack yz = abs(dot(A.y, A.z)), zx = abs(dot(A.z, A.x)), xy = abs(dot(A.x, A.y));
-    return max(max(dot(A.x, A.x) + (xy + zx), dot(A.y, A.y) + (xy + yz)),
-               dot(A.z, A.z) + (yz + zx));
+  [[gnu::always_inline]] static Pack gershgorin(const Rows& A) {
+    const auto product = [&](const Vector& r) __attribute__((always_inline)) {
+      return Vector{r.y * r.z, r.z * r.x, r.x * r.y};
+    };
+    const auto square = [&](const Vector& r) __attribute__((always_inline)) {
+      return Vector{r.x * r.x, r.y * r.y, r.z * r.z};
+    };
+    const Vector p = product(A.x) + product(A.y) + product(A.z),
+                 s = square(A.x) + square(A.y) + square(A.z);
+    const Pack yz = abs(p.x), zx = abs(p.y), xy = abs(p.z);
+    return max(max(s.x + (xy + zx), s.y + (xy + yz)), s.z + (yz + zx));
   }
 
   /// Natural logarithm to 1 ulp (2e-16) for 2^-12 <= value <= 2^12; beyond, that of the nearer end.

@@ -198,11 +198,11 @@ TEST(CellLattice, BlocksHoldEveryCellOnceAndPlanesEveryBlock) {
   for (std::size_t b = 0; b < cells.blocks.size(); ++b) {
     const lattice::CellBlock& at = cells.blocks[b];
     for (std::size_t l = 0; l < lattice::lanes; ++l) {
-      const bool present = at.cut == lattice::CellBlock::whole || cells.cut[at.cut + l] > 0.0;
+      const bool present = at.cut == lattice::CellBlock::whole || cells.cut[at.cut].at[l] > 0.0;
       if (present) {
         EXPECT_TRUE(taken.insert(at.first + l).second);
       }
-      fraction += at.cut == lattice::CellBlock::whole ? 1.0 : cells.cut[at.cut + l];
+      fraction += at.cut == lattice::CellBlock::whole ? 1.0 : cells.cut[at.cut].at[l];
     }
     whole = whole || at.cut == lattice::CellBlock::whole;
   }
