@@ -8,7 +8,7 @@ namespace fingertip::lattice {
 
 TiedSurfaces::TiedSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law,
                            Team& team)
-    : model_(&model), bond_(model, team), contact_(model, plane, law) {
+    : model_(&model), bond_(model, team), contact_(model, plane, law, team) {
   shared_.reserve(model.boundary.size());
 }
 
