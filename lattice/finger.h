@@ -49,7 +49,10 @@ class Finger {
   /// `step` [s] must respect the stability bound (time_step.h); `threads` = 0 takes all cores. The
   /// finger must start clear of the plane.
   Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane, const ContactLaw& law,
-         Integrator integrator, double step, int threads);
+         Integrator integrator, double step, int threads)
+      : Finger(model, rod, plane, law, integrator, step, Team(threads)) {}
+  Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane, const ContactLaw& law,
+         Integrator integrator, double step, const Team& team);
   Finger(const Finger&) = delete;
   Finger& operator=(const Finger&) = delete;
 
@@ -135,7 +138,7 @@ class Finger {
  private:
   void find_forces(double step);
   void spread_accelerations();
-  void weigh_particles(VectorField& force) const;
+  void weigh_particles(VectorField& force);
   void move_particles();
   void close_step(const meshes::Vector3& on_rod);
   void sum_momentum(const meshes::Vector3& of_rod);

@@ -167,11 +167,8 @@ class Team::Crew {
 Team::Team(int threads)
     : threads_(std::clamp(threads > 0 ? threads : int(std::thread::hardware_concurrency()), 1,
                           most_threads)) {
-  if (threads_ > 1) crew_ = std::make_unique<Crew>(threads_);
+  if (threads_ > 1) crew_ = std::make_shared<Crew>(threads_);
 }
-Team::~Team() = default;
-Team::Team(Team&&) noexcept = default;
-Team& Team::operator=(Team&&) noexcept = default;
 
 void Team::run(std::size_t count, std::size_t grain, Borrowed body) {
   if (count == 0) return;

@@ -19,9 +19,6 @@ class Team {
  public:
   /// `threads` = 0 takes all cores.
   explicit Team(int threads);
-  ~Team();
-  Team(Team&&) noexcept;
-  Team& operator=(Team&&) noexcept;
 
   int threads() const { return threads_; }
 
@@ -45,7 +42,7 @@ class Team {
   void run(std::size_t count, std::size_t grain, Borrowed body);
 
   int threads_ = 1;
-  std::unique_ptr<Crew> crew_;  ///< null for one thread
+  std::shared_ptr<Crew> crew_;  ///< null for one thread
 };
 
 }  // namespace fingertip::lattice

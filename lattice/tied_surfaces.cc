@@ -10,6 +10,7 @@ TiedSurfaces::TiedSurfaces(const LatticeModel& model, const Plane& plane, const 
                            Team& team)
     : model_(&model), bond_(model, team), contact_(model, plane, law, team) {
   shared_.reserve(model.boundary.size());
+  inertia_.reserve(model.particles.size());
 }
 
 Wrench TiedSurfaces::hold(const State& state, const RodState& rod, const Plane& plane, double step,

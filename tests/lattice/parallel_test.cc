@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 using fingertip::lattice::Team;
@@ -138,12 +137,18 @@ TEST(Team, ThrowsWhatTheFirstPieceThrew) {
   }
 }
 
-TEST(Team, CanBeMoved) {
-  Team team(2);
-  expect_once(team, 100, 1);
-  Team moved = std::move(team);
-  expect_once(moved, 100, 1);
-  moved = Team(3);
-  EXPECT_EQ(moved.threads(), 3);
-  expect_once(moved, 100, 1);
+TEST(Team, CopiesShareTheThreads) {
+  Team copy(1);
+  {
+    const Team team(2);
+    copy = team;
+  }
+  EXPECT_EQ(copy.threads(), 2);
+  expect_once(copy, 100, 1);
+  Team other = copy;
+  copy.split(100, 1, [&](std::size_t, std::size_t) {
+    const auto self = std::this_thread::get_id();
+    other.split(100, 1,
+                [&](std::size_t, std::size_t) { EXPECT_EQ(std::this_thread::get_id(), self); });
+  });
 }
