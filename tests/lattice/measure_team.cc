@@ -132,10 +132,11 @@ class Sweeps {
       }
     });
     for (const auto& planes : cells.planes) {
-      scheduler.split(planes.size(), 1, [&](std::size_t begin, std::size_t end) {
+      scheduler.split(cells.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
         lattice::kernel::CellBounds bounds;
-        for (std::size_t p = begin; p < end; ++p) {
-          sweep_(arrays, cells.blocks.data(), planes[p].first, planes[p].last, bounds);
+        for (const auto& plane : planes) {
+          if (plane.first < begin || plane.first >= end) continue;
+          sweep_(arrays, cells.blocks.data(), plane.first, plane.last, bounds);
         }
       });
     }
