@@ -8,12 +8,16 @@
 
 namespace fingertip::lattice::kernel {
 
-/// What the plane's ties on one particle come to.
+/// What ties of the plane do to one particle.
 struct ContactLoad {
   double force[3];   ///< along the grid's axes [N]
   double stiffness;  ///< Σ_j |K_ij| of the ties that act, along the normal [N/m]
   double aside;      ///< and in the plane
-  double loaded;     ///< 1 if any acts, else all is 0
+};
+
+/// What the ties of a group do to the corners of its cell.
+struct alignas(64) GroupLoads {
+  ContactLoad corner[lanes];
 };
 
 /// What is remembered of the eight points of a group. Places are relative to the plane, in axes
@@ -51,8 +55,7 @@ struct ContactArrays {
   const double* velocity[3];      ///< [m/s]
   const ContactGroup* groups;
   ContactMemory* memory;  ///< per group
-  ContactLoad* loads;     ///< per contact particle
-  std::uint32_t* loaded;  ///< contact particles with a load, in the order they came
+  GroupLoads* loads;      ///< per group; of those that touch
   PlaneFrame now, then;   ///< at the start and at the end of the step
   double normal[3];       ///< of the plane, in its own axes
   double ahead;           ///< length of the step [s]
@@ -65,11 +68,12 @@ enum class Grip { frictionless, stick, coulomb };
 struct GroupFindings {
   double energy = 0.0;  ///< of its ties [J]
   int touching = 0;
-  int sliding = 0;        ///< of these (coulomb)
-  double smallest_gap;    ///< [m]
-  bool anchored = false;  ///< any point
+  int sliding = 0;            ///< of these (coulomb)
+  double smallest_gap = 0.0;  ///< [m]
+  bool anchored = false;      ///< any point
 };
 
+/// Two calls at a time write the same place only if they are for the same group.
 struct ContactKernels {
   /// Largest speed along -normal (grid's axes) among particles with these grid indices, at least
   /// 0 [m/s].
@@ -78,9 +82,9 @@ struct ContactKernels {
   /// Whether a point of the group will be nearer to the plane than `margin` at the end of the step.
   /// If none is, notes where they will be.
   bool (*look)(const ContactArrays&, double margin, std::size_t group);
-  /// Notes where the points of a group will be, brings anchors up to date and adds the ties' pull
-  /// to the loads; `loaded` has `count` entries so far.
-  GroupFindings (*hold)(const ContactArrays&, Grip grip, std::size_t group, std::size_t& count);
+  /// Notes where the points of a group will be, brings anchors up to date and, if any tie acts,
+  /// sets the group's loads.
+  GroupFindings (*hold)(const ContactArrays&, Grip grip, std::size_t group);
 };
 
 /// For 2, 4 or 8 doubles per register, the caller makes sure that the processor has it, or 0 for

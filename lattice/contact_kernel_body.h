@@ -198,7 +198,7 @@ struct ContactBody : Packs<Pack> {
   }
 
   template <Grip grip>
-  static GroupFindings hold_with(const ContactArrays& a, std::size_t number, std::size_t& count) {
+  static GroupFindings hold_with(const ContactArrays& a, std::size_t number) {
     const ContactGroup& group = a.groups[number];
     ContactMemory& memory = a.memory[number];
     const Corners then = corners(a, group, a.ahead);
@@ -218,12 +218,11 @@ struct ContactBody : Packs<Pack> {
       found.smallest_gap = least < found.smallest_gap ? least : found.smallest_gap;
       found.anchored = found.anchored || any_of(load(memory.anchored, lane) != 0.0);
     }
-    if (found.touching > 0) load_corners(a, group, pulls, count);
+    if (found.touching > 0) load_corners(group, pulls, a.loads[number]);
     return found;
   }
 
-  static void load_corners(const ContactArrays& a, const ContactGroup& group, const Pulls& pulls,
-                           std::size_t& count) {
+  static void load_corners(const ContactGroup& group, const Pulls& pulls, GroupLoads& loads) {
     for (std::size_t corner = 0; corner < lanes; corner += width) {
       Vector force{0.0, 0.0, 0.0};
       Pack stiffness = 0.0, aside = 0.0;
@@ -235,25 +234,17 @@ struct ContactBody : Packs<Pack> {
         aside += pulls.aside[p] * size;
       }
       for (std::size_t lane = 0; lane < width; ++lane) {
-        const std::uint32_t particle = group.particle[corner + lane];
-        ContactLoad& load = a.loads[particle];
-        if (load.loaded == 0.0) a.loaded[count++] = particle;
-        load.loaded = 1.0;
-        load.force[0] += force.x[lane];
-        load.force[1] += force.y[lane];
-        load.force[2] += force.z[lane];
-        load.stiffness += stiffness[lane];
-        load.aside += aside[lane];
+        loads.corner[corner + lane] = {
+            {force.x[lane], force.y[lane], force.z[lane]}, stiffness[lane], aside[lane]};
       }
     }
   }
 
-  static GroupFindings hold(const ContactArrays& a, Grip grip, std::size_t group,
-                            std::size_t& count) {
+  static GroupFindings hold(const ContactArrays& a, Grip grip, std::size_t group) {
     switch (grip) {
-      case Grip::frictionless: return hold_with<Grip::frictionless>(a, group, count);
-      case Grip::stick: return hold_with<Grip::stick>(a, group, count);
-      default: return hold_with<Grip::coulomb>(a, group, count);
+      case Grip::frictionless: return hold_with<Grip::frictionless>(a, group);
+      case Grip::stick: return hold_with<Grip::stick>(a, group);
+      default: return hold_with<Grip::coulomb>(a, group);
     }
   }
 

@@ -12,13 +12,14 @@ using meshes::Vector3;
 namespace {
 
 constexpr std::size_t portion = 32;  // blocks per partial sum: the same for any thread count
+constexpr std::size_t weights_per_piece = 512;
 
 }  // namespace
 
 Finger::Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane,
-               const ContactLaw& law, Integrator integrator, double step, int threads)
+               const ContactLaw& law, Integrator integrator, double step, const Team& team)
     : model_(&model),
-      team_(threads),
+      team_(team),
       internal_(model, team_),
       surfaces_(make_surfaces(model, plane, law, team_)),
       move_(kernel::select_move()),
@@ -102,9 +103,14 @@ Finger::Trial Finger::attempt(const State& state, const RodState& rod, const Pla
   return trial;
 }
 
-void Finger::weigh_particles(VectorField& force) const {
+void Finger::weigh_particles(VectorField& force) {
   const Vector3 gravity = model_->grid.axes.transpose() * gravity_;
-  for (const std::uint32_t i : model_->particles) force.add(i, model_->mass[i] * gravity);
+  const std::vector<std::uint32_t>& particles = model_->particles;
+  team_.split(particles.size(), weights_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      force.add(particles[p], model_->mass[particles[p]] * gravity);
+    }
+  });
 }
 
 void Finger::move_particles() {

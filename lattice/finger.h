@@ -52,7 +52,10 @@ class Finger {
   /// `step` [s] must respect the stability bound (time_step.h); `threads` = 0 takes all cores. The
   /// finger must start clear of the plane.
   Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane, const ContactLaw& law,
-         Integrator integrator, double step, int threads);
+         Integrator integrator, double step, int threads)
+      : Finger(model, rod, plane, law, integrator, step, Team(threads)) {}
+  Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane, const ContactLaw& law,
+         Integrator integrator, double step, const Team& team);
   Finger(const Finger&) = delete;
   Finger& operator=(const Finger&) = delete;
 
@@ -138,7 +141,7 @@ class Finger {
   Vector6 along_grid(const meshes::Vector3& force, const meshes::Vector3& torque) const;
   OuterLoads::Rod rod_load(const Wrench& applied) const;
   void spread_accelerations(const Wrench* applied);
-  void weigh_particles(VectorField& force) const;
+  void weigh_particles(VectorField& force);
   void move_particles();
   void close_step(const meshes::Vector3& on_rod);
   void sum_momentum(const meshes::Vector3& of_rod);

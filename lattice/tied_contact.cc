@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "lattice/cells/contact_patch.h"
 
@@ -14,32 +13,15 @@ namespace {
 
 constexpr double most_turns = 16.0;  // steps until every point has been looked at
 
-using Cell = std::array<std::uint32_t, 8>;  // its corners
+// The same for any number of threads.
+constexpr std::size_t portion = 32;         // near particles per partial sum
+constexpr std::size_t speed_portion = 512;  // contact particles per partial maximum
 
-/// The points of every cell, in the order of the cells' first points.
-std::vector<std::vector<std::uint32_t>> points_by_cell(const std::vector<TiedPoint>& points) {
-  std::vector<std::vector<std::uint32_t>> result;
-  std::map<Cell, std::size_t> number;
-  for (std::uint32_t p = 0; p < points.size(); ++p) {
-    const auto [found, is_new] = number.emplace(points[p].corners, result.size());
-    if (is_new) result.emplace_back();
-    result[found->second].push_back(p);
-  }
-  return result;
-}
+// What is worth another thread: some microseconds.
+constexpr std::size_t looks_per_piece = 32, holds_per_piece = 8;
 
-/// Lane `lane` of a group becomes this point, or if it only fills up one that is tied to nothing.
-void set_point(kernel::ContactGroup& group, std::size_t lane, const TiedPoint& tie,
-               const Vector3& rest, bool fills_up) {
-  double size = 0.0;
-  for (const double weight : tie.weights) size += std::abs(weight);
-  group.stiffness.at[lane] = fills_up ? 0.0 : tie.stiffness;
-  group.inertia.at[lane] = size * group.stiffness.at[lane];
-  for (std::size_t c = 0; c < 3; ++c) group.rest[c].at[lane] = rest[Eigen::Index(c)];
-  for (std::size_t c = 0; c < 8; ++c) {
-    group.weight[c].at[lane] = tie.weights[c];
-    group.share[lane].at[c] = tie.weights[c];
-  }
+std::size_t portions_of(std::size_t count, std::size_t each) {
+  return (count + each - 1) / each;
 }
 
 /// From places along the grid's axes to such that are fixed to the plane.
@@ -68,61 +50,26 @@ Vector3 at(const kernel::Lanes* field, std::size_t lane) {
 
 }  // namespace
 
-std::shared_ptr<const TiedContact::Shape> TiedContact::shape_of(const LatticeModel& model) {
-  const Eigen::Matrix3d to_grid = model.grid.axes.transpose();
-  auto shape = std::make_shared<Shape>();
-  std::map<std::uint32_t, std::uint32_t> number;
-  for (const TiedPoint& tie : model.outer) {
-    for (const std::uint32_t corner : tie.corners) number.emplace(corner, 0);
-    shape->centre += tie.rest / double(model.outer.size());
-  }
-  for (auto& [particle, n] : number) {
-    n = std::uint32_t(shape->particles.size());
-    shape->particles.push_back(particle);
-    shape->rest.push_back(to_grid * model.rest_position(particle));
-  }
-  for (const std::vector<std::uint32_t>& cell : points_by_cell(model.outer)) {
-    for (std::size_t first = 0; first < cell.size(); first += lanes) {
-      kernel::ContactGroup group{};
-      for (std::size_t c = 0; c < 8; ++c) {
-        group.corner[c] = model.outer[cell[first]].corners[c];
-        group.particle[c] = number.at(group.corner[c]);
-      }
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const bool fills_up = first + lane >= cell.size();
-        const std::uint32_t point = cell[fills_up ? first : first + lane];
-        const TiedPoint& tie = model.outer[point];
-        set_point(group, lane, tie, to_grid * tie.rest, fills_up);
-        shape->points.push_back(point);
-        shape->outward.push_back(outer_normal(tie.rest));
-        shape->reach = std::max(shape->reach, (tie.rest - shape->centre).norm());
-      }
-      shape->groups.push_back(group);
-    }
-  }
-  shape->bonded.resize(shape->particles.size(), 0);
-  for (const TiedPoint& tie : model.bond) {
-    for (const std::uint32_t corner : tie.corners) {
-      const auto found = number.find(corner);
-      if (found != number.end()) shape->bonded[found->second] = 1;
-    }
-  }
-  return shape;
-}
-
 TiedContact::TiedContact(const LatticeModel& model, const Plane& plane, const ContactLaw& law,
-                         int width)
+                         Team& team, int width)
     : model_(&model),
+      team_(&team),
       kernels_(&kernel::select_contact(width)),
-      shape_(shape_of(model)),
+      shape_(contact_shape(model)),
       plane_(plane),
       law_(law),
       margin_(0.5 * model.spacing()),
       memory_(shape_->groups.size()),
       is_near_(shape_->groups.size(), 0),
-      loads_(shape_->particles.size()),
-      loaded_(shape_->particles.size()) {
+      found_(shape_->groups.size()),
+      loads_(shape_->groups.size()),
+      near_groups_(shape_->particles.size(), 0),
+      fastest_(portions_of(shape_->particles.size(), speed_portion)),
+      given_(portions_of(shape_->particles.size(), portion)),
+      on_particle_(shape_->particles.size()) {
   near_.reserve(shape_->groups.size());
+  near_particles_.reserve(shape_->particles.size());
+  held_.reserve(shape_->particles.size());
   const State rest(model);
   look_around(arrays(rest, plane, 0.0), shape_->groups.size());
 }
@@ -138,7 +85,6 @@ kernel::ContactArrays TiedContact::arrays(const State& state, const Plane& now, 
   a.groups = shape_->groups.data();
   a.memory = memory_.data();
   a.loads = loads_.data();
-  a.loaded = loaded_.data();
   a.now = frame_of(now, model_->grid.axes);
   a.then = frame_of(plane_, model_->grid.axes);
   a.ahead = step;
@@ -148,53 +94,94 @@ kernel::ContactArrays TiedContact::arrays(const State& state, const Plane& now, 
 
 /// Groups that have come near are looked at in every step from now on.
 void TiedContact::look_around(const kernel::ContactArrays& arrays, std::size_t looks) {
-  for (std::size_t n = 0; n < looks; ++n, ++next_look_) {
-    if (next_look_ >= is_near_.size()) next_look_ = 0;
-    if (is_near_[next_look_] != 0) continue;
-    // Where points were when last looked at tells hold() where they crossed, had they come this
-    // fast.
-    if (!kernels_->look(arrays, margin_, next_look_)) continue;
-    is_near_[next_look_] = 1;
-    near_.push_back(std::uint32_t(next_look_));
+  const std::size_t first = next_look_, count = is_near_.size();
+  looks = std::min(looks, count);
+  constexpr std::uint8_t came = 2;
+  team_->split(looks, looks_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      const std::size_t group = (first + n) % count;
+      if (is_near_[group] != 0) continue;
+      // Where points were when last looked at tells hold() where they crossed, had they come this
+      // fast.
+      if (kernels_->look(arrays, margin_, group)) is_near_[group] = came;
+    }
+  });
+  for (std::size_t n = 0; n < looks; ++n) {
+    const std::size_t group = (first + n) % count;
+    if (is_near_[group] == came) enter(std::uint32_t(group));
+  }
+  if (count > 0) next_look_ = (first + looks) % count;
+}
+
+/// A group becomes near.
+void TiedContact::enter(std::uint32_t group) {
+  is_near_[group] = 1;
+  near_.push_back(group);
+  for (const std::uint32_t particle : shape_->groups[group].particle) {
+    if (near_groups_[particle]++ == 0) near_particles_.push_back(particle);
   }
 }
 
 void TiedContact::hold_near(const kernel::ContactArrays& arrays) {
   const kernel::Grip grip = grip_of(law_);
+  team_->split(near_.size(), holds_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      found_[near_[n]] = kernels_->hold(arrays, grip, near_[n]);
+    }
+  });
   touching_ = sliding_ = 0;
   energy_ = 0.0;
-  loaded_count_ = 0;
   std::size_t kept = 0;
   for (const std::uint32_t group : near_) {
-    const kernel::GroupFindings found = kernels_->hold(arrays, grip, group, loaded_count_);
+    const kernel::GroupFindings& found = found_[group];
     touching_ += found.touching;
     sliding_ += found.sliding;
     energy_ += found.energy;
     // Far again: released only when nothing acts.
     is_near_[group] = found.anchored || found.smallest_gap < 2.0 * margin_;
-    if (is_near_[group] != 0) near_[kept++] = group;
+    if (is_near_[group] != 0) {
+      near_[kept++] = group;
+    } else {
+      for (const std::uint32_t particle : shape_->groups[group].particle) --near_groups_[particle];
+    }
   }
+  if (kept == near_.size()) return;
   near_.resize(kept);
+  std::erase_if(near_particles_, [&](std::uint32_t p) { return near_groups_[p] == 0; });
 }
 
-/// Passes the loads on to the particles; returns what the plane gives them altogether.
-Wrench TiedContact::unload(const State& state, double step, VectorField& force,
-                           std::vector<SharedLoad>* shared) {
+/// What the groups of its cells do to a contact particle.
+kernel::ContactLoad TiedContact::load_on(std::uint32_t particle, bool& touches) const {
+  kernel::ContactLoad sum{};
+  touches = false;
+  for (std::uint32_t n = shape_->first_place[particle]; n < shape_->first_place[particle + 1];
+       ++n) {
+    const ContactShape::Place& place = shape_->places[n];
+    if (found_[place.group].touching == 0) continue;
+    touches = true;
+    const kernel::ContactLoad& load = loads_[place.group].corner[place.corner];
+    for (std::size_t c = 0; c < 3; ++c) sum.force[c] += load.force[c];
+    sum.stiffness += load.stiffness;
+    sum.aside += load.aside;
+  }
+  return sum;
+}
+
+/// Passes the loads of some particles on to them; returns what the plane gives them, along the
+/// grid's axes. If those of the bond share theirs with it, they get the plain forces.
+Wrench TiedContact::unload_portion(std::size_t number, const State& state, double square,
+                                   bool shares, VectorField& force) {
   const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
-  const double square = step * step;
-  held_.clear();
-  Vector3 sum = Vector3::Zero(), moment = Vector3::Zero();  // along the grid's axes
-  for (std::size_t n = 0; n < loaded_count_; ++n) {
-    const std::uint32_t particle = loaded_[n], i = shape_->particles[particle];
-    const kernel::ContactLoad& load = loads_[particle];
+  Wrench sum;
+  const std::size_t last = std::min(near_particles_.size(), (number + 1) * portion);
+  for (std::size_t n = number * portion; n < last; ++n) {
+    const std::uint32_t particle = near_particles_[n], i = shape_->particles[particle];
+    const kernel::ContactLoad load = load_on(particle, on_particle_[n].acts);
+    on_particle_[n].held = {particle, load.stiffness, load.aside};
+    if (!on_particle_[n].acts) continue;
     const Vector3 others = force.at(i);
     Vector3 taken = others + Eigen::Map<const Vector3>(load.force);
-    if (shared != nullptr && shape_->bonded[particle] != 0) {
-      const Eigen::Matrix3d along = normal * normal.transpose();
-      shared->push_back(
-          {i, load.stiffness * along + load.aside * (Eigen::Matrix3d::Identity() - along),
-           Vector3::Zero()});
-    } else {
+    if (!shares || shape_->bonded[particle] == 0) {
       const double mass = model_->mass[i];
       const double share = mass / (mass + square * load.stiffness);
       const double share_aside = mass / (mass + square * load.aside);
@@ -203,12 +190,43 @@ Wrench TiedContact::unload(const State& state, double step, VectorField& force,
     }
     force.set(i, taken);
     const Vector3 given = taken - others;
-    sum += given;
-    moment += (shape_->rest[particle] + state.displacement.at(i)).cross(given);
-    held_.push_back({particle, load.stiffness, load.aside});
-    loads_[particle] = {};
+    sum.force += given;
+    sum.torque += (shape_->rest[particle] + state.displacement.at(i)).cross(given);
   }
-  return {model_->grid.axes * sum, model_->grid.axes * moment};
+  return sum;
+}
+
+/// Passes the loads on to the particles; returns what the plane gives them altogether.
+Wrench TiedContact::unload(const State& state, double step, VectorField& force,
+                           std::vector<SharedLoad>* shared) {
+  const std::size_t portions = portions_of(near_particles_.size(), portion);
+  team_->split(portions, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      given_[n] = unload_portion(n, state, step * step, shared != nullptr, force);
+    }
+  });
+  list_held(shared);
+  Wrench sum;
+  for (std::size_t n = 0; n < portions; ++n) {
+    sum.force += given_[n].force;
+    sum.torque += given_[n].torque;
+  }
+  return {model_->grid.axes * sum.force, model_->grid.axes * sum.torque};
+}
+
+void TiedContact::list_held(std::vector<SharedLoad>* shared) {
+  held_.clear();
+  const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
+  const Eigen::Matrix3d along = normal * normal.transpose();
+  for (std::size_t n = 0; n < near_particles_.size(); ++n) {
+    if (!on_particle_[n].acts) continue;
+    const Held& held = on_particle_[n].held;
+    held_.push_back(held);
+    if (shared == nullptr || shape_->bonded[held.particle] == 0) continue;
+    shared->push_back({shape_->particles[held.particle],
+                       held.stiffness * along + held.aside * (Eigen::Matrix3d::Identity() - along),
+                       Vector3::Zero()});
+  }
 }
 
 void TiedContact::list_inertia(double step, std::vector<ContactInertia>& ties) const {
@@ -220,14 +238,26 @@ void TiedContact::list_inertia(double step, std::vector<ContactInertia>& ties) c
   }
 }
 
-/// So many that every group has its turn before the fastest particle has come half the margin
-/// nearer.
-std::size_t TiedContact::looks_per_step(const State& state, double step) const {
+/// Of the particles toward the plane [m/s].
+double TiedContact::closing_speed(const State& state) {
   const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
   const double* velocity[3];
   for (std::size_t c = 0; c < 3; ++c) velocity[c] = state.velocity.component[c].data();
-  double closing = kernels_->closing(velocity, normal.data(), shape_->particles.data(),
-                                     shape_->particles.size());
+  const std::vector<std::uint32_t>& particles = shape_->particles;
+  team_->split(fastest_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      const std::size_t first = n * speed_portion;
+      fastest_[n] = kernels_->closing(velocity, normal.data(), particles.data() + first,
+                                      std::min(speed_portion, particles.size() - first));
+    }
+  });
+  return fastest_.empty() ? 0.0 : *std::max_element(fastest_.begin(), fastest_.end());
+}
+
+/// So many that every group has its turn before the fastest particle has come half the margin
+/// nearer.
+std::size_t TiedContact::looks_per_step(const State& state, double step) {
+  double closing = closing_speed(state);
   // Of a moving plane toward any point: its velocity is linear in the place.
   const double turning = plane_.normal.cross(plane_.angular_velocity).norm();
   closing += std::max(
@@ -247,8 +277,21 @@ Wrench TiedContact::add(const State& state, const Plane& plane, double step, Vec
 
 void TiedContact::try_from(const TiedContact& accepted) {
   is_trial_ = true;
-  near_ = accepted.near_;
-  for (const std::uint32_t group : near_) memory_[group] = accepted.memory_[group];
+  forget_near();
+  for (const std::uint32_t group : accepted.near_) {
+    enter(group);
+    memory_[group] = accepted.memory_[group];
+  }
+}
+
+void TiedContact::forget_near() {
+  for (const std::uint32_t group : near_) {
+    is_near_[group] = 0;
+    found_[group] = {};
+  }
+  for (const std::uint32_t particle : near_particles_) near_groups_[particle] = 0;
+  near_.clear();
+  near_particles_.clear();
 }
 
 std::vector<PointLoad> TiedContact::point_loads(const State& state) const {

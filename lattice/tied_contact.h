@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "lattice/contact_kernel.h"
+#include "lattice/contact_shape.h"
 #include "lattice/model.h"
+#include "lattice/parallel.h"
 #include "lattice/plane.h"
 #include "lattice/point_load.h"
 #include "lattice/state.h"
@@ -41,14 +43,16 @@ namespace fingertip::lattice {
 /// n.
 ///
 /// Points of a cell hang on the same eight particles and are treated together, eight at a time
-/// (contact_kernel.h). Only cells with a point near the plane are looked at in every step, the
+/// (contact_kernel.h); then every particle collects what the groups of its cells do to it, always
+/// in the same order. Only cells with a point near the plane are looked at in every step, the
 /// others in turn, so many per step that none comes nearer unseen by more than half of what counts
 /// as near (a/2).
 class TiedContact {
  public:
-  /// Model must outlive it; the points must be clear of the plane. `width`: doubles per register
-  /// (2, 4, 8), 0 for the widest the processor has.
-  TiedContact(const LatticeModel& model, const Plane& plane, const ContactLaw& law, int width = 0);
+  /// Model and team must outlive it; the points must be clear of the plane. `width`: doubles per
+  /// register (2, 4, 8), 0 for the widest the processor has.
+  TiedContact(const LatticeModel& model, const Plane& plane, const ContactLaw& law, Team& team,
+              int width = 0);
 
   /// Adds the plane's forces to `force`, which holds the internal ones; returns their sum, the
   /// plane's on the tip [N], and their moment about the world's origin [N m]. `step` [s] may be 0:
@@ -79,29 +83,24 @@ class TiedContact {
   std::vector<std::uint8_t> held() const;
 
  private:
-  /// What never changes: the points by cells.
-  struct Shape {
-    std::vector<kernel::ContactGroup> groups;
-    std::vector<std::uint32_t> points;     ///< numbers in model.outer, `lanes` per group
-    std::vector<meshes::Vector3> outward;  ///< outer_normal of these
-    std::vector<std::uint32_t> particles;  ///< grid index per contact particle
-    std::vector<meshes::Vector3> rest;     ///< of these, along the grid's axes [m]
-    std::vector<std::uint8_t> bonded;      ///< 1 where the bond holds a contact particle, too
-    meshes::Vector3 centre = meshes::Vector3::Zero();  ///< of the points [m]
-    double reach = 0.0;                                ///< farthest point from there [m]
-  };
-  static std::shared_ptr<const Shape> shape_of(const LatticeModel& model);
-
   kernel::ContactArrays arrays(const State& state, const Plane& now, double step);
   void look_around(const kernel::ContactArrays& arrays, std::size_t looks);
+  void enter(std::uint32_t group);
+  void forget_near();
   void hold_near(const kernel::ContactArrays& arrays);
   Wrench unload(const State& state, double step, VectorField& force,
                 std::vector<SharedLoad>* shared);
-  std::size_t looks_per_step(const State& state, double step) const;
+  kernel::ContactLoad load_on(std::uint32_t particle, bool& touches) const;
+  Wrench unload_portion(std::size_t portion, const State& state, double square, bool shares,
+                        VectorField& force);
+  void list_held(std::vector<SharedLoad>* shared);
+  double closing_speed(const State& state);
+  std::size_t looks_per_step(const State& state, double step);
 
   const LatticeModel* model_;
+  Team* team_;
   const kernel::ContactKernels* kernels_;
-  std::shared_ptr<const Shape> shape_;
+  std::shared_ptr<const ContactShape> shape_;
   Plane plane_;  ///< as it will be at the end of the step
   ContactLaw law_;
   double margin_;                              ///< gap below which a point is near [m]
@@ -110,14 +109,22 @@ class TiedContact {
   std::vector<std::uint32_t> near_;            ///< groups that are near, in the order they came
   std::size_t next_look_ = 0;
   bool is_trial_ = false;
-  std::vector<kernel::ContactLoad> loads_;  ///< per contact particle, zero between calls
-  std::vector<std::uint32_t> loaded_;       ///< contact particles with a load
-  std::size_t loaded_count_ = 0;
+  std::vector<kernel::GroupFindings> found_;   ///< per group, of the last add(); nothing if far
+  std::vector<kernel::GroupLoads> loads_;      ///< per group, of those that touch
+  std::vector<std::uint32_t> near_particles_;  ///< contact particles that near groups hang on
+  std::vector<std::uint16_t> near_groups_;     ///< per contact particle: how many
+  std::vector<double> fastest_;                ///< of fixed portions of the contact particles
+  std::vector<Wrench> given_;                  ///< of fixed portions of the near particles
   struct Held {
     std::uint32_t particle = 0;  ///< contact particle
     double stiffness = 0.0, aside = 0.0;
   };
-  std::vector<Held> held_;  ///< those that had a load in the last add()
+  struct Load {
+    Held held;
+    bool acts = false;
+  };
+  std::vector<Load> on_particle_;  ///< per near particle, of the last add()
+  std::vector<Held> held_;         ///< those of them that had a load
   int touching_ = 0, sliding_ = 0;
   double energy_ = 0.0;
 };

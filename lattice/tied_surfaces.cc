@@ -8,10 +8,10 @@ namespace fingertip::lattice {
 
 TiedSurfaces::TiedSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law,
                            Team& team)
-    : model_(&model), bond_(model, team), contact_(model, plane, law) {
+    : model_(&model), bond_(model, team), contact_(model, plane, law, team) {
   shared_.reserve(model.boundary.size());
   bond_inertia_.reserve(8 * model.bond.size());
-  plane_inertia_.reserve(model.boundary.size());
+  plane_inertia_.reserve(model.particles.size());
 }
 
 Wrench TiedSurfaces::hold(const State& state, const RodState& rod, const Plane& plane, double step,

@@ -108,7 +108,7 @@ SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod) {
 }
 
 StepController::StepController(const LatticeModel& model, const RodBody* rod, Integrator integrator,
-                               std::optional<double> wanted)
+                               std::optional<double> wanted, const Team& team)
     : model_(&model),
       integrator_(integrator),
       safety_(safety(model)),
@@ -132,8 +132,9 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
     refuse(*wanted, report_.spectral_bound, why_);
   }
   largest_ = now_.present = wanted ? *wanted : safety_ * report_.spectral_bound;
-  if (!scaled && model.kinematics == Kinematics::finite && !model.cell_lattice.empty()) {
-    search_ = std::make_unique<SpectrumSearch>(model);
+  const bool follows = !scaled && integrator != Integrator::runge_kutta;
+  if (follows && model.kinematics == Kinematics::finite && !model.cell_lattice.empty()) {
+    search_ = std::make_unique<SpectrumSearch>(model, team);
     search_->settle(now_.search);
   }
 }

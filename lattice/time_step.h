@@ -7,6 +7,7 @@
 
 #include "lattice/cells/cell_forces.h"
 #include "lattice/model.h"
+#include "lattice/parallel.h"
 #include "lattice/rod.h"
 #include "lattice/settings.h"
 #include "lattice/spectrum.h"
@@ -52,9 +53,10 @@ SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod);
 class StepController {
  public:
   /// Throws InvalidInput (key run.time_step) when `wanted` is not positive or exceeds the stable
-  /// step at rest, or when no step is stable. `rod` null: its motion is prescribed.
+  /// step at rest, or when no step is stable. `rod` null: its motion is prescribed. `team` looks at
+  /// the spectrum.
   StepController(const LatticeModel& model, const RodBody* rod, Integrator integrator,
-                 std::optional<double> wanted);
+                 std::optional<double> wanted, const Team& team = Team(1));
 
   /// Whether the spectrum on which the limit rests has to be computed anew.
   bool outdated(const CellExtremes& now) const;
@@ -96,7 +98,7 @@ class StepController {
   double rod_stiffness_ = 0.0;  ///< what the free rod adds to the bounds [1/s²]
   double largest_ = 0.0;        ///< at rest [s]
   Memory now_;
-  std::unique_ptr<SpectrumSearch> search_;  ///< null where cells do not stiffen
+  std::unique_ptr<SpectrumSearch> search_;  ///< null where cells do not stiffen or nobody asks
   StepReport report_;
   std::string why_;
 };

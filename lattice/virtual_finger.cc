@@ -10,10 +10,11 @@ VirtualFinger::VirtualFinger(const FingerSetup& setup)
     : setup_(setup),
       model_(build_tip(setup.geometry, setup.rubber, setup.lattice)),
       rod_(lattice::rod_body(setup.geometry, setup.rod)),
-      steps_(model_, setup.prescribed ? nullptr : &rod_, setup.integrator, setup.time_step) {
+      team_(setup.threads),
+      steps_(model_, setup.prescribed ? nullptr : &rod_, setup.integrator, setup.time_step, team_) {
   const double step = steps_.at_rest(1.0);
   finger_ = std::make_unique<Finger>(model_, rod_, setup.plane, setup.contact, setup.integrator,
-                                     step, setup.threads);
+                                     step, team_);
   finger_->set_gravity(setup.gravity);
   const double tip = setup.geometry.tip_radius;
   stepper_ = make_stepper({setup.integrator, setup.time_step, setup.tolerance, setup.energy_bound,

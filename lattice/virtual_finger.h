@@ -85,6 +85,7 @@ class VirtualFinger {
   FingerSetup setup_;
   LatticeModel model_;
   RodBody rod_;
+  Team team_;
   StepController steps_;
   std::unique_ptr<Finger> finger_;
   std::unique_ptr<Stepper> stepper_;

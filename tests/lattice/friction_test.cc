@@ -33,9 +33,10 @@ Plane plane_above() {
 /// The undeformed tip, pushed into the plane and along it.
 struct RigidTip {
   LatticeModel model = tip(ModelKind::hookean, Kinematics::small, 6);
+  lattice::Team team{1};
   TiedContact contact;
 
-  explicit RigidTip(double mu) : contact(model, plane_above(), {ContactMode::coulomb, mu}) {}
+  explicit RigidTip(double mu) : contact(model, plane_above(), {ContactMode::coulomb, mu}, team) {}
   /// The plane's force on the tip displaced by `shift`.
   Vector3 force(const Vector3& shift) {
     State state(model);

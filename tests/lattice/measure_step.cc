@@ -59,7 +59,7 @@ void measure_step(const lattice::VirtualFinger& pressed) {
   lattice::Team team(1);
   lattice::InternalForces internal(model, team);
   lattice::TiedBond bond(model, team);
-  lattice::TiedContact contact(model, finger.plane(), meshes::ContactMode::stick);
+  lattice::TiedContact contact(model, finger.plane(), meshes::ContactMode::stick, team);
   lattice::VectorField force(model.points());
   for (int i = 0; i < 20; ++i) contact.add(finger.state(), finger.plane(), step, force);
   print("internal forces", 500, [&] { internal.accumulate(finger.state(), force); });

@@ -42,6 +42,7 @@ struct Scene {
   lattice::PressPlane press;
   LatticeModel model;
   Plane plane;
+  mutable lattice::Team team{1};
 
   Scene() {
     settings.axes = Eigen::AngleAxisd(0.7, Vector3(1.0, -2.0, 0.5).normalized()).matrix();
@@ -107,7 +108,7 @@ double difference(const LatticeModel& model, const VectorField& a, const VectorF
 
 TEST(TiedContact, FrictionlessPushesAlongTheNormalWhatPenetrates) {
   const Scene s;
-  TiedContact contact(s.model, s.plane, ContactMode::frictionless);
+  TiedContact contact(s.model, s.plane, ContactMode::frictionless, s.team);
   EXPECT_EQ(largest(s.model, forces(s, contact, s.moved(-0.9 * clearance * s.plane.normal))), 0.0);
   EXPECT_EQ(contact.touching(), 0);
   EXPECT_EQ(contact.energy(), 0.0);
@@ -144,7 +145,7 @@ TEST(TiedContact, HasTheEnergyAndForcesOfTheStaticContact) {
     return u;
   };
   for (const ContactMode mode : both_modes) {
-    TiedContact moving(s.model, s.plane, mode);
+    TiedContact moving(s.model, s.plane, mode, s.team);
     StaticContact resting(body, s.press, mode);
     resting.move_to(-clearance);
     VectorField force;
@@ -171,7 +172,7 @@ TEST(TiedContact, HasTheEnergyAndForcesOfTheStaticContact) {
 
 TEST(TiedContact, AnchorsWhereThePlaneWasCrossedAndLetsGoWhenPulled) {
   const Scene s;
-  TiedContact contact(s.model, s.plane, ContactMode::stick);
+  TiedContact contact(s.model, s.plane, ContactMode::stick, s.team);
   // Toward the plane and along it at once: a point with the gap g crosses after g/depth of the way.
   const double depth = 0.3e-3, aside = 0.2e-3;
   const Vector3 along = s.press.t1, end = -depth * s.plane.normal + aside * along;
@@ -210,7 +211,7 @@ TEST(TiedContact, AnchorsWhereThePlaneWasCrossedAndLetsGoWhenPulled) {
 TEST(TiedContact, FindsPointsThatComeNearLateAndAgain) {
   for (const ContactMode mode : both_modes) {
     const Scene s;
-    TiedContact contact(s.model, s.plane, mode);
+    TiedContact contact(s.model, s.plane, mode, s.team);
     const State deep = s.moved(-2e-3 * s.plane.normal), far = s.moved(5e-3 * s.plane.normal);
     const int expected = s.penetrating(deep);
     for (const State* state : {&deep, &far, &deep}) {
@@ -226,7 +227,7 @@ TEST(TiedContact, FindsPointsThatComeNearLateAndAgain) {
 TEST(TiedContact, DoesNotDependOnWhoseTurnItIs) {
   for (const ContactMode mode : both_modes) {
     const Scene s;
-    TiedContact one(s.model, s.plane, mode), other(s.model, s.plane, mode);
+    TiedContact one(s.model, s.plane, mode, s.team), other(s.model, s.plane, mode, s.team);
     forces(s, other, State(s.model), 5);  // five turns ahead
     VectorField a, b;
     for (int n = 1; n <= 200; ++n) {
@@ -243,7 +244,7 @@ TEST(TiedContact, ThePlaneReceivesWhatTheParticlesLose) {
   for (const ContactMode mode : both_modes) {
     for (const double step : {0.0, 1e-4, 1.0}) {
       const Scene s;
-      TiedContact contact(s.model, s.plane, mode);
+      TiedContact contact(s.model, s.plane, mode, s.team);
       forces(s, contact, s.pressed(0.5), looks);
       State state = s.pressed(1.0);
       const State rough = random_state(s.model, 1.0, 0.05, 3);
@@ -270,7 +271,7 @@ TEST(TiedContact, ActsAsItWillBeAtTheEndOfTheStep) {
   for (const ContactMode mode : both_modes) {
     const Scene s;
     const double step = 1e-3;
-    TiedContact moving(s.model, s.plane, mode), resting(s.model, s.plane, mode);
+    TiedContact moving(s.model, s.plane, mode, s.team), resting(s.model, s.plane, mode, s.team);
     State start = s.pressed(0.3);
     const State end = s.pressed(0.35);
     forces(s, moving, start, looks);
@@ -293,7 +294,7 @@ TEST(TiedContact, DoesNotLimitTheStep) {
   for (const lattice::ContactLaw& law : all_laws) {
     for (const double step : {1e-7, 1e-5, 1e-3}) {
       const Scene s;
-      TiedContact contact(s.model, s.plane, law);
+      TiedContact contact(s.model, s.plane, law, s.team);
       State state = random_state(s.model, 0.0, 0.1, 7);
       const double speed = 0.1 * clearance / step;
       for (const std::size_t i : s.model.particles) {
@@ -321,7 +322,7 @@ TEST(TiedContact, DoesNotLimitTheStep) {
 
 TEST(TiedContact, HoldsTheParticlesOfItsTies) {
   const Scene s;
-  TiedContact contact(s.model, s.plane, ContactMode::frictionless);
+  TiedContact contact(s.model, s.plane, ContactMode::frictionless, s.team);
   const State state = s.pressed(1.0);
   const VectorField force = forces(s, contact, state, looks);
   const std::vector<std::uint8_t> held = contact.held();
@@ -341,7 +342,7 @@ TEST(TiedContact, AFastTipIsLookedAtWholeInEveryStep) {
   // From far away to beyond the plane within one step: half a spacing is passed in no time.
   const Scene s;
   for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
-    TiedContact contact(s.model, s.plane, mode);
+    TiedContact contact(s.model, s.plane, mode, s.team);
     State state = s.pressed(1.0);
     const double step = 1e-4;
     const Vector3 velocity =
@@ -359,9 +360,9 @@ TEST(TiedContact, AFastTipIsLookedAtWholeInEveryStep) {
 TEST(TiedContact, EveryRegisterWidthGivesTheSameBits) {
   const Scene s;
   for (const lattice::ContactLaw& law : all_laws) {
-    TiedContact narrow(s.model, s.plane, law, 2);
+    TiedContact narrow(s.model, s.plane, law, s.team, 2);
     for (int width = 4; width <= lattice::kernel::supported_width(); width *= 2) {
-      TiedContact wide(s.model, s.plane, law, width), fresh = narrow;
+      TiedContact wide(s.model, s.plane, law, s.team, width), fresh = narrow;
       for (int n = 1; n <= 20; ++n) {
         State state = s.pressed(n / 20.0);
         state.velocity = random_state(s.model, 0.0, 0.05, unsigned(n)).velocity;

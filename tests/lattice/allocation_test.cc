@@ -1,0 +1,150 @@
+// No step allocates: malloc counts while fingers are pressed, contact grows and the spectrum is
+// searched anew. Operator new calls it; Eigen does, too, without that operator.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cerrno>
+
+#include "finger_scenes.h"
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+}  // namespace
+
+// These replace the C library's, under whose other names it offers the same.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_realloc(memory, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  *memory = __libc_memalign(alignment, size);
+  return *memory != nullptr ? 0 : ENOMEM;
+}
+}
+
+using namespace fingertip;
+using namespace fixtures;
+using lattice::Integrator;
+using lattice::Kinematics;
+using lattice::ModelKind;
+using meshes::ContactMode;
+
+namespace {
+
+struct Case {
+  ModelKind model;
+  Kinematics kinematics;
+  ContactMode contact;
+  Integrator integrator;
+};
+
+lattice::VirtualFinger pressed_finger(const Case& c, int threads) {
+  lattice::FingerSetup setup;
+  setup.lattice = settings_for(c.model, c.kinematics, 6);
+  setup.plane = {Vector3(0.0, 0.0, setup.geometry.tip_radius + 1e-5), -Vector3::UnitZ()};
+  setup.contact = {c.contact, 0.3};
+  setup.integrator = c.integrator;
+  setup.gravity = Vector3(0.0, 0.0, -9.81);
+  setup.prescribed = true;
+  setup.threads = threads;
+  return lattice::VirtualFinger(setup);
+}
+
+/// Allocations in steps that press the finger by `depth` [m]; those in which masses are scaled
+/// anew, which makes a new scaling, do not count.
+long allocations_in_press(lattice::VirtualFinger& finger, double depth) {
+  const double speed = 0.1, period = 1e-3;  // [m/s], [s]
+  finger.write([speed](double time) {
+    return lattice::RodMotion{Vector3(0.0, 0.0, speed * time), Vector3(0.0, 0.0, speed)};
+  });
+  finger.do_step(period);
+  long found = 0, before = 0;
+  const lattice::MassScaling* scaling = nullptr;
+  const auto start = [&] {
+    before = allocations;
+    scaling = finger.finger().mass_scaling();
+  };
+  const auto after_step = [&] {
+    if (finger.finger().mass_scaling() == scaling) found += allocations - before;
+    start();
+    return true;
+  };
+  const lattice::VirtualFinger::StepObserver observer = after_step;
+  while (finger.time() * speed < depth) {
+    start();
+    finger.do_step(period, observer);
+  }
+  return found;
+}
+
+void expect_none(const Case& c, double depth) {
+  for (const int threads : {1, 2}) {
+    lattice::VirtualFinger finger = pressed_finger(c, threads);
+    const long force_evaluations = finger.finger().force_evaluations();
+    EXPECT_EQ(allocations_in_press(finger, depth), 0)
+        << label(c.model, c.kinematics) << ", " << name(c.integrator) << ", " << threads
+        << " threads";
+    EXPECT_GT(finger.finger().touching(), 0);
+    EXPECT_GT(finger.finger().force_evaluations(), force_evaluations + 20);
+  }
+}
+
+}  // namespace
+
+TEST(Allocation, IsCounted) {
+  const auto counts = [](const auto& allocate) {
+    const long before = allocations;
+    allocate();
+    return allocations - before;
+  };
+  EXPECT_EQ(counts([] {
+              int* volatile one = new int(1);  // volatile: not optimised away
+              delete one;
+            }),
+            1);
+  EXPECT_EQ(counts([] { EXPECT_EQ(Eigen::VectorXd::Zero(50).eval().size(), 50); }), 1);
+}
+
+TEST(Allocation, NoneInStepsOfSymplecticEuler) {
+  for (const auto contact : {ContactMode::frictionless, ContactMode::stick, ContactMode::coulomb}) {
+    expect_none({ModelKind::hookean, Kinematics::small, contact, Integrator::symplectic_euler},
+                1e-3);
+  }
+  expect_none(
+      {ModelKind::published, Kinematics::finite, ContactMode::stick, Integrator::symplectic_euler},
+      1e-3);
+  expect_none(
+      {ModelKind::hookean, Kinematics::finite, ContactMode::stick, Integrator::symplectic_euler},
+      1e-3);
+  // Deep enough for several searches of the spectrum.
+  expect_none(
+      {ModelKind::network, Kinematics::finite, ContactMode::stick, Integrator::symplectic_euler},
+      2.5e-3);
+}
+
+TEST(Allocation, NoneInStepsOfExplicitEuler) {
+  expect_none(
+      {ModelKind::published, Kinematics::finite, ContactMode::stick, Integrator::explicit_euler},
+      1e-3);
+}

@@ -1,0 +1,72 @@
+// Whole presses give the same bits on any number of threads: contact that grows, searches of the
+// spectrum, every integrator of the explicit kind.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "finger_scenes.h"
+
+using namespace fingertip;
+using namespace fixtures;
+using lattice::Integrator;
+using lattice::Kinematics;
+using lattice::ModelKind;
+using meshes::ContactMode;
+
+namespace {
+
+constexpr double speed = 0.1;  // of the rod [m/s]
+
+struct Case {
+  ModelKind model;
+  Kinematics kinematics;
+  ContactMode contact;
+  Integrator integrator;
+};
+
+/// Pressed by 1.5 mm within 15 ms.
+std::unique_ptr<lattice::VirtualFinger> pressed(const Case& c, int threads) {
+  lattice::FingerSetup setup;
+  setup.lattice = settings_for(c.model, c.kinematics, 6);
+  setup.plane = {Vector3(0.0, 0.0, setup.geometry.tip_radius + 1e-5), -Vector3::UnitZ()};
+  setup.contact = {c.contact, 0.3};
+  setup.integrator = c.integrator;
+  setup.gravity = Vector3(0.0, 1.0, -9.81);
+  setup.prescribed = true;
+  setup.threads = threads;
+  auto finger = std::make_unique<lattice::VirtualFinger>(setup);
+  finger->write([](double time) {
+    return lattice::RodMotion{Vector3(0.0, 0.0, speed * time), Vector3(0.0, 0.0, speed)};
+  });
+  for (int period = 0; period < 15; ++period) finger->do_step(1e-3);
+  return finger;
+}
+
+void expect_same_bits(const Case& c) {
+  const auto one = pressed(c, 1);
+  EXPECT_GT(one->finger().touching(), 0);
+  for (const int threads : {2, 3}) {
+    EXPECT_TRUE(same_bits(*one, *pressed(c, threads)))
+        << label(c.model, c.kinematics) << ", " << name(c.integrator) << ", " << threads;
+  }
+}
+
+}  // namespace
+
+TEST(Threads, DoNotChangeTheBitsOfSymplecticEuler) {
+  const auto integrator = Integrator::symplectic_euler;
+  expect_same_bits({ModelKind::network, Kinematics::finite, ContactMode::stick, integrator});
+  expect_same_bits({ModelKind::network, Kinematics::finite, ContactMode::coulomb, integrator});
+  expect_same_bits({ModelKind::hookean, Kinematics::small, ContactMode::frictionless, integrator});
+  expect_same_bits({ModelKind::published, Kinematics::finite, ContactMode::stick, integrator});
+}
+
+TEST(Threads, DoNotChangeTheBitsOfScaledMasses) {
+  expect_same_bits(
+      {ModelKind::network, Kinematics::finite, ContactMode::stick, Integrator::mass_scaled});
+}
+
+TEST(Threads, DoNotChangeTheBitsOfExplicitEuler) {
+  expect_same_bits(
+      {ModelKind::published, Kinematics::finite, ContactMode::stick, Integrator::explicit_euler});
+}
