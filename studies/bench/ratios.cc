@@ -38,6 +38,14 @@ std::string springs_key(int threads, int size) {
   return fmt::format("springs/avx512/float64/{}/{}", threads, size);
 }
 
+std::string edge_list_key(int size) {
+  return fmt::format("edge_list/sse2/float64/1/{}", size);
+}
+
+std::string lammps_key(int ranks, int size) {
+  return fmt::format("lammps_harmonic/as packaged/float64/{}/{}", ranks, size);
+}
+
 bool is_probe(const KernelSample& s) {
   return s.size == 0;
 }
@@ -96,8 +104,10 @@ Ratios ratios_of(const KernelRounds& rounds) {
   const auto why = [&](const std::string& name) -> std::string {
     if (rounds.missing.contains("kernels")) return rounds.missing.at("kernels");
     const bool measured = !costs(rounds, probe_key("multiply-add", "avx512")).empty();
-    if (!measured) return "needs AVX-512, which this processor lacks or the run left out";
-    if (name.starts_with("lammps") && rounds.missing.contains("lammps"))
+    const bool of_peers = name.starts_with("edge_list_over");
+    if (!measured && !of_peers)
+      return "needs AVX-512, which this processor lacks or the run left out";
+    if (name.find("lammps") != name.npos && rounds.missing.contains("lammps"))
       return rounds.missing.at("lammps");
     return "not measured with these sizes and threads";
   };
@@ -110,18 +120,20 @@ Ratios ratios_of(const KernelRounds& rounds) {
     result.rounds[name] = all;
     if (all.empty()) result.missing[name] = why(name);
   };
-  const auto against = [](const std::string& peer, int threads, int size) {
-    return [=](const KernelRound& r) {
-      return cost_in(r, peer + "/float64/1/" + std::to_string(size)) /
-             cost_in(r, springs_key(threads, size));
-    };
+  const auto over = [](const std::string& numerator, const std::string& denominator) {
+    return [=](const KernelRound& r) { return cost_in(r, numerator) / cost_in(r, denominator); };
   };
-  add("edge_list_48_1t", against("edge_list/sse2", 1, 48));
-  add("edge_list_20_1t", against("edge_list/sse2", 1, 20));
-  add("edge_list_48_2t", against("edge_list/sse2", 2, 48));
-  add("edge_list_20_2t", against("edge_list/sse2", 2, 20));
-  add("lammps_48_1t", against("lammps_harmonic/as packaged", 1, 48));
-  add("lammps_20_1t", against("lammps_harmonic/as packaged", 1, 20));
+  for (const int threads : {1, 2})
+    for (const int size : {48, 20})
+      add(fmt::format("edge_list_{}_{}t", size, threads),
+          over(edge_list_key(size), springs_key(threads, size)));
+  for (const int threads : {1, 2})
+    for (const int size : {48, 20})
+      add(fmt::format("lammps_{}_{}t", size, threads),
+          over(lammps_key(threads, size), springs_key(threads, size)));
+  for (const int size : {48, 20})
+    add(fmt::format("edge_list_over_lammps_{}", size),
+        over(edge_list_key(size), lammps_key(1, size)));
   for (const int size : {48, 20}) {
     add(fmt::format("roofline_{}_1t", size), [size](const KernelRound& r) {
       const auto found = r.find(springs_key(1, size));
