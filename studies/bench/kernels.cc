@@ -165,6 +165,7 @@ KernelRound read_kernel_round(const fs::path& file) {
       sample.masses = number("masses");
       sample.springs = number("springs");
       sample.operations = number("operations");
+      sample.cache = number("cache");
       const double amount =
           entry.contains("amount") ? number("amount") : sample.springs * number("steps");
       sample.wall_cost = number("real_time") / amount;

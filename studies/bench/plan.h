@@ -50,7 +50,7 @@ struct BenchPlan {
   bool times = true;          ///< of static press and calibration
 };
 
-/// A quarter of an hour on two cores, most of it for R/24.
+/// Half an hour on two cores, most of it for R/24.
 BenchPlan full_plan();
 /// R/6 and R/8 only, fewer repeats: about two minutes once the reference is cached.
 BenchPlan quick_plan();

@@ -30,45 +30,60 @@ struct Family {
   std::string label, model, integrator, error_key;
   double threads = 1.0;
   bool hollow = false;
-  bool labels = true;
+  double label_height = 0.84;  ///< where "R/n" is written, over the point's error; 0: nowhere
 };
+
+std::string integrator_of(const json& press) {
+  const std::string integrator = text_at(press, "integrator");
+  return integrator.empty() ? usual_integrator : integrator;
+}
+
+Style family_style(const std::string& model, bool usual_steps) {
+  Style style = model_style(model);
+  style.point = usual_steps ? 7 : 9;
+  style.point_size = usual_steps ? 0.9 : 1.2;
+  style.dash = usual_steps ? "" : "(8,4)";
+  style.width = 2.2;
+  return style;
+}
 
 /// The presses of a family, each point with its R/n.
 void add_family(Panel& panel, const json& bench, const Family& family) {
-  const bool usual = family.integrator == usual_integrator;
   Series series;
   series.label = family.label;
-  series.style = model_style(family.model);
-  series.style.point = (usual ? 7 : 9) - (family.hollow ? 1 : 0);
-  series.style.point_size = usual ? 0.9 : 1.2;
-  series.style.dash = family.hollow ? "(2,4)" : usual ? "" : "(8,4)";
-  series.style.width = family.hollow ? 1.4 : 2.2;
+  series.style = family_style(family.model, family.integrator == usual_integrator);
+  if (family.hollow) {
+    series.style.point -= 1;
+    series.style.dash = "(2,4)";
+    series.style.width = 1.4;
+  }
   for (const json& press : array_at(bench, "press")) {
-    const std::string integrator = text_at(press, "integrator");
-    if (text_at(press, "model") != family.model || number_at(press, "threads") != family.threads ||
-        (integrator.empty() ? usual_integrator : integrator) != family.integrator)
+    if (text_at(press, "model") != family.model || integrator_of(press) != family.integrator ||
+        number_at(press, "threads") != family.threads)
       continue;
     const double error = 100.0 * number_at(press, family.error_key), pace = pace_of(press);
     if (!std::isfinite(error) || !std::isfinite(pace)) continue;
     series.x.push_back(pace);
     series.y.push_back(error);
-    if (family.labels)
-      panel.texts.push_back(
-          {pace, 0.84 * error, fmt::format("R/{:.0f}", 1.0 / number_at(press, "spacing_over_R"))});
+    if (family.label_height > 0.0)
+      panel.texts.push_back({pace, family.label_height * error,
+                             fmt::format("R/{:.0f}", 1.0 / number_at(press, "spacing_over_R"))});
   }
   if (!series.x.empty()) panel.series.push_back(std::move(series));
 }
 
 void add_lattices(Panel& panel, const json& bench) {
   const char *usual = usual_integrator, *scaled = "mass-scaled";
+  constexpr double above = 1.22;
   const char *law_a = "worst_force_error", *small = "worst_force_error_small_strain";
   add_family(panel, bench, {"network", "network", usual, law_a});
-  add_family(panel, bench, {"network, scaled masses", "network", scaled, law_a});
+  add_family(panel, bench, {"network, scaled masses", "network", scaled, law_a, 1.0, false, above});
   add_family(panel, bench,
-             {"… on two cores (wall clock)", "network", scaled, law_a, 2.0, true, false});
+             {"… on two cores (wall clock)", "network", scaled, law_a, 2.0, true, 0.0});
   add_family(panel, bench, {"hookean", "hookean", usual, law_a});
   add_family(panel, bench, {"… against small strain", "hookean", usual, small, 1.0, true});
-  add_family(panel, bench, {"… against it, scaled masses", "hookean", scaled, small, 1.0, true});
+  add_family(panel, bench,
+             {"… against it, scaled masses", "hookean", scaled, small, 1.0, true, above});
   add_family(panel, bench, {"published (1996)", "published", usual, law_a});
 }
 
@@ -88,7 +103,7 @@ void add_continua(Panel& panel, const json& bench) {
     if (degree == 1) series.style.dash = "(6,3)";
     series.x.push_back(pace);
     series.y.push_back(error);
-    panel.texts.push_back({pace, 1.2 * error, count(number_at(one, "unknowns"))});
+    panel.texts.push_back({pace, 1.22 * error, count(number_at(one, "unknowns"))});
   }
   for (auto& [degree, series] : by_degree) panel.series.push_back(std::move(series));
 }
@@ -184,10 +199,42 @@ Figure growth_figure(const json& bench) {
     if (value.is_number()) rate = std::fmax(rate, value.get<double>());
   bound("17 multiply-adds, 1 core", 1e9 * 17.0 / rate, "(6,3)");
   // Position and velocity of a mass read and written, shared by its 12.4 springs at 48³.
-  bound("memory, 7.7 bytes", 1e9 * 7.7 / number_at(probes, "bandwidth_DRAM"), "(2,3)");
+  bound("DRAM, 7.7 bytes", 1e9 * 7.7 / number_at(probes, "bandwidth_DRAM"), "(2,3)");
   panel.x_range = span;
   panel.y_range = roomy(panel.series, true, panel.series.front().y.front());
+  for (const char* cache : {"cache_L2", "cache_L3"})
+    if (const double masses = number_at(probes, cache) / 48.0;
+        masses > span.from && masses < span.to)
+      panel.markers.push_back({masses, "#777777"});
   return {"growth", 860, 430, 1, {panel}};
+}
+
+Figure press_growth_figure(const json& bench) {
+  Panel panel;
+  panel.x_label = "masses";
+  panel.y_label = "ns per mass and step";
+  panel.log_x = panel.log_y = 10;
+  panel.key = "outside right top";
+  for (const char* model : {"network", "hookean", "published"}) {
+    for (const char* integrator : {usual_integrator, "mass-scaled"}) {
+      const bool usual = integrator == usual_integrator;
+      Series series;
+      series.label = std::string(model) + (usual ? "" : ", scaled masses");
+      series.style = family_style(model, usual);
+      for (const json& press : array_at(bench, "press")) {
+        if (text_at(press, "model") != model || integrator_of(press) != integrator ||
+            number_at(press, "threads") != 1.0)
+          continue;
+        series.x.push_back(number_at(press, "particles"));
+        series.y.push_back(number_at(press, "ns_per_mass_step"));
+      }
+      if (!series.x.empty()) panel.series.push_back(std::move(series));
+    }
+  }
+  if (panel.series.empty()) return {"press_growth", 0, 0, 1, {}};
+  panel.x_range = roomy(panel.series, false, panel.series.front().x.front());
+  panel.y_range = roomy(panel.series, true, panel.series.front().y.front());
+  return {"press_growth", 860, 430, 1, {panel}};
 }
 
 Figure history_figure(const json& history) {

@@ -13,6 +13,9 @@ Figure pace_figure(const nlohmann::json& bench);
 /// Cost per spring and step against the number of masses, and what bounds it.
 Figure growth_figure(const nlohmann::json& bench);
 
+/// Cost per mass and step of the presses against the number of masses, on one thread.
+Figure press_growth_figure(const nlohmann::json& bench);
+
 /// Ratios from run to run.
 Figure history_figure(const nlohmann::json& history);
 

@@ -43,6 +43,44 @@ void multiply_sse2() {
 #undef FINGERTIP_MULTIPLY
 }
 
+// As many multiplications as additions, in registers of their own.
+#define FINGERTIP_PAIRS(op) \
+  op(0, 8) op(1, 9) op(2, 10) op(3, 11) op(4, 12) op(5, 13) op(6, 14) op(7, 15)
+
+void mix_sse2() {
+#define FINGERTIP_MIX(m, n) "mulpd %%xmm" #m ", %%xmm" #m "\naddpd %%xmm" #n ", %%xmm" #n "\n"
+  for (int i = 0; i < rounds; ++i)
+    asm volatile(FINGERTIP_PAIRS(FINGERTIP_MIX)::
+                     : "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7", "xmm8",
+                       "xmm9", "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15");
+#undef FINGERTIP_MIX
+}
+
+#define FINGERTIP_MIX_IN(r, m, n)          \
+  "vmulpd %%" r #m ", %%" r #m ", %%" r #m \
+  "\n"                                     \
+  "vaddpd %%" r #n ", %%" r #n ", %%" r #n "\n"
+
+[[gnu::target("avx2")]] void mix_avx2() {
+#define FINGERTIP_MIX(m, n) FINGERTIP_MIX_IN("ymm", m, n)
+  for (int i = 0; i < rounds; ++i)
+    asm volatile(FINGERTIP_PAIRS(FINGERTIP_MIX)::
+                     : "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7", "xmm8",
+                       "xmm9", "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15");
+#undef FINGERTIP_MIX
+}
+
+[[gnu::target("avx512f")]] void mix_avx512() {
+#define FINGERTIP_MIX(m, n) FINGERTIP_MIX_IN("zmm", m, n)
+  for (int i = 0; i < rounds; ++i)
+    asm volatile(FINGERTIP_PAIRS(FINGERTIP_MIX)::
+                     : "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7", "xmm8",
+                       "xmm9", "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15");
+#undef FINGERTIP_MIX
+}
+
+#undef FINGERTIP_MIX_IN
+#undef FINGERTIP_PAIRS
 #undef FINGERTIP_CHAINS
 
 double thread_seconds() {
@@ -51,21 +89,29 @@ double thread_seconds() {
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-}  // namespace
-
-double multiply_rate(int width, fingertip::lattice::springs::Precision precision) {
-  void (*const multiply)() = width == 8   ? multiply_avx512
-                             : width == 4 ? multiply_avx2
-                                          : multiply_sse2;
+/// Of a function that does `rounds` times `chains` operations per lane, at its fastest [1/s].
+double rate_of(void (*run)(), int lanes) {
   double best = 1e300;
   for (int i = 0; i < 60; ++i) {
     const double start = thread_seconds();
-    multiply();
+    run();
     best = std::min(best, thread_seconds() - start);
   }
-  const int lanes =
-      precision == fingertip::lattice::springs::Precision::float32 ? 2 * width : width;
   return double(rounds) * chains * lanes / best;
+}
+
+}  // namespace
+
+double multiply_rate(int width, fingertip::lattice::springs::Precision precision) {
+  const bool half = precision == fingertip::lattice::springs::Precision::float32;
+  return rate_of(width == 8   ? multiply_avx512
+                 : width == 4 ? multiply_avx2
+                              : multiply_sse2,
+                 half ? 2 * width : width);
+}
+
+double arithmetic_rate(int width) {
+  return rate_of(width == 8 ? mix_avx512 : width == 4 ? mix_avx2 : mix_sse2, width);
 }
 
 }  // namespace spring_peers
