@@ -267,19 +267,24 @@ Chapter machine_chapter(const json& bench, const json& history) {
   const json probes = object_at(bench, "probes");
   Table table;
   table.header = {plain("Fact"), plain("Value")};
-  for (const auto& [name, value] : facts.items())
-    table.rows.push_back(
-        {plain(name), plain(value.is_string() ? value.get<std::string>() : value.dump())});
+  for (const auto& [name, value] : facts.items()) {
+    const bool bytes = name.ends_with(" [B]") && value.is_number();
+    table.rows.push_back({plain(bytes ? name.substr(0, name.size() - 4) : name),
+                          plain(value.is_string()         ? value.get<std::string>()
+                                : bytes                   ? with_prefix(value.get<double>(), "B")
+                                : value.is_number_float() ? number(value.get<double>(), 3)
+                                                          : value.dump())});
+  }
   const json rates = object_at(probes, "multiply_adds_per_second");
   for (const auto& [isa, rate] : rates.items())
     if (rate.is_number())
       table.rows.push_back(
-          {plain("multiply-adds, " + isa), plain(with_prefix(rate.get<double>(), "1/s"))});
+          {plain("multiply-adds, " + isa), plain(with_prefix(rate.get<double>(), "/s"))});
   const json mixed = object_at(probes, "operations_per_second");
   for (const auto& [isa, rate] : mixed.items())
     if (rate.is_number())
       table.rows.push_back({plain("additions and multiplications, " + isa),
-                            plain(with_prefix(rate.get<double>(), "1/s"))});
+                            plain(with_prefix(rate.get<double>(), "/s"))});
   for (const char* name : {"bandwidth_L2", "bandwidth_DRAM"})
     if (const double rate = number_at(probes, name); std::isfinite(rate))
       table.rows.push_back({plain(name), plain(with_prefix(rate, "B/s"))});
