@@ -88,6 +88,19 @@ PressResponse run_truth(Session& session, const LoadedConfig& loaded, const Benc
   return PressResponse::read_csv(session.path_of(planned) / "response.csv");
 }
 
+/// Force error of the same lattice at rest, against law A: what the press would have without
+/// viscosity, inertia and steps. Null beyond plan.static_finest, and where no equilibrium is found.
+ordered_json static_error(Session& session, const LoadedConfig& loaded, const BenchPlan& plan,
+                          const PressPlan& press, const Truth& truth) {
+  if (press.per_radius > plan.static_finest) return {};
+  const PlannedJob planned{
+      fmt::format("static_{}_R{}", lattice::name(press.model), press.per_radius),
+      static_job(loaded, press, truth_depths(plan)), true};
+  if (!session.run(planned).ok()) return {};
+  const auto response = PressResponse::read_csv(session.path_of(planned) / "response.csv");
+  return number_or_null(worst_force_error(response, truth.finite, plan.error_from, plan.depth));
+}
+
 ordered_json press_entry(Session& session, const LoadedConfig& loaded, const BenchPlan& plan,
                          const PressPlan& press, const Truth& truth) {
   const PlannedJob planned{"press_" + press_name(press), pace_job(loaded, press, plan.depth),
@@ -109,9 +122,13 @@ ordered_json press_entry(Session& session, const LoadedConfig& loaded, const Ben
           {"threads", press.threads},
           {"real_time_factor", pace.at("real_time_factor")},
           {"worst_force_error", error(truth.finite)},
+          {"integrator", lattice::name(press.integrator)},
+          {"time_step", pace.at("step")},
+          {"static_error", static_error(session, loaded, plan, press, truth)},
           {"worst_force_error_small_strain", truth.small ? error(*truth.small) : ordered_json()},
           {"real_time_factor_processor", pace.at("real_time_factor_processor")},
           {"whole_press_factor", pace.at("whole_press_factor")},
+          {"ns_per_mass_step", pace.at("ns_per_mass_step")},
           {"particles", pace.at("particles")},
           {"steps", pace.at("steps")}};
 }

@@ -24,12 +24,12 @@ std::string bench_text(const ordered_json& bench) {
     text += fmt::format(
         "{:<20}{:>10} ns per spring and step, {:.0f} masses\n", peer.at("name").get<std::string>(),
         cell(peer.at("ns_per_spring_step"), "{:.2f}"), peer.at("masses").get<double>());
-  text += fmt::format("{:<12}{:<12}{:>8}{:>9}{:>14}{:>14}\n", "model", "kinematics", "R/a",
+  text += fmt::format("{:<12}{:<18}{:>8}{:>9}{:>14}{:>14}\n", "model", "integrator", "R/a",
                       "threads", "real time", "force error");
   for (const ordered_json& press : bench.at("press")) {
     text += fmt::format(
-        "{:<12}{:<12}{:>8.3g}{:>9}{:>14}{:>12} %\n", press.at("model").get<std::string>(),
-        press.at("kinematics").get<std::string>(), 1.0 / press.at("spacing_over_R").get<double>(),
+        "{:<12}{:<18}{:>8.3g}{:>9}{:>14}{:>12} %\n", press.at("model").get<std::string>(),
+        press.at("integrator").get<std::string>(), 1.0 / press.at("spacing_over_R").get<double>(),
         press.at("threads").get<int>(), cell(press.at("real_time_factor"), "{:.4f}"),
         press.at("worst_force_error").is_number()
             ? fmt::format("{:.2f}", 100.0 * press.at("worst_force_error").get<double>())

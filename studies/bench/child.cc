@@ -6,8 +6,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <thread>
 
@@ -35,11 +33,6 @@ int run_child(const std::vector<std::string>& words, const std::vector<std::stri
   }
   if (stopped) throw meshes::Interrupted("stopped by the user");
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace fingertip::studies

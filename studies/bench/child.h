@@ -13,7 +13,4 @@ namespace fingertip::studies {
 int run_child(const std::vector<std::string>& words, const std::vector<std::string>& environment,
               const std::filesystem::path& output);
 
-/// The whole of a text file; empty when there is none.
-std::string text_of(const std::filesystem::path& file);
-
 }  // namespace fingertip::studies

@@ -11,14 +11,6 @@ namespace fingertip::studies {
 
 namespace {
 
-/// "0.00125 m" for every one, as a list in TOML.
-std::string list_of(const std::vector<double>& depths) {
-  std::string text;
-  for (const double depth : depths)
-    text += fmt::format("{}\"{:.9g} m\"", text.empty() ? "" : ",", depth);
-  return "[" + text + "]";
-}
-
 std::vector<double> even(double from, double to, int count) {
   std::vector<double> values;
   for (int i = 0; i < count; ++i) values.push_back(from + (to - from) * i / (count - 1));
@@ -29,7 +21,7 @@ fem_reference::ReferenceJob order_for(const LoadedConfig& loaded, bool finite,
                                       const std::vector<double>& depths, int degree,
                                       double refinement) {
   return reference_order(
-      loaded.with({"press.contact=stick", "press.samples=" + list_of(depths),
+      loaded.with({"press.contact=stick", samples_setting(depths),
                    fmt::format("reference.strain={}", finite ? "finite" : "linear"),
                    fmt::format("reference.degree={}", degree),
                    fmt::format("reference.refinement={:.9g}", refinement)}));
@@ -37,12 +29,23 @@ fem_reference::ReferenceJob order_for(const LoadedConfig& loaded, bool finite,
 
 }  // namespace
 
-Job truth_job(const LoadedConfig& loaded, const BenchPlan& plan, bool finite) {
+std::string samples_setting(const std::vector<double>& depths) {
+  std::string text;
+  for (const double depth : depths)
+    text += fmt::format("{}\"{:.9g} m\"", text.empty() ? "" : ",", depth);
+  return "press.samples=[" + text + "]";
+}
+
+std::vector<double> truth_depths(const BenchPlan& plan) {
   // Dense enough for the interpolation between them to be off by less than a tenth of a per cent.
   std::vector<double> depths = even(plan.error_from, plan.depth, 9);
   depths.insert(depths.begin(), 0.5 * plan.error_from);
-  fem_reference::ReferenceJob order =
-      order_for(loaded, finite, depths, plan.reference_degree, plan.reference_refinement);
+  return depths;
+}
+
+Job truth_job(const LoadedConfig& loaded, const BenchPlan& plan, bool finite) {
+  fem_reference::ReferenceJob order = order_for(loaded, finite, truth_depths(plan),
+                                                plan.reference_degree, plan.reference_refinement);
   order.tolerance = plan.reference_tolerance;
   order.estimate_error = plan.reference_error;
   return reference_job(order);

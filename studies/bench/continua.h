@@ -1,6 +1,9 @@
 /// The continuum: what errors are measured against, and as a way of simulating the press itself.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "meshes/press_response.h"
@@ -10,6 +13,13 @@
 
 namespace fingertip::studies {
 
+/// Where the truth is computed [m]; all of its indentations from plan.error_from on, and one
+/// before.
+std::vector<double> truth_depths(const BenchPlan& plan);
+
+/// The setting that asks for these indentations [m]: 'press.samples=["0.001 m"]'.
+std::string samples_setting(const std::vector<double>& depths);
+
 /// Sticking contact, law A at finite strain or small strain, to the plan's depth.
 Job truth_job(const LoadedConfig& loaded, const BenchPlan& plan, bool finite);
 
@@ -18,7 +28,7 @@ Job truth_job(const LoadedConfig& loaded, const BenchPlan& plan, bool finite);
 Job continuum_job(const LoadedConfig& loaded, const BenchPlan& plan,
                   const ContinuumPlan& continuum);
 
-/// {"degree", "refinement", "unknowns", "threads", "solves_per_second", "real_time_factor",
+/// {"degree", "refinement", "unknowns", "solves_per_second", "real_time_factor",
 /// "worst_force_error"} of its folder. Quasi-static simulation in real time means one equilibrium
 /// per control period: the factor is solves per second times the controller's `period` [s].
 nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,

@@ -10,6 +10,7 @@
 #include "meshes/press_response.h"
 #include "studies/bench/child.h"
 #include "studies/bench/lammps.h"
+#include "studies/exchange/lammps_program.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/json_file.h"
 #include "studies/run/provenance.h"
@@ -63,8 +64,6 @@ class Programs {
  public:
   Programs(const BenchPlan& plan, const fs::path& folder, KernelRounds& rounds)
       : plan_(plan), folder_(folder), rounds_(rounds) {
-    for (const int size : {20, 48})
-      if (std::ranges::count(plan.sizes, size) > 0) peer_sizes_.push_back(size);
     prepare_lammps();
     bullet_ = executable_folder() / "fingertip-bullet";
     if (!plan.bullet) rounds_.missing["bullet"] = "left out";
@@ -100,20 +99,19 @@ class Programs {
 
   void lammps(KernelRound& round) {
     if (rounds_.missing.contains("lammps")) return;
-    for (const int size : peer_sizes_) {
-      const fs::path folder = folder_ / fmt::format("lammps_{}", size), log = folder / "log";
-      const int code =
-          run_child({lammps_.string(), "-in", (folder / "cube.in").string(), "-log", "none"},
-                    {"OMP_NUM_THREADS=1"}, log);
-      const std::string printed = text_of(log);
-      const std::size_t springs = cube_springs(size);
-      const double cost = lammps_cost(printed, springs);
-      if (code != 0 || std::isnan(cost)) {
-        rounds_.missing["lammps"] = fmt::format("lmp ended with {}; see {}", code, log.string());
-        return;
-      }
-      rounds_.versions["lammps"] = lammps_version(printed);
-      add(round, peer("lammps_harmonic", size, double(springs), cost));
+    try {
+      for (const auto& [size, springs] : lammps_springs_)
+        for (int ranks = 1; ranks <= plan_.threads; ranks *= 2) {
+          const LammpsTiming timing = run_lammps(lammps_folder(size), ranks, plan_.lammps);
+          rounds_.versions["lammps"] = timing.version;
+          KernelSample sample =
+              peer("lammps_harmonic", size, double(springs), timing.ns_per_spring_step(springs));
+          sample.threads = ranks;
+          if (ranks == 1) sample.cost *= timing.processor_share;
+          add(round, sample);
+        }
+    } catch (const std::exception& error) {
+      rounds_.missing["lammps"] = error.what();
     }
   }
 
@@ -134,22 +132,25 @@ class Programs {
 
  private:
   void prepare_lammps() {
-    lammps_ = plan_.lammps.empty() ? fs::path() : program_on_path(plan_.lammps);
-    if (lammps_.empty()) {
+    if (plan_.lammps.empty() || program_on_path(plan_.lammps).empty()) {
       rounds_.missing["lammps"] =
           plan_.lammps.empty() ? "left out" : plan_.lammps + " is not on the PATH (package lammps)";
       return;
     }
-    for (const int size : peer_sizes_)
-      write_lammps_cube(fs::absolute(folder_) / fmt::format("lammps_{}", size), size,
-                        size > 30 ? 40 : 400);
+    for (const int size : {20, 48})
+      if (std::ranges::count(plan_.sizes, size) > 0)
+        lammps_springs_[size] = write_lammps_cube(lammps_folder(size), size, size > 30 ? 40 : 400);
+  }
+
+  fs::path lammps_folder(int size) const {
+    return fs::absolute(folder_) / fmt::format("lammps_{}", size);
   }
 
   const BenchPlan& plan_;
   fs::path folder_;
   KernelRounds& rounds_;
-  std::vector<int> peer_sizes_;
-  fs::path lammps_, bullet_;
+  std::map<int, std::size_t> lammps_springs_;  ///< of the cubes LAMMPS marches, by their size
+  fs::path bullet_;
 };
 
 }  // namespace
@@ -164,6 +165,7 @@ KernelRound read_kernel_round(const fs::path& file) {
       sample.masses = number("masses");
       sample.springs = number("springs");
       sample.operations = number("operations");
+      sample.cache = number("cache");
       const double amount =
           entry.contains("amount") ? number("amount") : sample.springs * number("steps");
       sample.wall_cost = number("real_time") / amount;

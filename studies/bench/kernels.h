@@ -19,6 +19,7 @@ struct KernelSample {
   int threads = 1, size = 0;
   double masses = 0.0, springs = 0.0;
   double operations = 0.0;  ///< multiply-adds per spring, 0 where not counted
+  double cache = 0.0;       ///< of a bandwidth's probe: how large that cache is [bytes]
   /// Per spring and step [ns], for probes per multiply-add or byte. With one thread processor time,
   /// which others on the machine disturb least; with more wall time.
   double cost = 0.0;

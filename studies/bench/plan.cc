@@ -4,14 +4,29 @@ namespace fingertip::studies {
 
 namespace {
 
+using lattice::Integrator;
 using lattice::ModelKind;
 
-std::vector<PressPlan> presses(const std::vector<int>& network, const std::vector<int>& others) {
+/// The longest step of scaled masses: half a control period of 1 ms.
+constexpr double scaled_step = 500e-6;
+
+/// `spacings`: R/a. Masses are scaled in the models that consist of cells.
+std::vector<PressPlan> presses(const std::vector<int>& spacings) {
   std::vector<PressPlan> all;
-  for (const int n : network)
-    for (const int threads : {1, 2}) all.push_back({ModelKind::network, n, threads});
-  for (const ModelKind model : {ModelKind::hookean, ModelKind::published})
-    for (const int n : others) all.push_back({model, n, 1});
+  const auto add = [&](ModelKind model, int threads, bool scaled) {
+    for (const int n : spacings) {
+      PressPlan press{model, n, threads};
+      if (scaled) {
+        press.integrator = Integrator::mass_scaled;
+        press.time_step = scaled_step;
+      }
+      all.push_back(press);
+    }
+  };
+  for (const bool scaled : {false, true})
+    for (const int threads : {1, 2}) add(ModelKind::network, threads, scaled);
+  for (const bool scaled : {false, true}) add(ModelKind::hookean, 1, scaled);
+  add(ModelKind::published, 1, false);
   return all;
 }
 
@@ -20,7 +35,7 @@ std::vector<PressPlan> presses(const std::vector<int>& network, const std::vecto
 BenchPlan full_plan() {
   BenchPlan plan;
   plan.sizes = {20, 48, 22, 70, 100};
-  plan.presses = presses({6, 8, 12, 16, 24}, {6, 8, 12, 16, 24});
+  plan.presses = presses({6, 8, 12, 16, 24});
   plan.continua = {{1, 0.25}, {1, 0.5}, {1, 1.0}, {2, 0.25}, {2, 0.5}};
   return plan;
 }
@@ -32,7 +47,7 @@ BenchPlan quick_plan() {
   plan.wide_rounds = 1;
   plan.seconds = 0.05;
   plan.sizes = {20, 48};
-  plan.presses = presses({6, 8}, {6, 8});
+  plan.presses = presses({6, 8});
   plan.continua = {{1, 0.25}, {1, 0.5}};
   return plan;
 }
@@ -42,7 +57,8 @@ BenchPlan smallest_plan() {
   plan.rounds = plan.wide_rounds = 1;
   plan.seconds = 0.001;
   plan.sizes = {20};
-  plan.presses = {{ModelKind::network, 4, 1}};
+  plan.presses = {{ModelKind::network, 4, 1},
+                  {ModelKind::network, 4, 1, Integrator::mass_scaled, scaled_step}};
   plan.depth = 0.0005;
   plan.error_from = 0.0002;
   plan.reference_degree = 1;

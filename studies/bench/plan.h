@@ -1,6 +1,7 @@
 /// What `bench` measures, and how long.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@ struct PressPlan {
   lattice::ModelKind model = lattice::ModelKind::network;
   int per_radius = 12;  ///< R/a
   int threads = 1;
+  lattice::Integrator integrator = lattice::Integrator::symplectic_euler;
+  std::optional<double> time_step = {};  ///< [s]; the largest safe one when empty
 };
 
 /// A continuum on one mesh.
@@ -24,16 +27,17 @@ struct ContinuumPlan {
 struct BenchPlan {
   bool quick = false;
   // Kernels.
-  int rounds = 5;          ///< of ratios: fingertip-kernels, then the peers
-  int wide_rounds = 3;     ///< of these, with kernels of which no ratio is asked
-  double seconds = 0.1;    ///< per kernel and round [s]
-  std::vector<int> sizes;  ///< masses along the cubes' edges; ratios are of 20 and 48
-  int threads = 2;
+  int rounds = 5;              ///< of ratios: fingertip-kernels, then the peers
+  int wide_rounds = 3;         ///< of these, with kernels of which no ratio is asked
+  double seconds = 0.1;        ///< per kernel and round [s]
+  std::vector<int> sizes;      ///< masses along the cubes' edges; ratios are of 20 and 48
+  int threads = 2;             ///< most of the kernels, and ranks of LAMMPS
   int widest = 0;              ///< doubles per register, 2, 4 or 8; 0: what the processor has
   std::string lammps = "lmp";  ///< program; empty: leave it out
   bool bullet = true;
   // Presses.
   std::vector<PressPlan> presses;
+  int static_finest = 12;     ///< R/a up to which equilibria are computed beside presses
   double depth = 0.003;       ///< [m]
   double error_from = 0.001;  ///< force errors are taken from this indentation on [m]
   double reference_tolerance = 0.003;
@@ -46,7 +50,7 @@ struct BenchPlan {
   bool times = true;          ///< of static press and calibration
 };
 
-/// A quarter of an hour on two cores, most of it for R/24.
+/// Half an hour on two cores, most of it for R/24.
 BenchPlan full_plan();
 /// R/6 and R/8 only, fewer repeats: about two minutes once the reference is cached.
 BenchPlan quick_plan();

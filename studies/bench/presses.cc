@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lattice/press.h"
+#include "studies/bench/continua.h"
 #include "studies/bench/pace.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -29,6 +30,9 @@ void run_pace(lattice::PressSetup setup, int threads, const std::filesystem::pat
               {"real_time_factor_processor",
                threads == 1 ? number_or_null(pace.processor) : nlohmann::ordered_json()},
               {"whole_press_factor", number_or_null(outcome.real_time_factor())},
+              {"ns_per_mass_step",
+               number_or_null(1e9 * outcome.elapsed.back().processor /
+                              (double(outcome.steps.accepted) * double(outcome.census.particles)))},
               {"step", outcome.step.step},
               {"steps", outcome.steps.accepted},
               {"particles", outcome.census.particles}},
@@ -39,9 +43,21 @@ void run_pace(lattice::PressSetup setup, int threads, const std::filesystem::pat
 
 LoadedConfig press_config(const LoadedConfig& loaded, const PressPlan& press, double depth) {
   const std::string model(lattice::name(press.model));
-  return loaded.with({"press.contact=stick", fmt::format("press.depth=\"{:.12g} m\"", depth),
-                      "lattice.model=" + model,
-                      fmt::format("lattice.spacing=tip_radius/{}", press.per_radius)});
+  std::vector<std::string> sets = {
+      "press.contact=stick", fmt::format("press.depth=\"{:.12g} m\"", depth),
+      "lattice.model=" + model, fmt::format("lattice.spacing=tip_radius/{}", press.per_radius),
+      fmt::format("run.integrator={}", lattice::name(press.integrator))};
+  if (press.time_step) sets.push_back(fmt::format("run.time_step=\"{:.12g} s\"", *press.time_step));
+  return loaded.with(sets);
+}
+
+Job static_job(const LoadedConfig& loaded, const PressPlan& press,
+               const std::vector<double>& depths) {
+  PressPlan still = press;
+  still.integrator = lattice::Integrator::symplectic_euler;
+  still.time_step.reset();
+  return press_job(press_setup(press_config(loaded, still, depths.back())
+                                   .with({"press.mode=static", samples_setting(depths)})));
 }
 
 Job pace_job(const LoadedConfig& loaded, const PressPlan& press, double depth) {
@@ -58,7 +74,9 @@ Job pace_job(const LoadedConfig& loaded, const PressPlan& press, double depth) {
 }
 
 std::string press_name(const PressPlan& press) {
-  return fmt::format("{}_R{}_{}t", lattice::name(press.model), press.per_radius, press.threads);
+  const bool plain = press.integrator == lattice::Integrator::symplectic_euler;
+  return fmt::format("{}{}{}_R{}_{}t", lattice::name(press.model), plain ? "" : "_",
+                     plain ? "" : lattice::name(press.integrator), press.per_radius, press.threads);
 }
 
 }  // namespace fingertip::studies

@@ -11,11 +11,15 @@ namespace fingertip::studies {
 LoadedConfig press_config(const LoadedConfig& loaded, const PressPlan& press, double depth);
 
 /// File: pace.json {"real_time_factor", "real_time_factor_processor" (null with more threads than
-/// one), "whole_press_factor", "step", "steps", "particles"}, and response.csv. Never cached: it is
-/// the time that matters.
+/// one), "whole_press_factor", "ns_per_mass_step" (processor time of the pressing thread), "step"
+/// [s], "steps", "particles"}, and response.csv. Never cached: it is the time that matters.
 Job pace_job(const LoadedConfig& loaded, const PressPlan& press, double depth);
 
-/// "network_R12_1t"
+/// The same lattice in equilibrium at these indentations [m]; cached by content.
+Job static_job(const LoadedConfig& loaded, const PressPlan& press,
+               const std::vector<double>& depths);
+
+/// "network_R12_1t", "network_mass-scaled_R12_1t"
 std::string press_name(const PressPlan& press);
 
 }  // namespace fingertip::studies

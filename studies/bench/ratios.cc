@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -38,6 +39,14 @@ std::string springs_key(int threads, int size) {
   return fmt::format("springs/avx512/float64/{}/{}", threads, size);
 }
 
+std::string edge_list_key(int size) {
+  return fmt::format("edge_list/sse2/float64/1/{}", size);
+}
+
+std::string lammps_key(int ranks, int size) {
+  return fmt::format("lammps_harmonic/as packaged/float64/{}/{}", ranks, size);
+}
+
 bool is_probe(const KernelSample& s) {
   return s.size == 0;
 }
@@ -45,11 +54,25 @@ bool is_peer(const KernelSample& s) {
   return s.isa == "as packaged";
 }
 
-/// Operations over the rate at which multiply-adds can be done, over the time taken.
-double roofline_fraction(const KernelSample& s, double cost, double multiply_add) {
+/// The roof over a kernel: of the spring engine the operations in multiply pipes are counted, of
+/// the others all, unfused.
+std::string roof_key(const KernelSample& s) {
+  return probe_key(s.name == "springs" ? "multiply-add" : "arithmetic", s.isa);
+}
+
+/// Operations times `roof`, the time of one of them at best, over the time taken.
+double roofline_fraction(const KernelSample& s, double cost, double roof) {
   if (!(s.operations > 0.0)) return meshes::unknown;
   const double lanes = s.precision == "float32" ? 0.5 : 1.0;
-  return s.operations * multiply_add * lanes / (cost * s.threads);
+  return s.operations * roof * lanes / (cost * s.threads);
+}
+
+/// Bytes; null where the probe did not run.
+ordered_json cache_in(const KernelRounds& rounds, const std::string& probe) {
+  for (const KernelRound& round : rounds.rounds)
+    if (const auto found = round.find(probe_key(probe, "sse2")); found != round.end())
+      return found->second.cache;
+  return {};
 }
 
 }  // namespace
@@ -61,8 +84,13 @@ ordered_json probes_of(const KernelRounds& rounds) {
   ordered_json result = {{"multiply_adds_per_second", ordered_json::object()}};
   for (const char* isa : isas)
     result["multiply_adds_per_second"][isa] = rate(probe_key("multiply-add", isa));
+  result["operations_per_second"] = ordered_json::object();
+  for (const char* isa : isas)
+    result["operations_per_second"][isa] = rate(probe_key("arithmetic", isa));
   result["bandwidth_L2"] = rate(probe_key("bandwidth_L2", "sse2"));
   result["bandwidth_DRAM"] = rate(probe_key("bandwidth_DRAM", "sse2"));
+  result["cache_L2"] = cache_in(rounds, "bandwidth_L2");
+  result["cache_L3"] = cache_in(rounds, "bandwidth_DRAM");
   return result;
 }
 
@@ -74,7 +102,7 @@ ordered_json kernels_of(const KernelRounds& rounds, bool peers) {
       if (is_probe(s) || is_peer(s) != peers || !done.insert(key).second) continue;
       const std::vector<double> all = costs(rounds, key);
       const double cost = median(all);
-      const double bound = median(costs(rounds, probe_key("multiply-add", s.isa)));
+      const double bound = median(costs(rounds, roof_key(s)));
       list.push_back({{"name", s.name},
                       {"isa", s.isa},
                       {"precision", s.precision},
@@ -96,8 +124,10 @@ Ratios ratios_of(const KernelRounds& rounds) {
   const auto why = [&](const std::string& name) -> std::string {
     if (rounds.missing.contains("kernels")) return rounds.missing.at("kernels");
     const bool measured = !costs(rounds, probe_key("multiply-add", "avx512")).empty();
-    if (!measured) return "needs AVX-512, which this processor lacks or the run left out";
-    if (name.starts_with("lammps") && rounds.missing.contains("lammps"))
+    const bool of_peers = name.starts_with("edge_list_over");
+    if (!measured && !of_peers)
+      return "needs AVX-512, which this processor lacks or the run left out";
+    if (name.find("lammps") != name.npos && rounds.missing.contains("lammps"))
       return rounds.missing.at("lammps");
     return "not measured with these sizes and threads";
   };
@@ -110,18 +140,25 @@ Ratios ratios_of(const KernelRounds& rounds) {
     result.rounds[name] = all;
     if (all.empty()) result.missing[name] = why(name);
   };
-  const auto against = [](const std::string& peer, int threads, int size) {
-    return [=](const KernelRound& r) {
-      return cost_in(r, peer + "/float64/1/" + std::to_string(size)) /
-             cost_in(r, springs_key(threads, size));
-    };
+  const auto over = [](const std::string& numerator, const std::string& denominator) {
+    return [=](const KernelRound& r) { return cost_in(r, numerator) / cost_in(r, denominator); };
   };
-  add("edge_list_48_1t", against("edge_list/sse2", 1, 48));
-  add("edge_list_20_1t", against("edge_list/sse2", 1, 20));
-  add("edge_list_48_2t", against("edge_list/sse2", 2, 48));
-  add("edge_list_20_2t", against("edge_list/sse2", 2, 20));
-  add("lammps_48_1t", against("lammps_harmonic/as packaged", 1, 48));
-  add("lammps_20_1t", against("lammps_harmonic/as packaged", 1, 20));
+  for (const int threads : {1, 2})
+    for (const int size : {48, 20})
+      add(fmt::format("edge_list_{}_{}t", size, threads),
+          over(edge_list_key(size), springs_key(threads, size)));
+  for (const int threads : {1, 2})
+    for (const int size : {48, 20})
+      add(fmt::format("lammps_{}_{}t", size, threads), [=](const KernelRound& r) {
+        // Ranks that wait spin. With others on the machine two of them take many times as long as
+        // one, which says nothing of LAMMPS.
+        const double cost = cost_in(r, lammps_key(threads, size));
+        return std::min(cost, cost_in(r, lammps_key(1, size))) /
+               cost_in(r, springs_key(threads, size));
+      });
+  for (const int size : {48, 20})
+    add(fmt::format("edge_list_over_lammps_{}", size),
+        over(edge_list_key(size), lammps_key(1, size)));
   for (const int size : {48, 20}) {
     add(fmt::format("roofline_{}_1t", size), [size](const KernelRound& r) {
       const auto found = r.find(springs_key(1, size));

@@ -7,12 +7,16 @@
 
 namespace fingertip::studies {
 
-/// {"multiply_adds_per_second": {ISA: rate}, "bandwidth_L2", "bandwidth_DRAM" [B/s]}, medians.
+/// {"multiply_adds_per_second": {ISA: rate}, "operations_per_second": {ISA: rate} (multiplications
+/// and additions in turns), "bandwidth_L2", "bandwidth_DRAM" [B/s],
+/// "cache_L2", "cache_L3" [B]}, medians.
 nlohmann::ordered_json probes_of(const KernelRounds& rounds);
 
 /// Entries `kernels` (and `peers`) of the contract: medians over the rounds. Beyond the contract
-/// each has `operations_per_spring` (null where not counted), `roofline_fraction`: these over the
-/// multiply-add rate of the same instruction set and precision, over the time taken; and `rounds`.
+/// each has `operations_per_spring` (null where not counted), `roofline_fraction`: these over what
+/// the same instruction set does at best in that precision (multiply-adds for the spring engine,
+/// whose operations in multiply pipes are counted, operations of all kinds for the others), over
+/// the time taken; and `rounds`.
 nlohmann::ordered_json kernels_of(const KernelRounds& rounds, bool peers);
 
 struct Ratios {

@@ -41,16 +41,21 @@ LammpsTiming read_lammps_log(const std::filesystem::path& file) {
   }
   LammpsTiming timing;
   bool found = false;
-  std::string error;
+  std::string error, version;
+  double percent = 100.0;
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with("ERROR")) error = line;
+    if (line.starts_with("LAMMPS (")) version = line.substr(8, line.rfind(')') - 8);
     LammpsTiming one;
     if (std::sscanf(line.c_str(), "Loop time of %lf on %d procs for %ld steps with %zu atoms",
                     &one.loop_time, &one.ranks, &one.steps, &one.atoms) == 4) {
       timing = one;
       found = true;
     }
+    if (found && std::sscanf(line.c_str(), "%lf%% CPU use", &percent) == 1)
+      timing.processor_share = std::min(1.0, 0.01 * percent);
   }
+  timing.version = version;
   if (!found || !error.empty()) {
     throw meshes::InvalidInput({file.string(), error, "LAMMPS did not come to the end of its run",
                                 "let it run to its end, or see the log for the reason"});

@@ -18,6 +18,9 @@ struct LammpsTiming {
   int ranks = 1;           ///< MPI processes
   long steps = 0;
   std::size_t atoms = 0;  ///< anchors included
+  /// Processor time over wall time per rank, at most 1: less when other programs had the cores.
+  double processor_share = 1.0;
+  std::string version;  ///< "29 Sep 2021 - Update 2"; empty where the log does not tell
 
   /// Wall time per spring and step [ns]; divided among all ranks, not per rank.
   double ns_per_spring_step(std::size_t springs) const {
@@ -25,8 +28,9 @@ struct LammpsTiming {
   }
 };
 
-/// "Loop time of T on P procs for S steps with N atoms". Throws InvalidInput when the file cannot
-/// be read or LAMMPS has not come to the end of a run; then with the error it told.
+/// "Loop time of T on P procs for S steps with N atoms", "U% CPU use with ..." and the version in
+/// the first line. Throws InvalidInput when the file cannot be read or LAMMPS has not come to the
+/// end of a run; then with the error it told.
 LammpsTiming read_lammps_log(const std::filesystem::path& file);
 
 /// Positions and velocities of atoms 1 ... n at one step.

@@ -32,8 +32,9 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
-LammpsTiming run_lammps(const std::filesystem::path& folder, int ranks) {
-  require("lmp", "lammps");
+LammpsTiming run_lammps(const std::filesystem::path& folder, int ranks,
+                        const std::string& program) {
+  require(program, "lammps");
   FemCommand command{{"/usr/bin/env", "-C", folder.string()}, {"OMP_NUM_THREADS=1"}, ranks > 1};
   const auto add = [&](std::initializer_list<const char*> words) {
     command.words.insert(command.words.end(), words.begin(), words.end());
@@ -45,7 +46,7 @@ LammpsTiming run_lammps(const std::filesystem::path& folder, int ranks) {
     add({"--oversubscribe", "--bind-to", "none", "--stdin", "none", "--quiet"});
     if (::geteuid() == 0) add({"--allow-run-as-root"});
   }
-  add({"lmp", "-in", lammps_script, "-log", lammps_log});
+  add({program.c_str(), "-in", lammps_script, "-log", lammps_log});
   const std::filesystem::path words = folder / "lammps.txt";
   const int out = ::open(words.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (out < 0) throw std::runtime_error("cannot write " + words.string());

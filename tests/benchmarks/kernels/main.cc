@@ -32,22 +32,25 @@ std::string full_name(const std::string& name, int width, const std::string& pre
 }
 
 void register_probes(const Scope& scope) {
-  using fingertip::lattice::springs::Precision;
-  for (int width = 2; width <= scope.widest; width *= 2) {
-    benchmark::RegisterBenchmark(
-        full_name("multiply-add", width, "float64", 1, 0).c_str(),
-        [width](benchmark::State& state) {
-          double rate = 0.0;
-          for (auto _ : state)
-            rate = std::max(rate, spring_peers::multiply_rate(width, Precision::float64));
-          state.counters["rate"] = rate;
-        })
+  const auto rate = [&](const std::string& name, int width, double (*measure)(int)) {
+    benchmark::RegisterBenchmark(full_name(name, width, "float64", 1, 0).c_str(),
+                                 [=](benchmark::State& state) {
+                                   double best = 0.0;
+                                   for (auto _ : state) best = std::max(best, measure(width));
+                                   state.counters["rate"] = best;
+                                 })
         ->MinTime(scope.seconds)
         ->UseRealTime();
+  };
+  for (int width = 2; width <= scope.widest; width *= 2) {
+    rate("multiply-add", width, [](int w) {
+      return spring_peers::multiply_rate(w, fingertip::lattice::springs::Precision::float64);
+    });
+    rate("arithmetic", width, spring_peers::arithmetic_rate);
   }
-  const auto bandwidth = [&](const std::string& name, std::size_t bytes) {
+  const auto bandwidth = [&](const std::string& name, std::size_t bytes, std::size_t cache) {
     benchmark::RegisterBenchmark(full_name(name, 2, "float64", 1, 0).c_str(),
-                                 [bytes](benchmark::State& state) {
+                                 [bytes, cache](benchmark::State& state) {
                                    const std::size_t count = bytes / 2 / sizeof(double);
                                    const auto from = std::make_unique<double[]>(count),
                                               to = std::make_unique<double[]>(count);
@@ -56,12 +59,15 @@ void register_probes(const Scope& scope) {
                                      benchmark::ClobberMemory();
                                    }
                                    state.counters["amount"] = double(bytes);
+                                   state.counters["cache"] = double(cache);
                                  })
         ->MinTime(scope.seconds)
         ->UseRealTime();
   };
-  bandwidth("bandwidth_L2", kernel_probes::cache_bytes(2, 1 << 20) / 2);
-  bandwidth("bandwidth_DRAM", 4 * kernel_probes::cache_bytes(3, 16 << 20));
+  const std::size_t second = kernel_probes::cache_bytes(2, 1 << 20);
+  const std::size_t third = kernel_probes::cache_bytes(3, 16 << 20);
+  bandwidth("bandwidth_L2", second / 2, second);
+  bandwidth("bandwidth_DRAM", 4 * third, third);
 }
 
 }  // namespace kernel_benchmarks

@@ -15,4 +15,9 @@ inline constexpr double multiply_operations_per_spring = 17.0;
 /// that width. Takes some milliseconds of processor time.
 double multiply_rate(int width, fingertip::lattice::springs::Precision precision);
 
+/// Operations per second of one thread that does as many multiplications as additions, unfused, in
+/// double precision: the roof over kernels that are compiled without contraction. Up to twice the
+/// multiply rate where additions have pipes of their own.
+double arithmetic_rate(int width);
+
 }  // namespace spring_peers

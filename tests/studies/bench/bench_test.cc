@@ -72,8 +72,14 @@ TEST(Bench, TheSmallestRunKeepsTheContractAndMakesAPage) {
   const ordered_json bench = bench_in(folder, studies::smallest_plan());
   expect_contract(bench);
   EXPECT_EQ(bench.at("kernels").empty(), !kernels_are_built());
-  ASSERT_EQ(bench.at("press").size(), 1u);
-  const ordered_json& press = bench.at("press")[0];
+  ASSERT_EQ(bench.at("press").size(), 2u);
+  const ordered_json &press = bench.at("press")[0], &scaled = bench.at("press")[1];
+  EXPECT_EQ(press.at("integrator"), "symplectic-euler");
+  EXPECT_EQ(scaled.at("integrator"), "mass-scaled");
+  EXPECT_DOUBLE_EQ(scaled.at("time_step").get<double>(), 500e-6);
+  EXPECT_LT(scaled.at("steps").get<int>(), press.at("steps").get<int>());
+  EXPECT_GT(scaled.at("static_error").get<double>(), 0.0);
+  EXPECT_EQ(scaled.at("static_error"), press.at("static_error"));
   EXPECT_EQ(press.at("model"), "network");
   EXPECT_EQ(press.at("kinematics"), "finite");
   EXPECT_EQ(press.at("mode"), "pid");
