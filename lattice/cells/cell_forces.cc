@@ -9,6 +9,8 @@ namespace fingertip::lattice {
 
 namespace {
 
+constexpr std::size_t grain = 16;  // blocks of eight cells; some microseconds of work
+
 bool has_rates(const CellMaterial& material) {
   return material.kind != CellLawKind::cubic && material.retardation_time > 0.0;
 }
@@ -54,10 +56,14 @@ CellExtremes CellForces::add(const VectorField& displacement, const VectorField&
   kernel::CellBounds all;
   std::mutex guard;
   for (const auto& planes : cells_->planes) {
-    team_->split(planes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    // Shared out by blocks, not by planes, which hold more or fewer: so threads have as much to do,
+    // and the same thread has neighbouring planes of both halves, with most of their particles in
+    // its own cache.
+    team_->split(cells_->blocks.size(), grain, [&](std::size_t begin, std::size_t end) {
       kernel::CellBounds some;
-      for (std::size_t p = begin; p < end; ++p) {
-        sweep_(arrays, cells_->blocks.data(), planes[p].first, planes[p].last, some);
+      for (const CellLattice::Plane& plane : planes) {
+        if (plane.first < begin || plane.first >= end) continue;
+        sweep_(arrays, cells_->blocks.data(), plane.first, plane.last, some);
       }
       const std::lock_guard<std::mutex> lock(guard);
       extend(all, some);

@@ -165,17 +165,6 @@ void add_block(const CubicGrid& grid, const Block& cells, int phase, CellLattice
   lattice.blocks.push_back(block);
 }
 
-/// Every second plane first, and so on within the halves: threads take contiguous ranges of planes,
-/// and planes near the tip's pole hold fewer cells than others.
-void interleave(std::vector<CellLattice::Plane>& planes) {
-  if (planes.size() < 3) return;
-  std::vector<CellLattice::Plane> even, odd;
-  for (std::size_t p = 0; p < planes.size(); ++p) (p % 2 == 0 ? even : odd).push_back(planes[p]);
-  interleave(even);
-  interleave(odd);
-  std::copy(odd.begin(), odd.end(), std::copy(even.begin(), even.end(), planes.begin()));
-}
-
 }  // namespace
 
 CellLattice lay_out(const CubicGrid& grid, const std::vector<CutCell>& cells,
@@ -197,7 +186,6 @@ CellLattice lay_out(const CubicGrid& grid, const std::vector<CutCell>& cells,
     ++planes.back().last;
     add_block(grid, block, phase, lattice);
   }
-  for (auto& planes : lattice.planes) interleave(planes);
   return lattice;
 }
 

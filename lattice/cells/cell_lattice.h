@@ -29,7 +29,7 @@ struct CellLattice {
   std::vector<CellBlock> blocks;
   /// Blocks with even and with odd k of their cells' index are separated, for cells of one plane
   /// share no particle with those of the second next: planes[p] holds the range
-  /// [first, last) of the blocks of one plane of cells, in an order that balances threads.
+  /// [first, last) of the blocks of one plane of cells.
   struct Plane {
     std::uint32_t first = 0, last = 0;
   };
