@@ -9,7 +9,7 @@
 namespace fingertip::lattice {
 
 /// Steps of `run.time_step`, or a quarter of a millisecond, shorter where the rod on its ties or
-/// the change of a cell's volume asks for it, with masses scaled to them (mass_scaling.h). The
+/// the change of a cell's volume asks for it, with masses scaled to them (scaling/mass_scaling.h). The
 /// scaling is made anew when the length changes and when cells may have stiffened by what it leaves
 /// room for: when their extremes have, or the volume of the fastest by a tenth.
 class MassScaledStepper : public Stepper {

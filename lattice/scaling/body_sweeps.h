@@ -28,9 +28,10 @@ struct BodyArrays {
 /// `end`
 void load(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion);
 
-/// sums[0..5]: of mass * acceleration, and its moment; [6], [7..9], [10..15]: of the mass, its
-/// moment, and its second moments xx, yy, zz, xy, yz, zx.
-void sum(const BodyArrays& body, std::size_t begin, std::size_t end, double* sums);
+/// Six sums: of mass * acceleration, and its moment.
+void sum_taken(const BodyArrays& body, std::size_t begin, std::size_t end, double* sums);
+/// Ten sums: of the mass, its moment, and its second moments xx, yy, zz, xy, yz, zx.
+void sum_inertia(const BodyArrays& body, std::size_t begin, std::size_t end, double* sums);
 /// result = mass (acceleration + a + w x x); motion (a, w)
 void carry(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion);
 

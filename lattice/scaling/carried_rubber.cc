@@ -89,8 +89,9 @@ CarriedRubber::Sums CarriedRubber::sums(const MultigridFields::Field& accelerati
   const std::size_t blocks = model_->blocks.size();
   team.split(scratch.partial.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const std::size_t first = p * portion;
-      sweeps::sum(body, first, std::min(blocks, first + portion), scratch.partial[p].data());
+      const std::size_t first = p * portion, last = std::min(blocks, first + portion);
+      sweeps::sum_taken(body, first, last, scratch.partial[p].data());
+      sweeps::sum_inertia(body, first, last, scratch.partial[p].data() + 6);
     }
   });
   std::array<double, 16> total{};

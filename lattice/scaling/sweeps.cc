@@ -1,5 +1,7 @@
 #include "lattice/scaling/sweeps.h"
 
+#include <algorithm>
+
 #include "lattice/stencil.h"
 
 namespace fingertip::lattice::sweeps {
@@ -7,11 +9,12 @@ namespace fingertip::lattice::sweeps {
 FINGERTIP_CLONES void begin(const LevelArrays& level, const std::uint32_t* blocks,
                             std::size_t count) {
   for (std::size_t b = 0; b < count; ++b) {
-    const std::size_t first = blocks[b];
+    const Grain* relaxation = level.relaxation + blocks[b];
     for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t i = first; i < first + lanes; ++i) {
-        level.solution[c][i] = level.relaxation[i] * level.load[c][i];
-      }
+      const Grain* load = level.load[c] + blocks[b];
+      Grain result[lanes];
+      for (std::size_t i = 0; i < lanes; ++i) result[i] = relaxation[i] * load[i];
+      std::copy(result, result + lanes, level.solution[c] + blocks[b]);
     }
   }
 }
@@ -43,7 +46,7 @@ FINGERTIP_CLONES void find_residual(const LevelArrays& level, const std::uint32_
     for (std::size_t c = 0; c < 3; ++c) {
       Grain result[lanes];
       residual_of(level, c, blocks[b], result);
-      for (std::size_t i = 0; i < lanes; ++i) level.residual[c][blocks[b] + i] = result[i];
+      std::copy(result, result + lanes, level.residual[c] + blocks[b]);
     }
   }
 }
@@ -57,7 +60,7 @@ FINGERTIP_CLONES void smooth(const LevelArrays& level, const std::uint32_t* bloc
       Grain result[lanes];
       residual_of(level, c, blocks[b], result);
       for (std::size_t i = 0; i < lanes; ++i) result[i] = from[i] + relaxation[i] * result[i];
-      for (std::size_t i = 0; i < lanes; ++i) level.residual[c][blocks[b] + i] = result[i];
+      std::copy(result, result + lanes, level.residual[c] + blocks[b]);
     }
   }
 }
@@ -76,7 +79,7 @@ FINGERTIP_CLONES void gather(const TransferArrays& arrays, const GridLevel::Shee
         const Grain corners = u[y + z] + u[y - z] + u[z - y] + u[-y - z];
         result[i] = u[0] + 0.5F * edges + 0.25F * corners;
       }
-      for (std::size_t i = 0; i < lanes; ++i) to[i] = result[i];
+      std::copy(result, result + lanes, to);
     }
   }
 }
@@ -92,7 +95,7 @@ FINGERTIP_CLONES void contract(const TransferArrays& arrays, const std::uint32_t
         const Grain* u = from + 2 * i;
         result[i] = u[0] + 0.5F * (u[-1] + u[1]);
       }
-      for (std::size_t i = 0; i < lanes; ++i) to[i] = result[i];
+      std::copy(result, result + lanes, to);
     }
   }
 }
@@ -108,7 +111,7 @@ FINGERTIP_CLONES void stretch(const TransferArrays& arrays, const std::uint32_t*
         result[2 * i] = from[i];
         result[2 * i + 1] = 0.5F * (from[i] + from[i + 1]);
       }
-      for (std::size_t i = 0; i < 2 * lanes; ++i) to[i] = result[i];
+      std::copy(result, result + 2 * lanes, to);
     }
   }
 }
@@ -124,7 +127,7 @@ FINGERTIP_CLONES void spread(const TransferArrays& arrays, const std::uint32_t* 
       for (std::size_t i = 0; i < lanes; ++i) {
         result[i] = to[i] + 0.25F * ((one[i] + two[i]) + (three[i] + four[i]));
       }
-      for (std::size_t i = 0; i < lanes; ++i) to[i] = result[i];
+      std::copy(result, result + lanes, to);
     }
   }
 }

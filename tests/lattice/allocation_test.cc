@@ -148,3 +148,9 @@ TEST(Allocation, NoneInStepsOfExplicitEuler) {
       {ModelKind::published, Kinematics::finite, ContactMode::stick, Integrator::explicit_euler},
       1e-3);
 }
+
+TEST(Allocation, NoneInStepsWithScaledMasses) {
+  for (const auto contact : {ContactMode::frictionless, ContactMode::stick, ContactMode::coulomb}) {
+    expect_none({ModelKind::network, Kinematics::finite, contact, Integrator::mass_scaled}, 2.5e-3);
+  }
+}
