@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lattice/cells/cut_tip.h"
+#include "lattice/cells/largest_modulus.h"
 
 namespace fingertip::lattice {
 
@@ -126,8 +127,7 @@ void raise_light_masses(LatticeModel& model, const CutTip& tip, double density) 
 /// For models whose energy is that of their cells alone (scaling/).
 void list_edges(LatticeModel& model, const CutTip& tip) {
   const CellMaterial& m = tip.recipe.material;
-  const double largest =
-      m.kind == CellLawKind::cubic ? m.c11 + 2.0 * m.c12 : 3.0 * m.lambda + 2.0 * m.shear;
+  const double largest = largest_modulus(m);
   for (const CutCell& cell : tip.cells.cells()) {
     model.edges.push_back(cell_edges(corner_moments(cell), m.bending / largest));
   }

@@ -76,7 +76,7 @@ void Finger::spread_accelerations(const Wrench* applied) {
   outer.gravity = model_->grid.axes.transpose() * gravity_;
   if (applied != nullptr) {
     outer.rod = rod_load(*applied);
-    // Of what is new in the load the rod alone takes the first moment's share.
+    // A jump of the load moves the bare rod first.
     outer.rod->expected =
         now_.rod_acceleration + outer.rod->inertia.ldlt().solve(outer.rod->load - now_.rod_load);
     now_.rod_load = outer.rod->load;

@@ -114,8 +114,7 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
       safety_(safety(model)),
       rod_stiffness_(tied_rod(model, rod)) {
   const bool scaled = integrator == Integrator::mass_scaled;
-  const SpectralBounds bounds =
-      scaled ? scaled_bounds() : tightest_bounds(model, rod);
+  const SpectralBounds bounds = scaled ? scaled_bounds() : tightest_bounds(model, rod);
   if (scaled && !wanted) wanted = usual_step;
   report_.omega0 = paper_frequency(model);
   report_.paper_bound = 1.0 / report_.omega0;

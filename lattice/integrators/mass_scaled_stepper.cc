@@ -14,33 +14,38 @@ constexpr double round_off = 1e-9;      // of a step that divides a period
 
 }  // namespace
 
-void MassScaledStepper::scale() {
+bool MassScaledStepper::stale() const {
   const CellExtremes& cells = finger_->extremes();
   if (!(cells.smallest_jacobian > 0.0)) throw CrushedCells("a cell was turned inside out");
+  return !finger_->mass_scaling() || steps_->outdated(cells) || changed_ > largest_change;
+}
+
+void MassScaledStepper::scale() {
   // One that neither the finger nor a saved state uses.
   std::shared_ptr<MassScaling>& scaling = made_[made_[0].use_count() > 1 ? 1 : 0];
   if (scaling.use_count() != 1) scaling = std::make_shared<MassScaling>(ground_);
   finger_->scale_masses(scaling);
-  steps_->note(cells);
   changed_ = 0.0;
 }
 
-void MassScaledStepper::begin(const Drive& /*drive*/, double duration) {
-  const double step = steps_->divide(duration, finger_->extremes());
-  const bool other = std::abs(step - finger_->step()) > round_off * step;
+/// Sees to it that step and scaling are right for what is left of the span.
+void MassScaledStepper::prepare(double left, bool divides) {
+  const CellExtremes& cells = finger_->extremes();
+  const bool renew = stale();
+  if (renew) steps_->note(cells);  // the limit is that of the cells as they are now
+  const double step = steps_->divide(left, cells), present = finger_->step();
+  const bool other = divides ? std::abs(step - present) > round_off * step
+                             : present > (1.0 + round_off) * steps_->limit(cells);
   if (other) finger_->set_step(step);
-  if (other || !finger_->mass_scaling()) scale();
+  if (other || renew) scale();
+}
+
+void MassScaledStepper::begin(const Drive& /*drive*/, double duration) {
+  prepare(duration, true);
 }
 
 void MassScaledStepper::step(const Drive& drive, double until) {
-  const CellExtremes& cells = finger_->extremes();
-  bool stale = steps_->outdated(cells) || changed_ > largest_change;
-  if (stale) steps_->note(cells);
-  if (finger_->step() > (1.0 + round_off) * steps_->limit(cells)) {
-    finger_->set_step(steps_->divide(until - finger_->time(), cells));
-    stale = true;
-  }
-  if (stale) scale();
+  prepare(until - finger_->time(), false);
   advance(*finger_, drive);
   changed_ += finger_->step() * finger_->extremes().fastest;
   accept(finger_->step(), true);

@@ -8,10 +8,11 @@
 
 namespace fingertip::lattice {
 
-/// Steps of `run.time_step`, or a quarter of a millisecond, shorter where the rod on its ties or
-/// the change of a cell's volume asks for it, with masses scaled to them (scaling/mass_scaling.h). The
-/// scaling is made anew when the length changes and when cells may have stiffened by what it leaves
-/// room for: when their extremes have, or the volume of the fastest by a tenth.
+/// Steps of `run.time_step`, or a quarter of a millisecond, shorter where the change of a cell's
+/// volume asks for it, with masses scaled to them (scaling/mass_scaling.h). The scaling is made
+/// anew when the length changes and when cells may have stiffened by what it leaves room for: when
+/// their extremes have, or the volume of the fastest by a tenth. Throws CrushedCells where a cell
+/// is inside out.
 class MassScaledStepper : public Stepper {
  public:
   MassScaledStepper(Finger& finger, StepController& steps)
@@ -25,7 +26,9 @@ class MassScaledStepper : public Stepper {
   void recall(double memory) override { changed_ = memory; }
 
  private:
+  bool stale() const;
   void scale();
+  void prepare(double left, bool divides);
 
   Finger* finger_;
   StepController* steps_;

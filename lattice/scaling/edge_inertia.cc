@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lattice/cells/largest_modulus.h"
 #include "lattice/scaling/sweeps.h"
 
 namespace fingertip::lattice {
@@ -75,8 +76,8 @@ FINGERTIP_CLONES void invert(const Gradients& F, double (&J)[lanes], double (&la
 /// dF⁻¹ dF⁻¹ + lambda F⁻ᵀ F⁻ᵀ. Not below the value at rest.
 double bound(const CellMaterial& m, double step, double J, double largest) {
   const double elastic = 0.25 * step * step, viscous = 0.5 * step * m.retardation_time;
-  if (m.kind == CellLawKind::cubic) return (elastic + viscous) * (m.c11 + 2.0 * m.c12);
-  const double rest = 3.0 * m.lambda + 2.0 * m.shear;
+  const double rest = largest_modulus(m);
+  if (m.kind == CellLawKind::cubic) return (elastic + viscous) * rest;
   if (!(J > 0.0)) return (elastic + viscous) * rest;  // the press ends with CrushedCells
   const double pressure = std::abs(m.shear - m.lambda * std::log(J));
   return elastic * std::max(rest, m.shear + (pressure + 3.0 * m.lambda) * largest) +

@@ -40,9 +40,9 @@ void set_strides(GridLevel& level) {
   level.next = {1, level.size[0], std::ptrdiff_t(level.size[0]) * level.size[1]};
 }
 
-/// Room behind the last plane for what the sweeps read beyond it.
+/// Room behind the last plane for what the sweeps read beyond it: a plane, and of it the next row.
 std::size_t stored_points(const std::array<int, 3>& size) {
-  return std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2] + 1) + 2 * lanes;
+  return std::size_t(size[0]) * (std::size_t(size[1]) * std::size_t(size[2] + 1) + 1) + 2 * lanes;
 }
 
 GridLevel particles(const LatticeModel& model) {

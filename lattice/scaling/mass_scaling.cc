@@ -2,13 +2,12 @@
 
 #include <Eigen/Cholesky>
 #include <utility>
+
 namespace fingertip::lattice {
 
 using meshes::Vector3;
 
 namespace {
-
-constexpr std::size_t grain = 64;  // blocks of eight points
 
 Vector3 at(const MultigridFields::Field& field, std::size_t point) {
   return {field[0][point], field[1][point], field[2][point]};

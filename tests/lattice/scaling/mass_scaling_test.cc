@@ -218,7 +218,7 @@ TEST(ScaledFinger, ComesToRestOnARodMuchLighterThanItsRubber) {
   ASSERT_LT(finger.finger().rod().body().mass, 0.1 * finger.model().total_mass());
   const Vector3 centre = finger.finger().rod().centre();
   const auto energy = [&] { return finger.finger().elastic_energy(); };
-  finger.write(lattice::Wrench{Vector3(0.05, 0.02, 0.05), Vector3(1e-4, 1e-4, 0.0)});
+  finger.write(lattice::Wrench{Vector3(5e-3, 2e-3, 5e-3), Vector3(1e-5, 1e-5, 0.0)});
   finger.do_step(2e-3);
   const double struck = energy();
   EXPECT_GT(struck, 0.0);
