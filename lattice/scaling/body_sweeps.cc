@@ -24,10 +24,12 @@ struct Places {
   }
 }
 
-/// a + w x x
-[[gnu::always_inline]] inline void find_rigid(const Places& at, const double* motion,
-                                              double (&rigid)[3][lanes]) {
+/// a + w x x for eight particles.
+[[gnu::always_inline]] inline void find_rigid(const BodyArrays& body, std::size_t block,
+                                              const double* motion, double (&rigid)[3][lanes]) {
   const double *a = motion, *w = motion + 3;
+  Places at;
+  find_places(body, block, at);
   for (std::size_t i = 0; i < lanes; ++i) {
     rigid[0][i] = a[0] + (w[1] * at.z[i] - w[2] * at.y[i]);
     rigid[1][i] = a[1] + (w[2] * at.x[i] - w[0] * at.z[i]);
@@ -49,10 +51,8 @@ FINGERTIP_CLONES void load(const BodyArrays& body, std::size_t begin, std::size_
                            const double* motion) {
   for (std::size_t b = begin; b < end; ++b) {
     const std::size_t p = body.blocks[b];
-    Places at;
     double rigid[3][lanes];
-    find_places(body, b, at);
-    find_rigid(at, motion, rigid);
+    find_rigid(body, b, motion, rigid);
     for (std::size_t c = 0; c < 3; ++c) {
       Grain result[lanes];
       for (std::size_t i = 0; i < lanes; ++i) {
@@ -114,10 +114,8 @@ FINGERTIP_CLONES void carry(const BodyArrays& body, std::size_t begin, std::size
                             const double* motion) {
   for (std::size_t b = begin; b < end; ++b) {
     const std::size_t p = body.blocks[b];
-    Places at;
     double rigid[3][lanes];
-    find_places(body, b, at);
-    find_rigid(at, motion, rigid);
+    find_rigid(body, b, motion, rigid);
     for (std::size_t c = 0; c < 3; ++c) {
       double result[lanes];
       for (std::size_t i = 0; i < lanes; ++i)

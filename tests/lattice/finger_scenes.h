@@ -15,6 +15,34 @@ inline lattice::FingerSetup coarse_finger(double clearance) {
   return setup;
 }
 
+/// What to press, for tests that try many.
+struct PressCase {
+  lattice::ModelKind model;
+  lattice::Kinematics kinematics;
+  meshes::ContactMode contact;
+  lattice::Integrator integrator;
+};
+
+/// At R/6, 10 um clear of the plane, with weight; its rod is to be moved (advancing()).
+inline lattice::FingerSetup prescribed_finger(const PressCase& c, int threads) {
+  lattice::FingerSetup setup;
+  setup.lattice = settings_for(c.model, c.kinematics, 6);
+  setup.plane = {Vector3(0.0, 0.0, setup.geometry.tip_radius + 1e-5), -Vector3::UnitZ()};
+  setup.contact = {c.contact, 0.3};
+  setup.integrator = c.integrator;
+  setup.gravity = Vector3(0.0, 0.0, -9.81);
+  setup.prescribed = true;
+  setup.threads = threads;
+  return setup;
+}
+
+/// Towards the plane at `speed` [m/s].
+inline auto advancing(double speed) {
+  return [speed](double time) {
+    return lattice::RodMotion{Vector3(0.0, 0.0, speed * time), Vector3(0.0, 0.0, speed)};
+  };
+}
+
 /// Of particles and rod [N s].
 inline Vector3 momentum(const lattice::VirtualFinger& finger) {
   Vector3 sum = finger.finger().rod().momentum();

@@ -17,32 +17,17 @@ namespace {
 
 constexpr double speed = 0.1;  // of the rod [m/s]
 
-struct Case {
-  ModelKind model;
-  Kinematics kinematics;
-  ContactMode contact;
-  Integrator integrator;
-};
-
 /// Pressed by 1.5 mm within 15 ms.
-std::unique_ptr<lattice::VirtualFinger> pressed(const Case& c, int threads) {
-  lattice::FingerSetup setup;
-  setup.lattice = settings_for(c.model, c.kinematics, 6);
-  setup.plane = {Vector3(0.0, 0.0, setup.geometry.tip_radius + 1e-5), -Vector3::UnitZ()};
-  setup.contact = {c.contact, 0.3};
-  setup.integrator = c.integrator;
-  setup.gravity = Vector3(0.0, 1.0, -9.81);
-  setup.prescribed = true;
-  setup.threads = threads;
+std::unique_ptr<lattice::VirtualFinger> pressed(const PressCase& c, int threads) {
+  lattice::FingerSetup setup = prescribed_finger(c, threads);
+  setup.gravity.y() = 1.0;
   auto finger = std::make_unique<lattice::VirtualFinger>(setup);
-  finger->write([](double time) {
-    return lattice::RodMotion{Vector3(0.0, 0.0, speed * time), Vector3(0.0, 0.0, speed)};
-  });
+  finger->write(advancing(speed));
   for (int period = 0; period < 15; ++period) finger->do_step(1e-3);
   return finger;
 }
 
-void expect_same_bits(const Case& c) {
+void expect_same_bits(const PressCase& c) {
   const auto one = pressed(c, 1);
   EXPECT_GT(one->finger().touching(), 0);
   for (const int threads : {2, 3}) {
