@@ -31,7 +31,12 @@ double spring_energy(const LatticeModel& model, const State& state, int s) {
 }  // namespace
 
 double elastic_energy(const LatticeModel& model, const State& state) {
-  double energy = fast_cell_energy(model.cell_lattice, state.displacement);
+  Team alone(1);
+  return elastic_energy(model, state, alone);
+}
+
+double elastic_energy(const LatticeModel& model, const State& state, Team& team) {
+  double energy = fast_cell_energy(model.cell_lattice, state.displacement, team);
   if (!model.has_springs()) return energy;
   for (int s = 0; s < directions; ++s) energy += spring_energy(model, state, s);
   return energy;

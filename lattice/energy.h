@@ -2,12 +2,14 @@
 #pragma once
 
 #include "lattice/model.h"
+#include "lattice/parallel.h"
 #include "lattice/state.h"
 
 namespace fingertip::lattice {
 
 /// Energy of springs, ½ k (elongation)², and of cells (CellMaterial) [J]; the internal forces
 /// without damping are minus its gradient.
+double elastic_energy(const LatticeModel& model, const State& state, Team& team);
 double elastic_energy(const LatticeModel& model, const State& state);
 
 /// Sum of ½ m v² [J].

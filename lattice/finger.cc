@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "lattice/energy.h"
 
@@ -25,8 +27,7 @@ Finger::Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane
       move_(kernel::select_move()),
       integrator_(integrator),
       tip_mass_(model.total_mass()),
-      step_(step),
-      now_{.state = State(model), .rod = RodState(rod), .plane = plane},
+      now_{.state = State(model), .rod = RodState(rod), .plane = plane, .step = step},
       force_(model.points()),
       partial_momentum_((model.blocks.size() + portion - 1) / portion) {}
 
@@ -42,7 +43,7 @@ void Finger::find_forces(double step) {
 }
 
 void Finger::scale_masses(std::shared_ptr<MassScaling> scaling) {
-  scaling->make(now_.state, surfaces_->bond_inertia(step_), step_, team_);
+  scaling->make(now_.state, surfaces_->bond_inertia(now_.step), now_.step, team_);
   now_.scaling = std::move(scaling);
 }
 
@@ -63,30 +64,51 @@ OuterLoads::Rod Finger::rod_load(const Wrench& applied) const {
   load.load =
       along_grid(applied.force + weight, applied.torque + rod.endpoint().cross(applied.force) +
                                              centre.cross(weight) - turning);
-  load.inertia = point_inertia(rod.body().mass, axes.transpose() * centre);
-  load.inertia.bottomRightCorner<3, 3>() += axes.transpose() * inertia * axes;
+  load.inertia =
+      rigid_inertia(rod.body().mass, axes.transpose() * centre, axes.transpose() * inertia * axes);
   return load;
 }
 
-void Finger::spread_accelerations(const Wrench* applied) {
+/// Before the rubber is asked: as in the last step, but for the jump of the load, which moves the
+/// bare rod first.
+Vector6 Finger::expected_acceleration(const OuterLoads::Rod& rod) const {
+  const auto& before = now_.carrying_rod;
+  const Wrench& bond = now_.bond;
+  const Vector6 pull =
+      before ? Vector6(rod.load - before->load)
+             : Vector6(rod.load +
+                       along_grid(bond.force, bond.torque + now_.rod.endpoint().cross(bond.force)));
+  const Vector6 jump = rod.inertia.ldlt().solve(pull);
+  return before ? Vector6(before->acceleration + jump) : jump;
+}
+
+/// The same with scaled masses, `applied` on a free rod (null: prescribed).
+Vector3 Finger::move_scaled(const Wrench* applied) {
   const MassScaling& scaling = *now_.scaling;
+  if (std::abs(scaling.step() - now_.step) > 1e-9 * now_.step)
+    throw std::logic_error("masses are scaled for steps of another length");
   if (!accelerations_) accelerations_ = std::make_unique<AccelerationFields>(scaling.fields());
   OuterLoads outer;
-  outer.plane = surfaces_->plane_hold(step_);
+  outer.plane = surfaces_->plane_hold(now_.step);
   outer.gravity = model_->grid.axes.transpose() * gravity_;
   if (applied != nullptr) {
     outer.rod = rod_load(*applied);
-    // A jump of the load moves the bare rod first.
-    outer.rod->expected =
-        now_.rod_acceleration + outer.rod->inertia.ldlt().solve(outer.rod->load - now_.rod_load);
-    now_.rod_load = outer.rod->load;
+    if (now_.restraint.along.empty()) now_.restraint = scaling.restraint();
+    scaling.restrain(now_.state, outer.plane, team_, *accelerations_, now_.restraint);
+    outer.rod->restraint = &now_.restraint;
+    outer.rod->expected = expected_acceleration(*outer.rod);
   }
-  const Reactions reactions = scaling.accelerate(now_.state, outer, team_, *accelerations_, force_);
-  now_.rod_acceleration = reactions.rod;
+  Reactions reactions = scaling.accelerate(now_.state, outer, force_, team_, *accelerations_);
+  const CarriedRubber::Moved moved =
+      scaling.move(now_.state, outer, reactions, team_, *accelerations_);
+  reactions.plane -= moved.kept;
+  now_.carrying_rod.reset();
+  if (outer.rod) now_.carrying_rod = {reactions.rod, outer.rod->load};
   const Eigen::Matrix3d& axes = model_->grid.axes;
   const Vector3 bond = axes * reactions.bond.head<3>();
   now_.bond = {bond, axes * reactions.bond.tail<3>() - now_.rod.endpoint().cross(bond)};
   surfaces_->set_plane_wrench({axes * reactions.plane.head<3>(), axes * reactions.plane.tail<3>()});
+  return axes * moved.momentum;
 }
 
 CellExtremes Finger::internal_forces(const State& state, VectorField& force) {
@@ -113,7 +135,8 @@ void Finger::weigh_particles(VectorField& force) {
   });
 }
 
-void Finger::move_particles() {
+/// Returns their momentum before.
+Vector3 Finger::move_particles() {
   kernel::Motion motion{};
   for (std::size_t c = 0; c < 3; ++c) {
     motion.force[c] = force_.component[c].data();
@@ -122,7 +145,7 @@ void Finger::move_particles() {
   }
   motion.mass = model_->mass.data();
   motion.inverse_mass = model_->inverse_mass.data();
-  motion.step = step_;
+  motion.step = now_.step;
   motion.symplectic = integrator_ != Integrator::explicit_euler;
   const auto& blocks = model_->blocks;
   team_.split(partial_momentum_.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -131,43 +154,38 @@ void Finger::move_particles() {
       move_(motion, blocks.data(), p * portion, last, partial_momentum_[p].data());
     }
   });
+  Vector3 momentum = Vector3::Zero();
+  for (const Vector3& p : partial_momentum_) momentum += p;
+  return model_->grid.axes * momentum;
 }
 
 void Finger::advance(const Wrench& applied) {
-  find_forces(step_);
-  if (now_.scaling) spread_accelerations(&applied);
+  find_forces(now_.step);
+  const Vector3 of_particles = now_.scaling ? move_scaled(&applied) : move_particles();
   RodState& rod = now_.rod;
   const Vector3 momentum_before = rod.momentum();
   const Vector3 endpoint = rod.endpoint(), weight = rod.body().mass * gravity_;
   Wrench total{applied.force + now_.bond.force + weight, applied.torque + now_.bond.torque};
   total.torque += (rod.centre() - endpoint).cross(weight);
   if (integrator_ != Integrator::explicit_euler) {
-    rod.kick(total, endpoint, step_);
-    rod.drift(step_);
+    rod.kick(total, endpoint, now_.step);
+    rod.drift(now_.step);
   } else {
-    rod.drift(step_);
+    rod.drift(now_.step);
     rod.kick({total.force, total.torque + (endpoint - rod.endpoint()).cross(total.force)},
-             rod.endpoint(), step_);
+             rod.endpoint(), now_.step);
   }
-  move_particles();
-  sum_momentum(momentum_before);
-  close_step(step_ * (applied.force + weight));
+  check_momentum(momentum_before + of_particles);
+  close_step(now_.step * (applied.force + weight));
 }
 
 void Finger::advance(const RodMotion& at_end) {
-  find_forces(step_);
-  if (now_.scaling) spread_accelerations(nullptr);
+  find_forces(now_.step);
+  const Vector3 of_particles = now_.scaling ? move_scaled(nullptr) : move_particles();
   const Vector3 momentum_before = now_.rod.momentum();
   now_.rod.prescribe(at_end.travel, at_end.velocity);
-  move_particles();
-  sum_momentum(momentum_before);
-  close_step(now_.rod.momentum() - momentum_before - step_ * now_.bond.force);
-}
-
-void Finger::sum_momentum(const Vector3& of_rod) {
-  Vector3 of_particles = Vector3::Zero();
-  for (const Vector3& p : partial_momentum_) of_particles += p;
-  check_momentum(of_rod + model_->grid.axes * of_particles);
+  check_momentum(momentum_before + of_particles);
+  close_step(now_.rod.momentum() - momentum_before - now_.step * now_.bond.force);
 }
 
 void Finger::check_momentum(const Vector3& momentum) {
@@ -185,23 +203,25 @@ void Finger::start_step() {
 }
 
 void Finger::close_step(const Vector3& on_rod) {
-  finish_step(step_, surfaces_->settle(now_.state, force_, now_.plane, step_), on_rod);
+  finish_step(now_.step, surfaces_->settle(now_.state, force_, now_.plane, now_.step), on_rod);
 }
 
 void Finger::finish_step(double duration, const Wrench& plane_impulse, const Vector3& on_rod) {
-  step_ = duration;
+  now_.step = duration;
   now_.plane_impulse = plane_impulse;
-  const Vector3 weight = step_ * tip_mass_ * gravity_;
+  const Vector3 weight = now_.step * tip_mass_ * gravity_;
   now_.expected_momentum += on_rod + now_.plane_impulse.force + weight;
   now_.largest_impulse =
       std::max({now_.largest_impulse, on_rod.norm(), now_.plane_impulse.force.norm(), weight.norm(),
-                step_ * now_.bond.force.norm()});
-  now_.plane = now_.plane.after(step_);
-  now_.time += step_;
+                now_.step * now_.bond.force.norm()});
+  now_.plane = now_.plane.after(now_.step);
+  now_.time += now_.step;
 }
 
 double Finger::elastic_energy() const {
-  return lattice::elastic_energy(*model_, now_.state) + surfaces_->energy(now_.state, now_.rod);
+  Team team = team_;  // a handle
+  return lattice::elastic_energy(*model_, now_.state, team) +
+         surfaces_->energy(now_.state, now_.rod);
 }
 
 }  // namespace fingertip::lattice

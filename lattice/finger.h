@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lattice/forces.h"
@@ -31,10 +32,16 @@ struct FingerMemory {
   Wrench bond{};                                 ///< on the rod about its endpoint
   Wrench plane_impulse{};                        ///< of the last step
   CellExtremes extremes{};                       ///< at the start of the last step
+  double step = 0.0;                             ///< of the steps to come [s]
   std::shared_ptr<const MassScaling> scaling{};  ///< null: plain masses
-  Vector6 rod_acceleration =
-      Vector6::Zero();                 ///< of a free rod in the last step with scaled masses
-  Vector6 rod_load = Vector6::Zero();  ///< what acted on it but for the bond
+  Restraint restraint{};                         ///< of a free rod's rubber
+  /// Of a free rod with scaled masses, in the last step; wrenches and accelerations of what is at
+  /// the world's origin, along the grid's axes.
+  struct CarryingRod {
+    Vector6 acceleration = Vector6::Zero();  ///< [m/s²], [rad/s²]
+    Vector6 load = Vector6::Zero();          ///< what acted on it but for the bond [N], [N m]
+  };
+  std::optional<CarryingRod> carrying_rod{};
   meshes::Vector3 expected_momentum = meshes::Vector3::Zero();  ///< [N s]
   bool balance_started = false;
   double momentum_defect = 0.0;
@@ -65,7 +72,7 @@ class Finger {
   void advance(const RodMotion& at_end);
 
   /// From now on particles accelerate by this scaling, made for steps of the present length about
-  /// the present state.
+  /// the present state. A step of another length throws std::logic_error.
   void scale_masses(std::shared_ptr<MassScaling> scaling);
 
   const MassScaling* mass_scaling() const { return now_.scaling.get(); }
@@ -88,8 +95,8 @@ class Finger {
   long force_evaluations() const { return evaluations_; }  ///< of springs and cells, so far
 
   double time() const { return now_.time; }
-  double step() const { return step_; }
-  void set_step(double step) { step_ = step; }  ///< of the steps to come [s]
+  double step() const { return now_.step; }
+  void set_step(double step) { now_.step = step; }  ///< of the steps to come [s]
   const LatticeModel& model() const { return *model_; }
   const State& state() const { return now_.state; }
   State& state() { return now_.state; }
@@ -140,11 +147,11 @@ class Finger {
   void find_forces(double step);
   Vector6 along_grid(const meshes::Vector3& force, const meshes::Vector3& torque) const;
   OuterLoads::Rod rod_load(const Wrench& applied) const;
-  void spread_accelerations(const Wrench* applied);
+  Vector6 expected_acceleration(const OuterLoads::Rod& rod) const;
+  meshes::Vector3 move_scaled(const Wrench* applied);
   void weigh_particles(VectorField& force);
-  void move_particles();
+  meshes::Vector3 move_particles();
   void close_step(const meshes::Vector3& on_rod);
-  void sum_momentum(const meshes::Vector3& of_rod);
   void check_momentum(const meshes::Vector3& momentum);
 
   const LatticeModel* model_;
@@ -154,7 +161,6 @@ class Finger {
   kernel::MoveParticles move_;
   Integrator integrator_;
   double tip_mass_;  ///< [kg]
-  double step_ = 0.0;
   meshes::Vector3 gravity_ = meshes::Vector3::Zero();
   FingerMemory now_;
   VectorField force_;

@@ -24,13 +24,18 @@ Matrix3d shifted(double mass, const Vector3& arm) {
 
 }  // namespace
 
-Eigen::Matrix<double, 6, 6> RodBody::inertia_at_endpoint() const {
-  const Vector3 arm = centre - endpoint;
-  Eigen::Matrix<double, 6, 6> matrix;
+Matrix6 rigid_inertia(double mass, const Vector3& arm, const Matrix3d& inertia) {
+  Matrix6 matrix;
   matrix.topLeftCorner<3, 3>() = mass * Matrix3d::Identity();
   matrix.topRightCorner<3, 3>() = -mass * cross_matrix(arm);
   matrix.bottomLeftCorner<3, 3>() = mass * cross_matrix(arm);
   matrix.bottomRightCorner<3, 3>() = inertia + shifted(mass, arm);
+  return matrix;
+}
+
+Eigen::Matrix<double, 3, 6> rigid_motion(const Vector3& arm) {
+  Eigen::Matrix<double, 3, 6> matrix;
+  matrix << Matrix3d::Identity(), -cross_matrix(arm);
   return matrix;
 }
 

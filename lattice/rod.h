@@ -8,6 +8,19 @@
 
 namespace fingertip::lattice {
 
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Inertia against (acceleration of a point, angular acceleration) of a rigid body whose centre of
+/// mass lies at `arm` [m] from that point, with `inertia` about the centre [kg m²]: it yields
+/// (force, torque about the point) for a body at rest.
+Matrix6 rigid_inertia(double mass, const meshes::Vector3& arm,
+                      const Eigen::Matrix3d& inertia = Eigen::Matrix3d::Zero());
+
+/// Acceleration of a point at `arm` from another that accelerates so, with angular acceleration, of
+/// a rigid body at rest: a + w x arm.
+Eigen::Matrix<double, 3, 6> rigid_motion(const meshes::Vector3& arm);
+
 /// The rigid rod: its shape comes from the geometry.
 struct RodSettings {
   double density = 2700.0;  ///< [kg/m³], > 0
@@ -43,9 +56,8 @@ struct RodBody {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   ///< about the centre of mass [kg m²]
   meshes::Vector3 endpoint = meshes::Vector3::Zero();  ///< (0, 0, -l) [m]
 
-  /// 6 x 6 inertia about the endpoint: (force, torque) = I (acceleration, angular acceleration)
-  /// for a body at rest in its starting orientation.
-  Eigen::Matrix<double, 6, 6> inertia_at_endpoint() const;
+  /// About the endpoint, in the starting orientation.
+  Matrix6 inertia_at_endpoint() const { return rigid_inertia(mass, centre - endpoint, inertia); }
 };
 
 RodBody rod_body(const meshes::Geometry& geometry, const RodSettings& settings);
@@ -66,7 +78,7 @@ class RodState {
   const meshes::Vector3& momentum() const { return momentum_; }     ///< [N s]
   const meshes::Vector3& angular_momentum() const { return spin_; }  ///< about the centre [N m s]
   Eigen::Matrix3d world_inertia() const;  ///< about the centre, world axes [kg m²]
-  double kinetic_energy() const;                                     ///< [J]
+  double kinetic_energy() const;          ///< [J]
   const RodBody& body() const { return body_; }
 
   /// Changes the momenta by `wrench` about world point `at` acting for `duration` [s].

@@ -61,15 +61,10 @@ double lattice_bound(const LatticeModel& model, Quantity quantity, double ligame
                         ligament_values(model, quantity, ligament_factor));
 }
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-/// Stiffness of the rod on an isotropic spring of unit stiffness at `rest`, about its centre.
+/// Stiffness of the rod on an isotropic spring of unit stiffness at `rest`, about its centre: what
+/// a unit mass there has of inertia.
 Matrix6 unit_spring_on_rod(const Vector3& rest, const RodBody& rod) {
-  const Vector3 arm = rest - rod.centre;
-  Eigen::Matrix<double, 3, 6> motion;
-  motion.leftCols<3>().setIdentity();
-  for (int k = 0; k < 3; ++k) motion.col(3 + k) = Vector3::Unit(k).cross(arm);
-  return motion.transpose() * motion;
+  return rigid_inertia(1.0, rest - rod.centre);
 }
 
 /// Largest eigenvalue of a form of the rod's motion beside its inertia.

@@ -11,7 +11,7 @@ using meshes::Vector3;
 
 namespace {
 
-constexpr double most_turns = 16.0;  // steps until every point has been looked at
+constexpr double most_turns = 64.0;  // steps until every point has been looked at
 
 // The same for any number of threads.
 constexpr std::size_t portion = 32;         // near particles per partial sum

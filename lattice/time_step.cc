@@ -19,7 +19,10 @@ constexpr double room = 1.2;
 
 /// Of mass_scaled [s]: a quarter of the usual control period.
 constexpr double usual_step = 2.5e-4;
-constexpr double longest_scaled = 5e-4;
+constexpr double longest_scaled = 1e-3;
+
+/// Of spans, which are differences of times: what they may exceed a whole number of steps by.
+constexpr double round_off = 1e-9;
 
 /// What a Lanczos estimate, which comes from below, may lack.
 constexpr double margin = 1.05;
@@ -189,11 +192,11 @@ double StepController::limit(const CellExtremes& now) const {
 }
 
 double StepController::divide(double span, const CellExtremes& now) const {
-  return span / std::ceil(span / limit(now) * (1.0 - 1e-12));
+  return span / std::ceil(span / limit(now) * (1.0 - round_off));
 }
 
 double StepController::at_rest(double span) const {
-  return span / std::ceil(span / largest_ * (1.0 - 1e-12));
+  return span / std::ceil(span / largest_ * (1.0 - round_off));
 }
 
 StepReport StepController::report(double step) const {

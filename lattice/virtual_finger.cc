@@ -18,7 +18,7 @@ VirtualFinger::VirtualFinger(const FingerSetup& setup)
   finger_->set_gravity(setup.gravity);
   const double tip = setup.geometry.tip_radius;
   stepper_ = make_stepper({setup.integrator, setup.time_step, setup.tolerance, setup.energy_bound,
-                           setup.rubber.youngs_modulus * tip * tip * tip},
+                           setup.contact_change, setup.rubber.youngs_modulus * tip * tip * tip},
                           *finger_, steps_);
   if (setup.prescribed) drive_ = Motion([](double) { return RodMotion{}; });
   start_ = save();
@@ -70,13 +70,12 @@ bool VirtualFinger::do_step(double duration, const StepObserver& after_step) {
 }
 
 VirtualFinger::Snapshot VirtualFinger::save() const {
-  return {finger_->save(), steps_.memory(), finger_->step(), stepper_->memory(), drive_};
+  return {finger_->save(), steps_.memory(), stepper_->memory(), drive_};
 }
 
 void VirtualFinger::load(const Snapshot& snapshot) {
   finger_->load(snapshot.finger);
   steps_.recall(snapshot.steps);
-  finger_->set_step(snapshot.step);
   stepper_->recall(snapshot.stepper);
   drive_ = snapshot.drive;
 }

@@ -28,6 +28,7 @@ struct FingerSetup {
   std::optional<double> time_step;  ///< largest one [s]; the largest safe one when absent
   double tolerance = 1e-6;          ///< of Integrator::runge_kutta
   double energy_bound = 1e-7;       ///< of Integrator::energy_controlled, per E R³
+  double contact_change = 0.015;    ///< of Integrator::mass_scaled, per step
   int threads = 0;                  ///< 0: all cores. The result does not depend on it.
 };
 
@@ -62,9 +63,8 @@ class VirtualFinger {
   struct Snapshot {
     Finger::Snapshot finger;
     StepController::Memory steps;
-    double step = 0.0;     ///< of the finger [s]
-    double stepper = 0.0;  ///< Stepper::memory
-    Drive drive;           ///< the inputs
+    Stepper::Memory stepper{};
+    Drive drive;  ///< the inputs
   };
   Snapshot save() const;
   void load(const Snapshot& snapshot);

@@ -10,8 +10,6 @@ namespace fingertip::lattice {
 
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
 Vector6 together(const Wrench& wrench) {
   Vector6 both;
   both << wrench.force, wrench.torque;
@@ -28,7 +26,7 @@ Vector6 way_from(const Pose& origin, const Pose& pose) {
 
 }  // namespace
 
-Pid::Pid(const PidSettings& settings, const Eigen::Matrix<double, 6, 6>& inertia)
+Pid::Pid(const PidSettings& settings, const Matrix6& inertia)
     : settings_(settings),
       inertia_(inertia),
       inverse_inertia_(inertia.inverse()),
@@ -42,14 +40,14 @@ void Pid::reset() {
 }
 
 /// Of the proportional part: b r - y = (r - y) + (b - 1) r.
-Pid::Vector6 Pid::weighted(const Vector6& error) const {
+Vector6 Pid::weighted(const Vector6& error) const {
   if (settings_.setpoint_weight == 1.0) return error;
   return error + (settings_.setpoint_weight - 1.0) * way_;
 }
 
 /// What proportional and derivative part and the fed-forward bond made of the last errors, as an
 /// acceleration.
-Pid::Vector6 Pid::share_without_integral() const {
+Vector6 Pid::share_without_integral() const {
   return 3.0 * omega_ * omega_ * weighted(error_) + 3.0 * omega_ * derivative_ -
          settings_.bond_compensation * (inverse_inertia_ * bond_);
 }

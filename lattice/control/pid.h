@@ -20,7 +20,7 @@ namespace fingertip::lattice {
 class Pid {
  public:
   /// `inertia`: 6 x 6 at the endpoint [kg, kg m, kg m²].
-  Pid(const PidSettings& settings, const Eigen::Matrix<double, 6, 6>& inertia);
+  Pid(const PidSettings& settings, const Matrix6& inertia);
 
   /// The wrench that leads the endpoint to the target; to be called once per settings().period.
   /// `feed_forward` is added before the limits.
@@ -41,13 +41,12 @@ class Pid {
   bool saturated() const { return saturated_; }
 
  private:
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
   Vector6 weighted(const Vector6& error) const;
   Vector6 share_without_integral() const;
 
   PidSettings settings_;
-  Eigen::Matrix<double, 6, 6> inertia_;
-  Eigen::Matrix<double, 6, 6> inverse_inertia_;
+  Matrix6 inertia_;
+  Matrix6 inverse_inertia_;
   double omega_;
   Vector6 integral_ = Vector6::Zero();    ///< of Ki e, as an acceleration
   Vector6 derivative_ = Vector6::Zero();  ///< filtered de/dt
@@ -64,7 +63,7 @@ class Pid {
 class PidController final : public Controller {
  public:
   /// `target` as a function of time [s].
-  PidController(const PidSettings& settings, const Eigen::Matrix<double, 6, 6>& inertia,
+  PidController(const PidSettings& settings, const Matrix6& inertia,
                 std::function<Target(double)> target)
       : pid_(settings, inertia), target_(std::move(target)) {}
 

@@ -12,8 +12,6 @@ using meshes::Vector3;
 
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
 /// Share of the rubber's thickness that a tip is not pressed beyond.
 constexpr double deepest = 0.7;
 
@@ -25,15 +23,6 @@ Pose finger_base(const HandSetup& setup, double side) {
   axes.col(0) = Vector3::UnitZ();
   axes.col(1) = axes.col(2).cross(axes.col(0));
   return {Vector3(side * distance, 0.0, 0.0), Eigen::Quaterniond(axes)};
-}
-
-/// Of a particle that moves with the block: momenta = matrix * (velocity, angular velocity) at the
-/// block's centre of mass.
-Matrix6 mass_matrix(double mass, const Vector3& arm) {
-  Eigen::Matrix<double, 3, 6> jacobian;
-  jacobian.leftCols<3>().setIdentity();
-  for (int c = 0; c < 3; ++c) jacobian.col(3 + c) = Vector3::Unit(c).cross(arm);
-  return mass * jacobian.transpose() * jacobian;
 }
 
 Wrench in_world(const Wrench& wrench, const Pose& base) {
@@ -80,7 +69,7 @@ double Hand::find_coupling() const {
     for (const std::uint32_t corner : corners) {
       Vector3 place = bases_[i] * model.rest_position(corner);
       place.x() = 0.5 * sides[i] * setup_.block.width;  // on the face once it touches
-      touching += mass_matrix(model.mass[corner], place - body.centre);
+      touching += rigid_inertia(model.mass[corner], place - body.centre);
     }
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(touching, own,

@@ -21,8 +21,8 @@ class EnergyStepper : public Stepper {
 
   void begin(const Drive& drive, double duration) override;
   void step(const Drive& drive, double until) override;
-  double memory() const override { return next_; }
-  void recall(double memory) override { next_ = memory; }
+  Memory memory() const override { return {next_}; }
+  void recall(const Memory& memory) override { next_ = memory[0]; }
   std::string explanation() const override;
 
   double last_drift() const { return last_drift_; }  ///< of the last accepted step [J]

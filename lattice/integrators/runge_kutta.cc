@@ -231,11 +231,11 @@ void RungeKutta::end() {
   finger_->start_step();
 }
 
-double RungeKutta::memory() const {
-  return solver_->next;
+Stepper::Memory RungeKutta::memory() const {
+  return {solver_->next};
 }
-void RungeKutta::recall(double memory) {
-  solver_->next = memory;
+void RungeKutta::recall(const Memory& memory) {
+  solver_->next = memory[0];
 }
 
 std::string RungeKutta::explanation() const {

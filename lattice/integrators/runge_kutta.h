@@ -32,8 +32,8 @@ class RungeKutta : public Stepper {
   void begin(const Drive& drive, double duration) override;
   void step(const Drive& drive, double until) override;
   void end() override;
-  double memory() const override;
-  void recall(double memory) override;
+  Memory memory() const override;
+  void recall(const Memory& memory) override;
   std::string explanation() const override;
 
  private:

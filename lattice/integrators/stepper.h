@@ -1,6 +1,7 @@
 /// How a finger is marched through time: who chooses the steps, and by which formula.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -48,9 +49,10 @@ class Stepper {
   /// steps, that at the start of the last step.
   virtual void end() {}
 
-  /// What the next step would be like [s]; 0: not known.
-  virtual double memory() const { return 0.0; }
-  virtual void recall(double /*memory*/) {}
+  /// In whatever meaning a stepper gives them; zeros: nothing is known yet.
+  using Memory = std::array<double, 4>;
+  virtual Memory memory() const { return {}; }
+  virtual void recall(const Memory& /*memory*/) {}
 
   const StepCount& count() const { return count_; }
   /// How steps are chosen and how many there were, for people; empty for steps that the stability
@@ -70,6 +72,7 @@ struct StepperSettings {
   std::optional<double> time_step;  ///< largest one [s]
   double tolerance = 1e-6;          ///< runge_kutta.h
   double energy_bound = 1e-7;       ///< energy_stepper.h
+  double contact_change = 0.015;    ///< mass_scaled_stepper.h
   double energy_scale = 0.0;        ///< [J]
 };
 

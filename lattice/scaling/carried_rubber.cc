@@ -1,5 +1,6 @@
 #include "lattice/scaling/carried_rubber.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "lattice/scaling/body_sweeps.h"
@@ -16,7 +17,6 @@ sweeps::BodyArrays arrays(const LatticeModel& model, const State& state,
                           const std::array<double, 3>* starts) {
   sweeps::BodyArrays a{};
   for (std::size_t c = 0; c < 3; ++c) a.displacement[c] = state.displacement.component[c].data();
-  a.inverse_mass = model.inverse_mass.data();
   a.mass = model.mass.data();
   a.blocks = model.blocks.data();
   a.starts = starts;
@@ -45,14 +45,8 @@ Vector6 acting_at(const Vector3& x, const Vector3& force) {
   return wrench;
 }
 
-Matrix6 point_inertia(double mass, const Vector3& x) {
-  const Vector3 p = mass * x;
-  const double q[6] = {p[0] * x[0], p[1] * x[1], p[2] * x[2],
-                       p[0] * x[1], p[1] * x[2], p[2] * x[0]};
-  return body_inertia(mass, p.data(), q);
-}
-
-CarriedRubber::CarriedRubber(const LatticeModel& model) : model_(&model) {
+CarriedRubber::CarriedRubber(const LatticeModel& model)
+    : model_(&model), moves_(model.is_particle.begin(), model.is_particle.end()) {
   for (const std::uint32_t block : model.blocks) {
     const Vector3 start = model.grid.axes.transpose() * model.rest_position(block);
     starts_.push_back({start[0], start[1], start[2]});
@@ -68,15 +62,14 @@ Vector3 CarriedRubber::position(std::size_t point, const State& state) const {
          state.displacement.at(point);
 }
 
-void CarriedRubber::load(const Vector6& motion, const std::vector<double>& inertia,
-                         const State& state, Team& team, const VectorField& force,
-                         MultigridFields::Field& load) const {
+void CarriedRubber::load(const Vector6& motion, const std::vector<double>& gain, const State& state,
+                         Team& team, const VectorField& force, MultigridFields::Field& load) const {
   sweeps::BodyArrays body = arrays(*model_, state, starts_.data());
   for (std::size_t c = 0; c < 3; ++c) {
     body.force[c] = force.component[c].data();
     body.load[c] = load[c].data();
   }
-  body.inertia = inertia.data();
+  body.gain = gain.data();
   team.split(model_->blocks.size(), portion, [&](std::size_t begin, std::size_t end) {
     sweeps::load(body, begin, end, motion.data());
   });
@@ -90,8 +83,7 @@ CarriedRubber::Sums CarriedRubber::sums(const MultigridFields::Field& accelerati
   team.split(scratch.partial.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const std::size_t first = p * portion, last = std::min(blocks, first + portion);
-      sweeps::sum_taken(body, first, last, scratch.partial[p].data());
-      sweeps::sum_inertia(body, first, last, scratch.partial[p].data() + 6);
+      sweeps::sum(body, first, last, scratch.partial[p].data());
     }
   });
   std::array<double, 16> total{};
@@ -100,16 +92,46 @@ CarriedRubber::Sums CarriedRubber::sums(const MultigridFields::Field& accelerati
   return {Vector6(total.data()), body_inertia(total[6], &total[7], &total[10])};
 }
 
-void CarriedRubber::accelerate(const Vector6& motion, const MultigridFields::Field& acceleration,
-                               const State& state, Team& team, VectorField& force) const {
+CarriedRubber::Moved CarriedRubber::move(const Vector6& motion, const Restraint* restraint,
+                                         const Vector3& normal,
+                                         const MultigridFields::Field& acceleration, double step,
+                                         Team& team, Scratch& scratch, State& state) const {
   sweeps::BodyArrays body = arrays(*model_, state, starts_.data());
   for (std::size_t c = 0; c < 3; ++c) {
     body.acceleration[c] = acceleration[c].data();
-    body.result[c] = force.component[c].data();
+    body.place[c] = state.displacement.component[c].data();
+    body.velocity[c] = state.velocity.component[c].data();
   }
-  team.split(model_->blocks.size(), portion, [&](std::size_t begin, std::size_t end) {
-    sweeps::carry(body, begin, end, motion.data());
+  body.moves = moves_.data();
+  sweeps::Patch patch{};
+  if (restraint != nullptr) {
+    const Vector3 moved = motion.head<3>() + motion.tail<3>().cross(restraint->centre),
+                  to_normal = normal.dot(moved) * normal;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      patch.to_normal[c] = to_normal[c];
+      patch.across[c] = moved[c] - to_normal[c];
+    }
+    body.along = restraint->along.data();
+    body.aside = restraint->aside.data();
+  }
+  const std::size_t blocks = model_->blocks.size();
+  team.split(scratch.partial.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const std::size_t first = p * portion, last = std::min(blocks, first + portion);
+      double* const sums = scratch.partial[p].data();
+      if (restraint != nullptr) {
+        sweeps::move_restrained(body, first, last, motion.data(), patch, step, sums);
+      } else {
+        sweeps::move(body, first, last, motion.data(), step, sums);
+      }
+    }
   });
+  Moved moved;
+  for (const auto& part : scratch.partial) {
+    moved.momentum += Vector3(part.data());
+    if (restraint != nullptr) moved.kept += Vector6(part.data() + 3);
+  }
+  return moved;
 }
 
 }  // namespace fingertip::lattice

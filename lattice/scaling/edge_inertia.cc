@@ -103,8 +103,8 @@ EdgeInertiaRule::EdgeInertiaRule(const LatticeModel& model)
   }
 }
 
-void EdgeInertiaRule::find(const State& state, double step, double room, Team& team,
-                           EdgeInertia& edges) {
+double EdgeInertiaRule::find(const State& state, double step, double room, Team& team,
+                             EdgeInertia& edges) {
   const CellMaterial& material = model_->cell_lattice.material;
   const double unit = model_->spacing() * room;
   team.split(packs_.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -119,7 +119,9 @@ void EdgeInertiaRule::find(const State& state, double step, double room, Team& t
     }
   });
   for (auto& edge : edges) std::fill(edge.begin(), edge.end(), 0.0);
+  double sum = 0.0;
   for (const Pack& pack : packs_) {
+    for (const double stiffness : pack.stiffness) sum += stiffness;
     for (std::size_t d = 0; d < 3; ++d) {
       for (std::size_t e = 0; e < 4; ++e) {
         double* const start = edges[d].data() + edge_start(next_, d, e);
@@ -128,6 +130,7 @@ void EdgeInertiaRule::find(const State& state, double step, double room, Team& t
       }
     }
   }
+  return sum;
 }
 
 }  // namespace fingertip::lattice

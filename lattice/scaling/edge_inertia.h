@@ -26,8 +26,8 @@ class EdgeInertiaRule {
   explicit EdgeInertiaRule(const LatticeModel& model);
 
   /// For steps of `step` [s] > 0 about a state, multiplied with `room`: what cells may stiffen by
-  /// later. `edges` of the model's points.
-  void find(const State& state, double step, double room, Team& team, EdgeInertia& edges);
+  /// later. `edges` of the model's points. Returns a measure of S [kg].
+  double find(const State& state, double step, double room, Team& team, EdgeInertia& edges);
 
  private:
   /// Eight cells.

@@ -12,6 +12,7 @@
 #include "lattice/scaling/carried_rubber.h"
 #include "lattice/scaling/edge_inertia.h"
 #include "lattice/scaling/multigrid.h"
+#include "lattice/scaling/restraint.h"
 #include "lattice/state.h"
 #include "lattice/tie_inertia.h"
 
@@ -29,7 +30,7 @@ struct ScalingGround {
   explicit ScalingGround(const LatticeModel& model);
 };
 
-/// Scratch for MassScaling::accelerate.
+/// Scratch for MassScaling.
 struct AccelerationFields {
   MultigridFields grids;
   CarriedRubber::Scratch carried;
@@ -45,12 +46,13 @@ struct OuterLoads {
   struct Rod {
     Matrix6 inertia = Matrix6::Zero();
     Vector6 load = Vector6::Zero();
-    Vector6 expected = Vector6::Zero();  ///< its acceleration, as far as it is known before
+    Vector6 expected = Vector6::Zero();    ///< its acceleration, as far as it is known before
+    const Restraint* restraint = nullptr;  ///< up to date (MassScaling::restrain); null: none
   };
   std::optional<Rod> rod;
 };
 
-/// What acts in the end.
+/// What acts in the end, but for what a restraint keeps.
 struct Reactions {
   Vector6 bond = Vector6::Zero();   ///< on the rod
   Vector6 plane = Vector6::Zero();  ///< on the tip
@@ -66,17 +68,25 @@ struct Reactions {
 /// length. Motions at frequency w are heavier by S, a part w² (dt² + 2 dt tau)/4 times E over their
 /// own modulus. So it is for presses, not for vibrations.
 ///
-/// A free rod carries the rubber: particles accelerate by b + (a + w x x), b = B f as if the rod
-/// did not accelerate, and its own (a, w) is what all that acts from outside gives to rod and
-/// rubber as one body, after what b takes:
+/// A free rod carries the rubber: particles accelerate by b + (G - Y) q, b = B f as if the rod did
+/// not accelerate, G the rigid motion at each, and the rod's q = (a, w) is what all that acts from
+/// outside gives to rod and rubber as one body, after what b takes:
 ///
-///   (I_rod + I_rubber) (a, w) = rod's load + weight + plane - Σ m b,
+///   (I_rod + I_rubber + I_plane) q = rod's load + weight + plane - Σ m b,
 ///
-/// with moments alike: momentum and angular momentum are those of the outer forces to round-off
-/// whatever B, and what does not deform moves as its mass does. (Ties that act on the rod by
-/// themselves, with the rubber not carried along, are unstable from m/M = 1/3 on, m what they feel
-/// of the rubber: for stiff ties a deviation p goes on as p' = -2 r p - q, q' = -r p, r = m/M. What
-/// is left of that is the plane's push through the rubber, a small part of it.)
+/// with moments alike. Y is what the plane keeps of it (restraint.h): where the plane holds the tip
+/// the rod does not carry it along. With C the plane's inertia, (D + S + C) Y = C G would make b
+/// and q orthogonal in what plane and deformation take (the rubber's mass `expected` sees to), and
+/// leave the rod to feel I_plane = Gᵀ C (G - Y). Both vanish with the step. Y here is B C G for the
+/// patch's motion as a whole, along the normal and across it; of how the rod turns about the
+/// patch's centre it keeps nothing, for what turns S does not resist. The plane exerts what is then
+/// missing in the balance of momentum: without a plane momentum and angular momentum are those of
+/// the outer forces to round-off whatever B, and what does not deform moves as its mass does.
+///
+/// (Two ways that are stable for less: ties that act on the rod by themselves, with the rubber not
+/// carried along, up to m/M = 1/3, m what they feel of the rubber: for stiff ties a deviation p
+/// goes on as p' = -2 r p - q, q' = -r p, r = m/M. And rubber that follows the rod rigidly up to
+/// the plane, up to I_plane of a tenth of the rest.)
 ///
 /// Selective mass scaling: Olovsson, Simonsson & Unosson, Int. J. Numer. Meth. Engng 63 (2005)
 /// 1436-1445.
@@ -88,21 +98,38 @@ class MassScaling {
   /// particles bonded to the rod like `bond`. Allocates nothing.
   void make(const State& state, std::span<const BondInertia> bond, double step, Team& team,
             double room = 1.3);
+  double step() const { return step_; }  ///< of the last make() [s]; 0 before
 
   AccelerationFields fields() const;
+  Restraint restraint() const;  ///< none yet, with room for one
 
-  /// Replaces the forces on the particles [N], which are m a of particles whose a is that of the
-  /// forces by their inertia D (Surfaces::hold), by m times the accelerations above.
-  Reactions accelerate(const State& state, const OuterLoads& outer, Team& team,
-                       AccelerationFields& fields, VectorField& force) const;
+  /// Brings the restraint up to date. Its shares are found anew if the plane's ties or S have grown
+  /// by a tenth or lost a fifth since, or the patch has moved by a cell over the tip or turned by
+  /// 8 degrees.
+  void restrain(const State& state, const PlaneHold& plane, Team& team, AccelerationFields& fields,
+                Restraint& restraint) const;
+
+  /// Finds the accelerations above from the forces on the particles [N], which are m a of particles
+  /// whose a is that of the forces by their inertia D (Surfaces::hold). They stay in `fields`.
+  Reactions accelerate(const State& state, const OuterLoads& outer, const VectorField& force,
+                       Team& team, AccelerationFields& fields) const;
+  /// The step with them. What the restraint keeps is to be taken from the plane's reaction.
+  CarriedRubber::Moved move(State& state, const OuterLoads& outer, const Reactions& reactions,
+                            Team& team, AccelerationFields& fields) const;
 
  private:
+  void set_contact(const PlaneHold& plane, MultigridFields::Level& finest) const;
+  void find_shares(const PlaneHold& plane, Team& team, AccelerationFields& fields,
+                   Restraint& restraint) const;
+  void find_inertia(const State& state, const PlaneHold& plane, Restraint& restraint) const;
   void set_load(const Vector6& expected, const State& state, const VectorField& force,
                 const PlaneHold& plane, Team& team, MultigridFields::Level& finest) const;
 
   std::shared_ptr<ScalingGround> ground_;
   std::vector<double> inertia_;  ///< per point: mass and bond [kg]
+  std::vector<double> gain_;     ///< that over the mass
   Multigrid grids_;
+  double step_ = 0.0, sum_of_edges_ = 0.0;
 };
 
 }  // namespace fingertip::lattice

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t grain = 64;  // blocks of eight points
 /// Of Jacobi's sweeps, on S alone: where it is small the sweeps are exact.
-constexpr Grain damping = 1.5F;
+constexpr Single damping = 1.5F;
 constexpr int last_sweeps = 8;  // on the coarsest grid; even, so that B <= A⁻¹
 
 MultigridFields::Field field(std::size_t points) {
@@ -19,33 +19,33 @@ MultigridFields::Field field(std::size_t points) {
   return result;
 }
 
-void point_to(MultigridFields::Field& field, Grain* (&pointers)[3]) {
+void point_to(MultigridFields::Field& field, Single* (&pointers)[3]) {
   for (std::size_t c = 0; c < 3; ++c) pointers[c] = field[c].data();
 }
 
-std::array<Grain, 3> at(const MultigridFields::Field& field, std::size_t point) {
+std::array<Single, 3> at(const MultigridFields::Field& field, std::size_t point) {
   return {field[0][point], field[1][point], field[2][point]};
 }
 
-void put(MultigridFields::Field& field, std::size_t point, const std::array<Grain, 3>& value) {
+void put(MultigridFields::Field& field, std::size_t point, const std::array<Single, 3>& value) {
   for (std::size_t c = 0; c < 3; ++c) field[c][point] = value[c];
 }
 
 /// Shares of a level's contact go to the points around.
 void share_contact(const GridLevel& fine, const GridLevel& coarse,
-                   const std::vector<ContactGrain>& from, MultigridFields::Level& to) {
-  for (const ContactGrain& one : to.contact) to.contact_at[one.point] = -1;
+                   const std::vector<PointTie>& from, MultigridFields::Level& to) {
+  for (const PointTie& one : to.contact) to.contact_at[one.point] = -1;
   to.contact.clear();
-  for (const ContactGrain& one : from) {
+  for (const PointTie& one : from) {
     const CoarsePoints points = coarse_points(fine, coarse, one.point);
-    const Grain share = 1.0F / Grain(points.count);
+    const Single share = 1.0F / Single(points.count);
     for (std::size_t n = 0; n < std::size_t(points.count); ++n) {
       std::int32_t& place = to.contact_at[points.point[n]];
       if (place < 0) {
         place = std::int32_t(to.contact.size());
         to.contact.push_back({points.point[n], 0.0F, 0.0F});
       }
-      ContactGrain& sum = to.contact[std::size_t(place)];
+      PointTie& sum = to.contact[std::size_t(place)];
       sum.along += share * one.along;
       sum.aside += share * one.aside;
     }
@@ -98,7 +98,7 @@ void Multigrid::finish(std::size_t level) {
   for (const std::uint32_t block : grid.blocks) {
     for (std::size_t p = block; p < block + lanes; ++p) {
       if (grid.is_node[p] == 0) continue;
-      Grain sum = 0.0F;
+      Single sum = 0.0F;
       for (std::size_t d = 0; d < 3; ++d)
         sum += matrix.edge[d][p] + matrix.edge[d][p - std::size_t(grid.next[d])];
       matrix.diagonal[p] = sum;
@@ -119,8 +119,8 @@ void Multigrid::coarsen(std::size_t level) {
     const std::size_t first = grid.blocks[b], start = first % std::size_t(grid.size[0]);
     for (std::size_t i = 0; i < lanes; ++i) {
       const std::size_t p = first + i, below = (start + i + 1) / 2, above = (start + i) / 2 + 1;
-      const Grain inertia = 0.125F * fine.inertia[p], x = 0.0625F * fine.edge[0][p],
-                  y = 0.0625F * fine.edge[1][p], z = 0.0625F * fine.edge[2][p];
+      const Single inertia = 0.125F * fine.inertia[p], x = 0.0625F * fine.edge[0][p],
+                   y = 0.0625F * fine.edge[1][p], z = 0.0625F * fine.edge[2][p];
       for (std::size_t n = 0; n < 4; ++n) {
         coarse.inertia[rows[n] + below] += inertia;
         coarse.inertia[rows[n] + above] += inertia;
@@ -135,7 +135,7 @@ void Multigrid::coarsen(std::size_t level) {
 /// Of one level, for one solve.
 class Multigrid::Cycle {
  public:
-  Cycle(const Multigrid& grids, const std::array<Grain, 3>& normal, Team& team,
+  Cycle(const Multigrid& grids, const std::array<Single, 3>& normal, Team& team,
         MultigridFields& fields)
       : grids_(&grids), normal_(normal), team_(&team), fields_(&fields) {}
 
@@ -178,16 +178,16 @@ class Multigrid::Cycle {
   }
 
   /// A damped Jacobi step at a contact's point.
-  std::array<Grain, 3> relaxed(const Matrix& matrix, const ContactGrain& one,
-                               const std::array<Grain, 3>& residual) const {
-    const Grain rubber = matrix.inertia[one.point] + damping * matrix.diagonal[one.point];
+  std::array<Single, 3> relaxed(const Matrix& matrix, const PointTie& one,
+                                const std::array<Single, 3>& residual) const {
+    const Single rubber = matrix.inertia[one.point] + damping * matrix.diagonal[one.point];
     return product(residual, 1.0F / (rubber + one.along), 1.0F / (rubber + one.aside));
   }
 
   /// along n nᵀ u + aside (1 - n nᵀ) u
-  std::array<Grain, 3> product(const std::array<Grain, 3>& u, Grain along, Grain aside) const {
-    const Grain towards = normal_[0] * u[0] + normal_[1] * u[1] + normal_[2] * u[2];
-    std::array<Grain, 3> result{};
+  std::array<Single, 3> product(const std::array<Single, 3>& u, Single along, Single aside) const {
+    const Single towards = normal_[0] * u[0] + normal_[1] * u[1] + normal_[2] * u[2];
+    std::array<Single, 3> result{};
     for (std::size_t c = 0; c < 3; ++c)
       result[c] = aside * u[c] + (along - aside) * towards * normal_[c];
     return result;
@@ -196,9 +196,9 @@ class Multigrid::Cycle {
   void begin(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
     const sweeps::LevelArrays a = arrays(grid, matrix, fields);
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
-      sweeps::begin(a, grid.blocks.data() + from, to - from);
+      sweeps::first_sweep(a, grid.blocks.data() + from, to - from);
     });
-    for (const ContactGrain& one : fields.contact)
+    for (const PointTie& one : fields.contact)
       put(fields.solution, one.point, relaxed(matrix, one, at(fields.load, one.point)));
   }
 
@@ -207,7 +207,7 @@ class Multigrid::Cycle {
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
       sweeps::find_residual(a, grid.blocks.data() + from, to - from);
     });
-    for (const ContactGrain& one : fields.contact) {
+    for (const PointTie& one : fields.contact) {
       const auto taken = product(at(fields.solution, one.point), one.along, one.aside);
       for (std::size_t c = 0; c < 3; ++c) fields.residual[c][one.point] -= taken[c];
     }
@@ -218,10 +218,10 @@ class Multigrid::Cycle {
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
       sweeps::smooth(a, grid.blocks.data() + from, to - from);
     });
-    for (const ContactGrain& one : fields.contact) {
+    for (const PointTie& one : fields.contact) {
       const auto before = at(fields.solution, one.point), plain = at(fields.residual, one.point);
       const auto taken = product(before, one.along, one.aside);
-      std::array<Grain, 3> residual{};
+      std::array<Single, 3> residual{};
       for (std::size_t c = 0; c < 3; ++c)
         residual[c] = (plain[c] - before[c]) / matrix.relaxation[one.point] - taken[c];
       const auto step = relaxed(matrix, one, residual);
@@ -272,13 +272,13 @@ class Multigrid::Cycle {
   }
 
   const Multigrid* grids_;
-  std::array<Grain, 3> normal_;
+  std::array<Single, 3> normal_;
   Team* team_;
   MultigridFields* fields_;
 };
 
 void Multigrid::solve(const meshes::Vector3& normal, Team& team, MultigridFields& fields) const {
-  const std::array<Grain, 3> along{Grain(normal[0]), Grain(normal[1]), Grain(normal[2])};
+  const std::array<Single, 3> along{Single(normal[0]), Single(normal[1]), Single(normal[2])};
   Cycle(*this, along, team, fields).run(0);
 }
 

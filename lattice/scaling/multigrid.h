@@ -3,7 +3,6 @@
 
 #include <array>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "lattice/parallel.h"
@@ -13,21 +12,21 @@
 
 namespace fingertip::lattice {
 
-using sweeps::Grain;
+using sweeps::Single;
 
 /// Inertia of a point against a plane [kg]: `along` its normal, `aside` in it.
-struct ContactGrain {
+struct PointTie {
   std::uint32_t point = 0;
-  Grain along = 0.0F, aside = 0.0F;
+  Single along = 0.0F, aside = 0.0F;
 };
 
 /// What Multigrid::solve works with.
 struct MultigridFields {
-  using Field = std::array<std::vector<Grain>, 3>;
+  using Field = std::array<std::vector<Single>, 3>;
   struct Level {
     Field load, solution, residual;
     Field gathered, stretched;  ///< on the sheet to the coarser grid, down and up
-    std::vector<ContactGrain> contact;
+    std::vector<PointTie> contact;
     std::vector<std::int32_t> contact_at;  ///< per point: its place in `contact`, or -1
   };
   std::vector<Level> levels;
@@ -55,18 +54,17 @@ class Multigrid {
   /// [kg], positive at nodes.
   void set(const std::array<std::vector<double>, 3>& edges, const std::vector<double>& inertia);
 
-  const GridHierarchy& hierarchy() const { return *hierarchy_; }
-
-  /// levels[0].solution = B levels[0].load; levels[0].contact with its places has been set.
+  /// levels[0].solution = B levels[0].load; load, 0 where no node is, and levels[0].contact have
+  /// been set.
   /// `normal` of the plane, a unit vector along the grid's axes.
   void solve(const meshes::Vector3& normal, Team& team, MultigridFields& fields) const;
 
  private:
   struct Matrix {
-    std::array<std::vector<Grain>, 3> edge;
-    std::vector<Grain> inertia;     ///< D
-    std::vector<Grain> relaxation;  ///< 1/(D + 3/2 of S's diagonal)
-    std::vector<Grain> diagonal;    ///< of S
+    std::array<std::vector<Single>, 3> edge;
+    std::vector<Single> inertia;     ///< D
+    std::vector<Single> relaxation;  ///< 1/(D + 3/2 of S's diagonal)
+    std::vector<Single> diagonal;    ///< of S
   };
   class Cycle;
   void finish(std::size_t level);

@@ -6,13 +6,13 @@
 
 namespace fingertip::lattice::sweeps {
 
-FINGERTIP_CLONES void begin(const LevelArrays& level, const std::uint32_t* blocks,
-                            std::size_t count) {
+FINGERTIP_CLONES void first_sweep(const LevelArrays& level, const std::uint32_t* blocks,
+                                  std::size_t count) {
   for (std::size_t b = 0; b < count; ++b) {
-    const Grain* relaxation = level.relaxation + blocks[b];
+    const Single* relaxation = level.relaxation + blocks[b];
     for (std::size_t c = 0; c < 3; ++c) {
-      const Grain* load = level.load[c] + blocks[b];
-      Grain result[lanes];
+      const Single* load = level.load[c] + blocks[b];
+      Single result[lanes];
       for (std::size_t i = 0; i < lanes; ++i) result[i] = relaxation[i] * load[i];
       std::copy(result, result + lanes, level.solution[c] + blocks[b]);
     }
@@ -23,17 +23,17 @@ namespace {
 
 /// load - (D + S) solution of one component at eight points.
 [[gnu::always_inline]] inline void residual_of(const LevelArrays& level, std::size_t c,
-                                               std::size_t first, Grain (&result)[lanes]) {
+                                               std::size_t first, Single (&result)[lanes]) {
   const std::ptrdiff_t y = level.next[0], z = level.next[1];
-  const Grain *right = level.edge[0] + first, *up = level.edge[1] + first,
-              *far = level.edge[2] + first, *inertia = level.inertia + first;
-  const Grain *from = level.solution[c] + first, *load = level.load[c] + first;
+  const Single *right = level.edge[0] + first, *up = level.edge[1] + first,
+               *far = level.edge[2] + first, *inertia = level.inertia + first;
+  const Single *from = level.solution[c] + first, *load = level.load[c] + first;
   for (std::size_t i = 0; i < lanes; ++i) {
-    const Grain* u = from + i;
+    const Single* u = from + i;
     const std::ptrdiff_t n = std::ptrdiff_t(i);
-    const Grain sum = right[n] * (u[0] - u[1]) + right[n - 1] * (u[0] - u[-1]) +
-                      up[n] * (u[0] - u[y]) + up[n - y] * (u[0] - u[-y]) + far[n] * (u[0] - u[z]) +
-                      far[n - z] * (u[0] - u[-z]);
+    const Single sum = right[n] * (u[0] - u[1]) + right[n - 1] * (u[0] - u[-1]) +
+                       up[n] * (u[0] - u[y]) + up[n - y] * (u[0] - u[-y]) + far[n] * (u[0] - u[z]) +
+                       far[n - z] * (u[0] - u[-z]);
     result[i] = load[n] - inertia[n] * u[0] - sum;
   }
 }
@@ -44,7 +44,7 @@ FINGERTIP_CLONES void find_residual(const LevelArrays& level, const std::uint32_
                                     std::size_t count) {
   for (std::size_t b = 0; b < count; ++b) {
     for (std::size_t c = 0; c < 3; ++c) {
-      Grain result[lanes];
+      Single result[lanes];
       residual_of(level, c, blocks[b], result);
       std::copy(result, result + lanes, level.residual[c] + blocks[b]);
     }
@@ -54,10 +54,10 @@ FINGERTIP_CLONES void find_residual(const LevelArrays& level, const std::uint32_
 FINGERTIP_CLONES void smooth(const LevelArrays& level, const std::uint32_t* blocks,
                              std::size_t count) {
   for (std::size_t b = 0; b < count; ++b) {
-    const Grain* relaxation = level.relaxation + blocks[b];
+    const Single* relaxation = level.relaxation + blocks[b];
     for (std::size_t c = 0; c < 3; ++c) {
-      const Grain* from = level.solution[c] + blocks[b];
-      Grain result[lanes];
+      const Single* from = level.solution[c] + blocks[b];
+      Single result[lanes];
       residual_of(level, c, blocks[b], result);
       for (std::size_t i = 0; i < lanes; ++i) result[i] = from[i] + relaxation[i] * result[i];
       std::copy(result, result + lanes, level.residual[c] + blocks[b]);
@@ -70,13 +70,13 @@ FINGERTIP_CLONES void gather(const TransferArrays& arrays, const GridLevel::Shee
   const std::ptrdiff_t y = arrays.next[0], z = arrays.next[1];
   for (std::size_t b = 0; b < count; ++b) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const Grain* from = arrays.fine[c] + blocks[b].row;
-      Grain* const to = arrays.sheet[c] + blocks[b].sheet;
-      Grain result[lanes];
+      const Single* from = arrays.fine[c] + blocks[b].row;
+      Single* const to = arrays.sheet[c] + blocks[b].sheet;
+      Single result[lanes];
       for (std::size_t i = 0; i < lanes; ++i) {
-        const Grain* u = from + i;
-        const Grain edges = u[y] + u[-y] + u[z] + u[-z];
-        const Grain corners = u[y + z] + u[y - z] + u[z - y] + u[-y - z];
+        const Single* u = from + i;
+        const Single edges = u[y] + u[-y] + u[z] + u[-z];
+        const Single corners = u[y + z] + u[y - z] + u[z - y] + u[-y - z];
         result[i] = u[0] + 0.5F * edges + 0.25F * corners;
       }
       std::copy(result, result + lanes, to);
@@ -88,11 +88,11 @@ FINGERTIP_CLONES void contract(const TransferArrays& arrays, const std::uint32_t
                                const std::uint32_t* sheets, std::size_t count) {
   for (std::size_t b = 0; b < count; ++b) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const Grain* from = arrays.sheet[c] + sheets[b];
-      Grain* const to = arrays.coarse[c] + coarse_blocks[b];
-      Grain result[lanes];
+      const Single* from = arrays.sheet[c] + sheets[b];
+      Single* const to = arrays.coarse[c] + coarse_blocks[b];
+      Single result[lanes];
       for (std::size_t i = 0; i < lanes; ++i) {
-        const Grain* u = from + 2 * i;
+        const Single* u = from + 2 * i;
         result[i] = u[0] + 0.5F * (u[-1] + u[1]);
       }
       std::copy(result, result + lanes, to);
@@ -104,9 +104,9 @@ FINGERTIP_CLONES void stretch(const TransferArrays& arrays, const std::uint32_t*
                               const std::uint32_t* sheets, std::size_t count) {
   for (std::size_t b = 0; b < count; ++b) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const Grain* from = arrays.coarse[c] + coarse_blocks[b];
-      Grain* const to = arrays.sheet[c] + sheets[b];
-      Grain result[2 * lanes];
+      const Single* from = arrays.coarse[c] + coarse_blocks[b];
+      Single* const to = arrays.sheet[c] + sheets[b];
+      Single result[2 * lanes];
       for (std::size_t i = 0; i < lanes; ++i) {
         result[2 * i] = from[i];
         result[2 * i + 1] = 0.5F * (from[i] + from[i + 1]);
@@ -120,10 +120,11 @@ FINGERTIP_CLONES void spread(const TransferArrays& arrays, const std::uint32_t* 
                              const std::array<std::uint32_t, 4>* parents, std::size_t count) {
   for (std::size_t b = 0; b < count; ++b) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const Grain *one = arrays.sheet[c] + parents[b][0], *two = arrays.sheet[c] + parents[b][1],
-                  *three = arrays.sheet[c] + parents[b][2], *four = arrays.sheet[c] + parents[b][3];
-      Grain* const to = arrays.fine[c] + blocks[b];
-      Grain result[lanes];
+      const Single *one = arrays.sheet[c] + parents[b][0], *two = arrays.sheet[c] + parents[b][1],
+                   *three = arrays.sheet[c] + parents[b][2],
+                   *four = arrays.sheet[c] + parents[b][3];
+      Single* const to = arrays.fine[c] + blocks[b];
+      Single result[lanes];
       for (std::size_t i = 0; i < lanes; ++i) {
         result[i] = to[i] + 0.25F * ((one[i] + two[i]) + (three[i] + four[i]));
       }

@@ -14,21 +14,21 @@ namespace fingertip::lattice::sweeps {
 
 /// Single precision: what is solved is a correction, and its sums over particles are put right in
 /// double precision by who asks for it (mass_scaling.h).
-using Grain = float;
+using Single = float;
 
 /// Of one level; fields by component.
 struct LevelArrays {
-  const Grain* edge[3];
-  const Grain* inertia;
-  const Grain* relaxation;
-  const Grain* load[3];
-  Grain* solution[3];
-  Grain* residual[3];
+  const Single* edge[3];
+  const Single* inertia;
+  const Single* relaxation;
+  const Single* load[3];
+  Single* solution[3];
+  Single* residual[3];
   std::ptrdiff_t next[2];  ///< along y and z
 };
 
 /// solution = relaxation load
-void begin(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
+void first_sweep(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
 /// residual = load - (D + S) solution
 void find_residual(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
 /// residual = solution + relaxation (load - (D + S) solution)
@@ -36,9 +36,9 @@ void smooth(const LevelArrays& level, const std::uint32_t* blocks, std::size_t c
 
 /// Fields of one level and of the sheet between it and the next.
 struct TransferArrays {
-  Grain* fine[3];
-  Grain* sheet[3];
-  Grain* coarse[3];
+  Single* fine[3];
+  Single* sheet[3];
+  Single* coarse[3];
   std::ptrdiff_t next[2];  ///< of the fine level
 };
 

@@ -36,6 +36,14 @@ inline lattice::FingerSetup prescribed_finger(const PressCase& c, int threads) {
   return setup;
 }
 
+/// The same without weight and with a free rod, which is to be pushed.
+inline lattice::FingerSetup pushed_finger(const PressCase& c, int threads) {
+  lattice::FingerSetup setup = prescribed_finger(c, threads);
+  setup.gravity = Vector3::Zero();
+  setup.prescribed = false;
+  return setup;
+}
+
 /// Towards the plane at `speed` [m/s].
 inline auto advancing(double speed) {
   return [speed](double time) {
@@ -49,6 +57,18 @@ inline Vector3 momentum(const lattice::VirtualFinger& finger) {
   for (const std::uint32_t i : finger.model().particles) {
     sum += finger.model().mass[i] *
            (finger.model().grid.axes * finger.finger().state().velocity.at(i));
+  }
+  return sum;
+}
+
+/// Of particles and rod about the world's origin [N m s].
+inline Vector3 angular_momentum(const lattice::VirtualFinger& finger) {
+  const lattice::RodState& rod = finger.finger().rod();
+  const lattice::LatticeModel& model = finger.model();
+  Vector3 sum = rod.angular_momentum() + rod.centre().cross(rod.momentum());
+  for (const std::uint32_t i : model.particles) {
+    const Vector3 velocity = model.grid.axes * finger.finger().state().velocity.at(i);
+    sum += lattice::position(model, finger.finger().state(), i).cross(model.mass[i] * velocity);
   }
   return sum;
 }

@@ -51,6 +51,20 @@ TEST(Threads, DoNotChangeTheBitsOfScaledMasses) {
       {ModelKind::network, Kinematics::finite, ContactMode::stick, Integrator::mass_scaled});
 }
 
+TEST(Threads, DoNotChangeTheBitsOfAFreeRodThatCarriesItsRubber) {
+  const auto pushed = [](int threads) {
+    auto finger = std::make_unique<lattice::VirtualFinger>(pushed_finger(
+        {ModelKind::network, Kinematics::finite, ContactMode::stick, Integrator::mass_scaled},
+        threads));
+    finger->write(lattice::Wrench{Vector3(2e-3, 1e-3, 0.04), Vector3(0.0, 1e-5, 0.0)});
+    for (int period = 0; period < 40; ++period) finger->do_step(1e-3);
+    return finger;
+  };
+  const auto one = pushed(1);
+  EXPECT_GT(one->finger().touching(), 0);
+  for (const int threads : {2, 3}) EXPECT_TRUE(same_bits(*one, *pushed(threads))) << threads;
+}
+
 TEST(Threads, DoNotChangeTheBitsOfExplicitEuler) {
   expect_same_bits(
       {ModelKind::published, Kinematics::finite, ContactMode::stick, Integrator::explicit_euler});

@@ -23,7 +23,7 @@ struct Scene {
   LatticeModel model;
   lattice::EdgeInertia edges;
   std::shared_ptr<const GridHierarchy> hierarchy;
-  std::vector<lattice::ContactGrain> contact;
+  std::vector<lattice::PointTie> contact;
   Vector3 normal = Vector3(1.0, -2.0, 2.0) / 3.0;
 
   Scene(int per_radius, double step, bool touches) {
@@ -54,7 +54,7 @@ struct Scene {
         result.add(other, -pull);
       }
     }
-    for (const lattice::ContactGrain& one : contact) {
+    for (const lattice::PointTie& one : contact) {
       const Vector3 v = u.at(one.point), along = normal.dot(v) * normal;
       result.add(one.point, double(one.along) * along + double(one.aside) * (v - along));
     }
