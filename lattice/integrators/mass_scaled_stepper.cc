@@ -46,18 +46,17 @@ void MassScaledStepper::prepare(double left, bool divides) {
   if (other || renew) scale();
 }
 
-void MassScaledStepper::watch_contact(double step) {
-  const int before = touching_, most = std::max(before, finger_->touching());
-  touching_ = finger_->touching();
-  const double rate = most > 0 ? (touching_ - before) / (most * step) : 0.0;
+void MassScaledStepper::watch_contact(int touched_before) {
+  const int touching = finger_->touching(), most = std::max(touched_before, touching);
+  const double step = finger_->step();
+  const double rate = most > 0 ? (touching - touched_before) / (most * step) : 0.0;
   contact_rate_ += (1.0 - std::exp(-step / smoothing)) * (rate - contact_rate_);
 }
 
 void MassScaledStepper::recall(const Memory& memory) {
   changed_ = memory[0];
-  touching_ = int(memory[1]);
-  contact_rate_ = memory[2];
-  halved_ = memory[3] != 0.0;
+  contact_rate_ = memory[1];
+  halved_ = memory[2] != 0.0;
 }
 
 void MassScaledStepper::begin(const Drive& /*drive*/, double duration) {
@@ -66,9 +65,10 @@ void MassScaledStepper::begin(const Drive& /*drive*/, double duration) {
 
 void MassScaledStepper::step(const Drive& drive, double until) {
   prepare(until - finger_->time(), false);
+  const int touched = finger_->touching();
   advance(*finger_, drive);
   changed_ += finger_->step() * finger_->extremes().fastest;
-  watch_contact(finger_->step());
+  watch_contact(touched);
   accept(finger_->step(), true);
 }
 

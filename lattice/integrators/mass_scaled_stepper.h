@@ -25,14 +25,12 @@ class MassScaledStepper : public Stepper {
 
   void begin(const Drive& drive, double duration) override;
   void step(const Drive& drive, double until) override;
-  Memory memory() const override {
-    return {changed_, double(touching_), contact_rate_, halved_ ? 1.0 : 0.0};
-  }
+  Memory memory() const override { return {changed_, contact_rate_, halved_ ? 1.0 : 0.0}; }
   void recall(const Memory& memory) override;
 
  private:
   bool stale() const;
-  void watch_contact(double step);
+  void watch_contact(int touched_before);
   void scale();
   void prepare(double left, bool divides);
 
@@ -42,8 +40,8 @@ class MassScaledStepper : public Stepper {
   std::shared_ptr<ScalingGround> ground_;
   std::array<std::shared_ptr<MassScaling>, 2> made_;  ///< one may be the finger's
   double changed_ = 0.0;  ///< largest change of a cell's volume since the scaling was made
-  int touching_ = 0;
-  double contact_rate_ = 0.0;  ///< at which touching_ changes relative to itself, smoothed [1/s]
+  /// At which the number of points on the plane changes relative to itself, smoothed [1/s].
+  double contact_rate_ = 0.0;
   bool halved_ = false;
 };
 
