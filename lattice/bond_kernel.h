@@ -24,7 +24,6 @@ struct BondArrays {
   const std::uint32_t* column;  ///< number of a particle of the bond
   const Lanes* value;           ///< K_ij of the slice's rows, 0 where there is none [N/m]
   double* slip[3];              ///< per particle of the bond [m]
-  double* pull[3];              ///< [N]
 };
 
 /// Where a rigid rod carries a point X, less X itself: turn X + shift; row by row.
@@ -45,10 +44,10 @@ struct BondKernels {
   /// slip = u + ahead v - carried.
   void (*find_slips)(const BondArrays&, const Carried&, double ahead, std::size_t begin,
                      std::size_t end);
-  /// pull = K slip.
-  void (*multiply)(const BondArrays&, std::size_t begin, std::size_t end);
-  /// force becomes m/(m + square d) (force - K slip); pull is what the particles did not get of
-  /// it, and its sum is returned. `square` [s²].
+  /// slip·K slip/2 [J].
+  double (*energy)(const BondArrays&, std::size_t begin, std::size_t end);
+  /// force becomes m/(m + square d) (force - K slip); the sum of what the particles did not get of
+  /// it is returned. `square` [s²].
   Pulled (*take)(const BondArrays&, double square, std::size_t begin, std::size_t end);
 };
 

@@ -43,12 +43,13 @@ struct BondBody : Packs<Pack> {
     return {a.slip[0][particle], a.slip[1][particle], a.slip[2][particle]};
   }
 
-  static void multiply(const BondArrays& a, std::size_t begin, std::size_t end) {
+  static double energy(const BondArrays& a, std::size_t begin, std::size_t end) {
+    std::array<Pack, parts> twice{};
     for (std::size_t slice = begin; slice < end; ++slice) {
-      for (std::size_t part = 0; part < parts; ++part) {
-        store(a.pull, slice * lanes + part * width, product(a, slice, part));
-      }
+      for (std::size_t part = 0; part < parts; ++part)
+        twice[part] += dot(load(a.slip, slice * lanes + part * width), product(a, slice, part));
     }
+    return 0.5 * Base::total(twice);
   }
 
   static Pulled take(const BondArrays& a, double square, std::size_t begin, std::size_t end) {
@@ -66,7 +67,6 @@ struct BondBody : Packs<Pack> {
         const Vector taken = share * (others - product(a, slice, part));
         const Vector pull = others - taken;
         scatter(a.force, a.point + p, taken);
-        store(a.pull, p, pull);
         force[part] += pull;
         moment[part] += cross(load(a.rest, p) + gather(a.displacement, a.point + p), pull);
       }
@@ -77,7 +77,7 @@ struct BondBody : Packs<Pack> {
     return result;
   }
 
-  static constexpr BondKernels kernels{find_slips, multiply, take};
+  static constexpr BondKernels kernels{find_slips, energy, take};
 };
 
 }  // namespace fingertip::lattice::kernel

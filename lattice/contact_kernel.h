@@ -42,6 +42,7 @@ struct ContactGroup {
   Lanes rest[3];                  ///< along the grid's axes [m]
   Lanes stiffness;                ///< [N/m]
   Lanes inertia;                  ///< stiffness times Σ |weight| [N/m]
+  Lanes facing[3];  ///< outward normal times the surface it stands for, along the grid's axes [m²]
 };
 
 /// From a place along the grid's axes to one fixed to the plane: turn x + shift.
@@ -73,18 +74,35 @@ struct GroupFindings {
   bool anchored = false;      ///< any point
 };
 
+/// How a contact's patch is looked at.
+struct PatchView {
+  /// Two tangents of the plane, in its own axes; or, where displacements are small and points seen
+  /// at rest, along the grid's.
+  double tangent[2][3];
+  bool at_rest;
+  double normal[3];  ///< along the grid's axes
+};
+
+/// Sums of forces along the normal over loaded points, times places x and y along the tangents.
+struct PatchSums {
+  double force = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  double area = 0.0;  ///< times the surface that a point stands for, projected on the plane
+};
+
 /// Two calls at a time write the same place only if they are for the same group.
 struct ContactKernels {
   /// Largest speed along -normal (grid's axes) among particles with these grid indices, at least
   /// 0 [m/s].
   double (*closing)(const double* const* velocity, const double* normal,
                     const std::uint32_t* particles, std::size_t count);
-  /// Whether a point of the group will be nearer to the plane than `margin` at the end of the step.
-  /// If none is, notes where they will be.
-  bool (*look)(const ContactArrays&, double margin, std::size_t group);
+  /// The smallest gap of a group at the end of the step. Notes where its points will be unless that
+  /// is below `margin`.
+  double (*look)(const ContactArrays&, double margin, std::size_t group);
   /// Notes where the points of a group will be, brings anchors up to date and, if any tie acts,
   /// sets the group's loads.
   GroupFindings (*hold)(const ContactArrays&, Grip grip, std::size_t group);
+  /// Adds a group as it was in the last hold().
+  void (*add_up)(const ContactGroup&, const ContactMemory&, const PatchView&, PatchSums&);
 };
 
 /// For 2, 4 or 8 doubles per register, the caller makes sure that the processor has it, or 0 for

@@ -95,21 +95,50 @@ struct ContactBody : Packs<Pack> {
                                            t[6] * x.x + t[7] * x.y + t[8] * x.z};
   }
 
-  static bool look(const ContactArrays& a, double margin, std::size_t number) {
+  static double look(const ContactArrays& a, double margin, std::size_t number) {
     const ContactGroup& group = a.groups[number];
     const Corners then = corners(a, group, a.ahead);
     std::array<Vector, parts> place;
     std::array<Pack, parts> gap;
+    double least = 1e300;
     for (std::size_t part = 0; part < parts; ++part) {
       place[part] = places(group, then, a.then, part * width);
       gap[part] = dot(broadcast(a.normal), place[part]);
-      if (any_of(gap[part] < margin)) return true;
+      const double smallest = std::experimental::hmin(gap[part]);
+      least = smallest < least ? smallest : least;
     }
+    if (least < margin) return least;
     for (std::size_t part = 0; part < parts; ++part) {
       store(a.memory[number].place, part * width, place[part]);
       store(a.memory[number].gap, part * width, gap[part]);
     }
-    return false;
+    return least;
+  }
+
+  static void add_up(const ContactGroup& group, const ContactMemory& memory, const PatchView& view,
+                     PatchSums& sums) {
+    std::array<Vector, parts> first, second;
+    std::array<Pack, parts> area;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t lane = part * width;
+      const Vector at = load(view.at_rest ? group.rest : memory.place, lane);
+      const Pack x = dot(broadcast(view.tangent[0]), at), y = dot(broadcast(view.tangent[1]), at),
+                 push = load(memory.push, lane);
+      first[part] = {push, push * x, push * y};
+      second[part] = {push * x * x, push * x * y, push * y * y};
+      area[part] =
+          push * std::experimental::abs(dot(broadcast(view.normal), load(group.facing, lane)));
+    }
+    double all[6];
+    Base::total(first, all);
+    Base::total(second, all + 3);
+    sums.force += all[0];
+    sums.x += all[1];
+    sums.y += all[2];
+    sums.xx += all[3];
+    sums.xy += all[4];
+    sums.yy += all[5];
+    sums.area += Base::total(area);
   }
 
   /// The part of a tie in the plane, not longer than `longest`; its share of what it was.
@@ -248,7 +277,7 @@ struct ContactBody : Packs<Pack> {
     }
   }
 
-  static constexpr ContactKernels kernels{closing, look, hold};
+  static constexpr ContactKernels kernels{closing, look, hold, add_up};
 };
 
 }  // namespace fingertip::lattice::kernel

@@ -28,12 +28,16 @@ std::vector<std::vector<std::uint32_t>> points_by_cell(const std::vector<TiedPoi
 
 /// Lane `lane` of a group becomes this point, or if it only fills up one that is tied to nothing.
 void set_point(kernel::ContactGroup& group, std::size_t lane, const TiedPoint& tie,
-               const Vector3& rest, bool fills_up) {
+               const Eigen::Matrix3d& to_grid, bool fills_up) {
+  const Vector3 rest = to_grid * tie.rest, facing = tie.area * (to_grid * outer_normal(tie.rest));
   double size = 0.0;
   for (const double weight : tie.weights) size += std::abs(weight);
   group.stiffness.at[lane] = fills_up ? 0.0 : tie.stiffness;
   group.inertia.at[lane] = size * group.stiffness.at[lane];
-  for (std::size_t c = 0; c < 3; ++c) group.rest[c].at[lane] = rest[Eigen::Index(c)];
+  for (std::size_t c = 0; c < 3; ++c) {
+    group.rest[c].at[lane] = rest[Eigen::Index(c)];
+    group.facing[c].at[lane] = facing[Eigen::Index(c)];
+  }
   for (std::size_t c = 0; c < 8; ++c) {
     group.weight[c].at[lane] = tie.weights[c];
     group.share[lane].at[c] = tie.weights[c];
@@ -53,9 +57,8 @@ void add_group(const LatticeModel& model, const std::map<std::uint32_t, std::uin
     const bool fills_up = first + lane >= cell.size();
     const std::uint32_t point = cell[fills_up ? first : first + lane];
     const TiedPoint& tie = model.outer[point];
-    set_point(group, lane, tie, model.grid.axes.transpose() * tie.rest, fills_up);
+    set_point(group, lane, tie, model.grid.axes.transpose(), fills_up);
     shape.points.push_back(point);
-    shape.outward.push_back(outer_normal(tie.rest));
     shape.reach = std::max(shape.reach, (tie.rest - shape.centre).norm());
   }
   shape.groups.push_back(group);

@@ -16,7 +16,6 @@ namespace fingertip::lattice {
 struct ContactShape {
   std::vector<kernel::ContactGroup> groups;
   std::vector<std::uint32_t> points;     ///< numbers in model.outer, `lanes` per group
-  std::vector<meshes::Vector3> outward;  ///< outer_normal of these
   std::vector<std::uint32_t> particles;  ///< grid index per contact particle
   std::vector<meshes::Vector3> rest;     ///< of these, along the grid's axes [m]
   std::vector<std::uint8_t> bonded;      ///< 1 where the bond holds a contact particle, too

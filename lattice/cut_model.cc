@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lattice/cells/cut_tip.h"
-#include "lattice/cells/largest_modulus.h"
 
 namespace fingertip::lattice {
 
@@ -126,11 +125,8 @@ void raise_light_masses(LatticeModel& model, const CutTip& tip, double density) 
 
 /// For models whose energy is that of their cells alone (scaling/).
 void list_edges(LatticeModel& model, const CutTip& tip) {
-  const CellMaterial& m = tip.recipe.material;
-  const double largest = largest_modulus(m);
-  for (const CutCell& cell : tip.cells.cells()) {
-    model.edges.push_back(cell_edges(corner_moments(cell), m.bending / largest));
-  }
+  for (const CutCell& cell : tip.cells.cells())
+    model.edges.push_back(cell_edges(corner_moments(cell)));
 }
 
 /// From particle numbers to grid indices.

@@ -1,6 +1,9 @@
 #include "lattice/energy.h"
 
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
 #include "lattice/cells/cell_energy.h"
 
@@ -28,6 +31,20 @@ double spring_energy(const LatticeModel& model, const State& state, int s) {
   return 0.5 * model.stiffness[direction.family] * sum;
 }
 
+/// Of some blocks of points; those that are no particles have no mass.
+double kinetic_energy(const LatticeModel& model, const State& state, std::size_t first,
+                      std::size_t last) {
+  double twice[lanes] = {};
+  for (std::size_t b = first; b < last; ++b) {
+    const std::size_t p = model.blocks[b];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double *mass = model.mass.data() + p, *v = state.velocity.component[c].data() + p;
+      for (std::size_t i = 0; i < lanes; ++i) twice[i] += mass[i] * v[i] * v[i];
+    }
+  }
+  return 0.5 * std::accumulate(std::begin(twice), std::end(twice), 0.0);
+}
+
 }  // namespace
 
 double elastic_energy(const LatticeModel& model, const State& state) {
@@ -43,11 +60,19 @@ double elastic_energy(const LatticeModel& model, const State& state, Team& team)
 }
 
 double kinetic_energy(const LatticeModel& model, const State& state) {
-  double sum = 0.0;
-  for (const std::size_t i : model.particles) {
-    sum += model.mass[i] * state.velocity.at(i).squaredNorm();
-  }
-  return 0.5 * sum;
+  Team alone(1);
+  return kinetic_energy(model, state, alone);
+}
+
+double kinetic_energy(const LatticeModel& model, const State& state, Team& team) {
+  constexpr std::size_t portions = 16;  // the same for any number of threads
+  const std::size_t blocks = model.blocks.size();
+  std::array<double, portions> part{};
+  team.split(portions, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      part[p] = kinetic_energy(model, state, p * blocks / portions, (p + 1) * blocks / portions);
+  });
+  return std::accumulate(part.begin(), part.end(), 0.0);
 }
 
 Vector3 linear_momentum(const LatticeModel& model, const State& state) {

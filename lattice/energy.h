@@ -13,6 +13,7 @@ double elastic_energy(const LatticeModel& model, const State& state, Team& team)
 double elastic_energy(const LatticeModel& model, const State& state);
 
 /// Sum of ½ m v² [J].
+double kinetic_energy(const LatticeModel& model, const State& state, Team& team);
 double kinetic_energy(const LatticeModel& model, const State& state);
 
 /// Sum of m v [N s].

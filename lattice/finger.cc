@@ -93,7 +93,7 @@ Vector3 Finger::move_scaled(const Wrench* applied) {
   outer.gravity = model_->grid.axes.transpose() * gravity_;
   if (applied != nullptr) {
     outer.rod = rod_load(*applied);
-    if (now_.restraint.along.empty()) now_.restraint = scaling.restraint();
+    if (now_.restraint.share[0].empty()) now_.restraint = scaling.restraint();
     scaling.restrain(now_.state, outer.plane, team_, *accelerations_, now_.restraint);
     outer.rod->restraint = &now_.restraint;
     outer.rod->expected = expected_acceleration(*outer.rod);
@@ -216,6 +216,11 @@ void Finger::finish_step(double duration, const Wrench& plane_impulse, const Vec
                 now_.step * now_.bond.force.norm()});
   now_.plane = now_.plane.after(now_.step);
   now_.time += now_.step;
+}
+
+double Finger::kinetic_energy() const {
+  Team team = team_;  // a handle
+  return lattice::kinetic_energy(*model_, now_.state, team);
 }
 
 double Finger::elastic_energy() const {

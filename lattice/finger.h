@@ -125,6 +125,7 @@ class Finger {
   /// Impulse of the plane on the tip during the last step: [N s], and [N m s] about the world's
   /// origin.
   const Wrench& plane_impulse() const { return now_.plane_impulse; }
+  double kinetic_energy() const;  ///< of the particles [J]
   /// Elastic energy of springs, cells and surfaces [J].
   double elastic_energy() const;
   double bond_energy() const { return surfaces_->bond_energy(now_.state, now_.rod); }  ///< [J]

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lattice/energy.h"
 
 namespace fingertip::lattice {
 
@@ -97,7 +96,7 @@ void PressRecorder::add_trace(const PressInstant& now, const SetPoint& commanded
   row.force_mode = controller.mode == ControlMode::force;
   row.anchored = finger_->touching();
   row.sliding = finger_->sliding();
-  row.kinetic_energy = lattice::kinetic_energy(finger_->model(), finger_->state());
+  row.kinetic_energy = finger_->kinetic_energy();
   row.elastic_energy = finger_->elastic_energy();
   outcome_->trace.push_back(row);
   plane_impulse_ = 0.0;

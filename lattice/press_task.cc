@@ -26,7 +26,6 @@ FingerSetup finger_setup(const PressSetup& setup, const PressWay& way) {
   finger.time_step = setup.time_step;
   finger.tolerance = setup.tolerance;
   finger.energy_bound = setup.energy_bound;
-  finger.contact_change = setup.contact_change;
   finger.threads = setup.threads;
   return finger;
 }

@@ -189,11 +189,6 @@ void add_step_control(std::vector<Violation>& found, const PressSetup& setup) {
                      "the bound of energy-controlled steps must lie between 0 and 1",
                      "1e-7 is usual"});
   }
-  if (!(positive(setup.contact_change) && setup.contact_change <= 1.0)) {
-    found.push_back({"run.contact_change", meshes::to_text(setup.contact_change),
-                     "the change of the contact in a step must be above 0 and at most 1",
-                     "0.015 is usual; 1 never halves a step"});
-  }
 }
 
 }  // namespace

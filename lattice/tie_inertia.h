@@ -19,6 +19,7 @@ struct BondInertia {
 struct ContactInertia {
   std::uint32_t particle = 0;       ///< grid index
   double along = 0.0, aside = 0.0;  ///< along the plane's normal, and in the plane [kg]
+  meshes::Vector3 rest = meshes::Vector3::Zero();  ///< of the particle, along the grid's axes [m]
 };
 
 /// How the plane holds the tip, along the grid's axes.

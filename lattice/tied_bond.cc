@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace fingertip::lattice {
@@ -98,24 +99,24 @@ void TiedBond::number_particles() {
   points_.resize(filled, 0);
   mass_.resize(filled, 1.0);
   sum_.resize(filled, 0.0);
-  for (Field* field : {&rest_, &slip_, &pull_}) {
+  for (Field* field : {&rest_, &slip_}) {
     for (auto& component : *field) component.resize(filled, 0.0);
   }
   partial_.resize((slices_ + portion - 1) / portion);
+  partial_energy_.resize(partial_.size());
 }
 
 std::uint32_t TiedBond::number_of(std::uint32_t point) const {
   return std::lower_bound(numbers_.begin(), numbers_.end(), std::pair(point, 0U))->second;
 }
 
-kernel::BondArrays TiedBond::arrays(const State& state, Field& slip, Field& pull) const {
+kernel::BondArrays TiedBond::arrays(const State& state) const {
   kernel::BondArrays a{};
   for (std::size_t c = 0; c < 3; ++c) {
     a.displacement[c] = state.displacement.component[c].data();
     a.velocity[c] = state.velocity.component[c].data();
     a.rest[c] = rest_[c].data();
-    a.slip[c] = slip[c].data();
-    a.pull[c] = pull[c].data();
+    a.slip[c] = slip_[c].data();
   }
   a.point = points_.data();
   a.mass = mass_.data();
@@ -163,7 +164,7 @@ Wrench TiedBond::share(SharedLoad& load, const State& state, double square, Vect
 
 Wrench TiedBond::add(const State& state, const RodState& rod, double step, VectorField& force,
                      std::vector<SharedLoad>* shared) {
-  kernel::BondArrays all = arrays(state, slip_, pull_);
+  kernel::BondArrays all = arrays(state);
   for (std::size_t c = 0; c < 3; ++c) all.force[c] = force.component[c].data();
   const kernel::Carried motion = carried(rod, step);
   team_->split(slices_, portion, [&](std::size_t begin, std::size_t end) {
@@ -200,15 +201,18 @@ void TiedBond::list_inertia(double step, std::vector<BondInertia>& ties) const {
 }
 
 double TiedBond::energy(const State& state, const RodState& rod) const {
-  Field slip = slip_, pull = pull_;
-  const kernel::BondArrays all = arrays(state, slip, pull);
-  kernels_->find_slips(all, carried(rod, 0.0), 0.0, 0, slices_);
-  kernels_->multiply(all, 0, slices_);
-  double sum = 0.0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t p = 0; p < numbers_.size(); ++p) sum += slip[c][p] * pull[c][p];
-  }
-  return 0.5 * sum;
+  const kernel::BondArrays all = arrays(state);
+  const kernel::Carried motion = carried(rod, 0.0);
+  team_->split(slices_, portion, [&](std::size_t begin, std::size_t end) {
+    kernels_->find_slips(all, motion, 0.0, begin, end);
+  });
+  team_->split(partial_energy_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const std::size_t last = std::min(slices_, (p + 1) * portion);
+      partial_energy_[p] = kernels_->energy(all, p * portion, last);
+    }
+  });
+  return std::accumulate(partial_energy_.begin(), partial_energy_.end(), 0.0);
 }
 
 }  // namespace fingertip::lattice

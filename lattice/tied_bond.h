@@ -56,7 +56,7 @@ class TiedBond {
 
   void number_particles();
   std::uint32_t number_of(std::uint32_t point) const;  ///< of a particle of the bond
-  kernel::BondArrays arrays(const State& state, Field& slip, Field& pull) const;
+  kernel::BondArrays arrays(const State& state) const;
   kernel::Carried carried(const RodState& rod, double ahead) const;
   Wrench share(SharedLoad& load, const State& state, double square, VectorField& force);
 
@@ -72,8 +72,10 @@ class TiedBond {
   std::vector<double> sum_;   ///< d_i [N/m]
   std::vector<std::uint32_t> first_, column_;
   std::vector<kernel::Lanes> value_;     ///< K_ij [N/m]; as in kernel::BondArrays
-  Field slip_, pull_;                    ///< along the grid's axes [m], [N]
   std::vector<kernel::Pulled> partial_;  ///< of fixed portions of the slices
+  // Scratch of energy(), too: whoever asks for one must not step meanwhile.
+  mutable Field slip_;                          ///< along the grid's axes [m]
+  mutable std::vector<double> partial_energy_;  ///< of fixed portions of the slices [J]
 };
 
 }  // namespace fingertip::lattice

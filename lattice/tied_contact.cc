@@ -1,6 +1,7 @@
 #include "lattice/tied_contact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lattice/cells/contact_patch.h"
@@ -11,7 +12,8 @@ using meshes::Vector3;
 
 namespace {
 
-constexpr double most_turns = 64.0;  // steps until every point has been looked at
+constexpr double most_turns = 64.0;     // steps until every point has had its turn
+constexpr double most_turns_off = 7.0;  // that a point far away lets pass
 
 // The same for any number of threads.
 constexpr std::size_t portion = 32;         // near particles per partial sum
@@ -44,10 +46,6 @@ kernel::Grip grip_of(const ContactLaw& law) {
   }
 }
 
-Vector3 at(const kernel::Lanes* field, std::size_t lane) {
-  return {field[0].at[lane], field[1].at[lane], field[2].at[lane]};
-}
-
 }  // namespace
 
 TiedContact::TiedContact(const LatticeModel& model, const Plane& plane, const ContactLaw& law,
@@ -61,6 +59,7 @@ TiedContact::TiedContact(const LatticeModel& model, const Plane& plane, const Co
       margin_(0.5 * model.spacing()),
       memory_(shape_->groups.size()),
       is_near_(shape_->groups.size(), 0),
+      turns_off_(shape_->groups.size(), 0),
       found_(shape_->groups.size()),
       loads_(shape_->groups.size()),
       near_groups_(shape_->particles.size(), 0),
@@ -101,9 +100,16 @@ void TiedContact::look_around(const kernel::ContactArrays& arrays, std::size_t l
     for (std::size_t n = begin; n < end; ++n) {
       const std::size_t group = (first + n) % count;
       if (is_near_[group] != 0) continue;
+      if (turns_off_[group] > 0) {
+        --turns_off_[group];
+        continue;
+      }
       // Where points were when last looked at tells hold() where they crossed, had they come this
       // fast.
-      if (kernels_->look(arrays, margin_, group)) is_near_[group] = came;
+      const double gap = kernels_->look(arrays, margin_, group);
+      if (gap < margin_) is_near_[group] = came;
+      // From one turn to the next it comes nearer by half a margin at most.
+      turns_off_[group] = std::uint8_t(std::clamp(gap / margin_ - 1.0, 0.0, most_turns_off));
     }
   });
   for (std::size_t n = 0; n < looks; ++n) {
@@ -233,8 +239,8 @@ void TiedContact::list_inertia(double step, std::vector<ContactInertia>& ties) c
   const double square = step * step;
   ties.clear();
   for (const Held& held : held_) {
-    ties.push_back(
-        {shape_->particles[held.particle], square * held.stiffness, square * held.aside});
+    ties.push_back({shape_->particles[held.particle], square * held.stiffness, square * held.aside,
+                    shape_->rest[held.particle]});
   }
 }
 
@@ -257,6 +263,7 @@ double TiedContact::closing_speed(const State& state) {
 /// So many that every group has its turn before the fastest particle has come half the margin
 /// nearer.
 std::size_t TiedContact::looks_per_step(const State& state, double step) {
+  if (!(step > 0.0)) return is_near_.size();  // nobody says how far they have come
   double closing = closing_speed(state);
   // Of a moving plane toward any point: its velocity is linear in the place.
   const double turning = plane_.normal.cross(plane_.angular_velocity).norm();
@@ -266,8 +273,16 @@ std::size_t TiedContact::looks_per_step(const State& state, double step) {
   return std::size_t(double(is_near_.size()) / std::floor(turns)) + 1;
 }
 
+/// Whether the plane is elsewhere than it was to be.
+bool TiedContact::jumps(const Plane& plane) const {
+  return (plane.point - plane_.point).norm() +
+             shape_->reach * (plane.normal - plane_.normal).norm() >
+         0.1 * margin_;
+}
+
 Wrench TiedContact::add(const State& state, const Plane& plane, double step, VectorField& force,
                         std::vector<SharedLoad>* shared) {
+  if (jumps(plane)) std::fill(turns_off_.begin(), turns_off_.end(), std::uint8_t{0});
   plane_ = plane.after(step);
   const kernel::ContactArrays all = arrays(state, plane, step);
   if (!is_trial_) look_around(all, looks_per_step(state, step));
@@ -309,23 +324,40 @@ std::vector<PointLoad> TiedContact::point_loads(const State& state) const {
   return found;
 }
 
-double TiedContact::radius() const {
+kernel::PatchView TiedContact::patch_view() const {
   const Vector3 t1 = first_tangent(plane_.normal), t2 = t1.cross(plane_.normal);
-  std::vector<LoadedPoint> loaded;
-  loaded.reserve(std::size_t(touching_));
-  for (const std::uint32_t group : near_) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const double push = memory_[group].push.at[lane];
-      if (push == 0.0) continue;
-      const TiedPoint& tie = model_->outer[shape_->points[group * lanes + lane]];
-      const Vector3 place = model_->kinematics == Kinematics::finite
-                                ? plane_.turned * at(memory_[group].place, lane)
-                                : tie.rest;
-      const double facing = std::abs(shape_->outward[group * lanes + lane].dot(plane_.normal));
-      loaded.push_back({{place.dot(t1), place.dot(t2)}, push, facing * tie.area});
+  const Eigen::Matrix3d to_grid = model_->grid.axes.transpose();
+  kernel::PatchView view{};
+  view.at_rest = model_->kinematics != Kinematics::finite;
+  const Eigen::Matrix3d to_view =
+      view.at_rest ? to_grid : plane_.turned.conjugate().toRotationMatrix();
+  Vector3::Map(view.tangent[0]) = to_view * t1;
+  Vector3::Map(view.tangent[1]) = to_view * t2;
+  Vector3::Map(view.normal) = to_grid * plane_.normal;
+  return view;
+}
+
+double TiedContact::radius() const {
+  constexpr std::size_t portions = 16;  // the same for any number of threads
+  const kernel::PatchView view = patch_view();
+  std::array<kernel::PatchSums, portions> part{};
+  team_->split(portions, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const std::size_t last = (p + 1) * near_.size() / portions;
+      for (std::size_t n = p * near_.size() / portions; n < last; ++n) {
+        if (found_[near_[n]].touching == 0) continue;
+        kernels_->add_up(shape_->groups[near_[n]], memory_[near_[n]], view, part[p]);
+      }
     }
+  });
+  ForceMoments sums;
+  for (const kernel::PatchSums& p : part) {
+    sums.force += p.force;
+    sums.first += Eigen::Vector2d(p.x, p.y);
+    sums.second += (Eigen::Matrix2d() << p.xx, p.xy, p.xy, p.yy).finished();
+    sums.area += p.area;
   }
-  return contact_radius(loaded);
+  return contact_radius(sums);
 }
 
 std::vector<std::uint8_t> TiedContact::held() const {

@@ -46,7 +46,7 @@ namespace fingertip::lattice {
 /// (contact_kernel.h); then every particle collects what the groups of its cells do to it, always
 /// in the same order. Only cells with a point near the plane are looked at in every step, the
 /// others in turn, so many per step that none comes nearer unseen by more than half of what counts
-/// as near (a/2).
+/// as near (a/2); those farther away let turns pass.
 class TiedContact {
  public:
   /// Model and team must outlive it; the points must be clear of the plane. `width`: doubles per
@@ -96,6 +96,8 @@ class TiedContact {
   void list_held(std::vector<SharedLoad>* shared);
   double closing_speed(const State& state);
   std::size_t looks_per_step(const State& state, double step);
+  bool jumps(const Plane& plane) const;
+  kernel::PatchView patch_view() const;
 
   const LatticeModel* model_;
   Team* team_;
@@ -107,6 +109,7 @@ class TiedContact {
   std::vector<kernel::ContactMemory> memory_;  ///< per group
   std::vector<std::uint8_t> is_near_;          ///< per group: looked at in every step
   std::vector<std::uint32_t> near_;            ///< groups that are near, in the order they came
+  std::vector<std::uint8_t> turns_off_;        ///< per group: how many it lets pass, being far
   std::size_t next_look_ = 0;
   bool is_trial_ = false;
   std::vector<kernel::GroupFindings> found_;   ///< per group, of the last add(); nothing if far

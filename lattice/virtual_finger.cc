@@ -18,7 +18,7 @@ VirtualFinger::VirtualFinger(const FingerSetup& setup)
   finger_->set_gravity(setup.gravity);
   const double tip = setup.geometry.tip_radius;
   stepper_ = make_stepper({setup.integrator, setup.time_step, setup.tolerance, setup.energy_bound,
-                           setup.contact_change, setup.rubber.youngs_modulus * tip * tip * tip},
+                           setup.rubber.youngs_modulus * tip * tip * tip},
                           *finger_, steps_);
   if (setup.prescribed) drive_ = Motion([](double) { return RodMotion{}; });
   start_ = save();

@@ -28,7 +28,6 @@ struct FingerSetup {
   std::optional<double> time_step;  ///< largest one [s]; the largest safe one when absent
   double tolerance = 1e-6;          ///< of Integrator::runge_kutta
   double energy_bound = 1e-7;       ///< of Integrator::energy_controlled, per E R³
-  double contact_change = 0.015;    ///< of Integrator::mass_scaled, per step
   int threads = 0;                  ///< 0: all cores. The result does not depend on it.
 };
 

@@ -4,7 +4,7 @@
 
 namespace fingertip::lattice {
 
-CellEdges cell_edges(const CornerMoments& moments, double bending) {
+CellEdges cell_edges(const CornerMoments& moments) {
   constexpr std::array<Direction, 3> along{{{1, 0, 0, axis}, {0, 1, 0, axis}, {0, 0, 1, axis}}};
   CellEdges edges;
   for (std::size_t d = 0; d < 3; ++d) {
@@ -19,7 +19,8 @@ CellEdges cell_edges(const CornerMoments& moments, double bending) {
     for (std::size_t e = 0; e < 4; ++e) {
       const double w = share[e] / fraction;
       edges.mean[4 * d + e] = w;
-      edges.majorant[4 * d + e] = fraction * w * (std::sqrt(w) * roots + bending);
+      edges.majorant[4 * d + e] = fraction * w * std::sqrt(w) * roots;
+      edges.spread[4 * d + e] = fraction * w;
     }
   }
   return edges;

@@ -13,13 +13,14 @@ struct CellEdges {
   /// Shares of the rubber: the mean gradient along d is Σ_e mean_e (u_end - u_start)/a. Σ_e = 1.
   std::array<double, 12> mean{};
   /// Times a [m], edge stiffnesses [N/m] per pascal whose energy is not below that of the cell with
-  /// a law of unit stiffness for its mean gradient and a share `bending` of it for what the
-  /// gradients of its edges differ by.
+  /// a law of unit stiffness for its mean gradient,
   std::array<double, 12> majorant{};
+  /// and for what the gradients of its edges differ by.
+  std::array<double, 12> spread{};
 };
 
 /// (Σ w_e g_e)² <= Σ c_e g_e² where Σ w_e²/c_e <= 1 (Cauchy and Schwarz). Of the c_e that meet it,
 /// c_e = w_e^(3/2) Σ_f √w_f hangs little on corners that have little mass.
-CellEdges cell_edges(const CornerMoments& moments, double bending);
+CellEdges cell_edges(const CornerMoments& moments);
 
 }  // namespace fingertip::lattice

@@ -36,20 +36,22 @@ double pressure_around(const Vector2d& place, const std::vector<LoadedPoint>& po
 }  // namespace
 
 double contact_radius(const std::vector<LoadedPoint>& points) {
-  double sum = 0.0;
-  Vector2d centre = Vector2d::Zero();
+  ForceMoments sums;
   for (const LoadedPoint& p : points) {
-    sum += p.force;
-    centre += p.force * p.place;
+    sums.force += p.force;
+    sums.first += p.force * p.place;
+    sums.second += p.force * p.place * p.place.transpose();
+    sums.area += p.force * p.area;
   }
-  if (!(sum > 0.0)) return 0.0;
-  centre /= sum;
-  Matrix2d moments = Matrix2d::Zero();
-  for (const LoadedPoint& p : points) {
-    const Vector2d arm = p.place - centre;
-    const double own = p.area / (4.0 * std::numbers::pi);  // second moment of a disc
-    moments += p.force / sum * (arm * arm.transpose() + own * Matrix2d::Identity());
-  }
+  return contact_radius(sums);
+}
+
+double contact_radius(const ForceMoments& sums) {
+  if (!(sums.force > 0.0)) return 0.0;
+  const Vector2d centre = sums.first / sums.force;
+  const double own = sums.area / sums.force / (4.0 * std::numbers::pi);  // of a disc
+  const Matrix2d moments =
+      sums.second / sums.force - centre * centre.transpose() + own * Matrix2d::Identity();
   return std::pow(25.0 * std::max(moments.determinant(), 0.0), 0.25);
 }
 

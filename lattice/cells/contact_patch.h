@@ -13,6 +13,14 @@ struct LoadedPoint {
   double area = 0.0;      ///< of the surface it stands for, projected on the plane [m²]
 };
 
+/// Sums over loaded points, from which the radius follows.
+struct ForceMoments {
+  double force = 0.0;                                ///< [N]
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();   ///< Σ force place [N m]
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();  ///< Σ force place placeᵀ [N m²]
+  double area = 0.0;                                 ///< Σ force area [N m²]
+};
+
 struct ContactPatch {
   double radius = 0.0;        ///< of the circle that has the contact's area [m]
   double max_pressure = 0.0;  ///< [Pa]
@@ -37,5 +45,6 @@ ContactPatch contact_patch(std::vector<LoadedPoint> points, int sectors, double 
 /// The radius alone [m], of a whole contact: its cost grows with the number of points, that of the
 /// pressure with its square.
 double contact_radius(const std::vector<LoadedPoint>& points);
+double contact_radius(const ForceMoments& moments);
 
 }  // namespace fingertip::lattice

@@ -36,7 +36,7 @@ EnergyInstant EnergyBalance::measure(bool prescribed) {
   EnergyInstant now;
   now.dissipation = dissipation(state);
   const Finger::Trial trial = finger_->attempt(state, rod, plane, force_);
-  now.kinetic = kinetic_energy(model, state) + (prescribed ? 0.0 : rod.kinetic_energy());
+  now.kinetic = finger_->kinetic_energy() + (prescribed ? 0.0 : rod.kinetic_energy());
   now.stored = lattice::elastic_energy(model, state) + finger_->bond_energy() +
                trial.surfaces.contact_energy;
   now.endpoint = rod.endpoint();

@@ -26,8 +26,7 @@ std::unique_ptr<Stepper> make_stepper(const StepperSettings& settings, Finger& f
   switch (settings.integrator) {
     case Integrator::runge_kutta:
       return std::make_unique<RungeKutta>(finger, steps, settings.tolerance, settings.time_step);
-    case Integrator::mass_scaled:
-      return std::make_unique<MassScaledStepper>(finger, steps, settings.contact_change);
+    case Integrator::mass_scaled: return std::make_unique<MassScaledStepper>(finger, steps);
     case Integrator::energy_controlled:
       return std::make_unique<EnergyStepper>(finger, steps,
                                              settings.energy_bound * settings.energy_scale);

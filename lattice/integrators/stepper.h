@@ -72,7 +72,6 @@ struct StepperSettings {
   std::optional<double> time_step;  ///< largest one [s]
   double tolerance = 1e-6;          ///< runge_kutta.h
   double energy_bound = 1e-7;       ///< energy_stepper.h
-  double contact_change = 0.015;    ///< mass_scaled_stepper.h
   double energy_scale = 0.0;        ///< [J]
 };
 

@@ -145,8 +145,9 @@ FINGERTIP_CLONES void move_restrained(const BodyArrays& body, std::size_t begin,
     for (std::size_t c = 0; c < 3; ++c) {
       double carried[lanes];
       for (std::size_t i = 0; i < lanes; ++i) {
-        kept[c][i] = double(body.along[p + i]) * patch.to_normal[c] +
-                     double(body.aside[p + i]) * patch.across[c];
+        kept[c][i] = double(body.share[0][p + i]) * patch.part[0][c] +
+                     double(body.share[1][p + i]) * patch.part[1][c] +
+                     double(body.share[2][p + i]) * patch.part[2][c];
         carried[i] = rigid[c][i] - kept[c][i];
       }
       move_lanes(body, p, c, carried, step, momentum[c]);

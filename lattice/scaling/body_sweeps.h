@@ -21,8 +21,8 @@ struct BodyArrays {
   const Single* acceleration[3];
   const double* force[3];
   Single* load[3];
-  const Single* moves;          ///< 1 at particles, else 0
-  const Single *along, *aside;  ///< of a Restraint
+  const Single* moves;     ///< 1 at particles, else 0
+  const Single* share[3];  ///< of a Restraint
 };
 
 /// load = gain force - mass (a + w x x), motion (a, w); over the blocks from `begin` to
@@ -36,12 +36,12 @@ void sum(const BodyArrays& body, std::size_t begin, std::size_t end, double* sum
 /// u += step v; motion (a, w). Three sums: of mass v before.
 void move(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion,
           double step, double* sums);
-/// The patch's acceleration, along the plane's normal and across it.
+/// The parts of the patch's acceleration along the restraint's directions.
 struct Patch {
-  double to_normal[3], across[3];
+  double part[3][3];
 };
-/// The same, less what is kept of the patch's acceleration: the shares `along` and `aside`. Six
-/// more sums: of mass times that, and its moment.
+/// The same, less what is kept of the patch's acceleration: its shares. Six more sums: of mass
+/// times that, and its moment.
 void move_restrained(const BodyArrays& body, std::size_t begin, std::size_t end,
                      const double* motion, const Patch& patch, double step, double* sums);
 

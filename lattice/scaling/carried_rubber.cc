@@ -57,11 +57,6 @@ CarriedRubber::Scratch CarriedRubber::scratch() const {
   return {std::vector<std::array<double, 16>>((model_->blocks.size() + portion - 1) / portion)};
 }
 
-Vector3 CarriedRubber::position(std::size_t point, const State& state) const {
-  return model_->grid.axes.transpose() * model_->rest_position(point) +
-         state.displacement.at(point);
-}
-
 void CarriedRubber::load(const Vector6& motion, const std::vector<double>& gain, const State& state,
                          Team& team, const VectorField& force, MultigridFields::Field& load) const {
   sweeps::BodyArrays body = arrays(*model_, state, starts_.data());
@@ -93,7 +88,6 @@ CarriedRubber::Sums CarriedRubber::sums(const MultigridFields::Field& accelerati
 }
 
 CarriedRubber::Moved CarriedRubber::move(const Vector6& motion, const Restraint* restraint,
-                                         const Vector3& normal,
                                          const MultigridFields::Field& acceleration, double step,
                                          Team& team, Scratch& scratch, State& state) const {
   sweeps::BodyArrays body = arrays(*model_, state, starts_.data());
@@ -105,14 +99,12 @@ CarriedRubber::Moved CarriedRubber::move(const Vector6& motion, const Restraint*
   body.moves = moves_.data();
   sweeps::Patch patch{};
   if (restraint != nullptr) {
-    const Vector3 moved = motion.head<3>() + motion.tail<3>().cross(restraint->centre),
-                  to_normal = normal.dot(moved) * normal;
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      patch.to_normal[c] = to_normal[c];
-      patch.across[c] = moved[c] - to_normal[c];
+    const Vector3 moved = motion.head<3>() + motion.tail<3>().cross(restraint->centre);
+    for (std::size_t n = 0; n < 3; ++n) {
+      const Vector3& direction = restraint->directions[n];
+      Vector3::Map(patch.part[n]) = direction.dot(moved) * direction;
+      body.share[n] = restraint->share[n].data();
     }
-    body.along = restraint->along.data();
-    body.aside = restraint->aside.data();
   }
   const std::size_t blocks = model_->blocks.size();
   team.split(scratch.partial.size(), 1, [&](std::size_t begin, std::size_t end) {

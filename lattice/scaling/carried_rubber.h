@@ -42,12 +42,10 @@ class CarriedRubber {
     Vector6 kept = Vector6::Zero();  ///< what accelerates as much as is kept: [N], [N m]
   };
   /// A step of symplectic Euler with the acceleration and that of the rigid motion, less what the
-  /// restraint, if there is one, keeps of it. `normal` of the plane.
-  Moved move(const Vector6& motion, const Restraint* restraint, const meshes::Vector3& normal,
+  /// restraint, if there is one, keeps of it.
+  Moved move(const Vector6& motion, const Restraint* restraint,
              const MultigridFields::Field& acceleration, double step, Team& team, Scratch& scratch,
              State& state) const;
-  /// x of a particle.
-  meshes::Vector3 position(std::size_t point, const State& state) const;
 
  private:
   const LatticeModel* model_;

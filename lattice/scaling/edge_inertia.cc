@@ -2,133 +2,230 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
-
-#include "lattice/cells/largest_modulus.h"
-#include "lattice/scaling/sweeps.h"
 
 namespace fingertip::lattice {
 
 namespace {
 
-constexpr std::size_t grain = 16;  // packs of eight cells
+using Pack = EdgeInertiaRule::Pack;
+using Shares = EdgeInertiaRule::Shares;
+using Factors = EdgeInertiaRule::Factors;
+
+using sweeps::Eight, sweeps::read, sweeps::write;
+
+constexpr std::size_t grain = 32;  // packs of eight cells
+
+/// To the next point along x, y, z.
+using Strides = std::array<std::ptrdiff_t, 3>;
 
 /// From a cell's lowest corner to the start of edge `e` of 4 along d.
-std::ptrdiff_t edge_start(const std::array<std::ptrdiff_t, 3>& next, std::size_t d, std::size_t e) {
+[[gnu::always_inline]] inline std::ptrdiff_t edge_start(const Strides& next, std::size_t d,
+                                                        std::size_t e) {
   return std::ptrdiff_t(e & 1) * next[(d + 1) % 3] + std::ptrdiff_t(e >> 1) * next[(d + 2) % 3];
 }
 
-/// Eight deformation gradients, F[row][column].
-using Gradients = double[3][3][lanes];
+/// Of eight cells, by row and column.
+using Matrices = Eight[3][3];
+
+[[gnu::always_inline]] inline void add_size(Eight& sum, const Eight& x) {
+  sum += x < 0.0F ? -x : x;
+}
 
 /// Mean of dx/dX over a cell's rubber.
-void gather_gradients(const State& state, const std::array<std::ptrdiff_t, 3>& next,
-                      const std::uint32_t* corner, const double (&mean)[12][lanes], double spacing,
-                      Gradients& F) {
+[[gnu::always_inline]] inline void find_gradients(const double* const* displacement,
+                                                  const Strides& next, const Shares& shares,
+                                                  double per_spacing, Matrices& F) {
+  using Doubles = double __attribute__((vector_size(lanes * sizeof(double))));
   for (std::size_t row = 0; row < 3; ++row) {
-    const double* u = state.displacement.component[row].data();
     for (std::size_t d = 0; d < 3; ++d) {
-      for (std::size_t i = 0; i < lanes; ++i) F[row][d][i] = 0.0;
+      F[row][d] = Eight{} + (row == d ? 1.0F : 0.0F);
       for (std::size_t e = 0; e < 4; ++e) {
-        const std::ptrdiff_t start = edge_start(next, d, e);
-        for (std::size_t i = 0; i < lanes; ++i) {
-          const double* at = u + std::ptrdiff_t(corner[i]) + start;
-          F[row][d][i] += mean[4 * d + e][i] * (at[next[d]] - at[0]);
-        }
-      }
-      for (std::size_t i = 0; i < lanes; ++i) {
-        F[row][d][i] = F[row][d][i] / spacing + (row == d ? 1.0 : 0.0);
+        const double* start = displacement[row] + edge_start(next, d, e);
+        Doubles from, to;
+        std::memcpy(&from, start, sizeof from);
+        std::memcpy(&to, start + next[d], sizeof to);
+        Eight mean;
+        read(mean, shares.mean[4 * d + e]);
+        F[row][d] += mean * __builtin_convertvector(per_spacing * (to - from), Eight);
       }
     }
   }
 }
 
-/// J = det F, and the largest row sum of |F⁻¹ F⁻ᵀ|, which bounds its eigenvalues.
-FINGERTIP_CLONES void invert(const Gradients& F, double (&J)[lanes], double (&largest)[lanes]) {
-  Gradients cofactor;
+/// T = F⁻ᵀ, and max(J, 1/J) - 1.
+[[gnu::always_inline]] inline void invert(const Matrices& F, Matrices& T, Eight& excess) {
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-      for (std::size_t i = 0; i < lanes; ++i)
-        cofactor[r][c][i] = F[r1][c1][i] * F[r2][c2][i] - F[r1][c2][i] * F[r2][c1][i];
+      T[r][c] = F[r1][c1] * F[r2][c2] - F[r1][c2] * F[r2][c1];
     }
   }
-  double product[3][3][lanes];  // of cofactorᵀ and cofactor
-  for (std::size_t i = 0; i < lanes; ++i) {
-    J[i] = F[0][0][i] * cofactor[0][0][i] + F[0][1][i] * cofactor[0][1][i] +
-           F[0][2][i] * cofactor[0][2][i];
-    largest[i] = 0.0;
+  const Eight J = F[0][0] * T[0][0] + F[0][1] * T[0][1] + F[0][2] * T[0][2], one = Eight{} + 1.0F;
+  // A press with cells turned inside out ends with CrushedCells; till then S stays finite.
+  const Eight sound = J > 1e-3F ? J : one, inverse = one / sound;
+  excess = (sound > inverse ? sound : inverse) - one;
+  for (auto& row : T) {
+    for (Eight& entry : row) entry *= inverse;
   }
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < lanes; ++i)
-        product[r][c][i] =
-            std::abs(cofactor[0][r][i] * cofactor[0][c][i] + cofactor[1][r][i] * cofactor[1][c][i] +
-                     cofactor[2][r][i] * cofactor[2][c][i]);
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t i = 0; i < lanes; ++i)
-      largest[i] = std::max(
-          largest[i], (product[r][0][i] + product[r][1][i] + product[r][2][i]) / (J[i] * J[i]));
 }
 
-/// Bound on dt² d²W/dF²/4 and half of dt times the viscous one, over all dF [Pa s²]. Law `network`:
-/// W = G/2 (F:F - 3) - G ln J + lambda/2 ln² J, whose second derivative is G + (G - lambda ln J)
-/// dF⁻¹ dF⁻¹ + lambda F⁻ᵀ F⁻ᵀ. Not below the value at rest.
-double bound(const CellMaterial& m, double step, double J, double largest) {
-  const double elastic = 0.25 * step * step, viscous = 0.5 * step * m.retardation_time;
-  const double rest = largest_modulus(m);
-  if (m.kind == CellLawKind::cubic) return (elastic + viscous) * rest;
-  if (!(J > 0.0)) return (elastic + viscous) * rest;  // the press ends with CrushedCells
-  const double pressure = std::abs(m.shear - m.lambda * std::log(J));
-  return elastic * std::max(rest, m.shear + (pressure + 3.0 * m.lambda) * largest) +
-         viscous * rest * std::max(1.0, largest);
+/// Of |T|, and of |TᵀT|.
+struct RowSums {
+  Eight row[3], column[3], all, metric[3];
+};
+
+[[gnu::always_inline]] inline void add_up(const Matrices& T, RowSums& sums) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      add_size(sums.row[c], T[c][d]);
+      add_size(sums.column[d], T[c][d]);
+      add_size(sums.all, T[c][d]);
+      add_size(sums.metric[c], T[0][c] * T[0][d] + T[1][c] * T[1][d] + T[2][c] * T[2][d]);
+    }
+  }
+}
+
+FINGERTIP_CLONES void find_moduli(const double* const* displacement, const Strides& next,
+                                  const Shares* shares, double per_spacing, const Factors& f,
+                                  Pack* packs, std::size_t count) {
+  for (std::size_t p = 0; p < count; ++p) {
+    Pack& pack = packs[p];
+    const double* const here[3] = {displacement[0] + pack.first, displacement[1] + pack.first,
+                                   displacement[2] + pack.first};
+    Matrices F, T;
+    find_gradients(here, next, shares[pack.shares], per_spacing, F);
+    Eight excess;
+    invert(F, T, excess);
+    RowSums sums{};
+    add_up(T, sums);
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        const Eight dyad = sums.row[c] * sums.column[d];
+        Eight bulk{};
+        add_size(bulk, sums.all * T[c][d]);
+        const Eight now = f.elastic_shear * (1.0F + dyad) +
+                          f.elastic_bulk * (excess * dyad + bulk) +
+                          f.viscous_shear * (sums.metric[d] + dyad) + f.viscous_bulk * bulk,
+                    rest = Eight{} + (c == d ? f.rest_same : f.rest_other);
+        write(pack.moduli[c][d], now > rest ? now : rest);
+      }
+    }
+  }
+}
+
+/// Adds up what cells give to the edges of component c along axis d.
+FINGERTIP_CLONES void scatter(const Pack* packs, std::size_t count, const Shares* all,
+                              const Strides& next, std::size_t c, std::size_t d, Single spread,
+                              Single* edges) {
+  for (std::size_t p = 0; p < count; ++p) {
+    const Pack& pack = packs[p];
+    const Shares& shares = all[pack.shares];
+    Eight modulus;
+    read(modulus, pack.moduli[c][d]);
+    for (std::size_t e = 0; e < 4; ++e) {
+      Single* const start = edges + (std::ptrdiff_t(pack.first) + edge_start(next, d, e));
+      Eight sum, majorant, more;
+      read(sum, start);
+      read(majorant, shares.majorant[4 * d + e]);
+      read(more, shares.spread[4 * d + e]);
+      write(start, sum + (modulus * majorant + spread * more));
+    }
+  }
+}
+
+Shares whole_shares() {
+  const CellEdges edges = cell_edges({0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125});
+  Shares shares;
+  for (std::size_t e = 0; e < 12; ++e) {
+    std::fill_n(shares.mean[e], lanes, Single(edges.mean[e]));
+    std::fill_n(shares.majorant[e], lanes, Single(edges.majorant[e]));
+    std::fill_n(shares.spread[e], lanes, Single(edges.spread[e]));
+  }
+  return shares;
+}
+
+/// Of the cells from `cell` on that lie within a pack; `cell` is the next one afterwards.
+Shares take_pack(const LatticeModel& model, std::size_t& cell) {
+  const std::uint32_t first = model.cells[cell];
+  Shares shares;
+  for (; cell < model.cells.size() && model.cells[cell] < first + lanes; ++cell) {
+    const std::size_t lane = model.cells[cell] - first;
+    const CellEdges& edges = model.edges[cell];
+    for (std::size_t e = 0; e < 12; ++e) {
+      shares.mean[e][lane] = Single(edges.mean[e]);
+      shares.majorant[e][lane] = Single(edges.majorant[e]);
+      shares.spread[e][lane] = Single(edges.spread[e]);
+    }
+  }
+  return shares;
 }
 
 }  // namespace
 
 EdgeInertiaRule::EdgeInertiaRule(const LatticeModel& model)
-    : model_(&model), next_{1, model.cell_lattice.row, model.cell_lattice.plane} {
+    : model_(&model), shares_{whole_shares()} {
   if (model.edges.empty()) {
     throw std::invalid_argument("mass scaling: the model must consist of cut cells with a law");
   }
-  packs_.resize((model.cells.size() + lanes - 1) / lanes);
-  for (std::size_t cell = 0; cell < lanes * packs_.size(); ++cell) {
-    Pack& pack = packs_[cell / lanes];
-    const bool fills_up = cell >= model.cells.size();  // with a cell that has no edges
-    pack.corner[cell % lanes] = model.cells[fills_up ? 0 : cell];
-    for (std::size_t e = 0; e < 12 && !fills_up; ++e) {
-      pack.mean[e][cell % lanes] = model.edges[cell].mean[e];
-      pack.majorant[e][cell % lanes] = model.edges[cell].majorant[e];
+  for (std::size_t cell = 0; cell < model.cells.size();) {
+    Pack pack;
+    pack.first = model.cells[cell];
+    const Shares shares = take_pack(model, cell);
+    if (!(shares == shares_.front())) {
+      pack.shares = std::uint32_t(shares_.size());
+      shares_.push_back(shares);
     }
+    packs_.push_back(pack);
   }
+}
+
+/// `elastic` and `viscous`: dt²/4 and dt tau/2, with all that multiplies them.
+EdgeInertiaRule::Factors EdgeInertiaRule::factors(double elastic, double viscous) const {
+  const CellMaterial& m = model_->cell_lattice.material;
+  const double both = elastic + viscous;
+  if (m.kind == CellLawKind::cubic) {
+    Factors rest{};
+    rest.rest_same = Single(both * (std::abs(m.c11) + 2.0 * std::abs(m.c12)));
+    rest.rest_other = Single(both * 2.0 * m.c44);
+    return rest;
+  }
+  const double lambda = std::abs(m.lambda);
+  return {Single(elastic * m.shear),
+          Single(elastic * lambda),
+          Single(viscous * m.shear),
+          Single(viscous * lambda),
+          Single(both * (3.0 * lambda + 2.0 * m.shear)),
+          Single(both * 2.0 * m.shear)};
 }
 
 double EdgeInertiaRule::find(const State& state, double step, double room, Team& team,
                              EdgeInertia& edges) {
-  const CellMaterial& material = model_->cell_lattice.material;
-  const double unit = model_->spacing() * room;
+  const CellLattice& cells = model_->cell_lattice;
+  const double unit = room * cells.spacing, elastic = unit * 0.25 * step * step,
+               viscous = unit * 0.5 * step * cells.material.retardation_time;
+  const Factors now = factors(elastic, viscous);
+  const Strides next{1, cells.row, cells.plane};
+  const double* displacement[3];
+  for (std::size_t c = 0; c < 3; ++c) displacement[c] = state.displacement.component[c].data();
   team.split(packs_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      Pack& pack = packs_[p];
-      Gradients F;
-      gather_gradients(state, next_, pack.corner.data(), pack.mean, model_->spacing(), F);
-      double J[lanes], largest[lanes];
-      invert(F, J, largest);
-      for (std::size_t i = 0; i < lanes; ++i)
-        pack.stiffness[i] = unit * bound(material, step, J[i], largest[i]);
+    find_moduli(displacement, next, shares_.data(), 1.0 / cells.spacing, now, packs_.data() + begin,
+                end - begin);
+  });
+  const Single spread = Single((elastic + viscous) * cells.material.bending);
+  team.split(9, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      std::vector<Single>& edge = edges[n / 3][n % 3];
+      std::fill(edge.begin(), edge.end(), 0.0F);
+      scatter(packs_.data(), packs_.size(), shares_.data(), next, n / 3, n % 3, spread,
+              edge.data());
     }
   });
-  for (auto& edge : edges) std::fill(edge.begin(), edge.end(), 0.0);
+  constexpr std::size_t some = 8;  // are enough to measure it
   double sum = 0.0;
-  for (const Pack& pack : packs_) {
-    for (const double stiffness : pack.stiffness) sum += stiffness;
-    for (std::size_t d = 0; d < 3; ++d) {
-      for (std::size_t e = 0; e < 4; ++e) {
-        double* const start = edges[d].data() + edge_start(next_, d, e);
-        for (std::size_t i = 0; i < lanes; ++i)
-          start[pack.corner[i]] += pack.stiffness[i] * pack.majorant[4 * d + e][i];
-      }
-    }
+  for (std::size_t p = 0; p < packs_.size(); p += some) {
+    for (std::size_t c = 0; c < 3; ++c) sum += double(packs_[p].moduli[c][c][0]);
   }
   return sum;
 }

@@ -79,16 +79,14 @@ void connect(GridLevel& fine, const GridLevel& coarse) {
   std::vector<std::uint8_t> marked(fine.sheet_points, 0);
   for (const std::uint32_t block : fine.blocks) {
     const auto [x, y, z] = place(fine, block);
-    std::array<std::uint32_t, 4> parents{}, rows{};
+    std::array<std::uint32_t, 4> parents{};
     for (std::size_t n = 0; n < 4; ++n) {
       const int j = around(y)[n & 1], k = around(z)[n >> 1];
-      rows[n] = std::uint32_t(point(coarse.size, 0, j, k));
       parents[n] = std::uint32_t(point(sheet, x, j, k));
       for (std::uint32_t i = 0; i < lanes; ++i)
         if (fine.is_node[block + i] != 0) marked[parents[n] + i] = 1;
     }
     fine.parents.push_back(parents);
-    fine.coarse_rows.push_back(rows);
   }
   for (const std::uint32_t first : runs(marked)) {
     const int x = int(first) % sheet[0], y = int(first) / sheet[0] % sheet[1],

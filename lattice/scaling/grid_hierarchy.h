@@ -29,9 +29,6 @@ struct GridLevel {
   std::vector<SheetBlock> sheet_blocks;  ///< cover what the nodes are restricted to
   std::vector<std::uint32_t>
       coarser_sheets;  ///< per block of the coarser grid: 2i - 1 on the sheet
-  /// Per block: the rows of the coarser grid that `parents` are, where they start; the first two at
-  /// the lower z, the first and third at the lower y.
-  std::vector<std::array<std::uint32_t, 4>> coarse_rows;
 
   std::size_t points() const { return is_node.size(); }
 };

@@ -28,31 +28,46 @@ bool serves(const Restraint::Ground& then, const Restraint::Ground& now, double 
          then.normal.dot(now.normal) > turned;
 }
 
+/// Keeps the other directions as near to what they were as a normal lets them.
+void turn(Restraint& restraint, const Vector3& normal) {
+  auto& [along, across, beside] = restraint.directions;
+  along = normal;
+  across = (across - normal.dot(across) * normal).normalized();
+  beside = normal.cross(across);
+}
+
 }  // namespace
 
 ScalingGround::ScalingGround(const LatticeModel& lattice)
     : model(&lattice),
       hierarchy(std::make_shared<GridHierarchy>(lattice)),
       rubber(lattice),
-      rule(lattice) {
-  for (auto& edge : edges) edge.assign(lattice.points(), 0.0);
-}
+      rule(lattice) {}
 
 MassScaling::MassScaling(std::shared_ptr<ScalingGround> ground)
     : ground_(std::move(ground)),
       inertia_(ground_->model->mass),
-      gain_(inertia_.size(), 0.0),
-      grids_(ground_->hierarchy) {}
+      gain_(ground_->model->is_particle.begin(), ground_->model->is_particle.end()),
+      grids_(ground_->hierarchy) {
+  tied_.reserve(ground_->model->particles.size());
+}
 
 void MassScaling::make(const State& state, std::span<const BondInertia> bond, double step,
                        Team& team, double room) {
-  inertia_ = ground_->model->mass;
-  for (const BondInertia& tie : bond) inertia_[tie.particle] += tie.inertia;
-  for (std::size_t p = 0; p < gain_.size(); ++p)
-    gain_[p] = inertia_[p] * ground_->model->inverse_mass[p];
+  const LatticeModel& model = *ground_->model;
+  for (const std::uint32_t p : tied_) {
+    inertia_[p] = model.mass[p];
+    gain_[p] = 1.0;
+  }
+  tied_.clear();
+  for (const BondInertia& tie : bond) {
+    inertia_[tie.particle] += tie.inertia;
+    tied_.push_back(tie.particle);
+  }
+  for (const std::uint32_t p : tied_) gain_[p] = inertia_[p] * model.inverse_mass[p];
   step_ = step;
-  sum_of_edges_ = ground_->rule.find(state, step, room, team, ground_->edges);
-  grids_.set(ground_->edges, inertia_);
+  sum_of_edges_ = ground_->rule.find(state, step, room, team, grids_.finest_edges());
+  grids_.set(inertia_, team);
 }
 
 AccelerationFields MassScaling::fields() const {
@@ -61,8 +76,7 @@ AccelerationFields MassScaling::fields() const {
 
 Restraint MassScaling::restraint() const {
   Restraint none;
-  none.along.assign(inertia_.size(), 0.0F);
-  none.aside.assign(inertia_.size(), 0.0F);
+  for (auto& share : none.share) share.assign(inertia_.size(), 0.0F);
   return none;
 }
 
@@ -78,7 +92,7 @@ void MassScaling::restrain(const State& state, const PlaneHold& plane, Team& tea
   for (const ContactInertia& tie : plane.ties) {
     now.along += tie.along;
     now.aside += tie.aside;
-    now.patch += tie.along * ground_->model->rest_position(tie.particle);
+    now.patch += tie.along * tie.rest;
   }
   restraint.holds = now.along > 0.0;
   if (!restraint.holds) return;
@@ -89,27 +103,33 @@ void MassScaling::restrain(const State& state, const PlaneHold& plane, Team& tea
     find_shares(plane, team, fields, restraint);
     restraint.found = now;
   }
+  turn(restraint, now.normal);
   find_inertia(state, plane, restraint);
 }
 
-/// B C of unit accelerations along the normal and, at the same time, across it: the plane's ties
-/// are what couples directions, and not these two.
+/// B C of unit accelerations along the normal and both ways across it, all at the same time: the
+/// plane's ties are what couples directions, and not these (nor does S, if they are along the
+/// grid's axes).
 void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFields& fields,
                               Restraint& restraint) const {
   MultigridFields::Level& finest = fields.grids.levels.front();
-  const Vector3 normal = plane.normal, across = normal.unitOrthogonal();
+  Eigen::Index axis = 0;
+  plane.normal.cwiseAbs().minCoeff(&axis);
+  restraint.directions[1] = Vector3::Unit(axis);
+  turn(restraint, plane.normal);
+  const auto& [normal, across, beside] = restraint.directions;
   set_contact(plane, finest);
   for (auto& component : finest.load) std::fill(component.begin(), component.end(), 0.0F);
   for (const ContactInertia& tie : plane.ties) {
-    const Vector3 taken = tie.along * normal + tie.aside * across;
+    const Vector3 taken = tie.along * normal + tie.aside * (across + beside);
     for (std::size_t c = 0; c < 3; ++c)
       finest.load[c][tie.particle] = Single(taken[Eigen::Index(c)]);
   }
   grids_.solve(normal, team, fields.grids);
   for (const std::uint32_t p : ground_->model->particles) {
     const Vector3 follows = at(finest.solution, p);
-    restraint.along[p] = Single(std::clamp(normal.dot(follows), 0.0, 1.0));
-    restraint.aside[p] = Single(std::clamp(across.dot(follows), 0.0, 1.0));
+    for (std::size_t n = 0; n < 3; ++n)
+      restraint.share[n][p] = Single(std::clamp(restraint.directions[n].dot(follows), 0.0, 1.0));
   }
 }
 
@@ -117,23 +137,23 @@ void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFi
 /// and turned about its centre by C.
 void MassScaling::find_inertia(const State& state, const PlaneHold& plane,
                                Restraint& restraint) const {
-  const Eigen::Matrix3d along = plane.normal * plane.normal.transpose(),
-                        aside = Eigen::Matrix3d::Identity() - along;
-  Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
+  Vector3 left = Vector3::Zero();  // along the restraint's directions
   restraint.centre.setZero();
   double sum = 0.0;
   for (const ContactInertia& tie : plane.ties) {
-    whole += tie.along * (1.0 - double(restraint.along[tie.particle])) * along +
-             tie.aside * (1.0 - double(restraint.aside[tie.particle])) * aside;
-    restraint.centre += tie.along * ground_->rubber.position(tie.particle, state);
+    const double inertia[3] = {tie.along, tie.aside, tie.aside};
+    for (std::size_t n = 0; n < 3; ++n)
+      left[Eigen::Index(n)] += inertia[n] * (1.0 - double(restraint.share[n][tie.particle]));
+    restraint.centre += tie.along * (tie.rest + state.displacement.at(tie.particle));
     sum += tie.along;
   }
   restraint.centre /= sum;
-  const Eigen::Matrix<double, 3, 6> shifted = rigid_motion(restraint.centre);
-  restraint.inertia = shifted.transpose() * whole * shifted;
-  Eigen::Matrix3d turned = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d along, turned = Eigen::Matrix3d::Zero();
+  for (std::size_t n = 0; n < 3; ++n) along.col(Eigen::Index(n)) = restraint.directions[n];
+  const Eigen::Matrix<double, 3, 6> shifted = along.transpose() * rigid_motion(restraint.centre);
+  restraint.inertia = shifted.transpose() * left.asDiagonal() * shifted;
   for (const ContactInertia& tie : plane.ties) {
-    const Vector3 arm = ground_->rubber.position(tie.particle, state) - restraint.centre,
+    const Vector3 arm = tie.rest + state.displacement.at(tie.particle) - restraint.centre,
                   tilt = arm.cross(plane.normal);  // the normal part of w x arm is w . tilt
     turned += tie.aside * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
     turned += (tie.along - tie.aside) * tilt * tilt.transpose();
@@ -171,7 +191,8 @@ Reactions MassScaling::accelerate(const State& state, const OuterLoads& outer,
   for (const ContactInertia& tie : outer.plane.ties) {
     const std::size_t i = tie.particle;
     const Vector3 change = at(finest.solution, i) - inverse_mass[i] * force.at(i);
-    reactions.plane -= acting_at(rubber.position(i, state), outer.plane.taken(tie, change));
+    reactions.plane -=
+        acting_at(tie.rest + state.displacement.at(i), outer.plane.taken(tie, change));
   }
   const CarriedRubber::Sums sums = rubber.sums(finest.solution, state, team, fields.carried);
   const Vector6 on_rubber =
@@ -193,9 +214,8 @@ CarriedRubber::Moved MassScaling::move(State& state, const OuterLoads& outer,
                                        AccelerationFields& fields) const {
   const Restraint* restraint = outer.rod ? outer.rod->restraint : nullptr;
   if (restraint && !restraint->holds) restraint = nullptr;
-  return ground_->rubber.move(reactions.rod, restraint, outer.plane.normal,
-                              fields.grids.levels.front().solution, step_, team, fields.carried,
-                              state);
+  return ground_->rubber.move(reactions.rod, restraint, fields.grids.levels.front().solution, step_,
+                              team, fields.carried, state);
 }
 
 }  // namespace fingertip::lattice

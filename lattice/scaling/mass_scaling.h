@@ -24,7 +24,6 @@ struct ScalingGround {
   std::shared_ptr<const GridHierarchy> hierarchy;
   CarriedRubber rubber;
   EdgeInertiaRule rule;
-  EdgeInertia edges;  ///< scratch
 
   /// Throws as EdgeInertiaRule does.
   explicit ScalingGround(const LatticeModel& model);
@@ -97,7 +96,7 @@ class MassScaling {
   /// For steps of `step` [s] > 0 from `state` on, while cells stiffen by less than `room`, with
   /// particles bonded to the rod like `bond`. Allocates nothing.
   void make(const State& state, std::span<const BondInertia> bond, double step, Team& team,
-            double room = 1.3);
+            double room = 1.1);
   double step() const { return step_; }  ///< of the last make() [s]; 0 before
 
   AccelerationFields fields() const;
@@ -126,8 +125,9 @@ class MassScaling {
                 const PlaneHold& plane, Team& team, MultigridFields::Level& finest) const;
 
   std::shared_ptr<ScalingGround> ground_;
-  std::vector<double> inertia_;  ///< per point: mass and bond [kg]
-  std::vector<double> gain_;     ///< that over the mass
+  std::vector<double> inertia_;      ///< per point: mass and bond [kg]
+  std::vector<double> gain_;         ///< that over the mass; 0 where no particle is
+  std::vector<std::uint32_t> tied_;  ///< particles of the bond
   Multigrid grids_;
   double step_ = 0.0, sum_of_edges_ = 0.0;
 };

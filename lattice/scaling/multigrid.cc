@@ -9,8 +9,9 @@ namespace fingertip::lattice {
 namespace {
 
 constexpr std::size_t grain = 64;  // blocks of eight points
+constexpr std::size_t contact_grain = 128;
 /// Of Jacobi's sweeps, on S alone: where it is small the sweeps are exact.
-constexpr Single damping = 1.5F;
+constexpr Single damping = 1.3F;
 constexpr int last_sweeps = 8;  // on the coarsest grid; even, so that B <= A⁻¹
 
 MultigridFields::Field field(std::size_t points) {
@@ -52,6 +53,27 @@ void share_contact(const GridLevel& fine, const GridLevel& coarse,
   }
 }
 
+/// What a coarse point (or, along its own axis, edge) gets of the fine ones around 2i - 1.
+constexpr std::array<Single, 3> of_points{0.5F, 1.0F, 0.5F}, of_edges{0.0F, 1.0F, 1.0F};
+
+/// `axis`: of edges; 3 for what points have.
+void coarsen(const GridLevel& fine_grid, const GridLevel& coarse_grid,
+             const std::vector<Single>& fine, std::size_t axis, std::vector<Single>& sheet,
+             std::vector<Single>& coarse) {
+  sweeps::Shares shares{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto& along = d == axis ? of_edges : of_points;
+    std::copy(along.begin(), along.end(), shares.along[d]);
+  }
+  shares.next[0] = fine_grid.next[1];
+  shares.next[1] = fine_grid.next[2];
+  shares.all = axis < 3 ? 0.25F : 1.0F;
+  sweeps::share_across(shares, fine.data(), fine_grid.sheet_blocks.data(),
+                       fine_grid.sheet_blocks.size(), sheet.data());
+  sweeps::share_along(shares, sheet.data(), fine_grid.coarser_sheets.data(),
+                      coarse_grid.blocks.data(), coarse_grid.blocks.size(), coarse.data());
+}
+
 }  // namespace
 
 MultigridFields::MultigridFields(const GridHierarchy& hierarchy) {
@@ -72,64 +94,52 @@ Multigrid::Multigrid(std::shared_ptr<const GridHierarchy> hierarchy)
     : hierarchy_(std::move(hierarchy)) {
   for (const GridLevel& level : hierarchy_->levels()) {
     Matrix matrix;
-    for (auto& edge : matrix.edge) edge.assign(level.points(), 0.0F);
+    matrix.edge.fill(field(level.points()));
     matrix.inertia.assign(level.points(), 0.0F);
-    matrix.diagonal.assign(level.points(), 0.0F);
-    matrix.relaxation.assign(level.points(), 0.0F);
+    matrix.relaxation = field(level.points());
+    for (auto& sheet : matrix.sheets) sheet.assign(level.sheet_points, 0.0F);
     matrices_.push_back(std::move(matrix));
   }
 }
 
-void Multigrid::set(const std::array<std::vector<double>, 3>& edges,
-                    const std::vector<double>& inertia) {
-  Matrix& finest = matrices_.front();
-  for (std::size_t d = 0; d < 3; ++d)
-    std::copy(edges[d].begin(), edges[d].end(), finest.edge[d].begin());
-  std::copy(inertia.begin(), inertia.end(), finest.inertia.begin());
+void Multigrid::set(const std::vector<double>& inertia, Team& team) {
+  std::copy(inertia.begin(), inertia.end(), matrices_.front().inertia.begin());
   for (std::size_t level = 0; level < matrices_.size(); ++level) {
-    finish(level);
-    if (level + 1 < matrices_.size()) coarsen(level);
+    finish(level, team);
+    if (level + 1 < matrices_.size()) coarsen(level, team);
   }
 }
 
-void Multigrid::finish(std::size_t level) {
+void Multigrid::finish(std::size_t level, Team& team) {
   const GridLevel& grid = hierarchy_->levels()[level];
   Matrix& matrix = matrices_[level];
-  for (const std::uint32_t block : grid.blocks) {
-    for (std::size_t p = block; p < block + lanes; ++p) {
-      if (grid.is_node[p] == 0) continue;
-      Single sum = 0.0F;
-      for (std::size_t d = 0; d < 3; ++d)
-        sum += matrix.edge[d][p] + matrix.edge[d][p - std::size_t(grid.next[d])];
-      matrix.diagonal[p] = sum;
-      matrix.relaxation[p] = 1.0F / (matrix.inertia[p] + damping * sum);
-    }
+  sweeps::RelaxationArrays a{};
+  a.inertia = matrix.inertia.data();
+  a.damping = damping;
+  for (std::size_t c = 0; c < 3; ++c) {
+    a.relaxation[c] = matrix.relaxation[c].data();
+    for (std::size_t d = 0; d < 3; ++d) a.edge[c][d] = matrix.edge[c][d].data();
   }
+  std::copy(grid.next.begin(), grid.next.end(), a.next);
+  team.split(grid.blocks.size(), grain, [&](std::size_t from, std::size_t to) {
+    sweeps::find_relaxation(a, grid.blocks.data() + from, to - from);
+  });
 }
 
 /// Of the two points below and above on an axis, which may be the same, each gets half.
-void Multigrid::coarsen(std::size_t level) {
-  const GridLevel& grid = hierarchy_->levels()[level];
-  const Matrix& fine = matrices_[level];
-  Matrix& coarse = matrices_[level + 1];
-  for (auto& edge : coarse.edge) std::fill(edge.begin(), edge.end(), 0.0F);
-  std::fill(coarse.inertia.begin(), coarse.inertia.end(), 0.0F);
-  for (std::size_t b = 0; b < grid.blocks.size(); ++b) {
-    const auto& rows = grid.coarse_rows[b];
-    const std::size_t first = grid.blocks[b], start = first % std::size_t(grid.size[0]);
-    for (std::size_t i = 0; i < lanes; ++i) {
-      const std::size_t p = first + i, below = (start + i + 1) / 2, above = (start + i) / 2 + 1;
-      const Single inertia = 0.125F * fine.inertia[p], x = 0.0625F * fine.edge[0][p],
-                   y = 0.0625F * fine.edge[1][p], z = 0.0625F * fine.edge[2][p];
-      for (std::size_t n = 0; n < 4; ++n) {
-        coarse.inertia[rows[n] + below] += inertia;
-        coarse.inertia[rows[n] + above] += inertia;
-        coarse.edge[0][rows[n] + below] += x;
-        coarse.edge[1][rows[n & 2] + (n & 1 ? above : below)] += y;
-        coarse.edge[2][rows[n & 1] + (n & 2 ? above : below)] += z;
+void Multigrid::coarsen(std::size_t level, Team& team) {
+  const GridLevel &grid = hierarchy_->levels()[level], &coarser = hierarchy_->levels()[level + 1];
+  Matrix &fine = matrices_[level], &coarse = matrices_[level + 1];
+  team.split(10, 1, [&](std::size_t from, std::size_t to) {
+    for (std::size_t n = from; n < to; ++n) {
+      const std::size_t c = n / 3, d = n % 3;
+      if (n == 9) {
+        lattice::coarsen(grid, coarser, fine.inertia, 3, fine.sheets[n], coarse.inertia);
+      } else {
+        lattice::coarsen(grid, coarser, fine.edge[c][d], d, fine.sheets[n], coarse.edge[c][d]);
       }
     }
-  }
+  });
 }
 
 /// Of one level, for one solve.
@@ -160,13 +170,13 @@ class Multigrid::Cycle {
                                     MultigridFields::Level& fields) {
     sweeps::LevelArrays a{};
     for (std::size_t c = 0; c < 3; ++c) {
-      a.edge[c] = matrix.edge[c].data();
+      for (std::size_t d = 0; d < 3; ++d) a.edge[c][d] = matrix.edge[c][d].data();
+      a.relaxation[c] = matrix.relaxation[c].data();
       a.load[c] = fields.load[c].data();
     }
     point_to(fields.solution, a.solution);
     point_to(fields.residual, a.residual);
     a.inertia = matrix.inertia.data();
-    a.relaxation = matrix.relaxation.data();
     a.next[0] = grid.next[1];
     a.next[1] = grid.next[2];
     return a;
@@ -177,10 +187,19 @@ class Multigrid::Cycle {
     team_->split(count, grain, loop);
   }
 
-  /// A damped Jacobi step at a contact's point.
+  /// Points of the contact are all different.
+  template <typename Body>
+  void over_contact(const MultigridFields::Level& fields, const Body& body) {
+    team_->split(fields.contact.size(), contact_grain, [&](std::size_t from, std::size_t to) {
+      for (std::size_t n = from; n < to; ++n) body(fields.contact[n]);
+    });
+  }
+
+  /// A damped Jacobi step at a contact's point, the same for all directions of the rubber.
   std::array<Single, 3> relaxed(const Matrix& matrix, const PointTie& one,
                                 const std::array<Single, 3>& residual) const {
-    const Single rubber = matrix.inertia[one.point] + damping * matrix.diagonal[one.point];
+    const auto share = at(matrix.relaxation, one.point);
+    const Single rubber = 1.0F / std::min({share[0], share[1], share[2]});
     return product(residual, 1.0F / (rubber + one.along), 1.0F / (rubber + one.aside));
   }
 
@@ -198,8 +217,9 @@ class Multigrid::Cycle {
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
       sweeps::first_sweep(a, grid.blocks.data() + from, to - from);
     });
-    for (const PointTie& one : fields.contact)
+    over_contact(fields, [&](const PointTie& one) {
       put(fields.solution, one.point, relaxed(matrix, one, at(fields.load, one.point)));
+    });
   }
 
   void find_residual(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
@@ -207,10 +227,10 @@ class Multigrid::Cycle {
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
       sweeps::find_residual(a, grid.blocks.data() + from, to - from);
     });
-    for (const PointTie& one : fields.contact) {
+    over_contact(fields, [&](const PointTie& one) {
       const auto taken = product(at(fields.solution, one.point), one.along, one.aside);
       for (std::size_t c = 0; c < 3; ++c) fields.residual[c][one.point] -= taken[c];
-    }
+    });
   }
 
   void smooth(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
@@ -218,16 +238,16 @@ class Multigrid::Cycle {
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
       sweeps::smooth(a, grid.blocks.data() + from, to - from);
     });
-    for (const PointTie& one : fields.contact) {
+    over_contact(fields, [&](const PointTie& one) {
       const auto before = at(fields.solution, one.point), plain = at(fields.residual, one.point);
       const auto taken = product(before, one.along, one.aside);
       std::array<Single, 3> residual{};
       for (std::size_t c = 0; c < 3; ++c)
-        residual[c] = (plain[c] - before[c]) / matrix.relaxation[one.point] - taken[c];
+        residual[c] = (plain[c] - before[c]) / matrix.relaxation[c][one.point] - taken[c];
       const auto step = relaxed(matrix, one, residual);
       put(fields.residual, one.point,
           {before[0] + step[0], before[1] + step[1], before[2] + step[2]});
-    }
+    });
     std::swap(fields.solution, fields.residual);
   }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lattice/parallel.h"
+#include "lattice/scaling/edge_inertia.h"
 #include "lattice/scaling/grid_hierarchy.h"
 #include "lattice/scaling/sweeps.h"
 #include "lattice/state.h"
@@ -33,9 +34,9 @@ struct MultigridFields {
   explicit MultigridFields(const GridHierarchy& hierarchy);
 };
 
-/// A = D + S on the finest grid: D a diagonal inertia, S u·u = Σ_edges c (u_i - u_j)², the same for
-/// the three components of a vector. solve() is one V-cycle with one damped Jacobi sweep before and
-/// after, from zero: a fixed symmetric matrix B > 0.
+/// A = D + S on the finest grid: D a diagonal inertia, S u·u = Σ_edges c (u_i - u_j)², with its own
+/// c for each of the three components of a vector. solve() is one V-cycle with one damped Jacobi
+/// sweep before and after, from zero: a fixed symmetric matrix B > 0.
 ///
 /// B <= A⁻¹ (as quadratic forms), because every coarser matrix is not below the Galerkin product Pᵀ
 /// A P of the finer: the difference along a fine edge is a mean of differences along coarse ones,
@@ -50,9 +51,10 @@ class Multigrid {
   /// Of zero matrices.
   explicit Multigrid(std::shared_ptr<const GridHierarchy> hierarchy);
 
-  /// `edges`: c of the edge from a point to the next along each axis [kg]; `inertia` per point
-  /// [kg], positive at nodes.
-  void set(const std::array<std::vector<double>, 3>& edges, const std::vector<double>& inertia);
+  /// The c of the finest grid, to be written before set().
+  EdgeInertia& finest_edges() { return matrices_.front().edge; }
+  /// `inertia` D per point [kg], positive at nodes.
+  void set(const std::vector<double>& inertia, Team& team);
 
   /// levels[0].solution = B levels[0].load; load, 0 where no node is, and levels[0].contact have
   /// been set.
@@ -60,15 +62,16 @@ class Multigrid {
   void solve(const meshes::Vector3& normal, Team& team, MultigridFields& fields) const;
 
  private:
+  using Field = MultigridFields::Field;
   struct Matrix {
-    std::array<std::vector<Single>, 3> edge;
-    std::vector<Single> inertia;     ///< D
-    std::vector<Single> relaxation;  ///< 1/(D + 3/2 of S's diagonal)
-    std::vector<Single> diagonal;    ///< of S
+    EdgeInertia edge;
+    std::vector<Single> inertia;                 ///< D
+    Field relaxation;                            ///< 1/(D + 13/10 of S's diagonal)
+    std::array<std::vector<Single>, 10> sheets;  ///< scratch: of the nine kinds of edges, and D
   };
   class Cycle;
-  void finish(std::size_t level);
-  void coarsen(std::size_t level);
+  void finish(std::size_t level, Team& team);
+  void coarsen(std::size_t level, Team& team);
 
   std::shared_ptr<const GridHierarchy> hierarchy_;
   std::vector<Matrix> matrices_;

@@ -1,6 +1,7 @@
 /// How far the plane keeps the rubber from following the rod.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "lattice/rod.h"
@@ -15,7 +16,11 @@ using sweeps::Single;
 /// it. Nothing is kept of how the rod turns about the patch: S does not resist that, and the patch
 /// little.
 struct Restraint {
-  std::vector<Single> along, aside;  ///< per point: along the plane's normal, and in the plane
+  std::array<std::vector<Single>, 3> share;  ///< per point, for `directions`
+
+  /// Unit vectors: the plane's normal, and two in the plane, as near to the grid's axes as may be,
+  /// for S is another for each of them.
+  std::array<meshes::Vector3, 3> directions{};
 
   // Of the present step.
   bool holds = false;                                ///< whether there is any

@@ -9,8 +9,8 @@ namespace fingertip::lattice::sweeps {
 FINGERTIP_CLONES void first_sweep(const LevelArrays& level, const std::uint32_t* blocks,
                                   std::size_t count) {
   for (std::size_t b = 0; b < count; ++b) {
-    const Single* relaxation = level.relaxation + blocks[b];
     for (std::size_t c = 0; c < 3; ++c) {
+      const Single* relaxation = level.relaxation[c] + blocks[b];
       const Single* load = level.load[c] + blocks[b];
       Single result[lanes];
       for (std::size_t i = 0; i < lanes; ++i) result[i] = relaxation[i] * load[i];
@@ -25,8 +25,8 @@ namespace {
 [[gnu::always_inline]] inline void residual_of(const LevelArrays& level, std::size_t c,
                                                std::size_t first, Single (&result)[lanes]) {
   const std::ptrdiff_t y = level.next[0], z = level.next[1];
-  const Single *right = level.edge[0] + first, *up = level.edge[1] + first,
-               *far = level.edge[2] + first, *inertia = level.inertia + first;
+  const Single *right = level.edge[c][0] + first, *up = level.edge[c][1] + first,
+               *far = level.edge[c][2] + first, *inertia = level.inertia + first;
   const Single *from = level.solution[c] + first, *load = level.load[c] + first;
   for (std::size_t i = 0; i < lanes; ++i) {
     const Single* u = from + i;
@@ -54,14 +54,65 @@ FINGERTIP_CLONES void find_residual(const LevelArrays& level, const std::uint32_
 FINGERTIP_CLONES void smooth(const LevelArrays& level, const std::uint32_t* blocks,
                              std::size_t count) {
   for (std::size_t b = 0; b < count; ++b) {
-    const Single* relaxation = level.relaxation + blocks[b];
     for (std::size_t c = 0; c < 3; ++c) {
+      const Single* relaxation = level.relaxation[c] + blocks[b];
       const Single* from = level.solution[c] + blocks[b];
       Single result[lanes];
       residual_of(level, c, blocks[b], result);
       for (std::size_t i = 0; i < lanes; ++i) result[i] = from[i] + relaxation[i] * result[i];
       std::copy(result, result + lanes, level.residual[c] + blocks[b]);
     }
+  }
+}
+
+FINGERTIP_CLONES void find_relaxation(const RelaxationArrays& level, const std::uint32_t* blocks,
+                                      std::size_t count) {
+  for (std::size_t b = 0; b < count; ++b) {
+    const std::size_t p = blocks[b];
+    for (std::size_t c = 0; c < 3; ++c) {
+      Single result[lanes] = {};
+      for (std::size_t d = 0; d < 3; ++d) {
+        const Single* edge = level.edge[c][d] + p;
+        for (std::size_t i = 0; i < lanes; ++i)
+          result[i] += edge[i] + edge[std::ptrdiff_t(i) - level.next[d]];
+      }
+      for (std::size_t i = 0; i < lanes; ++i) {
+        const Single inertia = level.inertia[p + i];
+        result[i] = inertia > 0.0F ? 1.0F / (inertia + level.damping * result[i]) : 0.0F;
+      }
+      std::copy(result, result + lanes, level.relaxation[c] + p);
+    }
+  }
+}
+
+FINGERTIP_CLONES void share_across(const Shares& shares, const Single* fine,
+                                   const GridLevel::SheetBlock* blocks, std::size_t count,
+                                   Single* sheet) {
+  for (std::size_t b = 0; b < count; ++b) {
+    Eight sum = {};
+    for (std::ptrdiff_t z = -1; z <= 1; ++z) {
+      for (std::ptrdiff_t y = -1; y <= 1; ++y) {
+        Eight row;
+        read(row, fine + (std::ptrdiff_t(blocks[b].row) + y * shares.next[0] + z * shares.next[1]));
+        sum += shares.along[1][y + 1] * shares.along[2][z + 1] * row;
+      }
+    }
+    write(sheet + blocks[b].sheet, sum);
+  }
+}
+
+FINGERTIP_CLONES void share_along(const Shares& shares, const Single* sheet,
+                                  const std::uint32_t* sheets, const std::uint32_t* coarse_blocks,
+                                  std::size_t count, Single* coarse) {
+  const Single *along = shares.along[0], all = shares.all;
+  for (std::size_t b = 0; b < count; ++b) {
+    const Single* from = sheet + sheets[b];
+    Single result[lanes];
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const Single* at = from + 2 * i;
+      result[i] = all * (along[0] * at[-1] + along[1] * at[0] + along[2] * at[1]);
+    }
+    std::copy(result, result + lanes, coarse + coarse_blocks[b]);
   }
 }
 

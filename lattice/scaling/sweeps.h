@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "lattice/scaling/grid_hierarchy.h"
 
@@ -16,11 +17,22 @@ namespace fingertip::lattice::sweeps {
 /// double precision by who asks for it (mass_scaling.h).
 using Single = float;
 
+/// Eight of them, for long chains of arithmetic that the compiler does not vectorise by itself;
+/// handed on by reference only, for without AVX there is no register of that size.
+using Eight = Single __attribute__((vector_size(lanes * sizeof(Single))));
+
+[[gnu::always_inline]] inline void read(Eight& to, const Single* from) {
+  std::memcpy(&to, from, sizeof to);
+}
+[[gnu::always_inline]] inline void write(Single* to, const Eight& from) {
+  std::memcpy(to, &from, sizeof from);
+}
+
 /// Of one level; fields by component.
 struct LevelArrays {
-  const Single* edge[3];
+  const Single* edge[3][3];  ///< by component and axis
   const Single* inertia;
-  const Single* relaxation;
+  const Single* relaxation[3];
   const Single* load[3];
   Single* solution[3];
   Single* residual[3];
@@ -33,6 +45,31 @@ void first_sweep(const LevelArrays& level, const std::uint32_t* blocks, std::siz
 void find_residual(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
 /// residual = solution + relaxation (load - (D + S) solution)
 void smooth(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
+
+/// Of one level.
+struct RelaxationArrays {
+  const Single* edge[3][3];  ///< by component and axis
+  const Single* inertia;
+  Single* relaxation[3];
+  Single damping;
+  std::ptrdiff_t next[3];
+};
+
+/// relaxation = 1/(D + damping times S's diagonal), 0 where there is no inertia
+void find_relaxation(const RelaxationArrays& level, const std::uint32_t* blocks, std::size_t count);
+
+/// Of what points or edges have, the parts that go to the coarser ones they lie next to: weights at
+/// 2i - 2, 2i - 1, 2i along each axis, and a factor.
+struct Shares {
+  Single along[3][3], all;
+  std::ptrdiff_t next[2];  ///< of the fine level
+};
+/// From points onto the sheet, along y and z
+void share_across(const Shares& shares, const Single* fine, const GridLevel::SheetBlock* blocks,
+                  std::size_t count, Single* sheet);
+/// and from there along x.
+void share_along(const Shares& shares, const Single* sheet, const std::uint32_t* sheets,
+                 const std::uint32_t* coarse_blocks, std::size_t count, Single* coarse);
 
 /// Fields of one level and of the sheet between it and the next.
 struct TransferArrays {

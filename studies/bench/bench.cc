@@ -124,9 +124,6 @@ ordered_json press_entry(Session& session, const LoadedConfig& loaded, const Ben
           {"worst_force_error", error(truth.finite)},
           {"integrator", lattice::name(press.integrator)},
           {"time_step", pace.at("step")},
-          {"contact_change", press.integrator == lattice::Integrator::mass_scaled
-                                 ? ordered_json(press.contact_change)
-                                 : ordered_json()},
           {"static_error", static_error(session, loaded, plan, press, truth)},
           {"worst_force_error_small_strain", truth.small ? error(*truth.small) : ordered_json()},
           {"real_time_factor_processor", pace.at("real_time_factor_processor")},

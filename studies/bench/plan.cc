@@ -9,9 +9,6 @@ using lattice::ModelKind;
 
 /// The longest step of scaled masses: a control period.
 constexpr double scaled_step = 1e-3;
-/// R/a from which on its steps are not halved for the contact's sake: that costs half a per cent of
-/// the force, and buys real time.
-constexpr int never_halved = 16;
 
 /// `spacings`: R/a. Masses are scaled in the models that consist of cells.
 std::vector<PressPlan> presses(const std::vector<int>& spacings) {
@@ -22,7 +19,6 @@ std::vector<PressPlan> presses(const std::vector<int>& spacings) {
       if (scaled) {
         press.integrator = Integrator::mass_scaled;
         press.time_step = scaled_step;
-        if (n >= never_halved) press.contact_change = 1.0;
       }
       all.push_back(press);
     }

@@ -16,7 +16,6 @@ struct PressPlan {
   int threads = 1;
   lattice::Integrator integrator = lattice::Integrator::symplectic_euler;
   std::optional<double> time_step = {};  ///< [s]; the largest safe one when empty
-  double contact_change = 0.015;         ///< run.contact_change
 };
 
 /// A continuum on one mesh.

@@ -48,8 +48,6 @@ LoadedConfig press_config(const LoadedConfig& loaded, const PressPlan& press, do
       "lattice.model=" + model, fmt::format("lattice.spacing=tip_radius/{}", press.per_radius),
       fmt::format("run.integrator={}", lattice::name(press.integrator))};
   if (press.time_step) sets.push_back(fmt::format("run.time_step=\"{:.12g} s\"", *press.time_step));
-  if (press.integrator == lattice::Integrator::mass_scaled)
-    sets.push_back(fmt::format("run.contact_change={:.12g}", press.contact_change));
   return loaded.with(sets);
 }
 

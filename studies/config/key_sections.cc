@@ -403,10 +403,6 @@ std::vector<Key> run_keys() {
             "energy that a step of energy-controlled may make or lose, per Young's modulus times "
             "tip_radius^3",
             [](Config& config, const Value& value) { config.press.energy_bound = value.number; }),
-      plain("run", "contact_change", Kind::number, "0.015", {0.0, 1.0, false},
-            "share of the points on the plane that may come or go in a step of mass-scaled before "
-            "steps are halved; 1: never",
-            [](Config& config, const Value& value) { config.press.contact_change = value.number; }),
       time_step,
   };
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "lattice/energy.h"
 
 namespace fingertip::studies {
 
@@ -84,7 +83,7 @@ void LiveRig::advance() {
 }
 
 void LiveRig::check_sanity() const {
-  const double energy = lattice::kinetic_energy(finger_.model(), finger_.finger().state()) +
+  const double energy = finger_.finger().kinetic_energy() +
                         finger_.finger().elastic_energy();
   const double largest = 1e3 * setup_.rubber.longitudinal_modulus() * setup_.geometry.tip_volume();
   const Vector3 travel = finger_.finger().rod().endpoint() - finger_.rod_body().endpoint;

@@ -30,7 +30,7 @@ Table press_table(const json& bench) {
       "the processor time of the pressing thread, which others on the machine do not lengthen. "
       "Errors: the largest from 0.1 cm on; of the press against the continuum of law A, of the "
       "same lattice at rest against it, of the press against small strain. Steps: how many, and "
-      "the longest; with scaled masses they are halved while the contact grows fast, below R/16.";
+      "the longest.";
   table.header = {plain("Lattice", "strain, steps"),
                   plain("a", "masses"),
                   plain("Threads"),

@@ -164,8 +164,6 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
   if (setup.integrator == lattice::Integrator::runge_kutta) inputs["tolerance"] = setup.tolerance;
   if (setup.integrator == lattice::Integrator::energy_controlled)
     inputs["energy_bound"] = setup.energy_bound;
-  if (setup.integrator == lattice::Integrator::mass_scaled)
-    inputs["contact_change"] = setup.contact_change;
   if (setup.protocol.mode == meshes::DriveMode::pid) {
     const lattice::PidSettings& pid = setup.controller;
     inputs["rod_density"] = setup.rod.density;

@@ -29,7 +29,7 @@ using meshes::ContactMode;
 namespace {
 
 constexpr double clearance = 0.1e-3;
-constexpr int looks = 65;  // after so many every point has been looked at
+constexpr int looks = 8 * 65;  // after so many every point has been looked at
 constexpr std::array both_modes{ContactMode::frictionless, ContactMode::stick};
 const std::array all_laws{lattice::ContactLaw{ContactMode::frictionless},
                           lattice::ContactLaw{ContactMode::stick},

@@ -35,7 +35,7 @@ LatticeModel coarse(ModelKind kind) {
   return lattice::build_tip({}, {}, settings);
 }
 
-MassScaling scaling_of(const LatticeModel& model, const State& state, double room = 1.3,
+MassScaling scaling_of(const LatticeModel& model, const State& state, double room = 1.1,
                        std::span<const lattice::BondInertia> bond = {}) {
   MassScaling scaling(std::make_shared<lattice::ScalingGround>(model));
   lattice::Team team(1);
@@ -132,6 +132,15 @@ TEST_P(LongSteps, AreStableForEveryMotion) {
   EXPECT_LE(largest, 4.0);
   EXPECT_GT(largest, 0.5);
   EXPECT_GT(largest_product(model, state, nullptr), 16.0);
+}
+
+/// A scaling is made anew when the volume of the fastest cell has changed by a tenth.
+TEST(MassScaling, LeavesRoomForWhatCellsStiffenByUntilItIsMadeAnew) {
+  const LatticeModel model = coarse(ModelKind::network);
+  for (const double strain : {0.0, 0.1, 0.2}) {
+    const MassScaling scaling = scaling_of(model, compressed(model, strain));
+    EXPECT_LE(largest_product(model, compressed(model, strain + 0.15), &scaling), 4.0) << strain;
+  }
 }
 
 TEST(MassScaling, RespondsSymmetrically) {
@@ -276,15 +285,19 @@ TEST_P(FreeRodOnATipThatSticks, ComesToRest) {
   lattice::VirtualFinger finger(setup);
   const double weight = 0.05 * GetParam().moduli;     // [N], some 0.12 cm deep
   const double stiffness = 0.02 * GetParam().moduli;  // of the hand [N m]
-  const double inertia = finger.rod_body().inertia_at_endpoint()(3, 3);
+  // Turned about its own axis a rod is light: a hand as stiff as across it, asked once in a
+  // millisecond, sways whatever the rubber does.
+  const Eigen::Matrix3d inertia = finger.rod_body().inertia_at_endpoint().bottomRightCorner<3, 3>();
+  const double frequency = std::sqrt(stiffness / inertia(0, 0));
   double fastest = 0.0;
   for (int n = 0; n < 1500; ++n) {
     const double share = std::min(1.0, n / 300.0);
     const double aside = n >= 400 && n < 410 ? 0.1 * weight : 0.0;
     const lattice::RodState& rod = finger.finger().rod();
     const Vector3 drag = -70.0 * rod.body().mass * rod.velocity_at(rod.endpoint());
-    const Vector3 upright = -stiffness * lattice::rotation_vector(rod.pose().orientation) -
-                            std::sqrt(stiffness * inertia) * rod.angular_velocity();
+    const Vector3 upright =
+        -frequency * inertia *
+        (frequency * lattice::rotation_vector(rod.pose().orientation) + rod.angular_velocity());
     finger.write(lattice::Wrench{Vector3(aside, 0.0, share * weight) + drag, upright});
     finger.do_step(1e-3);
     if (n >= 1400) fastest = std::max(fastest, rod.velocity().norm());
@@ -311,7 +324,8 @@ TEST(Restraint, IsLargeOnThePatchNothingAtTheBondAndBoundsWhatTheRodFeels) {
   std::vector<lattice::ContactInertia> ties;
   const Vector3 normal = model.grid.axes.transpose() * -Vector3::UnitZ();
   for (const std::uint32_t i : model.particles)
-    if (model.rest_position(i).z() > 0.0095) ties.push_back({i, held, 0.0});
+    if (model.rest_position(i).z() > 0.0095)
+      ties.push_back({i, held, 0.0, model.grid.axes.transpose() * model.rest_position(i)});
   lattice::PlaneHold plane;
   plane.ties = ties;
   plane.normal = normal;
@@ -321,10 +335,11 @@ TEST(Restraint, IsLargeOnThePatchNothingAtTheBondAndBoundsWhatTheRodFeels) {
   scaling.restrain(State(model), plane, team, fields, restraint);
   ASSERT_TRUE(restraint.holds);
   for (const lattice::ContactInertia& tie : ties)
-    EXPECT_GT(restraint.along[tie.particle], 0.5);  // one cycle: not quite 1
-  for (const lattice::BondInertia& tie : bond) EXPECT_LT(restraint.along[tie.particle], 0.01);
+    EXPECT_GT(restraint.share[0][tie.particle], 0.45);  // one cycle: not quite 1
+  for (const lattice::BondInertia& tie : bond) EXPECT_LT(restraint.share[0][tie.particle], 0.01);
   // Frictionless: nothing is kept across.
-  for (const std::uint32_t i : model.particles) EXPECT_EQ(restraint.aside[i], 0.0F);
+  for (const std::uint32_t i : model.particles)
+    EXPECT_EQ(restraint.share[1][i] + restraint.share[2][i], 0.0F);
   lattice::Vector6 press = lattice::Vector6::Zero(), slide = press;
   press.head<3>() = normal;
   slide.head<3>() = normal.unitOrthogonal();
@@ -333,13 +348,13 @@ TEST(Restraint, IsLargeOnThePatchNothingAtTheBondAndBoundsWhatTheRodFeels) {
   EXPECT_LT(felt, double(ties.size()) * held);
   EXPECT_LT(std::abs(slide.dot(restraint.inertia * slide)), 1e-12 * felt);
   // Found anew when the plane has turned, and not before.
-  const auto shares = restraint.along;
+  const auto shares = restraint.share[0];
   for (lattice::ContactInertia& tie : ties) tie.along *= 1.05;
   scaling.restrain(State(model), plane, team, fields, restraint);
-  EXPECT_EQ(restraint.along, shares);
+  EXPECT_EQ(restraint.share[0], shares);
   plane.normal = (normal + 0.3 * normal.unitOrthogonal()).normalized();
   scaling.restrain(State(model), plane, team, fields, restraint);
-  EXPECT_NE(restraint.along, shares);
+  EXPECT_NE(restraint.share[0], shares);
   plane.ties = {};
   scaling.restrain(State(model), plane, team, fields, restraint);
   EXPECT_FALSE(restraint.holds);
@@ -387,7 +402,6 @@ lattice::PressSetup press(int per_radius) {
 
 TEST(MassScaledPress, MeetsThatOfShortSteps) {
   lattice::PressSetup setup = press(6);
-  setup.contact_change = 1.0;
   const auto scaled = lattice::run_press(setup);
   setup.time_step = 6.25e-5;
   const auto quarter = lattice::run_press(setup);
@@ -411,24 +425,21 @@ TEST(MassScaledPress, MeetsThatOfShortSteps) {
   EXPECT_LT(error(quarter), 0.5 * error(scaled));
 }
 
-/// At a control period per step: what the contact's growth costs, and what halving gives back.
-TEST(MassScaledPress, HalvesStepsWhileTheContactGrowsFast) {
+TEST(MassScaledPress, StepsOfAControlPeriodStayUprightAndNearShorterOnes) {
   lattice::PressSetup setup = press(8);
   setup.protocol.depth = 2.5e-3;
+  const auto quarter = lattice::run_press(setup);
   setup.time_step = 1e-3;
-  const auto halved = lattice::run_press(setup);
-  setup.contact_change = 1.0;
   const auto whole = lattice::run_press(setup);
   const double periods = std::round(whole.simulated_time / 1e-3);
   EXPECT_NEAR(double(whole.steps.accepted), periods, 2.0);
-  EXPECT_GT(double(halved.steps.accepted), 1.1 * periods);
-  EXPECT_LT(double(halved.steps.accepted), 1.6 * periods);
-  const double force = whole.response.normal_force_at(2.5e-3);
-  EXPECT_NEAR(halved.response.normal_force_at(2.5e-3), force, 2e-3 * force);
-  for (const auto* outcome : {&halved, &whole}) {
-    double tilt = 0.0;
-    for (const lattice::TraceRow& row : outcome->trace) tilt = std::max(tilt, row.tilt);
-    EXPECT_LT(tilt, 1e-5);
+  double tilt = 0.0;
+  for (const lattice::TraceRow& row : whole.trace) tilt = std::max(tilt, row.tilt);
+  EXPECT_LT(tilt, 1e-5);
+  for (const meshes::PressSample& sample : quarter.response.samples()) {
+    if (sample.indentation < 1e-3) continue;
+    EXPECT_NEAR(whole.response.normal_force_at(sample.indentation) / sample.normal_force, 1.0, 0.01)
+        << sample.indentation;
   }
 }
 
