@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace fingertip::lattice {
 
 using meshes::Vector3;

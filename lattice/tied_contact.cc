@@ -261,28 +261,31 @@ double TiedContact::closing_speed(const State& state) {
 }
 
 /// So many that every group has its turn before the fastest particle has come half the margin
-/// nearer.
+/// nearer; all, if that is less than a step's way or nobody knows.
 std::size_t TiedContact::looks_per_step(const State& state, double step) {
-  if (!(step > 0.0)) return is_near_.size();  // nobody says how far they have come
   double closing = closing_speed(state);
   // Of a moving plane toward any point: its velocity is linear in the place.
   const double turning = plane_.normal.cross(plane_.angular_velocity).norm();
   closing += std::max(
       0.0, plane_.normal.dot(plane_.velocity_at(shape_->centre)) + turning * shape_->reach);
-  const double turns = std::clamp(0.5 * margin_ / (closing * step), 1.0, most_turns);
+  const double turns = std::min(0.5 * margin_ / (closing * step), most_turns);
+  if (!(step > 0.0 && turns >= 1.0 && strayed_ < 0.1 * margin_)) {
+    std::fill(turns_off_.begin(), turns_off_.end(), std::uint8_t{0});
+    strayed_ = 0.0;
+    return is_near_.size();
+  }
   return std::size_t(double(is_near_.size()) / std::floor(turns)) + 1;
 }
 
-/// Whether the plane is elsewhere than it was to be.
-bool TiedContact::jumps(const Plane& plane) const {
+/// How far the plane is from where it was to be, at most, for any point [m].
+double TiedContact::distance(const Plane& plane) const {
   return (plane.point - plane_.point).norm() +
-             shape_->reach * (plane.normal - plane_.normal).norm() >
-         0.1 * margin_;
+         shape_->reach * (plane.normal - plane_.normal).norm();
 }
 
 Wrench TiedContact::add(const State& state, const Plane& plane, double step, VectorField& force,
                         std::vector<SharedLoad>* shared) {
-  if (jumps(plane)) std::fill(turns_off_.begin(), turns_off_.end(), std::uint8_t{0});
+  strayed_ += distance(plane);
   plane_ = plane.after(step);
   const kernel::ContactArrays all = arrays(state, plane, step);
   if (!is_trial_) look_around(all, looks_per_step(state, step));

@@ -96,7 +96,7 @@ class TiedContact {
   void list_held(std::vector<SharedLoad>* shared);
   double closing_speed(const State& state);
   std::size_t looks_per_step(const State& state, double step);
-  bool jumps(const Plane& plane) const;
+  double distance(const Plane& plane) const;
   kernel::PatchView patch_view() const;
 
   const LatticeModel* model_;
@@ -110,6 +110,7 @@ class TiedContact {
   std::vector<std::uint8_t> is_near_;          ///< per group: looked at in every step
   std::vector<std::uint32_t> near_;            ///< groups that are near, in the order they came
   std::vector<std::uint8_t> turns_off_;        ///< per group: how many it lets pass, being far
+  double strayed_ = 0.0;  ///< how far the plane moved but by its velocities, since all looked [m]
   std::size_t next_look_ = 0;
   bool is_trial_ = false;
   std::vector<kernel::GroupFindings> found_;   ///< per group, of the last add(); nothing if far

@@ -20,6 +20,7 @@ void extend(kernel::CellBounds& all, const kernel::CellBounds& some) {
   all.tangent = std::max(all.tangent, some.tangent);
   all.viscosity = std::max(all.viscosity, some.viscosity);
   all.fastest = std::max(all.fastest, some.fastest);
+  all.swiftest = std::max(all.swiftest, some.swiftest);
 }
 
 CellExtremes extremes_of(const CellMaterial& m, const kernel::CellBounds& bounds) {
@@ -35,7 +36,10 @@ CellExtremes extremes_of(const CellMaterial& m, const kernel::CellBounds& bounds
   }
   result.stiffening = std::max(1.0, stiffening);
   result.thickening = bounds.viscosity;
-  if (has_rates(m)) result.fastest = bounds.fastest / m.retardation_time;
+  if (has_rates(m)) {
+    result.fastest = bounds.fastest / m.retardation_time;
+    result.swiftest = bounds.swiftest / m.retardation_time;
+  }
   return result;
 }
 

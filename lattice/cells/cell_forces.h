@@ -19,6 +19,9 @@ struct CellExtremes {
   double stiffening = 1.0;
   double thickening = 1.0;  ///< the same for the viscosity: `network` g, `volume` J² g
   double fastest = 0.0;     ///< largest |dJ/dt|/J [1/s]; 0 where tau = 0
+  /// `network`: largest row sum of |dF/dt F⁻¹|, how fast a cell deforms or turns [1/s]; 0 where tau
+  /// = 0.
+  double swiftest = 0.0;
 };
 
 /// Evaluates the cells of a lattice; allocates nothing in add(). Lattice and team must outlive it.

@@ -29,6 +29,7 @@ struct CellBounds {
   double tangent = 0.0;
   double viscosity = 1.0;  ///< network: largest g, volume: J² g
   double fastest = 0.0;    ///< largest tau |dJ/dt|/J
+  double swiftest = 0.0;   ///< network: largest row sum of tau |dF/dt F⁻¹|
 };
 
 /// Adds the forces of blocks[begin, end), in their order, and extends `bounds`. Two calls at a

@@ -214,7 +214,8 @@ struct CellBody : CellResponse<Pack> {
   static void sweep(const CellArrays& arrays, const CellBlock* blocks, std::size_t begin,
                     std::size_t end, CellBounds& bounds) {
     const CellArrays a = arrays;  // a copy that no store can alias
-    Extremes extremes{bounds.smallest_jacobian, bounds.tangent, bounds.viscosity, bounds.fastest};
+    Extremes extremes{bounds.smallest_jacobian, bounds.tangent, bounds.viscosity, bounds.fastest,
+                      bounds.swiftest};
     Border borders[2];
     for (std::size_t b = begin; b < end; ++b) {
       const std::ptrdiff_t first = std::ptrdiff_t(blocks[b].first);
@@ -232,7 +233,7 @@ struct CellBody : CellResponse<Pack> {
       }
     }
     bounds = {hmin(extremes.jacobian), hmax(extremes.tangent), hmax(extremes.viscosity),
-              hmax(extremes.rate)};
+              hmax(extremes.rate), hmax(extremes.swiftness)};
   }
 
   [[gnu::always_inline]] static Pack power(const Rows& A, const Rows& C) {

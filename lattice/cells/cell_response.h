@@ -39,7 +39,7 @@ struct CellResponse : PackAlgebra<Pack> {
     Row x, y, z;
   };
   struct Extremes {
-    Pack jacobian, tangent, viscosity, rate;
+    Pack jacobian, tangent, viscosity, rate, swiftness;
   };
 
   /// Values of a block's cut cells, from the pack's first lane on.
@@ -178,6 +178,10 @@ struct CellResponse : PackAlgebra<Pack> {
       });
       const Pack trace = L.x.x + L.y.y + L.z.z, diagonal = area * (pressure + lambda * trace);
       extremes.rate = max(extremes.rate, abs(trace));
+      for_components([&](auto c) __attribute__((always_inline)) {
+        const Vector& l = entry<c()>(L);
+        extremes.swiftness = max(extremes.swiftness, abs(l.x) + abs(l.y) + abs(l.z));
+      });
       // Kirchhoff stress but for the part G F Fᵀ.
       const Pack yz = G * (L.y.z + L.z.y), zx = G * (L.z.x + L.x.z), xy = G * (L.x.y + L.y.x);
       const Rows A{{G * (L.x.x + L.x.x) - drag.x.x + diagonal, xy - drag.x.y, zx - drag.x.z},

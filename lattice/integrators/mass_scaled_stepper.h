@@ -10,9 +10,10 @@ namespace fingertip::lattice {
 
 /// Steps of `run.time_step`, or a quarter of a millisecond, with masses scaled to them
 /// (scaling/mass_scaling.h), shorter where the change of a cell's volume asks for it; within a span
-/// they only get shorter. The scaling is made anew when the length changes and when cells may have
-/// stiffened by what it leaves room for: when their extremes have, or the volume of the fastest by
-/// a tenth. Throws CrushedCells where a cell is inside out.
+/// they only get shorter. The scaling is made anew when the length changes and before cells stiffen
+/// by more than it bears: when their extremes have grown by a fifth, the volume of the fastest has
+/// changed by a tenth, or the swiftest has strained or turned by a fifth (S knows the grid's axes).
+/// Throws CrushedCells where a cell is inside out.
 class MassScaledStepper : public Stepper {
  public:
   MassScaledStepper(Finger& finger, StepController& steps)
@@ -23,11 +24,12 @@ class MassScaledStepper : public Stepper {
 
   void begin(const Drive& drive, double duration) override;
   void step(const Drive& drive, double until) override;
-  Memory memory() const override { return {changed_}; }
-  void recall(const Memory& memory) override { changed_ = memory[0]; }
+  Memory memory() const override { return {changed_, strained_}; }
+  void recall(const Memory& memory) override;
 
  private:
   bool stale() const;
+  double swiftness() const;
   void scale();
   void prepare(double left, bool divides);
 
@@ -35,7 +37,9 @@ class MassScaledStepper : public Stepper {
   StepController* steps_;
   std::shared_ptr<ScalingGround> ground_;
   std::array<std::shared_ptr<MassScaling>, 2> made_;  ///< one may be the finger's
-  double changed_ = 0.0;  ///< largest change of a cell's volume since the scaling was made
+  // Since the scaling was made, at most:
+  double changed_ = 0.0;   ///< change of a cell's volume
+  double strained_ = 0.0;  ///< strain or turn of a cell
 };
 
 }  // namespace fingertip::lattice

@@ -27,7 +27,8 @@ using EdgeInertia = std::array<std::array<std::vector<Single>, 3>, 3>;
 /// along the axes meet the bulk, so that what shears is not made as heavy as what swells. The mean
 /// gradient of a cell is one of its edges' gradients, weighted with the shares w_e of the rubber
 /// that they own, and (Σ w_e g_e)² <= Σ c_e g_e² if Σ w_e²/c_e <= 1; b_e are for what the edges
-/// differ by (cells/cell_edges.h).
+/// differ by (cells/cell_edges.h), but for the small part of their damping that hangs on how much
+/// they differ already.
 ///
 /// Law `network`, T = F⁻ᵀ, r_c and k_d the sums of |T| along row c and column d, s that of all:
 ///   d²W/dF²  G dF:dF + (G - lambda ln J) tr (F⁻¹ dF)² + lambda (T:dF)²,
@@ -42,7 +43,7 @@ class EdgeInertiaRule {
 
   /// For steps of `step` [s] > 0 about a state, multiplied with `room`: what cells may stiffen by
   /// later; never less than at rest. `edges` of at least the model's points. Returns a measure of
-  /// S, to be compared with that of other states [kg].
+  /// S, from some of the cells, to be compared with that of other states [kg].
   double find(const State& state, double step, double room, Team& team, EdgeInertia& edges);
 
   /// Of one cell's edges; nothing for cells that are not there.
@@ -57,7 +58,7 @@ class EdgeInertiaRule {
   struct Pack {
     std::uint32_t first = 0;          ///< lowest corner of the first one
     std::uint32_t shares = 0;         ///< where in the rule's list
-    Single moduli[3][3][lanes] = {};  ///< a M of the cells as they are now [kg/s² s²]
+    Single moduli[3][3][lanes] = {};  ///< a M of the cells as they are now [kg]
   };
   /// Moduli that M is made of, times a [kg].
   struct Factors {

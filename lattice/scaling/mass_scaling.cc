@@ -107,9 +107,8 @@ void MassScaling::restrain(const State& state, const PlaneHold& plane, Team& tea
   find_inertia(state, plane, restraint);
 }
 
-/// B C of unit accelerations along the normal and both ways across it, all at the same time: the
-/// plane's ties are what couples directions, and not these (nor does S, if they are along the
-/// grid's axes).
+/// B C of unit accelerations along the normal and both ways across it: all at the same time where
+/// they are the grid's axes, for then neither the plane's ties nor S couple them.
 void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFields& fields,
                               Restraint& restraint) const {
   MultigridFields::Level& finest = fields.grids.levels.front();
@@ -117,20 +116,29 @@ void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFi
   plane.normal.cwiseAbs().minCoeff(&axis);
   restraint.directions[1] = Vector3::Unit(axis);
   turn(restraint, plane.normal);
-  const auto& [normal, across, beside] = restraint.directions;
+  const Vector3& normal = restraint.directions[0];
   set_contact(plane, finest);
-  for (auto& component : finest.load) std::fill(component.begin(), component.end(), 0.0F);
-  for (const ContactInertia& tie : plane.ties) {
-    const Vector3 taken = tie.along * normal + tie.aside * (across + beside);
-    for (std::size_t c = 0; c < 3; ++c)
-      finest.load[c][tie.particle] = Single(taken[Eigen::Index(c)]);
+  const bool along_axes = normal.cwiseAbs().maxCoeff() > 1.0 - 1e-6;
+  for (std::size_t first = 0; first < 3; first += along_axes ? 3 : 1) {
+    const std::size_t last = along_axes ? 3 : first + 1;
+    for (auto& component : finest.load) std::fill(component.begin(), component.end(), 0.0F);
+    for (const ContactInertia& tie : plane.ties) {
+      Vector3 taken = Vector3::Zero();
+      for (std::size_t n = first; n < last; ++n)
+        taken += (n == 0 ? tie.along : tie.aside) * restraint.directions[n];
+      for (std::size_t c = 0; c < 3; ++c)
+        finest.load[c][tie.particle] = Single(taken[Eigen::Index(c)]);
+    }
+    grids_.solve(normal, team, fields.grids);
+    for (std::size_t n = first; n < last; ++n)
+      take_share(restraint.directions[n], finest.solution, restraint.share[n]);
   }
-  grids_.solve(normal, team, fields.grids);
-  for (const std::uint32_t p : ground_->model->particles) {
-    const Vector3 follows = at(finest.solution, p);
-    for (std::size_t n = 0; n < 3; ++n)
-      restraint.share[n][p] = Single(std::clamp(restraint.directions[n].dot(follows), 0.0, 1.0));
-  }
+}
+
+void MassScaling::take_share(const Vector3& direction, const MultigridFields::Field& follows,
+                             std::vector<Single>& share) const {
+  for (const std::uint32_t p : ground_->model->particles)
+    share[p] = Single(std::clamp(direction.dot(at(follows, p)), 0.0, 1.0));
 }
 
 /// Finds the patch's centre, and what the rod feels: the patch as a whole by what Y leaves of C,

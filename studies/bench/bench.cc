@@ -128,6 +128,7 @@ ordered_json press_entry(Session& session, const LoadedConfig& loaded, const Ben
           {"worst_force_error_small_strain", truth.small ? error(*truth.small) : ordered_json()},
           {"real_time_factor_processor", pace.at("real_time_factor_processor")},
           {"whole_press_factor", pace.at("whole_press_factor")},
+          {"runs", pace.at("runs")},
           {"ns_per_mass_step", pace.at("ns_per_mass_step")},
           {"particles", pace.at("particles")},
           {"steps", pace.at("steps")}};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lattice/press.h"
@@ -15,23 +16,57 @@ namespace fingertip::studies {
 
 namespace {
 
-constexpr double window = 0.01;  // [s]
+constexpr double window = 0.01;      // [s]
+constexpr double enough_time = 4.0;  // for the runs of one press [s]
+constexpr int most_runs = 5;
+
+/// The fastest of several runs of one press: whatever else the machine does makes them slower.
+struct Timing {
+  Pace slowest;            ///< of the windows of a run
+  double whole = 0.0;      ///< simulated over elapsed time of a whole press
+  double processor = 0.0;  ///< [s]
+  int runs = 0;
+
+  void add(const lattice::PressOutcome& outcome) {
+    const Pace pace = slowest_pace(outcome, window);
+    slowest.wall = std::fmax(slowest.wall, pace.wall);
+    slowest.processor = std::fmax(slowest.processor, pace.processor);
+    whole = std::max(whole, outcome.real_time_factor());
+    const double time = outcome.elapsed.back().processor;
+    processor = runs > 0 ? std::min(processor, time) : time;
+    ++runs;
+  }
+};
+
+/// Short presses run again: they are what a machine's other work falsifies most.
+int runs_of(const lattice::PressOutcome& first) {
+  return std::clamp(int(enough_time / first.wall_time), 1, most_runs);
+}
 
 void run_pace(lattice::PressSetup setup, int threads, const std::filesystem::path& folder,
               const JobContext& context) {
   setup.threads = threads;
-  const lattice::PressOutcome outcome =
-      lattice::run_press(setup, [&](const lattice::PressOutcome&, double fraction) {
-        return context.report(fraction, "pressing");
-      });
-  const Pace pace = slowest_pace(outcome, window);
+  Timing timing;
+  int runs = 1;
+  const auto run = [&] {
+    lattice::PressOutcome outcome =
+        lattice::run_press(setup, [&](const lattice::PressOutcome&, double fraction) {
+          return context.report((timing.runs + fraction) / runs, "pressing");
+        });
+    timing.add(outcome);
+    return outcome;
+  };
+  const lattice::PressOutcome outcome = run();
+  runs = runs_of(outcome);
+  while (timing.runs < runs) run();
   outcome.response.write_csv(folder / "response.csv");
-  write_json({{"real_time_factor", number_or_null(pace.wall)},
+  write_json({{"real_time_factor", number_or_null(timing.slowest.wall)},
               {"real_time_factor_processor",
-               threads == 1 ? number_or_null(pace.processor) : nlohmann::ordered_json()},
-              {"whole_press_factor", number_or_null(outcome.real_time_factor())},
+               threads == 1 ? number_or_null(timing.slowest.processor) : nlohmann::ordered_json()},
+              {"whole_press_factor", number_or_null(timing.whole)},
+              {"runs", timing.runs},
               {"ns_per_mass_step",
-               number_or_null(1e9 * outcome.elapsed.back().processor /
+               number_or_null(1e9 * timing.processor /
                               (double(outcome.steps.accepted) * double(outcome.census.particles)))},
               {"step", outcome.step.step},
               {"steps", outcome.steps.accepted},

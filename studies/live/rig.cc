@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 namespace fingertip::studies {
 
 using meshes::Vector3;
@@ -83,8 +82,7 @@ void LiveRig::advance() {
 }
 
 void LiveRig::check_sanity() const {
-  const double energy = finger_.finger().kinetic_energy() +
-                        finger_.finger().elastic_energy();
+  const double energy = finger_.finger().kinetic_energy() + finger_.finger().elastic_energy();
   const double largest = 1e3 * setup_.rubber.longitudinal_modulus() * setup_.geometry.tip_volume();
   const Vector3 travel = finger_.finger().rod().endpoint() - finger_.rod_body().endpoint;
   if (!(energy < largest)) throw meshes::NotConverged("the lattice blew up");

@@ -26,7 +26,8 @@ Table press_table(const json& bench) {
   Table table;
   table.caption =
       "Press of the default finger to its depth. Real-time factor: simulated over elapsed time in "
-      "the slowest 10 ms of simulated time from the first touch on, by the wall clock; below it by "
+      "the slowest 10 ms of simulated time from the first touch on, by the wall clock, of the "
+      "fastest of up to five runs; below it by "
       "the processor time of the pressing thread, which others on the machine do not lengthen. "
       "Errors: the largest from 0.1 cm on; of the press against the continuum of law A, of the "
       "same lattice at rest against it, of the press against small strain. Steps: how many, and "

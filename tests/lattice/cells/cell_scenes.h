@@ -146,6 +146,7 @@ inline void expect_equal(const CellExtremes& a, const CellExtremes& b) {
   EXPECT_EQ(a.stiffening, b.stiffening);
   EXPECT_EQ(a.thickening, b.thickening);
   EXPECT_EQ(a.fastest, b.fastest);
+  EXPECT_EQ(a.swiftest, b.swiftest);
 }
 
 /// Runs `check(scene)` for whole and for cut cells.
