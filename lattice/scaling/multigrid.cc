@@ -60,17 +60,17 @@ constexpr std::array<Single, 3> of_points{0.5F, 1.0F, 0.5F}, of_edges{0.0F, 1.0F
 void coarsen(const GridLevel& fine_grid, const GridLevel& coarse_grid,
              const std::vector<Single>& fine, std::size_t axis, std::vector<Single>& sheet,
              std::vector<Single>& coarse) {
-  sweeps::Shares shares{};
+  sweeps::Weights weights{};
   for (std::size_t d = 0; d < 3; ++d) {
     const auto& along = d == axis ? of_edges : of_points;
-    std::copy(along.begin(), along.end(), shares.along[d]);
+    std::copy(along.begin(), along.end(), weights.along[d]);
   }
-  shares.next[0] = fine_grid.next[1];
-  shares.next[1] = fine_grid.next[2];
-  shares.all = axis < 3 ? 0.25F : 1.0F;
-  sweeps::share_across(shares, fine.data(), fine_grid.sheet_blocks.data(),
+  weights.next[0] = fine_grid.next[1];
+  weights.next[1] = fine_grid.next[2];
+  weights.all = axis < 3 ? 0.25F : 1.0F;
+  sweeps::share_across(weights, fine.data(), fine_grid.sheet_blocks.data(),
                        fine_grid.sheet_blocks.size(), sheet.data());
-  sweeps::share_along(shares, sheet.data(), fine_grid.coarser_sheets.data(),
+  sweeps::share_along(weights, sheet.data(), fine_grid.coarser_sheets.data(),
                       coarse_grid.blocks.data(), coarse_grid.blocks.size(), coarse.data());
 }
 

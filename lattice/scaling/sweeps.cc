@@ -85,7 +85,7 @@ FINGERTIP_CLONES void find_relaxation(const RelaxationArrays& level, const std::
   }
 }
 
-FINGERTIP_CLONES void share_across(const Shares& shares, const Single* fine,
+FINGERTIP_CLONES void share_across(const Weights& weights, const Single* fine,
                                    const GridLevel::SheetBlock* blocks, std::size_t count,
                                    Single* sheet) {
   for (std::size_t b = 0; b < count; ++b) {
@@ -93,18 +93,19 @@ FINGERTIP_CLONES void share_across(const Shares& shares, const Single* fine,
     for (std::ptrdiff_t z = -1; z <= 1; ++z) {
       for (std::ptrdiff_t y = -1; y <= 1; ++y) {
         Eight row;
-        read(row, fine + (std::ptrdiff_t(blocks[b].row) + y * shares.next[0] + z * shares.next[1]));
-        sum += shares.along[1][y + 1] * shares.along[2][z + 1] * row;
+        read(row,
+             fine + (std::ptrdiff_t(blocks[b].row) + y * weights.next[0] + z * weights.next[1]));
+        sum += weights.along[1][y + 1] * weights.along[2][z + 1] * row;
       }
     }
     write(sheet + blocks[b].sheet, sum);
   }
 }
 
-FINGERTIP_CLONES void share_along(const Shares& shares, const Single* sheet,
+FINGERTIP_CLONES void share_along(const Weights& weights, const Single* sheet,
                                   const std::uint32_t* sheets, const std::uint32_t* coarse_blocks,
                                   std::size_t count, Single* coarse) {
-  const Single *along = shares.along[0], all = shares.all;
+  const Single *along = weights.along[0], all = weights.all;
   for (std::size_t b = 0; b < count; ++b) {
     const Single* from = sheet + sheets[b];
     Single result[lanes];

@@ -60,15 +60,15 @@ void find_relaxation(const RelaxationArrays& level, const std::uint32_t* blocks,
 
 /// Of what points or edges have, the parts that go to the coarser ones they lie next to: weights at
 /// 2i - 2, 2i - 1, 2i along each axis, and a factor.
-struct Shares {
+struct Weights {
   Single along[3][3], all;
   std::ptrdiff_t next[2];  ///< of the fine level
 };
 /// From points onto the sheet, along y and z
-void share_across(const Shares& shares, const Single* fine, const GridLevel::SheetBlock* blocks,
+void share_across(const Weights& weights, const Single* fine, const GridLevel::SheetBlock* blocks,
                   std::size_t count, Single* sheet);
 /// and from there along x.
-void share_along(const Shares& shares, const Single* sheet, const std::uint32_t* sheets,
+void share_along(const Weights& weights, const Single* sheet, const std::uint32_t* sheets,
                  const std::uint32_t* coarse_blocks, std::size_t count, Single* coarse);
 
 /// Fields of one level and of the sheet between it and the next.

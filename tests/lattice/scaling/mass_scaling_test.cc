@@ -371,6 +371,8 @@ TEST(Restraint, IsLargeOnThePatchNothingAtTheBondAndBoundsWhatTheRodFeels) {
   plane.normal = (normal + 0.3 * normal.unitOrthogonal()).normalized();
   scaling.restrain(State(model), plane, team, fields, restraint);
   EXPECT_NE(restraint.share[0], shares);
+  for (const std::uint32_t i : model.particles)
+    EXPECT_EQ(restraint.share[1][i] + restraint.share[2][i], 0.0F);
   plane.ties = {};
   scaling.restrain(State(model), plane, team, fields, restraint);
   EXPECT_FALSE(restraint.holds);
