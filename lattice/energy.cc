@@ -1,11 +1,11 @@
 #include "lattice/energy.h"
 
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 
 #include "lattice/cells/cell_energy.h"
+#include "lattice/sum_in_portions.h"
 
 namespace fingertip::lattice {
 
@@ -65,14 +65,9 @@ double kinetic_energy(const LatticeModel& model, const State& state) {
 }
 
 double kinetic_energy(const LatticeModel& model, const State& state, Team& team) {
-  constexpr std::size_t portions = 16;  // the same for any number of threads
-  const std::size_t blocks = model.blocks.size();
-  std::array<double, portions> part{};
-  team.split(portions, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-      part[p] = kinetic_energy(model, state, p * blocks / portions, (p + 1) * blocks / portions);
+  return sum_in_portions<16>(team, model.blocks.size(), [&](std::size_t begin, std::size_t end) {
+    return kinetic_energy(model, state, begin, end);
   });
-  return std::accumulate(part.begin(), part.end(), 0.0);
 }
 
 Vector3 linear_momentum(const LatticeModel& model, const State& state) {

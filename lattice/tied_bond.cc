@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
+
+#include "lattice/sum_in_portions.h"
 
 namespace fingertip::lattice {
 
@@ -103,7 +104,6 @@ void TiedBond::number_particles() {
     for (auto& component : *field) component.resize(filled, 0.0);
   }
   partial_.resize((slices_ + portion - 1) / portion);
-  partial_energy_.resize(partial_.size());
 }
 
 std::uint32_t TiedBond::number_of(std::uint32_t point) const {
@@ -206,13 +206,9 @@ double TiedBond::energy(const State& state, const RodState& rod) const {
   team_->split(slices_, portion, [&](std::size_t begin, std::size_t end) {
     kernels_->find_slips(all, motion, 0.0, begin, end);
   });
-  team_->split(partial_energy_.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      const std::size_t last = std::min(slices_, (p + 1) * portion);
-      partial_energy_[p] = kernels_->energy(all, p * portion, last);
-    }
+  return sum_in_portions<16>(*team_, slices_, [&](std::size_t begin, std::size_t end) {
+    return kernels_->energy(all, begin, end);
   });
-  return std::accumulate(partial_energy_.begin(), partial_energy_.end(), 0.0);
 }
 
 }  // namespace fingertip::lattice

@@ -73,9 +73,9 @@ class TiedBond {
   std::vector<std::uint32_t> first_, column_;
   std::vector<kernel::Lanes> value_;     ///< K_ij [N/m]; as in kernel::BondArrays
   std::vector<kernel::Pulled> partial_;  ///< of fixed portions of the slices
-  // Scratch of energy(), too: whoever asks for one must not step meanwhile.
-  mutable Field slip_;                          ///< along the grid's axes [m]
-  mutable std::vector<double> partial_energy_;  ///< of fixed portions of the slices [J]
+  /// Along the grid's axes [m]. Scratch of energy(), too: whoever asks for one must not step
+  /// meanwhile.
+  mutable Field slip_;
 };
 
 }  // namespace fingertip::lattice
