@@ -142,16 +142,19 @@ void add_controller(std::vector<Violation>& found, const PidSettings& c) {
           "the actuator's torque limit must be finite and positive");
 }
 
+void add_rod(std::vector<Violation>& found, const RodSettings& rod) {
+  if (positive(rod.density)) return;
+  found.push_back({"rod.density", meshes::to_text(rod.density) + " kg/m^3",
+                   "the rod's density must be finite and positive", "aluminium has 2700"});
+}
+
 /// The controller scales its gains with the bare rod and answers the tip's pull a period late: with
 /// a rod much lighter than the tip that loop is unstable (control/README.md).
-void add_rod(std::vector<Violation>& found, const PressSetup& setup) {
+void add_light_rod(std::vector<Violation>& found, const PressSetup& setup) {
+  const bool known = positive(setup.rod.density) && setup.geometry.violations().empty() &&
+                     setup.rubber.violations().empty();
+  if (!known || setup.protocol.mode != meshes::DriveMode::pid) return;
   const std::string density = meshes::to_text(setup.rod.density) + " kg/m^3";
-  if (!positive(setup.rod.density)) {
-    found.push_back({"rod.density", density, "the rod's density must be finite and positive",
-                     "aluminium has 2700"});
-    return;
-  }
-  if (!found.empty() || setup.protocol.mode != meshes::DriveMode::pid) return;
   const double tip_mass = setup.rubber.density * setup.geometry.tip_volume();
   if (rod_body(setup.geometry, setup.rod).mass < tip_mass) {
     found.push_back({"rod.density", density,
@@ -222,6 +225,7 @@ std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
                      "are undamped",
                      "take symplectic-euler; explicit-euler is for the published model"});
   }
+  add_light_rod(found, setup);
   add_adaptive_steps(found, setup);
   const bool springs = lattice.model == ModelKind::published || lattice.model == ModelKind::central;
   const bool volume =
@@ -250,7 +254,7 @@ std::vector<Violation> PressSetup::violations() const {
     found.push_back({"press.duration", meshes::to_text(*duration) + " s",
                      "the duration must be finite and positive", "or leave it out"});
   }
-  add_rod(found, *this);
+  add_rod(found, rod);
   add_step_control(found, *this);
   if (threads < 0) {
     found.push_back({"run.threads", std::to_string(threads),

@@ -68,16 +68,17 @@ ordered_json kernel_part(Session& session, const BenchPlan& plan) {
   return read_json(session.path_of(planned) / "kernels_all.json");
 }
 
-/// What errors are measured against.
+/// What errors are measured against; none where the plan computes no references and has none.
 struct Truth {
-  PressResponse finite;                ///< law A
-  std::optional<PressResponse> small;  ///< small strain
+  std::optional<PressResponse> finite;  ///< law A
+  std::optional<PressResponse> small;   ///< small strain
 };
 
-PressResponse run_truth(Session& session, const LoadedConfig& loaded, const BenchPlan& plan,
-                        bool finite, ordered_json& times) {
+std::optional<PressResponse> run_truth(Session& session, const LoadedConfig& loaded,
+                                       const BenchPlan& plan, bool finite, ordered_json& times) {
   const PlannedJob planned{finite ? "reference" : "reference_small_strain",
                            truth_job(loaded, plan, finite), false};
+  if (plan.known_references_only && !session.has_result(planned)) return {};
   const JobResult result = session.run(planned);
   const auto summary = read_json(session.path_of(planned) / "summary.json");
   times.push_back(
@@ -92,13 +93,13 @@ PressResponse run_truth(Session& session, const LoadedConfig& loaded, const Benc
 /// viscosity, inertia and steps. Null beyond plan.static_finest, and where no equilibrium is found.
 ordered_json static_error(Session& session, const LoadedConfig& loaded, const BenchPlan& plan,
                           const PressPlan& press, const Truth& truth) {
-  if (press.per_radius > plan.static_finest) return {};
+  if (press.per_radius > plan.static_finest || !truth.finite) return {};
   const PlannedJob planned{
       fmt::format("static_{}_R{}", lattice::name(press.model), press.per_radius),
       static_job(loaded, press, truth_depths(plan)), true};
   if (!session.run(planned).ok()) return {};
   const auto response = PressResponse::read_csv(session.path_of(planned) / "response.csv");
-  return number_or_null(worst_force_error(response, truth.finite, plan.error_from, plan.depth));
+  return number_or_null(worst_force_error(response, *truth.finite, plan.error_from, plan.depth));
 }
 
 ordered_json press_entry(Session& session, const LoadedConfig& loaded, const BenchPlan& plan,
@@ -110,8 +111,10 @@ ordered_json press_entry(Session& session, const LoadedConfig& loaded, const Ben
   const auto pace = read_json(folder / "pace.json");
   const auto response = PressResponse::read_csv(folder / "response.csv");
   const lattice::PressSetup setup = press_setup(press_config(loaded, press, plan.depth));
-  const auto error = [&](const PressResponse& against) {
-    return number_or_null(worst_force_error(response, against, plan.error_from, plan.depth));
+  const auto error = [&](const std::optional<PressResponse>& against) {
+    return against
+               ? number_or_null(worst_force_error(response, *against, plan.error_from, plan.depth))
+               : ordered_json();
   };
   return {{"model", lattice::name(press.model)},
           {"kinematics", lattice::name(setup.lattice.kinematics)},
@@ -125,7 +128,7 @@ ordered_json press_entry(Session& session, const LoadedConfig& loaded, const Ben
           {"integrator", lattice::name(press.integrator)},
           {"time_step", pace.at("step")},
           {"static_error", static_error(session, loaded, plan, press, truth)},
-          {"worst_force_error_small_strain", truth.small ? error(*truth.small) : ordered_json()},
+          {"worst_force_error_small_strain", error(truth.small)},
           {"real_time_factor_processor", pace.at("real_time_factor_processor")},
           {"whole_press_factor", pace.at("whole_press_factor")},
           {"runs", pace.at("runs")},
@@ -162,6 +165,10 @@ ordered_json run_bench(Session& session, const LoadedConfig& loaded, const Bench
   ordered_json times = ordered_json::array();
   Truth truth{run_truth(session, loaded, plan, true, times), {}};
   if (plan.small_strain) truth.small = run_truth(session, loaded, plan, false, times);
+  if (!truth.finite)
+    bench["missing_reference"] =
+        "no force errors: the continuum they are measured against is not in the cache, and a quick "
+        "run does not compute it; `fingertip bench` does";
   for (const PressPlan& press : plan.presses)
     bench["press"].push_back(press_entry(session, loaded, plan, press, truth));
   const double period = loaded.config.press.controller.period;

@@ -42,7 +42,7 @@ BenchPlan full_plan() {
 
 BenchPlan quick_plan() {
   BenchPlan plan;
-  plan.quick = true;
+  plan.quick = plan.known_references_only = true;
   plan.rounds = 3;
   plan.wide_rounds = 1;
   plan.seconds = 0.05;
@@ -63,7 +63,7 @@ BenchPlan smallest_plan() {
   plan.error_from = 0.0002;
   plan.reference_degree = 1;
   plan.reference_refinement = 0.25;
-  plan.reference_error = plan.small_strain = false;
+  plan.reference_error = plan.small_strain = plan.known_references_only = false;
   plan.continua = {};
   plan.times = false;
   return plan;

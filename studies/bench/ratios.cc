@@ -60,11 +60,19 @@ std::string roof_key(const KernelSample& s) {
   return probe_key(s.name == "springs" ? "multiply-add" : "arithmetic", s.isa);
 }
 
+constexpr const char* above_the_roof =
+    "came out above 1, which no processor does: the probe was disturbed; run again";
+
 /// Operations times `roof`, the time of one of them at best, over the time taken.
 double roofline_fraction(const KernelSample& s, double cost, double roof) {
   if (!(s.operations > 0.0)) return meshes::unknown;
   const double lanes = s.precision == "float32" ? 0.5 : 1.0;
   return s.operations * roof * lanes / (cost * s.threads);
+}
+
+/// A fraction that can be true, else unknown.
+double believable(double fraction) {
+  return fraction <= 1.0 ? fraction : meshes::unknown;
 }
 
 /// Bytes; null where the probe did not run.
@@ -102,7 +110,7 @@ ordered_json kernels_of(const KernelRounds& rounds, bool peers) {
       if (is_probe(s) || is_peer(s) != peers || !done.insert(key).second) continue;
       const std::vector<double> all = costs(rounds, key);
       const double cost = median(all);
-      const double bound = median(costs(rounds, roof_key(s)));
+      const double fraction = roofline_fraction(s, cost, median(costs(rounds, roof_key(s))));
       list.push_back({{"name", s.name},
                       {"isa", s.isa},
                       {"precision", s.precision},
@@ -112,8 +120,9 @@ ordered_json kernels_of(const KernelRounds& rounds, bool peers) {
                       {"springs", s.springs},
                       {"operations_per_spring",
                        s.operations > 0.0 ? ordered_json(s.operations) : ordered_json()},
-                      {"roofline_fraction", number_or_null(roofline_fraction(s, cost, bound))},
+                      {"roofline_fraction", number_or_null(believable(fraction))},
                       {"rounds", all}});
+      if (fraction > 1.0) list.back()["remark"] = std::string("roofline ") + above_the_roof;
     }
   }
   return list;
@@ -129,6 +138,9 @@ Ratios ratios_of(const KernelRounds& rounds) {
       return "needs AVX-512, which this processor lacks or the run left out";
     if (name.find("lammps") != name.npos && rounds.missing.contains("lammps"))
       return rounds.missing.at("lammps");
+    if (name.starts_with("roofline") &&
+        !costs(rounds, springs_key(1, name.find("48") != name.npos ? 48 : 20)).empty())
+      return above_the_roof;
     return "not measured with these sizes and threads";
   };
   const auto add = [&](const std::string& name,
@@ -163,8 +175,8 @@ Ratios ratios_of(const KernelRounds& rounds) {
     add(fmt::format("roofline_{}_1t", size), [size](const KernelRound& r) {
       const auto found = r.find(springs_key(1, size));
       if (found == r.end()) return meshes::unknown;
-      return roofline_fraction(found->second, found->second.cost,
-                               cost_in(r, probe_key("multiply-add", "avx512")));
+      return believable(roofline_fraction(found->second, found->second.cost,
+                                          cost_in(r, probe_key("multiply-add", "avx512"))));
     });
   }
   for (const int size : {20, 48}) {

@@ -16,7 +16,7 @@ nlohmann::ordered_json probes_of(const KernelRounds& rounds);
 /// each has `operations_per_spring` (null where not counted), `roofline_fraction`: these over what
 /// the same instruction set does at best in that precision (multiply-adds for the spring engine,
 /// whose operations in multiply pipes are counted, operations of all kinds for the others), over
-/// the time taken; and `rounds`.
+/// the time taken, null with a `remark` where it came out above 1; and `rounds`.
 nlohmann::ordered_json kernels_of(const KernelRounds& rounds, bool peers);
 
 struct Ratios {

@@ -121,7 +121,7 @@ void add_import(CLI::App& sub, CommandLine& line) {
 void add_bench(CLI::App& sub, CommandLine& line) {
   sub.add_option("--json", line.json, "write what was measured to this file, too")
       ->type_name("FILE");
-  sub.add_flag("--quick", line.quick, "coarse lattices and few repeats: about two minutes");
+  sub.add_flag("--quick", line.quick, "coarse lattices, few repeats, no continuum: some two minutes");
   sub.add_option("--history", line.history,
                  "folder of history.jsonl, which gets a line (default: in the cache)")
       ->type_name("DIR");
@@ -171,13 +171,38 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
   sub.callback([&line, name] { line.verb = name; });
 }
 
+bool is_verb(const std::string& word) {
+  return word == "test" ||
+         std::ranges::any_of(verbs, [&](const Verb& v) { return word == v.name; });
+}
+
 /// The nearest verb to a mistyped one, or nothing when the first word is one.
 std::optional<std::string> misspelt_verb(const std::vector<std::string>& words) {
-  if (words.empty() || words.front().starts_with('-')) return {};
+  if (words.empty() || words.front().starts_with('-') || is_verb(words.front())) return {};
   std::vector<std::string> names = {"test"};
   for (const Verb& verb : verbs) names.emplace_back(verb.name);
-  if (std::find(names.begin(), names.end(), words.front()) != names.end()) return {};
   return nearest_word(words.front(), names);
+}
+
+/// Whether some verb has an option of that name that takes a value behind a blank.
+bool takes_value(const CLI::App& app, const std::string& word) {
+  return std::ranges::any_of(app.get_subcommands({}), [&](const CLI::App* sub) {
+    const CLI::Option* option = sub->get_option_no_throw(word);
+    return option != nullptr && option->get_items_expected_min() > 0;
+  });
+}
+
+/// Options may stand before the verb, too: it goes to the front, where the parser wants it.
+std::vector<std::string> verb_first(const CLI::App& app, std::vector<std::string> words) {
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    if (word->starts_with('-')) {
+      if (takes_value(app, *word) && std::next(word) != words.end()) ++word;
+      continue;
+    }
+    if (is_verb(*word)) std::rotate(words.begin(), word, std::next(word));
+    break;
+  }
+  return words;
 }
 
 ProgressStyle style(const std::string& word, bool quiet) {
@@ -192,7 +217,12 @@ ProgressStyle style(const std::string& word, bool quiet) {
 std::variant<CommandLine, int> parse_command_line(int argc, char** argv) {
   CommandLine line;
   line.words.assign(argv, argv + argc);
-  const std::vector<std::string> words(line.words.begin() + (argc > 0 ? 1 : 0), line.words.end());
+  std::string progress;
+  std::string resume;
+  CLI::App app("Mass-spring lattice of a soft fingertip against its continuum.", "fingertip");
+  for (const Verb& verb : verbs) add_verb(app, verb, line, progress, resume);
+  std::vector<std::string> words =
+      verb_first(app, {line.words.begin() + (argc > 0 ? 1 : 0), line.words.end()});
   if (const auto nearest = misspelt_verb(words)) {
     fmt::print(stderr,
                "fingertip: error: {}: there is no such verb; the nearest one is {} "
@@ -206,19 +236,16 @@ std::variant<CommandLine, int> parse_command_line(int argc, char** argv) {
                "test in the source folder\n");
     return 2;
   }
-  std::string progress;
-  std::string resume;
-  CLI::App app("Mass-spring lattice of a soft fingertip against its continuum.", "fingertip");
   app.set_version_flag("--version", "fingertip " + program_version());
   app.require_subcommand(1);
   app.footer(footer);
-  for (const Verb& verb : verbs) add_verb(app, verb, line, progress, resume);
+  const std::string verb = words.empty() ? "" : words.front() + " ";
+  std::ranges::reverse(words);  // as the parser wants them
   try {
-    app.parse(argc, argv);
+    app.parse(words);
   } catch (const CLI::Success& success) {
     return app.exit(success);  // help or version: prints to stdout, 0
   } catch (const CLI::ParseError& error) {
-    const std::string verb = words.empty() ? "" : words.front() + " ";
     fmt::print(stderr, "fingertip: error: {}; see fingertip {}--help\n", error.what(), verb);
     return 2;
   }

@@ -102,6 +102,8 @@ struct Config {
   std::vector<double> rotation;                   ///< of the grid about x, y, z in turn [rad]
   int lattice_modes = 10;                         ///< how many natural frequencies
   std::optional<double> spacing_divisor;          ///< a = R/divisor when given so
+  std::optional<double> poissons_ratio;           ///< when given so; press.rubber has E and G
+  std::optional<double> shore_hardness;           ///< Shore A, when given instead of E
   fem_reference::ReferenceJob reference;
   CalibrationOrder calibration;
   ExchangeOrder exchange;

@@ -33,7 +33,11 @@ void assign_controller(Config& config, const Value& value) {
   if (value.word == "socket") kind = ControllerKind::socket;
 }
 
-/// For controller.type = adaptive.
+std::vector<Key> of_types(const std::vector<std::string>& types, std::vector<Key> keys) {
+  for (Key& key : keys) key = only_with("controller.type", types, key);
+  return keys;
+}
+
 std::vector<Key> adaptation_keys() {
   using lattice::AdaptiveSettings;
   const auto flag = [](const char* name, bool AdaptiveSettings::*member, const char* help) {
@@ -48,84 +52,93 @@ std::vector<Key> adaptation_keys() {
   Key schedule = choice("controller", "schedule", "none",
                         {{"none", "the contact's stiffness is only estimated"}},
                         "stiffness of the contact over the indentation: a surrogate.json written "
-                        "by calibrate (adaptive, force, hybrid)",
+                        "by calibrate",
                         [](Config& config, const Value& value) {
                           config.controller.schedule.clear();
                           if (value.word != "none") config.controller.schedule = value.word;
                         });
   schedule.kind = Kind::source;
-  return {
-      plain("controller", "sensitivity", Kind::number, "2.0", {1.2, 3.0, true},
-            "peak of the sensitivity that the relay's tuning leaves (adaptive)",
-            [](Config& config, const Value& value) {
-              config.controller.adaptive.sensitivity = value.number;
-            }),
-      flag("relay", &AdaptiveSettings::relay,
-           "whether a relay on the free finger finds the loop's delay first (adaptive)"),
-      flag("adaptation", &AdaptiveSettings::estimate,
-           "whether the contact's stiffness and damping are estimated (adaptive)"),
-      quantity("controller", "memory", "10 ms", "s", positive,
-               "time constant of the estimate's forgetting (adaptive)",
-               member(&AdaptiveSettings::memory)),
-      schedule,
-  };
+  std::vector<Key> keys = of_types(
+      {"adaptive"},
+      {
+          plain("controller", "sensitivity", Kind::number, "2.0", {1.2, 3.0, true},
+                "peak of the sensitivity that the relay's tuning leaves",
+                [](Config& config, const Value& value) {
+                  config.controller.adaptive.sensitivity = value.number;
+                }),
+          flag("relay", &AdaptiveSettings::relay,
+               "whether a relay on the free finger finds the loop's delay first"),
+          flag("adaptation", &AdaptiveSettings::estimate,
+               "whether the contact's stiffness and damping are estimated"),
+          quantity("controller", "memory", "10 ms", "s", positive,
+                   "time constant of the estimate's forgetting", member(&AdaptiveSettings::memory)),
+      });
+  keys.push_back(only_with("controller.type", {"adaptive", "force", "hybrid"}, schedule));
+  return keys;
 }
 
-/// For controller.type = force and hybrid.
 std::vector<Key> force_keys() {
   using lattice::ForceSettings;
   const auto member = [](double ForceSettings::*value) {
     return [value](Config& config) -> double& { return config.controller.force.*value; };
   };
-  return {
-      quantity("controller", "force", "0.1 N", "N", positive,
-               "contact force to be held (force, hybrid)", member(&ForceSettings::force)),
-      with_rule(
-          quantity("controller", "force_bandwidth", "5 Hz", "Hz", positive,
-                   "of the force's closed loop (force, hybrid)", member(&ForceSettings::bandwidth)),
-          "at most a tenth of natural_frequency", {"controller.natural_frequency"}),
-      with_rule(
-          quantity("controller", "touch_force", "0.01 N", "N", positive,
-                   "contact is assumed above it (hybrid)", member(&ForceSettings::touch_force)),
-          "less than force", {"controller.force"}),
-      with_rule(
-          quantity("controller", "release_force", "0.004 N", "N", not_negative,
-                   "contact is given up below it (hybrid)", member(&ForceSettings::release_force)),
-          "less than touch_force", {"controller.touch_force"}),
-      quantity("controller", "confirmation", "3 ms", "s", not_negative,
-               "how long the force must be beyond either before it counts (hybrid)",
-               member(&ForceSettings::confirmation)),
-      quantity("controller", "dwell", "50 ms", "s", not_negative,
-               "least time between two changes of mode (hybrid)", member(&ForceSettings::dwell)),
-  };
+  std::vector<Key> keys = of_types(
+      {"force", "hybrid"},
+      {
+          quantity("controller", "force", "0.1 N", "N", positive, "contact force to be held",
+                   member(&ForceSettings::force)),
+          with_rule(quantity("controller", "force_bandwidth", "5 Hz", "Hz", positive,
+                             "of the force's closed loop", member(&ForceSettings::bandwidth)),
+                    "at most a tenth of natural_frequency", {"controller.natural_frequency"}),
+      });
+  const std::vector<Key> hybrid = of_types(
+      {"hybrid"},
+      {
+          with_rule(quantity("controller", "touch_force", "0.01 N", "N", positive,
+                             "contact is assumed above it", member(&ForceSettings::touch_force)),
+                    "less than force", {"controller.force"}),
+          with_rule(quantity("controller", "release_force", "0.004 N", "N", not_negative,
+                             "contact is given up below it", member(&ForceSettings::release_force)),
+                    "less than touch_force", {"controller.touch_force"}),
+          quantity("controller", "confirmation", "3 ms", "s", not_negative,
+                   "how long the force must be beyond either before it counts",
+                   member(&ForceSettings::confirmation)),
+          quantity("controller", "dwell", "50 ms", "s", not_negative,
+                   "least time between two changes of mode", member(&ForceSettings::dwell)),
+      });
+  keys.insert(keys.end(), hybrid.begin(), hybrid.end());
+  return keys;
 }
 
-/// For controller.type = library and socket.
 std::vector<Key> external_keys() {
   const auto member = [](double ControllerOrder::*value) {
     return [value](Config& config) -> double& { return config.controller.*value; };
   };
   Key library = choice("controller", "library", "none", {{"none", "no shared object"}},
-                       "shared object with the functions of fingertip_controller.h (library)",
+                       "shared object with the functions of fingertip_controller.h",
                        [](Config& config, const Value& value) {
                          config.controller.library.clear();
                          if (value.word != "none") config.controller.library = value.word;
                        });
   library.kind = Kind::source;
-  return {
-      library,
-      with_rule(
-          plain("controller", "address", Kind::text, "\"unix:fingertip.socket\"", any,
-                "where the program waits for a controller (socket)",
-                [](Config& config, const Value& value) { config.controller.address = value.word; }),
-          "unix:PATH, or tcp:127.0.0.1:PORT", {}),
-      quantity("controller", "timeout", "5 s", "s", positive,
-               "how long the controller may take for an answer, or to come back (socket)",
-               member(&ControllerOrder::timeout)),
-      quantity("controller", "connect_timeout", "60 s", "s", positive,
-               "how long the program waits for the controller to connect (socket)",
-               member(&ControllerOrder::connect_timeout)),
-  };
+  std::vector<Key> keys =
+      of_types({"socket"},
+               {
+                   with_rule(plain("controller", "address", Kind::text, "\"unix:fingertip.socket\"",
+                                   any, "where the program waits for a controller",
+                                   [](Config& config, const Value& value) {
+                                     config.controller.address = value.word;
+                                   }),
+                             "unix:PATH, or tcp:127.0.0.1:PORT", {}),
+                   quantity("controller", "timeout", "5 s", "s", positive,
+                            "how long the controller may take for an answer, or to come back",
+                            member(&ControllerOrder::timeout)),
+                   quantity("controller", "connect_timeout", "60 s", "s", positive,
+                            "how long the program waits for the controller to connect",
+                            member(&ControllerOrder::connect_timeout)),
+               });
+  keys.insert(keys.begin(), only_with("controller.type", {"library"}, library));
+  return keys;
 }
 
 }  // namespace

@@ -36,6 +36,8 @@ std::string constraints(const Key& key) {
   if (!key.unit.empty()) text += " in units of " + key.unit;
   if (!key.allowed().empty()) text += "; " + key.allowed();
   if (!key.rule.empty()) text += "; " + key.rule;
+  if (!key.matters_with.empty())
+    text += fmt::format("; with {} = {}", key.matters_with, fmt::join(key.matters_words, " | "));
   return text;
 }
 
@@ -67,6 +69,7 @@ nlohmann::json element_schema(const Key& key) {
     case Kind::number_pair:
     case Kind::numbers: schema["type"] = "number"; break;
   }
+  if (key.kind == Kind::number && !key.word.empty()) schema["type"] = {"number", "string"};
   if (key.unit.empty() && key.range.minimum > -endless) {
     schema[key.range.minimum_allowed ? "minimum" : "exclusiveMinimum"] = key.range.minimum;
   }
@@ -140,6 +143,9 @@ std::string explanation(const Key& key) {
   }
   if (key.kind == Kind::source) text += fmt::format("  {:<17}{}\n", "PATH", "a file");
   if (!key.rule.empty()) text += fmt::format("  rule:    {}\n", key.rule);
+  if (!key.matters_with.empty())
+    text += fmt::format("  matters: with {} = {}\n", key.matters_with,
+                        fmt::join(key.matters_words, " | "));
   const std::string si = si_comment(key, key.preset);
   text += fmt::format("  default: {}{}\n", key.preset, si.empty() ? "" : " = " + si);
   text += fmt::format("  set it:  --set {}={}\n", key.full_name(), key.preset);
@@ -168,6 +174,10 @@ std::string json_schema() {
   }
   properties["case"] = {{"type", "object"},
                         {"description", "title, description, criteria and variants of a case"}};
+  properties["sweep"] = {{"type", "object"},
+                         {"description",
+                          "verb, and a list of values per key in tables [sweep.section]: see "
+                          "`fingertip sweep --help`"}};
   const ordered_json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                                {"title", "Configuration of fingertip"},
                                {"type", "object"},

@@ -60,4 +60,11 @@ inline Key with_rule(Key key, const char* rule, std::vector<std::string> related
   return key;
 }
 
+/// Elsewhere it is inert, and whoever sets it is told so.
+inline Key only_with(const char* other, std::vector<std::string> words, Key key) {
+  key.matters_with = other;
+  key.matters_words = std::move(words);
+  return key;
+}
+
 }  // namespace fingertip::studies

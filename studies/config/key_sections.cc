@@ -112,6 +112,23 @@ std::vector<Key> specimen_keys() {
   };
   using meshes::Geometry;
   using meshes::Rubber;
+  const auto or_auto = [](Key key) {
+    key.word = "auto";
+    key.assign = [assign = key.assign](Config& config, const Value& value) {
+      if (value.word.empty()) assign(config, value);
+    };
+    return key;
+  };
+  const auto optional_number = [](const char* name, Range range, const char* help,
+                                  std::optional<double> Config::*member) {
+    Key key = plain("rubber", name, Kind::number, "\"auto\"", range, help,
+                    [member](Config& config, const Value& value) {
+                      config.*member =
+                          value.word.empty() ? std::optional(value.number) : std::nullopt;
+                    });
+    key.word = "auto";
+    return key;
+  };
   return {
       quantity("geometry", "tip_radius", "1 cm", "m", positive, "R, outer radius of the rubber",
                geometry(&Geometry::tip_radius)),
@@ -126,12 +143,24 @@ std::vector<Key> specimen_keys() {
                          "l, from the hemisphere's centre to the rod's endpoint, which is held",
                          geometry(&Geometry::rod_length)),
                 "at least sleeve_length", {"geometry.sleeve_length"}),
-      quantity("rubber", "youngs_modulus", "40 gf/cm^2", "Pa", positive, "E, Young's modulus",
-               rubber(&Rubber::youngs_modulus)),
-      with_rule(quantity("rubber", "shear_modulus", "14 gf/cm^2", "Pa", positive,
-                         "G, shear modulus", rubber(&Rubber::shear_modulus)),
+      or_auto(quantity("rubber", "youngs_modulus", "40 gf/cm^2", "Pa", positive,
+                       "E, Young's modulus; auto: from the others",
+                       rubber(&Rubber::youngs_modulus))),
+      with_rule(or_auto(quantity("rubber", "shear_modulus", "14 gf/cm^2", "Pa", positive,
+                                 "G, shear modulus; auto: from the others",
+                                 rubber(&Rubber::shear_modulus))),
                 "greater than youngs_modulus/3 (Poisson's ratio below 1/2)",
                 {"rubber.youngs_modulus"}),
+      with_rule(
+          optional_number("poissons_ratio", {-1.0, 0.4999, false},
+                          "nu, beside E or G; auto: from E and G, 0.49 where one is given alone",
+                          &Config::poissons_ratio),
+          "two of E (or hardness), G and nu", {}),
+      with_rule(
+          optional_number("shore_hardness", {10.0, 90.0, true},
+                          "Shore A hardness instead of E, by Gent's formula: rough; auto: none",
+                          &Config::shore_hardness),
+          "not beside youngs_modulus", {}),
       quantity("rubber", "density", "0.5 g/cm^3", "kg/m^3", positive, "rho, mass density",
                rubber(&Rubber::density)),
       quantity("rubber", "retardation_time", "0.3 ms", "s", not_negative,
@@ -236,11 +265,12 @@ std::vector<Key> press_keys() {
                "sticks until the shear exceeds friction times the push, then slides "
                "(moving lattices and reference)"}},
              "how tip and plane interact", assign_contact),
-      plain("press", "friction", Kind::number, "0.5", positive,
-            "Coulomb's coefficient of friction, for contact coulomb",
-            [](Config& config, const Value& value) {
-              config.press.protocol.friction = value.number;
-            }),
+      only_with("press.contact", {"coulomb"},
+                plain("press", "friction", Kind::number, "0.5", positive,
+                      "Coulomb's coefficient of friction",
+                      [](Config& config, const Value& value) {
+                        config.press.protocol.friction = value.number;
+                      })),
       with_rule(
           quantity(
               "press", "tilt", "0 deg", "rad", any,
@@ -285,13 +315,15 @@ std::vector<Key> continuum_model_keys() {
                        assign_named(&Job::strain, std::vector{Strain::linear, Strain::finite})),
                 "finite needs a Poisson's ratio of 0 or more",
                 {"rubber.youngs_modulus", "rubber.shear_modulus"}),
-      choice("reference", "law", "A",
-             {{"A", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (ln J)^2, the project's standard"},
-              {"B", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (J - 1)^2"},
-              {"C", "W = G/2 (J^(-2/3) I1 - 3) + K/2 (ln J)^2"}},
-             "strain energy at finite strain (neo-Hookean, same E and G at small strain)",
-             assign_named(&Job::law, std::vector{StrainEnergy::law_a, StrainEnergy::law_b,
-                                                 StrainEnergy::law_c})),
+      only_with(
+          "reference.strain", {"finite"},
+          choice("reference", "law", "A",
+                 {{"A", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (ln J)^2, the project's standard"},
+                  {"B", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (J - 1)^2"},
+                  {"C", "W = G/2 (J^(-2/3) I1 - 3) + K/2 (ln J)^2"}},
+                 "strain energy at finite strain (neo-Hookean, same E and G at small strain)",
+                 assign_named(&Job::law, std::vector{StrainEnergy::law_a, StrainEnergy::law_b,
+                                                     StrainEnergy::law_c}))),
       with_rule(
           choice("reference", "mode", "static",
                  {{"static", "one equilibrium per output depth"},
@@ -302,9 +334,12 @@ std::vector<Key> continuum_model_keys() {
                                                           Analysis::transient, Analysis::modes})),
           "transient: linear strain, stick or frictionless, no tilt, no lateral motion",
           {"reference.strain", "press.contact", "press.tilt", "press.lateral"}),
-      plain("reference", "modes", Kind::integer, "10", {1, 1000, true},
-            "how many natural frequencies, lowest first, for mode modes",
-            [](Config& config, const Value& value) { config.reference.modes = int(value.number); }),
+      only_with("reference.mode", {"modes"},
+                plain("reference", "modes", Kind::integer, "10", {1, 1000, true},
+                      "how many natural frequencies, lowest first",
+                      [](Config& config, const Value& value) {
+                        config.reference.modes = int(value.number);
+                      })),
   };
 }
 
@@ -396,13 +431,17 @@ std::vector<Key> run_keys() {
               if (value.word == name(one)) config.press.integrator = one;
             }
           }),
-      plain("run", "tolerance", Kind::number, "1e-6", {0.0, 1.0, false},
-            "error of a step of runge-kutta, relative to a strain of 1 % in root mean square",
-            [](Config& config, const Value& value) { config.press.tolerance = value.number; }),
-      plain("run", "energy_bound", Kind::number, "1e-7", {0.0, 1.0, false},
-            "energy that a step of energy-controlled may make or lose, per Young's modulus times "
-            "tip_radius^3",
-            [](Config& config, const Value& value) { config.press.energy_bound = value.number; }),
+      only_with(
+          "run.integrator", {"runge-kutta"},
+          plain("run", "tolerance", Kind::number, "1e-6", {0.0, 1.0, false},
+                "error of a step, relative to a strain of 1 % in root mean square",
+                [](Config& config, const Value& value) { config.press.tolerance = value.number; })),
+      only_with("run.integrator", {"energy-controlled"},
+                plain("run", "energy_bound", Kind::number, "1e-7", {0.0, 1.0, false},
+                      "energy that a step may make or lose, per Young's modulus times tip_radius^3",
+                      [](Config& config, const Value& value) {
+                        config.press.energy_bound = value.number;
+                      })),
       time_step,
   };
 }

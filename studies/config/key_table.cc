@@ -79,9 +79,13 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 }
 
 std::string nearest_key(std::string_view name) {
-  // A right name in the wrong section is the likelier slip than a wrong name in the right one.
+  // A right name in the wrong section is the likelier slip than a wrong name in the right one. A
+  // part of a name stands for it: "young" means youngs_modulus.
+  const std::string_view last = last_part(name);
   const auto distance = [&](const Key& key) {
-    return 2 * edit_distance(last_part(name), key.name) + edit_distance(name, key.full_name());
+    const bool part = last.size() >= 3 && key.name.find(last) != key.name.npos;
+    return (part ? std::min(2, edit_distance(last, key.name)) : 2 * edit_distance(last, key.name)) +
+           edit_distance(name, key.full_name());
   };
   return std::ranges::min_element(key_table(), {}, distance)->full_name();
 }

@@ -63,6 +63,9 @@ struct Key {
   std::string help;        ///< one line
   std::string rule;        ///< further rule in words, may be empty
   std::vector<std::string> related;  ///< keys its rule also depends on
+  /// The key matters only where that one is one of these words; empty: always.
+  std::string matters_with;
+  std::vector<std::string> matters_words;
   std::function<void(Config&, const Value&)> assign;
 
   std::string full_name() const { return section + "." + name; }

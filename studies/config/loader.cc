@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include "meshes/files.h"
+#include "studies/config/elasticity.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
 #include "studies/config/value_reader.h"
@@ -22,6 +23,12 @@ std::string joined(const std::vector<Problem>& problems) {
   std::string text;
   for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + to_string(problem);
   return text;
+}
+
+std::string without_blanks(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == text.npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 /// Collects values and problems from all sources.
@@ -123,13 +130,13 @@ void Reader::read_file(const std::filesystem::path& file) {
 void Reader::read_set(const std::string& text) {
   const std::string place = "--set " + text;
   const auto equals = text.find('=');
-  const std::string name = text.substr(0, equals);
+  const std::string name = without_blanks(text.substr(0, equals));
   if (equals == text.npos) {
     problems_.push_back({place, name, "", "must have the form section.key=value",
                          "write e.g. --set press.depth=\"0.2 cm\""});
     return;
   }
-  read_assignment(place, name, text.substr(equals + 1));
+  read_assignment(place, name, without_blanks(text.substr(equals + 1)));
 }
 
 void Reader::read_assignment(const std::string& place, const std::string& name,
@@ -150,9 +157,24 @@ void Reader::read_assignment(const std::string& place, const std::string& name,
   }
 }
 
+/// What was set and does nothing under the other settings.
+std::vector<std::string> inert_keys(const LoadedConfig& loaded) {
+  std::vector<std::string> notes;
+  for (const Key& key : key_table()) {
+    const Entry& entry = loaded.entries.at(key.full_name());
+    if (key.matters_with.empty() || !entry.given || entry.literal == key.preset) continue;
+    const std::string word = unquoted(loaded.entries.at(key.matters_with).literal);
+    if (std::ranges::find(key.matters_words, word) != key.matters_words.end()) continue;
+    notes.push_back(key.full_name() + " = " + unquoted(entry.literal) + " has no effect while " +
+                    key.matters_with + " = " + word);
+  }
+  return notes;
+}
+
 LoadedConfig Reader::finish() {
   Config& config = loaded_.config;
   lattice::PressSetup& press = config.press;
+  resolve_elasticity(loaded_, problems_);
   if (config.spacing_divisor) {
     press.lattice.spacing = press.geometry.tip_radius / *config.spacing_divisor;
   }
@@ -198,6 +220,8 @@ LoadedConfig Reader::finish() {
     if (!unread) problems_.push_back(problem);
   }
   if (!problems_.empty()) throw ConfigError(problems_);
+  const std::vector<std::string> inert = inert_keys(loaded_);
+  loaded_.notes.insert(loaded_.notes.end(), inert.begin(), inert.end());
   return std::move(loaded_);
 }
 

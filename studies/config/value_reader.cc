@@ -75,8 +75,16 @@ Value read_quantities(const Key& key, const toml::node& node) {
 }
 
 Value read_number(const Key& key, const toml::node& node) {
-  if (!node.is_number()) refuse("must be a number without quotes or unit", preset_advice(key));
   Value value;
+  if (!key.word.empty() && node.value<std::string>() == key.word) {
+    value.word = key.word;
+    return value;
+  }
+  if (!node.is_number()) {
+    const bool word = !key.word.empty();
+    refuse("must be a number without quotes or unit" + (word ? ", or \"" + key.word + '"' : ""),
+           preset_advice(key));
+  }
   value.number = *node.value<double>();
   check_range(key, value.number);
   return value;

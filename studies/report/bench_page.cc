@@ -119,7 +119,8 @@ Table kernel_table(const json& bench, const char* list, const std::string& capti
                           plain(count(number_at(kernel, "masses"))),
                           plain(number(number_at(kernel, "ns_per_spring_step"), 3)),
                           plain(number(number_at(kernel, "operations_per_spring"), 3)),
-                          plain(std::isfinite(fraction) ? percent_magnitude(fraction) : "–")});
+                          plain(std::isfinite(fraction) ? percent_magnitude(fraction) : "–",
+                                text_at(kernel, "remark"))});
   }
   return table;
 }
@@ -302,6 +303,9 @@ Chapter machine_chapter(const json& bench, const json& history) {
 
 /// The press on which most depends, in a sentence.
 std::string answer_text(const json& bench) {
+  if (bench.contains("missing_reference"))
+    return "No force errors: the continuum they are measured against is not in the cache, and a "
+           "quick run does not compute it.";
   const json presses = array_at(bench, "press");
   const json* best = nullptr;
   for (const json& press : presses) {

@@ -160,10 +160,15 @@ void CurveReader::choose_pair(std::size_t line) {
     pairs += fmt::format("{}'{} [{}]' and '{} [{}]'", pairs.empty() ? "" : ", or ", pair.x.name,
                          pair.x.unit, pair.y.name, pair.y.unit);
   const bool is_row = number_in(titles_.front().written).has_value();
+  constexpr std::size_t enough = 8;
+  std::string header;
+  for (std::size_t i = 0; i < std::min(enough, titles_.size()); ++i)
+    header += (i > 0 ? ", " : "") + shown(titles_[i].written);
+  if (titles_.size() > enough) header += fmt::format(" and {} more", titles_.size() - enough);
   problems_.add(line, "", "",
                 (is_row ? "the header is missing: the first line is '"
                         : "the header has no pair of columns that can be used here: it is '") +
-                    shown(titles_.front().written) + (titles_.size() > 1 ? " ...'" : "'"),
+                    header + "'",
                 "name the columns in the first line, separated by comma, semicolon or tab: " +
                     pairs + ", in any unit");
 }

@@ -67,8 +67,9 @@ void take_over(const calibration::Material& material, LoadedConfig& loaded) {
     value = key.unit.empty() ? ours : parse_quantity(quantity, key.unit, key.example());
   };
   meshes::Rubber& rubber = loaded.config.press.rubber;
-  // One of the two says nothing about the other, and both together must make a rubber.
-  if (!given("rubber.youngs_modulus") && !given("rubber.shear_modulus")) {
+  // One of them says nothing about the others, and two together must make a rubber.
+  if (!given("rubber.youngs_modulus") && !given("rubber.shear_modulus") &&
+      !given("rubber.poissons_ratio") && !given("rubber.shore_hardness")) {
     take("rubber.youngs_modulus", material.rubber.youngs_modulus, rubber.youngs_modulus);
     take("rubber.shear_modulus", material.rubber.shear_modulus, rubber.shear_modulus);
   }

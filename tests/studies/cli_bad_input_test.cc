@@ -46,8 +46,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"rubber.yongs_modulus=40 gf/cm^2", {"unknown key", "rubber.youngs_modulus"}},
         BadInput{"rubber.youngs_modulus=40 cm", {"40 cm", "wrong dimension", "Pa"}},
         BadInput{"rubber.youngs_modulus=40", {"unit is missing", "40 gf/cm^2"}},
-        BadInput{"rubber.shear_modulus=13.3 gf/cm^2", {"13.3 gf/cm^2", "G must exceed E/3"}},
-        BadInput{"rubber.youngs_modulus=42 gf/cm^2", {"G must exceed E/3", "42 gf/cm^2"}},
+        BadInput{"rubber.poissons_ratio=0.5", {"0.5", "> -1 and <= 0.4999"}},
+        BadInput{"rubber.shore_hardness=100", {"100", ">= 10 and <= 90"}},
+        BadInput{"rubber.young=3 MPa", {"unknown key", "rubber.youngs_modulus"}},
         BadInput{"geometry.rod_radius=1 cm", {"smaller than tip_radius"}},
         BadInput{"geometry.tip_radius=0.4 cm", {"smaller than tip_radius", "0.4 cm"}},
         BadInput{"geometry.rod_length=1 cm", {"sleeve_length"}},
@@ -89,14 +90,20 @@ INSTANTIATE_TEST_SUITE_P(
                    {"lattice.spacing = tip_radius/12", "(R - r)/2", "finer lattice"}},
         BadLattice{{"lattice.spacing=tip_radius/400"},
                    {"--set lattice.spacing=tip_radius/400", "20 million", "coarser lattice"}},
-        BadLattice{{"lattice.model=network", "rubber.youngs_modulus=20 gf/cm^2"},
+        BadLattice{{"lattice.model=network", "rubber.youngs_modulus=20 gf/cm^2",
+                    "rubber.shear_modulus=14 gf/cm^2"},
                    {"--set rubber.youngs_modulus=20 gf/cm^2", "Poisson's ratio >= 0",
                     "lattice.kinematics = small"}},
-        BadLattice{{"lattice.model=network", "rubber.youngs_modulus=42 gf/cm^2"},
+        BadLattice{{"rubber.youngs_modulus=40 gf/cm^2", "rubber.shear_modulus=13.3 gf/cm^2"},
+                   {"13.3 gf/cm^2", "G must exceed E/3"}},
+        BadLattice{{"rubber.youngs_modulus=42 gf/cm^2", "rubber.shear_modulus=14 gf/cm^2"},
+                   {"G must exceed E/3", "42 gf/cm^2"}},
+        BadLattice{{"lattice.model=network", "rubber.youngs_modulus=42 gf/cm^2",
+                    "rubber.shear_modulus=14 gf/cm^2"},
                    {"--set rubber.youngs_modulus=42 gf/cm^2", "Poisson's ratio", "reaches 1/2",
                     "lower youngs_modulus"}},
         BadLattice{{"lattice.model=hookean", "lattice.kinematics=finite",
-                    "rubber.youngs_modulus=30 gf/cm^2"},
+                    "rubber.youngs_modulus=30 gf/cm^2", "rubber.shear_modulus=14 gf/cm^2"},
                    {"--set lattice.kinematics=finite", "kappa >= 0", "network"}},
         BadLattice{{"lattice.offset=[0.0, 1.5, 0.0]"},
                    {"--set lattice.offset=[0.0, 1.5, 0.0]", ">= -1 and <= 1"}},
@@ -127,13 +134,14 @@ TEST(BadInput, WhatTheLatticeCannotDoIsRefusedToItAndGoesToTheContinuum) {
 TEST(BadInput, RulesOfTheContinuumNameFileAndLine) {
   const TemporaryFolder folder;
   write_text(folder / "finite.toml",
-             "[rubber]\nshear_modulus = \"25 gf/cm^2\"\n[reference]\nstrain = \"finite\"\n");
+             "[rubber]\nshear_modulus = \"25 gf/cm^2\"\nyoungs_modulus = \"40 gf/cm^2\"\n"
+             "[reference]\nstrain = \"finite\"\n");
   write_text(folder / "transient.toml",
              "[press]\nlateral = \"1 mm\"\n[reference]\nmode = \"transient\"\n");
   for (const char* verb : {"check", "reference", "calibrate"}) {
     const std::string option = verb == std::string("check") ? "--quiet" : "--progress=off";
     expect_refused(folder.path(), {verb, "--config", "finite.toml", option},
-                   {"finite.toml:4: reference.strain = finite: ", "nu >= 0", "finite.toml:2",
+                   {"finite.toml:5: reference.strain = finite: ", "nu >= 0", "finite.toml:2",
                     "without bound"});
     expect_refused(folder.path(), {verb, "--config", "transient.toml", option},
                    {"transient.toml:4: reference.mode = transient: ", "along the axis",

@@ -182,6 +182,9 @@ TEST(KeyTable, RangesOfTheContinuumAreThoseOfItsJob) {
 TEST(KeyTable, NearestKeyFindsSlips) {
   EXPECT_EQ(nearest_key("rubber.yongs_modulus"), "rubber.youngs_modulus");
   EXPECT_EQ(nearest_key("rubber.densty"), "rubber.density");
+  EXPECT_EQ(nearest_key("rubber.young"), "rubber.youngs_modulus");
+  EXPECT_EQ(nearest_key("rubber.poisson"), "rubber.poissons_ratio");
+  EXPECT_EQ(nearest_key("press.contct"), "press.contact");
   EXPECT_EQ(nearest_key("geometry.spacing"), "lattice.spacing");
   EXPECT_EQ(nearest_key("press.detph"), "press.depth");
 }

@@ -63,6 +63,21 @@ TEST(Ratios, AreFormedWithinARoundSoThatABusyMachineCancels) {
   EXPECT_TRUE(ratios.missing.empty());
 }
 
+TEST(Ratios, AFractionOfTheRoofAboveOneIsNotTold) {
+  KernelRounds rounds;
+  rounds.rounds.push_back(round_with(1.0));
+  put(rounds.rounds[0], "multiply-add", "avx512", 1, 0, 0.1);  // a probe ten times too slow
+  const Ratios ratios = ratios_of(rounds);
+  EXPECT_TRUE(ratios.values.at("roofline_48_1t").is_null());
+  EXPECT_NE(ratios.missing.at("roofline_48_1t").get<std::string>().find("above 1"),
+            std::string::npos);
+  for (const auto& kernel : kernels_of(rounds, false)) {
+    if (kernel.at("name") != "springs") continue;
+    EXPECT_TRUE(kernel.at("roofline_fraction").is_null());
+    EXPECT_NE(kernel.at("remark").get<std::string>().find("above 1"), std::string::npos);
+  }
+}
+
 TEST(Ratios, WithoutAvx512AllAreNullAndSayWhy) {
   KernelRounds rounds;
   rounds.rounds.emplace_back();

@@ -1,0 +1,25 @@
+/// The rubber's two elastic constants from whichever two were given.
+#pragma once
+
+#include "studies/config/loader.h"
+
+namespace fingertip::studies {
+
+/// Poisson's ratio taken where E (or hardness) or G is given alone: silicones and natural rubber
+/// are nearly incompressible.
+inline constexpr double usual_poissons_ratio = 0.49;
+
+/// E [Pa] of a rubber of that Shore A hardness, 0 < S < 100: Gent's formula, from the indentation
+/// of a half-space by a truncated cone under the durometer's spring (A. N. Gent, Rubber Chemistry
+/// and Technology 31, 896, 1958): E = 0.0981 (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)) MPa. Rough:
+/// a point of hardness is 3 to 5 % of E, and durometers differ by some points.
+double youngs_modulus_of_hardness(double shore_a);
+
+/// Puts E and G into config.press.rubber. Given can be E or hardness, G, nu: two of the three, one
+/// (then nu is `usual_poissons_ratio`, or E the default where nu is given; a note tells) or none
+/// (the defaults of E and G). Entries of what follows from others become "auto", so that the
+/// resolved configuration can be loaded again. Appends a problem where three are given, or both E
+/// and hardness.
+void resolve_elasticity(LoadedConfig& loaded, std::vector<Problem>& problems);
+
+}  // namespace fingertip::studies
