@@ -83,9 +83,10 @@ struct PatchView {
   double normal[3];  ///< along the grid's axes
 };
 
-/// Sums of forces along the normal over loaded points, times places x and y along the tangents.
+/// Sums of forces along the normal over loaded points, times powers of the places x and y along the
+/// tangents: 1; x, y; xx, xy, yy; … yyyy.
 struct PatchSums {
-  double force = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  double power[15] = {};
   double area = 0.0;  ///< times the surface that a point stands for, projected on the plane
 };
 

@@ -117,27 +117,27 @@ struct ContactBody : Packs<Pack> {
 
   static void add_up(const ContactGroup& group, const ContactMemory& memory, const PatchView& view,
                      PatchSums& sums) {
-    std::array<Vector, parts> first, second;
+    std::array<std::array<Vector, parts>, 5> powers;
     std::array<Pack, parts> area;
     for (std::size_t part = 0; part < parts; ++part) {
       const std::size_t lane = part * width;
       const Vector at = load(view.at_rest ? group.rest : memory.place, lane);
       const Pack x = dot(broadcast(view.tangent[0]), at), y = dot(broadcast(view.tangent[1]), at),
                  push = load(memory.push, lane);
-      first[part] = {push, push * x, push * y};
-      second[part] = {push * x * x, push * x * y, push * y * y};
+      const Pack xx = push * x * x, xy = push * x * y, yy = push * y * y;
+      powers[0][part] = {push, push * x, push * y};
+      powers[1][part] = {xx, xy, yy};
+      powers[2][part] = {xx * x, xx * y, xy * y};
+      powers[3][part] = {yy * y, xx * x * x, xx * x * y};
+      powers[4][part] = {xx * y * y, xy * y * y, yy * y * y};
       area[part] =
           push * std::experimental::abs(dot(broadcast(view.normal), load(group.facing, lane)));
     }
-    double all[6];
-    Base::total(first, all);
-    Base::total(second, all + 3);
-    sums.force += all[0];
-    sums.x += all[1];
-    sums.y += all[2];
-    sums.xx += all[3];
-    sums.xy += all[4];
-    sums.yy += all[5];
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+      double three[3];
+      Base::total(powers[k], three);
+      for (std::size_t i = 0; i < 3; ++i) sums.power[3 * k + i] += three[i];
+    }
     sums.area += Base::total(area);
   }
 

@@ -111,7 +111,7 @@ class Finger {
 
   int touching() const { return surfaces_->touching(); }  ///< points on the plane
   int sliding() const { return surfaces_->sliding(); }    ///< of these (coulomb)
-  double contact_radius() const { return surfaces_->contact_radius(now_.state); }  ///< [m]
+  ContactPatch contact_patch() const { return surfaces_->patch(); }
   /// Of the last step; none of a published finger.
   std::vector<PointLoad> point_loads() const { return surfaces_->point_loads(now_.state); }
   /// Per boundary particle of the model: 1 where it sticks to the plane or touches it without

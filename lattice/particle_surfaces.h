@@ -3,6 +3,7 @@
 
 #include "lattice/contact.h"
 #include "lattice/surfaces.h"
+#include "meshes/press_response.h"
 
 namespace fingertip::lattice {
 
@@ -26,7 +27,7 @@ class ParticleSurfaces : public Surfaces {
   }
   int touching() const override { return contact_.anchored(); }
   int sliding() const override { return contact_.sliding(); }
-  double contact_radius(const State&) const override { return contact_.radius(); }
+  ContactPatch patch() const override { return {contact_.radius(), meshes::unknown}; }
   std::vector<std::uint8_t> held() const override;
 
  private:

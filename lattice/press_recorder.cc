@@ -50,7 +50,9 @@ meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
   sample.torque_x = torque.x();
   sample.torque_y = torque.y();
   sample.torque_z = torque.z();
-  sample.contact_radius = finger_->contact_radius();
+  const ContactPatch patch = finger_->contact_patch();
+  sample.contact_radius = patch.radius;
+  sample.max_pressure = patch.max_pressure;
   sample.time = between(previous_.time, end.time);
   return sample;
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "lattice/cells/contact_patch.h"
 #include "lattice/model.h"
 #include "lattice/parallel.h"
 #include "lattice/plane.h"
@@ -67,7 +68,9 @@ class Surfaces {
   virtual int touching() const = 0;
   /// How many of them slide (coulomb; without friction none is said to).
   virtual int sliding() const = 0;
-  virtual double contact_radius(const State& state) const = 0;  ///< [m], 0 without contact
+  /// Of the last step; zeros without contact. Its pressure is unknown (NaN) where particles touch
+  /// by themselves (published).
+  virtual ContactPatch patch() const = 0;
   /// What the plane does to each point that touches it; none where contact acts between steps
   /// (published).
   virtual std::vector<PointLoad> point_loads(const State& /*state*/) const { return {}; }

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "lattice/cells/contact_patch.h"
-
 namespace fingertip::lattice {
 
 using meshes::Vector3;
@@ -340,7 +338,7 @@ kernel::PatchView TiedContact::patch_view() const {
   return view;
 }
 
-double TiedContact::radius() const {
+ContactPatch TiedContact::patch() const {
   constexpr std::size_t portions = 16;  // the same for any number of threads
   const kernel::PatchView view = patch_view();
   std::array<kernel::PatchSums, portions> part{};
@@ -355,12 +353,10 @@ double TiedContact::radius() const {
   });
   ForceMoments sums;
   for (const kernel::PatchSums& p : part) {
-    sums.force += p.force;
-    sums.first += Eigen::Vector2d(p.x, p.y);
-    sums.second += (Eigen::Matrix2d() << p.xx, p.xy, p.xy, p.yy).finished();
+    for (std::size_t i = 0; i < sums.power.size(); ++i) sums.power[i] += p.power[i];
     sums.area += p.area;
   }
-  return contact_radius(sums);
+  return contact_patch(sums);
 }
 
 std::vector<std::uint8_t> TiedContact::held() const {

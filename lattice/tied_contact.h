@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "lattice/cells/contact_patch.h"
 #include "lattice/contact_kernel.h"
 #include "lattice/contact_shape.h"
 #include "lattice/model.h"
@@ -74,8 +75,8 @@ class TiedContact {
   double energy() const { return energy_; }  ///< of the ties at the last add() [J]
   int touching() const { return touching_; }
   int sliding() const { return sliding_; }  ///< of those touching, in the last step (coulomb)
-  /// Of the patch that the forces of the last add() act on (contact_patch) [m].
-  double radius() const;
+  /// That the forces of the last add() act on: seen at rest where displacements are small.
+  ContactPatch patch() const;
   /// What each tie that acts does to the tip, at the last add().
   std::vector<PointLoad> point_loads(const State& state) const;
   /// Per boundary particle of the model: 1 where a tie that acts hangs on it, 2 if all of

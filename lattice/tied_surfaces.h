@@ -31,7 +31,7 @@ class TiedSurfaces : public Surfaces {
   double energy(const State& state, const RodState& rod) const override;
   int touching() const override { return contact_.touching(); }
   int sliding() const override { return contact_.sliding(); }
-  double contact_radius(const State&) const override { return contact_.radius(); }
+  ContactPatch patch() const override { return contact_.patch(); }
   std::vector<PointLoad> point_loads(const State& state) const override {
     return contact_.point_loads(state);
   }

@@ -35,7 +35,7 @@ Measurement VirtualFinger::read() const {
   const Wrench& impulse = finger_->plane_impulse();
   const meshes::Vector3 force = impulse.force / finger_->step();
   m.contact = ContactState{finger_->touching(),
-                           finger_->contact_radius(),
+                           finger_->contact_patch().radius,
                            {force, impulse.torque / finger_->step() - endpoint.cross(force)}};
   return m;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 namespace fingertip::lattice {
@@ -13,38 +14,41 @@ struct LoadedPoint {
   double area = 0.0;      ///< of the surface it stands for, projected on the plane [m²]
 };
 
-/// Sums over loaded points, from which the radius follows.
+/// Sums over loaded points, from which the patch follows.
 struct ForceMoments {
-  double force = 0.0;                                ///< [N]
-  Eigen::Vector2d first = Eigen::Vector2d::Zero();   ///< Σ force place [N m]
-  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();  ///< Σ force place placeᵀ [N m²]
-  double area = 0.0;                                 ///< Σ force area [N m²]
+  /// Σ force x^i y^j up to the fourth order, at `place(i, j)` [N m^(i+j)].
+  std::array<double, 15> power{};
+  double area = 0.0;  ///< Σ force area [N m²]
+
+  static constexpr std::size_t place(std::size_t i, std::size_t j) {
+    return (i + j) * (i + j + 1) / 2 + j;
+  }
+  void add(const LoadedPoint& point);
 };
 
 struct ContactPatch {
   double radius = 0.0;        ///< of the circle that has the contact's area [m]
-  double max_pressure = 0.0;  ///< [Pa]
+  double max_pressure = 0.0;  ///< force over the area that it acts on, deformed or not [Pa]
 };
 
 /// Both from moments of the forces, for neighbouring points share their load unevenly (their ties
-/// outnumber the particles around them) while sums over a few of them are right.
+/// outnumber the particles around them) while sums over many of them are right. How the surface has
+/// stretched need not be known: the places are those where the forces act.
 ///
-/// Radius: under the semi-ellipsoidal pressure of Hertz a contact with half axes A and B has the
-/// second moments S = diag(A², B²)/5 of pressure about its centre, so sqrt(A B) = (25 det S)^(1/4).
-/// A point's own patch counts as a disc. (In continuum presses of the default tip the pressure at
-/// the pole is 1.48 to 1.50 times the mean; Hertz has 1.5.)
-///
-/// Pressure: the largest of Σ w force / Σ w area around a loaded point, w = 1 - (distance/width)²
-/// over the points within `width` > 0 [m]. Of a paraboloid the top comes out too low by the share
-/// (width/radius)²/3.
+/// The pressure is taken to be that of Hertz with a peak on top,
+///   p = P ((1 - s)^(1/2) + b (1 - s)^(7/2))/(1 + b),  s = x²/A² + y²/B²,  0 <= b <= 2,
+/// about the centre of pressure, A and B half axes. Thin rubber that is pressed far carries most of
+/// its load in the middle. With S the second moments of pressure and t = x S^-1 x: mean t² = 4 q,
+/// q = <s²>/<s>² a function of b alone; then sqrt(A B) = (4 det S/<s>²)^(1/4) and P from the force.
+/// Hertz has q = 10/7, <s> = 2/5; what lies below is the coarseness of the points and counts as
+/// Hertz. The exponent 7/2 is chosen by continuum presses of the default tip: fed with their
+/// pressures, law A to 0.7 of the rubber's thickness, sticking or not, this gives their radius
+/// within 0.6 % (Hertz alone: up to 7 % too small) and P within 3 %.
+/// A point's own patch counts as a disc.
 ///
 /// `sectors` (1, 2 or 4): the points are the whole contact, its half t2 >= 0 or its quarter
 /// t1, t2 >= 0. Zeros without a loaded point.
-ContactPatch contact_patch(std::vector<LoadedPoint> points, int sectors, double width);
-
-/// The radius alone [m], of a whole contact: its cost grows with the number of points, that of the
-/// pressure with its square.
-double contact_radius(const std::vector<LoadedPoint>& points);
-double contact_radius(const ForceMoments& moments);
+ContactPatch contact_patch(const ForceMoments& moments, int sectors = 1);
+ContactPatch contact_patch(const std::vector<LoadedPoint>& points, int sectors = 1);
 
 }  // namespace fingertip::lattice

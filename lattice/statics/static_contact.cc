@@ -1,10 +1,8 @@
 #include "lattice/statics/static_contact.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace fingertip::lattice {
 
@@ -26,18 +24,7 @@ StaticContact::StaticContact(const LatticeBody& body, const PressPlane& plane,
       stick_(mode == meshes::ContactMode::stick),
       anchored_(body.outer.size(), 0),
       released_(body.outer.size(), 0),
-      anchor_(body.outer.size(), Vector3::Zero()),
-      cell_(body.outer.size(), -1) {
-  std::unordered_map<std::uint32_t, std::int32_t> cell_at;
-  for (std::size_t i = 0; i < body.cells.size(); ++i)
-    cell_at[body.cells[i].corners[0]] = std::int32_t(i);
-  for (std::size_t i = 0; i < body.outer.size(); ++i) {
-    const auto found = cell_at.find(body.outer[i].corners[0]);
-    if (found == cell_at.end()) continue;
-    if (body.cells[std::size_t(found->second)].corners == body.outer[i].corners)
-      cell_[i] = found->second;
-  }
-}
+      anchor_(body.outer.size(), Vector3::Zero()) {}
 
 double StaticContact::gap(std::size_t point, const VectorXd& displacement,
                           double indentation) const {
@@ -125,18 +112,6 @@ int StaticContact::release_pulled(const VectorXd& displacement) {
   return count;
 }
 
-double StaticContact::projected_area(std::size_t point, const VectorXd& displacement) const {
-  const TiedPoint& outer = body_->outer[point];
-  Vector3 normal = outer_normal(outer.rest);
-  if (body_->finite && cell_[point] >= 0) {
-    // Nanson: the deformed area is J F^-T N.
-    const Matrix3d F =
-        Matrix3d::Identity() + cell_gradient(body_->cells[std::size_t(cell_[point])], displacement);
-    normal = F.determinant() * F.inverse().transpose() * normal;
-  }
-  return outer.area * std::abs(normal.dot(plane_.normal));
-}
-
 PlaneReaction StaticContact::reaction(const VectorXd& displacement, const Vector3& about) const {
   PlaneReaction result;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
@@ -149,16 +124,16 @@ PlaneReaction StaticContact::reaction(const VectorXd& displacement, const Vector
   return result;
 }
 
-std::vector<LoadedPoint> StaticContact::points_near(const VectorXd& displacement,
-                                                    double distance) const {
+std::vector<LoadedPoint> StaticContact::loaded_points(const VectorXd& displacement) const {
   std::vector<LoadedPoint> points;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
-    if (gap(i, displacement, indentation_) >= distance) continue;
+    const double push = tie_force(i, displacement).dot(plane_.normal);
+    if (!(push > 0.0)) continue;
     const TiedPoint& outer = body_->outer[i];
     const Vector3 place = body_->finite ? position(outer, displacement) : outer.rest;
     points.push_back({{place.dot(plane_.t1), place.dot(plane_.t2)},
-                      tie_force(i, displacement).dot(plane_.normal),
-                      projected_area(i, displacement)});
+                      push,
+                      outer.area * std::abs(outer_normal(outer.rest).dot(plane_.normal))});
   }
   return points;
 }

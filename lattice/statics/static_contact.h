@@ -73,13 +73,13 @@ class StaticContact {
   /// Sum of the ties' forces; moments at positions of rest at small strain, at present ones at
   /// finite strain.
   PlaneReaction reaction(const Eigen::VectorXd& displacement, const meshes::Vector3& about) const;
-  /// The outer points that lie nearer to the plane than `distance` [m], seen along its normal.
-  std::vector<LoadedPoint> points_near(const Eigen::VectorXd& displacement, double distance) const;
+  /// The outer points that the plane pushes, seen along its normal: at finite strain where they
+  /// are, at small strain at rest; areas at rest.
+  std::vector<LoadedPoint> loaded_points(const Eigen::VectorXd& displacement) const;
 
  private:
   double gap(std::size_t point, const Eigen::VectorXd& displacement, double indentation) const;
   bool touches(std::size_t point, const Eigen::VectorXd& displacement) const;
-  double projected_area(std::size_t point, const Eigen::VectorXd& displacement) const;
 
   const LatticeBody* body_;
   PressPlane plane_;
@@ -87,7 +87,6 @@ class StaticContact {
   double indentation_ = 0.0;
   std::vector<std::uint8_t> anchored_, released_;
   std::vector<meshes::Vector3> anchor_;  ///< from plane_.point [m]
-  std::vector<std::int32_t> cell_;       ///< that an outer point is tied to, -1: none
 };
 
 }  // namespace fingertip::lattice

@@ -226,9 +226,8 @@ PressSample StaticPress::sample() const {
   force *= body_.sectors;
   torque *= body_.sectors;
   const PressPlane& plane = now_.contact.plane();
-  const double spacing = setup_.lattice.spacing;
   const ContactPatch patch =
-      contact_patch(now_.contact.points_near(now_.displacement, spacing), body_.sectors, spacing);
+      contact_patch(now_.contact.loaded_points(now_.displacement), body_.sectors);
   PressSample sample;
   sample.indentation = now_.contact.indentation();
   sample.normal_force = force.dot(plane.normal);

@@ -19,9 +19,8 @@ struct StaticContactPoint {
 
 /// Counts and contact points are those of the part computed, 1/sectors of the tip; forces, torques
 /// and radii are the whole tip's. Of the response's columns time and force_error stay unknown.
-/// contact_radius and max_pressure are those of contact_patch, with pressure averaged over one
-/// spacing around a point: true ones at finite strain, at small strain those of the shape at rest.
-/// R/12, default press: radius within 1 % from a depth of 0.05 cm on, pressure -2 ... +6 %.
+/// contact_radius and max_pressure are those of contact_patch: true ones at finite strain, at small
+/// strain those of the shape at rest. How far off they are stands in the README.
 struct StaticOutcome {
   meshes::PressResponse response;  ///< at the protocol's samples
   std::size_t particles = 0, cells = 0, springs = 0, unknowns = 0;

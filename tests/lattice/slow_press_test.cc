@@ -57,6 +57,7 @@ void expect_the_static_press(const PressSetup& setup, double from, double tolera
     EXPECT_NEAR(got.torque_y, expected.torque_y, tolerance * force * arm);
     EXPECT_NEAR(got.torque_z, expected.torque_z, tolerance * force * arm);
     EXPECT_NEAR(got.contact_radius, expected.contact_radius, 0.02 * expected.contact_radius);
+    EXPECT_NEAR(got.max_pressure, expected.max_pressure, 0.04 * expected.max_pressure);
     ++compared;
   }
   EXPECT_GE(compared, 4);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -213,11 +215,36 @@ std::vector<LoadedPoint> hertzian_points(double A, double B, double raster, doub
 }  // namespace
 
 TEST(ContactPatch, MeasuresHertzThroughNoise) {
-  EXPECT_NEAR(contact_patch(hertzian_points(1.0, 1.0, 0.05, 0.0), 1, 0.2).radius, 1.0, 3e-3);
-  EXPECT_NEAR(contact_patch(hertzian_points(1.0, 1.0, 0.05, 0.0), 1, 0.2).max_pressure, 1.0, 0.01);
-  const auto rough = contact_patch(hertzian_points(1.4, 0.8, 0.05, 1.0), 1, 0.3);
+  const auto smooth = contact_patch(hertzian_points(1.0, 1.0, 0.05, 0.0));
+  EXPECT_NEAR(smooth.radius, 1.0, 3e-3);
+  EXPECT_NEAR(smooth.max_pressure, 1.0, 0.01);
+  const auto rough = contact_patch(hertzian_points(1.4, 0.8, 0.05, 1.0));
   EXPECT_NEAR(rough.radius, std::sqrt(1.4 * 0.8), 0.03);
-  EXPECT_NEAR(rough.max_pressure, 1.0, 0.2);
+  EXPECT_NEAR(rough.max_pressure, 1.0, 0.05);
+}
+
+/// The continuum at large strain: law A, sticking, 0.3 cm deep, from axisymmetric finite elements.
+/// The pressure has a peak in the middle; Hertz's moment of it is 5 % too small a radius.
+TEST(ContactPatch, MeasuresAPeakedPressure) {
+  constexpr std::array<double, 8> at = {0.0, 0.25, 0.5, 0.75, 0.9, 0.95, 0.98, 1.0};
+  constexpr std::array<double, 8> pressure = {1.0, 0.896, 0.666, 0.416, 0.248, 0.175, 0.117, 0.0};
+  std::vector<LoadedPoint> points;
+  constexpr double raster = 0.02;
+  for (double x = raster / 2; x < 1.0; x += raster)
+    for (double y = raster / 2; y < 1.0; y += raster) {
+      const double r = std::hypot(x, y);
+      if (r >= 1.0) continue;
+      const std::size_t k = std::size_t(std::upper_bound(at.begin(), at.end(), r) - at.begin());
+      // p² is nearly linear in r².
+      const double share =
+          (r * r - at[k - 1] * at[k - 1]) / (at[k] * at[k] - at[k - 1] * at[k - 1]);
+      const double square =
+          (1.0 - share) * std::pow(pressure[k - 1], 2) + share * std::pow(pressure[k], 2);
+      points.push_back({{x, y}, std::sqrt(square) * raster * raster, raster * raster});
+    }
+  const auto patch = contact_patch(points, 4);
+  EXPECT_NEAR(patch.radius, 1.0, 0.01);
+  EXPECT_NEAR(patch.max_pressure, 1.0, 0.02);
 }
 
 TEST(ContactPatch, SectorsAreMirrored) {
@@ -229,17 +256,17 @@ TEST(ContactPatch, SectorsAreMirrored) {
     half.push_back(point);
     if (point.place.x() > 0.0) quarter.push_back(point);
   }
-  const auto expected = contact_patch(whole, 1, 0.25);
-  for (const auto& part : {contact_patch(half, 2, 0.25), contact_patch(quarter, 4, 0.25)}) {
+  const auto expected = contact_patch(whole);
+  for (const auto& part : {contact_patch(half, 2), contact_patch(quarter, 4)}) {
     EXPECT_NEAR(part.radius, expected.radius, 1e-12);
     EXPECT_NEAR(part.max_pressure, expected.max_pressure, 1e-12);
   }
 }
 
 TEST(ContactPatch, NothingAndASinglePoint) {
-  EXPECT_EQ(lattice::contact_patch({}, 4, 0.1).radius, 0.0);
-  EXPECT_EQ(lattice::contact_patch({{{0.0, 0.0}, 0.0, 1.0}}, 1, 0.1).max_pressure, 0.0);
-  const auto one = lattice::contact_patch({{{0.2, 0.1}, 3.0, 2.0}}, 1, 0.1);
-  EXPECT_NEAR(one.max_pressure, 1.5, 1e-14);
+  EXPECT_EQ(contact_patch(std::vector<LoadedPoint>{}, 4).radius, 0.0);
+  EXPECT_EQ(contact_patch(std::vector<LoadedPoint>{{{0.0, 0.0}, 0.0, 1.0}}).max_pressure, 0.0);
+  const auto one = contact_patch(std::vector<LoadedPoint>{{{0.2, 0.1}, 3.0, 2.0}});
   EXPECT_NEAR(one.radius, std::sqrt(5.0 * 2.0 / (4.0 * std::numbers::pi)), 1e-14);
+  EXPECT_NEAR(one.max_pressure, 1.5 * 3.0 / (std::numbers::pi * one.radius * one.radius), 1e-14);
 }

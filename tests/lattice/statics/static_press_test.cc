@@ -116,6 +116,22 @@ TEST(StaticPress, NetworkAgreesWithLawA) {
   EXPECT_LT(outcome.smallest_jacobian, 0.9);
 }
 
+/// Largest true pressure and radius at 0.3 cm of law A from axisymmetric finite elements
+/// (tests/verification/axisymmetric).
+TEST(StaticPress, PressureAndRadiusAtLargeStrain) {
+  struct Truth {
+    ContactMode contact;
+    double radius_cm, pressure_gf_cm2;
+  };
+  for (const Truth& truth : {Truth{ContactMode::frictionless, 0.6578, 41.98},
+                             Truth{ContactMode::stick, 0.6488, 50.26}}) {
+    const PressSample sample =
+        last_sample(press_at(8, {0.3}, truth.contact, ModelKind::network, Kinematics::finite));
+    EXPECT_NEAR(sample.contact_radius / cm / truth.radius_cm, 1.0, 0.025);
+    EXPECT_NEAR(sample.max_pressure / (gf / (cm * cm)) / truth.pressure_gf_cm2, 1.0, 0.075);
+  }
+}
+
 /// Strain is of the order of sqrt(depth/R): ten times less deep, the laws are closer.
 TEST(StaticPress, FiniteStrainTendsToSmallStrain) {
   const auto difference = [](double depth_cm) {
