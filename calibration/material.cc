@@ -137,9 +137,11 @@ void warn_of_differences(Sentences& found, const Material& material, const Press
       found.push_back(std::string(what) + " is " + to_text(theirs) + unit +
                       " as configured, not the material's " + to_text(ours) + unit);
   };
-  compare("the rubber's density", material.rubber.density, setup.rubber.density, " kg/m^3");
-  compare("the rubber's retardation time", material.rubber.retardation_time,
-          setup.rubber.retardation_time, " s");
+  if (material.density_known)
+    compare("the rubber's density", material.rubber.density, setup.rubber.density, " kg/m^3");
+  if (material.retardation_time_known)
+    compare("the rubber's retardation time", material.rubber.retardation_time,
+            setup.rubber.retardation_time, " s");
   compare("the factor on the bond", material.ligament_stiffness, setup.lattice.ligament_stiffness,
           "");
   compare("the factor on the contact", material.contact_stiffness, setup.lattice.contact_stiffness,
@@ -171,6 +173,8 @@ std::vector<Violation> Material::violations() const {
                            "calibrated models are central, hookean and network",
                            "give one of them"});
   for (const Violation& violation : rubber.violations()) rules.found.push_back(violation);
+  if (geometry)
+    for (const Violation& violation : geometry->violations()) rules.found.push_back(violation);
   // The rules on constants divide by the spacing.
   if (rules.found.empty() && model != ModelKind::network) check_constants(rules, *this);
   check_validity(rules, validity);
@@ -185,6 +189,8 @@ lattice::SpringConstants at_spacing(const Material& material, double spacing) {
 
 Sentences lattice_warnings(const Material& material, const PressSetup& setup) {
   Sentences found;
+  if (!material.rejected.empty())
+    found.push_back("the fit failed its own tests: " + material.rejected);
   warn_of_spacing(found, material.validity, setup);
   warn_of_geometry(found, material.validity, setup);
   warn_of_kinematics(found, material, setup);

@@ -9,6 +9,7 @@
 
 #include "lattice/settings.h"
 #include "meshes/errors.h"
+#include "meshes/geometry.h"
 #include "meshes/press_protocol.h"
 #include "meshes/rubber.h"
 
@@ -37,11 +38,16 @@ struct Material {
   double ligament_stiffness = 1.0;  ///< LatticeSettings::ligament_stiffness
   double contact_stiffness = 1.0;   ///< LatticeSettings::contact_stiffness
   meshes::Rubber rubber;            ///< the rubber they stand for
+  /// Whether the rubber's own are known; if not, they are not written, and a press has its own.
+  bool density_known = true, retardation_time_known = true;
+  std::optional<meshes::Geometry> geometry;  ///< of the finger they were found on
   Validity validity;
   std::string provenance;  ///< how they were found and from what: "moduli", files with SHA-256
   std::string program;     ///< with its version; may be empty
   std::string date;        ///< may be empty
-  std::string statement;   ///< what they are good for, in words
+  /// Why the fit failed its own tests; empty: it passed them.
+  std::string rejected;
+  std::string statement;  ///< what they are good for, in words
 
   /// Every broken rule, with keys of material.toml: "constants.k1".
   std::vector<meshes::Violation> violations() const;
@@ -51,10 +57,11 @@ struct Material {
 /// kappa is a modulus itself.
 lattice::SpringConstants at_spacing(const Material& material, double spacing);
 
-/// Plain sentences on what of `setup` lies outside of where `material` was fitted: spacing (as a
-/// share of the thickness), thickness of the rubber, kinematics, and where the setup's own rubber
-/// or ties are others than the material's. E and G of setup.rubber count as what the user believes
-/// in, the stiffness being the material's. Empty: nothing to beware of.
+/// Plain sentences on a material whose fit failed its own tests, and on what of `setup` lies
+/// outside of where `material` was fitted: spacing (as a share of the thickness), thickness of the
+/// rubber, kinematics, and where the setup's own rubber or ties are others than the material's. E
+/// and G of setup.rubber count as what the user believes in, the stiffness being the material's.
+/// Empty: nothing to beware of.
 std::vector<std::string> lattice_warnings(const Material& material,
                                           const lattice::PressSetup& setup);
 
@@ -63,9 +70,9 @@ std::vector<std::string> lattice_warnings(const Material& material,
 std::vector<std::string> warnings(const Material& material, const lattice::PressSetup& setup);
 
 /// material.toml: every quantity a string with its SI unit, "1.144 N/m", what has none a number.
-/// Written atomically, reads back to the same bits; what is unknown is left out, the network's
-/// constants too. Throws InvalidInput for a material that breaks a rule, std::runtime_error when
-/// the file cannot be written.
+/// Written atomically, reads back to the same bits; what is unknown is left out (and Rubber's
+/// default when read), the network's constants too. Throws InvalidInput for a material that breaks
+/// a rule, std::runtime_error when the file cannot be written.
 void write_material_toml(const Material& material, const std::filesystem::path& file);
 
 /// Reads material.toml; [validity] and what was added with it may be missing, as in files of

@@ -44,10 +44,16 @@ std::vector<Quantity> quantities(Material& m) {
                            {"constants", "k2", "N/m", &m.constants.k2},
                            {"constants", "k3", "N/m", &m.constants.k3},
                            {"constants", "kappa", "Pa", &m.constants.kappa}});
-  all.insert(all.end(), {{"rubber", "youngs_modulus", "Pa", &m.rubber.youngs_modulus},
-                         {"rubber", "shear_modulus", "Pa", &m.rubber.shear_modulus},
-                         {"rubber", "density", "kg/m^3", &m.rubber.density},
-                         {"rubber", "retardation_time", "s", &m.rubber.retardation_time}});
+  all.insert(all.end(),
+             {{"rubber", "youngs_modulus", "Pa", &m.rubber.youngs_modulus},
+              {"rubber", "shear_modulus", "Pa", &m.rubber.shear_modulus},
+              {"rubber", "density", "kg/m^3", &m.rubber.density, nullptr, false},
+              {"rubber", "retardation_time", "s", &m.rubber.retardation_time, nullptr, false}});
+  if (m.geometry)
+    all.insert(all.end(), {{"geometry", "tip_radius", "m", &m.geometry->tip_radius},
+                           {"geometry", "rod_radius", "m", &m.geometry->rod_radius},
+                           {"geometry", "sleeve_length", "m", &m.geometry->sleeve_length},
+                           {"geometry", "rod_length", "m", &m.geometry->rod_length}});
   const auto bound = [&](std::string_view key, std::string_view unit, std::optional<double>& value,
                          std::string_view note) {
     all.push_back({"validity", key, unit, nullptr, &value, false, note});
@@ -109,12 +115,16 @@ class MaterialReader {
     if (find("lattice", "kinematics"))
       material.kinematics =
           word("lattice", "kinematics", std::array{Kinematics::small, Kinematics::finite});
+    if (table_.contains("geometry")) material.geometry.emplace();
     const std::vector<Quantity> known = quantities(material);
     for (const Quantity& quantity : known) read(quantity);
+    material.density_known = find("rubber", "density") != nullptr;
+    material.retardation_time_known = find("rubber", "retardation_time") != nullptr;
     if (find("validity", "contacts")) material.validity.contacts = contacts();
     material.provenance = text("about", "provenance");
     if (find("about", "program")) material.program = text("about", "program");
     if (find("about", "date")) material.date = text("about", "date");
+    if (find("about", "rejected")) material.rejected = text("about", "rejected");
     // Its name in files without [validity].
     statement_ =
         find("about", "statement") || !find("about", "validity") ? "statement" : "validity";
@@ -232,9 +242,9 @@ class MaterialReader {
   }
 
   void refuse_unknown_keys(const std::vector<Quantity>& known) const {
-    constexpr std::array<std::string_view, 6> words = {"lattice.model",     "lattice.kinematics",
-                                                       "validity.contacts", "about.provenance",
-                                                       "about.program",     "about.date"};
+    constexpr std::array<std::string_view, 7> words = {
+        "lattice.model", "lattice.kinematics", "validity.contacts", "about.provenance",
+        "about.program", "about.date",         "about.rejected"};
     const auto expected = [&](std::string_view section, std::string_view key) {
       const std::string full = dotted(section, key);
       return std::ranges::find(words, full) != words.end() || full == dotted("about", statement_) ||
@@ -290,10 +300,16 @@ std::string material_toml(Material material) {
   std::string text =
       "# Calibrated lattice constants, SI. Use: lattice.constants = \"<path of this file>\"\n";
   const std::vector<Quantity> all = quantities(material);
-  for (const std::string_view section : {"lattice", "constants", "rubber", "validity"}) {
+  const auto unknown = [&](const Quantity& one) {
+    return (one.maybe != nullptr && !*one.maybe) ||
+           (one.value == &material.rubber.density && !material.density_known) ||
+           (one.value == &material.rubber.retardation_time && !material.retardation_time_known);
+  };
+  for (const std::string_view section :
+       {"lattice", "constants", "rubber", "geometry", "validity"}) {
     std::string lines = words_of(material, section);
     for (const Quantity& quantity : all) {
-      if (quantity.section != section || (quantity.maybe != nullptr && !*quantity.maybe)) continue;
+      if (quantity.section != section || unknown(quantity)) continue;
       const double value = quantity.value != nullptr ? *quantity.value : **quantity.maybe;
       lines +=
           std::string(quantity.key) + " = " +
@@ -306,6 +322,7 @@ std::string material_toml(Material material) {
   text += "\n[about]\nprovenance = " + toml_text(material.provenance) + '\n';
   if (!material.program.empty()) text += "program = " + toml_text(material.program) + '\n';
   if (!material.date.empty()) text += "date = " + toml_text(material.date) + '\n';
+  if (!material.rejected.empty()) text += "rejected = " + toml_text(material.rejected) + '\n';
   // Last, so that a file cut short is noticed.
   return text + "statement = " + toml_text(material.statement) + '\n';
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "calibration/curves/curve_residuals.h"
 #include "calibration/curves/fit_coordinates.h"
@@ -32,11 +33,26 @@ std::vector<T> without(std::vector<T> list, std::size_t place) {
   return list;
 }
 
+/// The errors of the models that answer for the other curves.
+CurveFitOptions without_values(CurveFitOptions options, const std::vector<Curve>& curves,
+                               std::size_t place) {
+  if (options.model_covariance.size() == 0) return options;
+  std::vector<Index> kept;
+  Index row = 0;
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    for (std::size_t i = 0; i < curves[c].y.size(); ++i, ++row)
+      if (c != place) kept.push_back(row);
+  options.model_covariance = Eigen::MatrixXd(options.model_covariance(kept, kept));
+  return options;
+}
+
 LeftOut leave_out(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
                   const CurveFitOptions& options, std::size_t place) {
   LeftOut result;
   try {
-    const CurveFit fit = fit_curves(without(curves, place), without(models, place), options);
+    const CurveFit fit = fit_curves(without(curves, place), without(models, place),
+                                    without_values(options, curves, place));
+    if (!fit.converged) throw meshes::NotConverged("no minimum within the evaluations allowed");
     const VectorXd predicted = models[place]->evaluate(fit.estimates).value;
     const auto& y = curves[place].y;
     result.residuals = Eigen::Map<const VectorXd>(y.data(), Index(y.size())) - predicted;
@@ -55,18 +71,42 @@ LeftOut leave_out(const std::vector<Curve>& curves, const std::vector<ForwardMod
   return result;
 }
 
-/// sum f y / sum f² of the model's values f and the measured y over their deviations; none where
-/// the model has no answer or no values.
-double best_scale(CurveResiduals& residuals, const std::vector<Curve>& curves,
-                  const VectorXd& parameters) {
-  const Linearisation& at = residuals.at(parameters);
+/// The model's values over their deviations.
+VectorXd whitened_values(CurveResiduals& residuals, const std::vector<Curve>& curves,
+                         const VectorXd& parameters) {
   std::vector<double> measured;
   for (const Curve& curve : curves) measured.insert(measured.end(), curve.y.begin(), curve.y.end());
-  const VectorXd y = Eigen::Map<const VectorXd>(measured.data(), residuals.values())
-                         .cwiseQuotient(residuals.deviations());
-  const VectorXd f = at.residuals.head(residuals.values()) + y;
-  return f.dot(y) / f.squaredNorm();
+  return residuals.at(parameters).residuals.head(residuals.values()) +
+         residuals.whitening() * Eigen::Map<const VectorXd>(measured.data(), residuals.values());
 }
+
+/// sum f y / sum f² of the model's values f and the measured y over their deviations; none where
+/// there is no positive factor.
+std::optional<double> best_scale(CurveResiduals& residuals, const std::vector<Curve>& curves,
+                                 const VectorXd& parameters) {
+  const VectorXd f = whitened_values(residuals, curves, parameters);
+  const VectorXd y = f - residuals.at(parameters).residuals.head(residuals.values());
+  const double scale = f.dot(y) / f.squaredNorm();
+  return scale > 0.0 && std::isfinite(scale) ? std::optional(scale) : std::nullopt;
+}
+
+bool is_stiffness(const FreeParameter& free) {
+  return unit(free.parameter) == "Pa" || unit(free.parameter) == "N/m";
+}
+
+/// Moduli times `scale`, within their bounds.
+void rescale(VectorXd& parameters, const CurveFitOptions& options, double scale) {
+  for (std::size_t i = 0; i < options.free.size(); ++i) {
+    const FreeParameter& free = options.free[i];
+    if (is_stiffness(free))
+      parameters(Index(i)) = std::clamp(scale * parameters(Index(i)), free.lower, free.upper);
+  }
+}
+
+struct ScannedStart {
+  VectorXd parameters;
+  double loss = 0.0;
+};
 
 void check_ratios(const CurveFitOptions& options, const std::vector<double>& ratios) {
   if (!places_of_moduli(options))
@@ -95,36 +135,58 @@ std::vector<LeftOut> leave_one_out(const std::vector<Curve>& curves,
   return results;
 }
 
-Eigen::MatrixXd influence(const CurveFit& fit) {
-  return fit.covariance * fit.jacobian.transpose() * fit.deviations.cwiseInverse().asDiagonal();
-}
-
 std::vector<VectorXd> scaled_starts(const std::vector<Curve>& curves,
                                     const std::vector<ForwardModel*>& models,
                                     const CurveFitOptions& options,
-                                    const std::vector<double>& poissons_ratios) {
+                                    std::vector<double> poissons_ratios) {
   check_curve_fit(curves, options);
   check_ratios(options, poissons_ratios);
   const auto [e, g] = *places_of_moduli(options);
   CurveResiduals residuals(curves, models, options);
-  std::vector<VectorXd> starts;
+  std::ranges::sort(poissons_ratios);
+  std::vector<ScannedStart> scan;
   for (const double nu : poissons_ratios) {
     VectorXd start(Index(options.free.size()));
     for (Index i = 0; i < start.size(); ++i) start(i) = options.free[std::size_t(i)].start;
     start(e) = 2.0 * (1.0 + nu) * start(g);
     try {
-      const double scale = best_scale(residuals, curves, start);
-      if (!(scale > 0.0) || !std::isfinite(scale)) continue;
-      for (const Index i : {e, g}) {
-        const FreeParameter& free = options.free[std::size_t(i)];
-        start(i) = std::clamp(scale * start(i), free.lower, free.upper);
-      }
-      starts.push_back(start);
+      const auto scale = best_scale(residuals, curves, start);
+      if (!scale) continue;
+      rescale(start, options, *scale);
+      scan.push_back(
+          {start, 0.5 * residuals.with_loss(residuals.at(start)).residuals.squaredNorm()});
     } catch (const meshes::NotConverged&) {
       continue;
     }
   }
+  std::vector<ScannedStart> valleys;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if ((i == 0 || scan[i].loss < scan[i - 1].loss) &&
+        (i + 1 == scan.size() || scan[i].loss <= scan[i + 1].loss))
+      valleys.push_back(scan[i]);
+  std::ranges::stable_sort(valleys, {}, &ScannedStart::loss);
+  std::vector<VectorXd> starts;
+  for (const ScannedStart& valley : valleys) starts.push_back(valley.parameters);
   return starts;
+}
+
+std::optional<VectorXd> scaled_start(const std::vector<Curve>& curves,
+                                     const std::vector<ForwardModel*>& models,
+                                     const CurveFitOptions& options) {
+  check_curve_fit(curves, options);
+  CurveResiduals residuals(curves, models, options);
+  VectorXd start(Index(options.free.size())), stiffness = VectorXd::Zero(start.size());
+  for (Index i = 0; i < start.size(); ++i) {
+    start(i) = options.free[std::size_t(i)].start;
+    if (is_stiffness(options.free[std::size_t(i)])) stiffness(i) = start(i);
+  }
+  const VectorXd values = whitened_values(residuals, curves, start);
+  const VectorXd sum =
+      residuals.at(start).jacobian.topRows(residuals.values()) * stiffness - values;
+  if (!(sum.norm() <= 1e-6 * values.norm())) return std::nullopt;
+  const auto scale = best_scale(residuals, curves, start);
+  if (scale) rescale(start, options, *scale);
+  return scale ? std::optional(start) : std::nullopt;
 }
 
 }  // namespace fingertip::calibration

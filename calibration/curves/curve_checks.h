@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,19 +50,22 @@ Profile profile_likelihood(const std::vector<Curve>& curves,
                            const CurveFit& fit, std::size_t first, std::size_t second,
                            const ProfileOptions& profile = {});
 
-/// d(estimates)/d(y), a row per parameter, a column per value of every curve in order [unit of the
-/// parameter per unit of y]: (JᵀJ + priors)⁻¹ Jᵀ/sigma at the estimates; bounds do not count. Data
-/// that contain d, which the model does not, move the estimates by this matrix times d.
-Eigen::MatrixXd influence(const CurveFit& fit);
-
-/// Starts for fits of E and G: at every Poisson's ratio of `poissons_ratios` the rubber whose
+/// Where to start a fit of E and G: at every Poisson's ratio of `poissons_ratios` the rubber whose
 /// values meet the curves best, found from one evaluation, because forces and stresses at given
-/// kinematics are proportional to (E, G) at held nu. Other parameters keep their start. Ratios at
-/// which a model has no answer are left out, moduli are cut off at their bounds. Throws
+/// kinematics are proportional to (E, G) at held nu. Of these the valleys are returned, whose loss
+/// is below that of their neighbours in nu, the deepest first. Other parameters keep their start.
+/// Ratios at which a model has no answer are left out, moduli are cut off at their bounds. Throws
 /// InvalidInput unless E and G both are free, and for ratios outside of (-1, 1/2).
 std::vector<Eigen::VectorXd> scaled_starts(const std::vector<Curve>& curves,
                                            const std::vector<ForwardModel*>& models,
                                            const CurveFitOptions& options,
-                                           const std::vector<double>& poissons_ratios);
+                                           std::vector<double> poissons_ratios);
+
+/// The start with all stiffnesses among the parameters (what is in Pa or N/m) multiplied by one
+/// factor, the one that meets the curves best; none where the values are not proportional to them
+/// together, as with one of E and G held, by Euler's theorem: sum p dF/dp = F.
+std::optional<Eigen::VectorXd> scaled_start(const std::vector<Curve>& curves,
+                                            const std::vector<ForwardModel*>& models,
+                                            const CurveFitOptions& options);
 
 }  // namespace fingertip::calibration

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "calibration/curves/curve_minimum.h"
@@ -24,14 +25,36 @@ std::vector<MaterialParameter> names(const CurveFitOptions& options) {
   return parameters;
 }
 
-/// From the start, then from the others.
+/// From the start, then from the others, each with its share of the evaluations that are left.
+/// Without an answer at one of the others there is no minimum from there.
 std::vector<Minimum> minima_from(CurveResiduals& residuals, const CurveFitOptions& options) {
   VectorXd start(Index(options.free.size()));
   for (Index i = 0; i < start.size(); ++i) start(i) = options.free[std::size_t(i)].start;
-  std::vector<Minimum> minima = {minimise(residuals, options, start)};
-  for (const VectorXd& other : options.other_starts)
-    minima.push_back(minimise(residuals, options, other));
+  std::vector<VectorXd> starts = options.other_starts;
+  starts.insert(starts.begin(), start);
+  std::vector<Minimum> minima;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const int used = residuals.evaluations(), shares = int(starts.size() - i);
+    residuals.allow(used + std::max(1, (options.max_evaluations - used) / shares));
+    try {
+      minima.push_back(minimise(residuals, options, starts[i]));
+    } catch (const meshes::NotConverged&) {
+      if (i == 0) throw;
+    }
+  }
+  residuals.allow(std::numeric_limits<int>::max());
   return minima;
+}
+
+/// The least loss; a minimum rather than what a search that ran out has seen less than a tenth of a
+/// standard error below it.
+const Minimum& best_of(const std::vector<Minimum>& minima, const CurveResiduals& residuals) {
+  const Minimum& least = *std::ranges::min_element(minima, {}, &Minimum::loss);
+  const double close = least.loss + 0.01 * residuals.loss_of_standard_error(least.loss);
+  const Minimum* best = &least;
+  for (const Minimum& one : minima)
+    if (!best->converged && one.converged && one.loss <= close) best = &one;
+  return *best;
 }
 
 /// What a relative change refers to: the estimate, and for what may be zero at least its size.
@@ -46,8 +69,8 @@ VectorXd sizes(const VectorXd& estimates, const CurveFitOptions& options) {
 /// Less than one good fit in a hundred has so large a chi-square.
 constexpr double improbable = 0.01;
 
-void add_uncertainty(CurveFit& fit, const Sensitivity& sensitivity, double quantile) {
-  fit.covariance = sensitivity.covariance();
+void add_uncertainty(CurveFit& fit, const Eigen::MatrixXd& covariance, double quantile) {
+  fit.covariance = covariance;
   fit.standard_errors = fit.covariance.diagonal().cwiseSqrt();
   const VectorXd inverse = fit.standard_errors.cwiseInverse();
   fit.correlation = inverse.asDiagonal() * fit.covariance * inverse.asDiagonal();
@@ -61,13 +84,14 @@ void add_bounds(CurveFit& fit, const CurveFitOptions& options) {
     fit.at_bound.push_back(p - lower_bound(options.free[i]) <= near ||
                            options.free[i].upper - p <= near);
   }
-  if (const auto places = places_of_moduli(options)) {
-    const Index e = places->first;
-    const FitCoordinates coordinates(options);
-    const double x = coordinates.from(fit.estimates)(e);
-    if (x <= 1.001 * coordinates.lower()(e) || x >= (1.0 - 1e-9) * coordinates.upper()(e))
-      fit.at_bound[std::size_t(e)] = true;
-  }
+  const FitCoordinates coordinates(options);
+  const auto places = coordinates.rubber();
+  if (!places) return;
+  const auto [e, g] = *places;
+  const double x = coordinates.from(fit.estimates)(e);
+  if (x > 1.001 * coordinates.lower()(e) && x < (1.0 - 1e-9) * coordinates.upper()(e)) return;
+  fit.poissons_ratio_bound = fit.estimates(e) / (2.0 * fit.estimates(g)) - 1.0;
+  fit.at_bound[std::size_t(e)] = true;
 }
 
 /// Squares of the residuals, and of the priors' where sigma weighs both; the deviation of one
@@ -81,7 +105,7 @@ double add_squares(CurveFit& fit, const CurveResiduals& residuals, const Lineari
   if (fit.degrees_of_freedom > 0)
     fit.residual_deviation = std::sqrt(squares / fit.degrees_of_freedom);
   if (!residuals.has_sigma())
-    return std::max(fit.residual_deviation / residuals.deviations()(0), 1e-150);
+    return std::max(fit.residual_deviation * residuals.whitening()(0, 0), 1e-150);
   if (options.robust_width == 0.0) {
     fit.chi_square = at.residuals.squaredNorm();
     if (fit.degrees_of_freedom > 0) {
@@ -106,9 +130,10 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   CurveFit fit;
   fit.parameters = names(options);
   fit.minima = minima_from(residuals, options);
-  const Minimum& best = *std::ranges::min_element(fit.minima, {}, &Minimum::loss);
+  const Minimum& best = best_of(fit.minima, residuals);
   fit.estimates = best.estimates;
   fit.iterations = best.iterations;
+  fit.converged = best.converged;
   fit.evaluations = residuals.evaluations();
   const Linearisation& at = residuals.at(fit.estimates);
   const double deviation = add_squares(fit, residuals, at, options);
@@ -116,9 +141,14 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   const VectorXd root = residuals.weights(at).cwiseSqrt();
   const Eigen::MatrixXd jacobian = root.asDiagonal() * at.jacobian / deviation;
   fit.jacobian = jacobian.topRows(residuals.values());
-  fit.deviations = deviation * residuals.deviations().cwiseQuotient(root.head(residuals.values()));
+  fit.whitening = root.head(residuals.values()).asDiagonal() * residuals.whitening() / deviation;
   const VectorXd size = sizes(fit.estimates, options);
-  add_uncertainty(fit, Sensitivity(jacobian, size), quantile);
+  Eigen::MatrixXd covariance = Sensitivity(jacobian, size).covariance();
+  fit.influence = covariance * fit.jacobian.transpose() * fit.whitening;
+  // Found without regard to the models' errors, which come through.
+  if (!residuals.has_sigma() && options.model_covariance.size() > 0)
+    covariance += fit.influence * options.model_covariance * fit.influence.transpose();
+  add_uncertainty(fit, covariance, quantile);
   add_bounds(fit, options);
   describe_sensitivity(fit, jacobian.bottomRows(residuals.priors()), size,
                        options.relative_singular_value, quantile);

@@ -38,10 +38,19 @@ struct CurveFitOptions {
   /// Width w in sigma of the loss w² (sqrt(1 + r²/w²) - 1), quadratic inside, linear outside; 0:
   /// least squares. Needs sigma.
   double robust_width = 0.0;
-  /// Poisson's ratios between which E and G are sought where both are free, without bounds of
-  /// their own: the ends of a table, 0 of law A. -1 < lowest < highest <= 1/2.
+  /// Poisson's ratios between which E and G are sought where both are free and E has no bounds of
+  /// its own: the ends of a table, 0 of law A. -1 < lowest < highest <= 1/2.
   double lowest_poissons_ratio = -0.999, highest_poissons_ratio = 0.5;
+  /// Covariance of the models' own errors, which sigma does not contain, for all values of all
+  /// curves in order [y²]: symmetric, positive semidefinite; empty: none. Where sigma is given the
+  /// residuals are weighed by the sum of both covariances; else, the values' own deviation being
+  /// unknown, all values count alike and the errors pass through the estimates.
+  Eigen::MatrixXd model_covariance = {};
   int max_iterations = 50;  ///< per start, >= 1
+  /// Evaluations of all models, from all starts together, each of which may use its share and what
+  /// those before left of theirs, >= 1. A search that they do not suffice for ends with the least
+  /// loss it has seen, not converged.
+  int max_evaluations = std::numeric_limits<int>::max();
   /// The search ends where a step promises no more than this share of a standard error, in (0,
   /// 0.1]. Steps below it cost evaluations and tell nothing; on a kink of a model they creep.
   double tolerance = 1e-7;
@@ -73,21 +82,24 @@ struct Minimum {
   /// Half the sum of squares, in units of sigma or of the values' root mean square.
   double loss = 0.0;
   int iterations = 0;
+  bool converged = true;  ///< false: the least loss seen when iterations or evaluations ran out
 };
 
 /// Everything local is linearised at the estimates.
 struct CurveFit {
   std::vector<MaterialParameter> parameters;
   Eigen::VectorXd estimates;
-  /// sigma given: (Jᵀ J)⁻¹ with J in units of sigma, priors as further rows; not given: times the
-  /// residual variance. With a robust loss J is weighted by the loss's slope.
+  /// sigma given: (Jᵀ J)⁻¹ with J whitened by sigma and model_covariance, priors as further rows;
+  /// not given: times the residual variance, and what model_covariance makes of the estimates. With
+  /// a robust loss J is weighted by the loss's slope.
   Eigen::MatrixXd covariance, correlation;
   Eigen::VectorXd standard_errors;
   /// 95 % intervals: normal where sigma is given, times birge_ratio, else Student's t.
   Eigen::VectorXd lower, upper;
-  /// Its interval then is not one. Of E also at 3G/E - 1 = 1e-4 where G is free, too, and
-  /// neither has bounds: the data ask for nu = 1/2 or more.
+  /// Its interval then is not one. Of E also where Poisson's ratio is at its bound.
   std::vector<bool> at_bound;
+  /// Where E and G are sought and Poisson's ratio has ended at a bound: that bound.
+  std::optional<double> poissons_ratio_bound;
   int degrees_of_freedom = 0;  ///< values and priors minus parameters
   /// Sum of squares in units of sigma (and of the priors' deviations), and the probability of at
   /// least that if model and sigma are right; only where sigma is given and the loss is quadratic.
@@ -97,12 +109,17 @@ struct CurveFit {
   /// covariance, are widened by it (Birge, Phys. Rev. 40, 207, 1932). Else 1.
   double birge_ratio = 1.0;
   double residual_deviation = 0.0;  ///< sqrt(sum of squares / degrees of freedom), data only [y]
-  /// J: derivatives of the curves' values, curve by curve, over `deviations` [1 per unit]. Priors
+  /// J: derivatives of the curves' values, curve by curve, times `whitening` [1 per unit]. Priors
   /// are not among its rows.
   Eigen::MatrixXd jacobian;
-  /// What a row of `jacobian` is divided by [y]: sigma, or what the residuals yield for it, and
-  /// with a robust loss larger where the loss gives a value less weight.
-  Eigen::VectorXd deviations;
+  /// What residuals are multiplied by [1/y], symmetric: the inverse root of the covariance of
+  /// sigma (or of what the residuals yield for it) and of the models' errors. With a robust loss
+  /// its rows are smaller where the loss gives a value less weight.
+  Eigen::MatrixXd whitening;
+  /// d(estimates)/d(y), a row per parameter, a column per value of every curve in order [unit of
+  /// the parameter per unit of y]: (JᵀJ + priors)⁻¹ Jᵀ whitening at the estimates; bounds do not
+  /// count. Data that contain d, which the model does not, move the estimates by this times d.
+  Eigen::MatrixXd influence;
   /// Of `jacobian` times the parameters' sizes, decreasing.
   Eigen::VectorXd singular_values;
   std::vector<Direction> unidentifiable;
@@ -110,6 +127,7 @@ struct CurveFit {
   /// interval does not exceed the parameters.
   std::vector<Direction> only_from_priors;
   std::vector<Eigen::VectorXd> residuals;  ///< measured minus computed, per curve [y]
+  bool converged = true;                   ///< the least of all minima is one
   int iterations = 0;                      ///< of the start reported
   int evaluations = 0;                     ///< of all models, from all starts
   std::vector<Minimum> minima;             ///< from every start, in order
@@ -119,8 +137,8 @@ struct CurveFit {
 /// `options.free` in that order. Throws InvalidInput for an empty curve, lists of different length,
 /// abscissae that are not positive and increasing, values that are not finite, sigma that is not
 /// positive, a prior or robust loss without sigma, a start outside its bounds, fewer values than
-/// parameters, and for what a model refuses at the start; NotConverged when max_iterations do not
-/// suffice; Interrupted.
+/// parameters, and for what a model refuses at the first start; NotConverged where it has no answer
+/// there; Interrupted. Iterations or evaluations that do not suffice are told by `converged`.
 CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
                     const CurveFitOptions& options);
 

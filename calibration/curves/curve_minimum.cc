@@ -7,7 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <optional>
-#include <string>
+#include <tuple>
 #include <vector>
 
 #include "calibration/curves/fit_coordinates.h"
@@ -113,6 +113,16 @@ class EnoughFound final : public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
     if (error_) return ceres::SOLVER_ABORT;
+    try {
+      return judged(now);
+    } catch (...) {
+      error_ = std::current_exception();  // must not pass through Ceres
+      return ceres::SOLVER_ABORT;
+    }
+  }
+
+ private:
+  ceres::CallbackReturnType judged(const ceres::IterationSummary& now) const {
     const CurveResiduals& residuals = problem_.residuals;
     const bool down = now.step_is_successful && now.iteration > 0;
     const bool little =
@@ -123,7 +133,6 @@ class EnoughFound final : public ceres::IterationCallback {
                : ceres::SOLVER_CONTINUE;
   }
 
- private:
   bool meets_bound() const {
     const auto pushed = pushed_against(problem_, x_);
     for (std::size_t i = 0; i < pushed.size(); ++i)
@@ -241,35 +250,47 @@ Walk polish(const Problem& problem, const std::vector<bool>& held, VectorXd& x) 
 }
 
 /// Where Gauss–Newton steps alone do not arrive, Levenberg and Marquardt's do, and the last of the
-/// way again is theirs. Returns the number of iterations.
-int descend(const Problem& problem, const std::vector<bool>& held, VectorXd& x) {
+/// way again is theirs.
+Walk descend(const Problem& problem, const std::vector<bool>& held, VectorXd& x) {
   const Walk first = polish(problem, held, x);
-  if (first.converged) return first.iterations;
+  if (first.converged) return first;
   const Walk second = search(problem, held, x);
   const Walk third = polish(problem, held, x);
-  if (!second.converged && !third.converged)
-    throw meshes::NotConverged("curve fit: no minimum after " +
-                               std::to_string(problem.options.max_iterations) + " iterations");
-  return first.iterations + second.iterations + third.iterations;
+  return {first.iterations + second.iterations + third.iterations,
+          second.converged || third.converged};
+}
+
+/// From `start`, adding to `minimum` as it goes. Whether a minimum was found.
+bool seek(const Problem& problem, VectorXd x, Minimum& minimum) {
+  std::vector<bool> held(problem.options.free.size(), false);
+  // More often, which parameters lie at their bounds does not settle.
+  for (std::size_t round = 0; round <= 2 * held.size(); ++round) {
+    const Walk walk = descend(problem, held, x);
+    minimum.iterations += walk.iterations;
+    if (!walk.converged) return false;
+    minimum.estimates = problem.coordinates.parameters(x);
+    minimum.loss = loss_of(problem.at(x));
+    const auto pushed = pushed_against(problem, x);
+    if (pushed == held) return true;
+    held = pushed;
+  }
+  return false;
 }
 
 }  // namespace
 
 Minimum minimise(CurveResiduals& residuals, const CurveFitOptions& options, const VectorXd& start) {
+  residuals.forget_least();
   residuals.at(start);  // what is wrong at the start is said here
-  const Problem problem(residuals, options);
-  VectorXd x = problem.coordinates.from(start);
   Minimum minimum;
-  std::vector<bool> held(options.free.size(), false);
-  for (std::size_t round = 0; round <= 2 * options.free.size(); ++round) {
-    minimum.iterations += descend(problem, held, x);
-    minimum.estimates = problem.coordinates.parameters(x);
-    minimum.loss = loss_of(problem.at(x));
-    const auto pushed = pushed_against(problem, x);
-    if (pushed == held) return minimum;
-    held = pushed;
+  minimum.converged = false;
+  try {
+    const Problem problem(residuals, options);
+    minimum.converged = seek(problem, problem.coordinates.from(start), minimum);
+  } catch (const EvaluationsSpent&) {
   }
-  throw meshes::NotConverged("curve fit: which parameters lie at their bounds does not settle");
+  if (!minimum.converged) std::tie(minimum.estimates, minimum.loss) = residuals.least();
+  return minimum;
 }
 
 }  // namespace fingertip::calibration

@@ -14,8 +14,9 @@ namespace fingertip::calibration {
 /// where the promise stays and no step keeps it: there the search ends, too. Parameters that end at
 /// a bound and are pushed against it are held there and the others sought again, until the set of
 /// those held does not change: Ceres alone projects its step on the bounds, and can stop where
-/// others still could move. Throws as the models do at the start, NotConverged when
-/// options.max_iterations of either kind do not suffice, Interrupted.
+/// others still could move. Where options.max_iterations of either kind or the evaluations that
+/// `residuals` may still make do not suffice, the least loss seen since the start is returned, not
+/// converged. Throws as the models do at the start, Interrupted.
 Minimum minimise(CurveResiduals& residuals, const CurveFitOptions& options,
                  const Eigen::VectorXd& start);
 

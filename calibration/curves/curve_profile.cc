@@ -160,7 +160,7 @@ Profile profile_likelihood(const std::vector<Curve>& curves,
   if (curves.front().sigma.empty()) {
     // Losses are in units of the values' root mean square, not of the residuals' deviation.
     const CurveResiduals residuals(curves, models, options);
-    unit *= std::pow(std::max(fit.residual_deviation / residuals.deviations()(0), 1e-150), 2);
+    unit *= std::pow(std::max(fit.residual_deviation * residuals.whitening()(0, 0), 1e-150), 2);
   }
   for (Index i = 0; i < profile.points; ++i)
     for (Index j = 0; j < profile.points; ++j)

@@ -1,5 +1,6 @@
 #include "calibration/curves/curve_residuals.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -105,6 +106,18 @@ void add_parameters(std::vector<Violation>& found, const CurveFitOptions& option
   }
 }
 
+void add_model_covariance(std::vector<Violation>& found, const std::vector<Curve>& curves,
+                          const CurveFitOptions& options) {
+  const Eigen::MatrixXd& given = options.model_covariance;
+  Index values = 0;
+  for (const Curve& curve : curves) values += Index(curve.y.size());
+  if (given.rows() != values || given.cols() != values || !given.allFinite() ||
+      !given.isApprox(given.transpose(), 1e-9))
+    found.push_back({"model_covariance", std::to_string(given.rows()) + " rows",
+                     "must be finite and symmetric, with a row per value of all curves",
+                     "give one for these curves, or none"});
+}
+
 }  // namespace
 
 void check_curve_fit(const std::vector<Curve>& curves, const CurveFitOptions& options) {
@@ -128,6 +141,10 @@ void check_curve_fit(const std::vector<Curve>& curves, const CurveFitOptions& op
     found.push_back({"tolerance", to_text(options.tolerance),
                      "the tolerance is a share of a standard error, above 0, at most 0.1",
                      "give 1e-7 or 1e-3"});
+  if (options.model_covariance.size() > 0) add_model_covariance(found, curves, options);
+  if (options.max_evaluations < 1)
+    found.push_back({"max_evaluations", std::to_string(options.max_evaluations),
+                     "a fit needs an evaluation", "give 1 or more"});
   if (options.max_iterations < 1)
     found.push_back({"max_iterations", std::to_string(options.max_iterations),
                      "a fit needs an iteration", "give 1 or more"});
@@ -150,19 +167,33 @@ CurveResiduals::CurveResiduals(const std::vector<Curve>& curves,
                                const CurveFitOptions& options)
     : curves_(&curves), models_(&models), options_(&options) {
   has_sigma_ = !curves.front().sigma.empty();
-  std::vector<double> values, deviations;
+  std::vector<double> values, sigma;
   for (const Curve& curve : curves) {
     values.insert(values.end(), curve.y.begin(), curve.y.end());
-    deviations.insert(deviations.end(), curve.sigma.begin(), curve.sigma.end());
+    sigma.insert(sigma.end(), curve.sigma.begin(), curve.sigma.end());
   }
   const auto value = Eigen::Map<const Eigen::VectorXd>(values.data(), Index(values.size()));
-  if (has_sigma_)
-    deviations_ = Eigen::Map<const Eigen::VectorXd>(deviations.data(), value.size());
-  else
-    deviations_.setConstant(value.size(), value.norm() / std::sqrt(double(value.size())));
-  if (!(deviations_.minCoeff() > 0.0)) deviations_.setOnes();  // all values zero, no sigma
-  noise_ = 0.5 * (1e-10 * value.cwiseQuotient(deviations_)).squaredNorm();
+  whiten(value, Eigen::Map<const Eigen::VectorXd>(sigma.data(), Index(sigma.size())));
+  noise_ = 0.5 * (whitening_ * (1e-10 * value)).squaredNorm();
   priors_ = std::ranges::count_if(options.free, [](const auto& free) { return bool(free.prior); });
+}
+
+/// The symmetric root, which leaves a residual as much at its own place as there can be: an outlier
+/// stays one, and signs keep their order.
+void CurveResiduals::whiten(const Eigen::VectorXd& values, const Eigen::VectorXd& sigma) {
+  const Index count = values.size();
+  Eigen::VectorXd deviations =
+      has_sigma_ ? sigma
+                 : Eigen::VectorXd::Constant(count, values.norm() / std::sqrt(double(count)));
+  if (!(deviations.minCoeff() > 0.0)) deviations.setOnes();  // all values zero, no sigma
+  whitening_ = deviations.cwiseInverse().asDiagonal();
+  colouring_ = deviations.asDiagonal();
+  if (!has_sigma_ || options_->model_covariance.size() == 0) return;
+  Eigen::MatrixXd covariance = options_->model_covariance;
+  covariance.diagonal() += deviations.cwiseAbs2();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  whitening_ = eigen.operatorInverseSqrt();
+  colouring_ = eigen.operatorSqrt();
 }
 
 double CurveResiduals::loss_of_standard_error(double loss) const {
@@ -204,10 +235,17 @@ std::vector<CurveSlopes> CurveResiduals::evaluate(const Eigen::VectorXd& paramet
   return per_curve;
 }
 
+const Linearisation& CurveResiduals::told(const Known& known) {
+  const double loss = 0.5 * with_loss(known.linearisation).residuals.squaredNorm();
+  if (loss < least_loss_) least_ = known.parameters, least_loss_ = loss;
+  return known.linearisation;
+}
+
 const Linearisation& CurveResiduals::at(const Eigen::VectorXd& parameters) {
   const auto same = [&](const Known& known) { return known.parameters == parameters; };
   if (const auto found = std::ranges::find_if(known_, same); found != known_.end())
-    return found->linearisation;
+    return told(*found);
+  if (evaluations_ >= allowed_) throw EvaluationsSpent();
   Linearisation now{Eigen::VectorXd(values() + priors_),
                     Eigen::MatrixXd::Zero(values() + priors_, parameters.size())};
   Index row = 0;
@@ -228,8 +266,8 @@ const Linearisation& CurveResiduals::at(const Eigen::VectorXd& parameters) {
   Index first = 0;
   for (const Curve& curve : *curves_)
     for (const double measured : curve.y) now.residuals(first++) -= measured;
-  now.residuals.head(row).array() /= deviations_.array();
-  now.jacobian.topRows(row).array().colwise() /= deviations_.array();
+  now.residuals.head(row) = whitening_ * now.residuals.head(row);
+  now.jacobian.topRows(row) = whitening_ * now.jacobian.topRows(row);
   for (Index j = 0; j < parameters.size(); ++j) {
     const auto& prior = options_->free[std::size_t(j)].prior;
     if (!prior) continue;
@@ -240,7 +278,7 @@ const Linearisation& CurveResiduals::at(const Eigen::VectorXd& parameters) {
     throw meshes::NotConverged("curve fit: the model's values or slopes are not finite");
   known_.push_front({parameters, std::move(now)});
   ++evaluations_;
-  const Linearisation& kept = known_.front().linearisation;
+  const Linearisation& kept = told(known_.front());
   if (options_->progress &&
       !options_->progress(evaluations_, 0.5 * with_loss(kept).residuals.squaredNorm()))
     throw meshes::Interrupted("the fit was interrupted");
@@ -270,7 +308,7 @@ Linearisation CurveResiduals::with_loss(const Linearisation& linearisation) cons
 }
 
 std::vector<Eigen::VectorXd> CurveResiduals::misfit(const Linearisation& linearisation) const {
-  const Eigen::VectorXd all = -linearisation.residuals.head(values()).cwiseProduct(deviations_);
+  const Eigen::VectorXd all = -(colouring_ * linearisation.residuals.head(values()));
   std::vector<Eigen::VectorXd> result;
   Index row = 0;
   for (const Curve& curve : *curves_) {

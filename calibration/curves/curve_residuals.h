@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <list>
+#include <utility>
 #include <vector>
 
 #include "calibration/curves/curve_fit.h"
@@ -16,6 +18,9 @@ struct Linearisation {
   Eigen::MatrixXd jacobian;
 };
 
+/// No further evaluation is allowed.
+struct EvaluationsSpent {};
+
 /// Every broken rule of curves and options. Throws InvalidInput.
 void check_curve_fit(const std::vector<Curve>& curves, const CurveFitOptions& options);
 
@@ -26,12 +31,13 @@ class CurveResiduals {
   CurveResiduals(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
                  const CurveFitOptions& options);
 
-  Eigen::Index values() const { return deviations_.size(); }
+  Eigen::Index values() const { return whitening_.rows(); }
   Eigen::Index priors() const { return priors_; }
   Eigen::Index parameters() const { return Eigen::Index(options_->free.size()); }
   bool has_sigma() const { return has_sigma_; }
-  /// What residuals of values are divided by: sigma, or the values' root mean square [y].
-  const Eigen::VectorXd& deviations() const { return deviations_; }
+  /// What residuals of values are multiplied by [1/y], symmetric: the inverse root of the
+  /// covariance of sigma and model error, or one over the values' root mean square.
+  const Eigen::MatrixXd& whitening() const { return whitening_; }
   /// A loss below which a model's own round-off decides, taken as 1e-10 of every value.
   double noise() const { return noise_; }
   /// The loss that a step of one standard error makes: 1/2 where sigma is known, else half the
@@ -40,10 +46,16 @@ class CurveResiduals {
 
   /// Evaluates all models, options.threads of them side by side, each distinct one once. Throws as
   /// the models do (the first curve's error goes first), NotConverged for values that are not
-  /// finite, Interrupted where options.progress says so.
+  /// finite, Interrupted where options.progress says so, EvaluationsSpent instead of evaluating
+  /// more than allowed.
   const Linearisation& at(const Eigen::VectorXd& parameters);
   /// Points evaluated so far.
   int evaluations() const { return evaluations_; }
+  /// So many evaluations, those of the past included, may be made; without limit at first.
+  void allow(int evaluations) { allowed_ = evaluations; }
+  /// Where, of all points evaluated or asked for again since forget_least(), the loss was least.
+  std::pair<Eigen::VectorXd, double> least() const { return {least_, least_loss_}; }
+  void forget_least() { least_loss_ = std::numeric_limits<double>::infinity(); }
   /// Slope of the loss by half the squared residual: 1 for least squares and for priors.
   Eigen::VectorXd weights(const Linearisation& linearisation) const;
   /// Rows such that half their squared sum is the loss.
@@ -58,15 +70,19 @@ class CurveResiduals {
   };
 
   std::vector<CurveSlopes> evaluate(const Eigen::VectorXd& parameters) const;
+  void whiten(const Eigen::VectorXd& values, const Eigen::VectorXd& sigma);
+  const Linearisation& told(const Known& known);
 
   const std::vector<Curve>* curves_;
   const std::vector<ForwardModel*>* models_;
   const CurveFitOptions* options_;
   Eigen::Index priors_ = 0;
   bool has_sigma_ = false;
-  Eigen::VectorXd deviations_;
+  Eigen::MatrixXd whitening_, colouring_;  ///< colouring: the inverse of whitening
   double noise_ = 0.0;
-  int evaluations_ = 0;
+  int evaluations_ = 0, allowed_ = std::numeric_limits<int>::max();
+  Eigen::VectorXd least_;
+  double least_loss_ = std::numeric_limits<double>::infinity();
   std::list<Known> known_;  ///< latest first
 };
 

@@ -25,6 +25,7 @@ bool varies_by_logarithm(const FreeParameter& free) {
   switch (free.parameter) {
     case MaterialParameter::youngs_modulus:
     case MaterialParameter::shear_modulus:
+    case MaterialParameter::modulus:
     case MaterialParameter::lame_shear:
     case MaterialParameter::bond:
     case MaterialParameter::contact:
@@ -56,9 +57,7 @@ std::optional<std::pair<Index, Index>> places_of_moduli(const CurveFitOptions& o
 
 FitCoordinates::FitCoordinates(const CurveFitOptions& options)
     : options_(&options), rubber_(places_of_moduli(options)) {
-  if (rubber_ && (has_bounds(options.free[std::size_t(rubber_->first)]) ||
-                  has_bounds(options.free[std::size_t(rubber_->second)])))
-    rubber_.reset();
+  if (rubber_ && has_bounds(options.free[std::size_t(rubber_->first)])) rubber_.reset();
 }
 
 double FitCoordinates::coordinate(std::size_t i, double p) const {

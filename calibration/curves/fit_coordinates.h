@@ -19,7 +19,7 @@ double lower_bound(const FreeParameter& free);
 /// 3G/E - 1 of a rubber that no press tells from nu = 1/2: K/G is 10^4 there.
 inline constexpr double incompressible = 1e-4;
 
-/// ln(p/size) of what is positive by nature, else p/size. Where E and G both are free and have no
+/// ln(p/size) of what is positive by nature, else p/size. Where E and G both are free and E has no
 /// bounds, E's coordinate is 3G/E - 1, which knows nu alone and is bounded by the options and
 /// `incompressible`: data that ask for E >= 3G, as those of
 /// nearly incompressible rubbers do every other time, then meet a bound like any other instead of
@@ -35,6 +35,8 @@ class FitCoordinates {
   Eigen::MatrixXd slopes(const Eigen::VectorXd& parameters) const;
   Eigen::VectorXd lower() const;
   Eigen::VectorXd upper() const;
+  /// Places of E, whose coordinate is 3G/E - 1, and G; none where E has bounds or one is not free.
+  const std::optional<std::pair<Eigen::Index, Eigen::Index>>& rubber() const { return rubber_; }
 
  private:
   double coordinate(std::size_t i, double p) const;

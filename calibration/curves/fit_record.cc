@@ -42,6 +42,12 @@ ordered_json number(const std::optional<double>& value) {
   return value ? number(*value) : ordered_json();
 }
 
+/// What is at its bound: of E it may be Poisson's ratio.
+ordered_json bound_of(const CurveFit& fit, std::size_t i) {
+  if (!fit.at_bound[i]) return nullptr;
+  return fit.poissons_ratio_bound ? "poissons_ratio" : name(fit.parameters[i]);
+}
+
 ordered_json parameter_entry(const FitRecord& record, std::size_t i) {
   const CurveFit& fit = record.fit;
   const FreeParameter& free = record.options.free[i];
@@ -54,6 +60,7 @@ ordered_json parameter_entry(const FitRecord& record, std::size_t i) {
           {"lower", number(fit.lower(Index(i)))},
           {"upper", number(fit.upper(Index(i)))},
           {"at_bound", bool(fit.at_bound[i])},
+          {"bound_of", bound_of(fit, i)},
           {"start", free.start},
           {"prior", prior},
           {"bias", nullptr}};
@@ -95,7 +102,7 @@ RelativeSize relative_size(const VectorXd& residuals, const std::vector<double>&
 ordered_json curve_entry(const FitRecord& record, std::size_t i) {
   const Curve& curve = record.curves[i];
   const VectorXd& residuals = record.fit.residuals[i];
-  const ResidualStructure structure = residual_structure(residuals);
+  const ResidualStructure structure = structure_of(record, i);
   const RelativeSize size = relative_size(residuals, curve.y);
   ordered_json left_out;
   if (!record.left_out.empty()) {
@@ -146,7 +153,8 @@ ordered_json minima(const CurveFit& fit) {
   for (const Minimum& one : fit.minima)
     result.push_back({{"estimates", list(one.estimates)},
                       {"loss", number(one.loss)},
-                      {"iterations", one.iterations}});
+                      {"iterations", one.iterations},
+                      {"converged", one.converged}});
   return result;
 }
 
@@ -190,6 +198,10 @@ ordered_json statistics_entries(const FitRecord& record) {
   json["chi_square"] = number(fit.chi_square);
   json["chi_square_probability"] = number(fit.chi_square_probability);
   json["birge_ratio"] = fit.birge_ratio;
+  json["model_error"] =
+      record.model_error.empty() ? ordered_json() : ordered_json(record.model_error);
+  json["converged"] = fit.converged;
+  json["poissons_ratio_bound"] = number(fit.poissons_ratio_bound);
   json["residual_deviation"] = number(fit.residual_deviation);
   json["minima"] = minima(fit);
   return json;
@@ -206,8 +218,10 @@ Columns columns(const FitRecord& record) {
     const Curve& curve = record.curves[i];
     const VectorXd y = Eigen::Map<const VectorXd>(curve.y.data(), Index(curve.y.size()));
     result.fitted.push_back(y - record.fit.residuals[i]);
-    result.left_out.push_back(record.left_out.empty() ? VectorXd::Constant(y.size(), unknown)
-                                                      : VectorXd(y - record.left_out[i].residuals));
+    // A fit without the curve that failed predicts nothing.
+    const bool predicted = !record.left_out.empty() && record.left_out[i].failure.empty();
+    result.left_out.push_back(predicted ? VectorXd(y - record.left_out[i].residuals)
+                                        : VectorXd::Constant(y.size(), unknown));
   }
   return result;
 }
@@ -223,6 +237,24 @@ std::string quoted(const std::string& text) {
 }
 
 }  // namespace
+
+ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
+  const std::vector<VectorXd>& residuals = record.fit.residuals;
+  if (record.curves[curve].sigma.empty()) return residual_structure(residuals[curve]);
+  Index count = 0, first = 0;
+  for (std::size_t c = 0; c < residuals.size(); ++c) {
+    if (c == curve) first = count;
+    count += residuals[c].size();
+  }
+  VectorXd all(count);
+  count = 0;
+  for (const VectorXd& one : residuals) {
+    all.segment(count, one.size()) = one;
+    count += one.size();
+  }
+  return residual_structure(
+      VectorXd((record.fit.whitening * all).segment(first, residuals[curve].size())));
+}
 
 double worst_relative_residual(const FitRecord& record) {
   double worst = 0.0;
@@ -245,12 +277,13 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
     json["curves"].push_back(curve_entry(record, i));
     json["residuals"].push_back(list(record.fit.residuals[i]));
   }
-  json["influence"] = rows(influence(record.fit));
+  json["influence"] = rows(record.fit.influence);
   json["profile"] = profile_entry(record);
   json["iterations"] = record.fit.iterations;
   json["evaluations"] = record.fit.evaluations;
   json["wall_time"] = record.wall_time;
   json["validity"] = validity_entry(record.material);
+  json["failed"] = failed_tests(record);
   json["statement"] = fit_statement(record);
   meshes::write_atomically(file, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
 }

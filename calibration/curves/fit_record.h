@@ -15,8 +15,11 @@ namespace fingertip::calibration {
 
 /// Everything that is told of a fit.
 struct FitRecord {
-  std::string problem;                   ///< "curve", "experiment", "finite-strain", "damping"
-  std::string forward;                   ///< "lattice", "continuum", "formula"
+  std::string problem;  ///< "curve", "experiment", "finite-strain", "damping"
+  std::string forward;  ///< "lattice", "continuum", "formula"
+  /// What is known of the models' errors and stands in options.model_covariance, in words; empty:
+  /// nothing.
+  std::string model_error;
   Material material;                     ///< with the estimates put in
   std::optional<meshes::Rubber> target;  ///< where the data were made of a known rubber
   std::vector<Curve> curves;
@@ -29,11 +32,23 @@ struct FitRecord {
   double wall_time = 0.0;  ///< [s]
 };
 
+/// Order in the residuals of a curve: whitened where sigma is given, so that known errors of the
+/// model, which keep their sign, are no sign of something missed.
+ResidualStructure structure_of(const FitRecord& record, std::size_t curve);
+
 /// Largest |measured - fitted| over |measured| of all curves, where that is not zero.
 double worst_relative_residual(const FitRecord& record);
 
 /// What was found, how sure that is, what the data leave open and whether the model describes them.
 std::string fit_statement(const FitRecord& record);
+
+/// Why constants of this fit must not be used as they are, a sentence each; none: it passed its own
+/// tests. It fails where the search did not end; where the model does not describe the data
+/// (chi-square improbable, below 1 %, or, where there is none, a curve missed by more than a tenth
+/// of its values, both root mean squares); where a parameter or Poisson's ratio ended at a bound;
+/// where the data leave a direction open; and where the material is no rubber: rules of Material,
+/// E outside of 100 Pa to 10 GPa.
+std::vector<std::string> failed_tests(const FitRecord& record);
 
 /// calibration.json of the README, SI. Written atomically. Throws std::runtime_error when the file
 /// cannot be written.

@@ -1,6 +1,7 @@
 #include "calibration/curves/forward_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -15,16 +16,12 @@ using lattice::PressSetup;
 
 namespace {
 
-bool is_modulus(MaterialParameter parameter) {
-  return parameter == MaterialParameter::youngs_modulus ||
-         parameter == MaterialParameter::shear_modulus;
-}
-
 /// The parameter of a press that is the same thing; none for E and G.
 std::optional<PressParameter> press_parameter(MaterialParameter parameter) {
   switch (parameter) {
     case MaterialParameter::youngs_modulus:
-    case MaterialParameter::shear_modulus: return std::nullopt;
+    case MaterialParameter::shear_modulus:
+    case MaterialParameter::modulus: return std::nullopt;
     case MaterialParameter::k1: return PressParameter::k1;
     case MaterialParameter::k2: return PressParameter::k2;
     case MaterialParameter::k3: return PressParameter::k3;
@@ -67,18 +64,53 @@ void check(const PressSetup& setup, const std::vector<MaterialParameter>& parame
   const auto constant = [](MaterialParameter p) { return !is_modulus(p) && !is_tie(p); };
   if (std::ranges::any_of(parameters, is_modulus) && std::ranges::any_of(parameters, constant))
     found.push_back(
-        {"parameters", "E or G beside a constant of the lattice",
+        {"parameters", "a modulus beside a constant of the lattice",
          "the rubber is described in one way: by E and G, or by the lattice's constants",
          "choose one of them"});
+  if (std::ranges::find(parameters, MaterialParameter::modulus) != parameters.end() &&
+      std::ranges::count_if(parameters, is_modulus) > 1)
+    found.push_back({"parameters", "modulus beside E or G",
+                     "modulus is E at held Poisson's ratio, which E and G change",
+                     "free modulus alone, or E and G"});
   if (!found.empty()) throw meshes::InvalidInput(found);
 }
 
+/// To so many decimals two Poisson's ratios are one: what E/(2G) - 1 makes of round-off.
+constexpr double ratio_steps = 1e13;
+
 }  // namespace
+
+bool is_modulus(MaterialParameter parameter) {
+  return parameter == MaterialParameter::youngs_modulus ||
+         parameter == MaterialParameter::shear_modulus || parameter == MaterialParameter::modulus;
+}
+
+meshes::Rubber with_moduli(meshes::Rubber rubber, const std::vector<MaterialParameter>& parameters,
+                           const Eigen::VectorXd& values) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double value = values(Eigen::Index(i));
+    if (parameters[i] == MaterialParameter::youngs_modulus) rubber.youngs_modulus = value;
+    if (parameters[i] == MaterialParameter::shear_modulus) rubber.shear_modulus = value;
+    if (parameters[i] != MaterialParameter::modulus) continue;
+    rubber.shear_modulus *= value / rubber.youngs_modulus;
+    rubber.youngs_modulus = value;
+  }
+  return rubber;
+}
+
+Eigen::Vector2d moduli_slopes(MaterialParameter parameter, double poissons_ratio) {
+  switch (parameter) {
+    case MaterialParameter::youngs_modulus: return {1.0, 0.0};
+    case MaterialParameter::shear_modulus: return {0.0, 1.0};
+    default: return {1.0, 0.5 / (1.0 + poissons_ratio)};
+  }
+}
 
 std::string_view name(MaterialParameter parameter) {
   switch (parameter) {
     case MaterialParameter::youngs_modulus: return "youngs_modulus";
     case MaterialParameter::shear_modulus: return "shear_modulus";
+    case MaterialParameter::modulus: return "modulus";
     case MaterialParameter::k1: return "k1";
     case MaterialParameter::k2: return "k2";
     case MaterialParameter::k3: return "k3";
@@ -107,7 +139,8 @@ std::string_view unit(MaterialParameter parameter) {
 double value_of(MaterialParameter parameter, const PressSetup& setup) {
   const lattice::SpringConstants& constants = setup.lattice.constants;
   switch (parameter) {
-    case MaterialParameter::youngs_modulus: return setup.rubber.youngs_modulus;
+    case MaterialParameter::youngs_modulus:
+    case MaterialParameter::modulus: return setup.rubber.youngs_modulus;
     case MaterialParameter::shear_modulus:
     case MaterialParameter::lame_shear: return setup.rubber.shear_modulus;
     case MaterialParameter::lambda: return setup.rubber.lame_lambda();
@@ -148,12 +181,10 @@ bool LatticeForwardModel::by_moduli() const {
 
 PressSetup LatticeForwardModel::setup_with(const Eigen::VectorXd& parameters) const {
   PressSetup setup = setup_;
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const double value = parameters(Eigen::Index(i));
-    if (parameters_[i] == MaterialParameter::youngs_modulus) setup.rubber.youngs_modulus = value;
-    if (parameters_[i] == MaterialParameter::shear_modulus) setup.rubber.shear_modulus = value;
-    if (const auto same = press_parameter(parameters_[i])) set_value(*same, value, setup);
-  }
+  setup.rubber = with_moduli(setup.rubber, parameters_, parameters);
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    if (const auto same = press_parameter(parameters_[i]))
+      set_value(*same, parameters(Eigen::Index(i)), setup);
   // The closed form divides by 3G - E.
   const auto broken = setup.rubber.violations();
   if (!broken.empty()) throw meshes::InvalidInput(broken);
@@ -175,8 +206,8 @@ Eigen::MatrixXd LatticeForwardModel::chain(const PressSetup& setup) const {
       chain(row, j) = 1.0;
       continue;
     }
-    const bool shear = parameter == MaterialParameter::shear_modulus;
-    const double of_shear = shear ? 1.0 : 0.0, of_lambda = lambda(shear ? 1 : 0);
+    const Eigen::Vector2d moduli = moduli_slopes(parameter, setup.rubber.poissons_ratio());
+    const double of_shear = moduli(1), of_lambda = lambda.dot(moduli);
     if (setup.lattice.model == ModelKind::network)
       chain.col(j).head<2>() << of_shear, of_lambda;
     else
@@ -185,8 +216,7 @@ Eigen::MatrixXd LatticeForwardModel::chain(const PressSetup& setup) const {
   return chain;
 }
 
-CurveSlopes LatticeForwardModel::evaluate(const Eigen::VectorXd& parameters) {
-  const PressSetup setup = setup_with(parameters);
+CurveSlopes LatticeForwardModel::press(const PressSetup& setup) const {
   lattice::StaticObserver observer;
   if (go_on_) observer = [this](const lattice::StaticOutcome&, double) { return go_on_(); };
   const auto press = lattice::run_static_press_with_slopes(setup, press_parameters_, observer);
@@ -196,6 +226,25 @@ CurveSlopes LatticeForwardModel::evaluate(const Eigen::VectorXd& parameters) {
   for (std::size_t i = 0; i < samples.size(); ++i)
     result.value(Eigen::Index(i)) = samples[i].normal_force;
   result.jacobian = press.slopes.normal_force * chain(setup);
+  return result;
+}
+
+const CurveSlopes& LatticeForwardModel::at_ratio(double poissons_ratio) {
+  const auto known = by_ratio_.find(poissons_ratio);
+  if (known != by_ratio_.end()) return known->second;
+  PressSetup setup = setup_;
+  setup.rubber.youngs_modulus = 2.0 * setup.rubber.shear_modulus * (1.0 + poissons_ratio);
+  if (setup.lattice.model == ModelKind::hookean)
+    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  return by_ratio_[poissons_ratio] = press(setup);
+}
+
+CurveSlopes LatticeForwardModel::evaluate(const Eigen::VectorXd& parameters) {
+  const PressSetup setup = setup_with(parameters);
+  if (!std::ranges::all_of(parameters_, is_modulus)) return press(setup);
+  const double ratio = std::round(setup.rubber.poissons_ratio() * ratio_steps) / ratio_steps;
+  CurveSlopes result = at_ratio(ratio);
+  result.value *= setup.rubber.shear_modulus / setup_.rubber.shear_modulus;
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace fingertip::calibration {
 enum class MaterialParameter {
   youngs_modulus,    ///< E, G held [Pa]
   shear_modulus,     ///< G, E held [Pa]
+  modulus,           ///< E, Poisson's ratio held [Pa]
   k1,                ///< SpringConstants [N/m]
   k2,                ///< [N/m]
   k3,                ///< [N/m]
@@ -52,13 +54,24 @@ class ForwardModel {
   virtual CurveSlopes evaluate(const Eigen::VectorXd& parameters) = 0;
 };
 
+/// E, G and modulus: what describes a rubber by its moduli.
+bool is_modulus(MaterialParameter parameter);
+
+/// `rubber` with the moduli among `parameters` (others are passed over) set to their values.
+meshes::Rubber with_moduli(meshes::Rubber rubber, const std::vector<MaterialParameter>& parameters,
+                           const Eigen::VectorXd& values);
+
+/// d(E, G)/d(parameter) of a modulus at the rubber's Poisson's ratio, dimensionless.
+Eigen::Vector2d moduli_slopes(MaterialParameter parameter, double poissons_ratio);
+
 /// lambda = G (E - 2G)/(3G - E) by E and by G, dimensionless.
 Eigen::RowVector2d lambda_slopes(double youngs_modulus, double shear_modulus);
 
 /// The static lattice: normal forces at protocol.samples by run_static_press_with_slopes.
 /// E and G become constants of hookean by k1 = k2 = aG, k3 = 0, kappa = lambda - G, whatever the
 /// setup's constants were, and go to the network as they are. What is not among the parameters
-/// stays as in the setup.
+/// stays as in the setup. Where moduli alone are sought, forces are proportional to them at held
+/// Poisson's ratio, so that a press is done once per ratio, at the setup's own G.
 class LatticeForwardModel final : public ForwardModel {
  public:
   /// Throws InvalidInput for an empty list, a parameter that the setup's model does not have, one
@@ -76,11 +89,15 @@ class LatticeForwardModel final : public ForwardModel {
   bool by_moduli() const;
   /// d(press parameters)/d(parameters), rows as in press_parameters_.
   Eigen::MatrixXd chain(const lattice::PressSetup& setup) const;
+  CurveSlopes press(const lattice::PressSetup& setup) const;
+  /// At this Poisson's ratio and the setup's own G.
+  const CurveSlopes& at_ratio(double poissons_ratio);
 
   lattice::PressSetup setup_;
   std::vector<MaterialParameter> parameters_;
   std::vector<lattice::PressParameter> press_parameters_;
   std::function<bool()> go_on_;
+  std::map<double, CurveSlopes> by_ratio_;  ///< answers by Poisson's ratio, where moduli are all
 };
 
 }  // namespace fingertip::calibration

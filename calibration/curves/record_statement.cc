@@ -31,10 +31,15 @@ std::string estimates(const CurveFit& fit) {
     const MaterialParameter parameter = fit.parameters[i];
     text += (text.empty() ? "" : "; ") + std::string(name(parameter)) + " = " +
             with_unit(fit.estimates(Index(i)), parameter);
+    const bool by_ratio = fit.poissons_ratio_bound && is_modulus(parameter);
+    if (by_ratio) continue;
     text += fit.at_bound[i] ? " (at its bound)"
                             : " (95 %: " + rounded(fit.lower(Index(i)), 5) + " to " +
                                   rounded(fit.upper(Index(i)), 5) + ")";
   }
+  if (fit.poissons_ratio_bound)
+    text += "; Poisson's ratio is at its bound, " + rounded(*fit.poissons_ratio_bound, 5) +
+            ", so that E and G have no intervals of their own";
   return text + ".";
 }
 
@@ -52,13 +57,15 @@ std::string misfit(const FitRecord& record) {
   if (!fit.chi_square || !fit.chi_square_probability) return text;
   text += " Chi-square is " + rounded(*fit.chi_square, 3) + " at " +
           std::to_string(fit.degrees_of_freedom) + " degrees of freedom";
+  const std::string known =
+      "the stated deviations" + (record.model_error.empty() ? "" : " and " + record.model_error);
   if (fit.birge_ratio > 1.0)
-    return text + ": more than the stated deviations explain (probability " +
+    return text + ": more than " + known + " explain (probability " +
            rounded(*fit.chi_square_probability, 2) +
-           "), so the model misses something or the deviations are too small; the intervals are "
-           "wider by Birge's ratio, " +
+           "). The model does not describe the data, or the deviations are too small; the "
+           "intervals are wider by Birge's ratio, " +
            rounded(fit.birge_ratio, 2) + ".";
-  return text + ", which the stated deviations explain (probability " +
+  return text + ", which " + known + " explain (probability " +
          rounded(*fit.chi_square_probability, 2) + ").";
 }
 
@@ -90,7 +97,7 @@ std::string other_minima(const CurveFit& fit) {
 std::string structures(const FitRecord& record) {
   std::string text;
   for (std::size_t c = 0; c < record.curves.size(); ++c) {
-    const ResidualStructure structure = residual_structure(record.fit.residuals[c]);
+    const ResidualStructure structure = structure_of(record, c);
     if (structure.probability < improbable)
       text += " " + record.curves[c].name + ": " + structure.statement + ".";
   }
@@ -100,8 +107,10 @@ std::string structures(const FitRecord& record) {
 }  // namespace
 
 std::string fit_statement(const FitRecord& record) {
-  return estimates(record.fit) + misfit(record) + open_directions(record.fit) +
-         other_minima(record.fit) + structures(record);
+  std::string text = estimates(record.fit) + misfit(record) + open_directions(record.fit) +
+                     other_minima(record.fit) + structures(record);
+  for (const std::string& failed : failed_tests(record)) text += " Not accepted: " + failed + ".";
+  return text;
 }
 
 }  // namespace fingertip::calibration

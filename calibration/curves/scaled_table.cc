@@ -64,11 +64,12 @@ void check_parameters(const std::vector<MaterialParameter>& parameters, const me
                       std::vector<Violation>& found) {
   using enum MaterialParameter;
   const auto free = [&](MaterialParameter p) { return std::ranges::count(parameters, p); };
-  if (parameters.empty() || free(youngs_modulus) > 1 || free(shear_modulus) > 1 ||
-      free(youngs_modulus) + free(shear_modulus) != std::ssize(parameters))
+  const bool scale = parameters.size() == 1 && free(modulus) == 1;
+  if (!scale && (parameters.empty() || free(youngs_modulus) > 1 || free(shear_modulus) > 1 ||
+                 free(youngs_modulus) + free(shear_modulus) != std::ssize(parameters)))
     found.push_back({"parameters", std::to_string(parameters.size()) + " parameters",
                      "a table in Poisson's ratio depends on youngs_modulus and shear_modulus alone",
-                     "name one or both of them, each once"});
+                     "name one or both of them, each once, or modulus alone"});
   if (free(youngs_modulus) == 0 &&
       !(held.youngs_modulus > 0.0 && std::isfinite(held.youngs_modulus)))
     found.push_back({"rubber.youngs_modulus", to_text(held.youngs_modulus) + " Pa",
@@ -159,19 +160,18 @@ double ScaledTable::inside(double nu) const {
 }
 
 CurveSlopes ScaledTable::evaluate(const VectorXd& parameters) {
-  double e = held_.youngs_modulus, g = held_.shear_modulus;
-  for (std::size_t i = 0; i < parameters_.size(); ++i)
-    (parameters_[i] == MaterialParameter::youngs_modulus ? e : g) = parameters(Index(i));
+  const meshes::Rubber rubber = with_moduli(held_, parameters_, parameters);
+  const double e = rubber.youngs_modulus, g = rubber.shear_modulus;
   if (!(e > 0.0 && g > 0.0))
     throw InvalidInput({"rubber", "E = " + to_text(e) + " Pa, G = " + to_text(g) + " Pa",
                         "moduli are positive", "bound E and G from below"});
   const double nu = inside(e / (2.0 * g) - 1.0);
   const ValueAndSlope phi = at(coefficients_, nu);
+  MatrixXd by_moduli(phi.value.size(), 2);
+  by_moduli << 0.5 * phi.slope, phi.value - (1.0 + nu) * phi.slope;
   CurveSlopes result{g * phi.value, MatrixXd(phi.value.size(), Index(parameters_.size()))};
   for (std::size_t i = 0; i < parameters_.size(); ++i)
-    result.jacobian.col(Index(i)) = parameters_[i] == MaterialParameter::youngs_modulus
-                                        ? VectorXd(0.5 * phi.slope)
-                                        : VectorXd(phi.value - (1.0 + nu) * phi.slope);
+    result.jacobian.col(Index(i)) = by_moduli * moduli_slopes(parameters_[i], nu);
   return result;
 }
 

@@ -27,8 +27,8 @@ class ScaledTable final : public ForwardModel {
   /// `poissons_ratios`: at least three distinct ones in (-1, 1/2), in any order; those of
   /// `chebyshev_nodes` are best. `scaled`: F/G at them [curve's unit/Pa, of a press m²], rows
   /// abscissae, columns Poisson's ratios. `parameters`: youngs_modulus, shear_modulus or both, in
-  /// the order of `evaluate`; one that is not among them has its value from `held`. Throws
-  /// InvalidInput for anything else.
+  /// the order of `evaluate`, or modulus alone; one that is not among them has its value from
+  /// `held`. Throws InvalidInput for anything else.
   ScaledTable(const std::vector<double>& poissons_ratios, const Eigen::MatrixXd& scaled,
               std::vector<MaterialParameter> parameters, const meshes::Rubber& held);
 

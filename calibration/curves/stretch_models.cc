@@ -17,12 +17,6 @@ using enum MaterialParameter;
 
 namespace {
 
-constexpr double least_stretch = 0.01, largest_stretch = 100.0;
-
-bool is_modulus(MaterialParameter p) {
-  return p == youngs_modulus || p == shear_modulus;
-}
-
 bool is_of_the_law(MaterialParameter p) {
   return p == lame_shear || p == lambda;
 }
@@ -92,20 +86,22 @@ LawParameters::Values LawParameters::at(const Eigen::VectorXd& parameters) const
   const bool by_moduli = std::ranges::any_of(parameters_, is_modulus);
   for (Index i = 0; i < values.chain.cols(); ++i) {
     const MaterialParameter parameter = parameters_[std::size_t(i)];
-    if (parameter == youngs_modulus) rubber.youngs_modulus = parameters(i);
-    if (parameter == shear_modulus) rubber.shear_modulus = parameters(i);
     if (parameter == lame_shear) values.shear = parameters(i);
     if (parameter == lambda) values.lambda = parameters(i);
-    values.chain(parameter == shear_modulus || parameter == lame_shear ? 0 : 1, i) = 1.0;
+    values.chain(parameter == lame_shear ? 0 : 1, i) = 1.0;
   }
   if (by_moduli) {
+    rubber = with_moduli(rubber, parameters_, parameters);
     const auto broken = rubber.violations();
     if (!broken.empty()) throw InvalidInput(broken);
     values.shear = rubber.shear_modulus;
     values.lambda = rubber.lame_lambda();
     const auto slopes = lambda_slopes(rubber.youngs_modulus, rubber.shear_modulus);
-    for (Index i = 0; i < values.chain.cols(); ++i)
-      values.chain(1, i) = slopes(parameters_[std::size_t(i)] == youngs_modulus ? 0 : 1);
+    for (Index i = 0; i < values.chain.cols(); ++i) {
+      const Eigen::Vector2d moduli =
+          moduli_slopes(parameters_[std::size_t(i)], rubber.poissons_ratio());
+      values.chain.col(i) << moduli(1), slopes.dot(moduli);
+    }
   }
   if (!std::isfinite(values.shear) || values.shear <= 0.0)
     throw InvalidInput({"rubber.shear_modulus", to_text(values.shear) + " Pa",

@@ -12,8 +12,11 @@
 
 namespace fingertip::calibration {
 
+/// Lengths over the length at rest that a bar of this law is asked for.
+inline constexpr double least_stretch = 0.01, largest_stretch = 100.0;
+
 /// G and lambda as functions of free parameters: youngs_modulus and shear_modulus, or lame_shear
-/// and lambda; one that is not free is the given rubber's.
+/// and lambda; or modulus. One that is not free is the given rubber's.
 class LawParameters {
  public:
   /// Throws InvalidInput for an empty list, a parameter named twice, another parameter than these

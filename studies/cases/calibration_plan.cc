@@ -100,7 +100,8 @@ std::vector<PlannedJob> CalibrationPlan::jobs() {
     const CaseVariant& fit = case_.fits[f];
     const std::string folder = "fits/" + as_folder(fit.name);
     try {
-      fits_.push_back({folder, FitPlan(variant_config(case_, fit), folder)});
+      // Criteria judge what comes of a fit, also of one that failed its own tests.
+      fits_.push_back({folder, FitPlan(variant_config(case_, fit), folder, FitPlan::Failed::kept)});
     } catch (const ConfigError& error) {
       throw at_variant(error, fit);
     }

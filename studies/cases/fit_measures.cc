@@ -84,7 +84,8 @@ std::map<std::string, double> take_fit_measures(const Case& one, const TransferE
     const double open = double(calibration.value("unidentifiable", ordered_json::array()).size());
     measures[fit + ".open_directions"] = open;
     measures[fit + ".claims_certainty"] = open > 0.0 ? 0.0 : 1.0;
-    add_parameters(one, fit, calibration, measures);
+    // Estimates of a search that did not end are none.
+    if (calibration.value("converged", true)) add_parameters(one, fit, calibration, measures);
   }
   if (std::isfinite(worst)) measures["transfer.worst_error"] = worst;
   return measures;

@@ -70,7 +70,7 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
   };
   try {
     const int code = body(session);
-    folder.finish(code == 0 ? "finished" : "criteria failed", code);
+    folder.finish(code == 0 ? "finished" : code == 3 ? "not converged" : "criteria failed", code);
     return code;
   } catch (const ProcessLost& error) {
     throw ProcessLost(end("process lost", 3, error));

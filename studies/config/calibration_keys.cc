@@ -83,12 +83,14 @@ Key forward_key() {
 }
 
 Key range_key() {
-  return with_rule(plain("calibration", "poisson_range", Kind::number_pair, "[0.25, 0.49]",
+  return with_rule(plain("calibration", "poisson_range", Kind::number_pair, "[0, 0.4999]",
                          {-0.99, 0.4999, true}, "Poisson's ratios between which is sought",
                          [](Config& config, const Value& value) {
                            config.calibration.poisson_range = value.numbers;
                          }),
-                   "the lower one first; for experiment", {});
+                   "the lower one first; for experiment; the continuum, which is run at seven "
+                   "ratios between, takes [0.25, 0.49] unless the range is given",
+                   {});
 }
 
 }  // namespace
@@ -107,7 +109,13 @@ std::vector<Key> calibration_keys() {
                [](Config& config) -> double& { return config.calibration.depth; }),
       number("points", Kind::integer, "6", {2, 200, true},
              "indentations of each of the continuum's curves", &Order::points),
-      list("parameters", "what is free; none: what the problem usually frees", &Order::parameters),
+      with_rule(list("parameters", "what is free; none: what the problem usually frees",
+                     &Order::parameters),
+                "youngs_modulus, shear_modulus: E and G; modulus: E, Poisson's ratio held; "
+                "lame_shear, lambda: of law A; k1, k2, k3, kappa: of the lattice; bond, contact: "
+                "factors on the ties; retardation_time. experiment and curve know all but the "
+                "last, finite-strain the moduli and law A's, damping the last alone",
+                {}),
       forward_key(),
       number("prior", Kind::number, "0.02", {0.0, 10.0, true},
              "relative standard deviation of constants about those of the moduli, ten times that "
@@ -120,9 +128,14 @@ std::vector<Key> calibration_keys() {
              "residuals beyond so many sigma count linearly; 0: least squares",
              &Order::robust_width),
       range_key(),
+      plain("calibration", "evaluations", Kind::integer, "50", {1, 1000000, true},
+            "evaluations of the model a search may do, a press of every curve each",
+            [](Config&, const Value&) {}),
       list("profile", "two free parameters to draw chi-square over, or none", &Order::profile),
-      flag("bias", "true", "measure the lattice's bias by the continuum at the estimates",
-           &Order::bias),
+      flag(
+          "bias", "false",
+          "run the continuum at the estimates, too, and tell what the lattice's error does to them",
+          &Order::bias),
       flag("surrogate", "false", "write F(delta) and its derivative for gain schedules",
            &Order::surrogate),
       number("isotropy_weight", Kind::number, "0", {0.0, 1e6, true},

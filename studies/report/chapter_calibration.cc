@@ -52,12 +52,10 @@ std::string chi_square_words(const Fit& fit) {
       number(probability, 2));
   if (probability < 0.01)
     return text +
-           "The residuals are larger than sigma explains: the model misses something, or "
-           "sigma is too small, and the intervals below are too narrow.";
+           "The residuals are larger than sigma explains: the model does not describe the data, "
+           "or sigma is too small. The intervals below are widened accordingly.";
   if (probability > 0.99)
-    return text +
-           "The residuals are smaller than sigma explains: sigma is too large, and so are "
-           "the intervals below.";
+    return text + "The residuals are smaller than sigma and the model's known error explain.";
   return text + "The residuals are as large as sigma says.";
 }
 

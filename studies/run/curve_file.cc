@@ -320,6 +320,9 @@ MeasuredFile CurveReader::read() {
       curve_of(rows_, {result_.x_quantity, x_.unit, x_.factor}, problems_, result_.notes);
   result_.curve.name = std::move(name);
   problems_.throw_if_any();
+  for (const double x : result_.curve.x)
+    result_.lines.push_back(
+        std::ranges::find_if(rows_, [&](const CurveRow& row) { return row.x >= x; })->line);
   return std::move(result_);
 }
 

@@ -40,8 +40,10 @@ struct MeasuredSetting {
 };
 
 struct MeasuredFile {
-  calibration::Curve curve;               ///< SI; its name is the file's without extension
-  std::string x_quantity, y_quantity;     ///< names of the pair found, e.g. "indentation", "force"
+  calibration::Curve curve;            ///< SI; its name is the file's without extension
+  std::string x_quantity, y_quantity;  ///< names of the pair found, e.g. "indentation", "force"
+  std::vector<std::size_t>
+      lines;  ///< of every point of the curve: its row, or the first of its bin
   std::vector<MeasuredSetting> settings;  ///< in the order of the file, each key once
   std::vector<std::string> notes;         ///< what was ignored, left out or averaged
 };

@@ -6,6 +6,7 @@
 
 #include "calibration/curves/curve_checks.h"
 #include "calibration/curves/damping_models.h"
+#include "calibration/curves/model_error.h"
 #include "calibration/curves/remembered_model.h"
 #include "calibration/curves/stretch_models.h"
 #include "lattice/statics/static_press.h"
@@ -133,12 +134,7 @@ lattice::PressSetup fitted_setup(const FitOrder& order, const Eigen::VectorXd& e
   } else if (order.problem == CalibrationProblem::finite_strain) {
     put_rubber(law_rubber(order, estimates), setup);
   } else if (!order.tables.empty()) {
-    meshes::Rubber rubber = order.base.rubber;
-    for (std::size_t i = 0; i < order.options.free.size(); ++i)
-      (order.options.free[i].parameter == MaterialParameter::youngs_modulus
-           ? rubber.youngs_modulus
-           : rubber.shear_modulus) = estimates(Eigen::Index(i));
-    put_rubber(rubber, setup);
+    put_rubber(calibration::with_moduli(order.base.rubber, parameters_of(order), estimates), setup);
   } else {
     return calibration::LatticeForwardModel(setup, parameters_of(order)).setup_with(estimates);
   }
@@ -177,12 +173,15 @@ calibration::Material material_of(const FitOrder& order, const calibration::FitR
   material.spacing = setup.lattice.spacing;
   material.constants = setup.lattice.constants;
   material.rubber = setup.rubber;
+  material.geometry = setup.geometry;
+  material.density_known = order.density_known;
+  material.retardation_time_known =
+      order.retardation_time_known || order.problem == CalibrationProblem::damping;
   material.ligament_stiffness = setup.lattice.ligament_stiffness;
   material.contact_stiffness = setup.lattice.contact_stiffness;
   material.validity = validity_of(order, record);
   material.provenance = order.provenance;
   material.program = order.program;
-  material.statement = calibration::fit_statement(record);
   return material;
 }
 
@@ -205,16 +204,30 @@ void add_profile(const FitOrder& order, const std::vector<ForwardModel*>& models
 }
 
 void write(const calibration::FitRecord& record, const fs::path& folder) {
+  const std::vector<std::string> failed = calibration::failed_tests(record);
   calibration::write_fit_json(record, folder / "calibration.json");
   calibration::write_fit_data(record, folder / "fit_data.csv");
-  calibration::write_material_toml(record.material, folder / "material.toml");
+  calibration::Material material = record.material;
+  material.statement = calibration::fit_statement(record);
+  for (const std::string& one : failed)
+    material.rejected += (material.rejected.empty() ? "" : "; ") + one;
+  if (material.violations().empty())
+    calibration::write_material_toml(material, folder / estimates_name);
   write_json({{"problem", record.problem},
               {"model", lattice::name(record.material.model)},
               {"status", "finished"},
+              {"failed", failed},
               {"evaluations", record.fit.evaluations},
               {"wall_time", record.wall_time},
-              {"statement", calibration::fit_statement(record)}},
+              {"statement", material.statement}},
              folder / "summary.json");
+}
+
+std::string model_error_words(const FitOrder& order) {
+  std::string words = order.with_lattice_error ? "the known error of the lattice" : "";
+  if (!order.theory_error.empty())
+    words += std::string(words.empty() ? "" : " and ") + "what finite strain adds";
+  return words;
 }
 
 calibration::FitRecord described(const FitOrder& order) {
@@ -225,35 +238,118 @@ calibration::FitRecord described(const FitOrder& order) {
                                            : "lattice";
   record.curves = order.curves;
   record.conditions = order.conditions;
+  record.model_error = model_error_words(order);
   if (order.rubber_known) record.target = order.base.rubber;
   return record;
 }
 
+/// A search never needs moduli so many times larger or smaller than those that meet the data best
+/// at some Poisson's ratio.
+constexpr double scale_range = 1e3;
+
+void start_at(const Eigen::VectorXd& start, CurveFitOptions& options) {
+  for (std::size_t i = 0; i < options.free.size(); ++i) {
+    calibration::FreeParameter& free = options.free[i];
+    if (free.scale > 0.0) free.scale *= start(Eigen::Index(i)) / free.start;
+    free.start = start(Eigen::Index(i));
+    const bool positive = free.parameter == MaterialParameter::shear_modulus ||
+                          free.parameter == MaterialParameter::modulus;
+    if (!positive) continue;
+    free.lower = std::max(free.lower, free.start / scale_range);
+    free.upper = std::min(free.upper, free.start * scale_range);
+  }
+}
+
+/// The search starts from the scale of the data, not from the configuration's rubber.
+void start_from_data(FitOrder& order, const std::vector<ForwardModel*>& models) {
+  CurveFitOptions& options = order.options;
+  if (!order.start_ratios.empty()) {
+    std::vector<Eigen::VectorXd> starts =
+        calibration::scaled_starts(order.curves, models, options, order.start_ratios);
+    if (starts.empty()) return;
+    start_at(starts.front(), options);
+    options.other_starts.assign(starts.begin() + 1, starts.end());
+  } else if (order.scale_to_data) {
+    if (const auto start = calibration::scaled_start(order.curves, models, options))
+      start_at(*start, options);
+  }
+}
+
+/// Relative errors of all values times `forces`.
+void put_model_error(FitOrder& order, const Eigen::VectorXd& forces) {
+  Eigen::MatrixXd& covariance = order.options.model_covariance;
+  const Eigen::Index count = forces.size();
+  covariance = order.with_lattice_error ? calibration::lattice_covariance(order.presses)
+                                        : Eigen::MatrixXd::Zero(count, count);
+  std::vector<double> theory;
+  for (const std::vector<double>& curve : order.theory_error)
+    theory.insert(theory.end(), curve.begin(), curve.end());
+  if (!theory.empty()) {
+    const auto excess = Eigen::VectorXd::Map(theory.data(), count);
+    covariance += excess * excess.transpose();
+  }
+  covariance = forces.asDiagonal() * covariance * forces.asDiagonal();
+  // What is known of the models stands in the covariance: intervals alone tell what is open.
+  order.options.relative_singular_value = 0.0;
+}
+
+Eigen::VectorXd measured_values(const FitOrder& order) {
+  std::vector<double> all;
+  for (const calibration::Curve& curve : order.curves)
+    all.insert(all.end(), curve.y.begin(), curve.y.end());
+  return Eigen::VectorXd::Map(all.data(), Eigen::Index(all.size()));
+}
+
+Eigen::VectorXd values_at_start(const FitOrder& order, const std::vector<ForwardModel*>& models) {
+  Eigen::VectorXd start(Eigen::Index(order.options.free.size()));
+  for (Eigen::Index i = 0; i < start.size(); ++i)
+    start(i) = order.options.free[std::size_t(i)].start;
+  Eigen::VectorXd all(measured_values(order).size());
+  Eigen::Index row = 0;
+  for (ForwardModel* model : models) {
+    const Eigen::VectorXd values = model->evaluate(start).value;
+    all.segment(row, values.size()) = values;
+    row += values.size();
+  }
+  return all;
+}
+
+/// From starts at the data's scale, every force as uncertain as noise and the known errors of its
+/// model make it. Errors are relative to forces: at first to those measured, then, lest noise weigh
+/// itself, to those of the start.
+calibration::CurveFit search(FitOrder& order, const std::vector<ForwardModel*>& models) {
+  const bool errors = order.with_lattice_error || !order.theory_error.empty();
+  if (errors) put_model_error(order, measured_values(order));
+  start_from_data(order, models);
+  if (errors) put_model_error(order, values_at_start(order, models));
+  return calibration::fit_curves(order.curves, models, order.options);
+}
+
 void run_fit(FitOrder order, const fs::path& folder, const JobContext& context) {
   const auto begin = std::chrono::steady_clock::now();
+  const int budget = order.options.max_evaluations;
+  std::string stage = "scan of starts";
   int evaluations = 0;
   const auto go_on = [&] {
-    // Nobody knows how many evaluations a fit takes: the bar approaches its end.
-    const double done = 1.0 - 1.0 / (1.0 + 0.1 * evaluations);
-    return context.report(done, std::to_string(evaluations) + " evaluations");
+    return context.report(
+        std::min(1.0, double(evaluations) / budget),
+        fmt::format("{}: {} of at most {} evaluations", stage, evaluations, budget));
   };
   const Models models(order, folder, go_on);
   const std::vector<ForwardModel*> list = models.addresses();
-  CurveFitOptions& options = order.options;
-  options.threads = context.threads;
-  options.progress = [&](int count, double) {
+  order.options.threads = context.threads;
+  order.options.progress = [&](int count, double) {
     evaluations = count;
     return go_on();
   };
-  if (!order.start_ratios.empty())
-    options.other_starts =
-        calibration::scaled_starts(order.curves, list, options, order.start_ratios);
 
   calibration::FitRecord record = described(order);
-  record.options = options;
-  record.fit = calibration::fit_curves(order.curves, list, options);
+  record.fit = search(order, list);
+  record.options = order.options;
+  stage = "curves left out";
   if (order.curves.size() > 1)
-    record.left_out = calibration::leave_one_out(order.curves, list, options, record.fit);
+    record.left_out = calibration::leave_one_out(order.curves, list, record.options, record.fit);
+  stage = "profile";
   if (!order.profile.empty()) add_profile(order, list, record);
   record.material = material_of(order, record);
   record.wall_time =
@@ -264,10 +360,21 @@ void run_fit(FitOrder order, const fs::path& folder, const JobContext& context) 
 
 ordered_json inputs_of(const FitOrder& order) {
   ordered_json inputs = {
-      {"problem", name(order.problem)},     {"base", to_json(order.base)},
-      {"rubber_known", order.rubber_known}, {"robust_width", order.options.robust_width},
-      {"starts", order.start_ratios},       {"profile", order.profile},
-      {"provenance", order.provenance},     {"tables", order.table_keys}};
+      {"problem", name(order.problem)},
+      {"base", to_json(order.base)},
+      {"rubber_known", order.rubber_known},
+      {"robust_width", order.options.robust_width},
+      {"starts", order.start_ratios},
+      {"profile", order.profile},
+      {"scale_to_data", order.scale_to_data},
+      {"lattice_error", order.with_lattice_error},
+      {"theory_error", order.theory_error},
+      {"evaluations", order.options.max_evaluations},
+      {"poissons_ratios",
+       {order.options.lowest_poissons_ratio, order.options.highest_poissons_ratio}},
+      {"known", {order.density_known, order.retardation_time_known}},
+      {"provenance", order.provenance},
+      {"tables", order.table_keys}};
   inputs["curves"] = inputs["free"] = ordered_json::array();
   for (std::size_t i = 0; i < order.curves.size(); ++i)
     inputs["curves"].push_back(curve_inputs(order, i));
@@ -276,6 +383,7 @@ ordered_json inputs_of(const FitOrder& order) {
                               {"start", free.start},
                               {"scale", free.scale},
                               {"lower", free.lower},
+                              {"upper", free.upper},
                               {"prior", free.prior ? free.prior->deviation : 0.0}});
   return inputs;
 }

@@ -40,17 +40,29 @@ struct FitOrder {
   lattice::PressSetup base;   ///< of the configuration: rubber and lattice that are not sought
   bool rubber_known = false;  ///< the data were made of base.rubber
   calibration::CurveFitOptions options;
-  std::vector<double> start_ratios;     ///< Poisson's ratios to start from beside options.free
-  std::vector<std::string> profile;     ///< two parameters, or none
+  /// Poisson's ratios that are scanned for starts of E and G; none: options.free starts, its
+  /// stiffness put to the data's scale where `scale_to_data`.
+  std::vector<double> start_ratios;
+  bool scale_to_data = false;
+  /// What the lattices are known to miss goes into the covariance of the forces.
+  bool with_lattice_error = false;
+  /// Per curve, what finite strain adds to every force, relative: the same. None: nothing.
+  std::vector<std::vector<double>> theory_error;
+  bool density_known = true, retardation_time_known = true;  ///< of base.rubber, for material.toml
+  std::vector<std::string> profile;                          ///< two parameters, or none
   std::vector<std::string> table_keys;  ///< of the continuum jobs that tables are made of
   std::string provenance, program;      ///< for material.toml
 };
 
+/// What the fit has found, as a material, whether it may be used or not.
+inline constexpr const char* estimates_name = "estimates.toml";
+
 /// Of `order.options.free`.
 std::vector<calibration::MaterialParameter> parameters_of(const FitOrder& order);
 
-/// The fit. Files: calibration.json, material.toml, fit_data.csv, summary.json; while it runs,
-/// evaluations/, from which it goes on when it is run again in the same folder.
+/// The fit. Files: calibration.json, estimates.toml (a material.toml, which says so where the fit
+/// failed its own tests; none where the estimates are no material), fit_data.csv, summary.json;
+/// while it runs, evaluations/, from which it goes on when it is run again in the same folder.
 Job fit_job(const FitOrder& order);
 
 }  // namespace fingertip::studies

@@ -48,8 +48,7 @@ const meshes::PressSample& sample_near(const PressResponse& response, double dep
 /// What the continuum knows, too.
 bool is_of_the_rubber(MaterialParameter parameter) {
   using enum MaterialParameter;
-  return parameter == youngs_modulus || parameter == shear_modulus || parameter == lame_shear ||
-         parameter == lambda;
+  return calibration::is_modulus(parameter) || parameter == lame_shear || parameter == lambda;
 }
 
 Eigen::MatrixXd matrix_of(const ordered_json& rows) {
@@ -80,12 +79,13 @@ void check_moduli(const LoadedConfig& loaded) {
 
 }  // namespace
 
-FitPlan::FitPlan(LoadedConfig loaded, std::string folder)
-    : loaded_(std::move(loaded)), folder_(std::move(folder)) {
+FitPlan::FitPlan(LoadedConfig loaded, std::string folder, Failed failed)
+    : loaded_(std::move(loaded)), folder_(std::move(folder)), failed_(failed) {
   if (loaded_.config.calibration.problem == CalibrationProblem::moduli) {
     check_moduli(loaded_);
   } else {
     setup_ = fit_setup(loaded_);
+    loaded_ = setup_.loaded;
   }
 }
 
@@ -123,7 +123,7 @@ std::vector<PlannedJob> FitPlan::data_jobs() {
 }
 
 std::vector<double> FitPlan::table_ratios() const {
-  const std::vector<double>& range = loaded_.config.calibration.poisson_range;
+  const std::vector<double> range = poisson_range(loaded_);
   return calibration::chebyshev_nodes(range[0], range[1], table_nodes);
 }
 
@@ -199,6 +199,7 @@ PlannedJob FitPlan::bias(const fs::path& run, std::size_t curve) const {
 
 std::vector<PlannedJob> FitPlan::follow_up_jobs(const fs::path& run) {
   std::vector<PlannedJob> jobs;
+  if (!usable(run)) return jobs;
   if (loaded_.config.calibration.surrogate) jobs.push_back(surrogate(run));
   if (measures_bias())
     for (std::size_t i = 0; i < setup_.continua.size(); ++i) jobs.push_back(bias(run, i));
@@ -228,7 +229,15 @@ PlannedJob FitPlan::surrogate(const fs::path& run) const {
 }
 
 calibration::Material FitPlan::material(const fs::path& run) const {
-  return calibration::read_material_toml(run / place(by_moduli() ? "" : "fit") / "material.toml");
+  return calibration::read_material_toml(by_moduli() ? run / folder_ / "material.toml"
+                                                     : run / place("fit") / estimates_name);
+}
+
+bool FitPlan::usable(const fs::path& run) const {
+  if (by_moduli()) return true;
+  const fs::path estimates = run / place("fit") / estimates_name;
+  return fs::exists(estimates) &&
+         (failed_ == Failed::kept || calibration::read_material_toml(estimates).rejected.empty());
 }
 
 nlohmann::ordered_json FitPlan::with_bias(nlohmann::ordered_json calibration,
@@ -246,22 +255,38 @@ nlohmann::ordered_json FitPlan::with_bias(nlohmann::ordered_json calibration,
   return calibration;
 }
 
+/// The fit to moduli knows neither the finger nor what of the rubber is only a default.
+void FitPlan::complete_moduli(const fs::path& file) const {
+  calibration::Material found = calibration::read_material_toml(file);
+  found.geometry = loaded_.config.press.geometry;
+  found.density_known = loaded_.entries.at("rubber.density").given;
+  found.retardation_time_known = loaded_.entries.at("rubber.retardation_time").given;
+  calibration::write_material_toml(found, file);
+}
+
 void FitPlan::finish(const fs::path& run) const {
   const fs::path target = run / folder_;
-  const auto copy = [&](const std::string& from, const char* file) {
-    fs::copy_file(run / place(from) / file, target / file, fs::copy_options::overwrite_existing);
+  const auto copy = [&](const std::string& from, const char* file, const char* as) {
+    fs::copy_file(run / place(from) / file, target / as, fs::copy_options::overwrite_existing);
   };
-  if (!by_moduli()) {
-    for (const char* file : {"material.toml", "fit_data.csv"}) copy("fit", file);
+  const bool use = usable(run);
+  if (by_moduli()) {
+    complete_moduli(target / "material.toml");
+  } else {
+    copy("fit", "fit_data.csv", "fit_data.csv");
+    if (use)
+      copy("fit", estimates_name, "material.toml");
+    else
+      fs::remove(target / "material.toml");  // of an earlier attempt
     ordered_json calibration = read_json(run / place("fit") / "calibration.json");
     ordered_json summary = read_json(run / place("fit") / "summary.json");
-    if (measures_bias()) calibration = with_bias(std::move(calibration), run);
+    if (use && measures_bias()) calibration = with_bias(std::move(calibration), run);
     summary["statement"] = calibration["statement"];
     write_json(summary, target / "summary.json");
     write_json(calibration, target / "calibration.json");
   }
-  if (loaded_.config.calibration.surrogate)
-    for (const char* file : {"surrogate.csv", "surrogate.json"}) copy("surrogate", file);
+  if (use && loaded_.config.calibration.surrogate)
+    for (const char* file : {"surrogate.csv", "surrogate.json"}) copy("surrogate", file, file);
 }
 
 }  // namespace fingertip::studies

@@ -22,9 +22,13 @@ namespace fingertip::studies {
 /// and .json.
 class FitPlan {
  public:
+  /// What becomes of a fit that failed its own tests: no material.toml, bias and surrogate, or all
+  /// the same, the file saying so.
+  enum class Failed { refused, kept };
+
   /// `folder` below the run's, empty for the run's own. Reads measured files. Throws ConfigError
   /// for what cannot be carried out.
-  FitPlan(LoadedConfig loaded, std::string folder);
+  FitPlan(LoadedConfig loaded, std::string folder, Failed failed);
 
   /// The jobs that may run now. None: the files are written, the calibration is complete.
   std::vector<PlannedJob> next(const std::filesystem::path& run);
@@ -32,13 +36,15 @@ class FitPlan {
   /// Remarks on measured files.
   const std::vector<std::string>& notes() const { return setup_.notes; }
 
-  /// Of a complete calibration.
+  /// Of a fit that is done.
   calibration::Material material(const std::filesystem::path& run) const;
 
  private:
   enum class Stage { data, fit, follow_up, finish, done };
 
   bool by_moduli() const;
+  /// Whether its material may be used: the fit passed its tests, or is kept all the same.
+  bool usable(const std::filesystem::path& run) const;
   std::string place(const std::string& name) const;
   std::vector<PlannedJob> data_jobs();
   std::vector<PlannedJob> table_jobs(std::size_t curve);
@@ -53,10 +59,12 @@ class FitPlan {
   bool measures_bias() const;
   nlohmann::ordered_json with_bias(nlohmann::ordered_json calibration,
                                    const std::filesystem::path& run) const;
+  void complete_moduli(const std::filesystem::path& file) const;
   void finish(const std::filesystem::path& run) const;
 
   LoadedConfig loaded_;
   std::string folder_;
+  Failed failed_;
   Stage stage_ = Stage::data;
   FitSetup setup_;  ///< empty for the moduli
 };

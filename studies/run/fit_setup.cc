@@ -1,22 +1,19 @@
 #include "studies/run/fit_setup.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <numbers>
 
 #include "calibration/curves/forward_model.h"
+#include "calibration/curves/model_error.h"
 #include "meshes/files.h"
-#include "studies/run/curve_file.h"
-#include "studies/run/curve_text.h"
-#include "studies/run/digest.h"
+#include "studies/run/fit_curves.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/provenance.h"
 
 namespace fingertip::studies {
 
-using calibration::Curve;
 using calibration::FreeParameter;
 using calibration::MaterialParameter;
 using lattice::ModelKind;
@@ -26,31 +23,18 @@ namespace {
 /// Ties are known less well than constants by so much.
 constexpr double ties_prior = 10.0;
 
-/// A thousandth of a standard error is close enough for a model that takes seconds to answer.
-constexpr double search_tolerance = 1e-3;
+/// A hundredth of a standard error is close enough for a model that takes seconds to answer.
+constexpr double search_tolerance = 1e-2;
 
-/// "press.contact = stick; press.tilt=20 deg" as --set texts.
-std::vector<std::string> settings_in(std::string_view condition) {
-  std::vector<std::string> sets;
-  std::size_t begin = 0;
-  while (begin <= condition.size()) {
-    const std::size_t end = std::min(condition.find(';', begin), condition.size());
-    const std::string_view one = trimmed(condition.substr(begin, end - begin));
-    const auto equals = one.find('=');
-    if (equals != one.npos)
-      sets.push_back(std::string(trimmed(one.substr(0, equals))) + "=" +
-                     std::string(trimmed(one.substr(equals + 1))));
-    else if (!one.empty())
-      sets.emplace_back(one);
-    begin = end + 1;
-  }
-  return sets;
-}
+/// Poisson's ratios scanned for starts: denser where rubbers are.
+constexpr double scanned_ratios[] = {0.05, 0.2, 0.33, 0.42, 0.46, 0.49};
 
-ConfigError refused(const LoadedConfig& loaded, const std::string& key, const std::string& value,
-                    const std::string& rule, const std::string& remedy) {
-  return loaded.locate({{key, value, rule, remedy}});
-}
+/// Poisson's ratios of a table, unless they are given: the pole of confined rubber at 1/2 wants
+/// more nodes than a continuum is run for.
+const std::vector<double> table_range = {0.25, 0.49};
+
+/// Finite strain that adds less to the deepest force than this is not worth its cost.
+constexpr double small_excess = 0.01;
 
 std::string words_of(const std::vector<MaterialParameter>& parameters) {
   std::string text;
@@ -66,9 +50,10 @@ std::vector<MaterialParameter> known_parameters(const CalibrationOrder& order) {
   switch (order.problem) {
     case CalibrationProblem::damping: return {retardation_time};
     case CalibrationProblem::finite_strain:
-      return {youngs_modulus, shear_modulus, lame_shear, lambda};
+      return {youngs_modulus, shear_modulus, modulus, lame_shear, lambda};
     default:
-      return {youngs_modulus, shear_modulus, k1, k2, k3, kappa, lame_shear, lambda, bond, contact};
+      return {youngs_modulus, shear_modulus, modulus, k1,   k2,     k3,
+              kappa,          lame_shear,    lambda,  bond, contact};
   }
 }
 
@@ -136,201 +121,22 @@ std::vector<FreeParameter> free_list(const LoadedConfig& loaded, const lattice::
   return list;
 }
 
-/// Samples 1/n, 2/n ... 1 of the depth.
-std::string even_samples(double depth, int count) {
-  std::string list;
-  for (int i = 1; i <= count; ++i)
-    list += (i > 1 ? ", \"" : "\"") + meshes::to_text(depth * i / count) + " m\"";
-  return "press.samples=[" + list + "]";
-}
-
-/// A condition says how a press is done: what it is done with is common to all curves.
-void check_condition(const LoadedConfig& loaded, const std::vector<std::string>& sets) {
-  for (const std::string& one : sets) {
-    const std::string section = one.substr(0, one.find('.'));
-    if (section != "press" && section != "geometry" && section != "reference")
-      throw refused(loaded, "calibration.conditions", one,
-                    "a curve's condition sets keys of press, geometry and reference",
-                    "set rubber, lattice and calibration for the whole fit");
-  }
-}
-
-/// The press of one curve: the configuration, the condition's settings, then what the problem asks.
-LoadedConfig under(const LoadedConfig& loaded, const std::vector<std::string>& condition,
-                   const std::vector<std::string>& derived) {
-  check_condition(loaded, condition);
-  std::vector<std::string> sets = condition;
-  sets.insert(sets.end(), derived.begin(), derived.end());
-  return loaded.with(sets);
-}
-
-std::vector<std::string> conditions_of(const LoadedConfig& loaded) {
-  const std::vector<std::string>& given = loaded.config.calibration.conditions;
-  return given.empty() ? std::vector<std::string>{""} : given;
-}
-
-std::string described(const lattice::PressSetup& setup) {
-  std::string text(meshes::name(setup.protocol.contact));
-  if (setup.protocol.tilt != 0.0)
-    text += ", tilt " +
-            meshes::to_text(std::round(setup.protocol.tilt * 1.8e6 / std::numbers::pi) / 1e4) +
-            " deg";
-  if (setup.protocol.lateral != 0.0)
-    text += ", lateral " + meshes::to_text(1e2 * setup.protocol.lateral) + " cm";
-  return text;
-}
-
-/// Two files of one stem, or two fingers under one contact.
-void name_once(const std::vector<Curve>& others, Curve& curve) {
-  const std::string name = curve.name;
-  for (int copy = 2; std::ranges::find(others, curve.name, &Curve::name) != others.end(); ++copy)
-    curve.name = name + " (" + std::to_string(copy) + ")";
-}
-
-void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
-  const lattice::PressSetup press = press_setup(own);
-  fit.order.conditions.push_back(described(press));
-  if (curve.name.empty()) curve.name = fit.order.conditions.back();
-  name_once(fit.order.curves, curve);
-  fit.order.curves.push_back(std::move(curve));
-  fit.order.kinds.push_back(kind);
-  fit.order.presses.push_back(press);
-  fit.continua.push_back(continuum_beside(own, press.lattice.kinematics));
-}
-
-/// The start of a driven rod shakes the tip; this long a way dies the shaking out before touch.
-constexpr double run_up = 0.1;  // [s]
-
-/// A moving lattice beside the transient continuum. Its step is that of the largest retardation
-/// time a fit may try, twice the configuration's.
-void add_moving_press(FitSetup& fit, const LoadedConfig& own, Curve curve) {
-  add_press(fit, own, CurveKind::moving_press, std::move(curve));
-  lattice::PressSetup& press = fit.order.presses.back();
-  press.protocol.clearance = run_up * press.protocol.speed;
-  press.rubber.retardation_time *= 2.0;
-  fit.continua.back().analysis = fem_reference::Analysis::transient;
-  fit.continua.back().strain = fem_reference::Strain::linear;
-}
-
-void add_continuum_curves(FitSetup& fit, const LoadedConfig& loaded) {
-  const CalibrationOrder& order = loaded.config.calibration;
-  fit.data_from_continuum = true;
-  fit.order.provenance = "forces of the continuum reference";
-  fit.order.rubber_known = true;
-  const bool moving = order.problem == CalibrationProblem::damping;
-  for (const std::string& condition : conditions_of(loaded)) {
-    const LoadedConfig own = under(loaded, settings_in(condition),
-                                   {moving ? "press.mode=quasi-static" : "press.mode=static",
-                                    even_samples(order.depth, order.points)});
-    Curve curve;
-    curve.x = own.config.press.protocol.samples;
-    if (moving) {
-      add_moving_press(fit, own, curve);
-    } else {
-      add_press(fit, own, CurveKind::press, curve);
-    }
-  }
-}
-
-std::vector<CurveQuantities> quantities_of(CalibrationProblem problem) {
-  switch (problem) {
-    case CalibrationProblem::finite_strain: return {measured::uniaxial, measured::simple_shear};
-    case CalibrationProblem::damping:
-      return {measured::vibration, measured::creep, measured::relaxation};
-    default: return {measured::press};
-  }
-}
-
-CurveKind kind_of(const MeasuredFile& file, const CalibrationOrder& order) {
-  if (file.x_quantity == "stretch") return CurveKind::uniaxial;
-  if (file.x_quantity == "shear") return CurveKind::simple_shear;
-  if (file.x_quantity == "frequency") return CurveKind::loss_factor;
-  if (file.y_quantity == "creep") return CurveKind::creep;
-  if (file.x_quantity == "time") return CurveKind::ramp;
-  return order.forward == ForwardKind::continuum ? CurveKind::table : CurveKind::press;
-}
-
-void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const MeasuredFile& file,
-                        CurveKind kind, const std::vector<std::string>& further) {
-  std::vector<std::string> condition;
-  for (const MeasuredSetting& setting : file.settings) condition.push_back(setting.assignment());
-  condition.insert(condition.end(), further.begin(), further.end());
-  std::string samples;
-  for (const double depth : file.curve.x)
-    samples += (samples.empty() ? "\"" : ", \"") + meshes::to_text(depth) + " m\"";
-  const bool ramp = kind == CurveKind::ramp;
-  const LoadedConfig own =
-      ramp ? under(loaded, condition, {"press.mode=static"})
-           : under(loaded, condition, {"press.mode=static", "press.samples=[" + samples + "]"});
-  add_press(fit, own, kind, file.curve);
-}
-
-std::string with_unit(const std::string& quantity) {
-  for (const CurveQuantities& pair : {measured::press, measured::uniaxial, measured::simple_shear,
-                                      measured::vibration, measured::creep, measured::relaxation})
-    for (const Quantity& one : {pair.x, pair.y})
-      if (one.name == quantity) return quantity + " [" + std::string(one.unit) + "]";
-  return quantity;
-}
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
-  const CalibrationOrder& order = loaded.config.calibration;
-  if (order.data.empty())
-    throw refused(loaded, "calibration.data", "[]",
-                  "the problem " + std::string(name(order.problem)) + " needs measured data",
-                  "name one CSV file per curve");
-  if (!order.conditions.empty() && order.conditions.size() != order.data.size())
-    throw refused(loaded, "calibration.conditions", "",
-                  "there must be one per file of calibration.data, or none", "complete the list");
-  fit.order.provenance = "measured data: ";
-  for (std::size_t i = 0; i < order.data.size(); ++i) {
-    MeasuredFile file = read_measured(order.data[i], quantities_of(order.problem));
-    const CurveKind kind = kind_of(file, order);
-    const bool press =
-        kind == CurveKind::press || kind == CurveKind::table || kind == CurveKind::ramp;
-    if (i > 0 && press == fit.order.presses.empty())
-      throw refused(loaded, "calibration.data", order.data[i].string(),
-                    "forces of presses and other tests do not go into one fit",
-                    "fit them one by one");
-    file.curve.x_quantity = with_unit(file.x_quantity);
-    file.curve.y_quantity = with_unit(file.y_quantity);
-    fit.notes.insert(fit.notes.end(), file.notes.begin(), file.notes.end());
-    fit.order.provenance += (i > 0 ? ", " : "") + order.data[i].filename().string() + " (SHA-256 " +
-                            sha256(content_of(order.data[i])) + ")";
-    if (press) {
-      const auto condition =
-          order.conditions.empty() ? std::vector<std::string>{} : settings_in(order.conditions[i]);
-      add_measured_press(fit, loaded, file, kind, condition);
-      continue;
-    }
-    if (!order.conditions.empty())
-      throw refused(loaded, "calibration.conditions", "",
-                    "conditions are those of presses; a test on a coupon has none",
-                    "leave them out");
-    name_once(fit.order.curves, file.curve);
-    fit.order.curves.push_back(file.curve);
-    fit.order.conditions.push_back("");
-    fit.order.kinds.push_back(kind);
-  }
+bool frees(const FitOrder& order, MaterialParameter parameter) {
+  return std::ranges::find(order.options.free, parameter, &FreeParameter::parameter) !=
+         order.options.free.end();
 }
 
 /// E and G enter together: whatever is fitted, a second rubber may look alike (calibration/README).
-std::vector<double> further_starts(const FitOrder& order, const CalibrationOrder& wanted) {
-  const auto frees = [&](MaterialParameter parameter) {
-    return std::ranges::find(order.options.free, parameter, &FreeParameter::parameter) !=
-           order.options.free.end();
-  };
+std::vector<double> start_ratios(const FitOrder& order) {
   std::vector<double> ratios;
-  if (wanted.problem != CalibrationProblem::experiment || !frees(youngs_modulus) ||
-      !frees(shear_modulus))
+  const calibration::CurveFitOptions& options = order.options;
+  if (!order.scale_to_data || !frees(order, youngs_modulus) || !frees(order, shear_modulus))
     return ratios;
-  for (const double ratio : {0.45, 0.3, 0.1})
-    if (ratio > wanted.poisson_range[0] && ratio < wanted.poisson_range[1]) ratios.push_back(ratio);
+  for (const double ratio : scanned_ratios)
+    if (ratio >= options.lowest_poissons_ratio && ratio <= options.highest_poissons_ratio)
+      ratios.push_back(ratio);
+  if (ratios.empty())
+    ratios.push_back(0.5 * (options.lowest_poissons_ratio + options.highest_poissons_ratio));
   return ratios;
 }
 
@@ -356,35 +162,49 @@ void check_data(const LoadedConfig& loaded) {
                   "leave data out, or take the problem experiment");
 }
 
-/// Law A knows no nu < 0, a table none beyond its nodes.
+/// Of one of the two, the other being held; it starts within.
+void bound_modulus(FreeParameter& free, double lower, double upper) {
+  free.lower = lower;
+  free.upper = upper;
+  free.start = std::clamp(free.start, lower, upper);
+}
+
+/// Law A knows no nu < 0, a table none beyond its nodes, a rubber none outside of its range.
 void bound_poissons_ratio(const LoadedConfig& loaded, FitOrder& order) {
   const CalibrationOrder& wanted = loaded.config.calibration;
   calibration::CurveFitOptions& options = order.options;
   const bool finite = order.base.lattice.kinematics == lattice::Kinematics::finite ||
                       wanted.problem == CalibrationProblem::finite_strain;
   if (finite) options.lowest_poissons_ratio = 0.0;
-  if (wanted.problem != CalibrationProblem::experiment || wanted.forward != ForwardKind::continuum)
-    return;
-  options.lowest_poissons_ratio = wanted.poisson_range[0];
-  options.highest_poissons_ratio = wanted.poisson_range[1];
-  const double ratio = order.base.rubber.poissons_ratio();
-  if (ratio < wanted.poisson_range[0] || ratio > wanted.poisson_range[1])
+  if (wanted.problem != CalibrationProblem::experiment) return;
+  const std::vector<double> range = poisson_range(loaded);
+  const double lowest = options.lowest_poissons_ratio =
+                   std::max(range[0], options.lowest_poissons_ratio),
+               highest = options.highest_poissons_ratio = range[1];
+  const meshes::Rubber& rubber = order.base.rubber;
+  if (options.free.size() > 0 && frees(order, modulus) &&
+      (rubber.poissons_ratio() < lowest || rubber.poissons_ratio() > highest))
     throw refused(loaded, "calibration.poisson_range", "",
-                  "Poisson's ratio of the rubber, from which the search starts, is " +
-                      meshes::to_text(ratio) + ", outside of the range",
-                  "widen the range, or start from another rubber");
+                  "the rubber's Poisson's ratio, which is held, is " +
+                      meshes::to_text(rubber.poissons_ratio()) + ", outside of the range",
+                  "widen the range, or give another rubber");
+  if (frees(order, youngs_modulus) == frees(order, shear_modulus)) return;
+  for (FreeParameter& free : options.free) {
+    const double e = rubber.youngs_modulus, g = rubber.shear_modulus;
+    if (free.parameter == youngs_modulus)
+      bound_modulus(free, 2.0 * g * (1.0 + lowest), 2.0 * g * (1.0 + highest));
+    if (free.parameter == shear_modulus)
+      bound_modulus(free, 0.5 * e / (1.0 + highest), 0.5 * e / (1.0 + lowest));
+  }
 }
 
 /// What a model would refuse is said before the continuum runs for it.
 void check_models(const LoadedConfig& loaded, const FitOrder& order) {
-  const auto is_modulus = [](MaterialParameter parameter) {
-    return parameter == youngs_modulus || parameter == shear_modulus;
-  };
   for (std::size_t i = 0; i < order.kinds.size(); ++i) {
     if (order.kinds[i] == CurveKind::table &&
-        !std::ranges::all_of(parameters_of(order), is_modulus))
+        !std::ranges::all_of(parameters_of(order), calibration::is_modulus))
       throw refused(loaded, "calibration.parameters", "", "the continuum knows E and G alone",
-                    "free youngs_modulus, shear_modulus or both");
+                    "free youngs_modulus, shear_modulus or both, or modulus");
     if (order.kinds[i] != CurveKind::press) continue;
     try {
       calibration::LatticeForwardModel(order.presses[i], parameters_of(order));
@@ -413,7 +233,124 @@ void check_model(const LoadedConfig& loaded) {
                   "calibrate central, hookean or network");
 }
 
+FitSetup assembled(const LoadedConfig& loaded) {
+  const CalibrationOrder& wanted = loaded.config.calibration;
+  check_model(loaded);
+  check_data(loaded);
+  FitSetup fit;
+  fit.order.problem = wanted.problem;
+  fit.order.base = base_of(loaded);
+  fit.order.options.free = free_list(loaded, fit.order.base);
+  fit.order.options.robust_width = wanted.robust_width;
+  fit.order.options.tolerance = search_tolerance;
+  fit.order.program = "fingertip " + program_version();
+  fit.order.profile = wanted.profile;
+  fit.order.density_known = loaded.entries.at("rubber.density").given;
+  fit.order.retardation_time_known = loaded.entries.at("rubber.retardation_time").given;
+  check_profile(loaded, fit.order);
+  bound_poissons_ratio(loaded, fit.order);
+  const bool from_continuum =
+      wanted.problem == CalibrationProblem::curve ||
+      (wanted.problem == CalibrationProblem::damping && wanted.data.empty());
+  if (from_continuum) {
+    add_continuum_curves(fit, loaded);
+  } else {
+    add_measured_curves(fit, loaded);
+  }
+  fit.order.scale_to_data = wanted.problem == CalibrationProblem::experiment ||
+                            wanted.problem == CalibrationProblem::finite_strain;
+  fit.order.start_ratios = start_ratios(fit.order);
+  check_models(loaded, fit.order);
+  fit.order.with_lattice_error = std::ranges::all_of(fit.order.kinds, [](CurveKind kind) {
+    return kind == CurveKind::press || kind == CurveKind::moving_press;
+  });
+  fit.loaded = loaded;
+  return fit;
+}
+
+/// Per press what finite strain adds to its forces, relative; empty where a theory of large strain
+/// is fitted, or where none could be pressed so far.
+std::vector<std::vector<double>> excess_of(const FitOrder& order) {
+  std::vector<std::vector<double>> excess;
+  if (order.problem != CalibrationProblem::experiment ||
+      order.base.lattice.kinematics == lattice::Kinematics::finite)
+    return excess;
+  try {
+    for (const lattice::PressSetup& press : order.presses) {
+      const Eigen::VectorXd own = calibration::excess_of_finite_strain(press);
+      excess.emplace_back(own.begin(), own.end());
+    }
+  } catch (const meshes::NotConverged&) {
+    excess.clear();
+  } catch (const meshes::InvalidInput&) {
+    excess.clear();
+  }
+  return excess;
+}
+
+/// The finite law knows these, too, and nobody chose small strain.
+bool may_be_finite(const LoadedConfig& loaded, const FitOrder& order) {
+  const auto given = [&](const char* key) { return loaded.entries.at(key).given; };
+  return !given("lattice.model") && !given("lattice.kinematics") && !given("lattice.constants") &&
+         std::ranges::all_of(parameters_of(order), [](MaterialParameter one) {
+           return calibration::is_modulus(one) || one == bond || one == contact;
+         });
+}
+
+/// Data beyond small strain are fitted by the finite law, or what it adds to the forces counts as
+/// uncertain; both are said before the fit.
+FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit) {
+  const auto excess = excess_of(fit.order);
+  double most = 0.0, depth = 0.0;
+  for (std::size_t i = 0; i < excess.size(); ++i)
+    if (std::abs(excess[i].back()) > most) {
+      most = std::abs(excess[i].back());
+      const lattice::PressSetup& press = fit.order.presses[i];
+      depth = press.protocol.depth / press.geometry.thickness();
+    }
+  if (most <= small_excess) return fit;
+  const std::string said = fmt::format(
+      "the data go to {:.0f} % of the rubber's thickness, where a neo-Hookean solid is "
+      "{:.0f} % stiffer than small strain has it",
+      100.0 * depth, 100.0 * most);
+  if (may_be_finite(loaded, fit.order)) {
+    FitSetup finite = assembled(loaded.with({"lattice.model=network"}));
+    finite.notes.push_back(said +
+                           ": the finite law is fitted, lattice.model = network (small "
+                           "strain on request: lattice.kinematics = small)");
+    return finite;
+  }
+  if (loaded.entries.at("lattice.kinematics").given) {
+    fit.notes.push_back(said + "; small strain is fitted as asked by lattice.kinematics");
+    return fit;
+  }
+  fit.order.theory_error = excess;
+  fit.notes.push_back(said +
+                      ": that difference counts as an error of the model, which widens the "
+                      "intervals (the finite law: lattice.model = network)");
+  return fit;
+}
+
+/// How long the search may take is said before it begins.
+void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
+  const auto& kinds = fit.order.kinds;
+  const bool pressed = std::ranges::find(kinds, CurveKind::press) != kinds.end() ||
+                       std::ranges::find(kinds, CurveKind::moving_press) != kinds.end();
+  if (!pressed && !loaded.entries.at("calibration.evaluations").given) return;
+  fit.order.options.max_evaluations = std::stoi(loaded.entries.at("calibration.evaluations").literal);
+  fit.notes.push_back(
+      fmt::format("the search may do {} evaluations (calibration.evaluations), each "
+                  "a press of every curve",
+                  fit.order.options.max_evaluations));
+}
+
 }  // namespace
+
+std::vector<double> poisson_range(const LoadedConfig& loaded) {
+  const CalibrationOrder& order = loaded.config.calibration;
+  const bool given = loaded.entries.at("calibration.poisson_range").given;
+  return order.forward == ForwardKind::continuum && !given ? table_range : order.poisson_range;
+}
 
 fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
                                              lattice::Kinematics kinematics) {
@@ -428,29 +365,8 @@ fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
 }
 
 FitSetup fit_setup(const LoadedConfig& loaded) {
-  const CalibrationOrder& wanted = loaded.config.calibration;
-  check_model(loaded);
-  check_data(loaded);
-  FitSetup fit;
-  fit.order.problem = wanted.problem;
-  fit.order.base = base_of(loaded);
-  fit.order.options.free = free_list(loaded, fit.order.base);
-  fit.order.options.robust_width = wanted.robust_width;
-  fit.order.options.tolerance = search_tolerance;
-  fit.order.program = "fingertip " + program_version();
-  fit.order.profile = wanted.profile;
-  check_profile(loaded, fit.order);
-  bound_poissons_ratio(loaded, fit.order);
-  const bool from_continuum =
-      wanted.problem == CalibrationProblem::curve ||
-      (wanted.problem == CalibrationProblem::damping && wanted.data.empty());
-  if (from_continuum) {
-    add_continuum_curves(fit, loaded);
-  } else {
-    add_measured_curves(fit, loaded);
-  }
-  fit.order.start_ratios = further_starts(fit.order, wanted);
-  check_models(loaded, fit.order);
+  FitSetup fit = at_the_right_strain(loaded, assembled(loaded));
+  set_budget(loaded, fit);
   return fit;
 }
 

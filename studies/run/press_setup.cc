@@ -77,9 +77,11 @@ void take_over(const calibration::Material& material, LoadedConfig& loaded) {
   const auto take_default = [&](const char* key, double ours, double& value) {
     if (!given(key)) take(key, ours, value);
   };
-  take_default("rubber.density", material.rubber.density, rubber.density);
-  take_default("rubber.retardation_time", material.rubber.retardation_time,
-               rubber.retardation_time);
+  if (material.density_known)
+    take_default("rubber.density", material.rubber.density, rubber.density);
+  if (material.retardation_time_known)
+    take_default("rubber.retardation_time", material.rubber.retardation_time,
+                 rubber.retardation_time);
   take_default("lattice.ligament_stiffness", material.ligament_stiffness,
                lattice.ligament_stiffness);
   take_default("lattice.contact_stiffness", material.contact_stiffness, lattice.contact_stiffness);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -31,6 +32,7 @@ Material fitted(ModelKind model) {
               1.0 / 3.0e3};
   m.constants = lattice::hookean_constants(m.rubber, a);
   if (model == ModelKind::central) m.constants.kappa = 0.0;
+  m.geometry = meshes::Geometry{1.0e-2 / 3.0, 0.1e-2, 0.7e-2, 0.9e-2};
   m.ligament_stiffness = 1.0 + 1.0 / 49.0;
   m.contact_stiffness = 2.0;
   m.validity = {0.1e-2 / 3.0,
@@ -72,6 +74,16 @@ void expect_equal(const Material& got, const Material& wanted) {
   EXPECT_EQ(got.validity.largest_poissons_ratio, wanted.validity.largest_poissons_ratio);
   EXPECT_EQ(got.validity.model_error, wanted.validity.model_error);
   EXPECT_EQ(got.validity.contacts, wanted.validity.contacts);
+  ASSERT_EQ(got.geometry.has_value(), wanted.geometry.has_value());
+  if (wanted.geometry) {
+    EXPECT_EQ(got.geometry->tip_radius, wanted.geometry->tip_radius);
+    EXPECT_EQ(got.geometry->rod_radius, wanted.geometry->rod_radius);
+    EXPECT_EQ(got.geometry->sleeve_length, wanted.geometry->sleeve_length);
+    EXPECT_EQ(got.geometry->rod_length, wanted.geometry->rod_length);
+  }
+  EXPECT_EQ(got.density_known, wanted.density_known);
+  EXPECT_EQ(got.retardation_time_known, wanted.retardation_time_known);
+  EXPECT_EQ(got.rejected, wanted.rejected);
   EXPECT_EQ(got.provenance, wanted.provenance);
   EXPECT_EQ(got.program, wanted.program);
   EXPECT_EQ(got.date, wanted.date);
@@ -150,6 +162,30 @@ TEST_F(MaterialFile, LeavesOutWhatIsUnknown) {
   write_material_toml(written, file_);
   EXPECT_EQ(read_text(file_).find("[validity]"), std::string::npos);
   expect_equal(read_material_toml(file_), written);
+}
+
+/// Of a default density a file says nothing, of a fit that failed its own tests it says so.
+TEST_F(MaterialFile, SaysWhatIsNotKnownAndWhatIsNotAccepted) {
+  Material wanted = fitted(ModelKind::hookean);
+  wanted.rubber.density = meshes::Rubber().density;
+  wanted.rubber.retardation_time = meshes::Rubber().retardation_time;
+  wanted.density_known = wanted.retardation_time_known = false;
+  wanted.rejected = "chi-square is 313 at 20 degrees of freedom";
+  write_material_toml(wanted, file_);
+  EXPECT_EQ(read_text(file_).find("density"), std::string::npos);
+  const Material got = read_material_toml(file_);
+  expect_equal(got, wanted);
+  lattice::PressSetup setup;
+  setup.lattice.spacing = a;
+  setup.rubber = wanted.rubber;
+  setup.rubber.density = 2000.0;
+  const auto said = warnings(got, setup);
+  const auto tells = [&](const char* words) {
+    return std::ranges::any_of(
+        said, [&](const std::string& one) { return one.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(tells("failed its own tests: chi-square is 313"));
+  EXPECT_FALSE(tells("density")) << "the press's own rules where the material's is not known";
 }
 
 TEST_F(MaterialFile, TheNetworkHasModuliOnly) {

@@ -1,0 +1,88 @@
+/// Whether a fit passed its own tests.
+#include <cmath>
+
+#include "calibration/curves/fit_record.h"
+#include "calibration/words.h"
+#include "meshes/errors.h"
+
+namespace fingertip::calibration {
+
+using Eigen::Index;
+
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+/// A curve missed by more than this share of its values is not described, whatever its noise.
+constexpr double largest_misfit = 0.1;
+/// The softest gels and the hardest plastics [Pa].
+constexpr double softest = 1e2, hardest = 1e10;
+
+std::string percent(double value) {
+  return rounded(100.0 * value, 2) + " %";
+}
+
+void judge_misfit(Sentences& found, const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  if (fit.birge_ratio > 1.0)
+    found.push_back("the model does not describe the data: chi-square is " +
+                    rounded(*fit.chi_square, 3) + " at " + std::to_string(fit.degrees_of_freedom) +
+                    " degrees of freedom, probability " + rounded(*fit.chi_square_probability, 2));
+  if (fit.chi_square_probability) return;
+  for (std::size_t c = 0; c < record.curves.size(); ++c) {
+    const auto& y = record.curves[c].y;
+    const double size = Eigen::Map<const Eigen::VectorXd>(y.data(), Index(y.size())).norm();
+    const double missed = fit.residuals[c].norm();
+    if (missed > largest_misfit * size)
+      found.push_back("the model does not describe the data: " + record.curves[c].name +
+                      " is missed by " + percent(missed / size) + " (root mean square)");
+  }
+}
+
+void judge_bounds(Sentences& found, const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  if (fit.poissons_ratio_bound) {
+    found.push_back("Poisson's ratio ended at a bound, " + rounded(*fit.poissons_ratio_bound, 5) +
+                    ": the data do not tell it; hold it (parameters: modulus, with the rubber's "
+                    "ratio), or widen its range where such a rubber is possible");
+    return;
+  }
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    if (fit.at_bound[i])
+      found.push_back(std::string(name(fit.parameters[i])) + " ended at a bound, " +
+                      rounded(fit.estimates(Index(i)), 5) + " " +
+                      std::string(unit(fit.parameters[i])));
+}
+
+void judge_material(Sentences& found, const FitRecord& record) {
+  for (const meshes::Violation& one : record.material.violations())
+    found.push_back("the estimates are no rubber: " + to_string(one));
+  const double e = record.material.rubber.youngs_modulus;
+  if (record.problem != "damping" && !(e >= softest && e <= hardest))
+    found.push_back("E = " + rounded(e, 3) +
+                    " Pa is no rubber's, which lies between 100 Pa and 10 GPa: check the units of "
+                    "the data");
+}
+
+}  // namespace
+
+std::vector<std::string> failed_tests(const FitRecord& record) {
+  Sentences found;
+  const CurveFit& fit = record.fit;
+  if (!fit.converged)
+    found.push_back("the search did not end within " + std::to_string(fit.evaluations) +
+                    " evaluations, and the estimates are the best seen so far: allow more, free "
+                    "fewer parameters, or leave out depths that the model does not resolve");
+  judge_misfit(found, record);
+  judge_bounds(found, record);
+  if (!fit.unidentifiable.empty() && !fit.poissons_ratio_bound)
+    found.push_back(
+        "the data do not determine every parameter (" + std::to_string(fit.unidentifiable.size()) +
+        " direction" + (fit.unidentifiable.size() > 1 ? "s" : "") +
+        " open): hold what is known (parameters: modulus holds Poisson's ratio), give a "
+        "prior, or add a curve of another contact");
+  judge_material(found, record);
+  return found;
+}
+
+}  // namespace fingertip::calibration

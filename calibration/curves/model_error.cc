@@ -1,0 +1,117 @@
+#include "calibration/curves/model_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lattice/constants.h"
+#include "lattice/statics/static_press.h"
+
+namespace fingertip::calibration {
+
+using Eigen::Index;
+using lattice::Kinematics;
+using lattice::ModelKind;
+using lattice::PressSetup;
+
+namespace {
+
+/// Sizes of the errors; their source is the header's.
+constexpr double contact_error = 0.17, contact_power = 3.0, contact_length = 0.3;
+constexpr double inside_error = 0.57, inside_power = 3.0;
+constexpr double tie_error = 0.003;
+constexpr double large_strain_error = 0.02;
+
+/// One force and where it is taken.
+struct Place {
+  const PressSetup* press = nullptr;
+  double depth = 0.0;
+
+  double cells() const {
+    return std::sqrt(press->geometry.tip_radius * depth) / press->lattice.spacing;
+  }
+  double contact() const {
+    return contact_error * std::min(1.0, std::pow(cells(), -contact_power));
+  }
+  double inside() const {
+    return inside_error *
+           std::pow(press->lattice.spacing / press->geometry.thickness(), inside_power);
+  }
+  double large_strain() const {
+    if (press->lattice.kinematics == Kinematics::small) return 0.0;
+    return large_strain_error * std::pow(depth / press->geometry.thickness(), 2.0);
+  }
+};
+
+bool same_cells(const PressSetup& a, const PressSetup& b) {
+  return a.lattice.spacing == b.lattice.spacing && a.lattice.offset == b.lattice.offset &&
+         a.lattice.axes == b.lattice.axes && a.protocol.tilt == b.protocol.tilt &&
+         a.geometry.tip_radius == b.geometry.tip_radius;
+}
+
+double covariance(const Place& a, const Place& b) {
+  double sum = tie_error * tie_error + a.large_strain() * b.large_strain();
+  if (a.press->lattice.spacing == b.press->lattice.spacing) sum += a.inside() * b.inside();
+  if (same_cells(*a.press, *b.press)) {
+    const double apart = (a.cells() - b.cells()) / contact_length;
+    sum += a.contact() * b.contact() * std::exp(-0.5 * apart * apart);
+  }
+  return sum;
+}
+
+/// Cells through the thickness, and depths between which the ratio of two theories is straight.
+constexpr double coarse_cells = 3.0;
+constexpr std::size_t coarse_depths = 8;
+
+std::vector<double> forces(PressSetup press, ModelKind model, Kinematics kinematics) {
+  press.lattice.model = model;
+  press.lattice.kinematics = kinematics;
+  press.lattice.constants = lattice::hookean_constants(press.rubber, press.lattice.spacing);
+  std::vector<double> result;
+  const lattice::StaticOutcome outcome = lattice::run_static_press(press);
+  for (const auto& sample : outcome.response.samples()) result.push_back(sample.normal_force);
+  return result;
+}
+
+/// Straight lines from the origin through (xs, ys).
+double between(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
+  const auto above = std::ranges::lower_bound(xs, x);
+  if (above == xs.end()) return ys.back();
+  const std::size_t i = std::size_t(above - xs.begin());
+  const double x0 = i > 0 ? xs[i - 1] : 0.0, y0 = i > 0 ? ys[i - 1] : 0.0;
+  return y0 + (ys[i] - y0) * (x - x0) / (xs[i] - x0);
+}
+
+}  // namespace
+
+Eigen::MatrixXd lattice_covariance(const std::vector<PressSetup>& presses) {
+  std::vector<Place> places;
+  for (const PressSetup& press : presses)
+    for (const double depth : press.protocol.samples) places.push_back({&press, depth});
+  const Index count = Index(places.size());
+  Eigen::MatrixXd result(count, count);
+  for (Index i = 0; i < count; ++i)
+    for (Index j = 0; j <= i; ++j)
+      result(i, j) = result(j, i) = covariance(places[std::size_t(i)], places[std::size_t(j)]);
+  return result;
+}
+
+Eigen::VectorXd excess_of_finite_strain(PressSetup press) {
+  const std::vector<double> wanted = press.protocol.samples;
+  press.lattice.spacing = press.geometry.thickness() / coarse_cells;
+  press.rubber.youngs_modulus =
+      std::max(press.rubber.youngs_modulus, 2.0 * press.rubber.shear_modulus);
+  press.protocol.samples.clear();
+  for (std::size_t i = 1; i <= coarse_depths; ++i)
+    press.protocol.samples.push_back(wanted.back() * double(i) / double(coarse_depths));
+  press.protocol.depth = press.protocol.samples.back();
+  const auto small = forces(press, ModelKind::hookean, Kinematics::small);
+  const auto finite = forces(press, ModelKind::network, Kinematics::finite);
+  std::vector<double> ratio;
+  for (std::size_t i = 0; i < small.size(); ++i) ratio.push_back(finite[i] / small[i] - 1.0);
+  Eigen::VectorXd result{Index(wanted.size())};
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    result(Index(i)) = between(press.protocol.samples, ratio, wanted[i]);
+  return result;
+}
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,34 @@
+/// What a lattice is known to miss of the continuum, as a covariance of the forces it answers for.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lattice/settings.h"
+
+namespace fingertip::calibration {
+
+/// Covariance of the relative errors of the static lattice's forces against the continuum of its
+/// own kinematics, for all `presses` in order: a row and a column per sample of
+/// PressProtocol::samples. `hookean` and `network`; in terms of xi = sqrt(R d)/a, the cells under
+/// the contact's radius to within a tenth, and of the thickness t = R - r, the errors are the sum
+/// of independent ones,
+///   contact  0.17 min(1, xi^-3), correlated over xi by exp(-(xi - xi')²/(2 0.3²)): the patch grows
+///            by rings of cells, so that the error swings once per cell; common to presses of one
+///            spacing, geometry and direction, which meet the same cells,
+///   inside   0.57 (a/t)³, one number for all presses of a spacing: bending of cells, less the
+///   ties, ties     0.003, one number for all: what is left at R/16 and R/24, law A    0.02 (d/t)²,
+///   one number for all; the network alone.
+/// Measured, each as the root mean square, with 43 presses of the default finger at R/5 to R/12
+/// (frictionless and stick, grids at six places, nu = 0 to 0.49) against an axisymmetric continuum
+/// (README). They are errors of known size and unknown value: their signs, mostly positive, are not
+/// used.
+Eigen::MatrixXd lattice_covariance(const std::vector<lattice::PressSetup>& presses);
+
+/// By how much forces of law A exceed those of small strain under `press`, relative, at every
+/// sample: by static lattices of three cells through the thickness, whose own errors cancel in the
+/// ratio to a few tenths of a per cent. Between at most eight computed depths linear. Poisson's
+/// ratio is the setup's rubber's, but at least 0. Throws as run_static_press does.
+Eigen::VectorXd excess_of_finite_strain(lattice::PressSetup press);
+
+}  // namespace fingertip::calibration

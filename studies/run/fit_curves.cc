@@ -1,0 +1,297 @@
+#include "studies/run/fit_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include "calibration/curves/curve_residuals.h"
+#include "calibration/curves/stretch_models.h"
+#include "meshes/files.h"
+#include "studies/run/curve_file.h"
+#include "studies/run/curve_text.h"
+#include "studies/run/digest.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+using calibration::Curve;
+
+ConfigError refused(const LoadedConfig& loaded, const std::string& key, const std::string& value,
+                    const std::string& rule, const std::string& remedy) {
+  return loaded.locate({{key, value, rule, remedy}});
+}
+
+namespace {
+
+/// "press.contact = stick; press.tilt=20 deg" as --set texts.
+std::vector<std::string> settings_in(std::string_view condition) {
+  std::vector<std::string> sets;
+  std::size_t begin = 0;
+  while (begin <= condition.size()) {
+    const std::size_t end = std::min(condition.find(';', begin), condition.size());
+    const std::string_view one = trimmed(condition.substr(begin, end - begin));
+    const auto equals = one.find('=');
+    if (equals != one.npos)
+      sets.push_back(std::string(trimmed(one.substr(0, equals))) + "=" +
+                     std::string(trimmed(one.substr(equals + 1))));
+    else if (!one.empty())
+      sets.emplace_back(one);
+    begin = end + 1;
+  }
+  return sets;
+}
+
+/// Samples 1/n, 2/n ... 1 of the depth.
+std::string even_samples(double depth, int count) {
+  std::string list;
+  for (int i = 1; i <= count; ++i)
+    list += (i > 1 ? ", \"" : "\"") + meshes::to_text(depth * i / count) + " m\"";
+  return "press.samples=[" + list + "]";
+}
+
+/// A condition says how a press is done: what it is done with is common to all curves.
+void check_condition(const LoadedConfig& loaded, const std::vector<std::string>& sets) {
+  for (const std::string& one : sets) {
+    const std::string section = one.substr(0, one.find('.'));
+    if (section != "press" && section != "geometry" && section != "reference")
+      throw refused(loaded, "calibration.conditions", one,
+                    "a curve's condition sets keys of press, geometry and reference",
+                    "set rubber, lattice and calibration for the whole fit");
+  }
+}
+
+/// The press of one curve: the configuration, the condition's settings, then what the problem asks.
+LoadedConfig under(const LoadedConfig& loaded, const std::vector<std::string>& condition,
+                   const std::vector<std::string>& derived) {
+  check_condition(loaded, condition);
+  std::vector<std::string> sets = condition;
+  sets.insert(sets.end(), derived.begin(), derived.end());
+  return loaded.with(sets);
+}
+
+std::vector<std::string> conditions_of(const LoadedConfig& loaded) {
+  const std::vector<std::string>& given = loaded.config.calibration.conditions;
+  return given.empty() ? std::vector<std::string>{""} : given;
+}
+
+std::string described(const lattice::PressSetup& setup) {
+  std::string text(meshes::name(setup.protocol.contact));
+  if (setup.protocol.tilt != 0.0)
+    text += ", tilt " +
+            meshes::to_text(std::round(setup.protocol.tilt * 1.8e6 / std::numbers::pi) / 1e4) +
+            " deg";
+  if (setup.protocol.lateral != 0.0)
+    text += ", lateral " + meshes::to_text(1e2 * setup.protocol.lateral) + " cm";
+  return text;
+}
+
+/// Two files of one stem, or two fingers under one contact.
+void name_once(const std::vector<Curve>& others, Curve& curve) {
+  const std::string name = curve.name;
+  for (int copy = 2; std::ranges::find(others, curve.name, &Curve::name) != others.end(); ++copy)
+    curve.name = name + " (" + std::to_string(copy) + ")";
+}
+
+void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
+  const lattice::PressSetup press = press_setup(own);
+  fit.order.conditions.push_back(described(press));
+  if (curve.name.empty()) curve.name = fit.order.conditions.back();
+  name_once(fit.order.curves, curve);
+  fit.order.curves.push_back(std::move(curve));
+  fit.order.kinds.push_back(kind);
+  fit.order.presses.push_back(press);
+  fit.continua.push_back(continuum_beside(own, press.lattice.kinematics));
+}
+
+/// The start of a driven rod shakes the tip; this long a way dies the shaking out before touch.
+constexpr double run_up = 0.1;  // [s]
+
+/// A moving lattice beside the transient continuum. Its step is that of the largest retardation
+/// time a fit may try, twice the configuration's.
+void add_moving_press(FitSetup& fit, const LoadedConfig& own, Curve curve) {
+  add_press(fit, own, CurveKind::moving_press, std::move(curve));
+  lattice::PressSetup& press = fit.order.presses.back();
+  press.protocol.clearance = run_up * press.protocol.speed;
+  press.rubber.retardation_time *= 2.0;
+  fit.continua.back().analysis = fem_reference::Analysis::transient;
+  fit.continua.back().strain = fem_reference::Strain::linear;
+}
+
+}  // namespace
+
+void add_continuum_curves(FitSetup& fit, const LoadedConfig& loaded) {
+  const CalibrationOrder& order = loaded.config.calibration;
+  fit.data_from_continuum = true;
+  fit.order.provenance = "forces of the continuum reference";
+  fit.order.rubber_known = true;
+  const bool moving = order.problem == CalibrationProblem::damping;
+  for (const std::string& condition : conditions_of(loaded)) {
+    const LoadedConfig own = under(loaded, settings_in(condition),
+                                   {moving ? "press.mode=quasi-static" : "press.mode=static",
+                                    even_samples(order.depth, order.points)});
+    Curve curve;
+    curve.x = own.config.press.protocol.samples;
+    if (moving) {
+      add_moving_press(fit, own, curve);
+    } else {
+      add_press(fit, own, CurveKind::press, curve);
+    }
+  }
+}
+
+namespace {
+
+std::vector<CurveQuantities> quantities_of(CalibrationProblem problem) {
+  switch (problem) {
+    case CalibrationProblem::finite_strain: return {measured::uniaxial, measured::simple_shear};
+    case CalibrationProblem::damping:
+      return {measured::vibration, measured::creep, measured::relaxation};
+    default: return {measured::press};
+  }
+}
+
+CurveKind kind_of(const MeasuredFile& file, const CalibrationOrder& order) {
+  if (file.x_quantity == "stretch") return CurveKind::uniaxial;
+  if (file.x_quantity == "shear") return CurveKind::simple_shear;
+  if (file.x_quantity == "frequency") return CurveKind::loss_factor;
+  if (file.y_quantity == "creep") return CurveKind::creep;
+  if (file.x_quantity == "time") return CurveKind::ramp;
+  return order.forward == ForwardKind::continuum ? CurveKind::table : CurveKind::press;
+}
+
+std::string place_in(const std::filesystem::path& file, std::size_t line) {
+  return file.string() + ":" + std::to_string(line);
+}
+
+/// What is wrong with a press that a measured file describes stands in that file.
+ConfigError placed_in(const std::filesystem::path& path, const MeasuredFile& file,
+                      const ConfigError& error) {
+  std::vector<Problem> problems = error.problems();
+  for (Problem& one : problems) {
+    const auto setting = std::ranges::find(file.settings, one.key, &MeasuredSetting::key);
+    if (setting != file.settings.end()) one.place = place_in(path, setting->line);
+    // Increasing indentations: the last one is what goes too deep.
+    if (one.key == "press.samples" || one.key == "press.depth")
+      one.place = place_in(path, file.lines.back());
+  }
+  return ConfigError(std::move(problems));
+}
+
+void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const MeasuredFile& file,
+                        CurveKind kind, const std::vector<std::string>& further) {
+  std::vector<std::string> condition;
+  for (const MeasuredSetting& setting : file.settings) condition.push_back(setting.assignment());
+  condition.insert(condition.end(), further.begin(), further.end());
+  std::string samples;
+  for (const double depth : file.curve.x)
+    samples += (samples.empty() ? "\"" : ", \"") + meshes::to_text(depth) + " m\"";
+  const bool ramp = kind == CurveKind::ramp;
+  const LoadedConfig own =
+      ramp ? under(loaded, condition, {"press.mode=static"})
+           : under(loaded, condition, {"press.mode=static", "press.samples=[" + samples + "]"});
+  add_press(fit, own, kind, file.curve);
+}
+
+std::string with_unit(const std::string& quantity) {
+  for (const CurveQuantities& pair : {measured::press, measured::uniaxial, measured::simple_shear,
+                                      measured::vibration, measured::creep, measured::relaxation})
+    for (const Quantity& one : {pair.x, pair.y})
+      if (one.name == quantity) return quantity + " [" + std::string(one.unit) + "]";
+  return quantity;
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void check_stretches(const std::filesystem::path& path, const MeasuredFile& file) {
+  if (file.x_quantity != "stretch") return;
+  FileProblems problems(path);
+  for (std::size_t i = 0; i < file.curve.x.size(); ++i)
+    if (const double stretch = file.curve.x[i];
+        stretch < calibration::least_stretch || stretch > calibration::largest_stretch)
+      problems.add(file.lines[i], "stretch", meshes::to_text(stretch),
+                   "a stretch lies between 0.01 and 100",
+                   "give length over length at rest, 1 for the bar at rest");
+  problems.throw_if_any();
+}
+
+/// What a fit refuses of its data as a whole is said of the files, before anything is computed.
+void check_curves(const LoadedConfig& loaded, const FitOrder& order) {
+  const std::vector<std::filesystem::path>& files = loaded.config.calibration.data;
+  try {
+    calibration::check_curve_fit(order.curves, order.options);
+  } catch (const meshes::InvalidInput& error) {
+    std::vector<Problem> problems;
+    for (const meshes::Violation& one : error.violations()) {
+      std::string places;
+      for (std::size_t i = 0; i < files.size(); ++i) {
+        const std::string own = "curves[" + std::to_string(i) + "]";
+        if (one.key.starts_with("curves[") && !one.key.starts_with(own)) continue;
+        places += (places.empty() ? "" : ", ") + files[i].string();
+      }
+      const bool of_data = one.key.starts_with("curves");
+      Problem problem = loaded.locate({one}).problems().front();
+      if (of_data) {
+        problem.place = places;
+        problem.key = one.key.ends_with(".sigma") ? "sigma" : "calibration.data";
+      }
+      problems.push_back(std::move(problem));
+    }
+    throw ConfigError(std::move(problems));
+  }
+}
+
+}  // namespace
+
+void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
+  const CalibrationOrder& order = loaded.config.calibration;
+  if (order.data.empty())
+    throw refused(loaded, "calibration.data", "[]",
+                  "the problem " + std::string(name(order.problem)) + " needs measured data",
+                  "name one CSV file per curve");
+  if (!order.conditions.empty() && order.conditions.size() != order.data.size())
+    throw refused(loaded, "calibration.conditions", "",
+                  "there must be one per file of calibration.data, or none", "complete the list");
+  fit.order.provenance = "measured data: ";
+  for (std::size_t i = 0; i < order.data.size(); ++i) {
+    MeasuredFile file = read_measured(order.data[i], quantities_of(order.problem));
+    const CurveKind kind = kind_of(file, order);
+    const bool press =
+        kind == CurveKind::press || kind == CurveKind::table || kind == CurveKind::ramp;
+    if (i > 0 && press == fit.order.presses.empty())
+      throw refused(loaded, "calibration.data", order.data[i].string(),
+                    "forces of presses and other tests do not go into one fit",
+                    "fit them one by one");
+    file.curve.x_quantity = with_unit(file.x_quantity);
+    file.curve.y_quantity = with_unit(file.y_quantity);
+    fit.notes.insert(fit.notes.end(), file.notes.begin(), file.notes.end());
+    fit.order.provenance += (i > 0 ? ", " : "") + order.data[i].filename().string() + " (SHA-256 " +
+                            sha256(content_of(order.data[i])) + ")";
+    if (press) {
+      const auto condition =
+          order.conditions.empty() ? std::vector<std::string>{} : settings_in(order.conditions[i]);
+      try {
+        add_measured_press(fit, loaded, file, kind, condition);
+      } catch (const ConfigError& error) {
+        throw placed_in(order.data[i], file, error);
+      }
+      continue;
+    }
+    check_stretches(order.data[i], file);
+    if (!order.conditions.empty())
+      throw refused(loaded, "calibration.conditions", "",
+                    "conditions are those of presses; a test on a coupon has none",
+                    "leave them out");
+    name_once(fit.order.curves, file.curve);
+    fit.order.curves.push_back(file.curve);
+    fit.order.conditions.push_back("");
+    fit.order.kinds.push_back(kind);
+  }
+  check_curves(loaded, fit.order);
+}
+
+}  // namespace fingertip::studies
