@@ -14,11 +14,6 @@ namespace fingertip::studies {
 
 namespace {
 
-int cores_for(const LoadedConfig& loaded) {
-  const int wanted = loaded.config.press.threads;
-  return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
-}
-
 /// What to do with a run that ended early.
 std::string kept_in(const std::filesystem::path& folder) {
   return fmt::format(
@@ -39,6 +34,11 @@ bool holds_results(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+int cores_for(const LoadedConfig& loaded) {
+  const int wanted = loaded.config.press.threads;
+  return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
+}
 
 LoadedConfig load_checked(const CommandLine& line) {
   LoadedConfig loaded = load_config(line.config);
@@ -70,7 +70,7 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
   };
   try {
     const int code = body(session);
-    folder.finish(code == 0 ? "finished" : "criteria failed", code);
+    folder.finish(code == 0 ? "finished" : code == 3 ? "not converged" : "criteria failed", code);
     return code;
   } catch (const ProcessLost& error) {
     throw ProcessLost(end("process lost", 3, error));
