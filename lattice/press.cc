@@ -12,6 +12,7 @@
 #include "lattice/press_pictures.h"
 #include "lattice/press_recorder.h"
 #include "lattice/press_task.h"
+#include "lattice/scaling/press_deviation.h"
 #include "lattice/virtual_finger.h"
 
 namespace fingertip::lattice {
@@ -40,6 +41,19 @@ LatticeCensus take_census(const PressSetup& setup, const LatticeModel& model) {
   census.added_mass = model.added_mass;
   census.exact_mass = setup.rubber.density * setup.geometry.tip_volume();
   return census;
+}
+
+/// Scaled masses as far as they serve.
+FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way) {
+  FingerSetup finger = finger_setup(setup, way);
+  if (setup.integrator != Integrator::mass_scaled) return finger;
+  const ScalingChoice choice = choose_scaling(setup);
+  if (choice.scaled) {
+    finger.time_step = choice.step;
+  } else {
+    finger.integrator = Integrator::symplectic_euler;
+  }
+  return finger;
 }
 
 /// One press from start to depth.
@@ -90,7 +104,7 @@ Press::Press(const PressSetup& setup, const PressObserver& observer, const Press
     : setup_(setup),
       observer_(observer),
       way_(setup.protocol, setup.geometry),
-      finger_(finger_setup(setup, way_)),
+      finger_(pressed_finger(setup, way_)),
       approach_(setup.protocol.speed, setup.protocol.clearance),
       recorder_(setup.protocol, finger_.finger().plane(), finger_.finger(), outcome_),
       pictures_(setup, finger_.finger(), expected_time(), film, outcome_) {

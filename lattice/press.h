@@ -35,7 +35,8 @@ struct TraceRow {
   int anchored = 0;             ///< boundary particles, or points of the true surface, on the plane
   int sliding = 0;              ///< of these (contact coulomb)
   double kinetic_energy = 0.0;  ///< of the particles [J]
-  double elastic_energy = 0.0;  ///< of springs, cells, bond and contact [J]
+  double rod_kinetic_energy = 0.0;  ///< [J]
+  double elastic_energy = 0.0;      ///< of springs, cells, bond and contact [J]
 };
 
 /// What the lattice consists of, for reports and pictures.
@@ -99,7 +100,7 @@ struct PressFilm {
 PressOutcome run_press(const PressSetup& setup, const PressObserver& observer = {},
                        const PressFilm& film = {});
 
-/// trace.csv: one row per controller period, first line with names and units.
+/// trace.csv: one row per controller period, first line with names and units (README: trace).
 void write_trace_csv(const std::vector<TraceRow>& trace, const std::filesystem::path& file);
 
 }  // namespace fingertip::lattice

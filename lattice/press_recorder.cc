@@ -98,6 +98,7 @@ void PressRecorder::add_trace(const PressInstant& now, const SetPoint& commanded
   row.anchored = finger_->touching();
   row.sliding = finger_->sliding();
   row.kinetic_energy = finger_->kinetic_energy();
+  row.rod_kinetic_energy = rod.kinetic_energy();
   row.elastic_energy = finger_->elastic_energy();
   outcome_->trace.push_back(row);
   plane_impulse_ = 0.0;

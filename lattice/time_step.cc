@@ -128,7 +128,7 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
          "explicit Euler is unstable at any step without damping: it adds energy to every mode",
          "use symplectic-euler, or give rubber.retardation_time a positive value"});
   }
-  why_ = scaled ? "with scaled masses only the contact's detail rules"
+  why_ = scaled ? "with scaled masses accuracy rules, not stability"
                 : ruling(bounds, integrator, report_.spectral_bound);
   if (wanted && !(*wanted > 0.0 && *wanted <= report_.spectral_bound)) {
     refuse(*wanted, report_.spectral_bound, why_);

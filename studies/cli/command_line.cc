@@ -75,8 +75,10 @@ void add_config(CLI::App& app, CommandLine& line) {
 
 void add_run(CLI::App& app, CommandLine& line, std::string& progress, std::string& resume) {
   app.add_option("--threads", line.config.threads, "threads to use; 0: all cores")->type_name("N");
-  app.add_option("--progress", progress, "how to show progress on stderr")
-      ->check(CLI::IsMember({"tty", "json", "off"}));
+  app.add_option(
+         "--progress", progress,
+         "how to show progress on stderr: a bar, a line now and then (without a terminal), JSON")
+      ->check(CLI::IsMember({"tty", "lines", "json", "off"}));
   app.add_option("--resume", resume,
                  "auto: keep what is finished in an existing --out and compute the rest")
       ->check(CLI::IsMember({"auto"}));
@@ -91,7 +93,7 @@ void add_live(CLI::App& sub, CommandLine& line) {
                  "run whose force curve, and fields where it has them, are drawn beside it")
       ->type_name("RUN")
       ->check(CLI::ExistingPath);
-  sub.add_flag("--paused", line.paused, "start paused");
+  sub.add_flag("--running", line.running, "start at once, not paused");
   sub.add_option("--rate", line.rate,
                  "wanted real-time factor, 0.01 to 1 (default); 0: as fast as it can")
       ->type_name("X")
@@ -208,8 +210,9 @@ std::vector<std::string> verb_first(const CLI::App& app, std::vector<std::string
 ProgressStyle style(const std::string& word, bool quiet) {
   if (word == "json") return ProgressStyle::json;
   if (word == "tty") return ProgressStyle::tty;
+  if (word == "lines") return ProgressStyle::lines;
   if (word == "off" || quiet) return ProgressStyle::off;
-  return ::isatty(STDERR_FILENO) == 1 ? ProgressStyle::tty : ProgressStyle::off;
+  return ::isatty(STDERR_FILENO) == 1 ? ProgressStyle::tty : ProgressStyle::lines;
 }
 
 }  // namespace

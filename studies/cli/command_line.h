@@ -25,7 +25,7 @@ struct CommandLine {
   bool all = false;                  ///< validate --all
   int port = 0;                      ///< of live; 0: a free one
   std::filesystem::path reference;   ///< of live: run folder or response.csv
-  bool paused = false;               ///< live: at the start
+  bool running = false;              ///< live: at the start
   double rate = 1.0;                 ///< live: wanted real-time factor, 0: any
   std::optional<double> exit_after;  ///< live: wall time [s]
   bool compare = false;              ///< import --compare

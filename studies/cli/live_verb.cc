@@ -18,13 +18,14 @@ int run_live(const CommandLine& line) {
   LiveOptions options;
   options.port = line.port;
   options.reference = line.reference;
-  options.paused = line.paused;
+  options.paused = !line.running;
   options.rate = line.rate;
   options.exit_after = line.exit_after;
   options.interrupted = interrupted;
   run_live_view(setup, options, [&line](const std::string& url) {
     if (!line.quiet) fmt::print("open this address in a browser on this machine; Ctrl-C ends:\n");
     fmt::print("{}\n", url);
+    if (!line.quiet && !line.running) fmt::print("it waits paused: Run or Space starts it\n");
     std::fflush(stdout);
   });
   return 0;

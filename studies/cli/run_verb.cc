@@ -14,11 +14,6 @@ namespace fingertip::studies {
 
 namespace {
 
-int cores_for(const LoadedConfig& loaded) {
-  const int wanted = loaded.config.press.threads;
-  return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
-}
-
 /// What to do with a run that ended early.
 std::string kept_in(const std::filesystem::path& folder) {
   return fmt::format(
@@ -39,6 +34,11 @@ bool holds_results(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+int cores_for(const LoadedConfig& loaded) {
+  const int wanted = loaded.config.press.threads;
+  return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
+}
 
 LoadedConfig load_checked(const CommandLine& line) {
   LoadedConfig loaded = load_config(line.config);

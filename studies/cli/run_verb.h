@@ -16,6 +16,9 @@ namespace fingertip::studies {
 int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std::string& case_text,
                   const std::function<int(Session&)>& body);
 
+/// That jobs may use together.
+int cores_for(const LoadedConfig& loaded);
+
 /// The configuration of `line`, checked as a whole.
 LoadedConfig load_checked(const CommandLine& line);
 

@@ -278,10 +278,12 @@ std::vector<Key> press_keys() {
               protocol(&PressProtocol::tilt)),
           "between -45 and 45 degrees", {}),
       with_rule(
-          quantity(
-              "press", "lateral", "0 cm", "m", any,
-              "how far the plane has moved along t1 at full depth (published: static presses only)",
-              protocol(&PressProtocol::lateral)),
+          quantity("press", "lateral", "0 cm", "m", any,
+                   "how far the plane has moved along t1 at full depth: a diagonal path, for it "
+                   "moves in proportion to the indentation, so that a tip that sticks is sheared "
+                   "from first touch on. To press first and move then is another path, which no "
+                   "verb takes (published: static presses only)",
+                   protocol(&PressProtocol::lateral)),
           "at most tip_radius either way", {"geometry.tip_radius"}),
       with_rule(quantity("press", "depth", "0.3 cm", "m", positive, "final indentation",
                          protocol(&PressProtocol::depth)),
@@ -405,9 +407,11 @@ std::vector<Key> reference_keys() {
 }
 
 std::vector<Key> run_keys() {
-  Key time_step = quantity("run", "time_step", "auto", "s", positive,
-                           "lattice time step; auto takes the largest safe one",
-                           [](Config& config) -> double& { return *config.press.time_step; });
+  Key time_step =
+      quantity("run", "time_step", "auto", "s", positive,
+               "lattice time step; auto takes the largest safe one, of scaled masses one "
+               "that keeps the force within 2 %",
+               [](Config& config) -> double& { return *config.press.time_step; });
   time_step.word = "auto";
   time_step.assign = assign_time_step;
   return {
@@ -420,7 +424,8 @@ std::vector<Key> run_keys() {
            {"explicit-euler", "as printed in the paper's Fig. 4; published lattice"},
            {"runge-kutta", "order 5(4) by SUNDIALS ARKODE, see run.tolerance"},
            {"mass-scaled",
-            "symplectic Euler at long steps, with inertia against deformation; for slow presses"},
+            "symplectic Euler at long steps, with inertia against deformation; for slow presses: "
+            "fast ones take plain masses unless run.time_step is given, and then tell the error"},
            {"energy-controlled", "symplectic Euler, see run.energy_bound"}},
           "time integration of the lattice",
           [](Config& config, const Value& value) {

@@ -5,12 +5,14 @@
 
 #include "calibration/moduli.h"
 #include "lattice/press.h"
+#include "lattice/scaling/press_deviation.h"
 #include "meshes/files.h"
 #include "source_hash.h"
 #include "studies/run/controller_choice.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/movie.h"
+#include "studies/run/press_notes.h"
 #include "studies/run/snapshot_files.h"
 #include "studies/run/static_press_job.h"
 #include "studies/run/tracking.h"
@@ -44,6 +46,22 @@ ordered_json census_of(const lattice::LatticeCensus& census) {
           {"exact_mass", census.exact_mass}};
 }
 
+/// What scaled masses are expected to change of the force, beside plain ones.
+ordered_json scaling_of(const lattice::PressSetup& setup) {
+  const lattice::ScalingChoice choice = lattice::choose_scaling(setup);
+  ordered_json deviations = ordered_json::array();
+  for (const lattice::ForceDeviation& one : choice.deviations)
+    deviations.push_back({{"indentation", one.indentation}, {"relative", one.relative}});
+  return {{"scaled", choice.scaled}, {"estimated_force_deviation", deviations}};
+}
+
+/// Where a press ended.
+ordered_json end_of(const lattice::PressOutcome& outcome) {
+  if (outcome.trace.empty()) return nullptr;
+  const lattice::TraceRow& row = outcome.trace.back();
+  return {{"time", row.time}, {"indentation", row.indentation}, {"normal_force", row.normal_force}};
+}
+
 ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome,
                         const std::string& status) {
   ordered_json summary = press_summary_head(setup, status);
@@ -61,12 +79,19 @@ ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOu
   summary["real_time_factor"] = outcome.real_time_factor();
   summary["first_touch_time"] = number_or_null(outcome.first_touch_time);
   summary["momentum_defect"] = number_or_null(outcome.momentum_defect);
+  if (setup.integrator == lattice::Integrator::mass_scaled) summary["scaling"] = scaling_of(setup);
+  if (const auto notes = scaling_notes(setup); !notes.empty()) summary["warnings"] = notes;
   if (setup.protocol.mode == meshes::DriveMode::pid) {
     const Tracking tracking = measure_tracking(outcome.trace, outcome.first_touch_time);
     summary["tracking"] = {
         {"speed_deviation", number_or_null(tracking.speed_deviation)},
         {"speed_deviation_at_touch", number_or_null(tracking.speed_deviation_at_touch)},
-        {"tilt_deg", number_or_null(tracking.tilt * 180.0 / std::numbers::pi)}};
+        {"tilt_deg", number_or_null(tracking.tilt * 180.0 / std::numbers::pi)},
+        {"wanted_force", number_or_null(tracking.wanted_force)},
+        {"held_force", number_or_null(tracking.held_force)},
+        {"force_deviation", number_or_null(tracking.force_deviation)},
+        {"follows_path", setup.follows_path}};
+    summary["end"] = end_of(outcome);
   }
   return summary;
 }

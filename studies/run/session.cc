@@ -96,7 +96,11 @@ JobResult Session::run_with(const PlannedJob& planned, int threads) {
     }
     folder_.log(fmt::format("{}: {} in {:.2f} s", result.name, result.status, result.wall_time));
   }
-  progress_.report(result.name, 1.0, result.reused ? "reused" : "finished");
+  if (result.reused) {
+    progress_.reused(result.name);
+  } else {
+    progress_.report(result.name, 1.0, "finished");
+  }
   return result;
 }
 

@@ -11,6 +11,23 @@ double larger(double so_far, double value) {
   return std::isnan(so_far) || value > so_far ? value : so_far;
 }
 
+void measure_held_force(const std::vector<lattice::TraceRow>& trace, Tracking& tracking) {
+  if (trace.empty() || !trace.back().force_mode) return;
+  tracking.wanted_force = trace.back().wanted_force;
+  double sum = 0.0;
+  int rows = 0;
+  for (auto row = trace.rbegin(); row != trace.rend(); ++row) {
+    if (!row->force_mode || row->time < trace.back().time - held_time) break;
+    sum += row->normal_force;
+    ++rows;
+    if (row->wanted_force > 0.0)
+      tracking.force_deviation =
+          larger(tracking.force_deviation,
+                 std::abs(row->normal_force - row->wanted_force) / row->wanted_force);
+  }
+  tracking.held_force = sum / rows;
+}
+
 }  // namespace
 
 Tracking measure_tracking(const std::vector<lattice::TraceRow>& trace, double first_touch) {
@@ -24,6 +41,7 @@ Tracking measure_tracking(const std::vector<lattice::TraceRow>& trace, double fi
     double& worst = touching ? tracking.speed_deviation_at_touch : tracking.speed_deviation;
     worst = larger(worst, deviation);
   }
+  measure_held_force(trace, tracking);
   return tracking;
 }
 

@@ -236,8 +236,14 @@ void Chromium::release_mouse() {
 }
 
 void Chromium::press_key(const std::string& key) {
-  for (const char* type : {"keyDown", "keyUp"})
-    call("Input.dispatchKeyEvent", {{"type", type}, {"key", key}, {"code", key}});
+  // With a text, as from a keyboard: a button that has the focus takes blank and Enter for a click.
+  Json event = {{"key", key}, {"code", key}};
+  if (key == " ") event.update({{"code", "Space"}, {"text", " "}, {"windowsVirtualKeyCode", 32}});
+  if (key == "Enter") event.update({{"text", "\r"}, {"windowsVirtualKeyCode", 13}});
+  for (const char* type : {"keyDown", "keyUp"}) {
+    event["type"] = type;
+    call("Input.dispatchKeyEvent", event);
+  }
 }
 
 void Chromium::screenshot(const fs::path& file) {

@@ -188,6 +188,27 @@ TEST_F(LivePage, StepsResetsAndObeysSliders) {
       fmt::format("document.getElementById('time').textContent === '{:.3f} s'", period)));
 }
 
+TEST_F(LivePage, SpacePausesWhateverHasTheFocus) {
+  const std::string running = "document.getElementById('status').textContent === 'running'";
+  for (const char* focus : {"#run", "#reset", "#theme", "#free", "#depth"}) {
+    page_->evaluate(fmt::format("document.querySelector('{}').focus()", focus));
+    page_->press_key(" ");
+    EXPECT_TRUE(page_->wait_for(running)) << focus;
+    page_->press_key(" ");
+    EXPECT_TRUE(page_->wait_for(connected)) << focus;
+  }
+  EXPECT_EQ(page_->evaluate("document.getElementById('free').checked"), false);
+  page_->evaluate("document.getElementById('free').focus()");
+  page_->press_key("Enter");
+  EXPECT_TRUE(page_->wait_for("document.getElementById('free').checked"));
+}
+
+TEST_F(LivePage, SaysHowMuchSlowerThanRealTimeItIs) {
+  EXPECT_EQ(page_->evaluate("Controls.pace(0.037)"), "0.037, 27 times slower than real time");
+  EXPECT_EQ(page_->evaluate("Controls.pace(0.5)"), "0.50, 2 times slower than real time");
+  EXPECT_EQ(page_->evaluate("Controls.pace(1)"), "1.0");
+}
+
 TEST_F(LivePage, PlotsShowEveryTick) {
   // What a plot writes, with its box; the last tick lies close to the right end.
   const nlohmann::json written = page_->evaluate(R"((() => {

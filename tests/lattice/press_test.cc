@@ -247,6 +247,20 @@ TEST(Press, AnUnstableControllerEndsAsNotConverged) {
   EXPECT_THROW(lattice::run_press(setup), meshes::NotConverged);
 }
 
+TEST(Press, TheTraceKnowsTheRodsKineticEnergy) {
+  PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::quasi_static, ContactMode::stick);
+  setup.protocol.speed = 0.05;
+  setup.protocol.depth = 1e-3;
+  setup.protocol.samples = {1e-3};
+  const PressOutcome outcome = lattice::run_press(setup);
+  const double mass = lattice::rod_body(setup.geometry, setup.rod).mass;
+  for (const lattice::TraceRow& row : outcome.trace)
+    EXPECT_NEAR(row.rod_kinetic_energy, 0.5 * mass * row.speed * row.speed,
+                1e-9 * mass * 0.05 * 0.05);
+  EXPECT_GT(outcome.trace.back().rod_kinetic_energy, 0.0);
+  EXPECT_GT(outcome.trace.back().kinetic_energy, 0.0);
+}
+
 TEST(Press, WritesATraceWithNamesAndUnits) {
   const auto file = std::filesystem::path(testing::TempDir()) / "trace.csv";
   lattice::TraceRow row;
@@ -257,8 +271,9 @@ TEST(Press, WritesATraceWithNamesAndUnits) {
   std::string names, values;
   std::getline(in, names);
   std::getline(in, values);
-  EXPECT_EQ(std::count(names.begin(), names.end(), ','), 16);
-  EXPECT_EQ(std::count(values.begin(), values.end(), ','), 16);
+  EXPECT_EQ(std::count(names.begin(), names.end(), ','), 17);
+  EXPECT_EQ(std::count(values.begin(), values.end(), ','), 17);
+  EXPECT_NE(names.find(",particles_kinetic_energy [J],rod_kinetic_energy [J],"), std::string::npos);
   EXPECT_EQ(names.substr(0, 26), "time [s],indentation [m],c");
   EXPECT_EQ(values.substr(0, 5), "0.25,");
 }

@@ -88,6 +88,35 @@ class Continuum : public testing::Test {
 
 }  // namespace
 
+TEST_F(Continuum, ErrorBarsWiderThanAskedInTimeEndWithThree) {
+  // So shallow and fast that steps and mesh leave more than a fifth of the smallest forces open.
+  const std::vector<std::string> words = {"reference",
+                                          "--set",
+                                          "reference.mode=transient",
+                                          "--set",
+                                          "press.contact=frictionless",
+                                          "--set",
+                                          "press.speed=20 cm/s",
+                                          "--set",
+                                          "press.depth=0.03 cm",
+                                          "--set",
+                                          "reference.tolerance=0.2",
+                                          "--set",
+                                          "reference.refinement=0.3",
+                                          "--set",
+                                          "reference.fields=false",
+                                          "--out"};
+  for (const std::string run : {"computed", "cached"}) {
+    std::vector<std::string> all = words;
+    all.push_back(run);
+    const ProgramResult result = run_program(folder_.path(), all);
+    EXPECT_EQ(result.code, 3) << run;
+    EXPECT_NE(result.out.find("NOT REACHED at"), std::string::npos) << result.out;
+    EXPECT_NE(result.err.find("not converged"), std::string::npos) << result.err;
+    EXPECT_EQ(PressResponse::read_csv(folder_ / (run + "/response.csv")).samples().size(), 10U);
+  }
+}
+
 TEST_F(Continuum, KilledAndResumedGivesTheSameForces) {
   kill_and_resume({});
 }

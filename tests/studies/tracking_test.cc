@@ -44,6 +44,29 @@ TEST(Tracking, AnEmptyTraceSaysNothing) {
   EXPECT_TRUE(std::isnan(measure_tracking({}, 0.0).speed_deviation));
 }
 
+TEST(Tracking, TellsTheForceThatIsHeldAtTheEnd) {
+  auto trace = steady_trace();
+  for (std::size_t n = 40; n < trace.size(); ++n) {
+    trace[n].force_mode = true;
+    trace[n].wanted_force = 0.1;
+    trace[n].normal_force = n % 2 == 0 ? 0.102 : 0.098;
+  }
+  trace[41].normal_force = 0.2;  // settling, 59 ms before the end
+  Tracking tracking = measure_tracking(trace, 0.040);
+  EXPECT_NEAR(tracking.force_deviation, 1.0, 1e-12) << "the last 100 ms hold all of it";
+  std::vector<fingertip::lattice::TraceRow> longer;
+  for (std::size_t n = 0; n < 200; ++n) {
+    longer.push_back(trace[std::min<std::size_t>(n, 99 + n % 2)]);
+    longer.back().time = 1e-3 * double(n);
+  }
+  tracking = measure_tracking(longer, 0.040);
+  EXPECT_NEAR(tracking.force_deviation, 0.02, 1e-12);
+  EXPECT_NEAR(tracking.held_force, 0.1, 1e-3);
+  EXPECT_EQ(tracking.wanted_force, 0.1);
+  longer.back().force_mode = false;
+  EXPECT_TRUE(std::isnan(measure_tracking(longer, 0.040).held_force));
+}
+
 TEST(Tracking, SpeedDoesNotCountWhileTheForceIsControlled) {
   auto trace = steady_trace();
   for (std::size_t n = 80; n < trace.size(); ++n) {

@@ -33,15 +33,28 @@ class Controls {
     document.getElementById('step').addEventListener('click', () => this.send({ type: 'step' }));
     document.getElementById('reset').addEventListener('click', () => this.send({ type: 'reset' }));
     this.pending = {};
-    document.addEventListener('keydown', (event) => this.key(event));
+    document.addEventListener('keydown', (event) => this.key(event), true);
+    // A button or box that has the focus would act when the key comes up.
+    document.addEventListener('keyup', (event) => { if (this.isSpace(event)) event.preventDefault(); }, true);
+  }
+
+  /// "0.037, 27 times slower than real time"
+  static pace(factor) {
+    const text = factor.toPrecision(2);
+    return factor < 0.91 ? `${text}, ${Number((1 / factor).toPrecision(2))} times slower than real time` : text;
   }
 
   toggle() { this.send({ type: this.status === 'running' ? 'pause' : 'run' }); }
 
+  writes(target) { return target.matches('textarea, select, [contenteditable], input:not([type=range]):not([type=checkbox])'); }
+
+  isSpace(event) { return event.key === ' ' && !event.ctrlKey && !event.metaKey && !event.altKey && !this.writes(event.target); }
+
   key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const onControl = event.target.closest('button, input');
-    if (event.key === ' ' && !onControl) { this.toggle(); event.preventDefault(); }
+    if (event.ctrlKey || event.metaKey || event.altKey || this.writes(event.target)) return;
+    if (event.key === ' ') { if (!event.repeat) this.toggle(); event.preventDefault(); event.stopPropagation(); }
+    // Space is taken, whatever has the focus: boxes are ticked by Enter, as buttons are pressed.
+    if (event.key === 'Enter' && event.target.matches('input[type=checkbox]')) event.target.click();
     if (event.key === 's') this.send({ type: 'step' });
     if (event.key === 'r') this.send({ type: 'reset' });
     if (event.key === 'u') document.getElementById('units').click();

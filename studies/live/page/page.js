@@ -119,7 +119,7 @@ class Page {
     const put = (id, text) => { const e = element(id); if (e.textContent !== text) e.textContent = text; };
     const norm = (v) => Math.hypot(...v);
     put('time', `${frame.time.toFixed(3)} s`);
-    put('achieved', frame.status === 'running' && frame.real_time_factor > 0 ? frame.real_time_factor.toPrecision(2) : '–');
+    put('achieved', frame.status === 'running' && frame.real_time_factor > 0 ? Controls.pace(frame.real_time_factor) : '–');
     put('indentation', Units.text(frame.indentation, 'length'));
     put('normal-force', Units.text(frame.normal_force, 'force'));
     put('force', Units.text(norm(frame.wrench.force), 'force'));

@@ -1,0 +1,20 @@
+/// What is said about a press before it is run.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lattice/settings.h"
+
+namespace fingertip::studies {
+
+/// Where scaled masses change the force by more than lattice::tolerated_deviation, by how much and
+/// what would not; and that plain masses are pressed where scaled ones do not serve.
+std::vector<std::string> scaling_notes(const lattice::PressSetup& setup);
+
+/// That a press takes long (above half a minute, roughly estimated, with so many threads), where
+/// scaled masses would be five times as fast; with what they would change of the force.
+std::optional<std::string> duration_note(const lattice::PressSetup& setup, int threads);
+
+}  // namespace fingertip::studies

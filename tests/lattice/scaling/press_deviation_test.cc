@@ -1,0 +1,83 @@
+// What scaled masses change of a press: chosen steps that hold, given ones that are told.
+#include "press_deviation_cases.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+
+using namespace press_deviation;
+using lattice::Integrator;
+using lattice::ModelKind;
+using lattice::PressSetup;
+
+TEST(PressDeviation, RoughForceIsThatOfTheContinuum) {
+  // Small strain, sticking, deal.II (the table of the README at the top).
+  for (const auto& [depth, force] :
+       {std::pair{0.05, 1.026}, {0.1, 3.322}, {0.15, 6.681}, {0.2, 10.99}, {0.3, 22.08}}) {
+    const double rough = lattice::rough_force({}, {}, 0.01 * depth) / 9.80665e-3;
+    EXPECT_NEAR(rough, force, 0.04 * force) << depth << " cm";
+  }
+  // Frictionless, an independent program (tests/fem_reference/data).
+  std::ifstream file(FINGERTIP_TEST_DATA "/press_linear_frictionless.csv");
+  int compared = 0;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream cells(line);
+    double depth = 0.0, force = 0.0;
+    char comma = 0;
+    if (!(cells >> depth >> comma >> force)) continue;
+    const double rough = lattice::rough_force({}, {}, 0.01 * depth) / 9.80665e-3;
+    EXPECT_NEAR(rough, force, 0.17 * force) << depth << " cm";
+    ++compared;
+  }
+  EXPECT_GE(compared, 8);
+}
+
+TEST(PressDeviation, StepsThatAreChosenHoldAndStepsThatAreGivenAreTold) {
+  for (const double speed : {0.01, 0.02, 0.05, 0.1, 0.2})
+    expect_honest(ModelKind::hookean, 6, speed, {1e-3, 2.5e-4});
+}
+
+TEST(PressDeviation, VanishesWithTheStepAndWithTheSpeed) {
+  PressSetup setup = press(ModelKind::hookean, 8, 0.05);
+  const auto worst = [&](double step) {
+    return lattice::worst_of(lattice::scaling_deviations(setup, step)).relative;
+  };
+  EXPECT_LT(worst(1e-7), 1e-2);
+  EXPECT_GT(worst(2.5e-4), 0.5);
+  setup.protocol.speed = 1e-4;
+  EXPECT_LT(worst(1e-3), 1e-3);
+}
+
+TEST(PressDeviation, FastPressesTakePlainMasses) {
+  PressSetup setup = press(ModelKind::hookean, 6, 0.2);
+  const lattice::PressOutcome plain = lattice::run_press(setup);
+  setup.integrator = Integrator::mass_scaled;
+  EXPECT_FALSE(lattice::choose_scaling(setup).scaled);
+  const lattice::PressOutcome chosen = lattice::run_press(setup);
+  for (const double depth : setup.protocol.samples)
+    EXPECT_EQ(chosen.response.normal_force_at(depth), plain.response.normal_force_at(depth));
+  // A step that is asked for is taken.
+  setup.time_step = 1e-3;
+  EXPECT_TRUE(lattice::choose_scaling(setup).scaled);
+  EXPECT_GT(lattice::worst_of(lattice::choose_scaling(setup).deviations).relative, 1.0);
+}
+
+TEST(PressDeviation, SlowPressesOfFineLatticesTakeScaledOnes) {
+  const PressSetup setup = press(ModelKind::hookean, 12, 0.01);
+  const lattice::ScalingChoice choice = lattice::choose_scaling(setup);
+  EXPECT_TRUE(choice.scaled);
+  EXPECT_DOUBLE_EQ(choice.step, 2.5e-4);
+  EXPECT_LE(lattice::worst_of(choice.deviations).relative, lattice::tolerated_deviation);
+}
+
+TEST(PressDeviation, HeavilyDampedRubberHasAnEstimateToo) {
+  PressSetup setup = press(ModelKind::hookean, 6, 0.05);
+  setup.rubber.retardation_time = 0.05;  // sways no more
+  for (const auto& one : lattice::scaling_deviations(setup, 1e-4)) {
+    EXPECT_TRUE(std::isfinite(one.relative));
+    EXPECT_GE(one.relative, 0.0);
+  }
+}
