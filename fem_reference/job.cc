@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
@@ -34,8 +35,11 @@ void get(const Json& value, T& target) {
     if (!value.is_number()) throw std::invalid_argument("must be a number");
   if constexpr (std::is_same_v<T, bool>)
     if (!value.is_boolean()) throw std::invalid_argument("must be true or false");
-  if constexpr (std::is_same_v<T, int>)
-    if (!value.is_number_integer()) throw std::invalid_argument("must be an integer");
+  if constexpr (std::is_same_v<T, int>) {
+    constexpr double most = std::numeric_limits<int>::max();
+    const bool fits = value.is_number_integer() && std::abs(value.get<double>()) <= most;
+    if (!fits) throw std::invalid_argument("must be an integer of at most ten digits");
+  }
   target = value.get<T>();
 }
 
@@ -253,15 +257,15 @@ void write_job(const ReferenceJob& job, const std::filesystem::path& file) {
 
 ReferenceJob read_job(const std::filesystem::path& file) {
   std::ifstream in(file);
-  if (!in)
+  if (!in || !std::filesystem::is_regular_file(file))
     throw InvalidInput({file.string(), "unreadable", "the job file must exist and be readable",
                         "write it with write_job or start `fingertip reference`"});
   Json json;
   try {
     json = Json::parse(in);
-  } catch (const Json::parse_error& error) {
-    throw InvalidInput({file.string(), "byte " + std::to_string(error.byte),
-                        "the job file must be valid JSON", error.what()});
+  } catch (const Json::exception& error) {
+    throw InvalidInput({file.string(), "", std::string("no valid JSON: ") + error.what(),
+                        "write it with write_job or start `fingertip reference`"});
   }
   ReferenceJob job;
   std::vector<Violation> broken;

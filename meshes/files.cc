@@ -3,9 +3,10 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <stdexcept>
 
 #include <unistd.h>
+
+#include "meshes/cannot_write.h"
 
 namespace fingertip::meshes {
 
@@ -18,8 +19,8 @@ void write_atomically(const std::filesystem::path& file,
     if (out) write(out);
     out.close();
     if (!out) {
-      throw std::runtime_error("cannot write " + file.string() +
-                               ": check that the folder exists, is writable and has space left");
+      throw CannotWrite("cannot write " + file.string() +
+                        ": check that the folder exists, is writable and has space left");
     }
     std::filesystem::rename(temporary, file);
   } catch (...) {

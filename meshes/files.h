@@ -9,7 +9,7 @@
 namespace fingertip::meshes {
 
 /// Writes `file` through a temporary name in the same folder and renames it when complete.
-/// Throws std::runtime_error naming the file when it cannot be written.
+/// Throws CannotWrite (cannot_write.h) naming the file when it cannot be written.
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(std::ostream&)>& write);
 

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <stdexcept>
 
+#include "meshes/cannot_write.h"
 #include "meshes/errors.h"
 
 namespace fingertip::calibration {
@@ -105,7 +105,7 @@ void RememberedModel::append(const std::string& line) const {
   // Not through write_atomically: that would copy all answers for every new one.
   std::ofstream out(file_, std::ios::binary | std::ios::app);
   out << line << '\n' << std::flush;
-  if (!out) throw std::runtime_error("cannot write " + file_.string());
+  if (!out) throw meshes::CannotWrite("cannot write " + file_.string());
 }
 
 void RememberedModel::keep(const VectorXd& parameters, Answer answer) {

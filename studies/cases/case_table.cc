@@ -183,7 +183,8 @@ class CaseReader {
       const std::string name(key.str());
       if (name == "name" || name == "series") {
         (name == "name" ? variant.name : variant.series) = text(node, "case." + kind + "." + name);
-      } else if (name == "x" && node.is_number() && std::isfinite(*node.value<double>())) {
+      } else if (name == "x" && node.is_number() &&
+                 std::isfinite(node.value<double>().value_or(NAN))) {
         variant.x = *node.value<double>();
       } else if (name == "set" && node.is_table()) {
         read_settings(*node.as_table(), kind, variant);

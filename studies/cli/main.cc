@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <map>
+#include <new>
 
 #include "lattice/control/controller.h"
+#include "meshes/cannot_write.h"
 #include "meshes/errors.h"
+#include "studies/cli/standard_streams.h"
 #include "studies/cli/verbs.h"
 #include "studies/run/blas_threads.h"
 
@@ -28,14 +33,23 @@ int dispatch(const studies::CommandLine& line) {
   return verbs.at(line.verb)(line);
 }
 
-void complain(const std::string& message) {
-  fmt::print(stderr, "fingertip: error: {}\n", message);
+/// Messages quote files and command lines: what would steer a terminal is shown as a question mark,
+/// and of a very long message the ends.
+std::string presentable(std::string message) {
+  constexpr std::size_t most = 6000;
+  if (message.size() > most) message.replace(most / 2, message.size() - most, " [...] ");
+  for (char& c : message) {
+    const auto code = static_cast<unsigned char>(c);
+    if ((code < 0x20 && c != '\n' && c != '\t') || code == 0x7f) c = '?';
+  }
+  return message;
 }
 
-}  // namespace
+void complain(const std::string& message) {
+  fmt::print(stderr, "fingertip: error: {}\n", presentable(message));
+}
 
-int main(int argc, char** argv) {
-  studies::keep_blas_to_one_thread();
+int run(int argc, char** argv) {
   try {
     const auto parsed = studies::parse_command_line(argc, argv);
     if (const int* code = std::get_if<int>(&parsed)) return *code;
@@ -52,6 +66,15 @@ int main(int argc, char** argv) {
   } catch (const lattice::ControllerFailed& error) {
     complain(error.what());
     return 3;
+  } catch (const meshes::CannotWrite& error) {
+    complain(error.what());
+    return 3;
+  } catch (const std::filesystem::filesystem_error& error) {
+    complain(error.what());
+    return 3;
+  } catch (const std::bad_alloc&) {
+    complain("there is not enough memory; choose a coarser lattice or mesh");
+    return 3;
   } catch (const meshes::Interrupted& error) {
     complain(std::string("interrupted: ") + error.what());
     return 130;
@@ -59,4 +82,17 @@ int main(int argc, char** argv) {
     complain(error.what());
     return 1;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  studies::keep_blas_to_one_thread();
+  studies::StandardStreams streams;
+  const int code = run(argc, argv);
+  if (const int why = streams.lost(); why != 0) {
+    complain(std::string("standard output could not be written: ") + std::strerror(why));
+    return code == 0 ? 3 : code;
+  }
+  return code;
 }

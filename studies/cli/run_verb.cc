@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "lattice/control/controller.h"
+#include "meshes/cannot_write.h"
 #include "meshes/errors.h"
 #include "studies/run/cache.h"
 #include "studies/run/interrupt.h"
@@ -57,7 +58,11 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
   Session session(folder, progress, Cache(Cache::default_folder()), cores_for(loaded), line.ranks);
   const auto end = [&](const std::string& status, int code, const std::exception& why) {
     progress.clear();
-    folder.finish(status, code, {{"error", why.what()}});
+    try {
+      folder.finish(status, code, {{"error", why.what()}});
+    } catch (const meshes::CannotWrite&) {
+      // The reason why the run ended is what counts.
+    }
     return why.what() + kept_in(folder.path());
   };
   const auto refuse = [&](const std::exception& why) {
@@ -86,6 +91,10 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
   } catch (const ConfigError& error) {
     refuse(error);
     throw;
+  } catch (const meshes::CannotWrite& error) {
+    throw meshes::CannotWrite(end("could not write", 3, error));
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw meshes::CannotWrite(end("could not write", 3, error));
   } catch (const std::exception& error) {
     throw std::runtime_error(end("failed", 1, error));
   }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "meshes/files.h"
 #include "studies/config/units.h"
@@ -25,6 +26,13 @@ void check_range(const Key& key, double value) {
   if (!key.range.contains(value)) refuse("must be " + key.allowed(), "choose a value in range");
 }
 
+/// Of a node that is a number. Throws for an integer that no double holds.
+double number_in(const toml::node& node) {
+  const std::optional<double> number = node.value<double>();
+  if (!number) refuse("must lie within +-2^53", "choose a number of plausible size");
+  return *number;
+}
+
 /// "tip_radius/12" against the pattern "tip_radius/N": the number N.
 double read_fraction(const Key& key, const std::string& text) {
   const std::string prefix = key.word.substr(0, key.word.find('N'));
@@ -41,7 +49,7 @@ Value read_quantity(const Key& key, const toml::node& node) {
   const auto* text = node.as_string();
   if (text == nullptr) {
     if (!node.is_number()) refuse("must be a text with number and unit", preset_advice(key));
-    const double number = *node.value<double>();
+    const double number = number_in(node);
     if (!std::isfinite(number)) refuse("must be a finite number with a unit", preset_advice(key));
     refuse("the unit is missing", "write it as \"" + key.example() + "\"");
   }
@@ -80,12 +88,9 @@ Value read_number(const Key& key, const toml::node& node) {
     value.word = key.word;
     return value;
   }
-  if (!node.is_number()) {
-    const bool word = !key.word.empty();
-    refuse("must be a number without quotes or unit" + (word ? ", or \"" + key.word + '"' : ""),
-           preset_advice(key));
-  }
-  value.number = *node.value<double>();
+  if (!node.is_number() && !key.word.empty())
+    refuse("must be a number without quotes or unit, or \"" + key.word + '"', preset_advice(key));
+  value.number = number_in(node);
   check_range(key, value.number);
   return value;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 #include <string_view>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::array<std::string_view, 7> wanted = {"id", "x", "y", "z", "vx", "vy", "vz"};
 
-/// Numbers of a row by column; false when there are fewer than columns.
+/// Finite numbers of a row by column; false when there are fewer than columns.
 bool numbers_of(std::string_view row, std::size_t count, std::vector<double>& values) {
   values.clear();
   const char* at = row.data();
@@ -25,10 +26,23 @@ bool numbers_of(std::string_view row, std::size_t count, std::vector<double>& va
     double value = 0.0;
     const auto read = std::from_chars(at, end, value);
     if (read.ec != std::errc()) return false;
+    if (!std::isfinite(value)) return false;
     values.push_back(value);
     at = read.ptr;
   }
   return true;
+}
+
+/// Whether all of `line` but blanks around it is one number, then in `value`.
+template <typename Integer>
+bool whole_number(std::string_view line, Integer& value) {
+  constexpr const char* blank = " \t\r";
+  const auto first = line.find_first_not_of(blank);
+  if (first == line.npos) return false;
+  line = line.substr(first, line.find_last_not_of(blank) - first + 1);
+  const char* const end = line.data() + line.size();
+  const auto read = std::from_chars(line.data(), end, value);
+  return read.ec == std::errc() && read.ptr == end;
 }
 
 }  // namespace
@@ -56,6 +70,12 @@ LammpsTiming read_lammps_log(const std::filesystem::path& file) {
       timing.processor_share = std::min(1.0, 0.01 * percent);
   }
   timing.version = version;
+  const bool sound = std::isfinite(timing.loop_time) && timing.loop_time >= 0.0 &&
+                     timing.ranks >= 1 && timing.steps >= 0 && timing.processor_share >= 0.0;
+  if (found && error.empty() && !sound) {
+    throw meshes::InvalidInput(
+        {file.string(), "", "the log's times or numbers make no sense", "run LAMMPS again"});
+  }
   if (!found || !error.empty()) {
     throw meshes::InvalidInput({file.string(), error, "LAMMPS did not come to the end of its run",
                                 "let it run to its end, or see the log for the reason"});
@@ -97,10 +117,11 @@ bool LammpsDump::read_head(LammpsFrame& frame) {
   while (line()) {
     if (line_.starts_with("ITEM: TIMESTEP")) {
       if (!line()) return false;
-      frame.step = std::strtol(line_.c_str(), nullptr, 10);
+      if (!whole_number(line_, frame.step) || frame.step <= last_step_)
+        refuse("steps must be numbers that increase from frame to frame");
     } else if (line_.starts_with("ITEM: NUMBER OF ATOMS")) {
       if (!line()) return false;
-      atoms = std::strtoull(line_.c_str(), nullptr, 10);
+      if (!whole_number(line_, atoms)) refuse("this is no number of atoms");
     } else if (line_.starts_with("ITEM: ATOMS")) {
       if (atoms != masses_) {
         refuse("the dump has " + std::to_string(atoms) + " atoms, the lattice " +
@@ -125,13 +146,14 @@ bool LammpsDump::read_rows(LammpsFrame& frame) {
   for (std::size_t row = 0; row < masses_; ++row) {
     // A row without its line end may lack digits.
     if (!line() || in_.eof()) return false;
-    if (!numbers_of(line_, columns_.size(), values)) refuse("a row lacks numbers");
+    if (!numbers_of(line_, columns_.size(), values)) refuse("a row lacks finite numbers");
     std::array<double, wanted.size()> of{};
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (columns_[c] >= 0) of[std::size_t(columns_[c])] = values[c];
     }
-    const auto id = std::size_t(of[0]);
-    if (id < 1 || id > masses_ || seen[id - 1]) refuse("every mass must occur once in a frame");
+    const bool known = of[0] >= 1.0 && of[0] <= double(masses_) && std::floor(of[0]) == of[0];
+    const auto id = known ? std::size_t(of[0]) : 0;
+    if (!known || seen[id - 1]) refuse("every mass must occur once in a frame");
     seen[id - 1] = true;
     frame.position[id - 1] = {of[1], of[2], of[3]};
     frame.velocity[id - 1] = {of[4], of[5], of[6]};
@@ -142,7 +164,10 @@ bool LammpsDump::read_rows(LammpsFrame& frame) {
 std::optional<LammpsFrame> LammpsDump::next() {
   if (in_.peek() == std::ifstream::traits_type::eof()) return {};
   LammpsFrame frame;
-  if (read_head(frame) && read_rows(frame)) return frame;
+  if (read_head(frame) && read_rows(frame)) {
+    last_step_ = frame.step;
+    return frame;
+  }
   broke_off_ = true;
   return {};
 }

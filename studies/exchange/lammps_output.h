@@ -29,8 +29,8 @@ struct LammpsTiming {
 };
 
 /// "Loop time of T on P procs for S steps with N atoms", "U% CPU use with ..." and the version in
-/// the first line. Throws InvalidInput when the file cannot be read or LAMMPS has not come to the
-/// end of a run; then with the error it told.
+/// the first line. Throws InvalidInput when the file cannot be read, its numbers make no sense, or
+/// LAMMPS has not come to the end of a run; then with the error it told.
 LammpsTiming read_lammps_log(const std::filesystem::path& file);
 
 /// Positions and velocities of atoms 1 ... n at one step.
@@ -47,7 +47,8 @@ class LammpsDump {
   LammpsDump(const std::filesystem::path& file, std::size_t masses);
 
   /// The next frame; nothing at the end, also when the file breaks off inside a frame, as that of
-  /// a run that was killed. Throws InvalidInput for a frame of something else.
+  /// a run that was killed. Throws InvalidInput for a frame of something else, numbers that are not
+  /// finite and steps that do not increase.
   std::optional<LammpsFrame> next();
   bool broke_off() const { return broke_off_; }
 
@@ -63,6 +64,7 @@ class LammpsDump {
   std::size_t masses_;
   std::string line_;
   std::vector<int> columns_;  ///< per column its place among id x y z vx vy vz, -1: not needed
+  long last_step_ = -1;       ///< of the frame before
   bool broke_off_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -42,7 +43,8 @@ std::vector<Overlay> read_overlays(const fs::path& series) {
     const std::string step = attribute(text, at, "timestep"), file = attribute(text, at, "file");
     double indentation = 0.0;
     const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), indentation);
-    if (error != std::errc() || end != step.data() + step.size() || file.empty()) {
+    if (error != std::errc() || end != step.data() + step.size() || !std::isfinite(indentation) ||
+        file.empty()) {
       throw meshes::InvalidInput({series.string(), step, "the list of fields is damaged",
                                   "run `fingertip reference` again"});
     }

@@ -107,7 +107,10 @@ class VtuFile {
     const std::size_t end = std::min(text_.find('<', begin), text_.size());
     if (first == std::string::npos || first >= end) refuse(name_, "an array is empty");
     const std::string_view encoded(text_.data() + first, end - first);
-    return compressed_ ? inflated(encoded) : decode_base64(encoded).substr(4);
+    if (compressed_) return inflated(encoded);
+    const std::string bytes = decode_base64(encoded);
+    if (bytes.size() < 4) refuse(name_, "an array is empty");
+    return bytes.substr(4);  // behind its length
   }
 
   /// Header [blocks, size of a block, size of the last one or 0, compressed sizes ...] of uint32
@@ -119,6 +122,7 @@ class VtuFile {
     const std::size_t header_text = (header_bytes + 2) / 3 * 4;
     if (header_text > encoded.size()) refuse(name_, "an array's header is damaged");
     const auto header = numbers_in<std::uint32_t>(decode_base64(encoded.substr(0, header_text)));
+    if (header.size() < 3 + std::size_t(count[0])) refuse(name_, "an array's header is damaged");
     const std::string packed = decode_base64(encoded.substr(header_text));
     std::string bytes;
     std::size_t at = 0;
@@ -208,6 +212,10 @@ HexahedralField read_vtu(const std::filesystem::path& path) {
     refuse(file.name(), "the cells must be hexahedra");
   if (field.displacement.size() != field.points.size())
     refuse(file.name(), "every point needs a displacement");
+  const auto finite = [](const Vector3& one) { return one.allFinite(); };
+  if (!std::ranges::all_of(field.points, finite) ||
+      !std::ranges::all_of(field.displacement, finite))
+    refuse(file.name(), "places and displacements must be finite");
   for (std::size_t i = 0; i < corners.size(); i += 8) {
     std::array<std::uint32_t, 8> cell{};
     for (std::size_t k = 0; k < 8; ++k) {

@@ -3,8 +3,13 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
 
 #include "studies/run/digest.h"
+#include "studies/run/file_lock.h"
 #include "studies/run/json_file.h"
 
 namespace fingertip::studies {
@@ -25,6 +30,50 @@ std::string noted(const Job& job, const fs::path& note, const char* entry) {
     return content.value("key", "") == job.key() ? content.value(entry, "") : "";
   } catch (const std::exception&) {
     return {};  // damaged: the job has to run again
+  }
+}
+
+using Digests = std::map<std::string, std::string>;  ///< of files, by names below a folder
+
+/// Throws std::ios_base::failure for a file that cannot be read.
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  in.exceptions(std::ios::badbit);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Of all files in `folder` but the list of digests itself; nothing when one cannot be read.
+std::optional<Digests> digests_in(const fs::path& folder) {
+  try {
+    Digests digests;
+    for (const auto& item : fs::recursive_directory_iterator(folder)) {
+      const std::string name = fs::relative(item.path(), folder).generic_string();
+      if (item.is_regular_file() && name != digests_name)
+        digests[name] = sha256(content_of(item.path()));
+    }
+    return digests;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+/// The list in `folder`; empty when there is none, which no entry has.
+std::optional<Digests> stored_digests(const fs::path& folder) {
+  try {
+    return read_json(folder / digests_name).get<Digests>();
+  } catch (const std::exception&) {
+    return Digests();
+  }
+}
+
+bool write_digests(const fs::path& folder) {
+  const auto digests = digests_in(folder);
+  if (!digests) return false;
+  try {
+    write_json(*digests, folder / digests_name);
+    return true;
+  } catch (const std::exception&) {
+    return false;
   }
 }
 
@@ -68,53 +117,52 @@ fs::path Cache::default_folder() {
   if (xdg != nullptr && *xdg != '\0') return fs::path(xdg) / "fingertip";
   const char* const home = std::getenv("HOME");
   if (home != nullptr && *home != '\0') return fs::path(home) / ".cache" / "fingertip";
-  return fs::temp_directory_path() / "fingertip-cache";
+  std::error_code none;
+  return fs::temp_directory_path(none) / "fingertip-cache";
 }
 
 fs::path Cache::entry(const Job& job) const {
   return folder_ / (job.kind + "-" + job.key());
 }
 
-bool Cache::holds(const Job& job) const {
-  return !marked_status(job, entry(job)).empty();
-}
-
 bool Cache::fetch(const Job& job, const fs::path& target) const {
   const fs::path source = entry(job);
   std::error_code failed;
-  if (!holds(job)) return false;
-  fs::create_directories(target, failed);
-  constexpr auto how = fs::copy_options::recursive | fs::copy_options::overwrite_existing;
-  for (const auto& item : fs::directory_iterator(source, failed)) {
-    if (item.path().filename() == marker_name) continue;
-    fs::copy(item.path(), target / item.path().filename(), how, failed);
-    if (failed) return false;
-  }
-  fs::copy_file(source / marker_name, target / marker_name, fs::copy_options::overwrite_existing,
-                failed);
-  return !failed;
+  fs::remove_all(target, failed);
+  if (!fs::is_regular_file(source / marker_name, failed)) return false;
+  fs::copy(source, target, fs::copy_options::recursive, failed);
+  // What is checked is what was copied: another process may replace the entry meanwhile.
+  const bool sound = !failed && digests_in(target) == stored_digests(target) &&
+                     !marked_status(job, target).empty();
+  std::error_code ignored;
+  fs::remove(target / digests_name, ignored);
+  if (!sound) fs::remove_all(target, ignored);
+  return sound;
 }
 
 bool Cache::store(const Job& job, const fs::path& source) const {
-  std::error_code failed;
+  std::error_code failed, ignored;
   fs::create_directories(folder_, failed);
+  remove_abandoned_parts(folder_, false);
   const fs::path target = entry(job);
-  fs::path temporary = target;
-  temporary += ".part" + std::to_string(::getpid());
-  fs::remove_all(temporary, failed);
-  fs::create_directory(temporary, failed);
+  // Threads of one process may store equal jobs at a time.
+  const auto temporary = [&](const char* role) {
+    return fs::path(target.string() + role + ".part" + std::to_string(::gettid()));
+  };
+  const fs::path made = temporary(""), replaced = temporary(".old");
+  fs::remove_all(made, failed);
+  fs::create_directory(made, failed);
   for (const auto& item : fs::directory_iterator(source, failed)) {
     if (is_run_file(item.path())) continue;
-    fs::copy(item.path(), temporary / item.path().filename(), fs::copy_options::recursive, failed);
+    fs::copy(item.path(), made / item.path().filename(), fs::copy_options::recursive, failed);
     if (failed) break;
   }
-  if (!failed) {
-    std::error_code ignored;
-    fs::remove_all(target, ignored);  // left from a damaged entry
-    fs::rename(temporary, target, failed);
+  if (!failed && write_digests(made)) {
+    fs::rename(target, replaced, ignored);  // of a damaged entry, or of another process
+    fs::rename(made, target, failed);
   }
-  const bool stored = !failed;
-  fs::remove_all(temporary, failed);
+  const bool stored = !failed && fs::exists(target, ignored);
+  for (const fs::path& left : {made, replaced}) fs::remove_all(left, ignored);
   return stored;
 }
 

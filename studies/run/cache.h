@@ -30,8 +30,12 @@ void mark_attempt(const Job& job, const std::filesystem::path& folder);
 void mark(const Job& job, const std::filesystem::path& folder, const std::string& status,
           double wall_time);
 
+/// Written into every entry of the cache: the SHA-256 of each of its files.
+inline constexpr const char* digests_name = "digests.json";
+
 /// A folder with one sub-folder per finished job, named by its key. Entries appear by renaming, so
-/// several programs may share it; a damaged or unwritable cache costs time, never a result.
+/// several programs may share it, and are served only while every file is as it was stored; a
+/// damaged or unwritable cache costs time, never a result.
 class Cache {
  public:
   /// $XDG_CACHE_HOME/fingertip, else ~/.cache/fingertip.
@@ -39,10 +43,8 @@ class Cache {
 
   explicit Cache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Whether there is a result of `job`.
-  bool holds(const Job& job) const;
-
-  /// Copies the result of `job` into `target` (marker last). False when it is not there.
+  /// Copies the result of `job` into `target`, which it makes anew. False, and no `target`, when it
+  /// is not there or any file of it is missing, new or another than was stored.
   bool fetch(const Job& job, const std::filesystem::path& target) const;
 
   /// Copies the finished `source` into the cache, leaving out what belongs to a run and not to a

@@ -105,8 +105,11 @@ void choose_force(const LoadedConfig& loaded, const char* type, lattice::PressSe
 /// People's controllers may go their own way.
 void choose_library(const LoadedConfig& loaded, lattice::PressSetup& setup) {
   const std::filesystem::path& file = loaded.config.controller.library;
-  std::ifstream in(file, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::string content;
+  if (std::filesystem::is_regular_file(file)) {  // reading a folder throws
+    std::ifstream in(file, std::ios::binary);
+    content.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  }
   if (content.empty()) {
     throw loaded.locate({{"controller.library", file.empty() ? "none" : file.string(),
                           "controller.type = library needs a shared object that can be read",

@@ -9,7 +9,10 @@
 namespace fingertip::studies {
 
 void write_json(const nlohmann::ordered_json& content, const std::filesystem::path& file) {
-  meshes::write_atomically(file, [&](std::ostream& out) { out << content.dump(2) << '\n'; });
+  // Names of files need not be UTF-8, JSON must.
+  const std::string text =
+      content.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  meshes::write_atomically(file, [&](std::ostream& out) { out << text << '\n'; });
 }
 
 nlohmann::ordered_json read_json(const std::filesystem::path& file) {

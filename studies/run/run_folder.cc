@@ -5,7 +5,9 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <ctime>
+#include <filesystem>
 
 #include "meshes/files.h"
 #include "source_hash.h"
@@ -20,6 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The first file in a run folder, by which it is known.
+constexpr const char* manifest_name = "manifest.json";
+
 /// Where --force keeps the old content until the new run has got through its input.
 constexpr const char* replaced_name = ".replaced";
 
@@ -27,51 +32,78 @@ ConfigError refusal(const fs::path& out, const std::string& rule, const std::str
   return ConfigError({{"--out " + out.string(), "", "", rule, remedy}});
 }
 
-/// runs/<verb>-<stamp>, with a number when two runs start within a second.
-fs::path fresh_default(const std::string& verb) {
+/// Makes the folder; false when it is there already. Of several processes one makes it.
+bool make(const fs::path& folder) {
+  const fs::path clean = folder.has_filename() ? folder : folder.parent_path();
+  if (fs::exists(clean)) return false;
+  if (clean.has_parent_path()) fs::create_directories(clean.parent_path());
+  return fs::create_directory(clean);
+}
+
+/// Makes runs/<verb>-<stamp>, with a number when two runs start within a second.
+fs::path make_default(const std::string& verb) {
   const std::string stem =
       fmt::format("runs/{}-{:%Y%m%d-%H%M%S}", verb, fmt::localtime(std::time(nullptr)));
   fs::path candidate = stem;
-  for (int number = 2; fs::exists(candidate); ++number) {
+  for (int number = 2; !make(candidate); ++number) {
     candidate = stem + "-" + std::to_string(number);
   }
   return candidate;
 }
 
+/// Also when its process was killed before there was a manifest.
 bool is_run_folder(const fs::path& folder) {
-  return fs::is_directory(folder) && (fs::is_empty(folder) || fs::exists(folder / "manifest.json"));
+  if (!fs::is_directory(folder)) return false;
+  if (fs::exists(folder / manifest_name)) return true;
+  return std::all_of(fs::directory_iterator(folder), {}, [](const fs::directory_entry& item) {
+    return item.path().filename().string().starts_with(std::string(manifest_name) + ".part");
+  });
 }
 
-/// Moves everything in `folder` whose name does not start with a dot into `target` inside it, or
-/// back. Works for a folder that is the current one or a mount point, unlike renaming it.
-void move_content(const fs::path& from, const fs::path& to) {
+/// Everything in `folder` whose name does not start with a dot, the manifest first.
+std::vector<fs::path> content_of(const fs::path& folder) {
   std::vector<fs::path> items;
-  for (const auto& item : fs::directory_iterator(from)) {
+  for (const auto& item : fs::directory_iterator(folder)) {
     if (item.path().filename().string().front() != '.') items.push_back(item.path());
   }
-  for (const fs::path& item : items) fs::rename(item, to / item.filename());
+  std::ranges::partition(items,
+                         [](const fs::path& item) { return item.filename() == manifest_name; });
+  return items;
 }
 
-/// Makes sure that a new or empty folder (or one to be resumed) is there. True when resumed.
+/// Works for a folder that is the current one or a mount point, unlike renaming it. Whenever it is
+/// stopped, a folder without a manifest is the one whose content is incomplete.
+void put_aside(const fs::path& folder) {
+  fs::create_directory(folder / replaced_name);
+  for (const fs::path& item : content_of(folder))
+    fs::rename(item, folder / replaced_name / item.filename());
+}
+
+void put_back(const fs::path& folder) {
+  std::vector<fs::path> items = content_of(folder / replaced_name);
+  std::ranges::reverse(items);
+  for (const fs::path& item : items) fs::rename(item, folder / item.filename());
+  fs::remove(folder / replaced_name);
+}
+
+/// Makes sure that a folder which was there is empty, or is to be resumed. True when resumed.
 bool prepare(const fs::path& folder, const RunFolderOptions& options) {
-  if (fs::exists(folder)) {
-    if (!options.force && !options.resume) {
-      throw refusal(folder, "the output folder exists already and would be overwritten",
-                    "choose another folder, or say --force to replace it or --resume auto to "
-                    "continue it");
-    }
-    if (!is_run_folder(folder)) {
-      throw refusal(folder, "exists and is not the folder of a run (no manifest.json inside)",
-                    "choose another folder; nothing has been removed");
-    }
-    if (options.resume) return !fs::is_empty(folder);
-    if (!fs::is_empty(folder)) {
-      fs::create_directory(folder / replaced_name);
-      move_content(folder, folder / replaced_name);
-    }
-    return false;
+  const fs::path replaced = folder / replaced_name;
+  if (fs::exists(replaced) && !fs::exists(folder / manifest_name)) {
+    put_back(folder);  // a run with --force was killed before it had begun
   }
-  fs::create_directories(folder);
+  if (!is_run_folder(folder)) {
+    throw refusal(folder, "exists and is not the folder of a run (no manifest.json inside)",
+                  "choose another folder; nothing has been removed");
+  }
+  remove_abandoned_parts(folder, true);
+  if (options.resume) return !fs::is_empty(folder);
+  if (fs::exists(replaced)) {
+    // A run with --force was killed: what it was to replace is still there.
+    for (const fs::path& item : content_of(folder)) fs::remove_all(item);
+  } else if (!fs::is_empty(folder)) {
+    put_aside(folder);
+  }
   return false;
 }
 
@@ -92,7 +124,7 @@ class RunFolder::Log {
 
 RunFolder::RunFolder(const RunFolderOptions& options, const LoadedConfig& loaded,
                      const std::string& case_text)
-    : path_(options.out.empty() ? fresh_default(options.verb) : options.out) {
+    : path_(options.out) {
   const std::string head = fmt::format(
       "fingertip {} {}: resolved parameters, to be used again with"
       " --config",
@@ -110,19 +142,39 @@ RunFolder::RunFolder(const RunFolderOptions& options, const LoadedConfig& loaded
                {"packages", package_versions()},
                {"host", host_description()}};
   try {
-    resumed_ = prepare(path_, options);
+    claim(options);
+    write_json(manifest_, path_ / manifest_name);
     meshes::write_atomically(path_ / "parameters.toml",
                              [&](std::ostream& out) { out << parameters; });
-    write_json(manifest_, path_ / "manifest.json");
     log_ = std::make_unique<Log>(path_ / "log.txt");
   } catch (const ConfigError&) {
     throw;
   } catch (const std::exception& error) {
+    std::error_code ignored;
+    if (made_) fs::remove_all(path_, ignored);
     throw refusal(path_, std::string("the output folder cannot be written: ") + error.what(),
                   "choose a folder in which you may write, with space left");
   }
   log(resumed_ ? "resumed" : "started");
   for (const std::string& note : loaded.notes) log("note: " + note);
+}
+
+void RunFolder::claim(const RunFolderOptions& options) {
+  if (path_.empty())
+    path_ = make_default(options.verb), made_ = true;
+  else
+    made_ = make(path_);
+  if (!made_ && !options.force && !options.resume) {
+    throw refusal(path_, "the output folder exists already and would be overwritten",
+                  "choose another folder, or say --force to replace it or --resume auto to "
+                  "continue it");
+  }
+  lock_ = std::make_unique<FileLock>(path_);
+  if (lock_->taken()) {
+    throw refusal(path_, "another process is at work in the output folder",
+                  "choose another folder, or wait until that one has ended");
+  }
+  if (!made_) resumed_ = prepare(path_, options);
 }
 
 RunFolder::~RunFolder() {
@@ -143,8 +195,7 @@ void RunFolder::discard() {
     if (item.path() != old) fs::remove_all(item.path());
   }
   if (replaced) {
-    move_content(old, path_);
-    fs::remove(old);
+    put_back(path_);
   } else {
     fs::remove(path_);
   }
@@ -162,7 +213,7 @@ void RunFolder::finish(const std::string& status, int exit_code,
   manifest_.update(further);
   finished_ = true;
   log(fmt::format("{} (exit code {})", status, exit_code));
-  write_json(manifest_, path_ / "manifest.json");
+  write_json(manifest_, path_ / manifest_name);
   fs::remove_all(path_ / replaced_name);
 }
 

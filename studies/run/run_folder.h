@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "studies/config/loader.h"
+#include "studies/run/file_lock.h"
 
 namespace fingertip::studies {
 
@@ -21,9 +22,9 @@ struct RunFolderOptions {
 };
 
 /// Created by the constructor, which refuses (ConfigError) an existing folder without `force` or
-/// `resume`, a folder that is no run folder in any case (it would be destroyed), and one that
-/// cannot be written. The manifest says `"status": "running"` until `finish`; if the folder is
-/// left without it (an exception, a kill), status and log tell so.
+/// `resume`, one in which another process is at work, a folder that is no run folder in any case
+/// (it would be destroyed), and one that cannot be written. The manifest says `"status": "running"`
+/// until `finish`; if the folder is left without it (an exception, a kill), status and log tell so.
 class RunFolder {
  public:
   RunFolder(const RunFolderOptions& options, const LoadedConfig& loaded,
@@ -48,11 +49,15 @@ class RunFolder {
 
  private:
   class Log;
+  void claim(const RunFolderOptions& options);
+
   std::filesystem::path path_;
+  bool made_ = false;  ///< by this one: it was not there
   bool resumed_ = false;
   bool finished_ = false;
   nlohmann::ordered_json manifest_;
   std::unique_ptr<Log> log_;
+  std::unique_ptr<FileLock> lock_;  ///< keeps others out as long as this lives
 };
 
 }  // namespace fingertip::studies

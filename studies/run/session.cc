@@ -15,6 +15,13 @@ namespace fingertip::studies {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Where a result from the cache waits to be moved to its place.
+constexpr const char* fetched_name = ".fetched";
+
+}  // namespace
+
 JobResult Session::run(const PlannedJob& planned) {
   return run_with(planned, threads_);
 }
@@ -27,6 +34,20 @@ void Session::clear(const PlannedJob& planned) const {
   }
 }
 
+bool Session::fetch(const PlannedJob& planned) const {
+  const fs::path target = path_of(planned), fetched = target / fetched_name;
+  fs::create_directories(target);
+  if (!cache_.fetch(planned.job, fetched)) return false;
+  clear(planned);
+  for (const auto& item : fs::directory_iterator(fetched)) {
+    if (item.path().filename() != marker_name)
+      fs::rename(item.path(), target / item.path().filename());
+  }
+  fs::rename(fetched / marker_name, target / marker_name);
+  fs::remove(fetched);
+  return true;
+}
+
 bool Session::reuse(const PlannedJob& planned, JobResult& result) {
   const fs::path target = path_of(planned);
   const auto usable = [&] {
@@ -37,12 +58,9 @@ bool Session::reuse(const PlannedJob& planned, JobResult& result) {
     folder_.log(result.name + ": kept from the resumed run");
     return true;
   }
-  if (planned.job.repeatable && cache_.holds(planned.job)) {
-    clear(planned);
-    if (cache_.fetch(planned.job, target) && usable()) {
-      folder_.log(result.name + ": from the cache, " + planned.job.key().substr(0, 16));
-      return true;
-    }
+  if (planned.job.repeatable && fetch(planned) && usable()) {
+    folder_.log(result.name + ": from the cache, " + planned.job.key().substr(0, 16));
+    return true;
   }
   const bool goes_on = planned.job.resumable && attempted(planned.job, target);
   if (goes_on) {

@@ -61,6 +61,9 @@ class Session {
  private:
   JobResult run_with(const PlannedJob& planned, int threads);
   bool reuse(const PlannedJob& planned, JobResult& result);
+  /// Puts the cache's result in the place of whatever is in the job's folder. False, and all as it
+  /// was, when the cache has none.
+  bool fetch(const PlannedJob& planned) const;
   void compute(const PlannedJob& planned, JobResult& result, int threads);
   /// Empties the job's folder, apart from what belongs to the run.
   void clear(const PlannedJob& planned) const;

@@ -131,9 +131,12 @@ std::string common_text(const std::string& verb, const LoadedConfig& base,
   return text;
 }
 
+/// Throws ConfigError before there are more than memory may hold.
 std::vector<SweepPoint> combinations(const SweepReader& reader) {
   std::vector<SweepPoint> points(1);
   for (const auto& [key, values] : reader.axes) {
+    if (points.size() * values.size() > most_points)
+      throw ConfigError({{"sweep", "", "", "more than a million points", "shorten an axis"}});
     std::vector<SweepPoint> more;
     for (const SweepPoint& point : points) {
       for (const std::string& value : values) {
@@ -142,7 +145,6 @@ std::vector<SweepPoint> combinations(const SweepReader& reader) {
       }
     }
     points = std::move(more);
-    if (points.size() > most_points) break;
   }
   return points;
 }
@@ -189,9 +191,6 @@ SweepOrder read_sweep(const ConfigSource& source, const std::string& verb) {
   order.base = load_config(shared);
   for (const auto& [key, values] : reader.axes) order.axes.push_back(key);
   order.points = combinations(reader);
-  if (order.points.size() > most_points) {
-    throw ConfigError({{"sweep", "", "", "more than a million points", "shorten an axis"}});
-  }
   const std::string common =
       common_text(order.verb, order.base, {order.axes.begin(), order.axes.end()});
   for (SweepPoint& point : order.points) {

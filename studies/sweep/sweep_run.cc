@@ -1,9 +1,5 @@
 #include "studies/sweep/sweep_run.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -13,6 +9,7 @@
 #include "lattice/control/controller.h"
 #include "meshes/errors.h"
 #include "studies/run/cache.h"
+#include "studies/run/file_lock.h"
 #include "studies/run/grasp_job.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/jobs.h"
@@ -27,24 +24,6 @@ namespace fingertip::studies {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Held by at most one process; the system releases it when that one ends, however it ends.
-class FileLock {
- public:
-  explicit FileLock(const fs::path& file)
-      : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)),
-        held_(descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {}
-  ~FileLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
-  bool held() const { return held_; }
-
- private:
-  int descriptor_;
-  bool held_;
-};
 
 nlohmann::ordered_json content_of(const SweepOrder& order) {
   auto points = nlohmann::ordered_json::array();

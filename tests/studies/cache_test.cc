@@ -92,6 +92,47 @@ TEST_F(SessionTest, ADamagedCacheEntryIsComputedAnew) {
   EXPECT_EQ(runs, 2) << "and replaced";
 }
 
+TEST_F(SessionTest, NoFlippedByteOfTheCacheIsServed) {
+  int runs = 0;
+  const Job job = counting_job(runs, 7);
+  run({"part", job});
+  const fs::path entry = place_ / "cache" / ("test-" + job.key());
+  int tampered = 0;
+  for (const char* name : {"fields/value.txt", marker_name, digests_name}) {
+    for (std::size_t part = 0; part < 7; ++part) {
+      std::string content = read_text(entry / name);
+      content[part * content.size() / 7] ^= 4;
+      write_text(entry / name, content);
+      const fs::path result = run({"part", job});
+      EXPECT_FALSE(last_.reused) << name << ", part " << part;
+      EXPECT_EQ(runs, 1 + ++tampered);
+      EXPECT_EQ(read_text(result / "fields/value.txt"), "7");
+    }
+  }
+  write_text(entry / "fields/more.txt", "not of the job");
+  run({"part", job});
+  fs::remove(entry / "fields/value.txt");
+  run({"part", job});
+  EXPECT_EQ(runs, 3 + tampered) << "neither is a file too many or one too few";
+  const fs::path served = run({"part", job});
+  EXPECT_TRUE(last_.reused) << "the mended entry is good again";
+  for (const char* hidden : {digests_name, ".fetched"}) EXPECT_FALSE(fs::exists(served / hidden));
+}
+
+TEST_F(SessionTest, LeftoversOfKilledProcessesDisappear) {
+  int runs = 0;
+  // No process has this number: it is beyond the largest that Linux allows.
+  fs::create_directories(place_ / "cache/press-0123.part4194305");
+  fs::create_directories(place_ / "cache/press-0456.part1");
+  const fs::path folder = run({"", counting_job(runs, 7)});
+  EXPECT_FALSE(fs::exists(place_ / "cache/press-0123.part4194305"));
+  EXPECT_TRUE(fs::exists(place_ / "cache/press-0456.part1")) << "process 1 is alive";
+  write_text(folder / "manifest.json.part4194305", "{");
+  run({"", counting_job(runs, 7)}, true);
+  EXPECT_FALSE(fs::exists(folder / "manifest.json.part4194305"));
+  EXPECT_EQ(runs, 1);
+}
+
 TEST_F(SessionTest, AnUnwritableCacheCostsNoResult) {
   int runs = 0;
   write_text(place_ / "cache", "a file where the folder should be");

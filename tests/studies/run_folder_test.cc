@@ -75,6 +75,48 @@ TEST(RunFolder, ForceReplacesOnceTheRunGotThroughItsInput) {
   EXPECT_FALSE(fs::exists(place / "run/.replaced"));
 }
 
+// What a run with --force had to replace is there whenever it was killed.
+TEST(RunFolder, AKilledReplacementLosesNothing) {
+  const TemporaryFolder place;
+  const LoadedConfig loaded = load_config({});
+  const fs::path run = place / "run";
+  RunFolderOptions forced = into(run), resumed = into(run);
+  forced.force = true;
+  resumed.resume = true;
+  RunFolder(into(run), loaded).finish("finished", 0);
+  write_text(run / "response.csv", "old");
+
+  // Killed while it put the old content aside: the manifest went first.
+  fs::create_directory(run / ".replaced");
+  fs::rename(run / "manifest.json", run / ".replaced/manifest.json");
+  RunFolder(resumed, loaded).finish("finished", 0);
+  EXPECT_EQ(read_text(run / "response.csv"), "old");
+  EXPECT_FALSE(fs::exists(run / ".replaced"));
+
+  // Killed while it computed.
+  fs::create_directory(run / ".replaced");
+  for (const char* name : {"manifest.json", "response.csv"})
+    fs::rename(run / name, run / ".replaced" / name);
+  write_text(run / "manifest.json", "{}");
+  write_text(run / "response.csv", "half of the new");
+  {
+    RunFolder folder(forced, loaded);
+    EXPECT_FALSE(fs::exists(run / "response.csv"));
+    folder.discard();
+  }
+  EXPECT_EQ(read_text(run / "response.csv"), "old");
+}
+
+TEST(RunFolder, AFolderWhoseProcessWasKilledBeforeTheManifestGoesOn) {
+  const TemporaryFolder place;
+  fs::create_directory(place / "run");
+  write_text(place / "run/manifest.json.part4194305", "{");
+  RunFolderOptions resumed = into(place / "run");
+  resumed.resume = true;
+  RunFolder(resumed, load_config({})).finish("finished", 0);
+  EXPECT_FALSE(fs::exists(place / "run/manifest.json.part4194305"));
+}
+
 TEST(RunFolder, DiscardRemovesANewFolder) {
   const TemporaryFolder place;
   RunFolder folder(into(place / "run"), load_config({}));
@@ -91,6 +133,23 @@ TEST(RunFolder, ResumeKeepsWhatIsThere) {
   write_text(place / "run/response.csv", "old");
   EXPECT_TRUE(RunFolder(resumed, loaded).resumed());
   EXPECT_EQ(read_text(place / "run/response.csv"), "old");
+}
+
+TEST(RunFolder, OneAtATimeWorksInAFolder) {
+  const TemporaryFolder place;
+  const LoadedConfig loaded = load_config({});
+  RunFolderOptions resumed = into(place / "run/"), forced = into(place / "run");
+  resumed.resume = true;
+  forced.force = true;
+  {
+    RunFolder first(resumed, loaded);
+    write_text(place / "run/response.csv", "mine");
+    for (const RunFolderOptions& other : {into(place / "run"), resumed, forced})
+      EXPECT_THROW(RunFolder(other, loaded), ConfigError);
+    EXPECT_EQ(read_text(place / "run/response.csv"), "mine");
+    first.finish("finished", 0);
+  }
+  EXPECT_TRUE(RunFolder(resumed, loaded).resumed());
 }
 
 TEST(RunFolder, RefusesAFolderThatCannotBeWritten) {

@@ -1,0 +1,303 @@
+// Damaged measurements, materials and what runs have left behind.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calibration/curves/remembered_model.h"
+#include "calibration/material.h"
+#include "calibration/surrogate/surrogate.h"
+#include "campaign.h"
+#include "fem_reference/job.h"
+#include "meshes/errors.h"
+#include "meshes/press_response.h"
+#include "studies/report/run_data.h"
+#include "studies/run/cache.h"
+#include "studies/run/curve_file.h"
+#include "studies/run/json_file.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip;
+using meshes::InvalidInput;
+
+namespace {
+
+const std::vector<std::string> json_words = {"{",    "}",    "[",     "]",       ",",   ":",
+                                             "\"\"", "null", "true",  "1e999",   "{}",  "[]",
+                                             "-",    "[[]]", "\"a\"", "\\ud800", "NaN", "//"};
+
+bool all_finite(const std::vector<double>& values) {
+  for (const double value : values)
+    if (!std::isfinite(value)) return false;
+  return true;
+}
+
+bool increasing(const std::vector<double>& values) {
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (!(values[i] > values[i - 1])) return false;
+  return true;
+}
+
+calibration::Material material(lattice::ModelKind model) {
+  calibration::Material one;
+  one.model = model;
+  one.spacing = 1e-3;
+  one.rubber = {3.4e5, 1.2e5, 1070.0, 1e-4};
+  one.constants = lattice::hookean_constants(one.rubber, one.spacing);
+  one.kinematics = lattice::Kinematics::finite;
+  one.validity.largest_indentation = 2e-3;
+  one.validity.thickness = 5e-3;
+  one.validity.contacts = {meshes::ContactMode::stick, meshes::ContactMode::frictionless};
+  one.provenance = "moduli";
+  one.program = "fingertip";
+  one.statement = "Both moduli are met.";
+  return one;
+}
+
+}  // namespace
+
+TEST(FuzzData, Materials) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "material.toml", again = folder / "again.toml";
+  std::vector<std::string> seeds;
+  for (const auto model : {lattice::ModelKind::hookean, lattice::ModelKind::network}) {
+    calibration::write_material_toml(material(model), file);
+    seeds.push_back(read_text(file));
+  }
+  const std::vector<std::string> words = {"[constants]\n",
+                                          "k1 = \"1 N/m\"\n",
+                                          "kappa = \"-3 Pa\"\n",
+                                          "[validity]\n",
+                                          " N/m",
+                                          "\"stick\"",
+                                          "contacts = []\n",
+                                          "\"small\"",
+                                          "model_error = -1\n",
+                                          "nan",
+                                          "rod_ratio = 2\n",
+                                          "[",
+                                          "]",
+                                          "\"",
+                                          "=",
+                                          "[[lattice]]\n",
+                                          "{}",
+                                          "smallest_spacing = \"1 m\"\n"};
+  fuzz::attack({seeds, words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
+                 write_text(file, input);
+                 const calibration::Material one = calibration::read_material_toml(file);
+                 EXPECT_TRUE(one.violations().empty());
+                 const double nu = one.rubber.poissons_ratio();
+                 EXPECT_TRUE(nu > -1.0 && nu < 0.5) << nu;
+                 EXPECT_TRUE(one.spacing > 0.0 && std::isfinite(one.spacing));
+                 for (const double k : {one.constants.k1, one.constants.k2, one.constants.k3})
+                   EXPECT_TRUE(std::isfinite(k) && k >= 0.0) << k;
+                 EXPECT_TRUE(std::isfinite(one.constants.kappa));
+                 calibration::write_material_toml(one, again);
+                 const std::string text = read_text(again);
+                 calibration::write_material_toml(calibration::read_material_toml(again), again);
+                 EXPECT_EQ(read_text(again), text);
+               }));
+}
+
+TEST(FuzzData, MeasuredCurves) {
+  using namespace studies;
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "curve.csv";
+  std::string dense = "time [s]; creep [1]; sigma [1]\n";
+  for (int i = 1; i < 260; ++i)
+    dense += std::to_string(0.01 * i) + ";" + std::to_string(1.0 + 0.001 * i) + ";0.01\n";
+  const std::vector<std::string> seeds = {
+      "# press.contact = \"stick\"\nindentation [mm], force [mN], sigma [mN]\n0.1, 3.5, 0.2\n"
+      "0.2, 9.7, 0.2\n\n0.5, 41, 0.3\n",
+      "\xEF\xBB\xBFindentation [cm];normal_force [gf];force_error "
+      "[gf]\r\n0;0;\r\n1e-2;0.12;0.01\r\n",
+      "stretch [1]\tnominal_stress [kPa]\n0.9\t-41\n1.1\t33.5\n",
+      "shear [1]; shear_stress [Pa]\n0.1;137\n",
+      "frequency [Hz], loss_factor [1]\n1, 0.01\n10, 0.09\n",
+      dense};
+  const std::vector<std::string> words = {"[mm]",
+                                          "[",
+                                          "]",
+                                          ";",
+                                          ",",
+                                          "\t",
+                                          "# press.depth=1 cm\n",
+                                          "#",
+                                          "\"",
+                                          "sigma [N]",
+                                          "force [N]",
+                                          "\n-1;-1\n",
+                                          "stretch [1]",
+                                          "time [s]",
+                                          "[1]",
+                                          "1e61",
+                                          "1e-61",
+                                          "indentation [kg]",
+                                          "\r"};
+  const std::vector<CurveQuantities> allowed = {measured::press,        measured::uniaxial,
+                                                measured::simple_shear, measured::vibration,
+                                                measured::creep,        measured::relaxation};
+  fuzz::attack({seeds, words}, fuzz::refusing<ConfigError>([&](const std::string& input) {
+                 write_text(file, input);
+                 const MeasuredFile one = read_measured(file, allowed);
+                 const calibration::Curve& curve = one.curve;
+                 EXPECT_FALSE(curve.x.empty());
+                 EXPECT_LE(curve.x.size(), 200U);
+                 EXPECT_EQ(curve.y.size(), curve.x.size());
+                 EXPECT_TRUE(curve.sigma.empty() || curve.sigma.size() == curve.x.size());
+                 EXPECT_TRUE(all_finite(curve.x) && all_finite(curve.y) && all_finite(curve.sigma));
+                 EXPECT_TRUE(increasing(curve.x) && curve.x.front() > 0.0);
+                 for (const double sigma : curve.sigma) EXPECT_GT(sigma, 0.0);
+               }));
+}
+
+TEST(FuzzData, StiffnessSchedules) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "surrogate.json";
+  std::vector<calibration::SurrogateSample> samples;
+  for (int i = 1; i <= 8; ++i) {
+    const double depth = 4e-4 * i;
+    samples.push_back({depth, 900.0 * std::pow(depth, 1.5), 1e-4});
+  }
+  write_surrogate_json(calibration::fit_surrogate(samples), file);
+  fuzz::attack({{read_text(file)}, json_words},
+               fuzz::refusing<InvalidInput>([&](const std::string& input) {
+                 write_text(file, input);
+                 const calibration::Surrogate one = calibration::read_surrogate_json(file);
+                 EXPECT_TRUE(one.table().violations().empty());
+                 double before = 0.0;
+                 for (const double part : {-1.0, 0.0, 0.3, 0.7, 1.0, 1.5}) {
+                   const double at = part * one.depth(), force = one.force(at);
+                   EXPECT_TRUE(std::isfinite(force) && force >= before * (1.0 - 1e-12)) << force;
+                   EXPECT_TRUE(one.stiffness(at) >= 0.0 && one.band(at) >= 0.0);
+                   before = force;
+                 }
+               }));
+}
+
+TEST(FuzzData, Responses) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "response.csv";
+  meshes::PressResponse response;
+  for (int i = 1; i < 6; ++i) {
+    meshes::PressSample sample;
+    sample.indentation = 5e-4 * i;
+    sample.normal_force = 0.1 * i;
+    if (i > 2) sample.time = 0.01 * i;
+    response.append(sample);
+  }
+  response.write_csv(file);
+  const std::vector<std::string> words = {
+      ",",        "\n", "normal_force [N]", "indentation [m]", "[", "#", " ", "\"", "nan",
+      "time [s]", ";"};
+  fuzz::attack({{read_text(file), "normal_force [N], indentation [m]\r\n0.5, 1e-3\r\n"}, words},
+               fuzz::refusing<InvalidInput>([&](const std::string& input) {
+                 write_text(file, input);
+                 const meshes::PressResponse one = meshes::PressResponse::read_csv(file);
+                 double before = -INFINITY;
+                 for (const meshes::PressSample& sample : one.samples()) {
+                   EXPECT_TRUE(std::isfinite(sample.indentation));
+                   EXPECT_TRUE(std::isfinite(sample.normal_force));
+                   EXPECT_GT(sample.indentation, before);
+                   before = sample.indentation;
+                 }
+               }));
+}
+
+namespace {
+
+/// Two answers for two parameters.
+class Plain final : public calibration::ForwardModel {
+ public:
+  calibration::CurveSlopes evaluate(const Eigen::VectorXd& at) override {
+    return {at, Eigen::MatrixXd::Identity(2, 2)};
+  }
+};
+
+}  // namespace
+
+TEST(FuzzData, AnswersKeptByACalibration) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "evaluations.jsonl";
+  Plain plain;
+  {
+    calibration::RememberedModel model(plain, file, 2, 2, "a press");
+    for (const double value : {1.0, 0.1, 1e-300}) model.evaluate(Eigen::Vector2d(value, -value));
+  }
+  fuzz::attack({{read_text(file)}, json_words},
+               fuzz::refusing<InvalidInput, meshes::NotConverged>([&](const std::string& input) {
+                 write_text(file, input);
+                 calibration::RememberedModel model(plain, file, 2, 2, "a press");
+                 const calibration::CurveSlopes one = model.evaluate(Eigen::Vector2d(0.5, 0.5));
+                 EXPECT_EQ(one.value.size(), 2);
+                 EXPECT_TRUE(one.value.allFinite() && one.jacobian.allFinite());
+               }));
+}
+
+TEST(FuzzData, OrdersForTheContinuum) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "job.json";
+  std::vector<std::string> seeds;
+  fem_reference::ReferenceJob job;
+  job.samples = {1e-3, 2e-3};
+  write_job(job, file);
+  seeds.push_back(read_text(file));
+  job.analysis = fem_reference::Analysis::modes;
+  write_job(job, file);
+  seeds.push_back(read_text(file));
+  std::vector<std::string> words = json_words;
+  words.insert(words.end(), {"\"finite\"", "\"degree\": 4294967298,", "\"modes\": 1e99,",
+                             "\"samples\": [],", "\"verification\""});
+  fuzz::attack({seeds, words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
+                 write_text(file, input);
+                 const fem_reference::ReferenceJob one = fem_reference::read_job(file);
+                 EXPECT_TRUE(one.violations().empty());
+                 EXPECT_TRUE(all_finite(one.samples));
+                 write_job(one, file);
+                 const std::string text = read_text(file);
+                 write_job(fem_reference::read_job(file), file);
+                 EXPECT_EQ(read_text(file), text);
+               }));
+}
+
+TEST(FuzzData, JsonAndTablesOfRunFolders) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "summary.json";
+  const std::string summary = R"({"status": "finished", "depths": [0.001, 0.002], "models":
+  {"hookean": {"E_100": 4000.5, "status": "ok", "force_error": [0.01, null]}}})";
+  fuzz::attack({{summary}, json_words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
+                 write_text(file, input);
+                 const auto one = studies::reporting::read_json(file);
+                 EXPECT_TRUE(one.is_object());
+                 EXPECT_NO_THROW(studies::reporting::numbers_at(one, "depths"));
+                 EXPECT_NO_THROW(studies::reporting::text_at(one, "models"));
+               }));
+  fuzz::attack({{summary}, json_words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
+                 write_text(file, input);
+                 EXPECT_FALSE(studies::read_json(file).is_discarded());
+               }));
+  fuzz::attack({{"time [s],speed [m/s]\n0,0.1\n# a remark\n1,\"0,2\"\n", "a\n1\n2\n"},
+                {",", "\"", "\"\"", "\n", "#", "[m]", "\r"}},
+               fuzz::refusing<InvalidInput>([&](const std::string& input) {
+                 write_text(file, input);
+                 const auto table = studies::reporting::read_csv(file);
+                 for (const std::string& name : table.names)
+                   EXPECT_EQ(table.numbers(name).size(), table.rows.size());
+               }));
+}
+
+// A marker speaks for a job when it is whole and names it, and never ends the program.
+TEST(FuzzData, MarkersOfFinishedJobs) {
+  const TemporaryFolder folder;
+  studies::Job job;
+  job.kind = "test";
+  job.inputs = {{"depth", 0.003}};
+  studies::mark(job, folder.path(), studies::finished, 1.0);
+  fuzz::attack({{read_text(folder / studies::marker_name)}, json_words},
+               [&](const std::string& input) {
+                 write_text(folder / studies::marker_name, input);
+                 const bool marked = !studies::marked_status(job, folder.path()).empty();
+                 EXPECT_TRUE(!marked || input.find(job.key()) != input.npos);
+                 return marked;
+               });
+}
