@@ -88,8 +88,10 @@ Value read_number(const Key& key, const toml::node& node) {
     value.word = key.word;
     return value;
   }
-  if (!node.is_number() && !key.word.empty())
-    refuse("must be a number without quotes or unit, or \"" + key.word + '"', preset_advice(key));
+  if (!node.is_number())
+    refuse("must be a number without quotes or unit" +
+               (key.word.empty() ? "" : ", or \"" + key.word + '"'),
+           preset_advice(key));
   value.number = number_in(node);
   check_range(key, value.number);
   return value;
