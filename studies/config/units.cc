@@ -2,6 +2,7 @@
 
 #include <udunits2.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -103,7 +104,10 @@ double parse_quantity(std::string_view text, const std::string& unit, const std:
   const std::string given(unit_text);
   const bool second_number =
       unit_text.find_first_of("0123456789.+-(") == 0 && !unit_text.starts_with("1/");
-  if (second_number || !parse_unit(given)) {
+  // UDUNITS prints characters of which it knows nothing.
+  const bool control =
+      std::ranges::any_of(given, [](char c) { return (c >= '\0' && c < ' ') || c == 0x7f; });
+  if (second_number || control || !parse_unit(given)) {
     throw UnitError("\"" + given + "\" is not a unit", advice);
   }
   const std::optional<double> scale = factor(given, unit);

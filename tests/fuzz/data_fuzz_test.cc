@@ -11,6 +11,7 @@
 #include "fem_reference/job.h"
 #include "meshes/errors.h"
 #include "meshes/press_response.h"
+#include "studies/config/loader.h"
 #include "studies/report/run_data.h"
 #include "studies/run/cache.h"
 #include "studies/run/curve_file.h"

@@ -56,7 +56,7 @@ void kill_and_go_on(const std::vector<std::string>& words, int kills, unsigned s
     fs::remove_all(folder);
   }
   std::printf("%d kills, %d of them before the end, %.2f s undisturbed\n", kills, struck, duration);
-  if (kills > 2) EXPECT_GT(struck, 0) << "every run had ended before it was killed";
+  EXPECT_TRUE(struck > 0 || kills < 3) << "every run had ended before it was killed";
 }
 
 }  // namespace

@@ -65,9 +65,11 @@ TEST(FuzzMessages, MessagesOfAPage) {
       return false;
     }
     const auto& message = std::get<LiveMessage>(result);
-    if (const auto* change = std::get_if<Adjust>(&message))
+    if (const auto* change = std::get_if<Adjust>(&message)) {
       EXPECT_TRUE(std::isfinite(change->value));
-    if (const auto* hold = std::get_if<HandHolds>(&message)) EXPECT_TRUE(hold->place.allFinite());
+    } else if (const auto* hold = std::get_if<HandHolds>(&message)) {
+      EXPECT_TRUE(hold->place.allFinite());
+    }
     return true;
   });
 }

@@ -62,7 +62,7 @@ class Surgeon {
   std::size_t below(std::size_t n) { return n == 0 ? 0 : std::size_t(random_() % n); }
   std::size_t place() { return below(text_.size() + 1); }
   template <class List>
-  auto one_of(const List& list) {
+  typename List::value_type one_of(const List& list) {
     return list[below(list.size())];
   }
 
