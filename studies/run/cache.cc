@@ -125,6 +125,10 @@ fs::path Cache::entry(const Job& job) const {
   return folder_ / (job.kind + "-" + job.key());
 }
 
+bool Cache::has_entry(const Job& job) const {
+  return !marked_status(job, entry(job)).empty();
+}
+
 bool Cache::fetch(const Job& job, const fs::path& target) const {
   const fs::path source = entry(job);
   std::error_code failed;

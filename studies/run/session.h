@@ -46,7 +46,7 @@ class Session {
   /// Whether `run` would find the job's result instead of computing it.
   bool has_result(const PlannedJob& planned) const {
     return marked_status(planned.job, path_of(planned)) == finished ||
-           (planned.job.repeatable && cache_.holds(planned.job));
+           (planned.job.repeatable && cache_.has_entry(planned.job));
   }
 
   /// Runs all jobs, as many at a time as there are threads, one thread each, in the given order.
