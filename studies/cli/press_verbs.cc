@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/csv_table.h"
 #include "meshes/press_response.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/config/units.h"
-#include "studies/report/run_data.h"
+#include "studies/files/json_entry.h"
+#include "studies/files/mode_table.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_setup.h"
+#include "studies/run/result_files.h"
 
 namespace fingertip::studies {
 
@@ -57,13 +60,23 @@ std::string heading(const fem_reference::ReferenceJob& order) {
                      fem_reference::name(order.analysis));
 }
 
+/// Frequencies and kinds of motion: the lattice tells these with the share of mass that moves along
+/// an axis, the continuum by symmetry about x = 0 and y = 0.
 void print_frequencies(const std::filesystem::path& folder) {
-  const reporting::CsvTable modes = reporting::read_csv(folder / "modes.csv");
+  const meshes::CsvTable modes = meshes::read_csv(folder / "modes.csv");
   const std::vector<std::string> names = modes.texts("mode");
   const std::vector<double> frequencies = modes.numbers("frequency [Hz]");
-  fmt::print("{:>8}{:>18}\n", "mode", "frequency [Hz]");
+  const bool lattice = modes.has("motion");
+  const std::vector<std::string> motions = mode_motions(modes);
+  const auto sideways = modes.numbers_if_any("mass_x"), other = modes.numbers_if_any("mass_y"),
+             along = modes.numbers_if_any("mass_z");
+  fmt::print("{:>6}{:>18}  {:<32}{}\n", "mode", "frequency [Hz]", "motion",
+             lattice ? "mass that answers across, along the axis" : "");
   for (std::size_t i = 0; i < names.size(); ++i) {
-    fmt::print("{:>8}{:18.4f}\n", names[i], frequencies[i]);
+    fmt::print("{:>6}{:18.4f}  {:<32}{}\n", names[i], frequencies[i], motions[i],
+               lattice ? fmt::format("{:.1f} %, {:.1f} %", 100.0 * (sideways[i] + other[i]),
+                                     100.0 * along[i])
+                       : "");
   }
 }
 
@@ -80,7 +93,7 @@ void print_accuracy(const std::filesystem::path& folder, double tolerance) {
              100.0 * tolerance,
              worst <= tolerance ? "" : ", NOT REACHED within reference.max_unknowns");
   if (std::filesystem::exists(folder / "convergence.csv")) {
-    const reporting::CsvTable meshes = reporting::read_csv(folder / "convergence.csv");
+    const meshes::CsvTable meshes = meshes::read_csv(folder / "convergence.csv");
     const std::vector<double> unknowns = meshes.numbers("unknowns");
     if (!unknowns.empty()) {
       fmt::print("; finest mesh: {:.0f} unknowns", *std::ranges::max_element(unknowns));
@@ -90,23 +103,42 @@ void print_accuracy(const std::filesystem::path& folder, double tolerance) {
 }
 
 void print_press_facts(const std::filesystem::path& folder) {
-  const auto summary = read_json(folder / "summary.json");
+  const JsonEntry summary = read_entry(folder / "summary.json");
   if (summary.contains("effort")) {
-    const auto& census = summary["census"];
-    fmt::print("{} particles ({} of the tip), {} Newton iterations\n",
-               census["particles"].get<std::size_t>(),
-               census["sectors"] == 1 ? "all" : fmt::format("1/{}", census["sectors"].get<int>()),
-               summary["effort"]["newton_iterations"].get<int>());
+    const JsonEntry census = object_at(summary, "census");
+    const double sectors = number_at(census, "sectors");
+    fmt::print("{} particles ({} of the tip), {} Newton iterations\n", text_at(census, "particles"),
+               sectors == 1.0 ? "all" : fmt::format("1/{:.0f}", sectors),
+               text_at(object_at(summary, "effort"), "newton_iterations"));
     return;
   }
-  fmt::print("time step {:.3g} s: {}\n", summary["step"]["step"].get<double>(),
-             summary["step"]["explanation"].get<std::string>());
+  const JsonEntry step = object_at(summary, "step"), tracking = object_at(summary, "tracking");
+  fmt::print("time step {:.3g} s: {}\n", number_at(step, "step"), text_at(step, "explanation"));
   fmt::print("real-time factor {:.2f} (simulated over wall time)\n",
-             summary["real_time_factor"].get<double>());
-  if (!summary.contains("tracking") || !summary["tracking"]["speed_deviation"].is_number()) return;
-  fmt::print("controller: speed within {:.2f} %, tilt within {:.2g} deg\n",
-             100.0 * summary["tracking"]["speed_deviation"].get<double>(),
-             summary["tracking"]["tilt_deg"].get<double>());
+             number_at(summary, "real_time_factor"));
+  const double deviation = number_at(tracking, "speed_deviation"),
+               held = number_at(tracking, "held_force");
+  if (!std::isnan(held)) {
+    fmt::print(
+        "controller: holds {:.4g} mN ({:.4g} gf) of {:.4g} mN wanted, {:.2f} % over it at "
+        "most; tilt within {:.2g} deg\n",
+        convert(held, "N", "mN"), convert(held, "N", "gf"),
+        convert(number_at(tracking, "wanted_force"), "N", "mN"),
+        100.0 * std::max(0.0, number_at(tracking, "force_overshoot")),
+        number_at(tracking, "tilt_deg"));
+  } else if (!std::isnan(deviation)) {
+    fmt::print("controller: speed within {:.2f} %, tilt within {:.2g} deg\n", 100.0 * deviation,
+               number_at(tracking, "tilt_deg"));
+  }
+}
+
+/// The files that a press takes something from.
+void print_sources(const LoadedConfig& loaded) {
+  const Config& config = loaded.config;
+  if (!config.constants_file.empty())
+    fmt::print("constants of the lattice: {}\n", config.constants_file.string());
+  if (!config.controller.schedule.empty() && config.press.protocol.mode == meshes::DriveMode::pid)
+    fmt::print("stiffness of the contact scheduled on {}\n", config.controller.schedule.string());
 }
 
 /// Puts the run's notes where scripts look. They belong to the run: what the job computes does not
@@ -115,7 +147,7 @@ void put_warnings(const std::filesystem::path& folder, const std::vector<std::st
   auto summary = read_json(folder / "summary.json");
   summary.erase("warnings");
   if (!notes.empty()) summary["warnings"] = notes;
-  write_json(summary, folder / "summary.json");
+  rewrite_result(folder, "summary.json", summary);
 }
 
 }  // namespace
@@ -135,6 +167,7 @@ int run_press(const CommandLine& line) {
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
       print_response(session.folder().path(), setup.protocol.samples);
       print_press_facts(session.folder().path());
+      print_sources(loaded);
       if (line.movie > 0) {
         fmt::print("movie for ParaView: {}\n",
                    (session.folder().path() / "movie/movie.pvd").string());

@@ -6,6 +6,7 @@
 
 #include "studies/run/digest.h"
 #include "studies/run/json_file.h"
+#include "studies/run/result_files.h"
 
 namespace fingertip::studies {
 
@@ -31,7 +32,8 @@ std::string noted(const Job& job, const fs::path& note, const char* entry) {
 }  // namespace
 
 std::string marked_status(const Job& job, const fs::path& folder) {
-  return noted(job, folder / marker_name, "status");
+  const std::string status = noted(job, folder / marker_name, "status");
+  return status.empty() || damaged_result(folder).empty() ? status : "";
 }
 
 bool attempted(const Job& job, const fs::path& folder) {
@@ -52,7 +54,8 @@ void mark(const Job& job, const fs::path& folder, const std::string& status, dou
               {"key", job.key()},
               {"source_hash", job.source_hash},
               {"wall_time", wall_time},
-              {"inputs", job.inputs}},
+              {"inputs", job.inputs},
+              {"files", result_digests(folder)}},
              folder / marker_name);
   fs::remove(folder / attempt_name);
 }
@@ -76,7 +79,7 @@ fs::path Cache::entry(const Job& job) const {
 }
 
 bool Cache::holds(const Job& job) const {
-  return !marked_status(job, entry(job)).empty();
+  return !noted(job, entry(job) / marker_name, "status").empty();
 }
 
 bool Cache::fetch(const Job& job, const fs::path& target) const {

@@ -17,7 +17,7 @@ inline constexpr const char* attempt_name = "unfinished.json";
 inline constexpr const char* finished = "finished";
 
 /// The status in the marker that `folder` holds for `job`; empty when the job has not run there to
-/// its end (or another one has).
+/// its end, or another one has, or a file is not as it was written (see result_files.h).
 std::string marked_status(const Job& job, const std::filesystem::path& folder);
 
 /// Whether `folder` holds what an attempt at the equal job left when it ended early.

@@ -66,7 +66,10 @@ ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOu
     summary["tracking"] = {
         {"speed_deviation", number_or_null(tracking.speed_deviation)},
         {"speed_deviation_at_touch", number_or_null(tracking.speed_deviation_at_touch)},
-        {"tilt_deg", number_or_null(tracking.tilt * 180.0 / std::numbers::pi)}};
+        {"tilt_deg", number_or_null(tracking.tilt * 180.0 / std::numbers::pi)},
+        {"held_force", number_or_null(tracking.held_force)},
+        {"wanted_force", number_or_null(tracking.wanted_force)},
+        {"force_overshoot", number_or_null(tracking.force_overshoot)}};
   }
   return summary;
 }

@@ -11,6 +11,7 @@
 #include "source_hash.h"
 #include "studies/config/documents.h"
 #include "studies/run/digest.h"
+#include "studies/run/fresh_folder.h"
 #include "studies/run/json_file.h"
 #include "studies/run/provenance.h"
 
@@ -25,17 +26,6 @@ constexpr const char* replaced_name = ".replaced";
 
 ConfigError refusal(const fs::path& out, const std::string& rule, const std::string& remedy) {
   return ConfigError({{"--out " + out.string(), "", "", rule, remedy}});
-}
-
-/// runs/<verb>-<stamp>, with a number when two runs start within a second.
-fs::path fresh_default(const std::string& verb) {
-  const std::string stem =
-      fmt::format("runs/{}-{:%Y%m%d-%H%M%S}", verb, fmt::localtime(std::time(nullptr)));
-  fs::path candidate = stem;
-  for (int number = 2; fs::exists(candidate); ++number) {
-    candidate = stem + "-" + std::to_string(number);
-  }
-  return candidate;
 }
 
 bool is_run_folder(const fs::path& folder) {
@@ -77,6 +67,16 @@ bool prepare(const fs::path& folder, const RunFolderOptions& options) {
 
 }  // namespace
 
+fs::path fresh_run_folder(const std::string& verb) {
+  const std::string stem =
+      fmt::format("runs/{}-{:%Y%m%d-%H%M%S}", verb, fmt::localtime(std::time(nullptr)));
+  fs::path candidate = stem;
+  for (int number = 2; fs::exists(candidate); ++number) {
+    candidate = stem + "-" + std::to_string(number);
+  }
+  return candidate;
+}
+
 class RunFolder::Log {
  public:
   explicit Log(const fs::path& file)
@@ -92,7 +92,7 @@ class RunFolder::Log {
 
 RunFolder::RunFolder(const RunFolderOptions& options, const LoadedConfig& loaded,
                      const std::string& case_text)
-    : path_(options.out.empty() ? fresh_default(options.verb) : options.out) {
+    : path_(options.out.empty() ? fresh_run_folder(options.verb) : options.out) {
   const std::string head = fmt::format(
       "fingertip {} {}: resolved parameters, to be used again with"
       " --config",

@@ -15,10 +15,16 @@ struct Tracking {
   double speed_deviation = meshes::unknown;
   double speed_deviation_at_touch = meshes::unknown;  ///< the same within those 20 ms
   double tilt = meshes::unknown;                      ///< over the whole press [rad]
+  /// Of a controller that holds a contact force at the end: that force over the last
+  /// `holding_time` of force control, its mean and what it should be [N], and by how much the force
+  /// exceeds the latter at most.
+  double held_force = meshes::unknown, wanted_force = meshes::unknown;
+  double force_overshoot = meshes::unknown;  ///< relative
 };
 
 inline constexpr double settling_time = 0.050;  ///< [s]
 inline constexpr double touch_time = 0.020;     ///< [s]
+inline constexpr double holding_time = 0.050;   ///< [s]
 
 /// `first_touch` [s]; NaN when the plane was not reached.
 Tracking measure_tracking(const std::vector<lattice::TraceRow>& trace, double first_touch);

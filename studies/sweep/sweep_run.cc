@@ -28,12 +28,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Held by at most one process; the system releases it when that one ends, however it ends.
+/// Held by at most one process; the system releases it when that one ends, however it ends. Throws
+/// InvalidInput when something else stands in the place of the file.
 class FileLock {
  public:
   explicit FileLock(const fs::path& file)
       : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)),
-        held_(descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {}
+        held_(descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
+    if (descriptor_ < 0) {
+      throw meshes::InvalidInput({file.string(), "", "the lock cannot be opened",
+                                  "take away what stands in its place, and check permissions"});
+    }
+  }
   ~FileLock() {
     if (descriptor_ >= 0) ::close(descriptor_);
   }

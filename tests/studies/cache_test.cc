@@ -228,3 +228,26 @@ TEST(SessionLanes, RunAllKeepsTheOrderOfResultsAndThrowsTheFirstFailure) {
   };
   EXPECT_THROW(session.run_all(jobs), fingertip::meshes::NotConverged);
 }
+
+TEST_F(SessionTest, DamagedResultsAreComputedAgainAndNeverServed) {
+  int runs = 0;
+  const fs::path first = run({"part", counting_job(runs, 7)});
+  // In the run folder: a resumed run sees it, and the cache still has the result.
+  write_text(first / "fields/value.txt", "8");
+  run({"part", counting_job(runs, 7)}, true);
+  EXPECT_EQ(read_text(first / "fields/value.txt"), "7");
+  EXPECT_EQ(runs, 1);
+  // In the cache, too.
+  for (const auto& item : fs::recursive_directory_iterator(place_ / "cache"))
+    if (item.path().filename() == "value.txt") write_text(item.path(), "8");
+  const fs::path second = run({"part", counting_job(runs, 7)});
+  EXPECT_EQ(runs, 2);
+  EXPECT_EQ(read_text(second / "fields/value.txt"), "7");
+  // What took its place in the cache is whole again.
+  const fs::path third = run({"part", counting_job(runs, 7)});
+  EXPECT_EQ(runs, 2);
+  fs::remove(third / "fields/value.txt");
+  fs::remove_all(place_ / "cache");
+  run({"part", counting_job(runs, 7)}, true);
+  EXPECT_EQ(runs, 3);
+}
