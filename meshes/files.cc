@@ -7,11 +7,16 @@
 #include <unistd.h>
 
 #include "meshes/cannot_write.h"
+#include "meshes/errors.h"
 
 namespace fingertip::meshes {
 
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(std::ostream&)>& write) {
+  if (std::filesystem::is_directory(file)) {
+    throw InvalidInput({file.string(), "", "cannot be written: a folder stands in its place",
+                        "take the folder away"});
+  }
   std::filesystem::path temporary = file;
   temporary += ".part" + std::to_string(::getpid());
   try {

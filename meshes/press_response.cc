@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <ostream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "meshes/csv_table.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 
@@ -36,75 +35,29 @@ constexpr std::array<Column, 11> columns{{
     {"time [s]", &PressSample::time},
 }};
 
-/// Splits one CSV line; cells hold no quotes, for they are numbers and titles without commas.
-std::vector<std::string> cells_of(std::string line) {
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  std::vector<std::string> cells;
-  for (std::size_t start = 0;;) {
-    const std::size_t comma = line.find(',', start);
-    std::string cell = line.substr(start, comma - start);
-    const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-    while (!cell.empty() && blank(cell.back())) cell.pop_back();
-    while (!cell.empty() && blank(cell.front())) cell.erase(cell.begin());
-    cells.push_back(std::move(cell));
-    if (comma == std::string::npos) return cells;
-    start = comma + 1;
-  }
+/// Columns that a file must have, and no empty cells in them: the first two.
+constexpr std::size_t needed_columns = 2;
+
+[[noreturn]] void refuse(const CsvTable& table, std::size_t row, const Column& column,
+                         const std::string& value, const std::string& rule) {
+  throw InvalidInput({table.file.string() + ":" + std::to_string(table.lines[row]) + ", " +
+                          std::string(column.title),
+                      value, rule, "correct the file, or run again what writes it"});
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& file, std::size_t line, std::string value,
-                         std::string rule, std::string remedy) {
-  throw InvalidInput({file.string() + ":" + std::to_string(line), std::move(value), std::move(rule),
-                      std::move(remedy)});
-}
-
-/// For every column of the file the member it fills, or nullptr for a column not known here.
-std::vector<double PressSample::*> read_titles(const std::filesystem::path& file,
-                                               const std::vector<std::string>& titles) {
-  std::vector<double PressSample::*> members;
-  for (const std::string& title : titles) {
-    const auto known = std::find_if(columns.begin(), columns.end(),
-                                    [&](const Column& column) { return column.title == title; });
-    members.push_back(known == columns.end() ? nullptr : known->value);
+/// Indentation and force, which every row must have.
+std::vector<double> needed(const CsvTable& table, const Column& column) {
+  const std::string title(column.title);
+  if (!table.has(title)) {
+    throw InvalidInput({table.file.string() + ":1", table.names.front(),
+                        "the column '" + title + "' is missing",
+                        "the first line must name the columns with their units, as in "
+                        "'indentation [m],normal_force [N]'"});
   }
-  for (const Column& needed : {columns[0], columns[1]}) {
-    if (std::find(members.begin(), members.end(), needed.value) == members.end()) {
-      refuse(file, 1, titles.front(), "the column '" + std::string(needed.title) + "' is missing",
-             "the first line must name the columns with their units, as in 'indentation "
-             "[m],normal_force [N]'");
-    }
-  }
-  return members;
-}
-
-double read_number(const std::filesystem::path& file, std::size_t line, const std::string& cell) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) {
-    refuse(file, line, cell,
-           "every cell must be a finite number (or empty, except indentation and force)",
-           "correct the cell");
-  }
-  return value;
-}
-
-PressSample read_row(const std::filesystem::path& file, std::size_t line,
-                     const std::vector<std::string>& cells,
-                     const std::vector<double PressSample::*>& members) {
-  if (cells.size() != members.size()) {
-    refuse(file, line, std::to_string(cells.size()) + " cells",
-           "every row must have as many cells as the first line has names (" +
-               std::to_string(members.size()) + ")",
-           "the file may be truncated: write it again");
-  }
-  PressSample sample;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const bool needed = members[c] == columns[0].value || members[c] == columns[1].value;
-    if (members[c] != nullptr && (needed || !cells[c].empty())) {
-      sample.*members[c] = read_number(file, line, cells[c]);
-    }
-  }
-  return sample;
+  std::vector<double> values = table.numbers(title);
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (std::isnan(values[row])) refuse(table, row, column, "", "must not be empty");
+  return values;
 }
 
 /// Slopes of the monotone cubic through (x, y): Fritsch & Carlson, SIAM J. Numer. Anal. 17 (1980)
@@ -170,26 +123,22 @@ void PressResponse::write_csv(const std::filesystem::path& file) const {
 }
 
 PressResponse PressResponse::read_csv(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string text;
-  if (!in || !std::getline(in, text)) {
-    refuse(file, 1, "", "the file cannot be read or is empty", "check its name and permissions");
+  const CsvTable table = meshes::read_csv(file);
+  std::vector<PressSample> samples(table.rows.size());
+  for (const Column& column : columns) {
+    const bool is_needed = &column < columns.data() + needed_columns;
+    const std::vector<double> values =
+        is_needed ? needed(table, column) : table.numbers_if_any(std::string(column.title));
+    for (std::size_t row = 0; row < values.size(); ++row) samples[row].*column.value = values[row];
   }
-  const auto members = read_titles(file, cells_of(text));
-  PressResponse response;
-  for (std::size_t line = 2; std::getline(in, text); ++line) {
-    if (in.eof()) {
-      refuse(file, line, text, "the last row must end with a line break",
-             "the file may be truncated: write it again");
+  for (std::size_t row = 1; row < samples.size(); ++row) {
+    const double indentation = samples[row].indentation;
+    if (indentation <= samples[row - 1].indentation) {
+      refuse(table, row, columns.front(), to_text(indentation),
+             "indentations must increase from row to row");
     }
-    const PressSample sample = read_row(file, line, cells_of(text), members);
-    if (!response.empty() && sample.indentation <= response.depth()) {
-      refuse(file, line, to_text(sample.indentation) + " m",
-             "indentations must increase from row to row", "sort the rows");
-    }
-    response.append(sample);
   }
-  return response;
+  return PressResponse(std::move(samples));
 }
 
 double relative_force_error(const PressResponse& response, const PressResponse& reference,

@@ -32,13 +32,14 @@ const std::vector<std::string>& press_measures() {
 RunMeasures tracking_measures(const fs::path& folder) {
   RunMeasures measures;
   if (fs::exists(folder / "summary.json")) {
-    const nlohmann::json summary = reporting::read_json(folder / "summary.json");
-    const nlohmann::json tracking = reporting::object_at(summary, "tracking");
+    const JsonEntry summary = read_entry(folder / "summary.json");
+    const JsonEntry tracking = object_at(summary, "tracking");
     for (const char* name : {"speed_deviation", "speed_deviation_at_touch", "tilt_deg"})
-      measures[name] = reporting::number_at(tracking, name);
-    measures["momentum_defect"] = reporting::number_at(summary, "momentum_defect");
+      measures[name] = number_at(tracking, name);
+    measures["momentum_defect"] = number_at(summary, "momentum_defect");
   }
-  const reporting::CsvTable trace = reporting::read_csv(folder / "trace.csv");
+  meshes::CsvTable trace;
+  if (fs::exists(folder / "trace.csv")) trace = meshes::read_csv(folder / "trace.csv");
   measures["force_overshoot"] = reporting::force_overshoot(trace);
   measures["mode_switches"] = reporting::mode_switches(trace);
   std::erase_if(measures, [](const auto& entry) { return std::isnan(entry.second); });

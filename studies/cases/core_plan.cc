@@ -11,6 +11,7 @@
 #include "studies/cases/measures.h"
 #include "studies/cases/plan.h"
 #include "studies/cases/published_study.h"
+#include "studies/files/json_entry.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_setup.h"
@@ -83,10 +84,10 @@ ordered_json CorePlan::reference_entry() const {
 }
 
 ordered_json verification_entry(const fs::path& folder) {
-  const ordered_json verification = read_json(folder / "verification" / "verification.json");
-  const ordered_json& checks = verification["checks"];
+  const JsonList checks =
+      array_at(read_entry(folder / "verification" / "verification.json"), "checks");
   const auto failed = std::ranges::count_if(
-      checks, [](const ordered_json& check) { return !check["passed"].get<bool>(); });
+      checks, [](const JsonEntry& check) { return !check.at("passed").flag(); });
   return {{"checks", checks.size()}, {"failed_checks", failed}};
 }
 

@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/report/run_data.h"
-
 namespace fingertip::studies {
 
 namespace {
-
-using reporting::number_at;
 
 /// |value/wanted - 1|
 double relative_error(double value, double wanted) {
@@ -34,9 +30,9 @@ const std::vector<std::string>& grasp_measures() {
   return names;
 }
 
-RunMeasures measure_grasp(const nlohmann::json& summary) {
+RunMeasures measure_grasp(const JsonEntry& summary) {
   RunMeasures measures;
-  const std::string fate = reporting::text_at(summary, "fate");
+  const std::string fate = text_at(summary, "fate");
   const double friction = number_at(summary, "friction");
   measures["held"] = fate == "held" ? 1.0 : 0.0;
   measures["lost"] = fate == "held" ? 0.0 : 1.0;

@@ -1,9 +1,8 @@
 /// What grasps are judged by.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "studies/cases/judged_runs.h"
+#include "studies/files/json_entry.h"
 
 namespace fingertip::studies {
 
@@ -11,7 +10,7 @@ namespace fingertip::studies {
 const std::vector<std::string>& grasp_measures();
 
 /// From summary.json of a grasp that came to its end.
-RunMeasures measure_grasp(const nlohmann::json& summary);
+RunMeasures measure_grasp(const JsonEntry& summary);
 
 /// How far a series is from the friction limit, where it should begin to hold: the larger of the
 /// distances, relative, of its weakest grip that holds and of its strongest that does not. NaN

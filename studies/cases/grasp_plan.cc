@@ -5,7 +5,6 @@
 #include "studies/cases/folders.h"
 #include "studies/cases/grasp_measures.h"
 #include "studies/cases/plan.h"
-#include "studies/report/run_data.h"
 #include "studies/run/grasp_job.h"
 
 namespace fingertip::studies {
@@ -78,7 +77,7 @@ ordered_json GraspPlan::conclude(const fs::path& folder, const std::vector<JobRe
     if (!job->ok()) ++not_converged_;
     // What an incomplete grasp did so far must not pass for what it did.
     measures_.push_back(
-        job->ok() ? measure_grasp(reporting::read_json(folder / folders_[i] / "summary.json"))
+        job->ok() ? measure_grasp(read_entry(folder / folders_[i] / "summary.json"))
                   : RunMeasures());
     ordered_json entry = {{"series", grasp.series},
                           {"name", grasp.name},

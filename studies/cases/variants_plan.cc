@@ -156,11 +156,10 @@ std::string VariantsPlan::rows_of(std::size_t place, const fs::path& folder,
   const Press& press = presses_[place];
   const VariantResult& result = results_[place];
   const fs::path file = folder / press.folder / "summary.json";
-  nlohmann::json summary;
-  if (fs::exists(file)) summary = nlohmann::json(read_json(file));
-  const nlohmann::json census = reporting::object_at(summary, "census");
+  const JsonEntry summary = fs::exists(file) ? read_entry(file) : JsonEntry();
+  const JsonEntry census = object_at(summary, "census");
   const double defect =
-      reporting::number_at(census, "volume") / reporting::number_at(census, "exact_volume") - 1.0;
+      number_at(census, "volume") / number_at(census, "exact_volume") - 1.0;
   const std::string head = fmt::format(
       "{},{},{},{},{},{},{},{},{}", csv_cell(variant.series), csv_cell(variant.name),
       meshes::to_text(variant.x), lattice::name(press.setup.lattice.model),
@@ -172,7 +171,7 @@ std::string VariantsPlan::rows_of(std::size_t place, const fs::path& folder,
     rows += head;
     for (const double value :
          {result.depth[d], result.force[d], result.reference_force[d], result.reference_error[d],
-          result.error[d], defect, reporting::number_at(summary, "wall_time")})
+          result.error[d], defect, number_at(summary, "wall_time")})
       rows += "," + meshes::to_text(value);
     rows += "," + csv_cell(status) + "\n";
   }

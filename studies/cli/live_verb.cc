@@ -22,7 +22,8 @@ int run_live(const CommandLine& line) {
   options.rate = line.rate;
   options.exit_after = line.exit_after;
   options.interrupted = interrupted;
-  run_live_view(setup, options, [&line](const std::string& url) {
+  run_live_view(setup, options, [&line](const std::string& url, const std::string& remark) {
+    if (!remark.empty()) fmt::print(stderr, "fingertip: note: {}\n", remark);
     if (!line.quiet) fmt::print("open this address in a browser on this machine; Ctrl-C ends:\n");
     fmt::print("{}\n", url);
     if (!line.quiet && !line.running) fmt::print("it waits paused: Run or Space starts it\n");

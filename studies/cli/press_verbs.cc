@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/csv_table.h"
 #include "meshes/press_response.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/config/units.h"
-#include "studies/report/run_data.h"
+#include "studies/files/json_entry.h"
+#include "studies/files/mode_table.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_notes.h"
 #include "studies/run/press_setup.h"
+#include "studies/run/result_files.h"
 #include "studies/run/tracking.h"
 
 namespace fingertip::studies {
@@ -59,13 +62,23 @@ std::string heading(const fem_reference::ReferenceJob& order) {
                      fem_reference::name(order.analysis));
 }
 
+/// Frequencies and kinds of motion: the lattice tells these with the share of mass that moves along
+/// an axis, the continuum by symmetry about x = 0 and y = 0.
 void print_frequencies(const std::filesystem::path& folder) {
-  const reporting::CsvTable modes = reporting::read_csv(folder / "modes.csv");
+  const meshes::CsvTable modes = meshes::read_csv(folder / "modes.csv");
   const std::vector<std::string> names = modes.texts("mode");
   const std::vector<double> frequencies = modes.numbers("frequency [Hz]");
-  fmt::print("{:>8}{:>18}\n", "mode", "frequency [Hz]");
+  const bool lattice = modes.has("motion");
+  const std::vector<std::string> motions = mode_motions(modes);
+  const auto sideways = modes.numbers_if_any("mass_x"), other = modes.numbers_if_any("mass_y"),
+             along = modes.numbers_if_any("mass_z");
+  fmt::print("{:>6}{:>18}  {:<32}{}\n", "mode", "frequency [Hz]", "motion",
+             lattice ? "mass that answers across, along the axis" : "");
   for (std::size_t i = 0; i < names.size(); ++i) {
-    fmt::print("{:>8}{:18.4f}\n", names[i], frequencies[i]);
+    fmt::print("{:>6}{:18.4f}  {:<32}{}\n", names[i], frequencies[i], motions[i],
+               lattice ? fmt::format("{:.1f} %, {:.1f} %", 100.0 * (sideways[i] + other[i]),
+                                     100.0 * along[i])
+                       : "");
   }
 }
 
@@ -93,7 +106,7 @@ void print_accuracy(const std::filesystem::path& folder, const fem_reference::Re
              100.0 * worst.relative, 100.0 * order.tolerance,
              reached ? "" : fmt::format(", NOT REACHED at {:.4g} mm", 1e3 * worst.indentation));
   if (std::filesystem::exists(folder / "convergence.csv")) {
-    const reporting::CsvTable meshes = reporting::read_csv(folder / "convergence.csv");
+    const meshes::CsvTable meshes = meshes::read_csv(folder / "convergence.csv");
     const std::vector<double> unknowns = meshes.numbers("unknowns");
     if (!unknowns.empty()) {
       fmt::print("; finest mesh: {:.0f} unknowns", *std::ranges::max_element(unknowns));
@@ -103,47 +116,58 @@ void print_accuracy(const std::filesystem::path& folder, const fem_reference::Re
 }
 
 /// What the controller held: the force, or else the speed, or where one of people's own ended.
-void print_control(const nlohmann::ordered_json& summary) {
-  const auto& tracking = summary["tracking"];
+void print_control(const JsonEntry& summary) {
+  const JsonEntry tracking = object_at(summary, "tracking"), end = object_at(summary, "end");
+  const double held = number_at(tracking, "held_force"),
+               deviation = number_at(tracking, "force_deviation"),
+               speed = number_at(tracking, "speed_deviation"),
+               tilt = number_at(tracking, "tilt_deg");
+  const bool follows =
+      tracking.contains("follows_path") && number_at(tracking, "follows_path") != 0.0;
   std::string text = "controller:";
-  if (tracking["held_force"].is_number()) {
-    text += fmt::format(" contact force {:.5g} mN held ({:.5g} mN wanted",
-                        1e3 * tracking["held_force"].get<double>(),
-                        1e3 * tracking["wanted_force"].get<double>());
-    if (tracking["force_deviation"].is_number())
-      text += fmt::format(", within {:.2g} % in the last {:.0f} ms",
-                          100.0 * tracking["force_deviation"].get<double>(), 1e3 * held_time);
+  if (!std::isnan(held)) {
+    text += fmt::format(" contact force {:.5g} mN held ({:.5g} mN wanted", 1e3 * held,
+                        1e3 * number_at(tracking, "wanted_force"));
+    if (!std::isnan(deviation))
+      text += fmt::format(", within {:.2g} % in the last {:.0f} ms", 100.0 * deviation,
+                          1e3 * held_time);
     text += "),";
-  } else if (tracking["follows_path"] == true && tracking["speed_deviation"].is_number()) {
-    text +=
-        fmt::format(" speed within {:.2f} %,", 100.0 * tracking["speed_deviation"].get<double>());
+  } else if (follows && !std::isnan(speed)) {
+    text += fmt::format(" speed within {:.2f} %,", 100.0 * speed);
   }
-  if (tracking["follows_path"] == false && summary["end"].is_object()) {
+  if (!follows && !std::isnan(number_at(end, "time"))) {
     text += fmt::format(" {:.5g} mN at {:.4g} mm at the end ({:.3g} s),",
-                        1e3 * summary["end"]["normal_force"].get<double>(),
-                        1e3 * summary["end"]["indentation"].get<double>(),
-                        summary["end"]["time"].get<double>());
+                        1e3 * number_at(end, "normal_force"), 1e3 * number_at(end, "indentation"),
+                        number_at(end, "time"));
   }
-  if (tracking["tilt_deg"].is_number())
-    text += fmt::format(" tilt within {:.2g} deg", tracking["tilt_deg"].get<double>());
+  if (!std::isnan(tilt)) text += fmt::format(" tilt within {:.2g} deg", tilt);
   fmt::print("{}\n", text);
 }
 
 void print_press_facts(const std::filesystem::path& folder) {
-  const auto summary = read_json(folder / "summary.json");
+  const JsonEntry summary = read_entry(folder / "summary.json");
   if (summary.contains("effort")) {
-    const auto& census = summary["census"];
-    fmt::print("{} particles ({} of the tip), {} Newton iterations\n",
-               census["particles"].get<std::size_t>(),
-               census["sectors"] == 1 ? "all" : fmt::format("1/{}", census["sectors"].get<int>()),
-               summary["effort"]["newton_iterations"].get<int>());
+    const JsonEntry census = object_at(summary, "census");
+    const double sectors = number_at(census, "sectors");
+    fmt::print("{} particles ({} of the tip), {} Newton iterations\n", text_at(census, "particles"),
+               sectors == 1.0 ? "all" : fmt::format("1/{:.0f}", sectors),
+               text_at(object_at(summary, "effort"), "newton_iterations"));
     return;
   }
-  fmt::print("time step {:.3g} s: {}\n", summary["step"]["step"].get<double>(),
-             summary["step"]["explanation"].get<std::string>());
+  const JsonEntry step = object_at(summary, "step"), tracking = object_at(summary, "tracking");
+  fmt::print("time step {:.3g} s: {}\n", number_at(step, "step"), text_at(step, "explanation"));
   fmt::print("real-time factor {:.2f} (simulated over wall time)\n",
-             summary["real_time_factor"].get<double>());
+             number_at(summary, "real_time_factor"));
   if (summary.contains("tracking")) print_control(summary);
+}
+
+/// The files that a press takes something from.
+void print_sources(const LoadedConfig& loaded) {
+  const Config& config = loaded.config;
+  if (!config.constants_file.empty())
+    fmt::print("constants of the lattice: {}\n", config.constants_file.string());
+  if (!config.controller.schedule.empty() && config.press.protocol.mode == meshes::DriveMode::pid)
+    fmt::print("stiffness of the contact scheduled on {}\n", config.controller.schedule.string());
 }
 
 /// Puts the run's notes where scripts look. They belong to the run: what the job computes does not
@@ -152,7 +176,7 @@ void put_warnings(const std::filesystem::path& folder, const std::vector<std::st
   auto summary = read_json(folder / "summary.json");
   summary.erase("warnings");
   if (!notes.empty()) summary["warnings"] = notes;
-  write_json(summary, folder / "summary.json");
+  rewrite_result(folder, "summary.json", summary);
 }
 
 }  // namespace
@@ -175,6 +199,7 @@ int run_press(const CommandLine& line) {
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
       print_response(session.folder().path(), setup.protocol.samples);
       print_press_facts(session.folder().path());
+      print_sources(loaded);
       if (line.movie > 0) {
         fmt::print("movie for ParaView: {}\n",
                    (session.folder().path() / "movie/movie.pvd").string());

@@ -19,13 +19,17 @@ namespace fs = std::filesystem;
   throw ConfigError({{place, "", "", rule, remedy}});
 }
 
-/// 3 when points are missing or did not converge.
+/// 3 when points are missing or did not converge. Throws InvalidInput when some are damaged.
 int collect_all(const fs::path& folder, bool quiet) {
   const SweepCensus census = collect(folder);
   if (!quiet) {
-    fmt::print("{} points: {} finished, {} not converged, {} missing\ntable: {}\n", census.points,
-               census.finished, census.failed, census.missing(), (folder / "table.csv").string());
+    fmt::print("{}{} points: {} finished, {} not converged, {} missing{}\ntable: {}\n", census.text,
+               census.points, census.finished, census.failed(), census.missing,
+               census.damaged > 0 ? fmt::format(", {} damaged", census.damaged) : "",
+               (folder / "table.csv").string());
+    std::fflush(stdout);
   }
+  if (!census.damage.empty()) throw meshes::InvalidInput(census.damage);
   return census.finished == census.points ? 0 : 3;
 }
 

@@ -19,12 +19,36 @@ std::string title_of(const lattice::PressSetup& setup) {
                      divisor, meshes::name(setup.protocol.contact));
 }
 
+/// Speed is the person's to set, so that it does not count.
+PressCondition condition_of(const lattice::PressSetup& setup) {
+  PressCondition condition;
+  condition.contact = meshes::name(setup.protocol.contact);
+  if (setup.protocol.contact == meshes::ContactMode::coulomb)
+    condition.friction = setup.protocol.friction;
+  condition.strain = lattice::name(setup.lattice.kinematics);
+  condition.tip_radius = setup.geometry.tip_radius;
+  condition.rod_radius = setup.geometry.rod_radius;
+  condition.sleeve_length = setup.geometry.sleeve_length;
+  condition.rod_length = setup.geometry.rod_length;
+  condition.youngs_modulus = setup.rubber.youngs_modulus;
+  condition.shear_modulus = setup.rubber.shear_modulus;
+  condition.tilt = setup.protocol.tilt;
+  condition.lateral = setup.protocol.lateral;
+  condition.speed = meshes::unknown;
+  return condition;
+}
+
 }  // namespace
 
-void run_live_view(const lattice::PressSetup& setup, const LiveOptions& options,
-                   const std::function<void(const std::string& url)>& ready) {
-  const Reference reference =
-      options.reference.empty() ? Reference{} : read_reference(options.reference);
+void run_live_view(
+    const lattice::PressSetup& setup, const LiveOptions& options,
+    const std::function<void(const std::string& url, const std::string& remark)>& ready) {
+  Reference reference;
+  if (!options.reference.empty()) {
+    reference = read_reference(options.reference);
+    reference.remark = remark_on("this press", condition_of(setup),
+                                 "the reference " + reference.name, reference.condition);
+  }
   std::atomic<LiveServer*> listener = nullptr;
   Simulation simulation(setup, options.paused, options.rate, [&listener] {
     if (LiveServer* server = listener) server->frame_ready();
@@ -33,7 +57,7 @@ void run_live_view(const lattice::PressSetup& setup, const LiveOptions& options,
   server_options.port = options.port;
   LiveServer server(simulation, reference, title_of(setup), server_options);
   listener = &server;
-  ready(server.url());
+  ready(server.url(), reference.remark ? reference.remark->text : "");
   const auto started = std::chrono::steady_clock::now();
   while (!options.interrupted || !options.interrupted()) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;

@@ -20,8 +20,10 @@ struct LiveOptions {
 };
 
 /// Serves the press of `setup` until interrupted, or until exit_after; `ready` is told the address
-/// as soon as the page can be opened. Throws InvalidInput.
-void run_live_view(const lattice::PressSetup& setup, const LiveOptions& options,
-                   const std::function<void(const std::string& url)>& ready);
+/// as soon as the page can be opened, and how the reference differs from the press ("" when it does
+/// not). Throws InvalidInput.
+void run_live_view(
+    const lattice::PressSetup& setup, const LiveOptions& options,
+    const std::function<void(const std::string& url, const std::string& remark)>& ready);
 
 }  // namespace fingertip::studies

@@ -194,6 +194,8 @@ std::string encode_scene(const LiveScene& scene) {
                   {"springs", scene.springs},
                   {"period", scene.period},
                   {"reference", scene.reference},
+                  {"remark", scene.remark},
+                  {"comparable", scene.comparable},
                   {"overlays", scene.overlays}});
 }
 

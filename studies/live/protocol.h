@@ -47,6 +47,8 @@ struct LiveScene {
   double period = 0.0;                           ///< of the controller [s]
   std::vector<std::array<double, 2>> reference;  ///< indentation [m], normal force [N]
   std::vector<double> overlays;                  ///< indentations of the continuum's fields [m]
+  std::string remark;                            ///< on the reference; empty without any
+  bool comparable = true;  ///< whether errors against the reference mean anything
 };
 
 enum class LiveStatus { running, paused, failed };

@@ -4,10 +4,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "meshes/errors.h"
+#include "meshes/text_file.h"
 
 namespace fingertip::studies {
 
@@ -36,8 +35,7 @@ std::string attribute(const std::string& text, std::size_t at, const std::string
 
 std::vector<Overlay> read_overlays(const fs::path& series) {
   std::vector<Overlay> overlays;
-  std::ifstream in(series, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = meshes::read_text(series);
   for (std::size_t at = text.find("<DataSet"); at != std::string::npos;
        at = text.find("<DataSet", at + 1)) {
     const std::string step = attribute(text, at, "timestep"), file = attribute(text, at, "file");
@@ -68,6 +66,10 @@ Reference read_reference(const fs::path& file) {
   Reference reference;
   const fs::path curve = curve_of(file);
   reference.response = meshes::PressResponse::read_csv(curve);
+  reference.name = fs::weakly_canonical(curve.parent_path()).filename().string();
+  FolderReader reader;
+  reference.condition = read_condition(curve.parent_path(), reader);
+  reader.throw_if_damaged();
   const fs::path series = curve.parent_path() / "fields" / "press.pvd";
   if (fs::is_regular_file(series)) reference.overlays = read_overlays(series);
   return reference;

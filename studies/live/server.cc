@@ -139,6 +139,10 @@ LiveServer::Implementation::Implementation(Simulation& simulation, const Referen
     : simulation_(simulation), reference_(reference), options_(options) {
   const LiveRig& rig = simulation.rig();
   LiveScene scene;
+  if (reference_.remark) {
+    scene.remark = reference_.remark->text;
+    scene.comparable = !reference_.remark->meaningless;
+  }
   scene.title = title;
   scene.geometry = rig.setup().geometry;
   scene.limits = rig.limits();

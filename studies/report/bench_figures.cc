@@ -11,15 +11,13 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-using nlohmann::json;
-
 /// Worst error that counts as accurate [%], and the factor from which on a press is in real time.
 constexpr double accurate = 2.0, real_time = 1.0;
 
 constexpr const char* usual_integrator = "symplectic-euler";
 
 /// What one core of its own would give, where that was measured.
-double pace_of(const json& press) {
+double pace_of(const JsonEntry& press) {
   const double processor = number_at(press, "real_time_factor_processor");
   return std::isfinite(processor) ? processor : number_at(press, "real_time_factor");
 }
@@ -33,7 +31,7 @@ struct Family {
   double label_height = 0.84;  ///< where "R/n" is written, over the point's error; 0: nowhere
 };
 
-std::string integrator_of(const json& press) {
+std::string integrator_of(const JsonEntry& press) {
   const std::string integrator = text_at(press, "integrator");
   return integrator.empty() ? usual_integrator : integrator;
 }
@@ -48,7 +46,7 @@ Style family_style(const std::string& model, bool usual_steps) {
 }
 
 /// The presses of a family, each point with its R/n.
-void add_family(Panel& panel, const json& bench, const Family& family) {
+void add_family(Panel& panel, const JsonEntry& bench, const Family& family) {
   Series series;
   series.label = family.label;
   series.style = family_style(family.model, family.integrator == usual_integrator);
@@ -57,7 +55,7 @@ void add_family(Panel& panel, const json& bench, const Family& family) {
     series.style.dash = "(2,4)";
     series.style.width = 1.4;
   }
-  for (const json& press : array_at(bench, "press")) {
+  for (const JsonEntry& press : array_at(bench, "press")) {
     if (text_at(press, "model") != family.model || integrator_of(press) != family.integrator ||
         number_at(press, "threads") != family.threads)
       continue;
@@ -72,7 +70,7 @@ void add_family(Panel& panel, const json& bench, const Family& family) {
   if (!series.x.empty()) panel.series.push_back(std::move(series));
 }
 
-void add_lattices(Panel& panel, const json& bench) {
+void add_lattices(Panel& panel, const JsonEntry& bench) {
   const char *usual = usual_integrator, *scaled = "mass-scaled";
   constexpr double above = 1.22;
   const char *law_a = "worst_force_error", *small = "worst_force_error_small_strain";
@@ -88,9 +86,9 @@ void add_lattices(Panel& panel, const json& bench) {
 }
 
 /// Each point with its number of unknowns.
-void add_continua(Panel& panel, const json& bench) {
+void add_continua(Panel& panel, const JsonEntry& bench) {
   std::map<int, Series> by_degree;
-  for (const json& one : array_at(bench, "continua")) {
+  for (const JsonEntry& one : array_at(bench, "continua")) {
     const double error = 100.0 * number_at(one, "worst_force_error");
     const double pace = number_at(one, "real_time_factor");
     if (!std::isfinite(error) || !std::isfinite(pace)) continue;
@@ -134,7 +132,7 @@ Range roomy(const std::vector<Series>& all, bool vertical, double include) {
 
 }  // namespace
 
-Figure pace_figure(const json& bench) {
+Figure pace_figure(const JsonEntry& bench) {
   Panel panel;
   panel.x_label = "real-time factor in the slowest 10 ms [1]";
   panel.y_label = "largest force error, 0.1 to 0.3 cm [%]";
@@ -152,13 +150,13 @@ Figure pace_figure(const json& bench) {
   return {"pace", 940, 540, 1, {panel}};
 }
 
-double dram_cost(const json& bench) {
+double dram_cost(const JsonEntry& bench) {
   // Position and velocity of a mass read and written, shared by its 12.4 springs at 48³.
   constexpr double bytes = 7.7;
   return 1e9 * bytes / number_at(object_at(bench, "probes"), "bandwidth_DRAM");
 }
 
-Figure growth_figure(const json& bench) {
+Figure growth_figure(const JsonEntry& bench) {
   Panel panel;
   panel.x_label = "masses";
   panel.y_label = "ns per spring and step";
@@ -167,7 +165,7 @@ Figure growth_figure(const json& bench) {
   const auto curve = [&](const std::string& label, const std::string& name, double threads,
                          std::size_t style) {
     std::map<double, double> points;
-    for (const json& kernel : array_at(bench, "kernels")) {
+    for (const JsonEntry& kernel : array_at(bench, "kernels")) {
       if (text_at(kernel, "name") != name || text_at(kernel, "precision") != "float64" ||
           number_at(kernel, "threads") != threads)
         continue;
@@ -198,11 +196,10 @@ Figure growth_figure(const json& bench) {
     series.style = {"#777777", dash, 1.4, 0, true};
     panel.series.push_back(std::move(series));
   };
-  const json probes = object_at(bench, "probes");
+  const JsonEntry probes = object_at(bench, "probes");
   double rate = 0.0;
-  const json rates = object_at(probes, "multiply_adds_per_second");
-  for (const auto& [isa, value] : rates.items())
-    if (value.is_number()) rate = std::fmax(rate, value.get<double>());
+  const JsonEntry rates = object_at(probes, "multiply_adds_per_second");
+  for (const auto& [isa, value] : rates.members()) rate = std::fmax(rate, value.number());
   bound("17 multiply-adds, 1 core", 1e9 * 17.0 / rate, "(6,3)");
   bound("DRAM, 7.7 bytes", dram_cost(bench), "(2,3)");
   panel.x_range = span;
@@ -214,7 +211,7 @@ Figure growth_figure(const json& bench) {
   return {"growth", 860, 430, 1, {panel}};
 }
 
-Figure press_growth_figure(const json& bench) {
+Figure press_growth_figure(const JsonEntry& bench) {
   Panel panel;
   panel.x_label = "masses";
   panel.y_label = "ns per mass and step";
@@ -226,7 +223,7 @@ Figure press_growth_figure(const json& bench) {
       Series series;
       series.label = std::string(model) + (usual ? "" : ", scaled masses");
       series.style = family_style(model, usual);
-      for (const json& press : array_at(bench, "press")) {
+      for (const JsonEntry& press : array_at(bench, "press")) {
         if (text_at(press, "model") != model || integrator_of(press) != integrator ||
             number_at(press, "threads") != 1.0)
           continue;
@@ -242,7 +239,7 @@ Figure press_growth_figure(const json& bench) {
   return {"press_growth", 860, 430, 1, {panel}};
 }
 
-Figure history_figure(const json& history) {
+Figure history_figure(const JsonList& history) {
   Panel panel;
   panel.x_label = "run";
   panel.y_label = "ratio";

@@ -12,17 +12,15 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-using nlohmann::json;
-
-std::string spacing_text(const json& press) {
+std::string spacing_text(const JsonEntry& press) {
   return fmt::format("R/{:.3g}", 1.0 / number_at(press, "spacing_over_R"));
 }
 
-bool is_scaled(const json& press) {
+bool is_scaled(const JsonEntry& press) {
   return text_at(press, "integrator") == "mass-scaled";
 }
 
-Table press_table(const json& bench) {
+Table press_table(const JsonEntry& bench) {
   Table table;
   table.caption =
       "Press of the default finger to its depth. Real-time factor: simulated over elapsed time in "
@@ -44,7 +42,7 @@ Table press_table(const json& bench) {
   const auto error_cell = [](double error) {
     return Cell{std::isfinite(error) ? percent_magnitude(error) : "–", "", grade(error)};
   };
-  for (const json& press : array_at(bench, "press")) {
+  for (const JsonEntry& press : array_at(bench, "press")) {
     const double processor = number_at(press, "real_time_factor_processor");
     const double step = number_at(press, "time_step"), cost = number_at(press, "ns_per_mass_step");
     const double small = number_at(press, "worst_force_error_small_strain");
@@ -64,7 +62,7 @@ Table press_table(const json& bench) {
   return table;
 }
 
-Table continuum_table(const json& bench) {
+Table continuum_table(const JsonEntry& bench) {
   Table table;
   table.caption =
       "Quasi-static finite elements as a way to simulate the press: one equilibrium per control "
@@ -72,7 +70,7 @@ Table continuum_table(const json& bench) {
       "before.";
   table.header = {plain("Elements"), plain("Unknowns"), plain("Solves per second"),
                   plain("Real-time factor"), plain("Force error")};
-  for (const json& one : array_at(bench, "continua")) {
+  for (const JsonEntry& one : array_at(bench, "continua")) {
     const double error = number_at(one, "worst_force_error");
     table.rows.push_back({plain(fmt::format("Q{}", number_at(one, "degree"))),
                           plain(count(number_at(one, "unknowns"))),
@@ -83,7 +81,7 @@ Table continuum_table(const json& bench) {
   return table;
 }
 
-Chapter pace_chapter(const json& bench) {
+Chapter pace_chapter(const JsonEntry& bench) {
   Chapter chapter{"pace", "Error against speed", {}};
   const Figure figure = pace_figure(bench);
   if (!figure.panels.empty())
@@ -100,7 +98,7 @@ Chapter pace_chapter(const json& bench) {
   return chapter;
 }
 
-Table kernel_table(const json& bench, const char* list, const std::string& caption) {
+Table kernel_table(const JsonEntry& bench, const char* list, const std::string& caption) {
   Table table;
   table.caption = caption;
   table.header = {plain("Kernel"),
@@ -111,7 +109,7 @@ Table kernel_table(const json& bench, const char* list, const std::string& capti
                   plain("ns per spring and step"),
                   plain("Operations per spring"),
                   plain("Roofline")};
-  for (const json& kernel : array_at(bench, list)) {
+  for (const JsonEntry& kernel : array_at(bench, list)) {
     const double fraction = number_at(kernel, "roofline_fraction");
     table.rows.push_back({plain(text_at(kernel, "name")), plain(text_at(kernel, "isa")),
                           plain(text_at(kernel, "precision")),
@@ -146,7 +144,7 @@ std::string aim_of(const std::string& name) {
   return aim == aims.end() ? "" : aim->second;
 }
 
-Table ratio_table(const json& bench) {
+Table ratio_table(const JsonEntry& bench) {
   Table table;
   table.caption =
       "Medians over rounds of the ratio within a round: AVX-512, double precision, damped. "
@@ -158,25 +156,24 @@ Table ratio_table(const json& bench) {
       "does justice.";
   table.header = {plain("Ratio"),  plain("Median"),  plain("Aim"),
                   plain("Lowest"), plain("Highest"), plain("Remark")};
-  const json values = object_at(bench, "ratios");
-  const json rounds = object_at(bench, "ratio_rounds");
-  const json missing = object_at(bench, "missing_ratios");
-  for (const auto& [name, value] : values.items()) {
+  const JsonEntry values = object_at(bench, "ratios");
+  const JsonEntry rounds = object_at(bench, "ratio_rounds");
+  const JsonEntry missing = object_at(bench, "missing_ratios");
+  for (const auto& [name, value] : values.members()) {
     double low = meshes::unknown, high = meshes::unknown;
-    for (const json& one : rounds.value(name, json::array())) {
-      low = std::fmin(low, one.get<double>());
-      high = std::fmax(high, one.get<double>());
+    for (const double one : numbers_at(rounds, name)) {
+      low = std::fmin(low, one);
+      high = std::fmax(high, one);
     }
     Cell remark = plain(text_at(missing, name));
     remark.words = true;
-    table.rows.push_back({plain(name), plain(number(number_at(values, name), 3)),
-                          plain(aim_of(name)), plain(number(low, 3)), plain(number(high, 3)),
-                          remark});
+    table.rows.push_back({plain(name), plain(number(value.number(), 3)), plain(aim_of(name)),
+                          plain(number(low, 3)), plain(number(high, 3)), remark});
   }
   return table;
 }
 
-Chapter kernel_chapter(const json& bench) {
+Chapter kernel_chapter(const JsonEntry& bench) {
   Chapter chapter{"kernels", "Kernels", {}};
   if (!bench.contains("kernels")) return chapter;
   chapter.blocks.push_back(ratio_table(bench));
@@ -198,9 +195,9 @@ Chapter kernel_chapter(const json& bench) {
 
 /// Least and largest cost of a spring [ns], of the engine on one thread with the widest registers,
 /// for lattices of `from` to `to` masses; NaN where there are none.
-std::pair<double, double> costs_between(const json& bench, double from, double to) {
+std::pair<double, double> costs_between(const JsonEntry& bench, double from, double to) {
   std::pair<double, double> costs{meshes::unknown, meshes::unknown};
-  for (const json& kernel : array_at(bench, "kernels")) {
+  for (const JsonEntry& kernel : array_at(bench, "kernels")) {
     const double masses = number_at(kernel, "masses");
     if (text_at(kernel, "name") != "springs" || text_at(kernel, "precision") != "float64" ||
         text_at(kernel, "isa") != text_at(object_at(bench, "machine"), "isa_measured") ||
@@ -213,12 +210,12 @@ std::pair<double, double> costs_between(const json& bench, double from, double t
 }
 
 /// How far the cost of a spring goes apart from 1e4 masses on, and why.
-std::string growth_text(const json& bench) {
+std::string growth_text(const JsonEntry& bench) {
   std::string text =
       "Level means that cost grows linearly with the lattice. Grey: what arithmetic and DRAM alone "
       "would take; a mass is 48 bytes of position and velocity, read and written once per step. "
       "Vertical lines: lattices that fill the second and the third cache.";
-  const json probes = object_at(bench, "probes");
+  const JsonEntry probes = object_at(bench, "probes");
   const double held = number_at(probes, "cache_L3") / 48.0;
   const auto inside = costs_between(bench, 1e4, held);
   const auto beyond = costs_between(bench, held, 1e9);
@@ -236,7 +233,7 @@ std::string growth_text(const json& bench) {
   return text;
 }
 
-Chapter growth_chapter(const json& bench) {
+Chapter growth_chapter(const JsonEntry& bench) {
   Chapter chapter{"growth", "Growth with the number of masses", {}};
   const Figure engine = growth_figure(bench), presses = press_growth_figure(bench);
   if (!engine.panels.empty())
@@ -250,50 +247,51 @@ Chapter growth_chapter(const json& bench) {
   return chapter;
 }
 
-Chapter time_chapter(const json& bench) {
+Chapter time_chapter(const JsonEntry& bench) {
   Chapter chapter{"times", "Other times", {}};
   Table table;
   table.caption = "What else a user waits for.";
   table.header = {plain("What"), plain("Time"), plain("Remark")};
-  for (const json& one : array_at(bench, "times"))
+  for (const JsonEntry& one : array_at(bench, "times"))
     table.rows.push_back({plain(text_at(one, "what")),
                           plain(with_prefix(number_at(one, "seconds"), "s")),
-                          plain(one.value("from_cache", false) ? "from an earlier run" : "")});
+                          plain(one.at("from_cache").flag() ? "from an earlier run" : "")});
   if (!table.rows.empty()) chapter.blocks.push_back(table);
   return chapter;
 }
 
-Chapter machine_chapter(const json& bench, const json& history) {
+Chapter machine_chapter(const JsonEntry& bench, const JsonList& history) {
   Chapter chapter{"machine", "Machine", {}};
-  const json facts = object_at(bench, "machine");
-  const json probes = object_at(bench, "probes");
+  const JsonEntry facts = object_at(bench, "machine");
+  const JsonEntry probes = object_at(bench, "probes");
   Table table;
   table.header = {plain("Fact"), plain("Value")};
-  for (const auto& [name, value] : facts.items()) {
+  for (const auto& [name, value] : facts.members()) {
     const bool bytes = name.ends_with(" [B]") && value.is_number();
+    const std::string text = value.text();
+    const bool fraction = value.is_number() && text.find_first_of(".e") != text.npos;
     table.rows.push_back({plain(bytes ? name.substr(0, name.size() - 4) : name),
-                          plain(value.is_string()         ? value.get<std::string>()
-                                : bytes                   ? with_prefix(value.get<double>(), "B")
-                                : value.is_number_float() ? number(value.get<double>(), 3)
-                                                          : value.dump())});
+                          plain(bytes      ? with_prefix(value.number(), "B")
+                                : fraction ? number(value.number(), 3)
+                                           : text)});
   }
-  const json rates = object_at(probes, "multiply_adds_per_second");
-  for (const auto& [isa, rate] : rates.items())
-    if (rate.is_number())
+  const JsonEntry rates = object_at(probes, "multiply_adds_per_second");
+  for (const auto& [isa, rate] : rates.members())
+    if (!rate.is_null())
       table.rows.push_back(
-          {plain("multiply-adds, " + isa), plain(with_prefix(rate.get<double>(), "/s"))});
-  const json mixed = object_at(probes, "operations_per_second");
-  for (const auto& [isa, rate] : mixed.items())
-    if (rate.is_number())
+          {plain("multiply-adds, " + isa), plain(with_prefix(rate.number(), "/s"))});
+  const JsonEntry mixed = object_at(probes, "operations_per_second");
+  for (const auto& [isa, rate] : mixed.members())
+    if (!rate.is_null())
       table.rows.push_back({plain("additions and multiplications, " + isa),
-                            plain(with_prefix(rate.get<double>(), "/s"))});
+                            plain(with_prefix(rate.number(), "/s"))});
   for (const char* name : {"bandwidth_L2", "bandwidth_DRAM"})
     if (const double rate = number_at(probes, name); std::isfinite(rate))
       table.rows.push_back({plain(name), plain(with_prefix(rate, "B/s"))});
   chapter.blocks.push_back(table);
-  const json missing = object_at(bench, "missing_programs");
-  for (const auto& [program, why] : missing.items())
-    chapter.blocks.push_back(Paragraph{program, why.get<std::string>(), true});
+  const JsonEntry missing = object_at(bench, "missing_programs");
+  for (const auto& [program, why] : missing.members())
+    chapter.blocks.push_back(Paragraph{program, why.text(), true});
   const Figure figure = history_figure(history);
   if (!figure.panels.empty())
     chapter.blocks.push_back(
@@ -302,13 +300,13 @@ Chapter machine_chapter(const json& bench, const json& history) {
 }
 
 /// The press on which most depends, in a sentence.
-std::string answer_text(const json& bench) {
+std::string answer_text(const JsonEntry& bench) {
   if (bench.contains("missing_reference"))
     return "No force errors: the continuum they are measured against is not in the cache, and a "
            "quick run does not compute it.";
-  const json presses = array_at(bench, "press");
-  const json* best = nullptr;
-  for (const json& press : presses) {
+  const JsonList presses = array_at(bench, "press");
+  const JsonEntry* best = nullptr;
+  for (const JsonEntry& press : presses) {
     const double error = number_at(press, "worst_force_error");
     if (!(error <= 0.02)) continue;
     if (best == nullptr ||
@@ -330,18 +328,20 @@ std::string answer_text(const json& bench) {
 
 }  // namespace
 
-Page bench_page(const std::filesystem::path& run_folder) {
-  const json bench = read_json(run_folder / "bench.json");
-  json history = json::array();
-  if (const auto file = run_folder / "history.json"; std::filesystem::exists(file))
-    history = array_at(read_json(file), "runs");
+Page bench_page(const std::filesystem::path& run_folder, FolderReader& reader) {
+  const JsonEntry bench = reader.json(run_folder / "bench.json");
+  const JsonEntry log = reader.json(run_folder / "history.json");
+  const JsonList history = reader.attempt([&] { return array_at(log, "runs"); });
   Page page;
   page.title = "Soft fingertip: speed";
-  page.subtitle = "What kernels, presses and peers cost on this machine, " + text_at(bench, "date");
-  page.status = bench.value("quick", false) ? "Quick run: coarse lattices, few repeats." : "";
-  page.answer = answer_text(bench);
-  page.chapters = {pace_chapter(bench), kernel_chapter(bench), growth_chapter(bench),
-                   time_chapter(bench), machine_chapter(bench, history)};
+  page.subtitle = "What kernels, presses and peers cost on this machine, " +
+                  reader.attempt([&] { return text_at(bench, "date"); });
+  if (reader.attempt([&] { return bench.at("quick").flag(); }))
+    page.status = "Quick run: coarse lattices, few repeats.";
+  page.answer = reader.attempt([&] { return answer_text(bench); });
+  for (const auto chapter : {pace_chapter, kernel_chapter, growth_chapter, time_chapter})
+    page.chapters.push_back(reader.attempt([&] { return chapter(bench); }));
+  page.chapters.push_back(reader.attempt([&] { return machine_chapter(bench, history); }));
   return page;
 }
 

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 
+#include "studies/files/folder_reader.h"
 #include "studies/report/document.h"
 
 namespace fingertip::studies::reporting {
 
-/// From bench.json, and history.json where there is one. Throws InvalidInput for a damaged file.
-Page bench_page(const std::filesystem::path& run_folder);
+/// From bench.json, and history.json where there is one. What is damaged is left out and noted in
+/// `reader`.
+Page bench_page(const std::filesystem::path& run_folder, FolderReader& reader);
 
 }  // namespace fingertip::studies::reporting

@@ -10,7 +10,6 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-using nlohmann::json;
 namespace fs = std::filesystem;
 
 struct ParameterName {
@@ -30,7 +29,7 @@ std::string without_one(const std::string& unit) {
   return unit == "1" || unit == "-" ? "" : unit;
 }
 
-FitParameter read_parameter(const json& entry, const json& truth) {
+FitParameter read_parameter(const JsonEntry& entry, const JsonEntry& truth) {
   FitParameter parameter;
   parameter.name = parameter.symbol = text_at(entry, "name");
   for (const ParameterName& known : known_parameters)
@@ -43,7 +42,7 @@ FitParameter read_parameter(const json& entry, const json& truth) {
     parameter.unit = "ms";
     parameter.factor = 1e3;
   }
-  const json prior = object_at(entry, "prior");
+  const JsonEntry prior = object_at(entry, "prior");
   parameter.estimate = number_at(entry, "estimate");
   parameter.standard_error = number_at(entry, "standard_error");
   parameter.lower = number_at(entry, "lower");
@@ -53,12 +52,12 @@ FitParameter read_parameter(const json& entry, const json& truth) {
   parameter.prior_mean = number_at(prior, "mean");
   parameter.prior_deviation = number_at(prior, "deviation");
   parameter.truth = number_at(truth, parameter.name);
-  parameter.at_bound = entry.contains("at_bound") && entry.at("at_bound") == true;
+  parameter.at_bound = entry.at("at_bound").flag();
   return parameter;
 }
 
 /// A curve may name its own quantities where those of the fit differ.
-FitCurve read_curve(const json& entry, const json& file) {
+FitCurve read_curve(const JsonEntry& entry, const JsonEntry& file) {
   const auto own = [&](const char* key) {
     const std::string text = text_at(entry, key);
     return quantity(text.empty() ? text_at(file, key) : text);
@@ -71,7 +70,7 @@ FitCurve read_curve(const json& entry, const json& file) {
   curve.points = number_at(entry, "points");
   curve.worst = number_at(entry, "worst_relative_residual");
   curve.rms = number_at(entry, "rms_relative_residual");
-  const json structure = object_at(entry, "structure");
+  const JsonEntry structure = object_at(entry, "structure");
   curve.structure = text_at(structure, "statement");
   curve.structure_probability = number_at(structure, "probability");
   curve.left_out_error = number_at(object_at(entry, "left_out"), "worst_relative_error");
@@ -82,12 +81,12 @@ FitCurve read_curve(const json& entry, const json& file) {
 void add_points(Fit& fit, const CsvTable& table) {
   const auto name = table.texts("curve");
   const auto x = table.numbers("x"), measured = table.numbers("measured"),
-             sigma = table.numbers("sigma"), fitted = table.numbers("fitted"),
-             left_out = table.numbers("left_out");
+             sigma = table.numbers_if_any("sigma"), fitted = table.numbers("fitted"),
+             left_out = table.numbers_if_any("left_out");
   for (std::size_t i = 0; i < name.size(); ++i) {
     auto curve = std::ranges::find(fit.curves, name[i], &FitCurve::name);
     if (curve == fit.curves.end()) {
-      fit.curves.push_back(read_curve({{"name", name[i]}}, fit.file));
+      fit.curves.push_back(read_curve(nlohmann::json{{"name", name[i]}}, fit.file));
       curve = fit.curves.end() - 1;
     }
     curve->x.push_back(x[i]);
@@ -98,18 +97,18 @@ void add_points(Fit& fit, const CsvTable& table) {
   }
 }
 
-Fit read_fit(const fs::path& folder, const json& truth) {
+Fit read_fit(const fs::path& folder, const JsonEntry& truth, FolderReader& reader) {
   Fit fit;
-  fit.file = read_json(folder / "calibration.json");
+  fit.file = reader.json(folder / "calibration.json");
   fit.model = text_at(fit.file, "model");
   fit.problem = text_at(fit.file, "problem");
-  for (const json& entry : array_at(fit.file, "parameters"))
-    if (entry.is_object()) fit.parameters.push_back(read_parameter(entry, truth));
-  for (const json& entry : array_at(fit.file, "curves"))
-    if (entry.is_object()) fit.curves.push_back(read_curve(entry, fit.file));
-  add_points(fit, read_csv(folder / "fit_data.csv"));
-  fit.surrogate = read_csv(folder / "surrogate.csv");
-  fit.surrogate_notes = read_json(folder / "surrogate.json");
+  for (const JsonEntry& entry : array_at(fit.file, "parameters"))
+    fit.parameters.push_back(read_parameter(entry, truth));
+  for (const JsonEntry& entry : array_at(fit.file, "curves"))
+    fit.curves.push_back(read_curve(entry, fit.file));
+  add_points(fit, reader.csv(folder / "fit_data.csv"));
+  fit.surrogate = reader.csv(folder / "surrogate.csv");
+  fit.surrogate_notes = reader.json(folder / "surrogate.json");
   return fit;
 }
 
@@ -123,14 +122,15 @@ std::vector<std::string> sub_folders(const fs::path& folder) {
   return names;
 }
 
-void read_fits(CalibrationData& data, const RunData& run) {
-  const json truth = object_at(object_at(run.calibration, "truth"), "parameters");
+void read_fits(CalibrationData& data, const RunData& run, FolderReader& reader) {
+  const JsonEntry truth = object_at(object_at(run.calibration, "truth"), "parameters");
   const auto add = [&](const std::string& name, const std::string& folder) {
-    data.fits.push_back(read_fit(run.folder / folder, truth));
+    data.fits.push_back(
+        reader.attempt([&] { return read_fit(run.folder / folder, truth, reader); }));
     data.fits.back().name = name;
     data.fits.back().folder = folder;
   };
-  for (const json& entry : array_at(run.calibration, "fits")) {
+  for (const JsonEntry& entry : array_at(run.calibration, "fits")) {
     const std::string name = text_at(entry, "name"), folder = text_at(entry, "folder");
     if (name.empty()) continue;
     add(name, folder.empty() ? "fits/" + name : folder);
@@ -140,27 +140,32 @@ void read_fits(CalibrationData& data, const RunData& run) {
   }
   if (data.fits.empty())
     for (const std::string& name : sub_folders(run.folder / "fits")) add(name, "fits/" + name);
-  if (data.fits.empty() && !text_at(read_json(run.folder / "calibration.json"), "problem").empty())
-    add("", "");
+  if (data.fits.empty() && !text_at(run.own_calibration, "problem").empty()) add("", "");
 }
 
-void read_transfer(CalibrationData& data, const CsvTable& table) {
+std::vector<PredictedForce> read_transfer(const CsvTable& table) {
   const auto fit = table.texts("fit"), prediction = table.texts("prediction"),
              model = table.texts("model"), status = table.texts("status");
   const auto depth = table.numbers("indentation [m]"), force = table.numbers("normal_force [N]"),
              reference = table.numbers("reference_force [N]"),
              reference_error = table.numbers("reference_error"),
              error = table.numbers("relative_error");
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    data.transfer.push_back({fit[i], prediction[i], model[i], status[i], depth[i], force[i],
-                             reference[i], reference_error[i], error[i]});
-    if (std::ranges::find(data.predictions, prediction[i]) == data.predictions.end())
-      data.predictions.push_back(prediction[i]);
+  std::vector<PredictedForce> rows;
+  for (std::size_t i = 0; i < fit.size(); ++i)
+    rows.push_back({fit[i], prediction[i], model[i], status[i], depth[i], force[i], reference[i],
+                    reference_error[i], error[i]});
+  return rows;
+}
+
+void name_predictions(CalibrationData& data) {
+  for (const PredictedForce& row : data.transfer) {
+    if (std::ranges::find(data.predictions, row.prediction) == data.predictions.end())
+      data.predictions.push_back(row.prediction);
     // A fit whose folder is gone still has its predictions.
-    if (std::ranges::find(data.fits, fit[i], &Fit::name) == data.fits.end()) {
+    if (std::ranges::find(data.fits, row.fit, &Fit::name) == data.fits.end()) {
       data.fits.emplace_back();
-      data.fits.back().name = fit[i];
-      data.fits.back().model = model[i];
+      data.fits.back().name = row.fit;
+      data.fits.back().model = row.model;
     }
   }
 }
@@ -174,15 +179,15 @@ double worst_of(const CalibrationData& data, const std::string& fit,
 }
 
 /// summary.json counts where transfer.csv has nothing.
-void find_worst_errors(CalibrationData& data, const json& summary) {
-  const json rows = array_at(summary, "worst_error");
+void find_worst_errors(CalibrationData& data, const JsonEntry& summary) {
+  std::vector<std::vector<double>> told;
+  for (const JsonEntry& row : array_at(summary, "worst_error")) told.push_back(row.numbers());
   for (std::size_t i = 0; i < data.fits.size(); ++i) {
     std::vector<double> worst;
     for (std::size_t j = 0; j < data.predictions.size(); ++j) {
       worst.push_back(worst_of(data, data.fits[i].name, data.predictions[j]));
-      const bool told =
-          i < rows.size() && rows[i].is_array() && j < rows[i].size() && rows[i][j].is_number();
-      if (std::isnan(worst.back()) && told) worst.back() = std::abs(rows[i][j].get<double>());
+      if (std::isnan(worst.back()) && i < told.size() && j < told[i].size())
+        worst.back() = std::abs(told[i][j]);
     }
     data.worst_error.push_back(std::move(worst));
   }
@@ -209,7 +214,7 @@ bool FitCurve::has_sigma() const {
 
 std::vector<std::vector<double>> Fit::matrix(const std::string& key) const {
   std::vector<std::vector<double>> rows;
-  for (const json& row : array_at(file, key)) rows.push_back(numbers_at({{"row", row}}, "row"));
+  for (const JsonEntry& row : array_at(file, key)) rows.push_back(row.numbers());
   const bool square =
       rows.size() == parameters.size() &&
       std::ranges::all_of(rows, [&](const auto& row) { return row.size() == parameters.size(); });
@@ -221,14 +226,16 @@ std::size_t Fit::index(const std::string& parameter) const {
                      parameters.begin());
 }
 
-CalibrationData read_calibration(const RunData& run) {
+CalibrationData read_calibration(const RunData& run, FolderReader& reader) {
   CalibrationData data;
   data.study = !run.calibration.empty();
-  read_fits(data, run);
-  for (const json& entry : array_at(run.calibration, "predictions"))
+  read_fits(data, run, reader);
+  for (const JsonEntry& entry : array_at(run.calibration, "predictions"))
     if (const std::string name = text_at(entry, "name"); !name.empty())
       data.predictions.push_back(name);
-  read_transfer(data, read_csv(run.folder / "transfer.csv"));
+  data.transfer =
+      reader.attempt([&] { return read_transfer(reader.csv(run.folder / "transfer.csv")); });
+  name_predictions(data);
   find_worst_errors(data, run.calibration);
   return data;
 }

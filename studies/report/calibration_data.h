@@ -54,11 +54,11 @@ struct FitCurve {
 struct Fit {
   std::string name;  ///< "" when it is the run's only one
   std::string folder, model, problem;
-  nlohmann::json file;  ///< calibration.json
+  JsonEntry file;  ///< calibration.json
   std::vector<FitParameter> parameters;
   std::vector<FitCurve> curves;
   CsvTable surrogate;
-  nlohmann::json surrogate_notes;
+  JsonEntry surrogate_notes;
 
   /// The entry, a square matrix over the parameters; empty when it is absent or of another size.
   std::vector<std::vector<double>> matrix(const std::string& key) const;
@@ -86,7 +86,7 @@ struct CalibrationData {
 
 /// The fits of `run`: those that summary.json names, else those of its sub-folders fits/NAME, else
 /// the folder itself when it is one of `calibrate`. Entries of an unexpected type count as
-/// absent. Throws InvalidInput for a damaged file.
-CalibrationData read_calibration(const RunData& run);
+/// absent. What is damaged stays empty and is noted in `reader`.
+CalibrationData read_calibration(const RunData& run, FolderReader& reader);
 
 }  // namespace fingertip::studies::reporting

@@ -176,8 +176,8 @@ Series surrogate_band(const Fit& fit) {
 /// The homogenised constants that calibration.json gives: of the spring constants, else of what
 /// was achieved.
 calibration::ElasticModuli fitted_moduli(const Fit& fit) {
-  const nlohmann::json constants = object_at(fit.file, "constants"),
-                       achieved = object_at(fit.file, "achieved");
+  const JsonEntry constants = object_at(fit.file, "constants"),
+                  achieved = object_at(fit.file, "achieved");
   const double spacing = number_at(fit.file, "spacing");
   const double along = number_at(achieved, "youngs_modulus_100");
   if (std::isfinite(along))

@@ -13,7 +13,6 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-using nlohmann::json;
 using Blocks = std::vector<Block>;
 
 Cell words(const std::string& text) {
@@ -131,7 +130,7 @@ void add_surrogate(Blocks& blocks, const Fit& fit, const std::string& prefix) {
 }
 
 void add_validity(Blocks& blocks, const Fit& fit) {
-  const json validity = object_at(fit.file, "validity");
+  const JsonEntry validity = object_at(fit.file, "validity");
   std::vector<std::string> parts;
   const auto add = [&](const char* name, const std::string& value) {
     if (!value.empty() && value != "–") parts.push_back(name + value);

@@ -12,8 +12,6 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-using nlohmann::json;
-
 /// One sample of the press on all meshes that computed it, coarse to fine.
 struct Sample {
   double depth = meshes::unknown;        ///< [m]
@@ -21,7 +19,7 @@ struct Sample {
   std::vector<int> meshes;               ///< their numbers, from 1
   double force = meshes::unknown;        ///< of the finest [N]
   double error = meshes::unknown;        ///< estimated, of the finest [N]
-  json details = json::object();         ///< the entry of summary.json
+  JsonEntry details;                     ///< the entry of summary.json
 
   double relative_error() const { return error / force; }
 };
@@ -33,7 +31,7 @@ std::vector<Sample> read_samples(const RunData& run) {
     sample.depth = from.indentation;
     sample.force = from.normal_force;
     sample.error = from.force_error;
-    for (const json& entry : array_at(run.reference_summary, "samples"))
+    for (const JsonEntry& entry : array_at(run.reference_summary, "samples"))
       if (same_depth(number_at(entry, "indentation"), sample.depth)) sample.details = entry;
     samples.push_back(std::move(sample));
   }
@@ -210,7 +208,7 @@ FigureBlock convergence_figure(const RunData& run, const std::vector<Sample>& sa
           "fall evenly."};
 }
 
-std::string whole(const json& object, const char* key) {
+std::string whole(const JsonEntry& object, const char* key) {
   return count(number_at(object, key));
 }
 
@@ -325,7 +323,7 @@ Table sequence_table(const RunData& run, const std::vector<Sample>& samples) {
   table.header = {plain("Mesh"),   plain("Cells"),     plain("Unknowns"),
                   plain("Depths"), plain("Wall time"), plain("Force off the finest", "largest")};
   int number = 0;
-  for (const json& mesh : array_at(run.reference_summary, "meshes")) {
+  for (const JsonEntry& mesh : array_at(run.reference_summary, "meshes")) {
     ++number;
     table.rows.push_back({plain(std::to_string(number)), plain(whole(mesh, "cells")),
                           plain(whole(mesh, "dofs")), plain(whole(mesh, "samples")),

@@ -31,7 +31,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 std::vector<double> speed_deviation(const MovingPress& press) {
   std::vector<double> speed = press.trace.numbers("speed [m/s]");
   const std::vector<double> command = press.trace.numbers("commanded_speed [m/s]");
-  const std::vector<double> force = press.trace.numbers("force_mode");
+  const std::vector<double> force = press.trace.numbers_if_any("force_mode");
   for (std::size_t i = 0; i < speed.size(); ++i) {
     const bool judged = command[i] > 0.0 && !(force[i] > 0.0);
     speed[i] = judged ? 100.0 * (speed[i] / command[i] - 1.0) : meshes::unknown;
@@ -140,7 +140,7 @@ Panel force_panel(const Group& group) {
       trace_panel(group, "force of the tip [gf]", column("normal_force [N]", 1.0 / newton_per_gf));
   for (const MovingPress* press : group) {
     std::vector<double> wanted =
-        scaled(press->trace.numbers("wanted_force [N]"), 1.0 / newton_per_gf);
+        scaled(press->trace.numbers_if_any("wanted_force [N]"), 1.0 / newton_per_gf);
     if (std::isnan(largest_magnitude(wanted))) continue;
     const double last = wanted.back();
     panel.series.push_back({"wanted",
@@ -204,7 +204,7 @@ Table tracking_table(const std::vector<MovingPress>& presses) {
   }
   for (const MovingPress& press : presses) {
     if (press.trace.empty()) continue;
-    const nlohmann::json tracking = object_at(press.summary, "tracking");
+    const JsonEntry tracking = object_at(press.summary, "tracking");
     const bool force = press.controls_force();
     const auto deviation = [&](const char* key) {
       const double value = number_at(tracking, key);
@@ -259,7 +259,7 @@ std::string control_text(const std::vector<MovingPress>& presses) {
                                    : fmt::format("{:>12}", "-");
   };
   for (const MovingPress& press : presses) {
-    const nlohmann::json tracking = object_at(press.summary, "tracking");
+    const JsonEntry tracking = object_at(press.summary, "tracking");
     const double none = press.controls_force() ? meshes::unknown : 1.0;
     const double tilt = number_at(tracking, "tilt_deg");
     text += fmt::format("{:<44}", press.label.substr(0, 43)) +

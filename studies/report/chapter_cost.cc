@@ -9,44 +9,44 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-using nlohmann::json;
-
 /// One line of the lattices' table: what it tells and how a model's summary.json tells it.
 struct Quantity {
   std::string label, note;
-  std::function<std::string(const json& summary)> value;
+  std::function<std::string(const JsonEntry& summary)> value;
 };
 
 /// An entry of the part `group` of summary.json, or of the file itself when `group` is empty.
-double entry(const json& summary, const std::string& group, const std::string& key) {
+double entry(const JsonEntry& summary, const std::string& group, const std::string& key) {
   return number_at(group.empty() ? summary : object_at(summary, group), key);
 }
 
 std::vector<Quantity> size_quantities() {
   const auto census = [](const char* key) {
-    return [key](const json& summary) { return count(entry(summary, "census", key)); };
+    return [key](const JsonEntry& summary) { return count(entry(summary, "census", key)); };
   };
-  return {{"Spacing", "", [](const json& s) { return length(entry(s, "", "spacing")); }},
+  return {{"Spacing", "", [](const JsonEntry& s) { return length(entry(s, "", "spacing")); }},
           {"Particles", "", census("particles")},
           {"Expected V/a³", "", census("expected_particles")},
           {"Springs", "", census("springs")},
           {"Cells", "", census("cells")},
           {"Boundary particles", "", census("boundary_particles")},
           {"Ligaments", "", census("ligaments")},
-          {"Mass against ρV", "", [](const json& s) {
+          {"Mass against ρV", "", [](const JsonEntry& s) {
              return percent(entry(s, "census", "mass") / entry(s, "census", "exact_mass") - 1.0);
            }}};
 }
 
 std::vector<Quantity> time_quantities() {
   const auto seconds = [](const char* group, const char* key) {
-    return
-        [group, key](const json& summary) { return with_prefix(entry(summary, group, key), "s"); };
+    return [group, key](const JsonEntry& summary) {
+      return with_prefix(entry(summary, group, key), "s");
+    };
   };
   const auto plain_number = [](const char* group, const char* key, int digits) {
-    return [group, key, digits](const json& s) { return number(entry(s, group, key), digits); };
+    return
+        [group, key, digits](const JsonEntry& s) { return number(entry(s, group, key), digits); };
   };
-  const auto steps = [](const json& s) {
+  const auto steps = [](const JsonEntry& s) {
     return count(std::round(entry(s, "", "simulated_time") / entry(s, "step", "step")));
   };
   return {
@@ -85,7 +85,7 @@ Table lattice_table(const RunData& run) {
 /// What a row tells and its value, "" or "–" when summary.json does not have it.
 using MeshRow = std::pair<Cell, std::string>;
 
-std::vector<MeshRow> problem_rows(const json& summary) {
+std::vector<MeshRow> problem_rows(const JsonEntry& summary) {
   const auto number_of = [&](const char* key, int digits) {
     return number(number_at(summary, key), digits);
   };
@@ -103,8 +103,8 @@ std::vector<MeshRow> problem_rows(const json& summary) {
            with_prefix(number_at(summary, "peak_memory"), "B")}};
 }
 
-std::vector<MeshRow> mesh_rows(const json& summary) {
-  const json first = object_at(summary, "mesh");
+std::vector<MeshRow> mesh_rows(const JsonEntry& summary) {
+  const JsonEntry first = object_at(summary, "mesh");
   const double volume = number_at(first, "volume");
   return {
       {plain("Cells", "finest mesh"), count(number_at(summary, "cells"))},
@@ -133,19 +133,18 @@ Table mesh_table(const RunData& run) {
 }
 
 /// A list of words as one line, anything else as text_at.
-std::string words_at(const json& object, const std::string& key) {
-  if (!object.contains(key) || !object.at(key).is_array()) return text_at(object, key);
+std::string words_at(const JsonEntry& object, const std::string& key) {
+  if (!object.at(key).is_list()) return text_at(object, key);
   std::string line;
-  for (const json& word : object.at(key)) {
-    line += (line.empty() ? "" : " ") + (word.is_string() ? word.get<std::string>() : word.dump());
-  }
+  for (const JsonEntry& word : array_at(object, key))
+    line += (line.empty() ? "" : " ") + word.text();
   return line;
 }
 
 /// name → value of a JSON object as rows of a table.
-void add_rows(Table& table, const json& object, const std::string& prefix) {
-  for (const auto& [key, value] : object.items()) {
-    Cell cell = plain(text_at(object, key));
+void add_rows(Table& table, const JsonEntry& object, const std::string& prefix) {
+  for (const auto& [key, value] : object.members()) {
+    Cell cell = plain(value.text());
     cell.words = true;
     table.rows.push_back({plain(prefix + key), cell});
   }

@@ -176,10 +176,10 @@ std::string cauchy_text(const RunData& run) {
 }
 
 /// "(0.62, −0.62, 0.47, 0)" for each direction the tests leave open, "–" when there is none.
-std::string null_directions(const nlohmann::json& calibration) {
+std::string null_directions(const JsonEntry& calibration) {
   if (!calibration.contains("unidentifiable")) return "–";
   std::vector<std::string> directions;
-  for (const nlohmann::json& direction : calibration.at("unidentifiable")) {
+  for (const JsonEntry& direction : array_at(calibration, "unidentifiable")) {
     std::vector<std::string> parts;
     for (const char* key : {"k1", "k2", "k3", "kappa"}) {
       const double value = number_at(direction, key);
@@ -204,8 +204,8 @@ void add_calibrations(const RunData& run, Chapter& chapter) {
                   {"κ", "volume", Grade::none},
                   {"Null direction", "(k1, k2, k3, κ)", Grade::none}};
   for (const ModelData& model : run.models) {
-    const nlohmann::json& source = model.calibration.empty() ? model.summary : model.calibration;
-    const nlohmann::json constants = object_at(source, "constants");
+    const JsonEntry& source = model.calibration.empty() ? model.summary : model.calibration;
+    const JsonEntry constants = object_at(source, "constants");
     if (constants.empty()) continue;
     std::vector<Cell> row{{model_label(model.name),
                            model.calibration.empty() ? "rule k = E a²/l₀" : "fitted", Grade::none},

@@ -230,7 +230,7 @@ Table grasp_table(const std::vector<GraspRun>& grasps) {
                   plain("at the end", "less 1"),
                   plain("Momentum balance")};
   for (const GraspRun& grasp : grasps) {
-    const nlohmann::json& s = grasp.summary;
+    const JsonEntry& s = grasp.summary;
     const double mu = number_at(s, "friction"), slip = number_at(s, "slip_force");
     const bool fell = grasp.released() && std::isfinite(slip);
     table.rows.push_back(

@@ -12,7 +12,6 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-using nlohmann::json;
 using Blocks = std::vector<Block>;
 
 /// "40.1 gf/cm²" with SI as the note where the two differ.
@@ -138,15 +137,16 @@ bool same_place(const std::vector<double>& one, const std::vector<double>& other
 }
 
 void add_minima(Blocks& blocks, const Fit& fit) {
-  const json minima = array_at(fit.file, "minima");
+  const JsonList minima = array_at(fit.file, "minima");
   if (minima.size() < 2) return;
-  const json& least = *std::ranges::min_element(minima, {}, [](const json& one) {
+  const JsonEntry& least = *std::ranges::min_element(minima, {}, [](const JsonEntry& one) {
     const double loss = number_at(one, "loss");
     return std::isfinite(loss) ? loss : std::numeric_limits<double>::infinity();
   });
   const auto found = numbers_at(least, "estimates");
-  const auto same = std::ranges::count_if(
-      minima, [&](const json& one) { return same_place(numbers_at(one, "estimates"), found); });
+  const auto same = std::ranges::count_if(minima, [&](const JsonEntry& one) {
+    return same_place(numbers_at(one, "estimates"), found);
+  });
   if (same == std::ptrdiff_t(minima.size())) {
     blocks.push_back(Paragraph{
         "Other minima.", fmt::format("All {} starts ended at the same place.", minima.size())});
@@ -161,7 +161,7 @@ void add_minima(Blocks& blocks, const Fit& fit) {
   for (const FitParameter& one : fit.parameters)
     table.header.push_back(plain(one.symbol, one.unit));
   table.header.insert(table.header.end(), {plain("Loss"), plain("Iterations")});
-  for (const json& one : minima) {
+  for (const JsonEntry& one : minima) {
     const auto estimates = numbers_at(one, "estimates");
     std::vector<Cell> row{
         plain(std::to_string(table.rows.size() + 1), &one == &least ? "reported" : "")};
@@ -176,11 +176,11 @@ void add_minima(Blocks& blocks, const Fit& fit) {
 }
 
 /// A direction in words: its statement, else its components.
-std::string direction_words(const Fit& fit, const json& entry) {
+std::string direction_words(const Fit& fit, const JsonEntry& entry) {
   const std::string statement = text_at(entry, "statement");
   if (!statement.empty()) return statement;
   std::vector<std::string> parts;
-  const json direction = object_at(entry, "direction");
+  const JsonEntry direction = object_at(entry, "direction");
   for (const FitParameter& one : fit.parameters) {
     const double change = number_at(direction, one.name);
     if (std::isfinite(change) && std::abs(change) > 5e-4)
@@ -192,7 +192,7 @@ std::string direction_words(const Fit& fit, const json& entry) {
 
 void add_directions(Blocks& blocks, const Fit& fit, const std::string& key,
                     const std::string& lead) {
-  for (const json& entry : array_at(fit.file, key)) {
+  for (const JsonEntry& entry : array_at(fit.file, key)) {
     std::string text = direction_words(fit, entry);
     const double share = number_at(entry, "relative_singular_value"),
                  width = number_at(entry, "interval");
@@ -211,9 +211,8 @@ std::string profile_caption(const Fit& fit) {
       "5.99 and 9.21, the regions of 68, 95 and 99 %. Dashed: the 95 % region as the linearised "
       "fit has it; where the two part, the intervals of the table are not to be trusted. ";
   double least = 0.0;
-  for (const json& row : array_at(object_at(fit.file, "profile"), "increase"))
-    for (const json& value : row.is_array() ? row : json::array())
-      if (value.is_number()) least = std::min(least, value.get<double>());
+  for (const JsonEntry& row : array_at(object_at(fit.file, "profile"), "increase"))
+    for (const double value : row.numbers()) least = std::fmin(least, value);
   if (least < -0.1)
     text += fmt::format(
         "Chi-square falls by {} below the fit's somewhere on this grid: the fit is not at the "

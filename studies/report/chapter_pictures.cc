@@ -71,11 +71,11 @@ Series boundary_series(const ModelData& model, bool deformed, const Style& style
   const std::vector<double> z = model.boundary.numbers(prefix + "z [m]");
   const std::vector<double> y = model.boundary.numbers("y [m]");
   const double travel = deformed ? rod_travel(model) : 0.0;
-  const std::vector<double> first = model.boundary_springs.numbers("i");
-  const std::vector<double> second = model.boundary_springs.numbers("j");
+  const std::vector<std::size_t> first = model.boundary_springs.indices("i", x.size());
+  const std::vector<std::size_t> second = model.boundary_springs.indices("j", x.size());
   for (std::size_t s = 0; s < first.size(); ++s) {
-    const auto i = std::size_t(first[s]), j = std::size_t(second[s]);
-    if (i >= x.size() || j >= x.size() || y[i] > 1e-9 || y[j] > 1e-9) continue;
+    const std::size_t i = first[s], j = second[s];
+    if (y[i] > 1e-9 || y[j] > 1e-9) continue;
     add_segment(series, to_cm(x[i]), to_cm(z[i] - travel), to_cm(x[j]), to_cm(z[j] - travel));
   }
   return series;

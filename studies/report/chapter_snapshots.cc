@@ -90,13 +90,12 @@ std::vector<Snapshot> snapshots_of(const MovingPress& press) {
                       {},
                       {}});
   }
-  const auto number = press.snapshot_points.numbers("snapshot");
+  const auto number = press.snapshot_points.indices("snapshot", result.size());
   const auto points = vectors(press.snapshot_points, "", " [m]");
   const auto held = press.snapshot_points.numbers("held");
   for (std::size_t i = 0; i < number.size(); ++i) {
-    if (!(number[i] >= 0.0 && number[i] < double(result.size()))) continue;
-    result[std::size_t(number[i])].points.push_back(points[i]);
-    result[std::size_t(number[i])].held.push_back(held[i]);
+    result[number[i]].points.push_back(points[i]);
+    result[number[i]].held.push_back(held[i]);
   }
   return result;
 }
@@ -116,12 +115,12 @@ class Drawing {
   Drawing(const MovingPress& press, const Snapshot& first, double largest_force,
           double largest_torque)
       : camera_(first.normal), largest_force_(largest_force), largest_torque_(largest_torque) {
-    const nlohmann::json geometry = object_at(press.summary, "geometry");
+    const JsonEntry geometry = object_at(press.summary, "geometry");
     shape_ = {number_at(geometry, "tip_radius"), number_at(geometry, "rod_radius"),
               number_at(geometry, "rod_length"), number_at(geometry, "sleeve_length")};
     rest_ = vectors(press.boundary, "", " [m]");
-    first_ = press.boundary_springs.numbers("i");
-    second_ = press.boundary_springs.numbers("j");
+    first_ = press.boundary_springs.indices("i", rest_.size());
+    second_ = press.boundary_springs.indices("j", rest_.size());
   }
 
   Panel panel(const Snapshot& snapshot) const {
@@ -220,7 +219,7 @@ class Drawing {
     };
     const std::size_t count = std::min(rest_.size(), snapshot.points.size());
     for (std::size_t s = 0; s < first_.size(); ++s) {
-      const auto i = std::size_t(first_[s]), j = std::size_t(second_[s]);
+      const std::size_t i = first_[s], j = second_[s];
       if (i >= count || j >= count || !visible(i) || !visible(j)) continue;
       join(springs, snapshot.points[i], snapshot.points[j]);
     }
@@ -249,7 +248,7 @@ class Drawing {
   Shape shape_{};
   double largest_force_, largest_torque_;
   std::vector<Vector3> rest_;
-  std::vector<double> first_, second_;
+  std::vector<std::size_t> first_, second_;
 };
 
 /// The values at the endpoint, below the picture.

@@ -11,17 +11,8 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-using nlohmann::json;
-
 std::string full_name(const VariantPress& press) {
   return press.series.empty() ? press.name : press.series + ", " + press.name;
-}
-
-std::vector<double> numbers(const json& list) {
-  std::vector<double> values;
-  for (const json& one : list)
-    values.push_back(one.is_number() ? one.get<double>() : meshes::unknown);
-  return values;
 }
 
 /// Presses with other samples than the first one leave their cells empty.
@@ -51,10 +42,10 @@ Table press_table(const std::vector<VariantPress>& presses) {
   return table;
 }
 
-Table series_table(const json& study, const std::vector<VariantPress>& presses) {
-  const json list = array_at(study, "series");
+Table series_table(const JsonEntry& study, const std::vector<VariantPress>& presses) {
+  const JsonList list = array_at(study, "series");
   const bool refined = std::ranges::any_of(
-      list, [](const json& entry) { return std::isfinite(number_at(entry, "order")); });
+      list, [](const JsonEntry& entry) { return std::isfinite(number_at(entry, "order")); });
   Table table;
   table.caption =
       "Series by series: the largest force error of all its presses, and how far errors at one "
@@ -66,7 +57,7 @@ Table series_table(const json& study, const std::vector<VariantPress>& presses) 
         "order, the slope of the largest error against the spacing in logarithms.";
     table.header.insert(table.header.end(), {plain("Finest lattice"), plain("Order")});
   }
-  for (const json& entry : list) {
+  for (const JsonEntry& entry : list) {
     const std::string name = text_at(entry, "name");
     const auto count = std::ranges::count(presses, name, &VariantPress::series);
     std::vector<Cell> row{plain(name), plain(std::to_string(count)),
@@ -102,7 +93,7 @@ Table continuum_table(const RunData& run, const std::vector<VariantPress>& press
                   plain("G", "gf/cm²"),    plain("ν"),       plain("Presses"),
                   plain("Estimated error")};
   const std::map<std::string, double> errors = continuum_errors(run.variants);
-  for (const json& entry : array_at(run.study, "continua")) {
+  for (const JsonEntry& entry : array_at(run.study, "continua")) {
     const std::string folder = text_at(entry, "folder");
     const auto count = std::ranges::count(presses, folder, &VariantPress::continuum);
     const auto error = errors.find(folder);
@@ -116,28 +107,29 @@ Table continuum_table(const RunData& run, const std::vector<VariantPress>& press
   return table;
 }
 
-Table budget_table(const json& budgets) {
+Table budget_table(const JsonList& budgets) {
   Table table;
   table.caption =
       "Where the force error comes from. A tie's share is the error with the tie as it is minus "
       "the error continued to a rigid tie from softer ones; the rest is the interior and what "
       "stiff ties lock.";
   table.header = {plain("Press and part")};
-  const std::vector<double> depths = numbers(array_at(budgets.front(), "depths"));
+  const std::vector<double> depths = numbers_at(budgets.front(), "depths");
   for (const double depth : depths)
     table.header.push_back(plain("share", fmt::format("{:.4g} cm", to_cm(depth))));
-  const auto add = [&](const std::string& what, const std::string& of, const json& values) {
+  const auto add = [&](const std::string& what, const std::string& of,
+                       const std::vector<double>& values) {
     std::vector<Cell> row{plain(what, of)};
-    for (const double value : numbers(values)) row.push_back(plain(percent(value)));
+    for (const double value : values) row.push_back(plain(percent(value)));
     row.resize(table.header.size(), plain(""));
     table.rows.push_back(std::move(row));
   };
-  for (const json& budget : budgets) {
+  for (const JsonEntry& budget : budgets) {
     const std::string name = text_at(budget, "name");
-    for (const json& part : array_at(budget, "parts"))
-      add(text_at(part, "series"), name, array_at(part, "share"));
-    add("rest", name, array_at(budget, "rest"));
-    add("total", name, array_at(budget, "total"));
+    for (const JsonEntry& part : array_at(budget, "parts"))
+      add(text_at(part, "series"), name, numbers_at(part, "share"));
+    add("rest", name, numbers_at(budget, "rest"));
+    add("total", name, numbers_at(budget, "total"));
   }
   return table;
 }
@@ -154,7 +146,7 @@ const VariantPress* extreme(const std::vector<VariantPress>& presses, double sig
 
 /// What refining a series does, in words; empty without an order. One slope would hide a floor that
 /// the error has reached: the last refinement is told apart.
-std::string refinement(const json& entry, const std::vector<VariantPress>& presses) {
+std::string refinement(const JsonEntry& entry, const std::vector<VariantPress>& presses) {
   const std::string name = text_at(entry, "name");
   const double order = number_at(entry, "order");
   if (!std::isfinite(order)) return "";
@@ -225,10 +217,10 @@ Chapter variants_chapter(const RunData& run) {
   if (presses.empty()) return chapter;
   chapter.blocks.push_back(method(run, presses));
   std::string orders;
-  for (const json& entry : array_at(run.study, "series")) orders += refinement(entry, presses);
+  for (const JsonEntry& entry : array_at(run.study, "series")) orders += refinement(entry, presses);
   if (!orders.empty()) chapter.blocks.push_back(Paragraph{"Convergence.", orders.substr(1)});
   add_figures(chapter, run, presses);
-  const json budgets = array_at(run.study, "budgets");
+  const JsonList budgets = array_at(run.study, "budgets");
   if (!budgets.empty()) chapter.blocks.push_back(budget_table(budgets));
   if (!array_at(run.study, "series").empty())
     chapter.blocks.push_back(series_table(run.study, presses));

@@ -11,8 +11,6 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-using nlohmann::json;
-
 /// So far below the theory's order an observed one still counts as it, and as near to it.
 constexpr double order_slack = 0.2, order_near = 0.5;
 /// Below so much [%] it does not matter how far an element is off.
@@ -22,7 +20,7 @@ Cell words(const std::string& text) {
   return {text, "", Grade::none, true};
 }
 
-std::string element_of(const json& study) {
+std::string element_of(const JsonEntry& study) {
   return fmt::format("Q{} {}", count(number_at(study, "degree")), text_at(study, "volumetric"));
 }
 
@@ -49,9 +47,9 @@ std::vector<Series> element_legend(const std::set<std::string>& elements) {
 }
 
 /// The different values of `key` in the order of their first appearance.
-std::vector<std::string> distinct(const json& entries, const char* key) {
+std::vector<std::string> distinct(const JsonList& entries, const char* key) {
   std::vector<std::string> values;
-  for (const json& entry : entries) {
+  for (const JsonEntry& entry : entries) {
     const std::string value = text_at(entry, key);
     if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
   }
@@ -59,10 +57,10 @@ std::vector<std::string> distinct(const json& entries, const char* key) {
 }
 
 /// The entries with those of one problem side by side.
-json by_problem(const json& entries) {
-  json sorted = json::array();
+JsonList by_problem(const JsonList& entries) {
+  JsonList sorted;
   for (const std::string& problem : distinct(entries, "problem"))
-    for (const json& entry : entries)
+    for (const JsonEntry& entry : entries)
       if (text_at(entry, "problem") == problem) sorted.push_back(entry);
   return sorted;
 }
@@ -76,13 +74,13 @@ constexpr Norm norms[] = {
     {"error of grad u", "error_h1", "order_h1", "expected_h1"},
 };
 
-bool order_holds(const json& study) {
+bool order_holds(const JsonEntry& study) {
   return std::all_of(std::begin(norms), std::end(norms), [&](const Norm& norm) {
     return number_at(study, norm.order) >= number_at(study, norm.expected) - order_slack;
   });
 }
 
-Cell order_cell(const json& study, const Norm& norm) {
+Cell order_cell(const JsonEntry& study, const Norm& norm) {
   const double order = number_at(study, norm.order), expected = number_at(study, norm.expected);
   Cell cell = plain(number(order, 3), "theory " + number(expected, 1));
   const double missing = expected - order;
@@ -93,7 +91,7 @@ Cell order_cell(const json& study, const Norm& norm) {
   return cell;
 }
 
-Table order_table(const json& studies) {
+Table order_table(const JsonList& studies) {
   Table table;
   table.caption = fmt::format(
       "Orders of convergence between the two finest meshes, and the relative errors on the "
@@ -107,9 +105,9 @@ Table order_table(const json& studies) {
                   plain("Order"),
                   plain("Error of grad u", "L2"),
                   plain("Order")};
-  for (const json& study : studies) {
-    const json meshes = array_at(study, "meshes");
-    const json finest = meshes.empty() ? json::object() : meshes.back();
+  for (const JsonEntry& study : studies) {
+    const JsonList meshes = array_at(study, "meshes");
+    const JsonEntry finest = meshes.empty() ? JsonEntry() : meshes.back();
     std::vector<Cell> row{
         plain(text_at(study, "problem")), plain(element_of(study)),
         plain(number(number_at(study, "poissons_ratio"), 4)),
@@ -137,7 +135,7 @@ Series slope_guide(const std::vector<Series>& curves, double order) {
   return guide;
 }
 
-Panel study_panel(const json& studies, const std::string& problem, const Norm& norm) {
+Panel study_panel(const JsonList& studies, const std::string& problem, const Norm& norm) {
   Panel panel;
   panel.title = problem;
   panel.x_label = "element size h [cm]";
@@ -145,10 +143,10 @@ Panel study_panel(const json& studies, const std::string& problem, const Norm& n
   panel.log_x = panel.log_y = 10;
   panel.key = "";
   std::map<double, std::vector<Series>> by_order;
-  for (const json& study : studies) {
+  for (const JsonEntry& study : studies) {
     if (text_at(study, "problem") != problem) continue;
     Series series{"", element_of(study), {}, {}, {}, element_style(element_of(study))};
-    for (const json& mesh : array_at(study, "meshes")) {
+    for (const JsonEntry& mesh : array_at(study, "meshes")) {
       const double h = number_at(mesh, "h"), error = number_at(mesh, norm.error);
       if (!(h > 0.0 && error > 0.0)) continue;
       series.x.push_back(to_cm(h));
@@ -163,12 +161,12 @@ Panel study_panel(const json& studies, const std::string& problem, const Norm& n
   return panel;
 }
 
-FigureBlock orders_figure(const json& studies) {
+FigureBlock orders_figure(const JsonList& studies) {
   Figure figure{"verification_orders", 960, 0, 2, {}, 150};
   const std::vector<std::string> problems = distinct(studies, "problem");
   figure.height = 90 + 290 * int(problems.size());
   std::set<std::string> elements;
-  for (const json& study : studies) elements.insert(element_of(study));
+  for (const JsonEntry& study : studies) elements.insert(element_of(study));
   for (const std::string& problem : problems)
     for (const Norm& norm : norms) figure.panels.push_back(study_panel(studies, problem, norm));
   Panel& first = figure.panels.front();
@@ -209,12 +207,12 @@ std::string without_unit(const std::string& quantity) {
                                                                  : quantity;
 }
 
-bool passed(const json& check) {
-  return check.is_object() && check.contains("passed") && check.at("passed") == true;
+bool passed(const JsonEntry& check) {
+  return check.at("passed").flag();
 }
 
 /// How much of its tolerance a check uses; beyond 1 it fails.
-double share_of_tolerance(const json& check) {
+double share_of_tolerance(const JsonEntry& check) {
   const double deviation = number_at(check, "relative_error");
   return deviation == 0.0 ? 0.0 : deviation / number_at(check, "tolerance");
 }
@@ -222,14 +220,14 @@ double share_of_tolerance(const json& check) {
 /// Passed checks of one kind: of the same quantity and source, their names alike up to a comma.
 struct CheckGroup {
   std::string kind, quantity, source;
-  json worst;  ///< the check nearest to its tolerance
+  JsonEntry worst;  ///< the check nearest to its tolerance
   int count = 0;
 };
 
 /// The failed checks each by itself, then the passed ones by kind.
-std::vector<CheckGroup> check_groups(const json& checks) {
+std::vector<CheckGroup> check_groups(const JsonList& checks) {
   std::vector<CheckGroup> failed, groups;
-  for (const json& check : checks) {
+  for (const JsonEntry& check : checks) {
     const std::string name = text_at(check, "name");
     CheckGroup group{name.substr(0, name.find(',')), text_at(check, "quantity"),
                      text_at(check, "source"), check, 1};
@@ -252,7 +250,7 @@ std::vector<CheckGroup> check_groups(const json& checks) {
   return failed;
 }
 
-Table check_table(const json& checks) {
+Table check_table(const JsonList& checks) {
   Table table;
   table.caption =
       "Single figures against what is known otherwise, failed ones first. Of several checks of "
@@ -278,7 +276,7 @@ Table check_table(const json& checks) {
 }
 
 /// |relative error| against 0.5 - nu for one problem; NaN where the error is exactly zero.
-Panel locking_panel(const json& locking, const std::string& problem) {
+Panel locking_panel(const JsonList& locking, const std::string& problem) {
   Panel panel;
   panel.x_label = "0.5 − ν   (incompressible to the right)";
   panel.y_label = problem + ": off by [%]";
@@ -286,7 +284,7 @@ Panel locking_panel(const json& locking, const std::string& problem) {
   panel.key = "";
   std::map<std::string, Series> curves;
   double least = 0.5, most = 0.0;
-  for (const json& point : locking) {
+  for (const JsonEntry& point : locking) {
     if (text_at(point, "problem") != problem) continue;
     const std::string element = text_at(point, "element");
     const double compressible = 0.5 - number_at(point, "poissons_ratio");
@@ -310,7 +308,7 @@ Panel locking_panel(const json& locking, const std::string& problem) {
   return panel;
 }
 
-FigureBlock locking_figure(const json& locking) {
+FigureBlock locking_figure(const JsonList& locking) {
   Figure figure{"locking", 860, 0, 1, {}, 150};
   const std::vector<std::string> problems = distinct(locking, "problem");
   figure.height = 80 + 230 * int(problems.size());
@@ -328,21 +326,21 @@ FigureBlock locking_figure(const json& locking) {
           "is drawn."};
 }
 
-Table locking_table(const json& locking) {
+Table locking_table(const JsonList& locking) {
   Table table;
   table.caption =
       "The same numbers with their sign: positive is too stiff. Columns: Poisson's ratio.";
   table.graded = true;
   table.header = {plain("Problem, element")};
   std::set<double> ratios;
-  for (const json& point : locking) {
+  for (const JsonEntry& point : locking) {
     const double nu = number_at(point, "poissons_ratio");
     if (std::isfinite(nu)) ratios.insert(nu);
   }
   for (double nu : ratios) table.header.push_back(plain(number(nu, 4)));
   std::vector<std::pair<std::string, std::string>> names;
   std::map<std::pair<std::string, std::string>, std::map<double, double>> errors;
-  for (const json& point : locking) {
+  for (const JsonEntry& point : locking) {
     const std::pair name{text_at(point, "problem"), text_at(point, "element")};
     if (errors.try_emplace(name).second) names.push_back(name);
     // A NaN has no place in the order of a map.
@@ -361,7 +359,7 @@ Table locking_table(const json& locking) {
   return table;
 }
 
-std::string answer_of(const json& studies, const json& checks) {
+std::string answer_of(const JsonList& studies, const JsonList& checks) {
   const auto kept = std::count_if(studies.begin(), studies.end(), order_holds);
   const auto right = std::count_if(checks.begin(), checks.end(), passed);
   std::string text;
@@ -374,26 +372,26 @@ std::string answer_of(const json& studies, const json& checks) {
         kept, studies.size());
   for (const std::string& problem : distinct(studies, "problem")) {
     std::set<std::string> slow;
-    for (const json& study : studies)
+    for (const JsonEntry& study : studies)
       if (text_at(study, "problem") == problem && !order_holds(study))
         slow.insert(element_of(study));
     if (!slow.empty())
       text += fmt::format("Slower in \u201c{}\u201d: {}. ", problem, enumerate(slow));
   }
   std::vector<std::string> failed;
-  for (const json& check : checks)
+  for (const JsonEntry& check : checks)
     if (!passed(check)) failed.push_back(text_at(check, "name"));
   if (!failed.empty()) text += fmt::format("Failed: {}. ", enumerate(failed));
   return text;
 }
 
 /// How the element of this run's press did.
-std::string used_element(const RunData& run, const json& studies) {
+std::string used_element(const RunData& run, const JsonList& studies) {
   if (!run.reference_summary.contains("volumetric")) return "";
   // summary.json names degree and volumetric part like a study does.
   const std::string used = element_of(run.reference_summary);
   std::size_t count = 0, kept = 0;
-  for (const json& study : studies) {
+  for (const JsonEntry& study : studies) {
     if (element_of(study) != used) continue;
     ++count;
     if (order_holds(study)) ++kept;
@@ -407,9 +405,9 @@ std::string used_element(const RunData& run, const json& studies) {
 
 Chapter verification_chapter(const RunData& run) {
   Chapter chapter{"verification", "Does the code solve its equations?", {}};
-  const json studies = by_problem(array_at(run.verification, "studies"));
-  const json checks = array_at(run.verification, "checks");
-  const json locking = by_problem(array_at(run.verification, "locking"));
+  const JsonList studies = by_problem(array_at(run.verification, "studies"));
+  const JsonList checks = array_at(run.verification, "checks");
+  const JsonList locking = by_problem(array_at(run.verification, "locking"));
   if (studies.empty() && checks.empty() && locking.empty()) return chapter;
   const std::string text = answer_of(studies, checks);
   if (!text.empty()) chapter.blocks.push_back(Paragraph{"", text});

@@ -11,7 +11,7 @@
 namespace fingertip::studies::reporting {
 
 /// The result in one paragraph, in words made from the numbers.
-std::string answer(const RunData& run);
+std::string answer(const RunData& run, FolderReader& reader);
 /// Model × (elastic constants against target, force error at each depth, real-time factor),
 /// criteria.
 Chapter verdict_chapter(const RunData& run);
@@ -35,6 +35,14 @@ Chapter variants_chapter(const RunData& run);
 std::string variants_answer(const RunData& run);
 /// Every press of a study with its force errors, as plain text.
 std::string variants_text(const RunData& run);
+/// Force, contact radius and, from contact.csv, pressure of one press; without blocks when it has
+/// no sample.
+Chapter press_chapter(const meshes::PressResponse& response, const CsvTable& contact);
+/// Its force at full depth in a sentence.
+std::string press_answer(const meshes::PressResponse& response);
+/// Frequencies and kinds of motion from modes.csv; without blocks when it is empty.
+Chapter modes_chapter(const CsvTable& modes);
+std::string modes_answer(const CsvTable& modes);
 /// Why the models differ, in words.
 Chapter reasons_chapter(const RunData& run);
 /// The continuum's discretisation error, its meshes, and its contact beside Hertz's.
@@ -45,6 +53,8 @@ Chapter verification_chapter(const RunData& run);
 Chapter cost_chapter(const RunData& run);
 /// Versions, host, times, parameters.
 Chapter provenance_chapter(const RunData& run);
+/// What `reader` found damaged, for the page to name.
+std::vector<Damaged> damaged_parts(const FolderReader& reader);
 /// Everything the chapters look for in vain.
 std::vector<NotRun> missing_parts(const RunData& run);
 

@@ -225,7 +225,7 @@ double tip_radius(const RunData& run) {
 std::optional<fem_reference::analytic::Hertz> hertz_contact(const RunData& run) {
   const double radius = tip_radius(run);
   meshes::Rubber rubber;
-  const nlohmann::json given = object_at(run.reference_job, "rubber");
+  const JsonEntry given = object_at(run.reference_job, "rubber");
   for (const auto& [key, value] : {std::pair{"youngs_modulus", &rubber.youngs_modulus},
                                    std::pair{"shear_modulus", &rubber.shear_modulus}}) {
     if (std::isfinite(number_at(given, key))) *value = number_at(given, key);

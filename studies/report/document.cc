@@ -87,7 +87,7 @@ class BlockData {
 };
 
 std::string render(const Page& page, const fs::path& figures) {
-  data chapters{List()}, missing{List()};
+  data chapters{List()}, missing{List()}, damaged{List()};
   for (const Chapter& chapter : page.chapters) {
     if (chapter.blocks.empty()) continue;
     data blocks{List()};
@@ -104,12 +104,21 @@ std::string render(const Page& page, const fs::path& figures) {
     entry.set("files", item.missing);
     missing << entry;
   }
+  for (const Damaged& item : page.damaged) {
+    data entry;
+    entry.set("place", item.place);
+    entry.set("what", item.what);
+    damaged << entry;
+  }
   data root;
+  root.set("damaged", damaged);
+  root.set("has_damaged", !page.damaged.empty());
   root.set("page_title", page.title);
   root.set("subtitle", page.subtitle);
   root.set("page_status", page.status);
   root.set("has_status", !page.status.empty());
   root.set("answer", page.answer);
+  root.set("has_answer", !page.answer.empty());
   root.set("chapters", chapters);
   root.set("not_run", missing);
   root.set("has_not_run", !page.not_run.empty());

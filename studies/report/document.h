@@ -63,12 +63,19 @@ struct NotRun {
   std::string missing;  ///< the files it would be read from
 };
 
+/// A part of a file that could not be read.
+struct Damaged {
+  std::string place;  ///< file, line or entry
+  std::string what;
+};
+
 struct Page {
   std::string title, subtitle;
   std::string status;             ///< one line below the title, may be empty
-  std::string answer;             ///< the result in one paragraph
+  std::string answer;             ///< the result in one paragraph, may be empty
   std::vector<Chapter> chapters;  ///< those without blocks are left out
   std::vector<NotRun> not_run;
+  std::vector<Damaged> damaged;
 };
 
 /// Renders the page and publishes it: `folder`/figures/*, then `folder`/`file_name`. Everything is

@@ -14,6 +14,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "meshes/errors.h"
 #include "meshes/files.h"
 #include "meshes/press_response.h"
 #include "studies/report/document.h"
@@ -24,9 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_points(const Series& series) {
+/// Whether something of the series can be seen: logarithmic axes show positive numbers alone.
+bool has_points(const Panel& panel, const Series& series) {
   for (std::size_t i = 0; i < series.x.size(); ++i) {
-    if (std::isfinite(series.x[i]) && std::isfinite(series.y[i])) return true;
+    const bool shown = std::isfinite(series.x[i]) && std::isfinite(series.y[i]) &&
+                       (panel.log_x == 0 || series.shift * series.x[i] > 0.0) &&
+                       (panel.log_y == 0 || series.y[i] > 0.0);
+    if (shown) return true;
   }
   return false;
 }
@@ -101,18 +106,22 @@ std::string decorations(const Panel& panel) {
   return text;
 }
 
-std::string axis_range(const char* axis, const std::optional<Range>& range) {
-  if (!range) return fmt::format("set {}range [*:*]\n", axis);
-  const auto end = [](double value) {
-    return std::isfinite(value) ? fmt::format("{:.8g}", value) : std::string("*");
+/// gnuplot refuses empty ranges, and on logarithmic axes ends that are not positive; the data rule
+/// then.
+std::string axis_range(const char* axis, const std::optional<Range>& range, bool logarithmic) {
+  if (!range || range->from == range->to) return fmt::format("set {}range [*:*]\n", axis);
+  const auto end = [&](double value) {
+    const bool usable = std::isfinite(value) && (!logarithmic || value > 0.0);
+    return usable ? fmt::format("{:.8g}", value) : std::string("*");
   };
   return fmt::format("set {}range [{}:{}]\n", axis, end(range->from), end(range->to));
 }
 
-/// What a logarithmic axis must show: its range where one is given, else the positive data, else
-/// {1, 1}.
+/// What a logarithmic axis must show: its range where a positive one is given, else the positive
+/// data, else {1, 1}.
 Range positive_extent(const Panel& panel, bool vertical) {
-  if (const auto& range = vertical ? panel.y_range : panel.x_range)
+  const auto& range = vertical ? panel.y_range : panel.x_range;
+  if (range && range->from > 0.0 && range->to > 0.0)
     return {std::fmin(range->from, range->to), std::fmax(range->from, range->to)};
   Range extent{meshes::unknown, meshes::unknown};
   for (const Series& series : panel.series) {
@@ -167,7 +176,7 @@ std::string axis(const Panel& panel, bool vertical) {
     text += decade_tics(name, extent);
   }
   if (!vertical && !panel.x_names.empty()) text += named_tics(panel.x_names);
-  return text + axis_range(name, range);
+  return text + axis_range(name, range, base != 0);
 }
 
 std::string panel_script(const Panel& panel, std::size_t index) {
@@ -180,14 +189,15 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   text += panel.key.empty() ? "unset key\n" : "set key " + panel.key + " Left reverse samplen 3\n";
   text += panel.bare ? "unset border\nunset xtics\nunset ytics\nunset grid\n" : "";
   text += decorations(panel);
-  if (std::none_of(panel.series.begin(), panel.series.end(), has_points)) {
+  const auto visible = [&](const Series& series) { return has_points(panel, series); };
+  if (std::none_of(panel.series.begin(), panel.series.end(), visible)) {
     // An empty panel keeps its place in the layout.
     return text + "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\n";
   }
   std::string plot;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const bool legend_only = panel.series[i].legend_only;
-    if (!legend_only && !has_points(panel.series[i])) continue;
+    if (!legend_only && !visible(panel.series[i])) continue;
     const std::string block = fmt::format("$p{}s{}", index, i);
     if (!legend_only) text += data_block(panel.series[i], block);
     plot += (plot.empty() ? "plot " : ", \\\n  ") + plot_item(panel.series[i], block);
@@ -395,12 +405,14 @@ std::string draw(const Figure& figure, const std::string& title, const fs::path&
   const fs::path log = folder / (figure.name + ".log");
   meshes::write_atomically(script_file, [&](std::ostream& out) { out << script(figure, svg); });
   const int code = run_gnuplot(script_file, log);
+  if (code < 0)
+    throw meshes::InvalidInput({"gnuplot", "", "the program that draws figures cannot be started",
+                                "install the package gnuplot-nox"});
   const std::string message = read_file(log);
   std::string image = read_file(svg);
   if (code != 0 || image.find("</svg>") == std::string::npos) {
-    throw std::runtime_error(
-        fmt::format("gnuplot could not draw the figure {} (exit code {}): {}", figure.name, code,
-                    message.empty() ? "is the package gnuplot-nox installed?" : message));
+    throw std::runtime_error(fmt::format("gnuplot could not draw the figure {} (exit code {}): {}",
+                                         figure.name, code, message));
   }
   fs::remove(script_file);
   fs::remove(log);

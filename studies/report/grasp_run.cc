@@ -39,22 +39,22 @@ std::vector<double> GraspRun::inward_friction() const {
 }
 
 GraspRun read_grasp(const std::filesystem::path& folder, const std::string& series,
-                    const std::string& name) {
+                    const std::string& name, FolderReader& reader) {
   GraspRun grasp;
   grasp.series = series;
   grasp.name = name;
   grasp.label = (series.empty() ? "" : series + ", ") + name;
-  grasp.rows = read_csv(folder / "grasp.csv");
-  grasp.summary = read_json(folder / "summary.json");
-  grasp.status = text_at(grasp.summary, "status");
+  grasp.rows = reader.csv(folder / "grasp.csv");
+  grasp.summary = reader.json(folder / "summary.json");
+  grasp.status = reader.attempt([&] { return text_at(grasp.summary, "status"); });
   return grasp;
 }
 
-std::vector<GraspRun> read_grasps(const RunData& run) {
+std::vector<GraspRun> read_grasps(const RunData& run, FolderReader& reader) {
   std::vector<GraspRun> grasps;
-  for (const nlohmann::json& entry : run.grasps) {
+  for (const JsonEntry& entry : run.grasps) {
     grasps.push_back(read_grasp(run.folder / text_at(entry, "folder"), text_at(entry, "series"),
-                                text_at(entry, "name")));
+                                text_at(entry, "name"), reader));
     grasps.back().status = text_at(entry, "status");
   }
   return grasps;

@@ -12,10 +12,10 @@ namespace fingertip::studies::reporting {
 /// One grasp; what its folder does not hold is empty.
 struct GraspRun {
   std::string series, name;
-  std::string label;       ///< "series, name"
-  std::string status;      ///< "finished", or why not
-  CsvTable rows;           ///< grasp.csv
-  nlohmann::json summary;  ///< an empty object when absent
+  std::string label;   ///< "series, name"
+  std::string status;  ///< "finished", or why not
+  CsvTable rows;       ///< grasp.csv
+  JsonEntry summary;   ///< an empty object when absent
 
   double grip() const { return number_at(summary, "wanted_force"); }  ///< [N]
   double limit() const { return number_at(summary, "least_force"); }  ///< m (g + a)/(2 mu)
@@ -32,10 +32,10 @@ struct GraspRun {
 };
 
 GraspRun read_grasp(const std::filesystem::path& folder, const std::string& series,
-                    const std::string& name);
+                    const std::string& name, FolderReader& reader);
 
 /// The grasps that `run` lists in its summary.
-std::vector<GraspRun> read_grasps(const RunData& run);
+std::vector<GraspRun> read_grasps(const RunData& run, FolderReader& reader);
 
 /// The result in one paragraph, and as a table in plain text.
 std::string grasp_answer(const std::vector<GraspRun>& grasps);

@@ -12,31 +12,32 @@ double MovingPress::approach_speed() const {
 }
 
 bool MovingPress::controls_force() const {
-  return largest_magnitude(trace.numbers("force_mode")) > 0.0;
+  return largest_magnitude(trace.numbers_if_any("force_mode")) > 0.0;
 }
 
-MovingPress read_moving_press(const fs::path& folder, const std::string& label) {
+MovingPress read_moving_press(const fs::path& folder, const std::string& label,
+                              FolderReader& reader) {
   MovingPress press;
   press.label = label;
-  press.summary = read_json(folder / "summary.json");
-  press.status = text_at(press.summary, "status");
-  press.trace = read_csv(folder / "trace.csv");
-  press.boundary = read_csv(folder / "boundary.csv");
-  press.boundary_springs = read_csv(folder / "boundary_springs.csv");
-  press.snapshots = read_csv(folder / "snapshots.csv");
-  press.snapshot_points = read_csv(folder / "snapshot_points.csv");
-  if (fs::exists(folder / "response.csv"))
-    press.response = meshes::PressResponse::read_csv(folder / "response.csv");
+  reader.note_missing(folder);
+  press.summary = reader.json(folder / "summary.json");
+  press.status = reader.attempt([&] { return text_at(press.summary, "status"); });
+  press.trace = reader.csv(folder / "trace.csv");
+  press.boundary = reader.csv(folder / "boundary.csv");
+  press.boundary_springs = reader.csv(folder / "boundary_springs.csv");
+  press.snapshots = reader.csv(folder / "snapshots.csv");
+  press.snapshot_points = reader.csv(folder / "snapshot_points.csv");
+  press.response = reader.response(folder / "response.csv");
   return press;
 }
 
-std::vector<MovingPress> read_moving_presses(const RunData& run) {
+std::vector<MovingPress> read_moving_presses(const RunData& run, FolderReader& reader) {
   std::vector<MovingPress> presses;
   std::vector<std::string> series;
-  for (const nlohmann::json& entry : run.presses) {
+  for (const JsonEntry& entry : run.presses) {
     const std::string name = text_at(entry, "series");
     const std::string label = (name.empty() ? "" : name + ", ") + text_at(entry, "name");
-    MovingPress press = read_moving_press(run.folder / text_at(entry, "folder"), label);
+    MovingPress press = read_moving_press(run.folder / text_at(entry, "folder"), label, reader);
     if (std::ranges::find(series, name) == series.end()) series.push_back(name);
     press.style = numbered_style(std::size_t(std::ranges::find(series, name) - series.begin()));
     press.style.point = 0;
@@ -44,10 +45,9 @@ std::vector<MovingPress> read_moving_presses(const RunData& run) {
     press.beside = text_at(entry, "beside");
     press.change = number_at(entry, "change");
     press.force_error = number_at(entry, "force_error");
-    press.pictured = entry.contains("pictured") && entry.at("pictured") == true;
-    const fs::path continuum = run.folder / text_at(entry, "continuum") / "response.csv";
-    if (!text_at(entry, "continuum").empty() && fs::exists(continuum))
-      press.reference = meshes::PressResponse::read_csv(continuum);
+    press.pictured = entry.at("pictured").flag();
+    if (const std::string continuum = text_at(entry, "continuum"); !continuum.empty())
+      press.reference = reader.response(run.folder / continuum / "response.csv");
     presses.push_back(std::move(press));
   }
   return presses;
@@ -74,8 +74,8 @@ std::vector<MovingPress> presses_of_models(const RunData& run) {
 
 double force_overshoot(const CsvTable& trace) {
   const std::vector<double> force = trace.numbers("normal_force [N]");
-  const std::vector<double> wanted = trace.numbers("wanted_force [N]");
-  const std::vector<double> mode = trace.numbers("force_mode");
+  const std::vector<double> wanted = trace.numbers_if_any("wanted_force [N]");
+  const std::vector<double> mode = trace.numbers_if_any("force_mode");
   double most = meshes::unknown;
   for (std::size_t i = 0; i < force.size(); ++i)
     if (mode[i] > 0.0 && wanted[i] > 0.0) most = std::fmax(most, force[i] / wanted[i] - 1.0);
@@ -83,7 +83,7 @@ double force_overshoot(const CsvTable& trace) {
 }
 
 double mode_switches(const CsvTable& trace) {
-  const std::vector<double> mode = trace.numbers("force_mode");
+  const std::vector<double> mode = trace.numbers_if_any("force_mode");
   if (mode.empty() || std::isnan(mode.front())) return meshes::unknown;
   double switches = 0.0;
   for (std::size_t i = 1; i < mode.size(); ++i) switches += mode[i] != mode[i - 1] ? 1.0 : 0.0;

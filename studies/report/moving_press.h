@@ -15,7 +15,7 @@ struct MovingPress {
   std::string status;  ///< "finished", or why not
   Style style;
   CsvTable trace, boundary, boundary_springs, snapshots, snapshot_points;
-  nlohmann::json summary;                ///< an empty object when absent
+  JsonEntry summary;                     ///< an empty object when absent
   meshes::PressResponse response;        ///< of the lattice ...
   meshes::PressResponse reference;       ///< ... and of the continuum beside it
   std::string beside;                    ///< the press it is compared with; may be empty
@@ -29,11 +29,12 @@ struct MovingPress {
   bool controls_force() const;
 };
 
-/// The press in `folder`. Throws InvalidInput for damaged files.
-MovingPress read_moving_press(const std::filesystem::path& folder, const std::string& label);
+/// The press in `folder`. What is damaged stays empty and is noted in `reader`.
+MovingPress read_moving_press(const std::filesystem::path& folder, const std::string& label,
+                              FolderReader& reader);
 
 /// The presses that `run`, a case on virtual control, lists in its summary.
-std::vector<MovingPress> read_moving_presses(const RunData& run);
+std::vector<MovingPress> read_moving_presses(const RunData& run, FolderReader& reader);
 
 /// The presses of a run's models; the last model's is pictured.
 std::vector<MovingPress> presses_of_models(const RunData& run);

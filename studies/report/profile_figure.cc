@@ -65,12 +65,11 @@ Series mark_at(const std::string& label, double x, double y, const std::string& 
 }
 
 GridFunction profile_grid(const Fit& fit, const FitParameter& first, const FitParameter& second) {
-  const nlohmann::json profile = object_at(fit.file, "profile");
+  const JsonEntry profile = object_at(fit.file, "profile");
   GridFunction grid{numbers_at(profile, "first_values"), numbers_at(profile, "second_values"), {}};
   for (double& value : grid.x) value *= first.factor;
   for (double& value : grid.y) value *= second.factor;
-  for (const nlohmann::json& row : array_at(profile, "increase"))
-    grid.values.push_back(numbers_at({{"row", row}}, "row"));
+  for (const JsonEntry& row : array_at(profile, "increase")) grid.values.push_back(row.numbers());
   return grid;
 }
 
@@ -157,7 +156,7 @@ std::string axis_label(const FitParameter& one) {
 
 Figure profile_figure(const Fit& fit, const std::string& prefix) {
   Figure figure{prefix + "_profile", 760, 500, 1, {}};
-  const nlohmann::json profile = object_at(fit.file, "profile");
+  const JsonEntry profile = object_at(fit.file, "profile");
   const std::size_t i = fit.index(text_at(profile, "first")),
                     j = fit.index(text_at(profile, "second"));
   if (i == j || i >= fit.parameters.size() || j >= fit.parameters.size()) return figure;

@@ -59,128 +59,228 @@ std::string with_case(const RunData& run, const std::string& subject) {
          (started.empty() ? "" : ", " + started);
 }
 
-Page core_page(const RunData& run) {
-  Page page;
-  page.title = run.title.empty() ? "Soft fingertip: lattice against continuum" : run.title;
-  page.subtitle = with_case(
-      run, "Validation of mass-spring fingertips against a continuum of the same specimen");
-  page.chapters = {verdict_chapter(run),   force_chapter(run),        control_chapter(run),
-                   snapshots_chapter(run), elasticity_chapter(run),   pictures_chapter(run),
-                   published_chapter(run), equilibrium_chapter(run),  reasons_chapter(run),
-                   continuum_chapter(run), verification_chapter(run), cost_chapter(run),
-                   provenance_chapter(run)};
-  page.not_run = missing_parts(run);
-  return page;
-}
+/// Makes the pages of a run, each from the chapters that can be made: damage in one leaves the
+/// others.
+class PageMaker {
+ public:
+  PageMaker(const RunData& run, FolderReader& reader) : run_(run), reader_(reader) {}
 
-/// A study has its presses to show, and nothing of the core case.
-Page study_page(const RunData& run) {
-  Page page;
-  page.title = run.title.empty() ? "Soft fingertip: a study of lattices at rest" : run.title;
-  page.subtitle =
-      with_case(run,
-                "A study of mass-spring fingertips in equilibrium against a continuum of the same "
-                "specimen");
-  page.chapters = {verdict_chapter(run), variants_chapter(run), provenance_chapter(run)};
-  return page;
-}
+  Page page() {
+    if (is_moving_press()) return press_page();
+    if (std::filesystem::exists(run_.folder / "grasp.csv"))
+      return grasp_page({read_grasp(run_.folder, "", "grasp", reader_)});
+    if (!run_.modes.empty()) return modes_page();
+    if (is_continuum(run_.folder)) return reference_page();
+    if (is_moduli_fit(run_)) return moduli_page();
+    if (run_.models.empty() && !run_.response.empty()) return static_page();
+    const CalibrationData calibration = read_calibration(run_, reader_);
+    const bool fits_alone = !calibration.empty() && run_.models.empty() && run_.variants.empty();
+    Page page = fits_alone              ? calibration_page()
+                : !run_.presses.empty() ? control_page()
+                : !run_.grasps.empty()  ? grasp_page(case_grasps())
+                : run_.variants.empty() ? core_page()
+                                        : study_page();
+    if (!run_.status.empty() && run_.status != "ok")
+      page.status = "Status of the run: " + run_.status;
+    page.answer =
+        words([&] { return fits_alone ? calibration_answer(calibration) : std::string(); }) +
+        words([&] { return answer(run_, reader_); });
+    if (!calibration.empty()) add_fits(page, calibration);
+    return page;
+  }
 
-/// Fits have neither presses of models nor a continuum of their own.
-Page calibration_page(const RunData& run) {
-  Page page;
-  page.title = run.title.empty() ? "Soft fingertip: a lattice fitted to curves" : run.title;
-  page.subtitle = with_case(
-      run, "Parameters of mass-spring fingertips from curves, and what the curves determine");
-  page.chapters = {verdict_chapter(run), provenance_chapter(run)};
-  return page;
-}
+ private:
+  /// A text, empty where its data are damaged.
+  template <typename Make>
+  std::string words(const Make& make) {
+    return reader_.attempt([&]() -> std::string { return make(); });
+  }
 
-/// Presses with prescribed motion, one integrator beside the other.
-Page integrators_page(const RunData& run, const std::vector<MovingPress>& presses) {
-  Page page;
-  page.title = run.title.empty() ? "Soft fingertip: integrators" : run.title;
-  page.subtitle = with_case(run, "What time steps of a mass-spring fingertip cost and err");
-  page.chapters = {verdict_chapter(run), integrators_chapter(presses), provenance_chapter(run)};
-  return page;
-}
+  template <typename Make>
+  void add(Page& page, const Make& make) {
+    page.chapters.push_back(reader_.attempt([&]() -> Chapter { return make(); }));
+  }
 
-/// Presses under controllers.
-Page control_page(const RunData& run) {
-  const std::vector<MovingPress> presses = read_moving_presses(run);
-  if (compares_integrators(presses)) return integrators_page(run, presses);
-  Page page;
-  page.title = run.title.empty() ? "Soft fingertip: virtual control" : run.title;
-  page.subtitle = with_case(
-      run, "Presses of mass-spring fingertips under controllers that take them for hardware");
-  page.chapters = {verdict_chapter(run), control_chapter(presses), snapshots_chapter(presses),
-                   speed_chapter(presses), provenance_chapter(run)};
-  return page;
-}
+  Page headed(const std::string& title, const std::string& subtitle) {
+    Page page;
+    page.title = run_.title.empty() ? title : run_.title;
+    page.subtitle = words([&] { return with_case(run_, subtitle); });
+    add(page, [&] { return verdict_chapter(run_); });
+    return page;
+  }
 
-/// A block between two fingers; of the verb `grasp` itself, or of a case.
-Page grasp_page(const RunData& run, const std::vector<GraspRun>& grasps) {
-  Page page;
-  page.title = run.title.empty() ? "Soft fingertips: a grasp" : run.title;
-  page.subtitle = with_case(run, "Two mass-spring fingertips lift a rigid block");
-  page.answer = grasp_answer(grasps);
-  page.chapters = {verdict_chapter(run), grasp_chapter(grasps), provenance_chapter(run)};
-  return page;
-}
+  void end(Page& page) {
+    add(page, [&] { return provenance_chapter(run_); });
+  }
 
-/// The run of `press` itself, where it took time.
-bool is_moving_press(const RunData& run) {
-  return run.models.empty() && std::filesystem::exists(run.folder / "trace.csv");
-}
+  Page core_page() {
+    Page page = headed("Soft fingertip: lattice against continuum",
+                       "Validation of mass-spring fingertips against a continuum of the same "
+                       "specimen");
+    constexpr Chapter (*chapters[])(const RunData&) = {
+        force_chapter,     control_chapter,      snapshots_chapter,   elasticity_chapter,
+        pictures_chapter,  published_chapter,    equilibrium_chapter, reasons_chapter,
+        continuum_chapter, verification_chapter, cost_chapter};
+    for (const auto chapter : chapters) add(page, [&] { return chapter(run_); });
+    end(page);
+    page.not_run = missing_parts(run_);
+    return page;
+  }
 
-Page press_page(const RunData& run) {
-  MovingPress press = read_moving_press(run.folder, "press");
-  press.style = numbered_style(0);
-  press.style.point = 0;
-  press.pictured = true;
-  Page page;
-  page.title = "Soft fingertip: a press under its controller";
-  page.subtitle = with_case(run, "A mass-spring fingertip pressed against a plane");
-  page.answer = control_answer({press});
-  page.chapters = {control_chapter(std::vector{press}), snapshots_chapter(std::vector{press}),
-                   provenance_chapter(run)};
-  return page;
-}
+  /// A study has its presses to show, and nothing of the core case.
+  Page study_page() {
+    Page page = headed("Soft fingertip: a study of lattices at rest",
+                       "A study of mass-spring fingertips in equilibrium against a continuum of "
+                       "the same specimen");
+    add(page, [&] { return variants_chapter(run_); });
+    end(page);
+    return page;
+  }
 
-/// The chapters on fits come before the provenance, the last.
-void add_fits(Page& page, const CalibrationData& calibration) {
-  std::vector<Chapter> chapters = fit_chapters(calibration);
-  chapters.insert(chapters.begin(), transfer_chapter(calibration));
-  page.chapters.insert(page.chapters.end() - 1, chapters.begin(), chapters.end());
-  for (const NotRun& part : missing_fit_parts(calibration)) page.not_run.push_back(part);
-}
+  /// Fits have neither presses of models nor a continuum of their own.
+  Page calibration_page() {
+    Page page = headed("Soft fingertip: a lattice fitted to curves",
+                       "Parameters of mass-spring fingertips from curves, and what the curves "
+                       "determine");
+    end(page);
+    return page;
+  }
 
-Page report_page(const RunData& run) {
-  if (is_moving_press(run)) return press_page(run);
-  if (std::filesystem::exists(run.folder / "grasp.csv"))
-    return grasp_page(run, {read_grasp(run.folder, "", "grasp")});
-  const CalibrationData calibration = read_calibration(run);
-  const bool fits_alone = !calibration.empty() && run.models.empty() && run.variants.empty();
-  Page page = fits_alone             ? calibration_page(run)
-              : !run.presses.empty() ? control_page(run)
-              : !run.grasps.empty()  ? grasp_page(run, read_grasps(run))
-              : run.variants.empty() ? core_page(run)
-                                     : study_page(run);
-  if (!run.status.empty() && run.status != "ok") page.status = "Status of the run: " + run.status;
-  page.answer = (fits_alone ? calibration_answer(calibration) : "") + answer(run);
-  if (!calibration.empty()) add_fits(page, calibration);
-  return page;
-}
+  /// Presses under controllers, or with prescribed motion, one integrator beside the other.
+  Page control_page() {
+    const std::vector<MovingPress> presses =
+        reader_.attempt([&] { return read_moving_presses(run_, reader_); });
+    const bool integrators = compares_integrators(presses);
+    Page page = integrators ? headed("Soft fingertip: integrators",
+                                     "What time steps of a mass-spring fingertip cost and err")
+                            : headed("Soft fingertip: virtual control",
+                                     "Presses of mass-spring fingertips under controllers that "
+                                     "take them for hardware");
+    if (integrators) {
+      add(page, [&] { return integrators_chapter(presses); });
+    } else {
+      for (const auto chapter :
+           {static_cast<Chapter (*)(const std::vector<MovingPress>&)>(control_chapter),
+            static_cast<Chapter (*)(const std::vector<MovingPress>&)>(snapshots_chapter),
+            speed_chapter})
+        add(page, [&] { return chapter(presses); });
+    }
+    end(page);
+    return page;
+  }
+
+  std::vector<GraspRun> case_grasps() {
+    return reader_.attempt([&] { return read_grasps(run_, reader_); });
+  }
+
+  /// A block between two fingers; of the verb `grasp` itself, or of a case.
+  Page grasp_page(const std::vector<GraspRun>& grasps) {
+    Page page = headed("Soft fingertips: a grasp", "Two mass-spring fingertips lift a rigid block");
+    page.answer = words([&] { return grasp_answer(grasps); });
+    add(page, [&] { return grasp_chapter(grasps); });
+    end(page);
+    return page;
+  }
+
+  /// The run of `press` itself, where it took time.
+  bool is_moving_press() const {
+    return run_.models.empty() && std::filesystem::exists(run_.folder / "trace.csv");
+  }
+
+  Page press_page() {
+    MovingPress press = read_moving_press(run_.folder, "press", reader_);
+    press.style = numbered_style(0);
+    press.style.point = 0;
+    press.pictured = true;
+    Page page = headed("Soft fingertip: a press under its controller",
+                       "A mass-spring fingertip pressed against a plane");
+    page.answer = words([&] { return press_answer(press.response) + " "; }) +
+                  words([&] { return control_answer({press}); });
+    add(page, [&] { return press_chapter(press.response, {}); });
+    add(page, [&] { return control_chapter(std::vector{press}); });
+    add(page, [&] { return snapshots_chapter(std::vector{press}); });
+    end(page);
+    return page;
+  }
+
+  /// The run of a static `press`.
+  Page static_page() {
+    Page page = headed("Soft fingertip: a press at rest",
+                       "A mass-spring fingertip in equilibrium on a plane");
+    page.answer = words([&] { return press_answer(run_.response); });
+    add(page, [&] { return press_chapter(run_.response, run_.contact); });
+    end(page);
+    return page;
+  }
+
+  /// The run of `reference` itself.
+  Page reference_page() {
+    Page page = headed("Soft fingertip: the continuum", "A deal.II continuum pressed on a plane");
+    page.answer = words([&] { return press_answer(run_.reference); });
+    for (const auto chapter : {force_chapter, continuum_chapter, pictures_chapter, cost_chapter})
+      add(page, [&] { return chapter(run_); });
+    end(page);
+    return page;
+  }
+
+  Page modes_page() {
+    Page page = headed("Soft fingertip: natural vibrations",
+                       "Frequencies and shapes of the finger bonded to a rod that stands still");
+    page.answer = words([&] { return modes_answer(run_.modes); });
+    add(page, [&] { return modes_chapter(run_.modes); });
+    end(page);
+    return page;
+  }
+
+  /// The run of a `calibrate` that fitted moduli.
+  Page moduli_page() {
+    Page page;
+    page.title = "Soft fingertip: spring constants for a rubber";
+    page.subtitle = words(
+        [&] { return with_case(run_, "The lattice whose elastic constants are the rubber's"); });
+    page.answer = words([&] { return text_at(run_.own_calibration, "statement"); });
+    add(page, [&] { return elasticity_chapter(run_); });
+    end(page);
+    return page;
+  }
+
+  /// The chapters on fits come before the provenance, the last.
+  void add_fits(Page& page, const CalibrationData& calibration) {
+    std::vector<Chapter> chapters = reader_.attempt([&] { return fit_chapters(calibration); });
+    chapters.insert(chapters.begin(),
+                    reader_.attempt([&] { return transfer_chapter(calibration); }));
+    page.chapters.insert(page.chapters.end() - 1, chapters.begin(), chapters.end());
+    for (const NotRun& part : missing_fit_parts(calibration)) page.not_run.push_back(part);
+  }
+
+  const RunData& run_;
+  FolderReader& reader_;
+};
 
 }  // namespace
+
+std::vector<Damaged> damaged_parts(const FolderReader& reader) {
+  std::vector<Damaged> parts;
+  for (const meshes::Violation& one : reader.damage())
+    parts.push_back({one.key, one.value.empty() ? one.rule : one.value + ": " + one.rule});
+  return parts;
+}
+
 }  // namespace reporting
 
-void write_report(const std::filesystem::path& run_folder) {
+Damages write_report(const std::filesystem::path& run_folder) {
+  using namespace reporting;
+  FolderReader reader;
+  Page page;
   if (std::filesystem::exists(run_folder / "bench.json")) {
-    reporting::publish(reporting::bench_page(run_folder), run_folder, "report.html");
-    return;
+    page = bench_page(run_folder, reader);
+  } else {
+    const RunData run = read_run(run_folder, reader);
+    page = PageMaker(run, reader).page();
   }
-  const reporting::RunData run = reporting::read_run(run_folder);
-  reporting::publish(reporting::report_page(run), run_folder, "report.html");
+  page.damaged = damaged_parts(reader);
+  publish(page, run_folder, "report.html");
+  return reader.damage();
 }
 
 }  // namespace fingertip::studies

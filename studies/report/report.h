@@ -5,32 +5,48 @@
 #include <string>
 #include <vector>
 
+#include "meshes/errors.h"
+
 namespace fingertip::studies {
 
+/// What was wrong with files of run folders; empty when nothing was.
+using Damages = std::vector<meshes::Violation>;
+
 /// Writes `report.html` (self-contained) and the folder `figures/` (one SVG and one CSV per
-/// figure) into the run folder of `validate`, of `bench` (it holds bench.json), or of a `calibrate`
-/// that fitted curves. Everything is
-/// read from disk; chapters whose files are missing are left out and named as not run. The old
-/// report stays until the new one is complete.
-/// Throws meshes::InvalidInput when the folder is not one of these (no readable summary.json, nor a
-/// calibration.json with its problem) or holds a damaged file; std::runtime_error when gnuplot
-/// cannot draw a figure or a file cannot be written.
-void write_report(const std::filesystem::path& run_folder);
+/// figure) into a run folder of any verb. Everything is read from disk; chapters whose files are
+/// missing are left out and named as not run. Damaged files do not keep the rest from being
+/// reported: the page names them and lacks what they hold, and they are returned.
+/// The old report stays until the new one is complete.
+/// Throws meshes::InvalidInput when the folder is none of a run (no summary.json, calibration.json
+/// or bench.json) and when gnuplot cannot be started; std::runtime_error when a figure cannot be
+/// drawn or a file cannot be written.
+Damages write_report(const std::filesystem::path& run_folder);
+
+struct ComparisonResult {
+  std::string text;  ///< for a terminal: table, differences, remarks
+  Damages damage;
+};
 
 /// Writes `comparison.html`, `comparison.csv` and `figures/` into `out_folder` (made if missing):
-/// the force-indentation curves of the runs and their differences relative to the first one.
-/// A run is a folder with `response.csv`; a folder of `validate` counts as the runs inside it,
-/// the continuum first.
-/// comparison.csv has the columns `indentation [m]` (the samples of the first run), then per run
-/// `NAME normal_force [N]` and, from the second on, `NAME relative_difference`; cells beyond the
-/// depth of a run are empty.
-/// Throws like write_report, and InvalidInput for fewer than two curves.
-void write_comparison(const std::vector<std::filesystem::path>& runs,
-                      const std::filesystem::path& out_folder);
+/// the force-indentation curves of the runs and their differences relative to the first one, which
+/// is a continuum where there is one.
+/// A run is a folder with `response.csv`; a folder of `validate` counts as the runs inside it.
+/// Depths are samples of the first run at which another has a sample, too, or, where a run shares
+/// fewer than two, samples of the first within that run's; there its force is interpolated, which
+/// is told. Nothing is told outside the samples of a run.
+/// Where runs differ in contact, geometry, rubber, tilt, lateral motion, strain or speed, page and
+/// text say so (press_condition.h).
+/// comparison.csv has the columns `indentation [m]`, then per run `NAME normal_force [N]` and, from
+/// the second on, `NAME relative_difference` and `NAME interpolated` (1 or 0); cells beyond the
+/// samples of a run are empty.
+/// Damaged runs are left out while two are left. Throws like write_report, and InvalidInput for
+/// fewer than two curves.
+ComparisonResult write_comparison(const std::vector<std::filesystem::path>& runs,
+                                  const std::filesystem::path& out_folder);
 
 /// The verdict table of a `validate` run folder as plain ASCII for a terminal, gf and cm: per
 /// model the elastic constants and the force error at each depth, then the criteria.
-/// Throws meshes::InvalidInput like write_report.
+/// Throws meshes::InvalidInput like write_report, and for damaged files.
 std::string verdict_text(const std::filesystem::path& run_folder);
 
 }  // namespace fingertip::studies

@@ -32,7 +32,7 @@ Figure variant_error_figure(const std::vector<VariantPress>& presses, const std:
 
 /// Largest force error against spacing, both logarithmic, of the series for which `study`, the
 /// entry "variants" of summary.json, has an order. No panel when there is none.
-Figure convergence_figure(const std::vector<VariantPress>& presses, const nlohmann::json& study);
+Figure convergence_figure(const std::vector<VariantPress>& presses, const JsonEntry& study);
 
 /// Force against indentation, a panel per series, the continua black.
 Figure variant_force_figure(const std::vector<VariantPress>& presses);

@@ -178,7 +178,7 @@ Figure variant_error_figure(const std::vector<VariantPress>& presses, const std:
   return figure;
 }
 
-Figure convergence_figure(const std::vector<VariantPress>& presses, const nlohmann::json& study) {
+Figure convergence_figure(const std::vector<VariantPress>& presses, const JsonEntry& study) {
   Figure figure{"variants_convergence", 760, 440, 1, {}};
   Panel panel;
   panel.x_label = "spacing a [cm]";
@@ -186,7 +186,7 @@ Figure convergence_figure(const std::vector<VariantPress>& presses, const nlohma
   panel.log_x = panel.log_y = 10;
   panel.key = "outside right top";
   std::size_t index = 0;
-  for (const nlohmann::json& entry : array_at(study, "series")) {
+  for (const JsonEntry& entry : array_at(study, "series")) {
     const double order = number_at(entry, "order");
     const std::string name = text_at(entry, "name");
     if (!std::isfinite(order)) continue;

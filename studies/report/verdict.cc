@@ -189,14 +189,14 @@ std::string text_table(const RunData& run) {
 
 }  // namespace
 
-std::string answer(const RunData& run) {
+std::string answer(const RunData& run, FolderReader& reader) {
   if (!run.variants.empty()) return variants_answer(run) + criteria_sentence(run);
   if (!run.presses.empty()) {
-    const std::vector<MovingPress> presses = read_moving_presses(run);
+    const std::vector<MovingPress> presses = read_moving_presses(run, reader);
     return (compares_integrators(presses) ? integrators_answer(presses) : control_answer(presses)) +
            criteria_sentence(run);
   }
-  if (!run.grasps.empty()) return grasp_answer(read_grasps(run)) + criteria_sentence(run);
+  if (!run.grasps.empty()) return grasp_answer(read_grasps(run, reader)) + criteria_sentence(run);
   std::string text;
   if (!run.reference.empty()) {
     const double depth = run.reference.depth();
@@ -243,12 +243,13 @@ std::string moving_text(const std::vector<reporting::MovingPress>& presses) {
 
 std::string verdict_text(const std::filesystem::path& run_folder) {
   using namespace reporting;
-  const RunData run = read_run(run_folder);
-  const CalibrationData calibration = read_calibration(run);
+  FolderReader reader;
+  const RunData run = read_run(run_folder, reader);
+  const CalibrationData calibration = read_calibration(run, reader);
   const bool fits_alone = !calibration.empty() && run.models.empty();
   std::string text = !run.variants.empty()  ? variants_text(run)
-                     : !run.presses.empty() ? moving_text(read_moving_presses(run))
-                     : !run.grasps.empty()  ? grasp_text(read_grasps(run))
+                     : !run.presses.empty() ? moving_text(read_moving_presses(run, reader))
+                     : !run.grasps.empty()  ? grasp_text(read_grasps(run, reader))
                      : fits_alone           ? calibration_text(calibration)
                                             : text_table(run);
   for (const Criterion& criterion : run.criteria) {
@@ -256,6 +257,7 @@ std::string verdict_text(const std::filesystem::path& run_folder) {
                         criterion.name, plain_number(criterion.value, "{:.3g}"),
                         plain_number(criterion.limit, "{:.3g}"));
   }
+  reader.throw_if_damaged();
   return text;
 }
 

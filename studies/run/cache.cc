@@ -3,14 +3,11 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <optional>
 
 #include "studies/run/digest.h"
 #include "studies/run/file_lock.h"
 #include "studies/run/json_file.h"
+#include "studies/run/result_files.h"
 
 namespace fingertip::studies {
 
@@ -26,61 +23,19 @@ namespace {
 std::string noted(const Job& job, const fs::path& note, const char* entry) {
   if (!fs::exists(note)) return {};
   try {
-    const auto content = read_json(note);
+    const auto content =
+        note.filename() == marker_name ? read_marker(note.parent_path()) : read_json(note);
     return content.value("key", "") == job.key() ? content.value(entry, "") : "";
   } catch (const std::exception&) {
     return {};  // damaged: the job has to run again
   }
 }
 
-using Digests = std::map<std::string, std::string>;  ///< of files, by names below a folder
-
-/// Throws std::ios_base::failure for a file that cannot be read.
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  in.exceptions(std::ios::badbit);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// Of all files in `folder` but the list of digests itself; nothing when one cannot be read.
-std::optional<Digests> digests_in(const fs::path& folder) {
-  try {
-    Digests digests;
-    for (const auto& item : fs::recursive_directory_iterator(folder)) {
-      const std::string name = fs::relative(item.path(), folder).generic_string();
-      if (item.is_regular_file() && name != digests_name)
-        digests[name] = sha256(content_of(item.path()));
-    }
-    return digests;
-  } catch (const std::exception&) {
-    return {};
-  }
-}
-
-/// The list in `folder`; empty when there is none, which no entry has.
-std::optional<Digests> stored_digests(const fs::path& folder) {
-  try {
-    return read_json(folder / digests_name).get<Digests>();
-  } catch (const std::exception&) {
-    return Digests();
-  }
-}
-
-bool write_digests(const fs::path& folder) {
-  const auto digests = digests_in(folder);
-  if (!digests) return false;
-  try {
-    write_json(*digests, folder / digests_name);
-    return true;
-  } catch (const std::exception&) {
-    return false;
-  }
-}
-
 }  // namespace
 
 std::string marked_status(const Job& job, const fs::path& folder) {
-  return noted(job, folder / marker_name, "status");
+  const std::string status = noted(job, folder / marker_name, "status");
+  return status.empty() || damaged_result(folder).empty() ? status : "";
 }
 
 bool attempted(const Job& job, const fs::path& folder) {
@@ -96,13 +51,14 @@ void mark_attempt(const Job& job, const fs::path& folder) {
 }
 
 void mark(const Job& job, const fs::path& folder, const std::string& status, double wall_time) {
-  write_json({{"kind", job.kind},
-              {"status", status},
-              {"key", job.key()},
-              {"source_hash", job.source_hash},
-              {"wall_time", wall_time},
-              {"inputs", job.inputs}},
-             folder / marker_name);
+  write_marker({{"kind", job.kind},
+                {"status", status},
+                {"key", job.key()},
+                {"source_hash", job.source_hash},
+                {"wall_time", wall_time},
+                {"inputs", job.inputs},
+                {"files", result_digests(folder)}},
+               folder);
   fs::remove(folder / attempt_name);
 }
 
@@ -126,7 +82,7 @@ fs::path Cache::entry(const Job& job) const {
 }
 
 bool Cache::has_entry(const Job& job) const {
-  return !marked_status(job, entry(job)).empty();
+  return !noted(job, entry(job) / marker_name, "status").empty();
 }
 
 bool Cache::fetch(const Job& job, const fs::path& target) const {
@@ -136,10 +92,8 @@ bool Cache::fetch(const Job& job, const fs::path& target) const {
   if (!fs::is_regular_file(source / marker_name, failed)) return false;
   fs::copy(source, target, fs::copy_options::recursive, failed);
   // What is checked is what was copied: another process may replace the entry meanwhile.
-  const bool sound = !failed && digests_in(target) == stored_digests(target) &&
-                     !marked_status(job, target).empty();
+  const bool sound = !failed && !marked_status(job, target).empty() && is_whole_result(target);
   std::error_code ignored;
-  fs::remove(target / digests_name, ignored);
   if (!sound) fs::remove_all(target, ignored);
   return sound;
 }
@@ -161,7 +115,7 @@ bool Cache::store(const Job& job, const fs::path& source) const {
     fs::copy(item.path(), made / item.path().filename(), fs::copy_options::recursive, failed);
     if (failed) break;
   }
-  if (!failed && write_digests(made)) {
+  if (!failed) {
     fs::rename(target, replaced, ignored);  // of a damaged entry, or of another process
     fs::rename(made, target, failed);
   }

@@ -17,7 +17,7 @@ inline constexpr const char* attempt_name = "unfinished.json";
 inline constexpr const char* finished = "finished";
 
 /// The status in the marker that `folder` holds for `job`; empty when the job has not run there to
-/// its end (or another one has).
+/// its end, or another one has, or a file is not as it was written (see result_files.h).
 std::string marked_status(const Job& job, const std::filesystem::path& folder);
 
 /// Whether `folder` holds what an attempt at the equal job left when it ended early.
@@ -29,9 +29,6 @@ void mark_attempt(const Job& job, const std::filesystem::path& folder);
 /// Writes the marker. `status`: `finished`, or why the result is incomplete and will remain so.
 void mark(const Job& job, const std::filesystem::path& folder, const std::string& status,
           double wall_time);
-
-/// Written into every entry of the cache: the SHA-256 of each of its files.
-inline constexpr const char* digests_name = "digests.json";
 
 /// A folder with one sub-folder per finished job, named by its key. Entries appear by renaming, so
 /// several programs may share it, and are served only while every file is as it was stored; a

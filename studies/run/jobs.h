@@ -16,7 +16,7 @@ namespace fingertip::studies {
 Job press_job(const lattice::PressSetup& setup, int movie_pictures = 0);
 
 /// Natural frequencies of the lattice bonded to a fixed rod, lowest first. Files: modes.csv
-/// (`mode,frequency [Hz]`), summary.json.
+/// (`mode,frequency [Hz]` and what moves, see lattice::ModeMotion), summary.json.
 Job modes_job(const lattice::PressSetup& setup, int count);
 
 /// The continuum by fingertip-fem. Files: job.json, summary.json, convergence.csv, tip.msh,

@@ -1,10 +1,9 @@
 #include "studies/run/json_file.h"
 
 #include <cmath>
-#include <fstream>
 
-#include "meshes/errors.h"
 #include "meshes/files.h"
+#include "studies/files/json_entry.h"
 
 namespace fingertip::studies {
 
@@ -16,17 +15,7 @@ void write_json(const nlohmann::ordered_json& content, const std::filesystem::pa
 }
 
 nlohmann::ordered_json read_json(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) {
-    throw meshes::InvalidInput(
-        {file.string(), "", "the file cannot be read", "check that it exists and is complete"});
-  }
-  try {
-    return nlohmann::ordered_json::parse(in);
-  } catch (const nlohmann::json::exception& error) {
-    throw meshes::InvalidInput({file.string(), "", std::string("not valid JSON: ") + error.what(),
-                                "the file is damaged or truncated: run again"});
-  }
+  return parse_json(file);
 }
 
 double number_of(const nlohmann::ordered_json& value) {

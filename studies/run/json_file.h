@@ -10,7 +10,7 @@ namespace fingertip::studies {
 /// Throws std::runtime_error when the file cannot be written.
 void write_json(const nlohmann::ordered_json& content, const std::filesystem::path& file);
 
-/// Throws meshes::InvalidInput when the file cannot be read or is no JSON.
+/// The object in a file, to be changed; to look into one see JsonEntry. Throws like parse_json.
 nlohmann::ordered_json read_json(const std::filesystem::path& file);
 
 /// The number, NaN for null.

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "lattice/statics/mode_motion.h"
 #include "lattice/statics/static_press.h"
 #include "lattice/statics/vibration_modes.h"
 #include "meshes/files.h"
@@ -21,9 +22,15 @@ void run_modes_job(const lattice::PressSetup& setup, int count, const fs::path& 
   const auto modes = lattice::vibration_modes(
       body, count, [&] { return !context.report(0.0, "natural frequencies"); });
   meshes::write_atomically(folder / "modes.csv", [&](std::ostream& out) {
-    out << "mode,frequency [Hz]\n";
-    for (std::size_t i = 0; i < modes.size(); ++i)
-      out << i + 1 << ',' << meshes::to_text(modes[i].frequency) << '\n';
+    out << "mode,frequency [Hz],motion,mass_x,mass_y,mass_z,inertia_z,waves\n";
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      const lattice::ModeMotion motion =
+          lattice::motion_of(body, modes[i].shape, setup.lattice.spacing);
+      out << i + 1 << ',' << meshes::to_text(modes[i].frequency) << ','
+          << lattice::description(motion);
+      for (const double share : motion.effective_mass) out << ',' << meshes::to_text(share);
+      out << ',' << meshes::to_text(motion.effective_inertia) << ',' << motion.waves << '\n';
+    }
   });
   write_json({{"model", lattice::name(setup.lattice.model)},
               {"status", "finished"},

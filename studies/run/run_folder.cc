@@ -13,6 +13,7 @@
 #include "source_hash.h"
 #include "studies/config/documents.h"
 #include "studies/run/digest.h"
+#include "studies/run/fresh_folder.h"
 #include "studies/run/json_file.h"
 #include "studies/run/provenance.h"
 
@@ -38,17 +39,6 @@ bool make(const fs::path& folder) {
   if (fs::exists(clean)) return false;
   if (clean.has_parent_path()) fs::create_directories(clean.parent_path());
   return fs::create_directory(clean);
-}
-
-/// Makes runs/<verb>-<stamp>, with a number when two runs start within a second.
-fs::path make_default(const std::string& verb) {
-  const std::string stem =
-      fmt::format("runs/{}-{:%Y%m%d-%H%M%S}", verb, fmt::localtime(std::time(nullptr)));
-  fs::path candidate = stem;
-  for (int number = 2; !make(candidate); ++number) {
-    candidate = stem + "-" + std::to_string(number);
-  }
-  return candidate;
 }
 
 /// Also when its process was killed before there was a manifest.
@@ -109,6 +99,16 @@ bool prepare(const fs::path& folder, const RunFolderOptions& options) {
 
 }  // namespace
 
+fs::path make_run_folder(const std::string& verb) {
+  const std::string stem =
+      fmt::format("runs/{}-{:%Y%m%d-%H%M%S}", verb, fmt::localtime(std::time(nullptr)));
+  fs::path candidate = stem;
+  for (int number = 2; !make(candidate); ++number) {
+    candidate = stem + "-" + std::to_string(number);
+  }
+  return candidate;
+}
+
 class RunFolder::Log {
  public:
   explicit Log(const fs::path& file)
@@ -161,7 +161,7 @@ RunFolder::RunFolder(const RunFolderOptions& options, const LoadedConfig& loaded
 
 void RunFolder::claim(const RunFolderOptions& options) {
   if (path_.empty())
-    path_ = make_default(options.verb), made_ = true;
+    path_ = make_run_folder(options.verb), made_ = true;
   else
     made_ = make(path_);
   if (!made_ && !options.force && !options.resume) {

@@ -4,12 +4,14 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <exception>
 #include <thread>
 
 #include "lattice/control/controller.h"
 #include "meshes/errors.h"
 #include "studies/run/interrupt.h"
+#include "studies/run/result_files.h"
 
 namespace fingertip::studies {
 
@@ -50,6 +52,13 @@ bool Session::fetch(const PlannedJob& planned) const {
 
 bool Session::reuse(const PlannedJob& planned, JobResult& result) {
   const fs::path target = path_of(planned);
+  if (const std::string file = damaged_result(target); !file.empty()) {
+    const std::string words = fmt::format("{} is not as it was computed: {} starts again",
+                                          (target / file).string(), result.name);
+    folder_.log(words);
+    progress_.clear();
+    fmt::print(stderr, "fingertip: note: {}\n", words);
+  }
   const auto usable = [&] {
     result.status = marked_status(planned.job, target);
     return result.ok() || (planned.exhibit && !result.status.empty());

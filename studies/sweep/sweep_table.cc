@@ -1,18 +1,20 @@
 #include "studies/sweep/sweep_table.h"
 
-#include <fstream>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <ostream>
 #include <set>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "meshes/csv_table.h"
 #include "meshes/files.h"
 #include "studies/config/loader.h"
+#include "studies/files/folder_reader.h"
 #include "studies/run/cache.h"
-#include "studies/run/json_file.h"
 #include "studies/sweep/sweep_run.h"
 
 namespace fingertip::studies {
@@ -20,13 +22,28 @@ namespace fingertip::studies {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
 
 struct Row {
   std::string id, status;
-  std::vector<std::string> settings;     ///< in the order of the axes
-  std::map<std::string, double> values;  ///< numbers of summary.json
+  std::vector<std::string> settings;      ///< in the order of the axes
+  std::map<std::string, double> values;   ///< numbers of summary.json
+  std::map<std::string, double> answers;  ///< by column, see `answer_columns`
+  meshes::CsvTable curve;                 ///< response.csv
 };
+
+/// Of the last row of response.csv, at full depth.
+constexpr const char* depth_columns[] = {"indentation [m]", "normal_force [N]",
+                                         "contact_radius [m]"};
+constexpr const char* lowest_frequency = "lowest_frequency [Hz]";
+
+/// The columns in which some row has its answer, in the order in which they are shown.
+std::vector<std::string> answer_columns(const std::vector<Row>& rows) {
+  std::vector<std::string> columns;
+  for (const char* name : {depth_columns[0], depth_columns[1], depth_columns[2], lowest_frequency})
+    if (std::ranges::any_of(rows, [&](const Row& row) { return row.answers.contains(name); }))
+      columns.emplace_back(name);
+  return columns;
+}
 
 /// Quoted where a comma, a quote or a line break needs it (RFC 4180).
 std::string cell(const std::string& text) {
@@ -36,16 +53,11 @@ std::string cell(const std::string& text) {
   return quoted + '"';
 }
 
-void flatten(const ordered_json& node, const std::string& prefix, Row& row) {
-  for (const auto& [name, value] : node.items()) {
+void flatten(const JsonEntry& node, const std::string& prefix, Row& row) {
+  for (const auto& [name, value] : node.members()) {
     if (value.is_object()) flatten(value, prefix + name + ".", row);
-    if (value.is_number()) row.values[prefix + name] = value.get<double>();
+    if (value.is_number()) row.values[prefix + name] = value.number();
   }
-}
-
-std::string status_in(const fs::path& point) {
-  if (!fs::exists(point / marker_name)) return "missing";
-  return read_json(point / marker_name).value("status", "missing");
 }
 
 /// A text of TOML without its quotes.
@@ -54,23 +66,61 @@ std::string bare(const std::string& literal) {
   return quoted ? literal.substr(1, literal.size() - 2) : literal;
 }
 
-Row read_row(const ordered_json& point, const ordered_json& axes, const fs::path& folder) {
-  Row row;
-  row.id = point["id"];
-  row.status = status_in(folder / row.id);
-  for (const auto& axis : axes) {
-    row.settings.push_back(bare(point["settings"][axis.get<std::string>()]));
+/// A curve whose cells are all numbers, or nothing.
+meshes::CsvTable read_curve(const fs::path& file, FolderReader& reader) {
+  return reader.attempt([&] {
+    const meshes::CsvTable table = reader.csv(file);
+    for (const std::string& name : table.names) table.numbers(name);
+    return table;
+  });
+}
+
+/// What the point was computed for: force and contact at full depth, or the lowest frequency.
+void read_answer(const fs::path& folder, Row& row, FolderReader& reader) {
+  if (!row.curve.empty()) {
+    for (const char* name : depth_columns)
+      if (row.curve.has(name)) row.answers[name] = row.curve.numbers(name).back();
   }
-  const fs::path summary = folder / row.id / "summary.json";
-  if (row.status == finished && fs::exists(summary)) flatten(read_json(summary), "", row);
+  const meshes::CsvTable modes = reader.csv(folder / "modes.csv");
+  if (!modes.empty()) row.answers[lowest_frequency] = modes.numbers("frequency [Hz]").front();
+  std::erase_if(row.answers, [](const auto& entry) { return std::isnan(entry.second); });
+}
+
+/// Everything of a point that can be read; a point with damaged files says so.
+Row read_row(const JsonEntry& point, const std::vector<std::string>& axes, const fs::path& folder,
+             FolderReader& reader) {
+  Row row;
+  row.id = text_at(point, "id");
+  const JsonEntry settings = object_at(point, "settings");
+  for (const std::string& axis : axes) row.settings.push_back(bare(text_at(settings, axis)));
+  const std::size_t damage = reader.damage().size();
+  const JsonEntry marker = reader.json(folder / row.id / marker_name);
+  row.status = reader.attempt([&] { return text_at(marker, "status"); });
+  if (row.status == finished) {
+    const JsonEntry summary = reader.json(folder / row.id / "summary.json");
+    reader.attempt([&] { flatten(summary, "", row); });
+    row.curve = read_curve(folder / row.id / "response.csv", reader);
+    reader.attempt([&] { read_answer(folder / row.id, row, reader); });
+  }
+  if (reader.damage().size() > damage)
+    row.status = "damaged";
+  else if (row.status.empty())
+    row.status = "missing";
   return row;
 }
 
-void write_head(const ordered_json& axes, std::ostream& out) {
-  for (const auto& axis : axes) out << ',' << cell(axis.get<std::string>());
+void write_head(const std::vector<std::string>& axes, std::ostream& out) {
+  for (const std::string& axis : axes) out << ',' << cell(axis);
 }
 
-void write_table(const std::vector<Row>& rows, const ordered_json& axes, const fs::path& file) {
+std::string text_in(const std::map<std::string, double>& values, const std::string& name) {
+  const auto found = values.find(name);
+  return found == values.end() ? "" : meshes::to_text(found->second);
+}
+
+void write_table(const std::vector<Row>& rows, const std::vector<std::string>& axes,
+                 const fs::path& file) {
+  const std::vector<std::string> answers = answer_columns(rows);
   std::set<std::string> columns;
   for (const Row& row : rows) {
     for (const auto& [name, value] : row.values) columns.insert(name);
@@ -78,39 +128,83 @@ void write_table(const std::vector<Row>& rows, const ordered_json& axes, const f
   meshes::write_atomically(file, [&](std::ostream& out) {
     out << "point,status";
     write_head(axes, out);
+    for (const std::string& name : answers) out << ',' << cell(name);
     for (const std::string& name : columns) out << ',' << cell(name);
     out << '\n';
     for (const Row& row : rows) {
       out << row.id << ',' << cell(row.status);
       for (const std::string& value : row.settings) out << ',' << cell(value);
-      for (const std::string& name : columns) {
-        const auto found = row.values.find(name);
-        out << ',' << (found == row.values.end() ? "" : meshes::to_text(found->second));
-      }
+      for (const std::string& name : answers) out << ',' << text_in(row.answers, name);
+      for (const std::string& name : columns) out << ',' << text_in(row.values, name);
       out << '\n';
     }
   });
 }
 
-void write_curves(const std::vector<Row>& rows, const ordered_json& axes, const fs::path& folder) {
-  bool headed = false;
+/// The curves of all points, which are of one shape; one of another is noted and left out.
+void write_curves(std::vector<Row>& rows, const std::vector<std::string>& axes,
+                  const fs::path& folder, FolderReader& reader) {
+  const Row* first = nullptr;
   std::string text;
-  for (const Row& row : rows) {
-    std::ifstream in(folder / "points" / row.id / "response.csv");
-    std::string line, front = row.id;
-    for (const std::string& value : row.settings) front += ',' + cell(value);
-    if (row.status != finished || !std::getline(in, line)) continue;
-    if (!headed) {
+  for (Row& row : rows) {
+    if (row.curve.names.empty()) continue;
+    if (first == nullptr) {
+      first = &row;
       text = "point";
-      for (const auto& axis : axes) text += ',' + cell(axis.get<std::string>());
-      text += ',' + line + '\n';
-      headed = true;
+      for (const std::string& name : axes) text += ',' + cell(name);
+      for (const std::string& name : row.curve.names) text += ',' + cell(name);
+      text += '\n';
     }
-    while (std::getline(in, line)) text += front + ',' + line + '\n';
+    const bool fits = reader.attempt([&] {
+      if (row.curve.names == first->curve.names) return true;
+      throw meshes::InvalidInput({row.curve.file.string() + ":1", "",
+                                  "has other columns than " + first->curve.file.string(),
+                                  "compute the point again: take its folder away and resume"});
+    });
+    if (!fits) row.status = "damaged";
+    std::string front = row.id;
+    for (const std::string& value : row.settings) front += ',' + cell(value);
+    for (std::size_t i = 0; fits && i < row.curve.rows.size(); ++i) {
+      text += front;
+      for (const std::string& value : row.curve.rows[i]) text += ',' + cell(value);
+      text += '\n';
+    }
   }
-  if (headed) {
+  if (first != nullptr) {
     meshes::write_atomically(folder / "curves.csv", [&](std::ostream& out) { out << text; });
   }
+}
+
+/// For a terminal: the first rows with settings and answers.
+std::string screen_text(const std::vector<Row>& rows, const std::vector<std::string>& axes) {
+  constexpr std::size_t most_rows = 40;
+  const std::vector<std::string> answers = answer_columns(rows);
+  std::vector<std::vector<std::string>> cells;
+  cells.push_back({"point", "status"});
+  cells.back().insert(cells.back().end(), axes.begin(), axes.end());
+  cells.back().insert(cells.back().end(), answers.begin(), answers.end());
+  for (const Row& row : rows) {
+    if (cells.size() > most_rows) break;
+    cells.push_back({row.id, row.status.substr(0, row.status.find(':'))});
+    cells.back().insert(cells.back().end(), row.settings.begin(), row.settings.end());
+    for (const std::string& name : answers) {
+      const auto found = row.answers.find(name);
+      cells.back().push_back(found == row.answers.end() ? ""
+                                                        : fmt::format("{:.5g}", found->second));
+    }
+  }
+  std::string text;
+  for (const auto& line : cells) {
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      std::size_t width = 0;
+      for (const auto& other : cells) width = std::max(width, other[c].size());
+      text += fmt::format("{:<{}}", line[c], width + 2);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+  if (rows.size() > most_rows) text += fmt::format("... {} more\n", rows.size() - most_rows);
+  return text;
 }
 
 }  // namespace
@@ -120,20 +214,24 @@ SweepCensus collect(const fs::path& folder) {
     throw ConfigError({{"--collect " + folder.string(), "", "", "is not the folder of a sweep",
                         "give what sweep --out has written to"}});
   }
-  const ordered_json sweep = read_json(folder / sweep_file);
+  const JsonEntry sweep = read_entry(folder / sweep_file);
+  std::vector<std::string> axes;
+  for (const JsonEntry& axis : array_at(sweep, "axes")) axes.push_back(axis.text());
+  FolderReader reader;
   std::vector<Row> rows;
+  for (const JsonEntry& point : array_at(sweep, "points"))
+    rows.push_back(read_row(point, axes, folder / "points", reader));
+  write_curves(rows, axes, folder, reader);
+  write_table(rows, axes, folder / "table.csv");
   SweepCensus census;
-  for (const auto& point : sweep["points"]) {
-    rows.push_back(read_row(point, sweep["axes"], folder / "points"));
-    ++census.points;
-    if (rows.back().status == finished) {
-      ++census.finished;
-    } else if (rows.back().status != "missing") {
-      ++census.failed;
-    }
+  census.points = rows.size();
+  for (const Row& row : rows) {
+    census.finished += row.status == finished ? 1 : 0;
+    census.missing += row.status == "missing" ? 1 : 0;
+    census.damaged += row.status == "damaged" ? 1 : 0;
   }
-  write_table(rows, sweep["axes"], folder / "table.csv");
-  write_curves(rows, sweep["axes"], folder);
+  census.damage = reader.damage();
+  census.text = screen_text(rows, axes);
   return census;
 }
 

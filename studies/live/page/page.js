@@ -47,7 +47,9 @@ class Page {
     this.scene.overlays = [];
     this.scene.build(message);
     this.forceMost = this.torqueMost = 0;
-    element('error-figure').hidden = message.reference.length === 0;
+    element('error-figure').hidden = message.reference.length === 0 || !message.comparable;
+    element('remark').textContent = message.remark;
+    element('remark').hidden = message.remark === '';
     element('overlay-legend').hidden = message.overlays.length === 0;
     message.overlays.forEach((depth, k) => fetch(`/overlay/${k}`)
       .then((answer) => (answer.ok ? answer.arrayBuffer() : Promise.reject(new Error(`overlay ${k}`))))
@@ -226,9 +228,9 @@ class Page {
   drawPlots(frame) {
     const length = Units.factor('length'), force = Units.factor('force'), speed = Units.factor('speed');
     const { rows, about } = this;
-    this.forcePlot.series[0].points = about.reference.length > 0 ? [[0, 0], ...about.reference.map(([x, y]) => [x * length, y * force])] : [];
+    this.forcePlot.series[0].points = about.reference.map(([x, y]) => [x * length, y * force]);
     this.forcePlot.series[1].points = rows.map((row) => [row[1] * length, row[2] * force]);
-    const first = about.reference.length > 0 ? about.reference[0][0] : 0;
+    const first = about.comparable && about.reference.length > 0 ? about.reference[0][0] : Infinity;
     const error = (indentation, value) => (indentation >= first ? 100 * (value / this.referenceForce(indentation) - 1) : NaN);
     this.errorPlot.series[0].points = rows.map((row) => [row[1] * length, error(row[1], row[2])]).filter((point) => Number.isFinite(point[1]));
     this.speedPlot.series[0].points = rows.map((row) => [row[0], (row[3] - row[4]) * speed]);

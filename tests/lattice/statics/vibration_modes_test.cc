@@ -11,6 +11,7 @@
 
 #include "body_sums.h"
 #include "lattice/statics/cut_lattice.h"
+#include "lattice/statics/mode_motion.h"
 #include "meshes/errors.h"
 
 using namespace fingertip;
@@ -177,6 +178,74 @@ TEST(VibrationModes, ShapesAreOrthonormalAndCarryTheirEnergy) {
 }
 
 /// Mirror planes keep what is symmetric about both.
+/// The field u(X) as a shape: normalised, x' M x = 1.
+template <typename Field>
+VectorXd shape_of(const LatticeBody& body, const Field& field) {
+  VectorXd shape(body.unknowns());
+  for (std::size_t i = 0; i < body.rest.size(); ++i)
+    shape.segment<3>(3 * Eigen::Index(i)) = field(body.rest[i]);
+  return shape / std::sqrt(shape.dot(masses(body).cwiseProduct(shape)));
+}
+
+TEST(ModeMotion, NamesFieldsOfKnownMotion) {
+  const LatticeBody& body = whole_tip().body;
+  using meshes::Vector3;
+  const auto motion = [&](const auto& field) {
+    return lattice::motion_of(body, shape_of(body, field), 0.01 / 8.0);
+  };
+  const auto shift = motion([](const Vector3&) { return Vector3(0.6, 0.8, 0.0); });
+  EXPECT_NEAR(shift.effective_mass.x(), 0.36, 1e-9);
+  EXPECT_NEAR(shift.effective_mass.y(), 0.64, 1e-9);
+  EXPECT_EQ(lattice::description(shift), "sideways");
+  const auto lift = motion([](const Vector3&) { return Vector3(0.0, 0.0, 2.0); });
+  EXPECT_NEAR(lift.effective_mass.z(), 1.0, 1e-9);
+  EXPECT_EQ(lattice::description(lift), "along the axis");
+  const auto turn = motion([](const Vector3& x) { return Vector3(-x.y(), x.x(), 0.0); });
+  EXPECT_NEAR(turn.effective_inertia, 1.0, 1e-9);
+  EXPECT_NEAR(turn.circumferential, 1.0, 1e-9);
+  EXPECT_EQ(lattice::description(turn), "torsion");
+  const auto swell = motion([](const Vector3& x) { return Vector3(x.x(), x.y(), 0.0); });
+  EXPECT_NEAR(swell.radial, 1.0, 1e-9);
+  EXPECT_EQ(lattice::description(swell), "breathing");
+  // cos 2 phi, about axes of any direction, and cos 3 phi
+  for (const double angle : {0.0, 0.3, pi / 4.0}) {
+    const auto oval = motion([angle](const Vector3& x) {
+      const double c = std::cos(angle), s = std::sin(angle);
+      return Vector3(c * x.x() + s * x.y(), s * x.x() - c * x.y(), 0.0);
+    });
+    EXPECT_EQ(lattice::description(oval), "2 waves around the axis") << angle;
+    EXPECT_LT(oval.effective_mass.sum() + oval.effective_inertia, 1e-9);
+  }
+  const auto three = motion([](const Vector3& x) {
+    const double phi = std::atan2(x.y(), x.x());
+    return Vector3(0.0, 0.0, std::hypot(x.x(), x.y()) * std::cos(3.0 * phi));
+  });
+  EXPECT_EQ(lattice::description(three), "3 waves around the axis");
+}
+
+TEST(ModeMotion, OfTheTipIsTorsionAPairSidewaysAndAlongTheAxis) {
+  const auto& [body, modes] = whole_tip();
+  Eigen::Vector3d mass = Eigen::Vector3d::Zero();
+  std::vector<std::string> words;
+  double inertia = 0.0;
+  for (const VibrationMode& mode : modes) {
+    const auto motion = lattice::motion_of(body, mode.shape, 0.01 / 8.0);
+    EXPECT_NEAR(motion.radial + motion.circumferential + motion.axial, 1.0, 1e-9);
+    words.push_back(lattice::description(motion));
+    mass += motion.effective_mass;
+    inertia += motion.effective_inertia;
+  }
+  // Shares of one whole; x and y are alike, and the lowest modes carry most of it.
+  EXPECT_LE(mass.maxCoeff(), 1.0);
+  EXPECT_LE(inertia, 1.0);
+  EXPECT_NEAR(mass.x(), mass.y(), 1e-6);
+  EXPECT_GT(mass.minCoeff(), 0.5);
+  EXPECT_GT(inertia, 0.5);
+  EXPECT_EQ(std::ranges::count(words.begin(), words.begin() + 4, "torsion"), 1);
+  EXPECT_EQ(std::ranges::count(words.begin(), words.begin() + 4, "sideways"), 2);
+  EXPECT_EQ(std::ranges::count(words.begin(), words.begin() + 4, "along the axis"), 1);
+}
+
 TEST(VibrationModes, OfAQuarterAreAmongThoseOfTheWhole) {
   const LatticeBody quarter = build_cut_tip({}, {}, settings_for(0.01 / 8.0), 4);
   const Modes symmetric = vibration_modes(quarter, 2);

@@ -149,7 +149,7 @@ TEST(ControlReport, SnapshotsHideTheBackOfTheTip) {
   const TemporaryFolder folder;
   const fs::path run = write_run(folder);
   studies::write_report(run);
-  const CsvTable points = read_csv(run / "figures/snapshots_1.csv");
+  const CsvTable points = fingertip::meshes::read_csv(run / "figures/snapshots_1.csv");
   const auto series = points.texts("series");
   const auto drawn = std::ranges::count(series, "springs") / 3;
   // A normal at polar angle p, measured from the pole below, and azimuth f faces a viewer 14
@@ -226,7 +226,7 @@ TEST(IntegratorReport, ShowsCostAgainstErrorAndNoControl) {
   EXPECT_EQ(report_testing::structure_faults(html), std::vector<std::string>());
   EXPECT_TRUE(has(html, "<section id=\"integrators\">"));
   EXPECT_FALSE(has(html, "<section id=\"control\">"));
-  const CsvTable figure = read_csv(run / "figures/cost_of_integrators.csv");
+  const CsvTable figure = fingertip::meshes::read_csv(run / "figures/cost_of_integrators.csv");
   EXPECT_EQ(figure.numbers("force evaluations of the press [1]"),
             (std::vector<double>{500.0, 1000.0}));
   EXPECT_TRUE(has(report_testing::visible_text(html),

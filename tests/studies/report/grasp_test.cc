@@ -102,7 +102,7 @@ TEST(GraspReport, FigureOfReleaseIsGripAgainstSlip) {
   const TemporaryFolder folder;
   const fs::path run = write_run(folder);
   studies::write_report(run);
-  const CsvTable figure = read_csv(run / "figures/grasp_release.csv");
+  const CsvTable figure = fingertip::meshes::read_csv(run / "figures/grasp_release.csv");
   const auto slip = figure.numbers("slip of the block along the fingers [mm]");
   const auto force = figure.numbers("grip force per finger [gf]");
   ASSERT_GE(slip.size(), 30u);

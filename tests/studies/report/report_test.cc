@@ -216,20 +216,50 @@ TEST(Report, RefusesAFolderThatIsNoRun) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
-TEST(Report, KeepsTheOldReportWhenAFileIsDamaged) {
+/// "places: rules" of everything that is wrong with the run.
+std::string damage_of(const fs::path& run) {
+  std::string text;
+  for (const meshes::Violation& one : studies::write_report(run)) text += to_string(one) + "\n";
+  return text;
+}
+
+TEST(Report, NamesDamagedFilesAndReportsTheRest) {
   SyntheticRun run;
-  const std::string before = run.report();
+  const std::string whole = run.report();
   write_file(run.path / "cubes.csv", "model,cells_across\npublished\n");
-  try {
-    studies::write_report(run.path);
-    FAIL() << "a row with a missing cell was accepted";
-  } catch (const meshes::InvalidInput& error) {
-    EXPECT_TRUE(has(error.what(), "cubes.csv:2")) << error.what();
-  }
-  write_file(run.path / "cubes.csv", "");
-  write_file(run.path / "summary.json", "{\"models\": {");
-  EXPECT_THROW(studies::write_report(run.path), meshes::InvalidInput);
-  EXPECT_EQ(read_text(run.path / "report.html"), before);
+  std::string damage = damage_of(run.path);
+  EXPECT_TRUE(has(damage, "cubes.csv:2")) << damage;
+  std::string html = read_text(run.path / "report.html");
+  EXPECT_TRUE(has(report_testing::visible_text(html), "cubes.csv:2"));
+  EXPECT_TRUE(has(html, "<section id=\"force\">"));
+  EXPECT_EQ(first_or_none(report_testing::structure_faults(html)), "");
+  // A chapter whose data are senseless is left out, the others stay.
+  const std::string trace = read_text(run.path / "hookean/trace.csv");
+  const std::size_t cell = trace.find(',', trace.find('\n'));
+  write_file(run.path / "hookean/trace.csv",
+             trace.substr(0, cell + 1) + "inf" + trace.substr(trace.find(',', cell + 1)));
+  damage = damage_of(run.path);
+  EXPECT_TRUE(has(damage, "hookean/trace.csv:2, ")) << damage;
+  EXPECT_TRUE(has(damage, "= inf: must be a finite number")) << damage;
+  html = read_text(run.path / "report.html");
+  EXPECT_TRUE(has(whole, "<section id=\"control\">"));
+  EXPECT_FALSE(has(html, "<section id=\"control\">"));
+  EXPECT_TRUE(has(html, "<section id=\"force\">"));
+  // What stands in the place of a file is not the file.
+  fs::remove(run.path / "hookean/response.csv");
+  fs::create_directory(run.path / "hookean/response.csv");
+  EXPECT_TRUE(has(damage_of(run.path), "hookean/response.csv: is no file"));
+}
+
+TEST(Report, NamesEntriesOfAnotherType) {
+  SyntheticRun run;
+  auto summary = nlohmann::json::parse(read_text(run.path / "summary.json"));
+  summary["criteria"] = "met";
+  summary["depths"] = {0.001, "deep"};
+  write_file(run.path / "summary.json", summary.dump());
+  const std::string damage = damage_of(run.path);
+  EXPECT_TRUE(has(damage, "summary.json, criteria = \"met\": must be a list")) << damage;
+  EXPECT_TRUE(has(damage, "summary.json, depths[1] = \"deep\": must be a number")) << damage;
 }
 
 TEST(Report, SaysSoWhenGnuplotIsMissingAndKeepsTheOldReport) {

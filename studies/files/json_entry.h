@@ -1,0 +1,81 @@
+/// JSON files, read with messages that name the file and the place in it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace fingertip::studies {
+
+/// The JSON object in a file. Throws InvalidInput naming file, line and column when it cannot be
+/// read, is no JSON, or holds something else than an object.
+nlohmann::ordered_json parse_json(const std::filesystem::path& file);
+
+/// A value in a JSON file that knows its place there. Entries that are absent count as null, and
+/// null stands for what a program did not know. A value of another type than is asked for is
+/// damage: InvalidInput with file, path ("samples[2].force"), value and the type that belongs
+/// there.
+class JsonEntry {
+ public:
+  /// An empty object.
+  JsonEntry() : JsonEntry(nlohmann::json::object()) {}
+  /// `file` is for messages.
+  JsonEntry(nlohmann::json content, const std::filesystem::path& file = {});
+
+  bool is_null() const { return value_->is_null(); }
+  bool is_object() const { return value_->is_object(); }
+  bool is_list() const { return value_->is_array(); }
+  bool is_number() const { return value_->is_number(); }
+  bool is_text() const { return value_->is_string(); }
+  /// Null, or without entries.
+  bool empty() const { return value_->empty(); }
+  /// Whether it is an object with this entry, and that is not null.
+  bool contains(const std::string& key) const;
+  /// An entry of an object.
+  JsonEntry at(const std::string& key) const;
+  /// The entries of an object or null, by name.
+  std::vector<std::pair<std::string, JsonEntry>> members() const;
+  /// The entries of a list or null.
+  std::vector<JsonEntry> elements() const;
+  /// NaN for null. A number's magnitude is at most meshes::largest_plausible.
+  double number() const;
+  /// numbers() of a list, number by number.
+  std::vector<double> numbers() const;
+  /// "" for null; numbers, true and false as JSON writes them.
+  std::string text() const;
+  /// False for null.
+  bool flag() const;
+  /// Itself, an object; an empty one for null.
+  JsonEntry object() const;
+
+ private:
+  struct Document {
+    nlohmann::json content;
+    std::filesystem::path file;
+  };
+  JsonEntry(std::shared_ptr<const Document> document, const nlohmann::json& value,
+            std::string path);
+  [[noreturn]] void refuse(const std::string& rule) const;
+
+  std::shared_ptr<const Document> document_;
+  const nlohmann::json* value_;
+  std::string path_;
+};
+
+using JsonList = std::vector<JsonEntry>;
+
+/// The object in a file, which must be there. Throws like parse_json.
+JsonEntry read_entry(const std::filesystem::path& file);
+
+/// Shorthands for `entry.at(key)`.
+double number_at(const JsonEntry& entry, const std::string& key);
+std::vector<double> numbers_at(const JsonEntry& entry, const std::string& key);
+std::string text_at(const JsonEntry& entry, const std::string& key);
+JsonEntry object_at(const JsonEntry& entry, const std::string& key);
+JsonList array_at(const JsonEntry& entry, const std::string& key);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,225 @@
+/// What one press or one search for natural vibrations found.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "studies/files/mode_table.h"
+#include "studies/report/chapters.h"
+
+namespace fingertip::studies::reporting {
+namespace {
+
+/// Rows of a table that a reader takes in; the figure and its CSV have every sample.
+constexpr std::size_t most_rows = 20;
+
+const Style single{"#0072B2", "", 2.2, 7, true};
+
+Panel curve_panel(const meshes::PressResponse& response, const std::string& label,
+                  double meshes::PressSample::*value, double factor) {
+  Panel panel;
+  panel.x_label = "indentation [cm]";
+  panel.y_label = label;
+  panel.key = "";
+  Series series{"", "press", {}, {}, {}, single};
+  if (response.samples().size() > most_rows) series.style.point = 0;
+  for (const meshes::PressSample& sample : response.samples()) {
+    series.x.push_back(to_cm(sample.indentation));
+    series.y.push_back(factor * sample.*value);
+  }
+  panel.series.push_back(std::move(series));
+  return panel;
+}
+
+bool known(const meshes::PressResponse& response, double meshes::PressSample::*value) {
+  return std::ranges::any_of(response.samples(), [value](const meshes::PressSample& sample) {
+    return std::isfinite(sample.*value);
+  });
+}
+
+/// A column of the samples' table.
+struct Column {
+  const char* title;
+  const char* unit;
+  double meshes::PressSample::*value;
+  double factor;
+  const char* si;
+};
+
+Table sample_table(const meshes::PressResponse& response) {
+  static const Column columns[] = {
+      {"Normal force", "gf", &meshes::PressSample::normal_force, to_gf(1.0), "N"},
+      {"Estimated error", "gf", &meshes::PressSample::force_error, to_gf(1.0), "N"},
+      {"Lateral force", "along t1, gf", &meshes::PressSample::lateral_force_x, to_gf(1.0), "N"},
+      {"Contact radius", "cm", &meshes::PressSample::contact_radius, to_cm(1.0), "m"},
+      {"Peak pressure", "gf/cm²", &meshes::PressSample::max_pressure, to_gf_per_cm2(1.0), "Pa"}};
+  Table table;
+  table.header = {plain("Indentation", "cm")};
+  std::vector<Column> shown;
+  for (const Column& column : columns) {
+    if (!known(response, column.value)) continue;
+    shown.push_back(column);
+    table.header.push_back(plain(column.title, column.unit));
+  }
+  const auto& samples = response.samples();
+  const std::size_t rows = std::min(samples.size(), most_rows);
+  for (std::size_t i = 0; i < rows; ++i) {
+    // The last one is always among them.
+    const auto& sample = samples[rows < 2 ? 0 : i * (samples.size() - 1) / (rows - 1)];
+    std::vector<Cell> row{plain(number(to_cm(sample.indentation)))};
+    for (const Column& column : shown) {
+      const double value = sample.*column.value;
+      row.push_back(std::isnan(value)
+                        ? plain("–")
+                        : plain(number(column.factor * value), with_prefix(value, column.si)));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  table.caption = rows < samples.size() ? fmt::format("{} of the {} samples.", rows, samples.size())
+                                        : "The samples.";
+  return table;
+}
+
+/// Pressure of the points on the plane against their distance from the contact's centre.
+FigureBlock pressure_figure(const CsvTable& contact) {
+  const std::vector<double> x = contact.numbers("deformed_x [m]"),
+                            y = contact.numbers("deformed_y [m]"),
+                            pressure = contact.numbers("pressure [Pa]");
+  double weight = 0.0, centre_x = 0.0, centre_y = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double force = std::max(pressure[i], 0.0);
+    weight += force, centre_x += force * x[i], centre_y += force * y[i];
+  }
+  // A quarter or half of a contact has its centre on the mirror planes.
+  const auto centre = [&](const std::vector<double>& along, double sum) {
+    const bool cut = std::ranges::all_of(along, [](double value) { return value >= 0.0; });
+    return cut || !(weight > 0.0) ? 0.0 : sum / weight;
+  };
+  const double cx = centre(x, centre_x), cy = centre(y, centre_y);
+  Panel panel;
+  panel.x_label = "distance from the contact's centre [cm]";
+  panel.y_label = "pressure [gf/cm²]";
+  panel.key = "";
+  Series series{"", "points", {}, {}, {}, {"#0072B2", "", 1.0, 7, false, 0.45}};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    series.x.push_back(to_cm(std::hypot(x[i] - cx, y[i] - cy)));
+    series.y.push_back(to_gf_per_cm2(pressure[i]));
+  }
+  panel.series.push_back(std::move(series));
+  panel.x_range = Range{0.0, meshes::unknown};
+  return {{"contact_pressure", 760, 380, 1, {panel}},
+          "Contact pressure at full depth",
+          "One dot per point of the true surface on the plane; points of one ring lie above each "
+          "other where the contact is round."};
+}
+
+}  // namespace
+
+Chapter press_chapter(const meshes::PressResponse& response, const CsvTable& contact) {
+  Chapter chapter{"press", "Force against indentation", {}};
+  if (response.empty()) return chapter;
+  chapter.blocks.push_back(
+      FigureBlock{{"force_indentation",
+                   760,
+                   420,
+                   1,
+                   {curve_panel(response, "normal force [gf]", &meshes::PressSample::normal_force,
+                                to_gf(1.0))}},
+                  "Normal force against indentation",
+                  "Indentation counts from first touch."});
+  chapter.blocks.push_back(sample_table(response));
+  if (known(response, &meshes::PressSample::contact_radius))
+    chapter.blocks.push_back(
+        FigureBlock{{"contact_radius",
+                     760,
+                     340,
+                     1,
+                     {curve_panel(response, "contact radius [cm]",
+                                  &meshes::PressSample::contact_radius, to_cm(1.0))}},
+                    "Contact radius against indentation",
+                    "Where a lattice touches with single points, its contact grows in steps."});
+  if (!contact.empty()) chapter.blocks.push_back(pressure_figure(contact));
+  return chapter;
+}
+
+std::string press_answer(const meshes::PressResponse& response) {
+  if (response.empty()) return "The press has no sample.";
+  const meshes::PressSample& last = response.samples().back();
+  std::string text = fmt::format("Pressed {} deep, the finger pushes back with {}",
+                                 length(last.indentation), force(last.normal_force));
+  if (last.contact_radius > 0.0)
+    text += fmt::format("; the contact's radius is {}", length(last.contact_radius));
+  return text + ".";
+}
+
+Chapter modes_chapter(const CsvTable& modes) {
+  Chapter chapter{"modes", "Natural vibrations", {}};
+  if (modes.empty()) return chapter;
+  const std::vector<std::string> names = modes.texts("mode"), motions = mode_motions(modes);
+  const std::vector<double> frequency = modes.numbers("frequency [Hz]"),
+                            error = modes.numbers_if_any("frequency_error [Hz]"),
+                            x = modes.numbers_if_any("mass_x"), y = modes.numbers_if_any("mass_y"),
+                            z = modes.numbers_if_any("mass_z"),
+                            turn = modes.numbers_if_any("inertia_z");
+  const bool lattice = modes.has("motion");
+  Panel panel;
+  panel.x_label = "mode";
+  panel.y_label = "frequency [Hz]";
+  panel.y_range = Range{0.0, meshes::unknown};
+  std::map<std::string, Series> kinds;
+  Table table;
+  table.header = {plain("Mode"), plain("Frequency", "Hz")};
+  if (!lattice && modes.has("frequency_error [Hz]"))
+    table.header.push_back(plain("Estimated error", "Hz"));
+  table.header.push_back(plain("Motion"));
+  if (lattice)
+    for (const auto& [what, note] : {std::pair{"Mass", "across"}, std::pair{"Mass", "along"},
+                                     std::pair{"Inertia", "about the axis"}})
+      table.header.push_back(plain(what, note));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto [kind, fresh] = kinds.try_emplace(motions[i]);
+    if (fresh) {
+      kind->second.label = motions[i];
+      kind->second.style = numbered_style(kinds.size() - 1);
+      kind->second.style.line = false;
+    }
+    kind->second.x.push_back(double(i + 1));
+    kind->second.y.push_back(frequency[i]);
+    std::vector<Cell> row{plain(names[i]), plain(number(frequency[i], 5))};
+    if (!lattice && modes.has("frequency_error [Hz]")) row.push_back(plain(number(error[i], 2)));
+    row.push_back({motions[i], "", Grade::none, true});
+    if (lattice) {
+      row.push_back(plain(percent_magnitude(x[i] + y[i])));
+      row.push_back(plain(percent_magnitude(z[i])));
+      row.push_back(plain(percent_magnitude(turn[i])));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  for (auto& [name, series] : kinds) panel.series.push_back(std::move(series));
+  table.caption = "Vibrations of the finger bonded to a rod that stands still, without contact.";
+  if (lattice)
+    table.caption +=
+        " Mass and inertia: the shares that answer when the rod shakes across its axis, along it, "
+        "or turns about it (effective modal masses). Pairs of equal frequency are one shape in two "
+        "directions.";
+  chapter.blocks.push_back(FigureBlock{
+      {"frequencies", 760, 380, 1, {panel}},
+      "Natural frequencies",
+      "Kinds of motion: alike around the axis (torsion, along it, breathing), sideways, "
+      "or with waves around it."});
+  chapter.blocks.push_back(std::move(table));
+  return chapter;
+}
+
+std::string modes_answer(const CsvTable& modes) {
+  if (modes.empty()) return "";
+  const std::vector<std::string> motions = mode_motions(modes);
+  const std::vector<double> frequency = modes.numbers("frequency [Hz]");
+  return fmt::format("The lowest natural frequency is {} Hz{}; {} modes lie up to {} Hz.",
+                     number(frequency.front(), 4),
+                     motions.front().empty() ? "" : " (" + motions.front() + ")", frequency.size(),
+                     number(frequency.back(), 4));
+}
+
+}  // namespace fingertip::studies::reporting

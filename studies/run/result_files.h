@@ -1,0 +1,33 @@
+/// Whether the files of a finished job are what it wrote.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace fingertip::studies {
+
+/// Every file of the job in `folder` by its name there, with its SHA-256; without what belongs to
+/// the run (is_run_file) and the markers. An entry of the marker finished.json.
+nlohmann::ordered_json result_digests(const std::filesystem::path& folder);
+
+/// The first file that is missing or not as it was when `folder` was marked, the marker itself when
+/// that is damaged or tells no digests; empty when all is well or nothing was marked.
+std::string damaged_result(const std::filesystem::path& folder);
+
+/// Whether `folder` holds the files that its marker tells of, as they were, and no others. Throws
+/// InvalidInput for a damaged marker.
+bool is_whole_result(const std::filesystem::path& folder);
+
+/// The marker of `folder`. Throws InvalidInput where it is not as it was written.
+nlohmann::ordered_json read_marker(const std::filesystem::path& folder);
+
+/// Writes it, with a digest of its own.
+void write_marker(nlohmann::ordered_json marker, const std::filesystem::path& folder);
+
+/// Writes a JSON file of the finished job in `folder` anew and has the marker know it.
+void rewrite_result(const std::filesystem::path& folder, const std::string& name,
+                    const nlohmann::ordered_json& content);
+
+}  // namespace fingertip::studies
