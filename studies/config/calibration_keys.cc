@@ -130,7 +130,9 @@ std::vector<Key> calibration_keys() {
       range_key(),
       plain("calibration", "evaluations", Kind::integer, "50", {1, 1000000, true},
             "evaluations of the model a search may do, a press of every curve each",
-            [](Config&, const Value&) {}),
+            [](Config& config, const Value& value) {
+              config.calibration.evaluations = int(value.number);
+            }),
       list("profile", "two free parameters to draw chi-square over, or none", &Order::profile),
       flag(
           "bias", "false",

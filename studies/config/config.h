@@ -50,9 +50,10 @@ struct CalibrationOrder {
   double robust_width = 0.0;
   std::vector<double> poisson_range;  ///< lowest, highest
   std::vector<std::string> profile;
-  bool bias = true, surrogate = false;
+  bool bias = false, surrogate = false;
   double isotropy_weight = 0.0, bulk_weight = 0.0;
   int starts = 10;
+  int evaluations = 50;  ///< most that a search may do
   unsigned seed = 1;
 };
 
