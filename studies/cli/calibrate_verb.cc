@@ -27,20 +27,19 @@ bool run_stages(FitPlan& plan, Session& session) {
 }
 
 void print_moduli(const ordered_json& content) {
-  fmt::print("{:<22}{:>14}{:>14}{:>16}\n", "", "target", "achieved", "achieved [Pa]");
+  fmt::print("{:<22}{:>14}{:>14}{:>22}\n", "", "target", "achieved", "achieved [gf/cm^2]");
   const auto& target = content["target"];
   const auto& achieved = content["achieved"];
   const auto row = [&](const char* name, const char* wanted, const char* reached) {
     const double pascal = achieved[reached].get<double>();
-    fmt::print("{:<22}{:>14.4f}{:>14.4f}{:>16.6g}\n", name,
-               convert(target[wanted].get<double>(), "Pa", "gf/cm^2"),
-               convert(pascal, "Pa", "gf/cm^2"), pascal);
+    fmt::print("{:<22}{:>14.6g}{:>14.6g}{:>22.6g}\n", name, 1e-3 * target[wanted].get<double>(),
+               1e-3 * pascal, convert(pascal, "Pa", "gf/cm^2"));
   };
-  row("E_100 [gf/cm^2]", "youngs_modulus", "youngs_modulus_100");
-  row("E_110 [gf/cm^2]", "youngs_modulus", "youngs_modulus_110");
-  row("E_111 [gf/cm^2]", "youngs_modulus", "youngs_modulus_111");
-  row("G [gf/cm^2]", "shear_modulus", "shear_modulus");
-  row("K [gf/cm^2]", "bulk_modulus", "bulk_modulus");
+  row("E_100 [kPa]", "youngs_modulus", "youngs_modulus_100");
+  row("E_110 [kPa]", "youngs_modulus", "youngs_modulus_110");
+  row("E_111 [kPa]", "youngs_modulus", "youngs_modulus_111");
+  row("G [kPa]", "shear_modulus", "shear_modulus");
+  row("K [kPa]", "bulk_modulus", "bulk_modulus");
   fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "nu_100", target["poissons_ratio"].get<double>(),
              achieved["poissons_ratio_100"].get<double>());
   fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "anisotropy A", 1.0,

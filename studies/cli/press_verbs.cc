@@ -27,17 +27,17 @@ std::string cell(double value, const char* from, const char* to, int decimals) {
   return fmt::format("{:14.{}f}", convert(value, from, to), decimals);
 }
 
-/// The curve at the wanted depths, for a terminal.
+/// The curve at the wanted depths, for a terminal; at the end the paper's unit of force.
 void print_response(const std::filesystem::path& folder, const std::vector<double>& depths) {
   const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
-  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}\n", "depth [cm]", "force [gf]", "force [mN]",
-             "error [mN]", "contact [cm]");
+  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}\n", "depth [mm]", "force [mN]", "error [mN]",
+             "contact [mm]", "force [gf]");
   for (const double depth : depths) {
     for (const meshes::PressSample& row : response.samples()) {
       if (std::abs(row.indentation - depth) > 1e-6 * depth) continue;
-      fmt::print("{}{}{}{}{}\n", cell(row.indentation, "m", "cm", 4),
-                 cell(row.normal_force, "N", "gf", 4), cell(row.normal_force, "N", "mN", 4),
-                 cell(row.force_error, "N", "mN", 4), cell(row.contact_radius, "m", "cm", 4));
+      fmt::print("{}{}{}{}{}\n", cell(row.indentation, "m", "mm", 4),
+                 cell(row.normal_force, "N", "mN", 4), cell(row.force_error, "N", "mN", 4),
+                 cell(row.contact_radius, "m", "mm", 4), cell(row.normal_force, "N", "gf", 4));
       break;
     }
   }
@@ -122,8 +122,7 @@ void print_control(const JsonEntry& summary) {
                deviation = number_at(tracking, "force_deviation"),
                speed = number_at(tracking, "speed_deviation"),
                tilt = number_at(tracking, "tilt_deg");
-  const bool follows =
-      tracking.contains("follows_path") && number_at(tracking, "follows_path") != 0.0;
+  const bool follows = tracking.at("follows_path").flag();
   std::string text = "controller:";
   if (!std::isnan(held)) {
     text += fmt::format(" contact force {:.5g} mN held ({:.5g} mN wanted", 1e3 * held,
@@ -144,7 +143,7 @@ void print_control(const JsonEntry& summary) {
   fmt::print("{}\n", text);
 }
 
-void print_press_facts(const std::filesystem::path& folder) {
+void print_press_facts(const std::filesystem::path& folder, bool reused) {
   const JsonEntry summary = read_entry(folder / "summary.json");
   if (summary.contains("effort")) {
     const JsonEntry census = object_at(summary, "census");
@@ -154,10 +153,11 @@ void print_press_facts(const std::filesystem::path& folder) {
                text_at(object_at(summary, "effort"), "newton_iterations"));
     return;
   }
-  const JsonEntry step = object_at(summary, "step"), tracking = object_at(summary, "tracking");
+  const JsonEntry step = object_at(summary, "step");
   fmt::print("time step {:.3g} s: {}\n", number_at(step, "step"), text_at(step, "explanation"));
-  fmt::print("real-time factor {:.2f} (simulated over wall time)\n",
-             number_at(summary, "real_time_factor"));
+  fmt::print("real-time factor {:.2f} (simulated over wall time, threads: {}{})\n",
+             number_at(summary, "real_time_factor"), text_at(summary, "threads"),
+             reused ? "; of the run that computed it" : "");
   if (summary.contains("tracking")) print_control(summary);
 }
 
@@ -198,7 +198,7 @@ int run_press(const CommandLine& line) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
       print_response(session.folder().path(), setup.protocol.samples);
-      print_press_facts(session.folder().path());
+      print_press_facts(session.folder().path(), result.reused);
       print_sources(loaded);
       if (line.movie > 0) {
         fmt::print("movie for ParaView: {}\n",

@@ -56,7 +56,8 @@ std::vector<Quantity> time_quantities() {
       {"Step used", "", seconds("step", "step")},
       {"Steps", "", steps},
       {"Simulated time", "", seconds("", "simulated_time")},
-      {"Wall time", "", seconds("", "wall_time")},
+      {"Wall time", "of the run that computed it", seconds("", "wall_time")},
+      {"Threads", "then", plain_number("", "threads", 4)},
       {"Real-time factor", "above 1: faster than real time",
        plain_number("", "real_time_factor", 3)},
       {"Momentum defect", "rod, tip and plane, relative", plain_number("", "momentum_defect", 2)}};

@@ -77,6 +77,7 @@ ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOu
   summary["simulated_time"] = outcome.simulated_time;
   summary["wall_time"] = outcome.wall_time;
   summary["real_time_factor"] = outcome.real_time_factor();
+  summary["threads"] = setup.threads;
   summary["first_touch_time"] = number_or_null(outcome.first_touch_time);
   summary["momentum_defect"] = number_or_null(outcome.momentum_defect);
   if (setup.integrator == lattice::Integrator::mass_scaled) summary["scaling"] = scaling_of(setup);
