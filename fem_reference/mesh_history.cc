@@ -14,6 +14,16 @@ using Json = nlohmann::json;
 /// Meshes whose spacing at a sample's contact edge differs by less than this factor count as one.
 constexpr double least_refinement = 1.2;
 
+/// Excess of a mesh's energy over its indicator (MeshHistory::error), with a factor of safety of
+/// two.
+constexpr double excess_per_indicator = 2.0;
+
+/// w, by which edge errors of different samples are compared [N].
+double edge_scale(const PressState& state) {
+  const double share = state.node_spacing / state.sample.contact_radius;
+  return state.sample.normal_force * share * share;
+}
+
 /// JSON has no NaN; an unknown quantity is null.
 Json known(double value) {
   return std::isnan(value) ? Json() : Json(value);
@@ -38,6 +48,7 @@ constexpr std::pair<const char*, double PressState::*> real_entries[] = {
     {"node_spacing", &PressState::node_spacing},
     {"min_jacobian", &PressState::min_jacobian},
     {"energy", &PressState::energy},
+    {"indicator", &PressState::indicator},
     {"wall_time", &PressState::wall_time}};
 constexpr std::pair<const char*, int PressState::*> whole_entries[] = {
     {"steps", &PressState::steps},
@@ -61,7 +72,8 @@ Json state_to_json(const PressState& state) {
 PressState state_from_json(const Json& json) {
   PressState state;
   for (const auto& [key, member] : sample_entries) state.sample.*member = value_of(json.at(key));
-  for (const auto& [key, member] : real_entries) state.*member = value_of(json.at(key));
+  // A checkpoint of an earlier version has no indicator.
+  for (const auto& [key, member] : real_entries) state.*member = value_of(json.value(key, Json()));
   for (const auto& [key, member] : whole_entries) state.*member = json.at(key).get<int>();
   for (const Json& point : json.at("contact"))
     state.contact.push_back({point.at(0).get<double>(), point.at(1).get<double>()});
@@ -75,7 +87,39 @@ void MeshHistory::add(PressState state) {
   finest().states.push_back(std::move(state));
 }
 
+const PressState* MeshHistory::finest_state(std::size_t index) const {
+  const PressState* state = nullptr;
+  for (const MeshRecord& record : meshes_)
+    if (index < record.states.size()) state = &record.states[index];
+  return state;
+}
+
 ForceError MeshHistory::error(std::size_t index) const {
+  ForceError error = edge_error(index);
+  if (std::isnan(error.value)) return error;
+  const PressState& state = *finest_state(index);
+  const double typical = typical_edge_error() * edge_scale(state);
+  if (typical > error.value) error.value = typical;
+  const double excess =
+      excess_per_indicator * state.indicator / state.energy * state.sample.normal_force;
+  if (excess > error.value) error.value = excess;
+  return error;
+}
+
+/// m; 0 if no sample can be compared.
+double MeshHistory::typical_edge_error() const {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; const PressState* state = finest_state(i); ++i) {
+    const double ratio = edge_error(i).value / edge_scale(*state);
+    if (std::isfinite(ratio)) ratios.push_back(ratio);
+  }
+  if (ratios.empty()) return 0.0;
+  const auto middle = ratios.begin() + std::ptrdiff_t((ratios.size() - 1) / 2);
+  std::ranges::nth_element(ratios, middle);
+  return *middle;
+}
+
+ForceError MeshHistory::edge_error(std::size_t index) const {
   std::vector<MeshForce> sequence;
   for (const MeshRecord& record : meshes_) {
     if (index >= record.states.size() || !(record.states[index].node_spacing > 0.0)) continue;

@@ -27,6 +27,9 @@ struct PressState {
   double node_spacing = 0.0;          ///< of the candidate nodes around the contact edge [m]
   double min_jacobian = 1.0;          ///< smallest det F at a quadrature point; 1 at small strain
   double energy = 0.0;                ///< stored in the rubber [J]
+  /// G times the sum of the squared error indicators (refine()): proportional to the energy that
+  /// the mesh stores in excess, up to a factor of order one that meshes share [J].
+  double indicator = 0.0;
   int steps = 0;
   int newton_iterations = 0;
   int active_set_iterations = 0;
@@ -50,10 +53,10 @@ struct SectionEdge {
   std::array<double, 4> deformed{};
 };
 
-/// Radius of the contact edge [m]. Pressure vanishes at the edge like the square root of the
-/// distance from it, as in Hertz's p² ∝ a² - r²: the zero of a parabola in r² fitted to p² over the
-/// outer half of the contact, kept within one node spacing of the outermost node that is pushed.
-/// `contact` is sorted by radius.
+/// Radius of the contact edge [m]. Pressure vanishes there like the square root of the distance, as
+/// in Hertz's p² ∝ a² - r²: the zero of a straight line in r² fitted to p² over the outer fifth of
+/// the contact (the outer half where that has few nodes), kept within one node spacing of the
+/// outermost node that is pushed. `contact` is sorted by radius.
 double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing);
 
 /// A tip under a plane that comes nearer. A quarter of it when nothing breaks the symmetry, a half

@@ -4,9 +4,9 @@
 #include <deal.II/distributed/grid_refinement.h>
 #include <deal.II/numerics/error_estimator.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -22,8 +22,12 @@ namespace {
 /// node, and the force with it.
 constexpr double nodes_per_edge_radius = 10.0;
 
-/// Contact points that a parabola needs to say more than the outermost of them does.
-constexpr int fewest_edge_points = 12;
+/// The edge is sought from the points beyond this share of the radius: the second one where the
+/// first leaves too few of them to say more than the outermost does. At large strain p² has a peak
+/// in the middle that a fit over more of the contact feels: a parabola over the outer half is 2.5 %
+/// off at 0.3 cm of law A without friction, 14 % with stick.
+constexpr std::array<double, 2> edge_shares = {0.8, 0.5};
+constexpr double fewest_edge_points = 12;
 
 double radius(const meshes::Vector3& position) {
   return std::hypot(position.x(), position.y());
@@ -51,26 +55,21 @@ double spacing_around(const std::vector<SurfaceNode>& nodes, double edge) {
 double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing) {
   if (contact.empty()) return 0.0;
   const double outermost = contact.back().radius;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  int count = 0;
-  for (const ContactPoint& point : contact) {
-    if (point.radius < 0.5 * outermost) continue;
-    const double s = std::pow(point.radius / outermost, 2);
-    const Eigen::Vector3d basis(1.0, s, s * s);
-    normal += basis * basis.transpose();
-    right += point.pressure * point.pressure * basis;
-    ++count;
+  for (const double inner : edge_shares) {
+    double count = 0.0, r2 = 0.0, p2 = 0.0, r4 = 0.0, mixed = 0.0;
+    for (const ContactPoint& point : contact) {
+      if (point.radius < inner * outermost) continue;
+      const double s = std::pow(point.radius / outermost, 2), q = point.pressure * point.pressure;
+      count += 1.0, r2 += s, p2 += q, r4 += s * s, mixed += s * q;
+    }
+    if (count < fewest_edge_points) continue;
+    const double slope = (count * mixed - r2 * p2) / (count * r4 - r2 * r2);
+    const double root = r2 / count - p2 / count / slope;
+    if (!(slope < 0.0)) return outermost;
+    return std::clamp(outermost * std::sqrt(root), outermost - node_spacing,
+                      outermost + node_spacing);
   }
-  if (count < fewest_edge_points) return outermost;
-  const Eigen::Vector3d c = normal.ldlt().solve(right);
-  const double discriminant = c[1] * c[1] - 4 * c[2] * c[0];
-  if (!(discriminant >= 0.0)) return outermost;
-  // The root that a straight line has, too.
-  const double root = 2 * c[0] / (-c[1] + std::sqrt(discriminant));
-  if (!(root > 0.0)) return outermost;
-  return std::clamp(outermost * std::sqrt(root), outermost - node_spacing,
-                    outermost + node_spacing);
+  return outermost;
 }
 
 PressState PressModel::evaluate() {
@@ -89,7 +88,7 @@ PressState PressModel::evaluate() {
     state.energy = 0.5 * (force * displacement_);
   }
   add_resultant(state);
-  note_indicators();
+  note_indicators(state);
   return state;
 }
 
@@ -145,7 +144,7 @@ void PressModel::add_resultant(PressState& state) const {
   }
 }
 
-void PressModel::note_indicators() {
+void PressModel::note_indicators(PressState& state) {
   Marks marks;
   dealii::Vector<float>& now = marks.indicators;
   now.reinit(body_->triangulation.n_active_cells());
@@ -158,6 +157,7 @@ void PressModel::note_indicators() {
   for (float& value : now) sum += double(value *= value);
   sum = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
   if (sum > 0.0) now *= float(1.0 / sum);
+  state.indicator = (has_two_symmetry_planes(job_) ? 4.0 : 2.0) * job_.rubber.shear_modulus * sum;
 
   std::map<long, bool> touches;
   double edge = 0.0;

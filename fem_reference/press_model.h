@@ -49,7 +49,7 @@ class PressModel {
   double residual(const Vector& displacement);
   void check_other_nodes(double indentation) const;
   void add_resultant(PressState& state) const;
-  void note_indicators();
+  void note_indicators(PressState& state);
   void load_marks(std::size_t samples);
 
   ReferenceJob job_;

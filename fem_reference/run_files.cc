@@ -25,7 +25,7 @@ void write_samples(const std::vector<PressState>& states, const std::filesystem:
 void write_convergence(const MeshHistory& history, const std::filesystem::path& folder) {
   meshes::write_atomically(folder / "convergence.csv", [&](std::ostream& out) {
     out << "mesh,cells,unknowns,indentation [m],normal_force [N],contact_radius [m],"
-           "max_pressure [Pa],node_spacing [m]\n";
+           "max_pressure [Pa],node_spacing [m],energy [J],indicator [J]\n";
     int number = 0;
     for (const MeshRecord& record : history.meshes()) {
       ++number;
@@ -33,7 +33,8 @@ void write_convergence(const MeshHistory& history, const std::filesystem::path& 
         out << number << ',' << record.mesh.cells << ',' << record.mesh.unknowns << ','
             << to_text(state.sample.indentation) << ',' << to_text(state.sample.normal_force) << ','
             << to_text(state.sample.contact_radius) << ',' << to_text(state.sample.max_pressure)
-            << ',' << to_text(state.node_spacing) << '\n';
+            << ',' << to_text(state.node_spacing) << ',' << to_text(state.energy) << ','
+            << to_text(state.indicator) << '\n';
     }
   });
 }

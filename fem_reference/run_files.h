@@ -14,7 +14,7 @@ namespace fingertip::fem_reference {
 void write_samples(const std::vector<PressState>& states, const std::filesystem::path& folder);
 
 /// convergence.csv: `mesh,cells,unknowns,indentation [m],normal_force [N],contact_radius [m],
-/// max_pressure [Pa],node_spacing [m]`, one row per mesh and sample.
+/// max_pressure [Pa],node_spacing [m],energy [J],indicator [J]`, one row per mesh and sample.
 void write_convergence(const MeshHistory& history, const std::filesystem::path& folder);
 
 /// section.csv: ends of the mesh's edges in y = 0, undeformed and deformed [m].

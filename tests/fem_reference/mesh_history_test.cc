@@ -109,6 +109,37 @@ TEST(MeshHistory, MeshesThatAreNoFinerAtTheEdgeCountAsOne) {
   EXPECT_EQ(history.best()[0].sample.normal_force, 1.012);
 }
 
+/// Three samples with the same relative contact: of the second, all meshes agree by chance.
+TEST(MeshHistory, ForcesThatAgreeByChanceGetTheTypicalError) {
+  MeshHistory history;
+  const auto add = [&](double spacing, double first, double second, double third) {
+    history.start_mesh(mesh(std::size_t(1.0 / spacing)));
+    history.add(state(1e-3, first, spacing));
+    history.add(state(2e-3, second, spacing));
+    history.add(state(3e-3, third, spacing));
+  };
+  add(coarse, 1.01, 3.0, 5.05);
+  add(medium, 1.01, 3.0, 5.05);
+  add(fine, 1.00, 3.0, 5.00);
+  const double single = 1.25 * 0.01 / decay(medium, fine);  // of the first, over its force
+  EXPECT_NEAR(history.error(0).value, single, 1e-12);
+  // (h/a)² falls as 1/indentation in this history; the median of (single, 0, 3 single) is single.
+  EXPECT_NEAR(history.error(1).value, 3.0 * single / 2.0, 1e-12);
+  EXPECT_NEAR(history.error(2).value, 5.0 * single, 1e-12);
+  EXPECT_EQ(history.error(1).convergence, fem_reference::MeshConvergence::unknown);
+}
+
+/// What no refinement touches, the indicators show.
+TEST(MeshHistory, ErrorIndicatorsRaiseTheBar) {
+  MeshHistory history = three_meshes();
+  const double before = history.error(0).value;
+  PressState& finest = history.finest().states[0];
+  finest.indicator = 1e-3 * finest.energy;
+  EXPECT_EQ(history.error(0).value, before);
+  finest.indicator = 0.1 * finest.energy;
+  EXPECT_NEAR(history.error(0).value, 0.2 * 1.01, 1e-12);
+}
+
 TEST(MeshHistory, AddsUpTheTimeOfAMesh) {
   MeshHistory history = three_meshes();
   EXPECT_EQ(history.meshes()[0].wall_time, 1.0);
@@ -138,6 +169,7 @@ TEST(MeshHistory, SurvivesJson) {
   EXPECT_EQ(b.node_spacing, a.node_spacing);
   EXPECT_EQ(b.min_jacobian, a.min_jacobian);
   EXPECT_EQ(b.energy, a.energy);
+  EXPECT_EQ(b.indicator, a.indicator);
   EXPECT_EQ(b.steps, a.steps);
   EXPECT_EQ(b.newton_iterations, a.newton_iterations);
   EXPECT_EQ(b.active_set_iterations, a.active_set_iterations);

@@ -264,6 +264,22 @@ TEST(ContactEdge, FindsTheEdgeBetweenNodes) {
   }
 }
 
+/// Law A, frictionless, 0.3 cm: p/p(0) from axisymmetric finite elements (tests/verification).
+TEST(ContactEdge, IsMetUnderAPeakedPressure) {
+  constexpr std::array<double, 8> at = {0.0, 0.25, 0.5, 0.75, 0.9, 0.95, 0.98, 1.0};
+  constexpr std::array<double, 8> pressure = {1.0, 0.910, 0.706, 0.464, 0.286, 0.204, 0.135, 0.0};
+  constexpr double spacing = 0.0123;
+  std::vector<ContactPoint> contact;
+  for (std::size_t i = 0; double(i) * spacing < 1.0; ++i) {
+    const double r = double(i) * spacing;
+    const std::size_t k = std::size_t(std::upper_bound(at.begin(), at.end(), r) - at.begin());
+    const double share = (r * r - at[k - 1] * at[k - 1]) / (at[k] * at[k] - at[k - 1] * at[k - 1]);
+    contact.push_back({r, std::sqrt((1.0 - share) * std::pow(pressure[k - 1], 2) +
+                                    share * std::pow(pressure[k], 2))});
+  }
+  EXPECT_NEAR(fem_reference::contact_edge(contact, 3.0 * spacing), 1.0, 0.005);
+}
+
 TEST(ContactEdge, IsNearTheOutermostNodeWhateverThePressure) {
   EXPECT_EQ(fem_reference::contact_edge({}, 0.1), 0.0);
   EXPECT_EQ(fem_reference::contact_edge({{0.0, 1.0}}, 0.1), 0.0);
