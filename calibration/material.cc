@@ -175,6 +175,9 @@ std::vector<Violation> Material::violations() const {
   for (const Violation& violation : rubber.violations()) rules.found.push_back(violation);
   if (geometry)
     for (const Violation& violation : geometry->violations()) rules.found.push_back(violation);
+  if (rules.found.empty())
+    rules.require(std::isfinite(spacing * rubber.longitudinal_modulus()), "lattice.spacing",
+                  spacing, "the springs' stiffness, spacing times modulus, must be finite");
   // The rules on constants divide by the spacing.
   if (rules.found.empty() && model != ModelKind::network) check_constants(rules, *this);
   check_validity(rules, validity);

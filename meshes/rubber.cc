@@ -22,6 +22,10 @@ std::vector<Violation> Rubber::violations() const {
           "G must exceed E/3, or Poisson's ratio E/(2G) - 1 reaches 1/2 and the bulk modulus is "
           "infinite or negative",
           "raise shear_modulus above youngs_modulus/3, or lower youngs_modulus");
+  require(!(youngs_modulus > 0.0 && youngs_modulus <= 1e-12 * shear_modulus),
+          "rubber.youngs_modulus", youngs_modulus, "Pa",
+          "E must not vanish beside G, or Poisson's ratio E/(2G) - 1 reaches -1",
+          "raise youngs_modulus, or lower shear_modulus");
   require(std::isfinite(density) && density > 0.0, "rubber.density", density, "kg/m^3",
           "rho must be finite and positive", "give the rubber's density");
   require(std::isfinite(retardation_time) && retardation_time >= 0.0, "rubber.retardation_time",

@@ -54,13 +54,16 @@ std::vector<Violation> SurrogateTable::violations() const {
       found.push_back(
           {std::string(key) + "[" + std::to_string(k) + "]", to_text(value), rule, remedy});
   };
-  const auto not_negative = [](double v) { return std::isfinite(v) && v >= 0.0; };
+  // Beyond these sizes differences and slopes are no longer numbers.
+  constexpr double largest = 1e60, least = 1.0 / largest;
+  const auto plausible = [](double v) { return std::abs(v) <= largest; };
+  const auto not_negative = [&](double v) { return plausible(v) && v >= 0.0; };
   require(knots[0] == 0.0, "knots", 0, knots[0], "the first knot is 0");
   require(force[0] == 0.0, "force", 0, force[0], "the force at 0 is 0");
   for (std::size_t k = 0; k < n; ++k) {
-    require(std::isfinite(knots[k]) && (k == 0 || knots[k] > knots[k - 1]), "knots", k, knots[k],
-            "knots must be finite and increase");
-    require(std::isfinite(force[k]), "force", k, force[k], "forces must be finite");
+    require(plausible(knots[k]) && (k == 0 || knots[k] - knots[k - 1] >= least), "knots", k,
+            knots[k], "knots must be finite and increase");
+    require(plausible(force[k]), "force", k, force[k], "forces must be finite");
     require(not_negative(stiffness[k]), "stiffness", k, stiffness[k],
             "a stiffness must not be negative");
     require(not_negative(band[k]), "band", k, band[k], "a half width must not be negative");
@@ -69,8 +72,9 @@ std::vector<Violation> SurrogateTable::violations() const {
   if (!found.empty()) return found;
   const double round_off = 1e-9 * force.back() / knots.back();
   for (std::size_t k = 0; k + 1 < n; ++k)
-    require(cubic(*this, k).least_slope() >= -round_off, "force", k, force[k],
-            "the force must not fall between its knots");
+    require(cubic(*this, k).least_slope() >= -round_off &&
+                force[k + 1] >= force[k] - 1e-9 * force.back(),
+            "force", k, force[k], "the force must not fall between its knots");
   return found;
 }
 

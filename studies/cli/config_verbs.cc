@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <iostream>
-
 #include "meshes/files.h"
 #include "studies/cases/case_file.h"
 #include "studies/cli/verbs.h"
@@ -34,18 +32,18 @@ int run_check(const CommandLine& line) {
 }
 
 int run_explain(const CommandLine& line) {
-  if (line.schema) std::cout << json_schema();
-  if (line.markdown) std::cout << markdown_reference();
+  if (line.schema) fmt::print("{}", json_schema());
+  if (line.markdown) fmt::print("{}", markdown_reference());
   if (line.schema || line.markdown) return 0;
   if (line.arguments.empty()) {
-    std::cout << key_overview() << "\nfingertip explain section.key tells more about one.\n";
+    fmt::print("{}\nfingertip explain section.key tells more about one.\n", key_overview());
     return 0;
   }
   for (const std::string& name : line.arguments) {
     bool found = false;
     for (const Key& key : key_table()) {
       if (key.full_name() != name && key.name != name && key.section != name) continue;
-      std::cout << (found ? "\n" : "") << explanation(key);
+      fmt::print("{}{}", found ? "\n" : "", explanation(key));
       found = true;
     }
     if (!found) {
@@ -60,7 +58,7 @@ int run_init(const CommandLine& line) {
   std::filesystem::path file = line.out;
   if (!line.arguments.empty()) file = line.arguments.front();
   if (file.empty()) {
-    std::cout << config_template();
+    fmt::print("{}", config_template());
     return 0;
   }
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {

@@ -166,10 +166,11 @@ TEST(FuzzData, StiffnessSchedules) {
                  write_text(file, input);
                  const calibration::Surrogate one = calibration::read_surrogate_json(file);
                  EXPECT_TRUE(one.table().violations().empty());
+                 const double round_off = 1e-8 * one.table().force.back();
                  double before = 0.0;
                  for (const double part : {-1.0, 0.0, 0.3, 0.7, 1.0, 1.5}) {
                    const double at = part * one.depth(), force = one.force(at);
-                   EXPECT_TRUE(std::isfinite(force) && force >= before * (1.0 - 1e-12)) << force;
+                   EXPECT_TRUE(std::isfinite(force) && force >= before - round_off) << force;
                    EXPECT_TRUE(one.stiffness(at) >= 0.0 && one.band(at) >= 0.0);
                    before = force;
                  }

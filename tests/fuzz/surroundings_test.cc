@@ -244,7 +244,7 @@ TEST(Surroundings, DecimalCommas) {
       shell(folder.path(), "mkdir locale && localedef -i de_DE -f UTF-8 locale/de_DE.UTF-8");
   if (!fs::exists(folder / "locale/de_DE.UTF-8/LC_NUMERIC"))
     GTEST_SKIP() << "localedef has no sources of de_DE here: " << made.err;
-  const std::string german = "export LC_ALL=de_DE.UTF-8 LOCPATH=$PWD/locale\n";
+  const std::string german = "export LOCPATH=$PWD/locale\nexport LC_ALL=de_DE.UTF-8\n";
   const ProgramResult comma = shell(folder.path(), german + "printf '%.1f' 0,5");
   ASSERT_EQ(comma.out, "0,5") << "the locale is not in effect";
   const ProgramResult result =
