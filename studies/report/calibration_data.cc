@@ -54,6 +54,7 @@ FitParameter read_parameter(const json& entry, const json& truth) {
   parameter.prior_deviation = number_at(prior, "deviation");
   parameter.truth = number_at(truth, parameter.name);
   parameter.at_bound = entry.contains("at_bound") && entry.at("at_bound") == true;
+  parameter.bounded = text_at(entry, "bound_of") == "poissons_ratio" ? "ν" : parameter.symbol;
   return parameter;
 }
 

@@ -27,7 +27,7 @@ constexpr double ties_prior = 10.0;
 constexpr double search_tolerance = 1e-2;
 
 /// Poisson's ratios scanned for starts: denser where rubbers are.
-constexpr double scanned_ratios[] = {0.05, 0.2, 0.33, 0.42, 0.46, 0.49};
+constexpr double scanned_ratios[] = {0.1, 0.3, 0.42, 0.48};
 
 /// Poisson's ratios of a table, unless they are given: the pole of confined rubber at 1/2 wants
 /// more nodes than a continuum is run for.
@@ -337,7 +337,8 @@ void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
   const bool pressed = std::ranges::find(kinds, CurveKind::press) != kinds.end() ||
                        std::ranges::find(kinds, CurveKind::moving_press) != kinds.end();
   if (!pressed && !loaded.entries.at("calibration.evaluations").given) return;
-  fit.order.options.max_evaluations = std::stoi(loaded.entries.at("calibration.evaluations").literal);
+  fit.order.options.max_evaluations =
+      std::stoi(loaded.entries.at("calibration.evaluations").literal);
   fit.notes.push_back(
       fmt::format("the search may do {} evaluations (calibration.evaluations), each "
                   "a press of every curve",
