@@ -98,6 +98,8 @@ struct CurveFit {
   Eigen::VectorXd lower, upper;
   /// Its interval then is not one. Of E also where Poisson's ratio is at its bound.
   std::vector<bool> at_bound;
+  /// Standard error of Poisson's ratio where E and G are sought, to first order.
+  std::optional<double> poissons_ratio_error;
   /// Where E and G are sought and Poisson's ratio has ended at a bound: that bound.
   std::optional<double> poissons_ratio_bound;
   int degrees_of_freedom = 0;  ///< values and priors minus parameters

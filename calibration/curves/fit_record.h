@@ -42,12 +42,15 @@ double worst_relative_residual(const FitRecord& record);
 /// What was found, how sure that is, what the data leave open and whether the model describes them.
 std::string fit_statement(const FitRecord& record);
 
+/// Half width of the 95 % interval of Poisson's ratio where E and G are sought; else 0.
+double poissons_ratio_interval(const CurveFit& fit);
+
 /// Why constants of this fit must not be used as they are, a sentence each; none: it passed its own
 /// tests. It fails where the search did not end; where the model does not describe the data
 /// (chi-square improbable, below 1 %, or, where there is none, a curve missed by more than a tenth
 /// of its values, both root mean squares); where a parameter or Poisson's ratio ended at a bound;
-/// where the data leave a direction open; and where the material is no rubber: rules of Material,
-/// E outside of 100 Pa to 10 GPa.
+/// where the data leave a direction open, or Poisson's ratio by more than +-0.25; and where the
+/// material is no rubber: rules of Material, E outside of 100 Pa to 10 GPa.
 std::vector<std::string> failed_tests(const FitRecord& record);
 
 /// calibration.json of the README, SI. Written atomically. Throws std::runtime_error when the file

@@ -54,6 +54,27 @@ void judge_bounds(Sentences& found, const FitRecord& record) {
                       std::string(unit(fit.parameters[i])));
 }
 
+/// An interval as wide as what rubbers have, 0 to 1/2.
+constexpr double open_ratio = 0.25;
+
+void judge_identifiability(Sentences& found, const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  if (fit.poissons_ratio_bound) return;
+  const std::string remedy =
+      ": hold Poisson's ratio (parameters: modulus), give a prior, or add a curve of another "
+      "contact";
+  if (!fit.unidentifiable.empty()) {
+    found.push_back("the data do not determine every parameter (" +
+                    std::to_string(fit.unidentifiable.size()) + " direction" +
+                    (fit.unidentifiable.size() > 1 ? "s" : "") + " open)" + remedy);
+    return;
+  }
+  const double width = poissons_ratio_interval(fit);
+  if (width > open_ratio)
+    found.push_back("the data do not determine Poisson's ratio (95 %: +-" + rounded(width, 2) +
+                    ")" + remedy);
+}
+
 void judge_material(Sentences& found, const FitRecord& record) {
   for (const meshes::Violation& one : record.material.violations())
     found.push_back("the estimates are no rubber: " + to_string(one));
@@ -66,6 +87,13 @@ void judge_material(Sentences& found, const FitRecord& record) {
 
 }  // namespace
 
+double poissons_ratio_interval(const CurveFit& fit) {
+  if (!fit.poissons_ratio_error) return 0.0;
+  // Half width over a standard error, the same for all parameters.
+  const double quantile = (fit.upper(0) - fit.lower(0)) / (2.0 * fit.standard_errors(0));
+  return quantile * *fit.poissons_ratio_error;
+}
+
 std::vector<std::string> failed_tests(const FitRecord& record) {
   Sentences found;
   const CurveFit& fit = record.fit;
@@ -75,12 +103,7 @@ std::vector<std::string> failed_tests(const FitRecord& record) {
                     "fewer parameters, or leave out depths that the model does not resolve");
   judge_misfit(found, record);
   judge_bounds(found, record);
-  if (!fit.unidentifiable.empty() && !fit.poissons_ratio_bound)
-    found.push_back(
-        "the data do not determine every parameter (" + std::to_string(fit.unidentifiable.size()) +
-        " direction" + (fit.unidentifiable.size() > 1 ? "s" : "") +
-        " open): hold what is known (parameters: modulus holds Poisson's ratio), give a "
-        "prior, or add a curve of another contact");
+  judge_identifiability(found, record);
   judge_material(found, record);
   return found;
 }

@@ -16,7 +16,7 @@ using lattice::PressSetup;
 namespace {
 
 /// Sizes of the errors; their source is the header's.
-constexpr double contact_error = 0.17, contact_power = 3.0, contact_length = 0.3;
+constexpr double contact_error = 0.17, contact_power = 3.0, contact_length = 0.5;
 constexpr double inside_error = 0.57, inside_power = 3.0;
 constexpr double tie_error = 0.003;
 constexpr double large_strain_error = 0.02;
@@ -52,8 +52,8 @@ double covariance(const Place& a, const Place& b) {
   double sum = tie_error * tie_error + a.large_strain() * b.large_strain();
   if (a.press->lattice.spacing == b.press->lattice.spacing) sum += a.inside() * b.inside();
   if (same_cells(*a.press, *b.press)) {
-    const double apart = (a.cells() - b.cells()) / contact_length;
-    sum += a.contact() * b.contact() * std::exp(-0.5 * apart * apart);
+    const double apart = std::abs(a.cells() - b.cells()) / contact_length;
+    sum += a.contact() * b.contact() * std::exp(-apart);
   }
   return sum;
 }

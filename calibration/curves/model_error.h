@@ -13,16 +13,17 @@ namespace fingertip::calibration {
 /// PressProtocol::samples. `hookean` and `network`; in terms of xi = sqrt(R d)/a, the cells under
 /// the contact's radius to within a tenth, and of the thickness t = R - r, the errors are the sum
 /// of independent ones,
-///   contact  0.17 min(1, xi^-3), correlated over xi by exp(-(xi - xi')²/(2 0.3²)): the patch grows
-///            by rings of cells, so that the error swings once per cell; common to presses of one
-///            spacing, geometry and direction, which meet the same cells,
+///   contact  0.17 min(1, xi^-3), correlated over xi by exp(-|xi - xi'|/0.5): the patch grows by
+///            rings of cells, so that the error swings once per cell and has kinks where ties begin
+///            to touch; common to presses of one spacing, geometry and direction, on the same
+///            cells,
 ///   inside   0.57 (a/t)³, one number for all presses of a spacing: bending of cells, less the
 ///   ties, ties     0.003, one number for all: what is left at R/16 and R/24, law A    0.02 (d/t)²,
 ///   one number for all; the network alone.
-/// Measured, each as the root mean square, with 43 presses of the default finger at R/5 to R/12
-/// (frictionless and stick, grids at six places, nu = 0 to 0.49) against an axisymmetric continuum
-/// (README). They are errors of known size and unknown value: their signs, mostly positive, are not
-/// used.
+/// Measured, each as the root mean square, with presses of the default finger at R/5 to R/12 on
+/// three grids against an axisymmetric continuum; the last two from lattices down to R/24
+/// (README; lattice/statics). They are errors of known size and unknown value: their signs, mostly
+/// positive, are not used.
 Eigen::MatrixXd lattice_covariance(const std::vector<lattice::PressSetup>& presses);
 
 /// By how much forces of law A exceed those of small strain under `press`, relative, at every

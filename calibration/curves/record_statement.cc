@@ -25,6 +25,16 @@ std::string with_unit(double value, MaterialParameter parameter) {
   return rounded(value, 5) + (symbol == "1" ? "" : " " + std::string(symbol));
 }
 
+std::string ratio_text(const CurveFit& fit) {
+  const auto estimate = [&](MaterialParameter one) {
+    return fit.estimates(std::ranges::find(fit.parameters, one) - fit.parameters.begin());
+  };
+  const double ratio = estimate(MaterialParameter::youngs_modulus) /
+                           (2.0 * estimate(MaterialParameter::shear_modulus)) -
+                       1.0;
+  return rounded(ratio, 3) + " +- " + rounded(poissons_ratio_interval(fit), 2);
+}
+
 std::string estimates(const CurveFit& fit) {
   std::string text;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
@@ -33,13 +43,17 @@ std::string estimates(const CurveFit& fit) {
             with_unit(fit.estimates(Index(i)), parameter);
     const bool by_ratio = fit.poissons_ratio_bound && is_modulus(parameter);
     if (by_ratio) continue;
+    const double lower = fit.lower(Index(i)), upper = fit.upper(Index(i));
+    const bool open = upper - lower > 2.0 * std::abs(fit.estimates(Index(i)));
     text += fit.at_bound[i] ? " (at its bound)"
-                            : " (95 %: " + rounded(fit.lower(Index(i)), 5) + " to " +
-                                  rounded(fit.upper(Index(i)), 5) + ")";
+            : open          ? " (open: the 95 % interval exceeds it)"
+                            : " (95 %: " + rounded(lower, 5) + " to " + rounded(upper, 5) + ")";
   }
   if (fit.poissons_ratio_bound)
     text += "; Poisson's ratio is at its bound, " + rounded(*fit.poissons_ratio_bound, 5) +
             ", so that E and G have no intervals of their own";
+  else if (fit.poissons_ratio_error)
+    text += "; Poisson's ratio " + ratio_text(fit);
   return text + ".";
 }
 

@@ -50,6 +50,7 @@ void print_moduli(const ordered_json& content) {
 void print_parameters(const ordered_json& content) {
   fmt::print("{:<24}{:>14}{:>14}{:>14}  {:<8}{:>16}\n", "", "estimate", "95 % from", "to", "unit",
              "[gf, cm]");
+  const bool ratio_bound = !content.value("poissons_ratio_bound", ordered_json()).is_null();
   for (const ordered_json& one : content["parameters"]) {
     const std::string unit = one["unit"];
     const double value = number_of(one["estimate"]);
@@ -57,8 +58,15 @@ void print_parameters(const ordered_json& content) {
         unit == "Pa"    ? fmt::format("{:.5g} gf/cm^2", convert(value, "Pa", "gf/cm^2"))
         : unit == "N/m" ? fmt::format("{:.5g} gf/cm", convert(value, "N/m", "gf/cm"))
                         : "";
-    fmt::print("{:<24}{:>14.6g}{:>14.6g}{:>14.6g}  {:<8}{:>16}\n", one["name"].get<std::string>(),
-               value, number_of(one["lower"]), number_of(one["upper"]), unit, other);
+    const double lower = number_of(one["lower"]), upper = number_of(one["upper"]);
+    // Where Poisson's ratio has stopped at a bound neither modulus has an interval of its own.
+    const bool open = !(upper - lower <= 2.0 * std::abs(value)) ||
+                      (ratio_bound && one["name"].get<std::string>() != "modulus");
+    const auto end = [&](double number) {
+      return open ? std::string("open") : fmt::format("{:.6g}", number);
+    };
+    fmt::print("{:<24}{:>14.6g}{:>14}{:>14}  {:<8}{:>16}\n", one["name"].get<std::string>(), value,
+               end(lower), end(upper), unit, other);
   }
 }
 

@@ -53,6 +53,7 @@ FitParameter read_parameter(const JsonEntry& entry, const JsonEntry& truth) {
   parameter.prior_deviation = number_at(prior, "deviation");
   parameter.truth = number_at(truth, parameter.name);
   parameter.at_bound = entry.at("at_bound").flag();
+  parameter.bounded = text_at(entry, "bound_of") == "poissons_ratio" ? "ν" : parameter.symbol;
   return parameter;
 }
 

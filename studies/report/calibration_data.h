@@ -33,6 +33,7 @@ struct FitParameter {
   double prior_mean = meshes::unknown, prior_deviation = meshes::unknown;
   double truth = meshes::unknown;  ///< known in a synthetic study
   bool at_bound = false;
+  std::string bounded;  ///< symbol of what is at its bound: its own, or "ν"
 };
 
 /// A curve of a fit; the lists are of equal length, empty without fit_data.csv.

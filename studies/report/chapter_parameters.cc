@@ -42,7 +42,7 @@ Cell value_cell(const FitParameter& one, double value) {
 }
 
 Cell interval_cell(const FitParameter& one) {
-  if (one.at_bound) return plain(interval(one, one.factor), "at its bound");
+  if (one.at_bound) return plain(interval(one, one.factor), one.bounded + " at its bound");
   const bool convertible =
       one.unit != one.si_unit && std::isfinite(one.lower) && std::isfinite(one.upper);
   return plain(interval(one, one.factor), convertible
@@ -243,7 +243,7 @@ std::vector<Block> identifiability_blocks(const Fit& fit, const std::string& pre
   add_directions(blocks, fit, "only_from_priors", "Only priors determine this.");
   std::vector<std::string> bounded;
   for (const FitParameter& one : fit.parameters)
-    if (one.at_bound) bounded.push_back(one.symbol);
+    if (one.at_bound) bounded.push_back(one.bounded);
   if (!bounded.empty())
     blocks.push_back(Paragraph{
         "At a bound.",
@@ -268,7 +268,7 @@ std::vector<Block> identifiability_blocks(const Fit& fit, const std::string& pre
 
 std::string estimate_words(const FitParameter& one) {
   std::string text = one.symbol + " = " + shown(one, one.estimate);
-  if (one.at_bound) return text + " (at its bound)";
+  if (one.at_bound) return text + " (" + one.bounded + " at its bound)";
   if (std::isfinite(one.lower) && std::isfinite(one.upper))
     text += fmt::format(" (95 %: {})", interval(one, one.factor));
   return text;

@@ -102,7 +102,7 @@ std::string parameter_lines(const Fit& fit) {
     const std::string unit = one.unit == "gf/cm²" ? "gf/cm^2" : one.unit;
     text += fmt::format("  {:<18}{:>12} {:<8} 95 %: {} ... {}{}\n", ascii(one.name),
                         value(one.estimate), ascii(unit), value(one.lower), value(one.upper),
-                        one.at_bound ? " (at its bound)" : "");
+                        one.at_bound ? fmt::format(" ({} at its bound)", ascii(one.bounded)) : "");
   }
   return text;
 }

@@ -27,7 +27,7 @@ constexpr double ties_prior = 10.0;
 constexpr double search_tolerance = 1e-2;
 
 /// Poisson's ratios scanned for starts: denser where rubbers are.
-constexpr double scanned_ratios[] = {0.05, 0.2, 0.33, 0.42, 0.46, 0.49};
+constexpr double scanned_ratios[] = {0.1, 0.3, 0.42, 0.48};
 
 /// Poisson's ratios of a table, unless they are given: the pole of confined rubber at 1/2 wants
 /// more nodes than a continuum is run for.

@@ -9,6 +9,7 @@
 #include "calibration/curves/fit_record.h"
 #include "calibration/curves/fit_statistics.h"
 #include "fit_fixtures.h"
+#include "lattice/statics/static_press.h"
 
 using namespace fit_fixtures;
 
@@ -65,11 +66,12 @@ TEST(ModelError, ExplainsWhatLatticesMiss) {
   const Continuum truth = continuum();
   ASSERT_EQ(truth.depth.size(), 10u);
   const VectorXd force = VectorXd::Map(truth.force.data(), 10);
-  for (const double cells : {5.0, 6.0, 7.0, 8.0}) {
+  for (const double cells : {5.0, 6.0, 8.0}) {
     const PressSetup setup = at_spacing(cells, truth.depth);
-    LatticeForwardModel model(setup, {modulus});
-    const VectorXd own = model.evaluate(VectorXd::Constant(1, rubber.youngs_modulus)).value;
-    const VectorXd error = own.cwiseQuotient(force) - VectorXd::Ones(10);
+    const lattice::StaticOutcome outcome = lattice::run_static_press(setup);
+    VectorXd error(10);
+    for (Index i = 0; i < 10; ++i)
+      error(i) = outcome.response.samples()[std::size_t(i)].normal_force / force(i) - 1.0;
     MatrixXd covariance = lattice_covariance({setup});
     EXPECT_LT((covariance - covariance.transpose()).norm(), 1e-15);
     const double without = error.squaredNorm() / 1e-4;

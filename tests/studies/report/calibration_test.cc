@@ -98,6 +98,11 @@ TEST_F(FitReport, WarnsOnlyWhereThereIsSomethingToWarnOf) {
   const std::string bound =
       report([](json& result) { result["parameters"][1]["at_bound"] = true; });
   EXPECT_TRUE(has(visible_text(bound), "G ended at the limit set for the search"));
+  const std::string ratio = report([](json& result) {
+    result["parameters"][0]["at_bound"] = true;
+    result["parameters"][0]["bound_of"] = "poissons_ratio";
+  });
+  EXPECT_TRUE(has(visible_text(ratio), "ν ended at the limit set for the search"));
 }
 
 TEST_F(FitReport, CurvesAreInGramForceAndResidualsInSigma) {
