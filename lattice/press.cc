@@ -229,8 +229,7 @@ void Press::report(bool in_any_case) {
   if (!in_any_case && instant - last_report_ < std::chrono::milliseconds(100)) return;
   last_report_ = instant;
   update();
-  const double total = setup_.protocol.clearance + setup_.protocol.depth;
-  const double done = (indentation() + setup_.protocol.clearance) / total;
+  const double done = finger_.time() / expected_time();  // as wall time goes, but for shorter steps
   if (!observer_(outcome_, std::clamp(done, 0.0, 1.0))) {
     throw meshes::Interrupted("the press was stopped at an indentation of " +
                               std::to_string(indentation()) + " m");

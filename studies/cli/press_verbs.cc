@@ -250,6 +250,7 @@ int run_reference(const CommandLine& line) {
       print_folder(session, result);
     }
     if (reached) return 0;
+    put_warnings(folder, {"force_error over normal_force exceeds reference.tolerance"});
     fmt::print(stderr,
                "fingertip: not converged: the force may be off by more than reference.tolerance = "
                "{:.3g}; the run is kept, with its error bars{}\n",

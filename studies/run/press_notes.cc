@@ -34,7 +34,7 @@ std::string length_of(double step) {
 /// "leave run.time_step out, which takes ..."
 std::string remedy(const PressSetup& setup) {
   const ScalingChoice best = lattice::best_scaling(setup);
-  if (!best.scaled) return "run.time_step = auto takes plain masses here, which do not";
+  if (!best.scaled) return "run.time_step = auto takes plain masses here, which have no such error";
   const double from = lattice::judged_from(setup);
   return fmt::format("run.time_step = auto takes {} here, within {} from {} on",
                      length_of(best.step),
@@ -49,15 +49,17 @@ std::string deviation_note(const PressSetup& setup, const ScalingChoice& choice)
     return one.relative > lattice::tolerated_deviation;
   });
   std::string text = fmt::format(
-      "scaled masses at steps of {}: the force is off by an estimated {} at {}, and by more than "
+      "scaled masses at steps of {}: the force is estimated to be off by {} at {}, and by more "
+      "than "
       "{:.0f} % at {} of {} depths",
       length_of(choice.step), percent(worst.relative), millimetres(worst.indentation),
       100.0 * lattice::tolerated_deviation, beyond, setup.protocol.samples.size());
   const double from = lattice::judged_from(setup);
   const double judged = lattice::worst_of(all, from).relative;
   if (judged > lattice::tolerated_deviation) return text + "; " + remedy(setup);
-  return text + fmt::format(", within {} from {} on; run.integrator = symplectic-euler is not",
-                            percent(judged), millimetres(from));
+  return text +
+         fmt::format(", within {} from {} on; run.integrator = symplectic-euler has no such error",
+                     percent(judged), millimetres(from));
 }
 
 /// Of one evaluation of forces and all that goes with a step of plain masses, per particle [s]. A
