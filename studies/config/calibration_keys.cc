@@ -128,9 +128,9 @@ std::vector<Key> calibration_keys() {
              "residuals beyond so many sigma count linearly; 0: least squares",
              &Order::robust_width),
       range_key(),
-      plain("calibration", "evaluations", Kind::integer, "50", {1, 1000000, true},
-            "evaluations of the model a search may do, a press of every curve each",
-            [](Config&, const Value&) {}),
+      number("evaluations", Kind::integer, "50", {1, 1000000, true},
+             "evaluations of the model a search may do, a press of every curve each",
+             &Order::evaluations),
       list("profile", "two free parameters to draw chi-square over, or none", &Order::profile),
       flag(
           "bias", "false",

@@ -50,7 +50,8 @@ struct CalibrationOrder {
   double robust_width = 0.0;
   std::vector<double> poisson_range;  ///< lowest, highest
   std::vector<std::string> profile;
-  bool bias = true, surrogate = false;
+  int evaluations = 50;  ///< of the model, by a search
+  bool bias = false, surrogate = false;
   double isotropy_weight = 0.0, bulk_weight = 0.0;
   int starts = 10;
   unsigned seed = 1;

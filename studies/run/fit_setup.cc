@@ -337,8 +337,7 @@ void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
   const bool pressed = std::ranges::find(kinds, CurveKind::press) != kinds.end() ||
                        std::ranges::find(kinds, CurveKind::moving_press) != kinds.end();
   if (!pressed && !loaded.entries.at("calibration.evaluations").given) return;
-  fit.order.options.max_evaluations =
-      std::stoi(loaded.entries.at("calibration.evaluations").literal);
+  fit.order.options.max_evaluations = loaded.config.calibration.evaluations;
   fit.notes.push_back(
       fmt::format("the search may do {} evaluations (calibration.evaluations), each "
                   "a press of every curve",
