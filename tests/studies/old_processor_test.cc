@@ -99,8 +99,8 @@ TEST_P(OldProcessor, PressesHookeanSpringsAsThisOneDoes) {
 }
 
 TEST_P(OldProcessor, PressesWithScaledMassesAsThisOneDoes) {
-  run_both(press({"lattice.model=network", "run.integrator=mass-scaled", "press.depth=0.01 cm",
-                  "press.clearance=0.001 cm"}));
+  run_both(press({"lattice.model=network", "run.integrator=mass-scaled", "run.time_step=250 us",
+                  "press.depth=0.01 cm", "press.clearance=0.001 cm"}));
   expect_same_response(1e-9);
 }
 

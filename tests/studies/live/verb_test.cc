@@ -32,7 +32,8 @@ TEST(LiveVerb, PrintsItsAddressAndEndsByItself) {
 
 TEST(LiveVerb, EndsCleanlyWhenInterrupted) {
   const TemporaryFolder folder;
-  Program program(folder.path(), {"live", "--set", coarse, "--rate", "0", "--exit-after", "60"});
+  Program program(folder.path(),
+                  {"live", "--set", coarse, "--rate", "0", "--running", "--exit-after", "60"});
   std::this_thread::sleep_for(std::chrono::seconds(2));
   program.send(SIGINT);
   const ProgramResult result = program.wait();
