@@ -54,9 +54,9 @@ struct SectionEdge {
 };
 
 /// Radius of the contact edge [m]. Pressure vanishes there like the square root of the distance, as
-/// in Hertz's p² ∝ a² - r²: the zero of a straight line in r² fitted to p² over the outer fifth of
-/// the contact (the outer half where that has few nodes), kept within one node spacing of the
-/// outermost node that is pushed. `contact` is sorted by radius.
+/// in Hertz's p² ∝ a² - r²: the zero of a parabola in r² fitted to p² over the outer third of the
+/// contact (the outer half where that has few nodes), kept within one node spacing of the outermost
+/// node that is pushed. `contact` is sorted by radius.
 double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing);
 
 /// A tip under a plane that comes nearer. A quarter of it when nothing breaks the symmetry, a half

@@ -4,6 +4,7 @@
 #include <deal.II/distributed/grid_refinement.h>
 #include <deal.II/numerics/error_estimator.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -24,10 +25,10 @@ constexpr double nodes_per_edge_radius = 10.0;
 
 /// The edge is sought from the points beyond this share of the radius: the second one where the
 /// first leaves too few of them to say more than the outermost does. At large strain p² has a peak
-/// in the middle that a fit over more of the contact feels: a parabola over the outer half is 2.5 %
-/// off at 0.3 cm of law A without friction, 14 % with stick.
-constexpr std::array<double, 2> edge_shares = {0.8, 0.5};
-constexpr double fewest_edge_points = 12;
+/// in the middle that a fit over more of the contact feels: over the outer half it is 2.5 % off at
+/// 0.3 cm of law A without friction, 14 % with stick.
+constexpr std::array<double, 2> edge_shares = {0.7, 0.5};
+constexpr int fewest_edge_points = 12;
 
 double radius(const meshes::Vector3& position) {
   return std::hypot(position.x(), position.y());
@@ -56,16 +57,24 @@ double contact_edge(const std::vector<ContactPoint>& contact, double node_spacin
   if (contact.empty()) return 0.0;
   const double outermost = contact.back().radius;
   for (const double inner : edge_shares) {
-    double count = 0.0, r2 = 0.0, p2 = 0.0, r4 = 0.0, mixed = 0.0;
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    int count = 0;
     for (const ContactPoint& point : contact) {
       if (point.radius < inner * outermost) continue;
-      const double s = std::pow(point.radius / outermost, 2), q = point.pressure * point.pressure;
-      count += 1.0, r2 += s, p2 += q, r4 += s * s, mixed += s * q;
+      const double s = std::pow(point.radius / outermost, 2);
+      const Eigen::Vector3d basis(1.0, s, s * s);
+      normal += basis * basis.transpose();
+      right += point.pressure * point.pressure * basis;
+      ++count;
     }
     if (count < fewest_edge_points) continue;
-    const double slope = (count * mixed - r2 * p2) / (count * r4 - r2 * r2);
-    const double root = r2 / count - p2 / count / slope;
-    if (!(slope < 0.0)) return outermost;
+    const Eigen::Vector3d c = normal.ldlt().solve(right);
+    const double discriminant = c[1] * c[1] - 4 * c[2] * c[0];
+    if (!(discriminant >= 0.0)) return outermost;
+    // The root that a straight line has, too.
+    const double root = 2 * c[0] / (-c[1] + std::sqrt(discriminant));
+    if (!(root > 0.0)) return outermost;
     return std::clamp(outermost * std::sqrt(root), outermost - node_spacing,
                       outermost + node_spacing);
   }

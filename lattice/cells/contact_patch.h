@@ -43,7 +43,7 @@ struct ContactPatch {
 /// Hertz has q = 10/7, <s> = 2/5; what lies below is the coarseness of the points and counts as
 /// Hertz. The exponent 7/2 is chosen by continuum presses of the default tip: fed with their
 /// pressures, law A to 0.7 of the rubber's thickness, sticking or not, this gives their radius
-/// within 0.6 % (Hertz alone: up to 7 % too small) and P within 3 %.
+/// within 1 % (Hertz alone: up to 8 % too small) and P within 3 %.
 /// A point's own patch counts as a disc.
 ///
 /// `sectors` (1, 2 or 4): the points are the whole contact, its half t2 >= 0 or its quarter

