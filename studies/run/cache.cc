@@ -125,6 +125,10 @@ fs::path Cache::entry(const Job& job) const {
   return folder_ / (job.kind + "-" + job.key());
 }
 
+void Cache::tidy() const {
+  remove_abandoned_parts(folder_, false);
+}
+
 bool Cache::fetch(const Job& job, const fs::path& target) const {
   const fs::path source = entry(job);
   std::error_code failed;
@@ -143,7 +147,6 @@ bool Cache::fetch(const Job& job, const fs::path& target) const {
 bool Cache::store(const Job& job, const fs::path& source) const {
   std::error_code failed, ignored;
   fs::create_directories(folder_, failed);
-  remove_abandoned_parts(folder_, false);
   const fs::path target = entry(job);
   // Threads of one process may store equal jobs at a time.
   const auto temporary = [&](const char* role) {
