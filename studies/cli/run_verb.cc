@@ -55,7 +55,9 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
     for (const std::string& note : loaded.notes) fmt::print(stderr, "fingertip: note: {}\n", note);
   }
   Progress progress(line.progress);
-  Session session(folder, progress, Cache(Cache::default_folder()), cores_for(loaded), line.ranks);
+  const Cache cache(Cache::default_folder());
+  cache.tidy();
+  Session session(folder, progress, cache, cores_for(loaded), line.ranks);
   const auto end = [&](const std::string& status, int code, const std::exception& why) {
     progress.clear();
     try {

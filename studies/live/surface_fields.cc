@@ -69,7 +69,8 @@ class VtuFile {
  public:
   explicit VtuFile(const std::filesystem::path& file) : name_(file.string()) {
     std::ifstream in(file, std::ios::binary);
-    if (!in) refuse(name_, "the file cannot be read");
+    // Reading a folder throws.
+    if (!in || !std::filesystem::is_regular_file(file)) refuse(name_, "the file cannot be read");
     text_.assign(std::istreambuf_iterator<char>(in), {});
     if (text_.find("type=\"UnstructuredGrid\"") == std::string::npos ||
         text_.find("byte_order=\"LittleEndian\"") == std::string::npos) {

@@ -85,6 +85,10 @@ bool Cache::has_entry(const Job& job) const {
   return !noted(job, entry(job) / marker_name, "status").empty();
 }
 
+void Cache::tidy() const {
+  remove_abandoned_parts(folder_, false);
+}
+
 bool Cache::fetch(const Job& job, const fs::path& target) const {
   const fs::path source = entry(job);
   std::error_code failed;
@@ -101,7 +105,6 @@ bool Cache::fetch(const Job& job, const fs::path& target) const {
 bool Cache::store(const Job& job, const fs::path& source) const {
   std::error_code failed, ignored;
   fs::create_directories(folder_, failed);
-  remove_abandoned_parts(folder_, false);
   const fs::path target = entry(job);
   // Threads of one process may store equal jobs at a time.
   const auto temporary = [&](const char* role) {

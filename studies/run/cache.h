@@ -51,6 +51,9 @@ class Cache {
   /// job (is_run_file). False when that failed.
   bool store(const Job& job, const std::filesystem::path& source) const;
 
+  /// Removes what processes left that were killed while they stored something.
+  void tidy() const;
+
   const std::filesystem::path& folder() const { return folder_; }
 
  private:

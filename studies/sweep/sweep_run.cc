@@ -121,6 +121,7 @@ std::vector<PointResult> run_points(const SweepOrder& order,
                                     const std::vector<PlannedPoint>& points, const fs::path& folder,
                                     int threads, const std::vector<std::string>& command_line,
                                     const std::function<void(const PointResult&)>& tell) {
+  Cache(Cache::default_folder()).tidy();
   std::vector<PointResult> results(points.size());
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;

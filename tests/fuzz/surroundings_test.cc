@@ -245,7 +245,7 @@ TEST(Surroundings, DecimalCommas) {
   if (!fs::exists(folder / "locale/de_DE.UTF-8/LC_NUMERIC"))
     GTEST_SKIP() << "localedef has no sources of de_DE here: " << made.err;
   const std::string german = "export LOCPATH=$PWD/locale\nexport LC_ALL=de_DE.UTF-8\n";
-  const ProgramResult comma = shell(folder.path(), german + "printf '%.1f' 0,5");
+  const ProgramResult comma = shell(folder.path(), german + "/usr/bin/printf '%.1f' 0,5");
   ASSERT_EQ(comma.out, "0,5") << "the locale is not in effect";
   const ProgramResult result =
       shell(folder.path(), german + quoted(static_press({"--out", "run"})) + " && " +

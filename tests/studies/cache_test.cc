@@ -125,6 +125,7 @@ TEST_F(SessionTest, LeftoversOfKilledProcessesDisappear) {
   fs::create_directories(place_ / "cache/press-0123.part4194305");
   fs::create_directories(place_ / "cache/press-0456.part1");
   const fs::path folder = run({"", counting_job(runs, 7)});
+  Cache(place_ / "cache").tidy();
   EXPECT_FALSE(fs::exists(place_ / "cache/press-0123.part4194305"));
   EXPECT_TRUE(fs::exists(place_ / "cache/press-0456.part1")) << "process 1 is alive";
   write_text(folder / "manifest.json.part4194305", "{");
