@@ -93,7 +93,7 @@ void add_live(CLI::App& sub, CommandLine& line) {
                  "run whose force curve, and fields where it has them, are drawn beside it")
       ->type_name("RUN")
       ->check(CLI::ExistingPath);
-  sub.add_flag("--running", line.running, "start at once, not paused");
+  sub.add_flag("--running,!--paused", line.running, "start at once; --paused, the default, waits");
   sub.add_option("--rate", line.rate,
                  "wanted real-time factor, 0.01 to 1 (default); 0: as fast as it can")
       ->type_name("X")
