@@ -219,7 +219,7 @@ TEST_F(MaterialFile, RefusesWithFileLineAndRule) {
   expect_refused("N/m\"\nk2", "Pa\"\nk2", ":11: constants.k1", "the unit N/m");
   expect_refused("k1 = \"", "k1 = \"nan ", ":11: constants.k1", "finite number");
   expect_refused("k1 = \"", "k1 = \"-", ":11: constants.k1", "must not be negative");
-  expect_refused("k1 = \"", "k9 = \"", ":37: constants.k1", "missing");
+  expect_refused("k1 = \"", "k9 = \"", ":43: constants.k1", "missing");
   expect_refused("[rubber]", "[rubber.more]\n[rubber]", ":16: rubber.more", "no such key");
   expect_refused("\"hookean\"", "\"published\"", ":4: lattice.model", "central, hookean, network");
   expect_refused("\"hookean\"", "\"central\"", ":14: constants.kappa", "must be 0");
@@ -237,19 +237,19 @@ TEST_F(MaterialFile, RefusesWithFileLineAndRule) {
 
 TEST_F(MaterialFile, RefusesAValidityThatIsNone) {
   expect_refused("thickness = \"0.005 m\"", "thickness = \"0.0003 m\"",
-                 ":24: validity.largest_indentation", "less than validity.thickness");
-  expect_refused("thickness = \"0.005 m\"", "thickness = \"-1 m\"", ":25: validity.thickness",
+                 ":30: validity.largest_indentation", "less than validity.thickness");
+  expect_refused("thickness = \"0.005 m\"", "thickness = \"-1 m\"", ":31: validity.thickness",
                  "positive");
-  expect_refused("rod_ratio = 0.5", "rod_ratio = 1", ":26: validity.rod_ratio", "between 0 and 1");
+  expect_refused("rod_ratio = 0.5", "rod_ratio = 1", ":32: validity.rod_ratio", "between 0 and 1");
   expect_refused("largest_spacing = \"0.0011 m\"", "largest_spacing = \"0.0001 m\"",
-                 ":28: validity.largest_spacing", "in this order");
-  expect_refused("largest_spacing = \"0.0011 m\"\n", "", ":27: validity.smallest_spacing",
+                 ":34: validity.largest_spacing", "in this order");
+  expect_refused("largest_spacing = \"0.0011 m\"\n", "", ":33: validity.smallest_spacing",
                  "give both");
-  expect_refused("model_error = 0.", "model_error = -0.", ":31: validity.model_error", "negative");
-  expect_refused("[\"stick\"", "[\"slip\"", ":23: validity.contacts",
+  expect_refused("model_error = 0.", "model_error = -0.", ":37: validity.model_error", "negative");
+  expect_refused("[\"stick\"", "[\"slip\"", ":29: validity.contacts",
                  "stick, frictionless, coulomb");
-  expect_refused("[\"stick\"", "[1", ":23: validity.contacts", "list of words");
-  expect_refused("thickness = ", "thick = ", ":25: validity.thick", "no such key");
+  expect_refused("[\"stick\"", "[1", ":29: validity.contacts", "list of words");
+  expect_refused("thickness = ", "thick = ", ":31: validity.thick", "no such key");
 }
 
 TEST_F(MaterialFile, TruncatedFilesAreRefusedWhereverTheyEnd) {
