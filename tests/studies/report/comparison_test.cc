@@ -71,9 +71,10 @@ void write_press(const fs::path& folder, const std::vector<std::pair<double, dou
 std::string lattice_inputs(const std::string& contact, const std::string& strain = "small",
                            double speed = 0.01) {
   std::ostringstream text;
-  text << R"({"geometry":{"tip_radius":0.01},"rubber":{"youngs_modulus":4000},"protocol":{"contact":")"
-       << contact << R"(","tilt":0,"lateral":0,"speed":)" << speed
-       << R"(},"lattice":{"kinematics":")" << strain << "\"}}";
+  text
+      << R"({"geometry":{"tip_radius":0.01},"rubber":{"youngs_modulus":4000},"protocol":{"contact":")"
+      << contact << R"(","tilt":0,"lateral":0,"speed":)" << speed
+      << R"(},"lattice":{"kinematics":")" << strain << "\"}}";
   return text.str();
 }
 
@@ -137,9 +138,10 @@ TEST(Comparison, SaysThatRunsOfAnotherContactAreNotTheSameProblem) {
                      report_testing::visible_text(read_text(folder / "out/comparison.html"))};
   };
   const auto [free, free_page] = compare("free");
-  EXPECT_NE(free.find("WARNING: free and stick are not the same problem (contact: frictionless, not "
-                      "stick)"),
-            std::string::npos)
+  EXPECT_NE(
+      free.find("WARNING: free and stick are not the same problem (contact: frictionless, not "
+                "stick)"),
+      std::string::npos)
       << free;
   EXPECT_NE(free_page.find("Not the same problem, see below."), std::string::npos);
   EXPECT_NE(free_page.find("contact: frictionless, not stick"), std::string::npos);
