@@ -28,6 +28,10 @@ Panel curve_panel(const meshes::PressResponse& response, const std::string& labe
     series.x.push_back(to_cm(sample.indentation));
     series.y.push_back(factor * sample.*value);
   }
+  // From zero, where both begin, unless inertia pulls at the rod.
+  panel.x_range = Range{0.0, meshes::unknown};
+  if (std::ranges::all_of(series.y, [](double y) { return !(y < 0.0); }))
+    panel.y_range = Range{0.0, meshes::unknown};
   panel.series.push_back(std::move(series));
   return panel;
 }
@@ -67,7 +71,7 @@ Table sample_table(const meshes::PressResponse& response) {
   for (std::size_t i = 0; i < rows; ++i) {
     // The last one is always among them.
     const auto& sample = samples[rows < 2 ? 0 : i * (samples.size() - 1) / (rows - 1)];
-    std::vector<Cell> row{plain(number(to_cm(sample.indentation)))};
+    std::vector<Cell> row{plain(fmt::format("{:.4g}", to_cm(sample.indentation)))};
     for (const Column& column : shown) {
       const double value = sample.*column.value;
       row.push_back(std::isnan(value)
@@ -103,6 +107,7 @@ FigureBlock pressure_figure(const CsvTable& contact) {
   panel.key = "";
   Series series{"", "points", {}, {}, {}, {"#0072B2", "", 1.0, 7, false, 0.45}};
   for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!(pressure[i] > 0.0)) continue;
     series.x.push_back(to_cm(std::hypot(x[i] - cx, y[i] - cy)));
     series.y.push_back(to_gf_per_cm2(pressure[i]));
   }
@@ -110,7 +115,8 @@ FigureBlock pressure_figure(const CsvTable& contact) {
   panel.x_range = Range{0.0, meshes::unknown};
   return {{"contact_pressure", 760, 380, 1, {panel}},
           "Contact pressure at full depth",
-          "One dot per point of the true surface on the plane; points of one ring lie above each "
+          "One dot per point of the true surface that the plane holds; points of one ring lie "
+          "above each "
           "other where the contact is round."};
 }
 
@@ -166,13 +172,15 @@ Chapter modes_chapter(const CsvTable& modes) {
   Panel panel;
   panel.x_label = "mode";
   panel.y_label = "frequency [Hz]";
+  panel.key = "outside top center horizontal";
+  panel.x_range = Range{0.5, double(names.size()) + 0.5};
   panel.y_range = Range{0.0, meshes::unknown};
   std::map<std::string, Series> kinds;
   Table table;
   table.header = {plain("Mode"), plain("Frequency", "Hz")};
   if (!lattice && modes.has("frequency_error [Hz]"))
     table.header.push_back(plain("Estimated error", "Hz"));
-  table.header.push_back(plain("Motion"));
+  table.header.push_back({"Motion", "", Grade::none, true});
   if (lattice)
     for (const auto& [what, note] : {std::pair{"Mass", "across"}, std::pair{"Mass", "along"},
                                      std::pair{"Inertia", "about the axis"}})

@@ -217,6 +217,7 @@ Panel force_panel(const std::vector<Curve>& curves) {
   Panel panel;
   panel.x_label = "indentation [cm]";
   panel.y_label = "normal force [gf]";
+  panel.key = "outside top center horizontal";
   for (std::size_t i = 0; i < curves.size(); ++i) {
     Series series{curves[i].label, "", {}, {}, {}, curves[i].style};
     for (const meshes::PressSample& sample : curves[i].response.samples()) {

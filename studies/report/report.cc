@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "studies/report/bench_page.h"
 #include "studies/report/calibration_chapters.h"
 #include "studies/report/chapters.h"
@@ -57,6 +59,19 @@ std::string with_case(const RunData& run, const std::string& subject) {
   const std::string started = text_at(run.manifest, "started");
   return subject + (run.case_name.empty() ? "" : ", case " + run.case_name) +
          (started.empty() ? "" : ", " + started);
+}
+
+/// "k1 = 12.3 N/m, ...: " of a calibration.json.
+std::string constants_words(const JsonEntry& calibration) {
+  const JsonEntry constants = object_at(calibration, "constants");
+  std::string text;
+  for (const auto& [name, unit] : {std::pair{"k1", "N/m"}, std::pair{"k2", "N/m"},
+                                   std::pair{"k3", "N/m"}, std::pair{"kappa", "Pa"}}) {
+    const double value = number_at(constants, name);
+    if (std::isfinite(value))
+      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, with_prefix(value, unit));
+  }
+  return text.empty() ? text : text + ". ";
 }
 
 /// Makes the pages of a run, each from the chapters that can be made: damage in one leaves the
@@ -238,7 +253,8 @@ class PageMaker {
     page.title = "Soft fingertip: spring constants for a rubber";
     page.subtitle = words(
         [&] { return with_case(run_, "The lattice whose elastic constants are the rubber's"); });
-    page.answer = words([&] { return text_at(run_.own_calibration, "statement"); });
+    page.answer = words([&] { return constants_words(run_.own_calibration); }) +
+                  words([&] { return text_at(run_.own_calibration, "statement"); });
     add(page, [&] { return elasticity_chapter(run_); });
     end(page);
     return page;

@@ -28,14 +28,14 @@ const Words moving =
     with(coarse, {"--set", "press.speed=10 cm/s", "--set", "press.clearance=0.01 cm"});
 
 /// A verb and the folder that it makes.
-struct Run {
+struct TinyRun {
   std::string name;
   Words words;
 };
 
 /// Each well below a second.
-const std::vector<Run>& runs() {
-  static const std::vector<Run> all = {
+const std::vector<TinyRun>& runs() {
+  static const std::vector<TinyRun> all = {
       {"rest", with({"press"}, at_rest)},
       {"moving", with({"press"}, moving)},
       {"modes", {"modes", "--set", "lattice.spacing=tip_radius/4", "--set", "lattice.modes=3"}},
@@ -49,7 +49,7 @@ class DamagedRuns : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
-    for (const Run& run : runs()) {
+    for (const TinyRun& run : runs()) {
       const ProgramResult made = run_program(folder_->path(), with(run.words, {"--out", run.name}));
       ASSERT_EQ(made.code, 0) << run.name << ": " << made.err;
     }
@@ -63,7 +63,7 @@ class DamagedRuns : public testing::Test {
   void attack(std::size_t count, unsigned seed) {
     std::mt19937 random(seed);
     for (std::size_t i = 0; i < count && !HasFatalFailure(); ++i) {
-      const Run& run = runs()[i % runs().size()];
+      const TinyRun& run = runs()[i % runs().size()];
       const fs::path copy = folder_->path() / "broken";
       fs::remove_all(copy);
       fs::copy(folder_->path() / run.name, copy, fs::copy_options::recursive);
@@ -88,7 +88,9 @@ class DamagedRuns : public testing::Test {
     EXPECT_TRUE(result.code == 0 || result.code == 2 || result.code == 3 || result.code == 4 ||
                 result.code == 130)
         << "exit code " << result.code << ", " << told;
-    if (result.code != 0) EXPECT_NE(result.err.find("broken"), std::string::npos) << told;
+    if (result.code != 0) {
+      EXPECT_NE(result.err.find("broken"), std::string::npos) << told;
+    }
     for (const char* word : {"json.exception", "basic_", "std::", "gnuplot could", "filesystem",
                              "vector::", "stoi", "stod"})
       EXPECT_EQ(result.err.find(word), std::string::npos) << told;

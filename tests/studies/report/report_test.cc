@@ -242,8 +242,8 @@ TEST(Report, NamesDamagedFilesAndReportsTheRest) {
   EXPECT_TRUE(has(damage, "hookean/trace.csv:2, ")) << damage;
   EXPECT_TRUE(has(damage, "= inf: must be a finite number")) << damage;
   html = read_text(run.path / "report.html");
-  EXPECT_TRUE(has(whole, "<section id=\"control\">"));
-  EXPECT_FALSE(has(html, "<section id=\"control\">"));
+  EXPECT_TRUE(has(whole, "<section id=\"pictures\">"));
+  EXPECT_FALSE(has(html, "<section id=\"pictures\">"));
   EXPECT_TRUE(has(html, "<section id=\"force\">"));
   // What stands in the place of a file is not the file.
   fs::remove(run.path / "hookean/response.csv");

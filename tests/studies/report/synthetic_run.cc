@@ -51,14 +51,16 @@ void write_response(const fs::path& file, double factor, bool reference) {
 /// A bump 5 ms after first touch, a 1.5 % error at 0.2 s, 50 % at the start.
 void write_trace(const fs::path& file, double factor) {
   std::string text =
-      "time [s],indentation [m],commanded_speed [m/s],speed [m/s],tilt [rad],normal_force [N]\n";
+      "time [s],indentation [m],commanded_speed [m/s],speed [m/s],tilt [rad],normal_force [N],"
+      "command_force [N]\n";
   for (int i = 0; i <= 350; ++i) {
     const double t = 0.001 * i, d = 0.01 * t - clearance;
     double error = -std::exp(-t / 0.008);
     error -= 0.12 * std::exp(-std::pow((t - 0.055) / 0.004, 2));
     error += 0.015 * factor * std::exp(-std::pow((t - 0.2) / 0.01, 2));
-    text += fmt::format("{},{},0.01,{},{},{}\n", t, d, 0.01 * (1.0 + error), 1e-4 * factor * t,
-                        d > 0.0 ? factor * continuum_force(d) : 0.0);
+    const double force = d > 0.0 ? factor * continuum_force(d) : 0.0;
+    text += fmt::format("{},{},0.01,{},{},{},{}\n", t, d, 0.01 * (1.0 + error), 1e-4 * factor * t,
+                        force, force);
   }
   write_file(file, text);
 }
