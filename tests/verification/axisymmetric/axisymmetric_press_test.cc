@@ -50,8 +50,8 @@ TEST(AxisymmetricPress, AgreesWithTheReferenceTable) {
   EXPECT_NEAR(samples.back().contact_radius / cm, 0.572, 0.002);
 }
 
-/// Law A is stiffer by 0.1 % where strain is some per cent and by 8.3 % at 0.1 cm; stick by 2 %
-/// there: figures that fem_reference/README.md publishes, from three-dimensional meshes.
+/// The laws meet where strain is small. At 0.1 cm law A is 8.3 % stiffer, and sticking gives 3.322
+/// gf: three-dimensional meshes say so (README.md, lattice/statics/README.md).
 TEST(AxisymmetricPress, LawsMeetAtSmallDepthAndPartAtLarge) {
   const AxisymmetricJob linear = coarse({0.01, 0.1});
   AxisymmetricJob finite = linear;
