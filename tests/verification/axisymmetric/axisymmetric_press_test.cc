@@ -3,15 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 using namespace fingertip;
 using meshes::ContactMode;
 using verification::AxisymmetricJob;
-using verification::AxisymmetricSample;
 
 namespace {
 
@@ -53,8 +50,8 @@ TEST(AxisymmetricPress, AgreesWithTheReferenceTable) {
   EXPECT_NEAR(samples.back().contact_radius / cm, 0.572, 0.002);
 }
 
-/// Law A is stiffer by 0.1 % where strain is some per cent and by 8.3 % at 0.1 cm; stick by 2 %
-/// there: figures that fem_reference/README.md publishes, from three-dimensional meshes.
+/// The laws meet where strain is small. At 0.1 cm law A is 8.3 % stiffer, and sticking gives 3.322
+/// gf: three-dimensional meshes say so (README.md, lattice/statics/README.md).
 TEST(AxisymmetricPress, LawsMeetAtSmallDepthAndPartAtLarge) {
   const AxisymmetricJob linear = coarse({0.01, 0.1});
   AxisymmetricJob finite = linear;
@@ -68,20 +65,4 @@ TEST(AxisymmetricPress, LawsMeetAtSmallDepthAndPartAtLarge) {
   const auto stuck = verification::press_axisymmetric(sticking);
   EXPECT_NEAR(stuck[1].force / gf, 3.322, 0.005);
   EXPECT_GT(stuck[1].force, small[1].force);
-}
-
-TEST(AxisymmetricPress, PressuresAddUpToTheForce) {
-  AxisymmetricJob press = coarse({0.1});
-  press.mesh.contact_elements = 80;  // what lies between the last node and the edge is left out
-  for (const bool finite : {false, true}) {
-    press.finite = finite;
-    const AxisymmetricSample sample = verification::press_axisymmetric(press).back();
-    double sum = 0.0, before = 0.0, load = sample.pressures.front();
-    for (std::size_t i = 0; i < sample.radii.size(); ++i) {
-      const double r = sample.radii[i];
-      sum += (load + sample.pressures[i]) / 2.0 * std::numbers::pi * (r * r - before * before);
-      before = r, load = sample.pressures[i];
-    }
-    EXPECT_NEAR(sum / sample.force, 1.0, 0.02) << finite;
-  }
 }
