@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "calibration/material.h"
+#include "calibration/toml_depth.h"
 #include "meshes/files.h"
 
 namespace fingertip::calibration {
@@ -100,6 +101,8 @@ class MaterialReader {
                           "check path and rights, or run calibrate again"});
     const std::string text = content.str();
     last_line_ = std::max(1, int(std::count(text.begin(), text.end(), '\n')));
+    if (nests_too_deep(text))
+      fail(1, "", "", "a key has hundreds of dotted parts", "run calibrate again");
     try {
       table_ = toml::parse(text, file_.string());
     } catch (const toml::parse_error& error) {

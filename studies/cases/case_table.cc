@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "calibration/toml_depth.h"
 #include "studies/cases/control_measures.h"
 #include "studies/cases/fit_measures.h"
 #include "studies/cases/grasp_measures.h"
@@ -25,7 +28,10 @@ namespace fs = std::filesystem;
 /// The file as TOML; empty when it is none (load_config reports).
 toml::table parsed(const fs::path& file) {
   try {
-    return toml::parse_file(file.string());
+    std::ostringstream content;
+    content << std::ifstream(file, std::ios::binary).rdbuf();
+    if (calibration::nests_too_deep(content.str())) return {};
+    return toml::parse(content.str(), file.string());
   } catch (const toml::parse_error&) {
     return {};
   }

@@ -7,6 +7,7 @@
 
 #include <toml++/toml.h>
 
+#include "calibration/toml_depth.h"
 #include "meshes/files.h"
 #include "studies/config/elasticity.h"
 #include "studies/config/key_table.h"
@@ -112,6 +113,11 @@ void Reader::read_file(const std::filesystem::path& file) {
                          "init writes one)"});
     return;
   }
+  if (calibration::nests_too_deep(content.str())) {
+    problems_.push_back({file.string(), "", "", "a key has hundreds of dotted parts",
+                         "compare with the template that fingertip init writes"});
+    return;
+  }
   try {
     const toml::table root = toml::parse(content.str(), file.string());
     for (const auto& [section, node] : root) {
@@ -143,7 +149,7 @@ void Reader::read_assignment(const std::string& place, const std::string& name,
                              const std::string& value) {
   toml::table parsed;
   try {
-    parsed = toml::parse("v = " + value);
+    if (!calibration::nests_too_deep(value)) parsed = toml::parse("v = " + value);
   } catch (const toml::parse_error&) {
     parsed.clear();
   }

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include <toml++/toml.h>
 
+#include "calibration/toml_depth.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
 #include "studies/config/value_reader.h"
@@ -46,7 +49,10 @@ class SweepReader {
     file_ = file;
     toml::table root;
     try {
-      root = toml::parse_file(file.string());
+      std::ostringstream content;
+      content << std::ifstream(file, std::ios::binary).rdbuf();
+      if (calibration::nests_too_deep(content.str())) return;  // told by load_config
+      root = toml::parse(content.str(), file.string());
     } catch (const toml::parse_error&) {
       return;  // told by load_config
     }
@@ -86,6 +92,7 @@ class SweepReader {
     if (equals == text.npos || key == nullptr) return false;
     toml::table parsed;
     try {
+      if (calibration::nests_too_deep(text.substr(equals + 1))) return false;
       parsed = toml::parse("v = " + text.substr(equals + 1));
     } catch (const toml::parse_error&) {
       return false;

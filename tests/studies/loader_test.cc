@@ -211,6 +211,19 @@ TEST(Loader, RefusesWrongKindsOfValues) {
   }
 }
 
+// toml++ makes a table per part and takes them apart by recursion.
+TEST(Loader, AKeyOfManyThousandPartsIsRefused) {
+  const TemporaryFolder folder;
+  std::string key;
+  for (int part = 0; part < 70'000; ++part) key += "a.";
+  for (const std::string& text :
+       {"[" + key + "a]\n", key + "a = 1\n", "b = {" + key + "a = 1}\n"}) {
+    write_text(folder / "deep.toml", text);
+    EXPECT_THROW(load_config({folder / "deep.toml", {}, {}}), ConfigError);
+  }
+  EXPECT_THROW(load_config({{}, {"press.depth={" + key + "a=1}"}, {}}), ConfigError);
+}
+
 TEST(Loader, RefusesFilesThatAreNoConfiguration) {
   EXPECT_EQ(problems_of("[rubber]\nyoungs_modulus = \"40 gf").at(0).rule.find("not valid TOML"),
             0U);
