@@ -60,15 +60,19 @@ void resolve_elasticity(LoadedConfig& loaded, std::vector<Problem>& problems) {
            "leave one of them out");
     return;
   }
+  // A file of constants brings its own E and G, and what is given beside it has no effect.
+  const auto note = [&](const std::string& text) {
+    if (config.constants != ConstantsSource::file) loaded.notes.push_back(text);
+  };
   const auto derived = [&](const char* key, const std::string& from) {
     loaded.entries.at(key) = {"\"auto\"", "from " + from, false};
   };
   if (has_s) {
     rubber.youngs_modulus = youngs_modulus_of_hardness(*config.shore_hardness);
     derived(youngs, hardness);
-    loaded.notes.push_back("a hardness of " + meshes::to_text(*config.shore_hardness) +
-                           " Shore A stands for E = " + kilopascal(rubber.youngs_modulus) +
-                           " by Gent's formula: a rough value, measure E where it matters");
+    note("a hardness of " + meshes::to_text(*config.shore_hardness) +
+         " Shore A stands for E = " + kilopascal(rubber.youngs_modulus) +
+         " by Gent's formula: a rough value, measure E where it matters");
   }
   if (has_stiffness && has_g) return;
   double ratio = usual_poissons_ratio;
@@ -86,14 +90,13 @@ void resolve_elasticity(LoadedConfig& loaded, std::vector<Problem>& problems) {
     derived(shear, std::string(has_s ? hardness : youngs) + " and " + poisson);
   }
   if (!has_nu)
-    loaded.notes.push_back("rubber.poissons_ratio is not given: " + meshes::to_text(ratio) +
-                           ", that of a nearly incompressible rubber, makes " +
-                           (has_g ? "E = " + kilopascal(rubber.youngs_modulus)
-                                  : "G = " + kilopascal(rubber.shear_modulus)));
+    note("rubber.poissons_ratio is not given: " + meshes::to_text(ratio) +
+         ", that of a nearly incompressible rubber, makes " +
+         (has_g ? "E = " + kilopascal(rubber.youngs_modulus)
+                : "G = " + kilopascal(rubber.shear_modulus)));
   if (has_nu && !has_stiffness && !has_g)
-    loaded.notes.push_back("rubber.poissons_ratio alone is given: E stays at its default, " +
-                           kilopascal(rubber.youngs_modulus) + ", G is " +
-                           kilopascal(rubber.shear_modulus));
+    note("rubber.poissons_ratio alone is given: E stays at its default, " +
+         kilopascal(rubber.youngs_modulus) + ", G is " + kilopascal(rubber.shear_modulus));
 }
 
 }  // namespace fingertip::studies

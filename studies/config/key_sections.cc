@@ -316,7 +316,7 @@ std::vector<Key> continuum_model_keys() {
                        "continuum theory",
                        assign_named(&Job::strain, std::vector{Strain::linear, Strain::finite})),
                 "finite needs a Poisson's ratio of 0 or more",
-                {"rubber.youngs_modulus", "rubber.shear_modulus"}),
+                {"rubber.youngs_modulus", "rubber.shear_modulus", "rubber.poissons_ratio"}),
       only_with(
           "reference.strain", {"finite"},
           choice("reference", "law", "A",

@@ -32,13 +32,18 @@ std::string without_blanks(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+/// As entries have it: "1e-6" is "1e-06" there.
+std::string default_literal(const Key& key) {
+  return toml_literal(*toml::parse("v = " + key.preset).get("v"));
+}
+
 /// Collects values and problems from all sources.
 class Reader {
  public:
   Reader() {
     for (const Key& key : key_table()) {
       const toml::table defaults = toml::parse("v = " + key.preset);
-      take(key, *defaults.get("v"), {toml_literal(*defaults.get("v")), default_place, false}, {});
+      take(key, *defaults.get("v"), {default_literal(key), default_place, false}, {});
     }
   }
 
@@ -168,7 +173,7 @@ std::vector<std::string> inert_keys(const LoadedConfig& loaded) {
   std::vector<std::string> notes;
   for (const Key& key : key_table()) {
     const Entry& entry = loaded.entries.at(key.full_name());
-    if (key.matters_with.empty() || !entry.given || entry.literal == key.preset) continue;
+    if (key.matters_with.empty() || !entry.given || entry.literal == default_literal(key)) continue;
     const std::string word = unquoted(loaded.entries.at(key.matters_with).literal);
     if (std::ranges::find(key.matters_words, word) != key.matters_words.end()) continue;
     notes.push_back(key.full_name() + " = " + unquoted(entry.literal) + " has no effect while " +

@@ -166,7 +166,7 @@ TEST_F(MeasuredData, MayBeAProgramsResponse) {
 TEST_F(MeasuredData, IsRefusedForItsHeader) {
   expect_refused("", {"no table", "indentation [mm], force [mN]"});
   expect_refused("\n\n# nothing\n", {"no table"});
-  expect_refused("0.1,1.2\n0.2,2.2\n", {":1: ", "header is missing", "'0.1 ...'"});
+  expect_refused("0.1,1.2\n0.2,2.2\n", {":1: ", "header is missing", "'0.1, 1.2'"});
   expect_refused("depth [mm],load [mN]\n1,2\n", {":1: ", "no pair", "'indentation [m]'"});
   expect_refused("\nindentation,force [mN]\n1,2\n", {":2: indentation", "unit is missing"});
   expect_refused("indentation (mm),force [mN]\n1,2\n", {"indentation (mm)", "unit is missing"});
