@@ -75,7 +75,8 @@ TEST_F(PressResponseFile, RefusesDamagedFilesWithFileAndLine) {
   const std::string titles = "indentation [m],normal_force [N]\n";
   EXPECT_NE(refusal("depth,normal_force [N]\n").find("response.csv:1"), std::string::npos);
   EXPECT_NE(refusal(titles + "0.1,1\n0.2\n").find("response.csv:3"), std::string::npos);
-  EXPECT_NE(refusal(titles + "0.1,one\n").find("response.csv:2, normal_force [N] = one"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,one\n").find("response.csv:2, normal_force [N] = one"),
+            std::string::npos);
   EXPECT_NE(refusal(titles + "0.1,nan\n").find("finite"), std::string::npos);
   EXPECT_NE(refusal(titles + ",1\n").find("response.csv:2"), std::string::npos);
   EXPECT_NE(refusal(titles + "0.2,1\n0.1,2\n").find("increase"), std::string::npos);
@@ -84,7 +85,7 @@ TEST_F(PressResponseFile, RefusesDamagedFilesWithFileAndLine) {
   EXPECT_NE(refusal(titles + "0.1,1e70\n").find("finite"), std::string::npos);
   EXPECT_NE(refusal("indentation [m],indentation [m]\n").find("once"), std::string::npos);
   EXPECT_THROW(PressResponse::read_csv(folder_ / "absent.csv"), InvalidInput);
-  EXPECT_THROW(PressResponse::read_csv(folder_), InvalidInput);
+  EXPECT_THROW(PressResponse::read_csv(folder_.path()), InvalidInput);
 }
 
 TEST_F(PressResponseFile, AnUnwritableFolderIsNamed) {

@@ -203,12 +203,12 @@ TEST(LammpsOutput, ALogTellsItsLastRun) {
 
 TEST(LammpsOutput, ADumpMayHaveItsRowsAndColumnsInAnyOrder) {
   const TemporaryFolder folder;
-  const std::string head =
-      "ITEM: TIMESTEP\n20\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ss ss ss\n0 1\n0 1\n0 1\n";
+  const std::string rest = "ITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ss ss ss\n0 1\n0 1\n0 1\n";
+  const std::string head = "ITEM: TIMESTEP\n20\n" + rest, later = "ITEM: TIMESTEP\n40\n" + rest;
   write_text(folder / "dump", head +
                                   "ITEM: ATOMS z y x id type vx vy vz\n3 2 1 2 1 4 5 6\n"
                                   "30 20 10 1 1 40 50 60 \n" +
-                                  head + "ITEM: ATOMS id x y z vx vy vz\n1 1 1 1 0 0 0\n");
+                                  later + "ITEM: ATOMS id x y z vx vy vz\n1 1 1 1 0 0 0\n");
   LammpsDump dump(folder / "dump", 2);
   const auto frame = dump.next();
   ASSERT_TRUE(frame.has_value());

@@ -285,7 +285,9 @@ TEST_F(FitReport, TextFromFilesIsEscaped) {
 
 TEST_F(FitReport, AFolderWithoutAProblemIsRefused) {
   report_testing::write_file(run_ / "calibration.json", "{\"model\": \"hookean\"}");
-  EXPECT_THROW(studies::write_report(run_), meshes::InvalidInput);
+  const auto damage = studies::write_report(run_);
+  ASSERT_FALSE(damage.empty());
+  EXPECT_NE(damage[0].key.find("calibration.json"), std::string::npos) << damage[0].key;
 }
 
 }  // namespace
