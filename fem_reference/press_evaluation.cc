@@ -27,8 +27,11 @@ constexpr double nodes_per_edge_radius = 10.0;
 /// first leaves too few of them to say more than the outermost does. At large strain p² has a peak
 /// in the middle that a fit over more of the contact feels: over the outer half it is 2.5 % off at
 /// 0.3 cm of law A without friction, 14 % with stick.
-constexpr std::array<double, 2> edge_shares = {0.7, 0.5};
-constexpr int fewest_edge_points = 12;
+struct EdgeShare {
+  double inner;
+  int fewest_points;
+};
+constexpr std::array<EdgeShare, 2> edge_shares = {{{0.7, 20}, {0.5, 12}}};
 
 double radius(const meshes::Vector3& position) {
   return std::hypot(position.x(), position.y());
@@ -56,7 +59,7 @@ double spacing_around(const std::vector<SurfaceNode>& nodes, double edge) {
 double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing) {
   if (contact.empty()) return 0.0;
   const double outermost = contact.back().radius;
-  for (const double inner : edge_shares) {
+  for (const auto& [inner, fewest_points] : edge_shares) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     int count = 0;
@@ -68,7 +71,7 @@ double contact_edge(const std::vector<ContactPoint>& contact, double node_spacin
       right += point.pressure * point.pressure * basis;
       ++count;
     }
-    if (count < fewest_edge_points) continue;
+    if (count < fewest_points) continue;
     const Eigen::Vector3d c = normal.ldlt().solve(right);
     const double discriminant = c[1] * c[1] - 4 * c[2] * c[0];
     if (!(discriminant >= 0.0)) return outermost;

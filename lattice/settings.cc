@@ -196,7 +196,10 @@ void add_step_control(std::vector<Violation>& found, const PressSetup& setup) {
 
 }  // namespace
 
-std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
+namespace {
+
+/// Of what the lattice cannot do: contact, model and integrator.
+std::vector<Violation> beyond_the_model(const PressSetup& setup) {
   const meshes::PressProtocol& protocol = setup.protocol;
   std::vector<Violation> found;
   if (protocol.mode == meshes::DriveMode::equilibrium) {
@@ -225,7 +228,6 @@ std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
                      "are undamped",
                      "take symplectic-euler; explicit-euler is for the published model"});
   }
-  add_light_rod(found, setup);
   add_adaptive_steps(found, setup);
   const bool springs = lattice.model == ModelKind::published || lattice.model == ModelKind::central;
   const bool volume =
@@ -239,6 +241,14 @@ std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
   return found;
 }
 
+}  // namespace
+
+std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
+  std::vector<Violation> found = beyond_the_model(setup);
+  add_light_rod(found, setup);
+  return found;
+}
+
 std::vector<Violation> PressSetup::violations() const {
   std::vector<Violation> found = geometry.violations();
   const auto append = [&found](const std::vector<Violation>& more) {
@@ -246,7 +256,7 @@ std::vector<Violation> PressSetup::violations() const {
   };
   append(rubber.violations());
   append(protocol.violations(geometry));
-  append(beyond_the_lattice(*this));
+  append(beyond_the_model(*this));
   add_lattice(found, *this);
   add_controller(found, controller);
   append(hardware.violations());
@@ -255,6 +265,7 @@ std::vector<Violation> PressSetup::violations() const {
                      "the duration must be finite and positive", "or leave it out"});
   }
   add_rod(found, rod);
+  if (found.empty()) add_light_rod(found, *this);
   add_step_control(found, *this);
   if (threads < 0) {
     found.push_back({"run.threads", std::to_string(threads),

@@ -180,6 +180,12 @@ std::string shown(double value, const std::string& unit = "", int digits = 3) {
   return std::isfinite(value) ? number(value, digits) + unit : "–";
 }
 
+/// What is no more than round-off is not told by its digits.
+std::string degrees(double angle) {
+  if (!std::isfinite(angle)) return "–";
+  return angle < 1e-9 ? "less than 1e-9 degrees" : number(angle, 2) + " degrees";
+}
+
 Table tracking_table(const std::vector<MovingPress>& presses) {
   const bool forces = std::ranges::any_of(presses, &MovingPress::controls_force);
   Table table;
@@ -215,7 +221,7 @@ Table tracking_table(const std::vector<MovingPress>& presses) {
         {plain(press.label, press.status == "finished" || press.status == "ok" ? "" : press.status),
          plain(number(100.0 * press.approach_speed())), plain(shown(touch_time(press), "", 4)),
          deviation("speed_deviation"), deviation("speed_deviation_at_touch"),
-         plain(shown(number_at(tracking, "tilt_deg"), "°", 2)),
+         plain(degrees(number_at(tracking, "tilt_deg"))),
          plain(number(to_gf(peak)), with_prefix(peak, "N"))});
     if (!forces) continue;
     const double overshoot = force_overshoot(press.trace);
@@ -241,8 +247,8 @@ std::string control_answer(const std::vector<MovingPress>& presses) {
   if (std::isnan(speed)) return "No press got far enough to be judged.";
   std::string text = fmt::format(
       "Through contact the approach speed stays within {} of its set point and the rod "
-      "within {}° of its orientation",
-      percent_magnitude(speed), number(worst_of(presses, "tilt_deg"), 2));
+      "within {} of its orientation",
+      percent_magnitude(speed), degrees(worst_of(presses, "tilt_deg")));
   double force = meshes::unknown;
   for (const MovingPress& press : presses) force = std::fmax(force, press.force_error);
   if (std::isfinite(force))

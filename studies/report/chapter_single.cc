@@ -51,6 +51,14 @@ struct Column {
   const char* si;
 };
 
+/// Whether a force is more than the round-off of the normal force.
+bool significant(const meshes::PressResponse& response, double meshes::PressSample::*force) {
+  constexpr double round_off = 1e-9;
+  return std::ranges::any_of(response.samples(), [force](const meshes::PressSample& sample) {
+    return std::abs(sample.*force) > round_off * std::abs(sample.normal_force);
+  });
+}
+
 Table sample_table(const meshes::PressResponse& response) {
   static const Column columns[] = {
       {"Normal force", "gf", &meshes::PressSample::normal_force, to_gf(1.0), "N"},
@@ -63,6 +71,9 @@ Table sample_table(const meshes::PressResponse& response) {
   std::vector<Column> shown;
   for (const Column& column : columns) {
     if (!known(response, column.value)) continue;
+    if (column.value == &meshes::PressSample::lateral_force_x &&
+        !significant(response, column.value))
+      continue;
     shown.push_back(column);
     table.header.push_back(plain(column.title, column.unit));
   }
