@@ -160,9 +160,7 @@ bool is_continuum(const fs::path& folder) {
 RunData read_run(const fs::path& folder, FolderReader& reader) {
   RunData run;
   run.folder = folder;
-  const auto has = [&](const char* name) {
-    return fs::exists(fs::symlink_status(folder / name));
-  };
+  const auto has = [&](const char* name) { return fs::exists(fs::symlink_status(folder / name)); };
   if (!has("summary.json") && !has("calibration.json") && !has("finished.json")) {
     throw meshes::InvalidInput({folder.string(), "",
                                 "holds no summary.json, which every run that came to a result has",
@@ -170,6 +168,13 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   }
   reader.note_missing(folder);
   run.own_calibration = reader.json(folder / "calibration.json");
+  if (!run.own_calibration.empty())
+    reader.attempt([&] {
+      if (!run.own_calibration.contains("constants") && !run.own_calibration.contains("problem"))
+        throw meshes::InvalidInput({(folder / "calibration.json").string(), "",
+                                    "tells neither what was fitted (problem) nor constants",
+                                    "calibrate again"});
+    });
   run.summary = reader.json(folder / "summary.json");
   run.manifest = reader.json(folder / "manifest.json");
   run.verb = reader.attempt([&] { return text_at(run.manifest, "verb"); });

@@ -122,7 +122,7 @@ TEST(Report, GradesErrorsWithoutRelyingOnColour) {
 TEST(Report, ShowsHowWellTheControllerTracked) {
   SyntheticRun run;
   const std::string text = report_testing::visible_text(run.report());
-  for (const char* number : {"1.5 %", "12.3 %", "0.0020°"})
+  for (const char* number : {"1.5 %", "12.3 %", "0.0020 degrees"})
     EXPECT_TRUE(has(text, number)) << number;
   EXPECT_TRUE(has(text, "fingertip validate")) << "the command of the manifest";
 }
