@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 namespace fingertip::studies {
@@ -37,7 +38,14 @@ const ut_system& units() {
   return *system;
 }
 
+/// UDUNITS' parser has one state for all threads.
+std::recursive_mutex& parser() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 Unit parse_unit(const std::string& text) {
+  const std::lock_guard lock(parser());
   return Unit(ut_parse(&units(), text.c_str(), UT_UTF8));
 }
 
@@ -58,6 +66,7 @@ bool differ_by_an_angle(const ut_unit* one, const ut_unit* other) {
 
 /// The factor between two units; empty when they differ in dimension.
 std::optional<double> factor(const std::string& from, const std::string& to) {
+  const std::lock_guard lock(parser());
   const Unit source = parse_unit(from);
   const Unit target = parse_unit(to);
   if (!source || !target || !ut_are_convertible(source.get(), target.get())) return {};

@@ -217,7 +217,7 @@ std::string layout(const Figure& figure, int columns, int rows) {
       84 / w, (shared ? 34 : 92) / h);
 }
 
-std::string script(const Figure& figure, const fs::path& svg) {
+std::string script(const Figure& figure, const std::string& svg) {
   const int columns = std::max(1, figure.columns);
   const int rows = (int(figure.panels.size()) + columns - 1) / columns;
   std::string text = fmt::format(
@@ -225,7 +225,7 @@ std::string script(const Figure& figure, const fs::path& svg) {
       "linewidth 1\nset output {}\nset encoding utf8\nset minussign\nset border 3 lc rgb "
       "'#555555'\n"
       "set tics nomirror tc rgb '#333333'\nset grid lc rgb '#dddddd' lw 0.6 dt solid\n",
-      figure.width, figure.height, gnuplot_string(svg.string()));
+      figure.width, figure.height, gnuplot_string(svg));
   const bool surfaces = !figure.panels.empty() && figure.panels.front().surface;
   if (surfaces) return text + surface_script(figure) + "unset output\n";
   if (rows * columns > 1) text += layout(figure, columns, rows);
@@ -243,7 +243,8 @@ std::string read_file(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// Runs gnuplot on a script file; returns its exit code, -1 when it could not be started.
+/// Runs gnuplot on a script file, in that file's folder: whatever characters the path has, gnuplot
+/// sees names of ours alone. Returns its exit code, -1 when it could not be started.
 int run_gnuplot(const fs::path& script_file, const fs::path& log) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -251,7 +252,9 @@ int run_gnuplot(const fs::path& script_file, const fs::path& log) {
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(),
                                    O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  std::string program = "gnuplot", option = "--default-settings", name = script_file.string();
+  posix_spawn_file_actions_addchdir_np(&actions, script_file.parent_path().c_str());
+  std::string program = "gnuplot", option = "--default-settings",
+              name = script_file.filename().string();
   std::array<char*, 4> arguments{program.data(), option.data(), name.data(), nullptr};
   pid_t child = 0;
   const int failed = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
@@ -403,7 +406,8 @@ std::string draw(const Figure& figure, const std::string& title, const fs::path&
   const fs::path svg = folder / (figure.name + ".svg");
   const fs::path script_file = folder / (figure.name + ".gnuplot");
   const fs::path log = folder / (figure.name + ".log");
-  meshes::write_atomically(script_file, [&](std::ostream& out) { out << script(figure, svg); });
+  meshes::write_atomically(
+      script_file, [&](std::ostream& out) { out << script(figure, svg.filename().string()); });
   const int code = run_gnuplot(script_file, log);
   if (code < 0)
     throw meshes::InvalidInput({"gnuplot", "", "the program that draws figures cannot be started",

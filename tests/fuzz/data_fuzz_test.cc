@@ -280,7 +280,7 @@ TEST(FuzzData, JsonAndTablesOfRunFolders) {
                  write_text(file, input);
                  EXPECT_FALSE(studies::read_json(file).is_discarded());
                }));
-  fuzz::attack({{"time [s],speed [m/s]\n0,0.1\n# a remark\n1,\"0,2\"\n", "a\n1\n2\n"},
+  fuzz::attack({{"time [s],speed [m/s]\n0,0.1\n# a remark\n1,\"0.2\"\n", "a\n1\n2\n"},
                 {",", "\"", "\"\"", "\n", "#", "[m]", "\r"}},
                fuzz::refusing<InvalidInput>([&](const std::string& input) {
                  write_text(file, input);

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+#include <vector>
+
 #include <cmath>
 
 using fingertip::studies::convert;
@@ -80,4 +84,19 @@ TEST(Units, AnglesAreNoPlainNumbers) {
 TEST(Units, ConvertsBack) {
   EXPECT_NEAR(convert(98.0665, "Pa", "gf/cm^2"), 1.0, 1e-14);
   EXPECT_THROW(convert(1.0, "Pa", "m"), UnitError);
+}
+
+// The presses of a sweep read their settings side by side.
+TEST(Units, MayBeReadFromManyThreads) {
+  std::atomic<int> wrong = 0;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&wrong] {
+      for (int i = 0; i < 500; ++i) {
+        if (std::abs(parse_quantity("40 gf/cm^2", "Pa", "1 Pa") - 3922.66) > 1e-9) ++wrong;
+        if (std::abs(parse_quantity("2.5 mm", "m", "1 m") - 2.5e-3) > 1e-15) ++wrong;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
 }
