@@ -76,9 +76,8 @@ ordered_json GraspPlan::conclude(const fs::path& folder, const std::vector<JobRe
     const auto job = std::ranges::find(results, folders_[i], &JobResult::name);
     if (!job->ok()) ++not_converged_;
     // What an incomplete grasp did so far must not pass for what it did.
-    measures_.push_back(
-        job->ok() ? measure_grasp(read_entry(folder / folders_[i] / "summary.json"))
-                  : RunMeasures());
+    measures_.push_back(job->ok() ? measure_grasp(read_entry(folder / folders_[i] / "summary.json"))
+                                  : RunMeasures());
     ordered_json entry = {{"series", grasp.series},
                           {"name", grasp.name},
                           {"folder", folders_[i]},

@@ -158,8 +158,7 @@ std::string VariantsPlan::rows_of(std::size_t place, const fs::path& folder,
   const fs::path file = folder / press.folder / "summary.json";
   const JsonEntry summary = fs::exists(file) ? read_entry(file) : JsonEntry();
   const JsonEntry census = object_at(summary, "census");
-  const double defect =
-      number_at(census, "volume") / number_at(census, "exact_volume") - 1.0;
+  const double defect = number_at(census, "volume") / number_at(census, "exact_volume") - 1.0;
   const std::string head = fmt::format(
       "{},{},{},{},{},{},{},{},{}", csv_cell(variant.series), csv_cell(variant.name),
       meshes::to_text(variant.x), lattice::name(press.setup.lattice.model),

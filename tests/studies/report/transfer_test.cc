@@ -84,8 +84,7 @@ TEST_F(TransferReport, WithoutTheTableTheSummaryCounts) {
 
 TEST_F(TransferReport, FitsAreFoundWithoutTheSummary) {
   json summary = json::parse(read_text(run_ / "summary.json"));
-  summary["calibration"] = {
-      {"fits", nullptr}, {"predictions", nullptr}, {"worst_error", nullptr}};
+  summary["calibration"] = {{"fits", nullptr}, {"predictions", nullptr}, {"worst_error", nullptr}};
   report_testing::write_file(run_ / "summary.json", summary.dump());
   fs::remove_all(run_ / "fits" / "alone");
   const std::string text = report_testing::visible_text(report());
