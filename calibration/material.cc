@@ -81,7 +81,7 @@ bool same(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
 }
 
-std::string percent(double share) {
+std::string tenths_of_percent(double share) {
   return to_text(std::round(1e3 * share) / 10.0) + " %";
 }
 
@@ -210,11 +210,12 @@ Sentences warnings(const Material& material, const PressSetup& setup) {
     const double fitted = *v.largest_indentation / *v.thickness;
     const double depth = protocol.depth / setup.geometry.thickness();
     if (depth > fitted * (1.0 + 1e-9))
-      found.push_back(
-          "the press goes to " + percent(depth) + " of the rubber's thickness, the fit to " +
-          percent(fitted) + " only: deeper forces are extrapolated" +
-          (v.model_error ? ", the error of " + percent(*v.model_error) + " was not measured there"
-                         : ""));
+      found.push_back("the press goes to " + tenths_of_percent(depth) +
+                      " of the rubber's thickness, the fit to " + tenths_of_percent(fitted) +
+                      " only: deeper forces are extrapolated" +
+                      (v.model_error ? ", the error of " + tenths_of_percent(*v.model_error) +
+                                           " was not measured there"
+                                     : ""));
   }
   if (!v.contacts.empty() && std::ranges::find(v.contacts, protocol.contact) == v.contacts.end()) {
     std::string known;

@@ -13,4 +13,9 @@ inline std::string rounded(double value, int digits = 4) {
   return text;
 }
 
+/// A share [-] in percent, to two digits.
+inline std::string percent(double share) {
+  return rounded(100.0 * share, 2) + " %";
+}
+
 }  // namespace fingertip::calibration

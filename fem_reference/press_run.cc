@@ -21,8 +21,8 @@
 namespace fingertip::fem_reference {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using meshes::to_text;
+using nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
@@ -194,7 +194,8 @@ class PressRun {
     MPI_Barrier(MPI_COMM_WORLD);
     if (first_process()) {
       meshes::write_atomically(next / "run.json", [&](std::ostream& out) {
-        out << Json{{"job", text_of(folder_ / "job.json")}, {"history", history_.to_json()}};
+        out << ordered_json{{"job", text_of(folder_ / "job.json")},
+                            {"history", history_.to_json()}};
       });
       fs::remove_all(place);
       fs::rename(next, place);
@@ -208,7 +209,8 @@ class PressRun {
     std::string place, text;
     if (first_process())
       for (const char* candidate : {"checkpoint", "checkpoint.next"}) {
-        const auto json = Json::parse(text_of(folder_ / candidate / "run.json"), nullptr, false);
+        const auto json =
+            ordered_json::parse(text_of(folder_ / candidate / "run.json"), nullptr, false);
         if (!json.is_object() || json.value("job", "") != text_of(folder_ / "job.json")) continue;
         place = candidate;
         text = json.dump();
@@ -216,7 +218,7 @@ class PressRun {
       }
     place = from_first_process(place);
     if (place.empty()) return false;
-    const auto json = Json::parse(from_first_process(text));
+    const auto json = ordered_json::parse(from_first_process(text));
     press.load(folder_ / place);
     history_ = MeshHistory::from_json(json.at("history"));
     progress_.report("press", history_.finest().states.size(), job_.samples.size(),
@@ -233,8 +235,8 @@ class PressRun {
     write_summary(summarise(best, outcome), progress_, folder_);
   }
 
-  Json summarise(const std::vector<PressState>& best, const RunOutcome& outcome) const {
-    Json summary = summary_head(outcome, job_);
+  ordered_json summarise(const std::vector<PressState>& best, const RunOutcome& outcome) const {
+    ordered_json summary = summary_head(outcome, job_);
     summary["contact"] = meshes::name(job_.contact);
     summary["strain"] = fem_reference::name(job_.strain);
     if (job_.strain == Strain::finite) summary["law"] = fem_reference::name(job_.law);
@@ -251,20 +253,21 @@ class PressRun {
                        {"min_jacobian", mesh_quality_.min_jacobian},
                        {"min_scaled_jacobian", mesh_quality_.min_scaled_jacobian},
                        {"volume", mesh_quality_.volume}};
-    summary["meshes"] = Json::array();
+    summary["meshes"] = ordered_json::array();
     for (const MeshRecord& record : history_.meshes())
       summary["meshes"].push_back({{"cells", record.mesh.cells},
                                    {"dofs", record.mesh.unknowns},
                                    {"samples", record.states.size()},
                                    {"wall_time", record.wall_time}});
-    summary["contact_node_spacing"] = best.empty() ? Json() : Json(best.back().node_spacing);
-    summary["samples"] = Json::array();
+    summary["contact_node_spacing"] =
+        best.empty() ? ordered_json() : ordered_json(best.back().node_spacing);
+    summary["samples"] = ordered_json::array();
     for (std::size_t i = 0; i < best.size(); ++i)
       summary["samples"].push_back(sample_summary(best[i], history_.error(i)));
     return summary;
   }
 
-  static Json sample_summary(const PressState& state, const ForceError& error) {
+  static ordered_json sample_summary(const PressState& state, const ForceError& error) {
     return {{"indentation", state.sample.indentation},
             {"normal_force", state.sample.normal_force},
             {"contact_radius", known(state.sample.contact_radius)},

@@ -13,7 +13,7 @@
 namespace fingertip::fem_reference {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 const char* name(RunOutcome::Status status) {
   switch (status) {
@@ -42,7 +42,7 @@ bool first_process() {
 void RunProgress::report(const char* stage, std::size_t done, std::size_t total,
                          const std::string& message) {
   if (first_process())
-    out_ << Json{{"stage", stage}, {"done", done}, {"total", total}, {"message", message}}
+    out_ << ordered_json{{"stage", stage}, {"done", done}, {"total", total}, {"message", message}}
          << std::endl;
 }
 
@@ -89,10 +89,10 @@ RunOutcome outcome_of(const std::function<void()>& work) {
   return {};
 }
 
-Json summary_head(const RunOutcome& outcome, const ReferenceJob& job) {
+ordered_json summary_head(const RunOutcome& outcome, const ReferenceJob& job) {
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  Json summary{{"program", "fingertip-fem"}, {"status", name(outcome.status)}};
+  ordered_json summary{{"program", "fingertip-fem"}, {"status", name(outcome.status)}};
   if (!outcome.message.empty()) summary["message"] = outcome.message;
   summary["analysis"] = fem_reference::name(job.analysis);
   summary["degree"] = job.degree;
@@ -103,11 +103,12 @@ Json summary_head(const RunOutcome& outcome, const ReferenceJob& job) {
   return summary;
 }
 
-Json mesh_summary(const MeshSummary& mesh, double wall_time) {
+ordered_json mesh_summary(const MeshSummary& mesh, double wall_time) {
   return {{"cells", mesh.cells}, {"dofs", mesh.unknowns}, {"wall_time", wall_time}};
 }
 
-void write_summary(Json summary, const RunProgress& progress, const std::filesystem::path& folder) {
+void write_summary(ordered_json summary, const RunProgress& progress,
+                   const std::filesystem::path& folder) {
   if (!first_process()) return;
   summary["wall_time"] = progress.wall_time();
   summary["peak_memory"] = peak_memory();
@@ -115,8 +116,8 @@ void write_summary(Json summary, const RunProgress& progress, const std::filesys
                            [&](std::ostream& out) { out << summary.dump(2) << '\n'; });
 }
 
-Json known(double value) {
-  return std::isnan(value) ? Json() : Json(value);
+ordered_json known(double value) {
+  return std::isnan(value) ? ordered_json() : ordered_json(value);
 }
 
 }  // namespace fingertip::fem_reference

@@ -19,8 +19,8 @@ namespace fingertip::fem_reference {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using meshes::to_text;
+using nlohmann::ordered_json;
 
 /// Meshes before the static error can be told, and how they grow: as in a static press.
 constexpr std::size_t fewest_meshes = 3;
@@ -173,7 +173,7 @@ class TransientRun {
     write_samples(states_, folder_);
     write_convergence(static_presses_, folder_);
     write_steps();
-    Json summary = summary_head(outcome, job_);
+    ordered_json summary = summary_head(outcome, job_);
     summary["contact"] = meshes::name(job_.contact);
     summary["strain"] = fem_reference::name(job_.strain);
     summary["speed"] = job_.speed;
@@ -186,16 +186,16 @@ class TransientRun {
     summary["mesh"] = {{"hexahedra", quality_.hexahedra},
                        {"min_scaled_jacobian", quality_.min_scaled_jacobian},
                        {"volume", quality_.volume}};
-    summary["static_meshes"] = Json::array();
+    summary["static_meshes"] = ordered_json::array();
     for (const MeshRecord& record : static_presses_.meshes())
       summary["static_meshes"].push_back(mesh_summary(record.mesh, record.wall_time));
-    summary["static_mesh_of_transient"] = chosen_ > 0 ? Json(chosen_) : Json();
-    summary["samples"] = Json::array();
+    summary["static_mesh_of_transient"] = chosen_ > 0 ? ordered_json(chosen_) : ordered_json();
+    summary["samples"] = ordered_json::array();
     for (const PressState& state : states_) summary["samples"].push_back(sample_summary(state));
     write_summary(std::move(summary), progress_, folder_);
   }
 
-  static Json sample_summary(const PressState& state) {
+  static ordered_json sample_summary(const PressState& state) {
     return {{"indentation", state.sample.indentation},
             {"time", state.sample.time},
             {"normal_force", state.sample.normal_force},

@@ -15,7 +15,7 @@ using meshes::Vector3;
 
 namespace {
 
-constexpr std::size_t portion = 16;  // slices per partial sum: the same for any thread count
+constexpr std::size_t bond_portion = 16;  // slices per partial sum: the same for any thread count
 
 using Matrix = std::map<std::uint32_t, std::map<std::uint32_t, double>>;  // by grid index
 
@@ -103,7 +103,7 @@ void TiedBond::number_particles() {
   for (Field* field : {&rest_, &slip_}) {
     for (auto& component : *field) component.resize(filled, 0.0);
   }
-  partial_.resize((slices_ + portion - 1) / portion);
+  partial_.resize((slices_ + bond_portion - 1) / bond_portion);
 }
 
 std::uint32_t TiedBond::number_of(std::uint32_t point) const {
@@ -167,13 +167,13 @@ Wrench TiedBond::add(const State& state, const RodState& rod, double step, Vecto
   kernel::BondArrays all = arrays(state);
   for (std::size_t c = 0; c < 3; ++c) all.force[c] = force.component[c].data();
   const kernel::Carried motion = carried(rod, step);
-  team_->split(slices_, portion, [&](std::size_t begin, std::size_t end) {
+  team_->split(slices_, bond_portion, [&](std::size_t begin, std::size_t end) {
     kernels_->find_slips(all, motion, step, begin, end);
   });
   team_->split(partial_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const std::size_t last = std::min(slices_, (p + 1) * portion);
-      partial_[p] = kernels_->take(all, step * step, p * portion, last);
+      const std::size_t last = std::min(slices_, (p + 1) * bond_portion);
+      partial_[p] = kernels_->take(all, step * step, p * bond_portion, last);
     }
   });
   Vector3 pulled = Vector3::Zero(), moment = Vector3::Zero();  // along the grid's axes
@@ -203,7 +203,7 @@ void TiedBond::list_inertia(double step, std::vector<BondInertia>& ties) const {
 double TiedBond::energy(const State& state, const RodState& rod) const {
   const kernel::BondArrays all = arrays(state);
   const kernel::Carried motion = carried(rod, 0.0);
-  team_->split(slices_, portion, [&](std::size_t begin, std::size_t end) {
+  team_->split(slices_, bond_portion, [&](std::size_t begin, std::size_t end) {
     kernels_->find_slips(all, motion, 0.0, begin, end);
   });
   return sum_in_portions<16>(*team_, slices_, [&](std::size_t begin, std::size_t end) {

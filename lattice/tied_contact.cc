@@ -14,7 +14,7 @@ constexpr double most_turns = 64.0;     // steps until every point has had its t
 constexpr double most_turns_off = 7.0;  // that a point far away lets pass
 
 // The same for any number of threads.
-constexpr std::size_t portion = 32;         // near particles per partial sum
+constexpr std::size_t near_portion = 32;    // near particles per partial sum
 constexpr std::size_t speed_portion = 512;  // contact particles per partial maximum
 
 // What is worth another thread: some microseconds.
@@ -62,7 +62,7 @@ TiedContact::TiedContact(const LatticeModel& model, const Plane& plane, const Co
       loads_(shape_->groups.size()),
       near_groups_(shape_->particles.size(), 0),
       fastest_(portions_of(shape_->particles.size(), speed_portion)),
-      given_(portions_of(shape_->particles.size(), portion)),
+      given_(portions_of(shape_->particles.size(), near_portion)),
       on_particle_(shape_->particles.size()) {
   near_.reserve(shape_->groups.size());
   near_particles_.reserve(shape_->particles.size());
@@ -177,8 +177,8 @@ Wrench TiedContact::unload_portion(std::size_t number, const State& state, doubl
                                    bool shares, VectorField& force) {
   const Vector3 normal = model_->grid.axes.transpose() * plane_.normal;
   Wrench sum;
-  const std::size_t last = std::min(near_particles_.size(), (number + 1) * portion);
-  for (std::size_t n = number * portion; n < last; ++n) {
+  const std::size_t last = std::min(near_particles_.size(), (number + 1) * near_portion);
+  for (std::size_t n = number * near_portion; n < last; ++n) {
     const std::uint32_t particle = near_particles_[n], i = shape_->particles[particle];
     const kernel::ContactLoad load = load_on(particle, on_particle_[n].acts);
     on_particle_[n].held = {particle, load.stiffness, load.aside};
@@ -203,7 +203,7 @@ Wrench TiedContact::unload_portion(std::size_t number, const State& state, doubl
 /// Passes the loads on to the particles; returns what the plane gives them altogether.
 Wrench TiedContact::unload(const State& state, double step, VectorField& force,
                            std::vector<SharedLoad>* shared) {
-  const std::size_t portions = portions_of(near_particles_.size(), portion);
+  const std::size_t portions = portions_of(near_particles_.size(), near_portion);
   team_->split(portions, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       given_[n] = unload_portion(n, state, step * step, shared != nullptr, force);

@@ -312,7 +312,7 @@ std::array<double, 8> Cell::moments() {
   return sum;
 }
 
-void check(const Geometry& geometry, double smallest_fraction) {
+void check_cells(const Geometry& geometry, double smallest_fraction) {
   auto found = geometry.violations();
   if (!(smallest_fraction >= 0.0 && smallest_fraction < 1.0)) {
     found.push_back({"smallest_fraction", to_text(smallest_fraction),
@@ -326,7 +326,7 @@ void check(const Geometry& geometry, double smallest_fraction) {
 
 std::vector<CutCell> cut_cells(const Geometry& geometry, const CubicGrid& grid,
                                double smallest_fraction) {
-  check(geometry, smallest_fraction);
+  check_cells(geometry, smallest_fraction);
   const std::array<double, 8> cube{1.0, 0.5, 0.5, 0.25, 0.5, 0.25, 0.25, 0.125};
   const double reach = 0.5 * std::numbers::sqrt3 * grid.spacing;
   const double round_off = 1e-12;

@@ -22,13 +22,13 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-ordered_json number(double value) {
+ordered_json or_null(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json();
 }
 
 ordered_json list(const VectorXd& values) {
   ordered_json result = ordered_json::array();
-  for (const double value : values) result.push_back(number(value));
+  for (const double value : values) result.push_back(or_null(value));
   return result;
 }
 
@@ -38,8 +38,8 @@ ordered_json rows(const MatrixXd& matrix) {
   return result;
 }
 
-ordered_json number(const std::optional<double>& value) {
-  return value ? number(*value) : ordered_json();
+ordered_json or_null(const std::optional<double>& value) {
+  return value ? or_null(*value) : ordered_json();
 }
 
 /// What is at its bound: of E it may be Poisson's ratio.
@@ -55,10 +55,10 @@ ordered_json parameter_entry(const FitRecord& record, std::size_t i) {
   if (free.prior) prior = {{"mean", free.prior->mean}, {"deviation", free.prior->deviation}};
   return {{"name", name(free.parameter)},
           {"unit", unit(free.parameter)},
-          {"estimate", number(fit.estimates(Index(i)))},
-          {"standard_error", number(fit.standard_errors(Index(i)))},
-          {"lower", number(fit.lower(Index(i)))},
-          {"upper", number(fit.upper(Index(i)))},
+          {"estimate", or_null(fit.estimates(Index(i)))},
+          {"standard_error", or_null(fit.standard_errors(Index(i)))},
+          {"lower", or_null(fit.lower(Index(i)))},
+          {"upper", or_null(fit.upper(Index(i)))},
           {"at_bound", bool(fit.at_bound[i])},
           {"bound_of", bound_of(fit, i)},
           {"start", free.start},
@@ -71,10 +71,10 @@ ordered_json directions(const FitRecord& record, const std::vector<Direction>& f
   for (const Direction& one : found) {
     ordered_json changes = ordered_json::object();
     for (std::size_t i = 0; i < record.fit.parameters.size(); ++i)
-      changes[std::string(name(record.fit.parameters[i]))] = number(one.changes(Index(i)));
+      changes[std::string(name(record.fit.parameters[i]))] = or_null(one.changes(Index(i)));
     result.push_back({{"direction", changes},
-                      {"relative_singular_value", number(one.relative_singular_value)},
-                      {"interval", number(one.interval)},
+                      {"relative_singular_value", or_null(one.relative_singular_value)},
+                      {"interval", or_null(one.interval)},
                       {"statement", one.statement}});
   }
   return result;
@@ -109,7 +109,7 @@ ordered_json curve_entry(const FitRecord& record, std::size_t i) {
     const LeftOut& without = record.left_out[i];
     left_out = {{"estimates", list(without.estimates)},
                 {"worst_relative_error",
-                 without.failure.empty() ? number(without.worst_relative_error) : ordered_json()},
+                 without.failure.empty() ? or_null(without.worst_relative_error) : ordered_json()},
                 {"failure", without.failure}};
   }
   return {{"name", curve.name},
@@ -117,11 +117,11 @@ ordered_json curve_entry(const FitRecord& record, std::size_t i) {
           {"x_quantity", curve.x_quantity},
           {"y_quantity", curve.y_quantity},
           {"points", curve.x.size()},
-          {"worst_relative_residual", number(size.worst)},
-          {"rms_relative_residual", number(size.rms)},
+          {"worst_relative_residual", or_null(size.worst)},
+          {"rms_relative_residual", or_null(size.rms)},
           {"structure",
            {{"runs", structure.runs},
-            {"probability", number(structure.probability)},
+            {"probability", or_null(structure.probability)},
             {"statement", structure.statement}}},
           {"left_out", left_out}};
 }
@@ -141,7 +141,7 @@ ordered_json validity_entry(const Material& material) {
   const Validity& validity = material.validity;
   const bool pressed = validity.largest_indentation && validity.thickness;
   return {{"largest_strain_measure",
-           pressed ? number(*validity.largest_indentation / *validity.thickness) : ordered_json()},
+           pressed ? or_null(*validity.largest_indentation / *validity.thickness) : ordered_json()},
           {"spacing", material.spacing},
           {"poissons_ratio", material.rubber.poissons_ratio()},
           {"model", lattice::name(material.model)},
@@ -152,7 +152,7 @@ ordered_json minima(const CurveFit& fit) {
   ordered_json result = ordered_json::array();
   for (const Minimum& one : fit.minima)
     result.push_back({{"estimates", list(one.estimates)},
-                      {"loss", number(one.loss)},
+                      {"loss", or_null(one.loss)},
                       {"iterations", one.iterations},
                       {"converged", one.converged}});
   return result;
@@ -195,14 +195,14 @@ ordered_json statistics_entries(const FitRecord& record) {
   json["unidentifiable"] = directions(record, fit.unidentifiable);
   json["only_from_priors"] = directions(record, fit.only_from_priors);
   json["degrees_of_freedom"] = fit.degrees_of_freedom;
-  json["chi_square"] = number(fit.chi_square);
-  json["chi_square_probability"] = number(fit.chi_square_probability);
+  json["chi_square"] = or_null(fit.chi_square);
+  json["chi_square_probability"] = or_null(fit.chi_square_probability);
   json["birge_ratio"] = fit.birge_ratio;
   json["model_error"] =
       record.model_error.empty() ? ordered_json() : ordered_json(record.model_error);
   json["converged"] = fit.converged;
-  json["poissons_ratio_bound"] = number(fit.poissons_ratio_bound);
-  json["residual_deviation"] = number(fit.residual_deviation);
+  json["poissons_ratio_bound"] = or_null(fit.poissons_ratio_bound);
+  json["residual_deviation"] = or_null(fit.residual_deviation);
   json["minima"] = minima(fit);
   return json;
 }

@@ -18,10 +18,6 @@ constexpr double largest_misfit = 0.1;
 /// The softest gels and the hardest plastics [Pa].
 constexpr double softest = 1e2, hardest = 1e10;
 
-std::string percent(double value) {
-  return rounded(100.0 * value, 2) + " %";
-}
-
 void judge_misfit(Sentences& found, const FitRecord& record) {
   const CurveFit& fit = record.fit;
   if (fit.birge_ratio > 1.0)

@@ -16,10 +16,6 @@ constexpr double improbable = 0.01;
 /// A minimum whose chi-square is within this of the least one is as good (95 %, one parameter).
 constexpr double as_good = 3.84;
 
-std::string percent(double value) {
-  return rounded(100.0 * value, 2) + " %";
-}
-
 std::string with_unit(double value, MaterialParameter parameter) {
   const std::string_view symbol = unit(parameter);
   return rounded(value, 5) + (symbol == "1" ? "" : " " + std::string(symbol));

@@ -13,7 +13,8 @@ using meshes::InvalidInput;
 using meshes::to_text;
 using nlohmann::ordered_json;
 
-const nlohmann::json units = {{"knots", "m"}, {"force", "N"}, {"stiffness", "N/m"}, {"band", "N"}};
+const nlohmann::json column_units = {
+    {"knots", "m"}, {"force", "N"}, {"stiffness", "N/m"}, {"band", "N"}};
 
 }  // namespace
 
@@ -33,10 +34,10 @@ void write_surrogate_csv(const Surrogate& surrogate, const std::filesystem::path
 
 void write_surrogate_json(const Surrogate& surrogate, const std::filesystem::path& file) {
   const SurrogateTable& table = surrogate.table();
-  const ordered_json json = {
-      {"knots", table.knots}, {"force", table.force},         {"stiffness", table.stiffness},
-      {"band", table.band},   {"statement", table.statement}, {"condition", table.condition},
-      {"units", units}};
+  const ordered_json json = {{"knots", table.knots},         {"force", table.force},
+                             {"stiffness", table.stiffness}, {"band", table.band},
+                             {"statement", table.statement}, {"condition", table.condition},
+                             {"units", column_units}};
   meshes::write_atomically(file, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
 }
 
@@ -49,7 +50,7 @@ Surrogate read_surrogate_json(const std::filesystem::path& file) {
     std::ifstream in(file);
     if (!std::filesystem::is_regular_file(file) || !in) refuse("the file cannot be read");
     const nlohmann::json json = nlohmann::json::parse(in);
-    if (json.at("units") != units) refuse("units must be m, N, N/m and N");
+    if (json.at("units") != column_units) refuse("units must be m, N, N/m and N");
     json.at("knots").get_to(table.knots);
     json.at("force").get_to(table.force);
     json.at("stiffness").get_to(table.stiffness);

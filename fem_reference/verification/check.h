@@ -10,7 +10,7 @@
 namespace fingertip::fem_reference {
 
 /// Name of the mesh of a press in its folder.
-inline constexpr const char* mesh_file = "verification.msh";
+inline constexpr const char* verification_mesh = "verification.msh";
 
 /// `value` against `expected`, which is not zero.
 inline Check compare(std::string name, std::string quantity, std::string source, double value,

@@ -72,7 +72,7 @@ std::vector<LockingPoint> lock_press(const std::vector<double>& poissons_ratios,
                                      const std::filesystem::path& folder) {
   std::vector<double> finest;
   const meshes::TipMeshOptions options;
-  const std::filesystem::path mesh = folder / mesh_file;
+  const std::filesystem::path mesh = folder / verification_mesh;
   write_mesh_once({}, options.refined(0.6), mesh);
   for (const double nu : poissons_ratios)
     finest.push_back(press_force({2, Volumetric::projected}, nu, mesh));

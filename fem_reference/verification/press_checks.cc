@@ -31,8 +31,8 @@ HertzResult press_towards_hertz(double rod, const std::vector<double>& indentati
   meshes::TipMeshOptions options;
   options.cap_elements = 8, options.cap_grading = 20.0;
   options.ring_elements = 3, options.radial_elements = 8, options.radial_grading = 8.0;
-  write_mesh_once(geometry, options, folder / mesh_file);
-  ContinuumPress press(job, folder / mesh_file);
+  write_mesh_once(geometry, options, folder / verification_mesh);
+  ContinuumPress press(job, folder / verification_mesh);
   HertzResult result;
   result.rod = rod;
   const analytic::Hertz hertz(job.rubber, geometry.tip_radius);
@@ -87,8 +87,8 @@ std::vector<Check> check_press(const std::filesystem::path& folder) {
                                sectors * press.bond_reaction().z() / normal_force - 1.0, 1e-8));
     return normal_force;
   };
-  write_mesh_once(job.geometry, quarter, folder / mesh_file);
-  ContinuumPress one(job, folder / mesh_file);
+  write_mesh_once(job.geometry, quarter, folder / verification_mesh);
+  ContinuumPress one(job, folder / verification_mesh);
   const double of_quarter = force(one, "quarter", 4.0);
   // Twice by a half of the estimated error: hanging nodes come to stand beside the bond, too.
   one.refine(0.5);
@@ -97,8 +97,8 @@ std::vector<Check> check_press(const std::filesystem::path& folder) {
   force(one, "quarter, refined twice", 4.0);
   // A tilt that changes nothing but makes the press take the half.
   job.tilt = 1e-12;
-  write_mesh_once(job.geometry, half, folder / mesh_file);
-  ContinuumPress two(job, folder / mesh_file);
+  write_mesh_once(job.geometry, half, folder / verification_mesh);
+  ContinuumPress two(job, folder / verification_mesh);
   const double of_half = force(two, "half", 2.0);
   checks.push_back(compare("symmetry", "force of the half against four quarters [N]",
                            "mirror planes of the press", of_half, of_quarter, 1e-6));

@@ -168,7 +168,7 @@ class VerificationRun {
                            std::to_string(tables_.checks.size()) + " checks passed");
     });
     write(outcome);
-    if (first_process()) fs::remove(folder_ / mesh_file);
+    if (first_process()) fs::remove(folder_ / verification_mesh);
     return outcome;
   }
 

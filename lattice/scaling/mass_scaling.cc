@@ -11,7 +11,7 @@ using meshes::Vector3;
 
 namespace {
 
-Vector3 at(const MultigridFields::Field& field, std::size_t point) {
+Vector3 vector_at(const MultigridFields::Field& field, std::size_t point) {
   return {field[0][point], field[1][point], field[2][point]};
 }
 
@@ -138,7 +138,7 @@ void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFi
 void MassScaling::take_share(const Vector3& direction, const MultigridFields::Field& follows,
                              std::vector<Single>& share) const {
   for (const std::uint32_t p : ground_->model->particles)
-    share[p] = Single(std::clamp(direction.dot(at(follows, p)), 0.0, 1.0));
+    share[p] = Single(std::clamp(direction.dot(vector_at(follows, p)), 0.0, 1.0));
 }
 
 /// Finds the patch's centre, and what the rod feels: the patch as a whole by what Y leaves of C,
@@ -198,7 +198,7 @@ Reactions MassScaling::accelerate(const State& state, const OuterLoads& outer,
   reactions.plane << outer.plane.wrench.force, outer.plane.wrench.torque;
   for (const ContactInertia& tie : outer.plane.ties) {
     const std::size_t i = tie.particle;
-    const Vector3 change = at(finest.solution, i) - inverse_mass[i] * force.at(i);
+    const Vector3 change = vector_at(finest.solution, i) - inverse_mass[i] * force.at(i);
     reactions.plane -=
         acting_at(tie.rest + state.displacement.at(i), outer.plane.taken(tie, change));
   }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "meshes/files.h"
+#include "studies/cases/folders.h"
 #include "studies/cases/force_errors.h"
 #include "studies/report/run_data.h"
 #include "studies/run/jobs.h"
@@ -16,11 +17,6 @@ namespace {
 
 using meshes::PressResponse;
 using reporting::force_at;
-
-PressResponse response_in(const std::filesystem::path& folder) {
-  const auto file = folder / "response.csv";
-  return std::filesystem::exists(file) ? PressResponse::read_csv(file) : PressResponse();
-}
 
 }  // namespace
 

@@ -13,11 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& place, const std::string& rule,
-                         const std::string& remedy) {
-  throw ConfigError({{place, "", "", rule, remedy}});
-}
-
 void throw_damage(const Damages& damage) {
   if (!damage.empty()) throw meshes::InvalidInput(damage);
 }

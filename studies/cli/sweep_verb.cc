@@ -14,11 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& place, const std::string& rule,
-                         const std::string& remedy) {
-  throw ConfigError({{place, "", "", rule, remedy}});
-}
-
 /// 3 when points are missing or did not converge. Throws InvalidInput when some are damaged.
 int collect_all(const fs::path& folder, bool quiet) {
   const SweepCensus census = collect(folder);

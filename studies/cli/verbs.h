@@ -2,8 +2,15 @@
 #pragma once
 
 #include "studies/cli/command_line.h"
+#include "studies/config/loader.h"
 
 namespace fingertip::studies {
+
+/// Ends the verb with exit code 2: what is wrong at `place`, and what to do.
+[[noreturn]] inline void refuse(const std::string& place, const std::string& rule,
+                                const std::string& remedy) {
+  throw ConfigError({{place, "", "", rule, remedy}});
+}
 
 int run_validate(const CommandLine& line);
 int run_press(const CommandLine& line);

@@ -213,7 +213,7 @@ std::string whole(const JsonEntry& object, const char* key) {
 }
 
 /// A quantity of one sample in the table.
-struct Column {
+struct SampleColumn {
   Cell header;
   std::function<Cell(const Sample&)> cell;
 };
@@ -233,8 +233,8 @@ Cell iterations(const Sample& sample, bool finite) {
   return plain(whole(sample.details, "steps"), note);
 }
 
-std::vector<Column> force_columns(const RunData& run) {
-  std::vector<Column> columns;
+std::vector<SampleColumn> force_columns(const RunData& run) {
+  std::vector<SampleColumn> columns;
   columns.push_back({plain("Force", "gf"), [](const Sample& s) {
                        return plain(number(to_gf(s.force), 5), with_prefix(s.force, "N"));
                      }});
@@ -257,13 +257,13 @@ std::vector<Column> force_columns(const RunData& run) {
   return columns;
 }
 
-std::vector<Column> contact_columns(const RunData& run) {
+std::vector<SampleColumn> contact_columns(const RunData& run) {
   const bool finite = text_at(run.reference_summary, "strain") == "finite";
   const bool slides = text_at(run.reference_summary, "contact") == "coulomb";
   std::map<double, meshes::PressSample> response;
   for (const meshes::PressSample& sample : run.reference.samples())
     response[sample.indentation] = sample;
-  std::vector<Column> columns;
+  std::vector<SampleColumn> columns;
   columns.push_back({plain("Contact radius", "cm"), [=](const Sample& s) {
                        const double a = response.at(s.depth).contact_radius;
                        return plain(number(to_cm(a)), number(1e3 * a) + gap + "mm");
@@ -290,14 +290,14 @@ Table sample_table(const RunData& run, const std::vector<Sample>& samples) {
       "Every depth on the finest mesh that computed it. Convergence tells how the last three "
       "forces follow each other: monotone ones fit an order, the others do not, which is common "
       "while the edge of contact moves from node to node; the estimate does not depend on it.";
-  std::vector<Column> columns = force_columns(run);
-  for (Column& column : contact_columns(run)) columns.push_back(std::move(column));
+  std::vector<SampleColumn> columns = force_columns(run);
+  for (SampleColumn& column : contact_columns(run)) columns.push_back(std::move(column));
   table.header = {plain("Indentation", "cm")};
-  for (const Column& column : columns) table.header.push_back(column.header);
+  for (const SampleColumn& column : columns) table.header.push_back(column.header);
   for (const Sample& sample : samples) {
     std::vector<Cell> row{plain(fmt::format("{:.4g}", to_cm(sample.depth)),
                                 fmt::format("{:.4g}{}mm", 1e3 * sample.depth, gap))};
-    for (const Column& column : columns) row.push_back(column.cell(sample));
+    for (const SampleColumn& column : columns) row.push_back(column.cell(sample));
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -31,7 +31,7 @@ std::string interval(const FitParameter& parameter, double factor) {
 }
 
 /// A column that is there when some parameter has something to put into it.
-struct Column {
+struct ParameterColumn {
   const char *title, *note;
   bool (*there)(const FitParameter&);
   Cell (*cell)(const FitParameter&);
@@ -58,7 +58,7 @@ Cell prior_cell(const FitParameter& one) {
       in_si(one, one.prior_mean));
 }
 
-constexpr Column columns[] = {
+constexpr ParameterColumn parameter_columns[] = {
     {"Estimate", "", [](const FitParameter&) { return true; },
      [](const FitParameter& one) { return value_cell(one, one.estimate); }},
     {"95 % interval", "", [](const FitParameter&) { return true; }, interval_cell},
@@ -100,12 +100,12 @@ Table parameter_table(const Fit& fit) {
                        : ".";
   table.graded = any([](const FitParameter& one) { return std::isfinite(one.truth); });
   table.header = {plain("Parameter")};
-  for (const Column& column : columns)
+  for (const ParameterColumn& column : parameter_columns)
     if (any(column.there)) table.header.push_back(plain(column.title, column.note));
   for (const FitParameter& one : fit.parameters) {
     const std::string unit = one.unit.empty() ? "1" : one.unit;
     std::vector<Cell> row{plain(one.symbol + " [" + unit + "]", one.name)};
-    for (const Column& column : columns)
+    for (const ParameterColumn& column : parameter_columns)
       if (any(column.there)) row.push_back(column.cell(one));
     table.rows.push_back(std::move(row));
   }

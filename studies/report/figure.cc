@@ -58,8 +58,8 @@ std::string plot_item(const Series& series, const std::string& block) {
     return fmt::format("{} using 1:2 with filledcurves closed fc rgb '{}' fs solid 0.25 noborder{}",
                        block, style.colour, title);
   const std::string with = !style.line ? "points" : style.point ? "linespoints" : "lines";
-  const std::string data = series.legend_only ? "keyentry" : block + " using 1:2";
-  std::string item = fmt::format("{} with {} lc rgb '{}'", data, with, style.colour);
+  const std::string source = series.legend_only ? "keyentry" : block + " using 1:2";
+  std::string item = fmt::format("{} with {} lc rgb '{}'", source, with, style.colour);
   if (style.line)
     item += fmt::format(" lw {} dt {}", style.width, style.dash.empty() ? "solid" : style.dash);
   if (style.point) item += fmt::format(" pt {} ps {}", style.point, style.point_size);

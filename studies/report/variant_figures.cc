@@ -52,9 +52,9 @@ std::vector<std::string> series_of(const std::vector<VariantPress>& presses) {
 
 namespace {
 
-constexpr int legend_room = 215;
+constexpr int key_room = 215;
 /// More curves than this are told apart by their shade alone.
-constexpr std::size_t most_labels = 9;
+constexpr std::size_t most_named = 9;
 
 /// Up to four of the depths, the first and the last among them.
 std::vector<double> shown_depths(const std::vector<VariantPress>& presses) {
@@ -102,10 +102,10 @@ void add_presses(Panel& panel, const std::vector<VariantPress>& presses, bool er
   const std::size_t count = presses.size();
   for (std::size_t i = 0; i < count; ++i) {
     const VariantPress& press = presses[i];
-    Series curve{count > most_labels ? "" : press.name, press.name, {}, {}, {}, {}};
+    Series curve{count > most_named ? "" : press.name, press.name, {}, {}, {}, {}};
     curve.style = numbered_style(i);
     curve.style.width = 1.6;
-    if (count > most_labels) curve.style.colour = depth_shade(i, count);
+    if (count > most_named) curve.style.colour = depth_shade(i, count);
     for (std::size_t d = 0; d < press.depth.size(); ++d) {
       curve.x.push_back(to_cm(press.depth[d]));
       curve.y.push_back(errors ? 100.0 * press.error[d] : to_gf(press.force[d]));
@@ -171,8 +171,8 @@ Figure variant_error_figure(const std::vector<VariantPress>& presses, const std:
   if (figure.panels.empty()) return figure;
   lay_out(figure);
   if (figure.panels.front().series.size() > 1) {
-    figure.right_margin = legend_room;
-    figure.width += legend_room - 18;
+    figure.right_margin = key_room;
+    figure.width += key_room - 18;
     figure.panels.front().key = figure.beside_panels();
   }
   return figure;

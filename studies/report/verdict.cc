@@ -68,7 +68,7 @@ struct Constant {
   double Moduli::*value;
   double Target::*target;
 };
-constexpr Constant constants[] = {
+constexpr Constant constants_shown[] = {
     {"E₁₀₀", "E_100", &Moduli::E_100, &Target::youngs_modulus},
     {"E₁₁₀", "E_110", &Moduli::E_110, &Target::youngs_modulus},
     {"E₁₁₁", "E_111", &Moduli::E_111, &Target::youngs_modulus},
@@ -100,7 +100,7 @@ Table verdict_table(const RunData& run) {
       "wall time.";
   table.graded = true;
   table.header = {{"Model", "", Grade::none}};
-  for (const Constant& constant : constants)
+  for (const Constant& constant : constants_shown)
     table.header.push_back({constant.label, "", Grade::none});
   for (double depth : run.depths) {
     table.header.push_back({"F", fmt::format("{:.4g} cm", to_cm(depth)), Grade::none});
@@ -108,7 +108,7 @@ Table verdict_table(const RunData& run) {
   table.header.push_back({"F", "rel. L²", Grade::none});
   table.header.push_back({"Real time", "factor", Grade::none});
   std::vector<Cell> target{{"Target", "rubber, continuum", Grade::none}};
-  for (const Constant& constant : constants)
+  for (const Constant& constant : constants_shown)
     target.push_back(target_cell(constant, run.target.*constant.target));
   for (double depth : run.depths) {
     const double f = force_at(run.reference, depth);
@@ -121,7 +121,7 @@ Table verdict_table(const RunData& run) {
   for (const ModelData& model : run.models) {
     const std::string status = model.status == "ok" ? "" : model.status;
     std::vector<Cell> row{{model_label(model.name), status, Grade::none}};
-    for (const Constant& constant : constants) {
+    for (const Constant& constant : constants_shown) {
       row.push_back(
           constant_cell(constant, model.moduli.*constant.value, run.target.*constant.target));
     }
@@ -164,14 +164,14 @@ std::string plain_number(double value, const char* format) {
 
 std::string text_table(const RunData& run) {
   std::string text = fmt::format("{:<12}", "model");
-  for (const Constant& constant : constants) text += cell(constant.ascii, 8);
+  for (const Constant& constant : constants_shown) text += cell(constant.ascii, 8);
   for (double depth : run.depths) text += cell(fmt::format("F {:.4g} cm", to_cm(depth)), 11);
   text += cell("real time", 11) + "\n" + fmt::format("{:<12}", "target");
   const auto shown = [](const Constant& constant, double value) {
     return is_ratio(constant) ? plain_number(value, "{:.4f}")
                               : plain_number(to_gf_per_cm2(value), "{:.2f}");
   };
-  for (const Constant& constant : constants)
+  for (const Constant& constant : constants_shown)
     text += cell(shown(constant, run.target.*constant.target), 8);
   for (double depth : run.depths) {
     text += cell(plain_number(to_gf(force_at(run.reference, depth)), "{:.4g} gf"), 11);
@@ -179,7 +179,7 @@ std::string text_table(const RunData& run) {
   text += "\n";
   for (const ModelData& model : run.models) {
     text += fmt::format("{:<12}", model.name);
-    for (const Constant& constant : constants)
+    for (const Constant& constant : constants_shown)
       text += cell(shown(constant, model.moduli.*constant.value), 8);
     for (double error : model.force_error) text += cell(plain_percent(error), 11);
     text += cell(plain_number(model.real_time_factor, "{:.3g}"), 11) + "\n";

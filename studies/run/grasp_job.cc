@@ -46,9 +46,9 @@ ordered_json summary_of(const lattice::GraspSetup& setup, const lattice::GraspOu
 }
 
 /// Keeps the folder up to date while the grasp runs.
-class Recorder {
+class GraspJournal {
  public:
-  Recorder(const lattice::GraspSetup& setup, const fs::path& folder, const JobContext& context)
+  GraspJournal(const lattice::GraspSetup& setup, const fs::path& folder, const JobContext& context)
       : setup_(setup), folder_(folder), context_(context) {}
 
   bool observe(const lattice::GraspOutcome& so_far, double fraction) {
@@ -75,7 +75,7 @@ class Recorder {
 
 void run_grasp_job(lattice::GraspSetup setup, const fs::path& folder, const JobContext& context) {
   setup.hand.finger.threads = context.threads;
-  Recorder recorder(setup, folder, context);
+  GraspJournal recorder(setup, folder, context);
   lattice::GraspOutcome last;
   try {
     const lattice::GraspOutcome outcome =

@@ -98,9 +98,9 @@ ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOu
 }
 
 /// Keeps the folder up to date while the press runs.
-class Recorder {
+class PressJournal {
  public:
-  Recorder(const lattice::PressSetup& setup, const fs::path& folder, const JobContext& context)
+  PressJournal(const lattice::PressSetup& setup, const fs::path& folder, const JobContext& context)
       : setup_(setup), folder_(folder), context_(context) {}
 
   bool observe(const lattice::PressOutcome& so_far, double fraction) {
@@ -130,7 +130,7 @@ class Recorder {
 void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path& folder,
                    const JobContext& context) {
   setup.threads = context.threads;
-  Recorder recorder(setup, folder, context);
+  PressJournal recorder(setup, folder, context);
   std::optional<Movie> movie;
   if (movie_pictures > 0) movie.emplace(folder / "movie", setup.geometry);
   const auto observe = [&](const lattice::PressOutcome& so_far, double fraction) {
