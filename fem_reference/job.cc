@@ -21,6 +21,7 @@ using meshes::Violation;
 
 constexpr std::array contact_modes{ContactMode::stick, ContactMode::frictionless,
                                    ContactMode::coulomb};
+constexpr std::array lateral_paths{meshes::LateralPath::diagonal, meshes::LateralPath::after};
 constexpr std::array strains{Strain::linear, Strain::finite};
 constexpr std::array analyses{Analysis::static_press, Analysis::transient, Analysis::modes,
                               Analysis::verification};
@@ -133,6 +134,8 @@ void read_entries(const Json& json, const std::string& file, ReferenceJob& job,
   top.value("friction", job.friction);
   top.value("tilt", job.tilt);
   top.value("lateral", job.lateral);
+  top.read("lateral_path", [&](const Json& j) { get_name(j, lateral_paths, job.lateral_path); });
+  top.value("lateral_samples", job.lateral_samples);
   top.value("speed", job.speed);
   top.value("modes", job.modes);
   top.value("write_fields", job.write_fields);
@@ -177,10 +180,7 @@ std::string_view name(StrainEnergy law) {
   return "";
 }
 
-std::vector<Violation> ReferenceJob::violations() const {
-  std::vector<Violation> broken = geometry.violations();
-  for (const Violation& violation : rubber.violations()) broken.push_back(violation);
-  const bool press = analysis == Analysis::static_press || analysis == Analysis::transient;
+meshes::PressProtocol ReferenceJob::protocol() const {
   meshes::PressProtocol protocol;
   protocol.depth = samples.empty() ? 0.0 : samples.back();
   protocol.samples = samples;
@@ -188,8 +188,17 @@ std::vector<Violation> ReferenceJob::violations() const {
   protocol.friction = friction;
   protocol.tilt = tilt;
   protocol.lateral = lateral;
+  protocol.lateral_path = lateral_path;
+  protocol.lateral_samples = lateral_samples;
+  return protocol;
+}
+
+std::vector<Violation> ReferenceJob::violations() const {
+  std::vector<Violation> broken = geometry.violations();
+  for (const Violation& violation : rubber.violations()) broken.push_back(violation);
+  const bool press = analysis == Analysis::static_press || analysis == Analysis::transient;
   if (press)
-    for (const Violation& violation : protocol.violations(geometry)) broken.push_back(violation);
+    for (const Violation& violation : protocol().violations(geometry)) broken.push_back(violation);
   const auto require = [&](bool valid, const char* key, double value, const char* rule,
                            const char* remedy) {
     if (!valid) broken.push_back({key, meshes::to_text(value), rule, remedy});
@@ -230,6 +239,8 @@ void write_job(const ReferenceJob& job, const std::filesystem::path& file) {
                   {"friction", job.friction},
                   {"tilt", job.tilt},
                   {"lateral", job.lateral},
+                  {"lateral_path", name(job.lateral_path)},
+                  {"lateral_samples", job.lateral_samples},
                   {"speed", job.speed},
                   {"modes", job.modes},
                   {"max_unknowns", job.max_unknowns},

@@ -56,7 +56,9 @@ struct ReferenceJob {
   meshes::ContactMode contact = meshes::ContactMode::stick;
   double friction = 0.5;  ///< Coulomb's coefficient, for contact coulomb alone, > 0
   double tilt = 0.0;      ///< of the rod against the plane's normal, about y [rad], |.| < pi/4
-  double lateral = 0.0;   ///< displacement of the plane along t1 at the last sample [m]
+  double lateral = 0.0;   ///< displacement of the plane along t1 at the end [m]
+  meshes::LateralPath lateral_path = meshes::LateralPath::diagonal;
+  int lateral_samples = 10;     ///< of a lateral motion that follows the press, > 0
   std::vector<double> samples;  ///< indentations to solve for [m], increasing
   double speed = 0.01;          ///< of the rod, transient only [m/s], > 0
   Strain strain = Strain::linear;
@@ -72,6 +74,8 @@ struct ReferenceJob {
   double solver_tolerance = 1e-10;  ///< relative residual of the multigrid solver
   bool write_fields = true;         ///< VTU per sample and a PVD over them
 
+  /// What is done to the specimen.
+  meshes::PressProtocol protocol() const;
   std::vector<meshes::Violation> violations() const;
 };
 

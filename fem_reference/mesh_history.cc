@@ -43,7 +43,8 @@ constexpr std::pair<const char*, double meshes::PressSample::*> sample_entries[]
     {"torque_z", &meshes::PressSample::torque_z},
     {"contact_radius", &meshes::PressSample::contact_radius},
     {"max_pressure", &meshes::PressSample::max_pressure},
-    {"time", &meshes::PressSample::time}};
+    {"time", &meshes::PressSample::time},
+    {"lateral_displacement", &meshes::PressSample::lateral_displacement}};
 constexpr std::pair<const char*, double PressState::*> real_entries[] = {
     {"node_spacing", &PressState::node_spacing},
     {"min_jacobian", &PressState::min_jacobian},

@@ -10,7 +10,7 @@
 
 namespace fingertip::fem_reference {
 
-/// A mesh and the samples computed on it so far, by increasing indentation.
+/// A mesh and the samples computed on it so far, in their order.
 struct MeshRecord {
   MeshSummary mesh;
   std::vector<PressState> states;

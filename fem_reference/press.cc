@@ -15,7 +15,7 @@ namespace fingertip::fem_reference {
 namespace {
 
 /// First step and growth of the steps of a press whose path matters, as fractions of the first
-/// sample and of the present indentation: contact grows fastest at first touch.
+/// sample and of the way so far: contact grows fastest at first touch.
 constexpr double first_step = 0.1, step_growth = 0.25;
 /// A step that does not converge is halved this often before giving up.
 constexpr int most_halvings = 6;
@@ -39,7 +39,7 @@ struct ContinuumPress::Implementation {
 
   double next_step(double target, double limit) const {
     if (!path_matters()) return target;
-    const double now = model.indentation();
+    const double now = model.place();
     const double longest = limit * longest_step * model.job().geometry.thickness();
     const double step =
         std::min(longest, now > 0.0 ? limit * step_growth * now
@@ -63,15 +63,15 @@ void ContinuumPress::set_longest_step(double step) {
   implementation_->longest_step = step;
 }
 
-PressState ContinuumPress::advance(double indentation) {
+PressState ContinuumPress::advance(double place) {
   Implementation& self = *implementation_;
   const auto start = std::chrono::steady_clock::now();
   PressState effort;
   double limit = 1.0;  // shrinks after a failure, recovers after successes
-  while (self.model.indentation() < indentation) {
+  while (self.model.place() < place) {
     stop_if_asked(self.stop_requested);
     try {
-      self.model.step(self.next_step(indentation, limit), effort);
+      self.model.step(self.next_step(place, limit), effort);
       ++effort.steps;
       limit = std::min(1.0, 1.5 * limit);
     } catch (const meshes::NotConverged&) {

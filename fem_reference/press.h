@@ -77,10 +77,10 @@ class ContinuumPress {
   /// Longest step of a press whose path matters, in units of R - r; 0.01 at first.
   void set_longest_step(double step);
 
-  /// Presses on to `indentation` [m], at least the present one and at most the depth. Throws
+  /// Moves on to `place` [m] of the job's PressPath, at least the present one. Throws
   /// NotConverged, which leaves the press at the last step that converged; Interrupted between
   /// steps once `stop_requested` says so.
-  PressState advance(double indentation);
+  PressState advance(double place);
 
   /// Refines the mesh and starts anew from rest. `wanted` has one flag per sample so far; empty
   /// means all. Refined are the elements with the largest error indicators of the wanted samples,

@@ -86,7 +86,9 @@ double contact_edge(const std::vector<ContactPoint>& contact, double node_spacin
 
 PressState PressModel::evaluate() {
   PressState state;
-  state.sample.indentation = indentation_;
+  const meshes::PressPose pose = path_.at(place_);
+  state.sample.indentation = pose.indentation;
+  state.sample.lateral_displacement = pose.lateral;
   state.active_nodes = contact_->active_nodes();
   state.sliding_nodes = job_.contact == meshes::ContactMode::coulomb
                             ? int(std::ranges::count(contact_->status(), NodeStatus::slide))

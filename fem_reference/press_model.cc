@@ -11,6 +11,7 @@
 
 #include "fem_reference/solver_choice.h"
 #include "meshes/errors.h"
+#include "meshes/files.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -37,6 +38,7 @@ std::unique_ptr<ElementKernel> make_kernel(const ReferenceJob& job) {
 
 PressModel::PressModel(const ReferenceJob& job, const std::filesystem::path& mesh_file)
     : job_(job),
+      path_(job.protocol()),
       body_(read_tip(MPI_COMM_WORLD, mesh_file, job.degree, job.tilt)),
       kernel_(make_kernel(job)) {
   body_->number(tip_supports());
@@ -58,7 +60,7 @@ void PressModel::prepare() {
     solver_ = make_condensed_solver(*body_, candidates.unknowns);
   contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.contact, pose(0.0),
                                             job_.friction, job_.rubber.shear_modulus);
-  indentation_ = 0.0;
+  place_ = 0.0;
   displacement_.reinit(body_->fine.vector());
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);
   assemble(*body_, *kernel_, displacement_, *system_);
@@ -71,29 +73,30 @@ MeshSummary PressModel::mesh() const {
           contact_->unknowns().unknowns.size(), solver_kind_};
 }
 
-PlanePose PressModel::pose(double indentation) const {
-  return {job_.geometry.tip_radius - indentation, job_.lateral * indentation / job_.samples.back()};
+PlanePose PressModel::pose(double place) const {
+  const meshes::PressPose pose = path_.at(place);
+  return {job_.geometry.tip_radius - pose.indentation, pose.lateral};
 }
 
 void PressModel::abandon() {
   contact_->abandon();
 }
 
-void PressModel::step(double indentation, PressState& effort) {
-  const PlanePose target = pose(indentation);
+void PressModel::step(double place, PressState& effort) {
+  const PlanePose target = pose(place);
   const Vector before = displacement_;
   if (job_.strain == Strain::linear)
     linear_step(target, effort);
   else
     newton_step(target, effort);
   try {
-    check_other_nodes(indentation);
+    check_other_nodes(place);
   } catch (...) {
     displacement_ = before;
     throw;
   }
   contact_->commit();
-  indentation_ = indentation;
+  place_ = place;
 }
 
 void PressModel::linear_step(const PlanePose& target, PressState& effort) {
@@ -169,16 +172,17 @@ void PressModel::newton_step(const PlanePose& target, PressState& effort) {
                              std::to_string(most_newton_iterations) + " iterations");
 }
 
-void PressModel::check_other_nodes(double indentation) const {
+void PressModel::check_other_nodes(double place) const {
   std::vector<long> unknowns;
   for (const SurfaceNode& node : outer_nodes_) unknowns.push_back(node.unknown[2]);
   const std::vector<double> lift = body_->fine.gather(displacement_, unknowns);
-  const double plane = pose(indentation).height + 1e-6 * job_.geometry.tip_radius;
+  const double plane = pose(place).height + 1e-6 * job_.geometry.tip_radius;
   for (std::size_t i = 0; i < lift.size(); ++i)
     if (outer_nodes_[i].position.z() + lift[i] > plane)
       throw meshes::NotConverged(
           "the rubber rises through the plane far beside the contact at an indentation of " +
-          std::to_string(indentation) + " m; press less deep");
+          meshes::to_text(path_.at(place).indentation) + " m and a lateral displacement of " +
+          meshes::to_text(path_.at(place).lateral) + " m; press less deep or move less far");
 }
 
 meshes::Vector3 PressModel::bond_reaction() const {

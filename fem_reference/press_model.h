@@ -20,11 +20,12 @@ class PressModel {
   PressModel(const ReferenceJob& job, const std::filesystem::path& mesh_file);
 
   const ReferenceJob& job() const { return job_; }
-  double indentation() const { return indentation_; }
+  /// On the job's path [m].
+  double place() const { return place_; }
   MeshSummary mesh() const;
 
-  /// One step to `indentation` [m]; adds what it cost to `effort`. Throws NotConverged.
-  void step(double indentation, PressState& effort);
+  /// One step to `place` [m]; adds what it cost to `effort`. Throws NotConverged.
+  void step(double place, PressState& effort);
   /// Back to the last step that converged.
   void abandon();
 
@@ -41,18 +42,19 @@ class PressModel {
  private:
   /// Chooses the solver of the numbered mesh, and puts the tip at rest under the plane.
   void prepare();
-  PlanePose pose(double indentation) const;
+  PlanePose pose(double place) const;
   void linear_step(const PlanePose& target, PressState& effort);
   void newton_step(const PlanePose& target, PressState& effort);
   /// Assembles at `displacement`; force of the system minus the plane's forces, where nothing is
   /// held, over the largest nodal force.
   double residual(const Vector& displacement);
-  void check_other_nodes(double indentation) const;
+  void check_other_nodes(double place) const;
   void add_resultant(PressState& state) const;
   void note_indicators(PressState& state);
   void load_marks(std::size_t samples);
 
   ReferenceJob job_;
+  meshes::PressPath path_;
   std::unique_ptr<Body> body_;
   std::unique_ptr<ElementKernel> kernel_;
   std::unique_ptr<LinearSystem> system_;
@@ -60,7 +62,7 @@ class PressModel {
   std::unique_ptr<PlaneContact> contact_;
   std::vector<SurfaceNode> outer_nodes_;
   LinearSolver solver_kind_ = LinearSolver::automatic;
-  double indentation_ = 0.0;
+  double place_ = 0.0;
   Vector displacement_;  ///< of the last converged step
   /// Where a sample asks for smaller elements, per local cell.
   struct Marks {

@@ -141,7 +141,7 @@ void PressModel::save(const std::filesystem::path& folder) const {
   const PlaneContact::State& state = contact_->committed();
   std::vector<int> status;
   for (const NodeStatus node : state.status) status.push_back(int(node));
-  const Json json{{"indentation", indentation_},
+  const Json json{{"place", place_},
                   {"samples", marks_.size()},
                   {"status", status},
                   {"anchors", state.anchors},
@@ -179,9 +179,9 @@ void PressModel::load(const std::filesystem::path& folder) {
   displacement_transfer.deserialize(displacement_);
   load_marks(json.at("samples").get<std::size_t>());
 
-  indentation_ = json.at("indentation").get<double>();
+  place_ = json.at("place").get<double>();
   PlaneContact::State state;
-  state.pose = pose(indentation_);
+  state.pose = pose(place_);
   for (const int node : json.at("status").get<std::vector<int>>())
     state.status.push_back(NodeStatus(node));
   state.anchors = json.at("anchors").get<std::vector<std::array<double, 2>>>();

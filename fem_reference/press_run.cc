@@ -68,11 +68,24 @@ std::string percent(double fraction) {
   return text;
 }
 
+std::string sample_text(const meshes::PressSample& sample) {
+  std::string text =
+      "F = " + to_text(sample.normal_force) + " N at " + to_text(sample.indentation) + " m";
+  if (sample.lateral_displacement != 0.0)
+    text += ", " + to_text(sample.lateral_force_x) + " N aside at " +
+            to_text(sample.lateral_displacement) + " m";
+  return text;
+}
+
 class PressRun {
  public:
   PressRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
            const std::function<bool()>& stop_requested)
-      : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
+      : folder_(folder),
+        job_(job),
+        places_(meshes::PressPath(job.protocol()).samples()),
+        progress_(progress),
+        stop_requested_(stop_requested) {}
 
   RunOutcome carry_out() {
     const RunOutcome outcome = outcome_of([&] { compute(); });
@@ -142,14 +155,13 @@ class PressRun {
   }
 
   void press_on(ContinuumPress& press) {
-    const std::size_t total = job_.samples.size();
+    const std::size_t total = places_.size();
     for (std::size_t i = history_.finest().states.size(); i < total; ++i) {
-      history_.add(press.advance(job_.samples[i]));
+      history_.add(press.advance(places_[i]));
       write_sample(press, i);
       progress_.report("press", i + 1, total,
-                       "mesh " + std::to_string(history_.meshes().size()) +
-                           ": F = " + to_text(history_.finest().states[i].sample.normal_force) +
-                           " N at " + to_text(job_.samples[i]) + " m");
+                       "mesh " + std::to_string(history_.meshes().size()) + ": " +
+                           sample_text(history_.finest().states[i].sample));
     }
   }
 
@@ -167,13 +179,13 @@ class PressRun {
       if (first_process()) fs::create_directories(folder_ / "fields");
       MPI_Barrier(MPI_COMM_WORLD);
       press.write_fields(folder_ / "fields" / field_name(index));
-      progress_.report("fields", index + 1, job_.samples.size(), field_name(index));
+      progress_.report("fields", index + 1, places_.size(), field_name(index));
     }
     const std::vector<SectionEdge> section = press.section();
     if (first_process()) {
       write_section(section, folder_);
       if (job_.write_fields && may_be_last)
-        write_field_series(history_.finest().states, false, folder_);
+        write_field_series({places_.begin(), places_.begin() + std::ptrdiff_t(index) + 1}, folder_);
       write_tables({RunOutcome::Status::interrupted, ""});
     }
     save(press);
@@ -221,7 +233,7 @@ class PressRun {
     const auto json = ordered_json::parse(from_first_process(text));
     press.load(folder_ / place);
     history_ = MeshHistory::from_json(json.at("history"));
-    progress_.report("press", history_.finest().states.size(), job_.samples.size(),
+    progress_.report("press", history_.finest().states.size(), places_.size(),
                      "resumed on mesh " + std::to_string(history_.meshes().size()) + " after " +
                          std::to_string(history_.finest().states.size()) + " samples");
     return true;
@@ -269,6 +281,7 @@ class PressRun {
 
   static ordered_json sample_summary(const PressState& state, const ForceError& error) {
     return {{"indentation", state.sample.indentation},
+            {"lateral_displacement", state.sample.lateral_displacement},
             {"normal_force", state.sample.normal_force},
             {"contact_radius", known(state.sample.contact_radius)},
             {"max_pressure", known(state.sample.max_pressure)},
@@ -289,6 +302,7 @@ class PressRun {
 
   const fs::path folder_;
   const ReferenceJob& job_;
+  const std::vector<double> places_;  ///< of the samples on the job's path [m]
   RunProgress progress_;
   const std::function<bool()>& stop_requested_;
   Clock::time_point last_checkpoint_ = Clock::now();

@@ -14,18 +14,18 @@ void write_samples(const std::vector<PressState>& states, const std::filesystem:
   for (const PressState& state : states) response.append(state.sample);
   response.write_csv(folder / "response.csv");
   meshes::write_atomically(folder / "pressure.csv", [&](std::ostream& out) {
-    out << "indentation [m],radius [m],pressure [Pa]\n";
+    out << "indentation [m],radius [m],pressure [Pa],lateral_displacement [m]\n";
     for (const PressState& state : states)
       for (const ContactPoint& point : state.contact)
         out << to_text(state.sample.indentation) << ',' << to_text(point.radius) << ','
-            << to_text(point.pressure) << '\n';
+            << to_text(point.pressure) << ',' << to_text(state.sample.lateral_displacement) << '\n';
   });
 }
 
 void write_convergence(const MeshHistory& history, const std::filesystem::path& folder) {
   meshes::write_atomically(folder / "convergence.csv", [&](std::ostream& out) {
     out << "mesh,cells,unknowns,indentation [m],normal_force [N],contact_radius [m],"
-           "max_pressure [Pa],node_spacing [m],energy [J],indicator [J]\n";
+           "max_pressure [Pa],node_spacing [m],energy [J],indicator [J],lateral_displacement [m]\n";
     int number = 0;
     for (const MeshRecord& record : history.meshes()) {
       ++number;
@@ -34,7 +34,8 @@ void write_convergence(const MeshHistory& history, const std::filesystem::path& 
             << to_text(state.sample.indentation) << ',' << to_text(state.sample.normal_force) << ','
             << to_text(state.sample.contact_radius) << ',' << to_text(state.sample.max_pressure)
             << ',' << to_text(state.node_spacing) << ',' << to_text(state.energy) << ','
-            << to_text(state.indicator) << '\n';
+            << to_text(state.indicator) << ',' << to_text(state.sample.lateral_displacement)
+            << '\n';
     }
   });
 }
@@ -68,13 +69,11 @@ void write_series(const std::filesystem::path& file,
   });
 }
 
-void write_field_series(const std::vector<PressState>& states, bool by_time,
-                        const std::filesystem::path& folder) {
+void write_field_series(const std::vector<double>& steps, const std::filesystem::path& folder) {
   std::vector<std::pair<std::string, std::string>> entries;
-  for (std::size_t i = 0; i < states.size(); ++i)
+  for (std::size_t i = 0; i < steps.size(); ++i)
     if (std::filesystem::exists(folder / "fields" / field_name(i)))
-      entries.emplace_back(to_text(by_time ? states[i].sample.time : states[i].sample.indentation),
-                           field_name(i));
+      entries.emplace_back(to_text(steps[i]), field_name(i));
   write_series(folder / "fields" / "press.pvd", entries);
 }
 

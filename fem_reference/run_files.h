@@ -10,11 +10,13 @@
 
 namespace fingertip::fem_reference {
 
-/// response.csv and pressure.csv (`indentation [m],radius [m],pressure [Pa]`) of the best samples.
+/// response.csv and pressure.csv (`indentation [m],radius [m],pressure [Pa],lateral_displacement
+/// [m]`) of the best samples.
 void write_samples(const std::vector<PressState>& states, const std::filesystem::path& folder);
 
 /// convergence.csv: `mesh,cells,unknowns,indentation [m],normal_force [N],contact_radius [m],
-/// max_pressure [Pa],node_spacing [m],energy [J],indicator [J]`, one row per mesh and sample.
+/// max_pressure [Pa],node_spacing [m],energy [J],indicator [J],lateral_displacement [m]`, one row
+/// per mesh and sample.
 void write_convergence(const MeshHistory& history, const std::filesystem::path& folder);
 
 /// section.csv: ends of the mesh's edges in y = 0, undeformed and deformed [m].
@@ -24,10 +26,9 @@ void write_section(const std::vector<SectionEdge>& edges, const std::filesystem:
 void write_series(const std::filesystem::path& file,
                   const std::vector<std::pair<std::string, std::string>>& entries);
 
-/// fields/press.pvd over fields/press_NNNN.vtu, with the indentation [m] (`by_time`: the time [s])
-/// in the place of ParaView's time.
-void write_field_series(const std::vector<PressState>& states, bool by_time,
-                        const std::filesystem::path& folder);
+/// fields/press.pvd over fields/press_NNNN.vtu, with `steps` in the place of ParaView's time: where
+/// the samples lie on the press's path [m], or when [s].
+void write_field_series(const std::vector<double>& steps, const std::filesystem::path& folder);
 
 /// press_NNNN.vtu of the sample `index` (from 0).
 std::string field_name(std::size_t index);

@@ -146,7 +146,11 @@ class TransientRun {
       if (first_process()) fs::create_directories(folder_ / "fields");
       MPI_Barrier(MPI_COMM_WORLD);
       press.write_fields(folder_ / "fields" / field_name(index));
-      if (first_process()) write_field_series(states_, true, folder_);
+      if (first_process()) {
+        std::vector<double> times;
+        for (const PressState& state : states_) times.push_back(state.sample.time);
+        write_field_series(times, folder_);
+      }
     }
     write_tables({RunOutcome::Status::interrupted, ""});
     progress_.report("press", index + 1, job_.samples.size(),

@@ -128,6 +128,7 @@ struct TransientPress::Implementation {
     sample.time = steps.back().time;
     sample.normal_force = steps.back().normal_force;
     sample.lateral_force_x = sample.lateral_force_y = 0.0;  // by symmetry
+    sample.lateral_displacement = 0.0;
     sample.torque_x = sample.torque_y = sample.torque_z = 0.0;
     state.energy = steps.back().elastic_energy;
     state.active_nodes = contact->active_nodes();

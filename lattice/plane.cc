@@ -15,7 +15,7 @@ PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geom
   plane.t1 = first_tangent(plane.normal);
   plane.t2 = plane.t1.cross(plane.normal);
   plane.radius = geometry.tip_radius;
-  plane.lateral_ratio = protocol.lateral / protocol.depth;
+  plane.path = meshes::PressPath(protocol);
   return plane;
 }
 

@@ -66,7 +66,10 @@ class Press {
   double indentation() const;
   void make_controller();
   void rehearse(Controller& trial, const std::function<bool()>& done, double longest);
-  PressInstant now() const { return {finger_.time(), indentation(), finger_.finger().bond()}; }
+  double lateral() const;
+  PressInstant now() const {
+    return {finger_.time(), indentation(), lateral(), finger_.finger().bond()};
+  }
   bool run_period();
   bool follow_motion();
   bool after_step();
@@ -159,6 +162,11 @@ void Press::make_controller() {
 double Press::indentation() const {
   return way_.indentation(finger_.rod_body().endpoint, finger_.finger().rod().endpoint(),
                           setup_.protocol.clearance);
+}
+
+double Press::lateral() const {
+  return way_.lateral(finger_.rod_body().endpoint, finger_.finger().rod().endpoint(),
+                      setup_.protocol.clearance);
 }
 
 /// Whether the press goes on.

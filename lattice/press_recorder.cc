@@ -54,6 +54,7 @@ meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
   sample.contact_radius = patch.radius;
   sample.max_pressure = patch.max_pressure;
   sample.time = between(previous_.time, end.time);
+  sample.lateral_displacement = between(previous_.lateral, end.lateral);
   return sample;
 }
 

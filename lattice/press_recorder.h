@@ -17,6 +17,7 @@ namespace fingertip::lattice {
 struct PressInstant {
   double time = 0.0;         ///< [s]
   double indentation = 0.0;  ///< negative before contact [m]
+  double lateral = 0.0;      ///< displacement of the plane along t1 [m]
   Wrench bond;               ///< on the rod about its endpoint
 };
 

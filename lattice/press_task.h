@@ -16,7 +16,7 @@ struct PressWay {
 
   PressWay(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry)
       : plane(press_plane(protocol, geometry)),
-        direction(-plane.normal - plane.lateral_ratio * plane.t1) {}
+        direction(-plane.normal - plane.path.slope() * plane.t1) {}
 
   /// Where the endpoint, at `start` in the beginning, should be at a set point of the way.
   Target at(const meshes::Vector3& start, const SetPoint& point) const;
@@ -24,6 +24,11 @@ struct PressWay {
   double indentation(const meshes::Vector3& start, const meshes::Vector3& endpoint,
                      double clearance) const {
     return (start - endpoint).dot(plane.normal) - clearance;
+  }
+  /// Displacement of the plane along t1 as the rod sees it, 0 at first touch on the way [m].
+  double lateral(const meshes::Vector3& start, const meshes::Vector3& endpoint,
+                 double clearance) const {
+    return (start - endpoint).dot(plane.t1) - plane.path.slope() * clearance;
   }
 };
 

@@ -211,6 +211,11 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
     }
     return found;
   }
+  if (protocol.slides_after()) {
+    found.push_back({"press.lateral_path", std::string(name(protocol.lateral_path)),
+                     "a moving rod goes a straight way, along the plane on the way down",
+                     "take press.mode = static or press.lateral_path = diagonal"});
+  }
   const LatticeSettings& lattice = setup.lattice;
   if (lattice.model == ModelKind::published) {
     const auto straight = [&found](const char* key, double value, const char* unit) {

@@ -1,6 +1,7 @@
 #include "meshes/press_protocol.h"
 
 #include <cmath>
+#include <string>
 
 #include "meshes/files.h"
 
@@ -29,6 +30,33 @@ std::string_view name(DriveMode mode) {
   return "unknown";
 }
 
+std::string_view name(LateralPath path) {
+  return path == LateralPath::after ? "after" : "diagonal";
+}
+
+PressPath::PressPath(const PressProtocol& protocol)
+    : length_(protocol.depth),
+      samples_(protocol.samples.empty() ? default_samples(protocol.depth) : protocol.samples) {
+  if (!protocol.slides_after()) {
+    slope_ = protocol.lateral / protocol.depth;
+    return;
+  }
+  corner_ = protocol.depth;
+  lateral_ = protocol.lateral;
+  length_ = corner_ + std::abs(lateral_);
+  steps_ = protocol.lateral_samples;
+  for (int i = 1; i < steps_; ++i) samples_.push_back(corner_ + std::abs(lateral_) * i / steps_);
+  samples_.push_back(length_);
+}
+
+PressPose PressPath::at(double s) const {
+  if (s <= corner_) return {s, slope_ * s};
+  // A sample lies where it was asked for, without the rounding of s.
+  constexpr double rounding = 1e-9;
+  const double step = steps_ * (s - corner_) / (length_ - corner_), whole = std::round(step);
+  return {corner_, lateral_ * (std::abs(step - whole) < rounding ? whole : step) / steps_};
+}
+
 std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const {
   std::vector<Violation> found;
   const auto require = [&](bool holds, const char* key, std::string value, const char* rule,
@@ -52,6 +80,8 @@ std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const
           "the tilt must lie between -45 and 45 degrees", "tilt less");
   require(std::abs(lateral) <= geometry.tip_radius, "press.lateral", to_text(lateral) + " m",
           "the lateral motion must not exceed the tip's radius", "move less far");
+  require(lateral_samples > 0, "press.lateral_samples", std::to_string(lateral_samples),
+          "a lateral motion needs at least one output", "1 gives its end alone");
   bool increasing = true;
   double previous = 0.0;
   for (const double sample : samples) {

@@ -1,6 +1,7 @@
 /// What is done to the specimen: the rod carries the tip against a rigid plane to a given depth.
 #pragma once
 
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -23,23 +24,69 @@ enum class DriveMode {
   equilibrium,   ///< no time: a path of static equilibria
 };
 
+/// When the plane moves laterally.
+enum class LateralPath {
+  diagonal,  ///< on the way down, in proportion to the indentation
+  after,     ///< at full depth, once pressed
+};
+
 std::string_view name(ContactMode mode);
 std::string_view name(DriveMode mode);
+std::string_view name(LateralPath path);
+
+/// Where the plane is, seen from the rod [m].
+struct PressPose {
+  double indentation = 0.0;
+  double lateral = 0.0;  ///< displacement along t1
+};
 
 /// The press. Indentation is geometric: the distance the rod has travelled along the plane normal
 /// since the sphere |w| = R touched the plane.
 struct PressProtocol {
   DriveMode mode = DriveMode::pid;
   ContactMode contact = ContactMode::stick;
-  double friction = 0.5;        ///< Coulomb's coefficient, contact coulomb only, > 0
-  double tilt = 0.0;            ///< of the rod against the plane's normal, about y [rad]
-  double lateral = 0.0;         ///< displacement of the plane along t1 at full depth [m]
+  double friction = 0.5;  ///< Coulomb's coefficient, contact coulomb only, > 0
+  double tilt = 0.0;      ///< of the rod against the plane's normal, about y [rad]
+  double lateral = 0.0;   ///< displacement of the plane along t1 at the end [m]
+  LateralPath lateral_path = LateralPath::diagonal;
+  int lateral_samples = 10;     ///< outputs at full depth, path after only: equal steps, > 0
   double depth = 3.0e-3;        ///< final indentation [m], 0 < depth < R - r
   double speed = 1.0e-2;        ///< approach speed [m/s], > 0
   double clearance = 0.5e-3;    ///< initial gap between pole and plane [m], > 0; starts at rest
   std::vector<double> samples;  ///< output indentations [m], increasing, last one = depth
 
+  /// Whether a second phase follows the press: a lateral motion at full depth.
+  bool slides_after() const { return lateral_path == LateralPath::after && lateral != 0.0; }
+
   std::vector<Violation> violations(const Geometry& geometry) const;
+};
+
+/// The plane's path by a coordinate s [m] that is 0 at first touch and grows: s is the indentation,
+/// and where a lateral motion follows the press, depth plus the distance moved laterally. The path
+/// is straight but for one corner, at full depth, when a lateral motion follows.
+class PressPath {
+ public:
+  /// Straight along the normal, without end.
+  PressPath() = default;
+  explicit PressPath(const PressProtocol& protocol);
+
+  /// Of the whole path.
+  double length() const { return length_; }
+  PressPose at(double s) const;
+  /// Displacement along t1 per indentation on the way down.
+  double slope() const { return slope_; }
+  /// Whether the corner lies between two places of the path.
+  bool bends(double from, double to) const { return from < corner_ && corner_ < to; }
+  /// Where output is wanted: at the protocol's samples (or default_samples) and after them at equal
+  /// steps of the lateral motion that follows. Increasing; ends at length().
+  const std::vector<double>& samples() const { return samples_; }
+
+ private:
+  double slope_ = 0.0;
+  double corner_ = std::numeric_limits<double>::infinity(), length_ = corner_;
+  double lateral_ = 0.0;  ///< beyond the corner, to the end [m]
+  int steps_ = 0;         ///< samples beyond the corner
+  std::vector<double> samples_;
 };
 
 /// Ten output depths [m] for a press to `depth` [m] > 0: 1, 2, 3, 5, 7.5, 10, 15, 20, 25 and 30

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -21,7 +22,7 @@ struct Column {
   double PressSample::*value;
 };
 
-constexpr std::array<Column, 11> columns{{
+constexpr std::array<Column, 12> columns{{
     {"indentation [m]", &PressSample::indentation},
     {"normal_force [N]", &PressSample::normal_force},
     {"lateral_force_x [N]", &PressSample::lateral_force_x},
@@ -33,6 +34,7 @@ constexpr std::array<Column, 11> columns{{
     {"max_pressure [Pa]", &PressSample::max_pressure},
     {"force_error [N]", &PressSample::force_error},
     {"time [s]", &PressSample::time},
+    {"lateral_displacement [m]", &PressSample::lateral_displacement},
 }};
 
 /// Columns that a file must have, and no empty cells in them: the first two.
@@ -87,13 +89,23 @@ std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vec
 
 }  // namespace
 
+std::span<const PressSample> PressResponse::pressing() const {
+  const auto follows =
+      std::ranges::adjacent_find(samples_, std::ranges::greater_equal{}, &PressSample::indentation);
+  return {samples_.begin(), follows == samples_.end() ? follows : follows + 1};
+}
+
+std::span<const PressSample> PressResponse::sliding() const {
+  return std::span(samples_).subspan(pressing().size());
+}
+
 double PressResponse::normal_force_at(double indentation) const {
   if (!(indentation >= 0.0 && indentation <= depth())) {
     throw std::out_of_range("no force is known at an indentation of " + to_text(indentation) +
                             " m: the response ends at " + to_text(depth()) + " m");
   }
   std::vector<double> x{0.0}, y{0.0};
-  for (const PressSample& sample : samples_) {
+  for (const PressSample& sample : pressing()) {
     if (sample.indentation <= 0.0) continue;
     x.push_back(sample.indentation);
     y.push_back(sample.normal_force);
@@ -132,10 +144,12 @@ PressResponse PressResponse::read_csv(const std::filesystem::path& file) {
     for (std::size_t row = 0; row < values.size(); ++row) samples[row].*column.value = values[row];
   }
   for (std::size_t row = 1; row < samples.size(); ++row) {
-    const double indentation = samples[row].indentation;
-    if (indentation <= samples[row - 1].indentation) {
-      refuse(table, row, columns.front(), to_text(indentation),
-             "indentations must increase from row to row");
+    const PressSample &before = samples[row - 1], &now = samples[row];
+    const bool slides = now.indentation == before.indentation &&
+                        std::abs(now.lateral_displacement) > std::abs(before.lateral_displacement);
+    if (now.indentation <= before.indentation && !slides) {
+      refuse(table, row, columns.front(), to_text(now.indentation),
+             "indentations must increase from row to row (or lateral displacements at full depth)");
     }
   }
   return PressResponse(std::move(samples));

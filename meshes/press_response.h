@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace fingertip::meshes {
@@ -26,9 +27,11 @@ struct PressSample {
   double max_pressure = unknown;     ///< [Pa]
   double force_error = unknown;      ///< estimated error of normal_force [N]
   double time = unknown;             ///< since the start of the press [s]; empty for static runs
+  double lateral_displacement = unknown;  ///< of the plane along t1, seen from the rod [m]
 };
 
-/// A curve of samples by increasing indentation.
+/// A curve of samples by increasing indentation, and then, where a lateral motion follows the
+/// press, at full depth by increasing distance moved laterally.
 class PressResponse {
  public:
   PressResponse() = default;
@@ -38,11 +41,16 @@ class PressResponse {
   bool empty() const { return samples_.empty(); }
   void append(const PressSample& sample) { samples_.push_back(sample); }
 
+  /// The samples of the press itself: by increasing indentation.
+  std::span<const PressSample> pressing() const;
+  /// Those of the lateral motion that follows, all at full depth; mostly none.
+  std::span<const PressSample> sliding() const;
+
   /// Largest indentation reached [m]; 0 when empty.
   double depth() const { return samples_.empty() ? 0.0 : samples_.back().indentation; }
 
   /// Normal force [N] at `indentation` [m] by monotone piecewise-cubic interpolation
-  /// (Fritsch & Carlson 1980) through the samples and the origin, so that it never overshoots.
+  /// (Fritsch & Carlson 1980) through pressing() and the origin, so that it never overshoots.
   /// Throws std::out_of_range beyond the largest sample or below zero.
   double normal_force_at(double indentation) const;
 
@@ -51,7 +59,8 @@ class PressResponse {
 
   /// Reads a CSV with at least the columns `indentation [m]` and `normal_force [N]`; others may
   /// be missing or empty. Throws InvalidInput naming file and line for a missing column, a cell
-  /// that is no number, a truncated row, or indentations that do not increase.
+  /// that is no number, a truncated row, or indentations that do not increase, unless it is the
+  /// lateral displacement that does.
   static PressResponse read_csv(const std::filesystem::path& file);
 
  private:

@@ -51,6 +51,9 @@ void check(const PressSetup& setup, const std::vector<MaterialParameter>& parame
   std::vector<meshes::Violation> found;
   if (parameters.empty())
     found.push_back({"parameters", "none", "a fit needs a free parameter", "name at least one"});
+  if (setup.protocol.slides_after())
+    found.push_back({"press.lateral_path", std::string(name(setup.protocol.lateral_path)),
+                     "forces are fitted against indentation", "choose diagonal"});
   for (auto it = parameters.begin(); it != parameters.end(); ++it) {
     if (!model_has(setup.lattice, *it))
       found.push_back({"parameters", std::string(name(*it)),

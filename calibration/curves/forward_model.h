@@ -75,7 +75,8 @@ Eigen::RowVector2d lambda_slopes(double youngs_modulus, double shear_modulus);
 class LatticeForwardModel final : public ForwardModel {
  public:
   /// Throws InvalidInput for an empty list, a parameter that the setup's model does not have, one
-  /// named twice, or parameters that describe the rubber in two ways at once. `go_on` is asked
+  /// named twice, parameters that describe the rubber in two ways at once, or a lateral motion
+  /// after the press. `go_on` is asked
   /// after every step of a press.
   LatticeForwardModel(lattice::PressSetup setup, std::vector<MaterialParameter> parameters,
                       std::function<bool()> go_on = {});

@@ -76,7 +76,7 @@ void SlopeSystem::respond(EquilibriumSolver& solver, const StaticContact& contac
   const MatrixXd pushes = forces(contact, displacement, slopes);
   if (solver.respond(contact, displacement, pushes, slopes.displacement)) return;
   throw meshes::NotConverged("the force has no derivative at an indentation of " +
-                             meshes::to_text(contact.indentation()) +
+                             meshes::to_text(contact.pose().indentation) +
                              " m, where the lattice's tangent stiffness is not positive definite");
 }
 

@@ -26,25 +26,22 @@ StaticContact::StaticContact(const LatticeBody& body, const PressPlane& plane,
       released_(body.outer.size(), 0),
       anchor_(body.outer.size(), Vector3::Zero()) {}
 
-double StaticContact::gap(std::size_t point, const VectorXd& displacement,
-                          double indentation) const {
-  return (position(body_->outer[point], displacement) - plane_.point(indentation))
-      .dot(plane_.normal);
+double StaticContact::gap(std::size_t point, const VectorXd& displacement, double place) const {
+  return (position(body_->outer[point], displacement) - plane_.point(place)).dot(plane_.normal);
 }
 
 bool StaticContact::touches(std::size_t point, const VectorXd& displacement) const {
-  return stick_ ? anchored_[point] != 0 : gap(point, displacement, indentation_) < 0.0;
+  return stick_ ? anchored_[point] != 0 : gap(point, displacement, place_) < 0.0;
 }
 
 Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement) const {
   const TiedPoint& outer = body_->outer[point];
   if (!stick_) {
-    const double g = gap(point, displacement, indentation_);
+    const double g = gap(point, displacement, place_);
     return -outer.stiffness * std::min(g, 0.0) * plane_.normal;
   }
   if (!anchored_[point]) return Vector3::Zero();
-  return outer.stiffness *
-         (plane_.point(indentation_) + anchor_[point] - position(outer, displacement));
+  return outer.stiffness * (plane_.point(place_) + anchor_[point] - position(outer, displacement));
 }
 
 double StaticContact::pressure(std::size_t point, const VectorXd& displacement) const {
@@ -81,11 +78,11 @@ std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, doub
   if (!stick_) return touches;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (anchored_[i]) continue;
-    const double after = gap(i, end, indentation_);
+    const double after = gap(i, end, place_);
     if (after >= -gap_noise) continue;
     touches.push_back({i, std::max(gap(i, start, from), 0.0), after,
                        position(body_->outer[i], start) - plane_.point(from),
-                       position(body_->outer[i], end) - plane_.point(indentation_)});
+                       position(body_->outer[i], end) - plane_.point(place_)});
   }
   return touches;
 }
@@ -104,7 +101,7 @@ int StaticContact::release_pulled(const VectorXd& displacement) {
   int count = 0;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (!anchored_[i] || released_[i]) continue;
-    if (gap(i, displacement, indentation_) <= gap_noise) continue;
+    if (gap(i, displacement, place_) <= gap_noise) continue;
     anchored_[i] = 0;
     released_[i] = 1;
     ++count;

@@ -41,9 +41,10 @@ class StaticContact {
   /// Keeps a reference to `body`. `mode` is stick or frictionless.
   StaticContact(const LatticeBody& body, const PressPlane& plane, meshes::ContactMode mode);
 
-  /// Moves the plane, and the anchors with it, to an indentation [m].
-  void move_to(double indentation) { indentation_ = indentation; }
-  double indentation() const { return indentation_; }
+  /// Moves the plane, and the anchors with it, to a place of its path [m].
+  void move_to(double place) { place_ = place; }
+  double place() const { return place_; }
+  meshes::PressPose pose() const { return plane_.path.at(place_); }
   const PressPlane& plane() const { return plane_; }
 
   /// [J]; continuously differentiable.
@@ -53,8 +54,8 @@ class StaticContact {
   double add(const Eigen::VectorXd& displacement, const ElasticSystem& system,
              Eigen::VectorXd& force, Tangent* tangent) const;
 
-  /// Stick: the free points that have crossed the plane on the way from `start` at indentation
-  /// `from` to `end` at the present one, both taken to go in a straight line.
+  /// Stick: the free points that have crossed the plane on the way from `start` at the path's
+  /// place `from` to `end` at the present one, both taken to go in a straight line.
   std::vector<FirstTouch> first_touches(const Eigen::VectorXd& start, double from,
                                         const Eigen::VectorXd& end) const;
   /// Stick: anchors them where they crossed it. Returns how many.
@@ -78,13 +79,13 @@ class StaticContact {
   std::vector<LoadedPoint> loaded_points(const Eigen::VectorXd& displacement) const;
 
  private:
-  double gap(std::size_t point, const Eigen::VectorXd& displacement, double indentation) const;
+  double gap(std::size_t point, const Eigen::VectorXd& displacement, double place) const;
   bool touches(std::size_t point, const Eigen::VectorXd& displacement) const;
 
   const LatticeBody* body_;
   PressPlane plane_;
   bool stick_;
-  double indentation_ = 0.0;
+  double place_ = 0.0;  ///< of the plane on its path [m]
   std::vector<std::uint8_t> anchored_, released_;
   std::vector<meshes::Vector3> anchor_;  ///< from plane_.point [m]
 };

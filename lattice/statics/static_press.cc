@@ -70,8 +70,8 @@ class StaticPress {
 
   void take_census();
   void march_to(double target);
-  bool step_to(double indentation);
-  VectorXd extrapolated(double indentation) const;
+  bool step_to(double place);
+  VectorXd extrapolated(double place) const;
   bool anchor(State& next) const;
   PressSample sample() const;
   void note_slopes();
@@ -81,12 +81,13 @@ class StaticPress {
   const PressSetup& setup_;
   const LatticeBody& body_;
   const StaticObserver& observer_;
+  const meshes::PressPath path_;
   const ElasticSystem system_;
   EquilibriumSolver solver_;
   const SlopeSystem* slope_system_ = nullptr;
   double search_tolerance_ = search_tolerance, tolerance_ = force_tolerance;
   State now_;
-  double previous_indentation_ = 0.0;
+  double previous_place_ = 0.0;
   VectorXd previous_displacement_;  ///< one step ago
   double largest_step_ = 0.0, step_ = 0.0;
   StaticOutcome outcome_;
@@ -99,6 +100,7 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
     : setup_(setup),
       body_(body),
       observer_(observer),
+      path_(setup.protocol),
       system_(body),
       solver_(system_),
       now_{StaticContact(body, press_plane(setup.protocol, setup.geometry), setup.protocol.contact),
@@ -106,7 +108,7 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
            {}},
       previous_displacement_(now_.displacement) {
   const double thickness = setup.geometry.thickness();
-  largest_step_ = setup.protocol.depth;
+  largest_step_ = path_.length();
   if (body.finite) largest_step_ = finite_step * thickness;
   if (setup.protocol.contact == ContactMode::stick) largest_step_ = sticking_step * thickness;
   step_ = largest_step_;
@@ -132,9 +134,7 @@ void StaticPress::take_census() {
 }
 
 StaticOutcome StaticPress::run() {
-  std::vector<double> samples = setup_.protocol.samples;
-  if (samples.empty()) samples = meshes::default_samples(setup_.protocol.depth);
-  for (const double target : samples) {
+  for (const double target : path_.samples()) {
     march_to(target);
     outcome_.response.append(sample());
     if (slope_system_) note_slopes();
@@ -146,11 +146,11 @@ StaticOutcome StaticPress::run() {
 
 void StaticPress::march_to(double target) {
   // Steps of equal length, so that none is left over at the end.
-  while (now_.contact.indentation() < target) {
-    const double left = target - now_.contact.indentation();
+  while (now_.contact.place() < target) {
+    const double left = target - now_.contact.place();
     const double count = std::ceil(left / step_ - 1e-9);
     const bool last = count <= 1.0;
-    if (step_to(last ? target : now_.contact.indentation() + left / count)) {
+    if (step_to(last ? target : now_.contact.place() + left / count)) {
       step_ = std::min(2.0 * step_, largest_step_);
       if (!last) report();
       continue;
@@ -158,25 +158,27 @@ void StaticPress::march_to(double target) {
     step_ = 0.5 * left / std::max(count, 1.0);
     if (step_ < smallest_share * largest_step_) {
       throw meshes::NotConverged("the static press found no equilibrium beyond an indentation of " +
-                                 meshes::to_text(now_.contact.indentation()) +
-                                 " m; take a finer lattice or press less deep");
+                                 meshes::to_text(now_.contact.pose().indentation) +
+                                 " m and a lateral displacement of " +
+                                 meshes::to_text(now_.contact.pose().lateral) +
+                                 " m; take a finer lattice, press less deep or move less far");
     }
   }
 }
 
 /// The last step's motion continued, where that turns no cell inside out.
-VectorXd StaticPress::extrapolated(double indentation) const {
-  const double from = now_.contact.indentation(), before = from - previous_indentation_;
-  if (!(before > 0.0)) return now_.displacement;
-  const VectorXd guess = now_.displacement + (indentation - from) / before *
-                                                 (now_.displacement - previous_displacement_);
+VectorXd StaticPress::extrapolated(double place) const {
+  const double from = now_.contact.place(), before = from - previous_place_;
+  if (!(before > 0.0) || path_.bends(previous_place_, place)) return now_.displacement;
+  const VectorXd guess =
+      now_.displacement + (place - from) / before * (now_.displacement - previous_displacement_);
   return std::isfinite(system_.energy(guess)) ? guess : now_.displacement;
 }
 
-bool StaticPress::step_to(double indentation) {
-  const double from = now_.contact.indentation();
-  State next{now_.contact, extrapolated(indentation), now_.slopes};
-  next.contact.move_to(indentation);
+bool StaticPress::step_to(double place) {
+  const double from = now_.contact.place();
+  State next{now_.contact, extrapolated(place), now_.slopes};
+  next.contact.move_to(place);
   next.contact.begin_step();
   const bool stick = setup_.protocol.contact == ContactMode::stick;
   double tolerance = stick ? search_tolerance_ : tolerance_;
@@ -191,7 +193,7 @@ bool StaticPress::step_to(double indentation) {
     tolerance = tolerance_;
   }
   if (!settled) return false;
-  previous_indentation_ = from;
+  previous_place_ = from;
   previous_displacement_.swap(now_.displacement);
   now_ = std::move(next);
   ++outcome_.steps;
@@ -202,7 +204,7 @@ bool StaticPress::step_to(double indentation) {
 
 /// Anchors what has crossed the plane since the step's start; whether anything has.
 bool StaticPress::anchor(State& next) const {
-  const double from = now_.contact.indentation();
+  const double from = now_.contact.place();
   if (slope_system_) {
     slope_system_->anchor(next.contact.first_touches(now_.displacement, from, next.displacement),
                           next.contact.plane().normal, now_.slopes, next.slopes);
@@ -229,7 +231,9 @@ PressSample StaticPress::sample() const {
   const ContactPatch patch =
       contact_patch(now_.contact.loaded_points(now_.displacement), body_.sectors);
   PressSample sample;
-  sample.indentation = now_.contact.indentation();
+  const meshes::PressPose pose = now_.contact.pose();
+  sample.indentation = pose.indentation;
+  sample.lateral_displacement = pose.lateral;
   sample.normal_force = force.dot(plane.normal);
   sample.lateral_force_x = force.dot(plane.t1);
   sample.lateral_force_y = force.dot(plane.t2);
@@ -267,7 +271,7 @@ void StaticPress::report() {
   outcome_.factorisations = solver_.effort().factorisations;
   outcome_.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  if (observer_ && !observer_(outcome_, now_.contact.indentation() / setup_.protocol.depth))
+  if (observer_ && !observer_(outcome_, now_.contact.place() / path_.length()))
     throw meshes::Interrupted("the press was interrupted");
 }
 

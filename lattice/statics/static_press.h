@@ -22,7 +22,7 @@ struct StaticContactPoint {
 /// contact_radius and max_pressure are those of contact_patch: true ones at finite strain, at small
 /// strain those of the shape at rest. How far off they are stands in the README.
 struct StaticOutcome {
-  meshes::PressResponse response;  ///< at the protocol's samples
+  meshes::PressResponse response;  ///< at the samples of the protocol's path
   std::size_t particles = 0, cells = 0, springs = 0, unknowns = 0;
   int sectors = 1;
   double volume = 0.0, exact_volume = 0.0;  ///< of the rubber, whole tip [m³]
@@ -39,8 +39,8 @@ LatticeBody static_body(const PressSetup& setup, int sectors);
 /// Called after every sample and after the steps between; false ends the press with Interrupted.
 using StaticObserver = std::function<bool(const StaticOutcome& so_far, double fraction_done)>;
 
-/// Presses `setup`'s lattice quasi-statically through protocol.samples (or the default ones), with
-/// stick or frictionless contact, tilt and lateral motion (proportional to the indentation).
+/// Presses `setup`'s lattice quasi-statically along the protocol's PressPath, with stick or
+/// frictionless contact, tilt and lateral motion.
 /// Contact is a one-sided elastic tie of every outer point to the plane (TiedPoint::stiffness):
 /// frictionless along the normal; stick to the place where the point first touched, interpolated
 /// within the step, and released when pulled. Steps are at most (R - r)/100 with stick, (R - r)/40

@@ -28,19 +28,38 @@ std::string cell(double value, const char* from, const char* to, int decimals) {
 }
 
 /// The curve at the wanted depths, for a terminal; at the end the paper's unit of force.
-void print_response(const std::filesystem::path& folder, const std::vector<double>& depths) {
-  const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
-  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}\n", "depth [mm]", "force [mN]", "error [mN]",
-             "contact [mm]", "force [gf]");
-  for (const double depth : depths) {
-    for (const meshes::PressSample& row : response.samples()) {
+void print_depths(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
+  const bool aside = protocol.lateral != 0.0 && !protocol.slides_after();
+  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}{}\n", "depth [mm]", "force [mN]", "error [mN]",
+             "contact [mm]", "force [gf]", aside ? "  lateral [mN]" : "");
+  for (const double depth : protocol.samples) {
+    for (const meshes::PressSample& row : response.pressing()) {
       if (std::abs(row.indentation - depth) > 1e-6 * depth) continue;
-      fmt::print("{}{}{}{}{}\n", cell(row.indentation, "m", "mm", 4),
+      fmt::print("{}{}{}{}{}{}\n", cell(row.indentation, "m", "mm", 4),
                  cell(row.normal_force, "N", "mN", 4), cell(row.force_error, "N", "mN", 4),
-                 cell(row.contact_radius, "m", "mm", 4), cell(row.normal_force, "N", "gf", 4));
+                 cell(row.contact_radius, "m", "mm", 4), cell(row.normal_force, "N", "gf", 4),
+                 aside ? cell(row.lateral_force_x, "N", "mN", 4) : "");
       break;
     }
   }
+}
+
+/// The lateral motion that followed, if one did.
+void print_sliding(const meshes::PressResponse& response) {
+  if (response.sliding().empty()) return;
+  fmt::print("then along the plane at {:.4g} mm:\n{:>14}{:>14}{:>14}{:>14}{:>14}\n",
+             1e3 * response.depth(), "lateral [mm]", "force [mN]", "error [mN]", "contact [mm]",
+             "lateral [mN]");
+  for (const meshes::PressSample& row : response.sliding())
+    fmt::print("{}{}{}{}{}\n", cell(row.lateral_displacement, "m", "mm", 4),
+               cell(row.normal_force, "N", "mN", 4), cell(row.force_error, "N", "mN", 4),
+               cell(row.contact_radius, "m", "mm", 4), cell(row.lateral_force_x, "N", "mN", 4));
+}
+
+void print_response(const std::filesystem::path& folder, const meshes::PressProtocol& protocol) {
+  const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+  print_depths(response, protocol);
+  print_sliding(response);
 }
 
 void print_folder(const Session& session, const JobResult& result) {
@@ -197,7 +216,7 @@ int run_press(const CommandLine& line) {
     if (!line.quiet) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
                  meshes::name(setup.protocol.contact), meshes::name(setup.protocol.mode));
-      print_response(session.folder().path(), setup.protocol.samples);
+      print_response(session.folder().path(), setup.protocol);
       print_press_facts(session.folder().path(), result.reused);
       print_sources(loaded);
       if (line.movie > 0) {
@@ -242,7 +261,7 @@ int run_reference(const CommandLine& line) {
     if (!line.quiet) {
       fmt::print("{}\n", heading(order));
       if (press) {
-        print_response(folder, order.samples);
+        print_response(folder, order.protocol());
         if (order.estimate_error) print_accuracy(folder, order);
       } else {
         print_frequencies(folder);

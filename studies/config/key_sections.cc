@@ -76,6 +76,13 @@ void assign_mode(Config& config, const Value& value) {
   }
 }
 
+void assign_lateral_path(Config& config, const Value& value) {
+  using meshes::LateralPath;
+  for (const auto path : {LateralPath::diagonal, LateralPath::after}) {
+    if (meshes::name(path) == value.word) config.press.protocol.lateral_path = path;
+  }
+}
+
 void assign_contact(Config& config, const Value& value) {
   using meshes::ContactMode;
   for (const auto mode : {ContactMode::stick, ContactMode::frictionless, ContactMode::coulomb}) {
@@ -279,12 +286,24 @@ std::vector<Key> press_keys() {
           "between -45 and 45 degrees", {}),
       with_rule(
           quantity("press", "lateral", "0 cm", "m", any,
-                   "how far the plane has moved along t1 at full depth: a diagonal path, for it "
-                   "moves in proportion to the indentation, so that a tip that sticks is sheared "
-                   "from first touch on. To press first and move then is another path, which no "
-                   "verb takes (published: static presses only)",
+                   "how far the plane has moved along t1 at the end; press.lateral_path says when "
+                   "it moves (published: static presses only)",
                    protocol(&PressProtocol::lateral)),
           "at most tip_radius either way", {"geometry.tip_radius"}),
+      with_rule(choice("press", "lateral_path", "diagonal",
+                       {{"diagonal",
+                         "on the way down, in proportion to the indentation: a tip that sticks is "
+                         "sheared from first touch on"},
+                        {"after", "first down to full depth, then along the plane at that depth"}},
+                       "when the plane moves by press.lateral", assign_lateral_path),
+                "after: static presses and reference", {"press.mode"}),
+      only_with(
+          "press.lateral_path", {"after"},
+          plain("press", "lateral_samples", Kind::integer, "10", {1, 1000, true},
+                "outputs of the lateral motion at full depth, in equal steps to press.lateral",
+                [](Config& config, const Value& value) {
+                  config.press.protocol.lateral_samples = int(value.number);
+                })),
       with_rule(quantity("press", "depth", "0.3 cm", "m", positive, "final indentation",
                          protocol(&PressProtocol::depth)),
                 "less than tip_radius - rod_radius",

@@ -213,6 +213,8 @@ LoadedConfig Reader::finish() {
   config.reference.friction = protocol.friction;
   config.reference.tilt = protocol.tilt;
   config.reference.lateral = protocol.lateral;
+  config.reference.lateral_path = protocol.lateral_path;
+  config.reference.lateral_samples = protocol.lateral_samples;
   config.reference.speed = protocol.speed;
   config.reference.samples = protocol.samples;
 

@@ -23,15 +23,16 @@ struct Number {
 };
 
 /// Those that make another problem of it when they differ.
-constexpr Number numbers[] = {{"friction", &PressCondition::friction, 1.0, ""},
-                              {"tip radius", &PressCondition::tip_radius, 1e3, " mm"},
-                              {"rod radius", &PressCondition::rod_radius, 1e3, " mm"},
-                              {"sleeve length", &PressCondition::sleeve_length, 1e3, " mm"},
-                              {"rod length", &PressCondition::rod_length, 1e3, " mm"},
-                              {"Young's modulus", &PressCondition::youngs_modulus, 1e-3, " kPa"},
-                              {"shear modulus", &PressCondition::shear_modulus, 1e-3, " kPa"},
-                              {"tilt", &PressCondition::tilt, 180.0 / std::numbers::pi, " deg"},
-                              {"lateral motion", &PressCondition::lateral, 1e3, " mm"}};
+constexpr Number numbers[] = {
+    {"friction", &PressCondition::friction, 1.0, ""},
+    {"tip radius", &PressCondition::tip_radius, 1e3, " mm"},
+    {"rod radius", &PressCondition::rod_radius, 1e3, " mm"},
+    {"sleeve length", &PressCondition::sleeve_length, 1e3, " mm"},
+    {"rod length", &PressCondition::rod_length, 1e3, " mm"},
+    {"Young's modulus", &PressCondition::youngs_modulus, 1e-3, " kPa"},
+    {"shear modulus", &PressCondition::shear_modulus, 1e-3, " kPa"},
+    {"tilt", &PressCondition::tilt, 180.0 / std::numbers::pi, " deg"},
+    {"lateral motion on the way down", &PressCondition::lateral, 1e3, " mm"}};
 
 bool differ(double a, double b) {
   return std::abs(a - b) > rounding * std::max(std::abs(a), std::abs(b));
@@ -65,7 +66,7 @@ PressCondition condition_of(const JsonEntry& inputs) {
   condition.contact = text_at(press, "contact");
   condition.friction = number_at(press, "friction");
   condition.tilt = number_at(press, "tilt");
-  condition.lateral = number_at(press, "lateral");
+  condition.lateral = text_at(press, "lateral_path") == "after" ? 0.0 : number_at(press, "lateral");
   const double speed = number_at(press, "speed");
   condition.speed = std::isnan(speed) ? 0.0 : speed;
   return condition;

@@ -19,8 +19,9 @@ struct PressCondition {
   double tip_radius = meshes::unknown, rod_radius = meshes::unknown;
   double sleeve_length = meshes::unknown, rod_length = meshes::unknown;
   double youngs_modulus = meshes::unknown, shear_modulus = meshes::unknown;
-  double tilt = meshes::unknown, lateral = meshes::unknown;
-  double speed = 0.0;  ///< of the approach; 0 in equilibrium
+  double tilt = meshes::unknown;
+  double lateral = meshes::unknown;  ///< on the way down; what follows at full depth is no matter
+  double speed = 0.0;                ///< of the approach; 0 in equilibrium
 };
 
 /// From the inputs of a job of `press` or `reference`. Throws InvalidInput for damaged ones.

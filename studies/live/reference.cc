@@ -14,6 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of numbers that went through a file as text.
+constexpr double file_rounding = 1e-9;
+
 /// Where the curve of a run is: the file itself, or in its folder.
 fs::path curve_of(const fs::path& run) {
   if (fs::is_regular_file(run)) return run;
@@ -72,6 +75,10 @@ Reference read_reference(const fs::path& file) {
   reader.throw_if_damaged();
   const fs::path series = curve.parent_path() / "fields" / "press.pvd";
   if (fs::is_regular_file(series)) reference.overlays = read_overlays(series);
+  // Of a lateral motion that follows the press there is no picture here.
+  const double depth = reference.response.depth() * (1.0 + file_rounding);
+  std::erase_if(reference.overlays,
+                [depth](const Overlay& overlay) { return overlay.indentation > depth; });
   return reference;
 }
 

@@ -149,7 +149,7 @@ LiveServer::Implementation::Implementation(Simulation& simulation, const Referen
   scene.springs = rig.boundary().springs();
   scene.masses = rig.boundary().size();
   scene.period = rig.period();
-  for (const meshes::PressSample& sample : reference.response.samples())
+  for (const meshes::PressSample& sample : reference.response.pressing())
     scene.reference.push_back({sample.indentation, sample.normal_force});
   for (const Overlay& overlay : reference.overlays) scene.overlays.push_back(overlay.indentation);
   scene_ = encode_scene(scene);

@@ -12,7 +12,7 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-/// One sample of the press on all meshes that computed it, coarse to fine.
+/// One depth of the press on all meshes that computed it, coarse to fine.
 struct Sample {
   double depth = meshes::unknown;        ///< [m]
   std::vector<double> unknowns, forces;  ///< of each mesh: number, [N]
@@ -26,13 +26,14 @@ struct Sample {
 
 std::vector<Sample> read_samples(const RunData& run) {
   std::vector<Sample> samples;
-  for (const meshes::PressSample& from : run.reference.samples()) {
+  for (const meshes::PressSample& from : run.reference.pressing()) {
     Sample sample;
     sample.depth = from.indentation;
     sample.force = from.normal_force;
     sample.error = from.force_error;
     for (const JsonEntry& entry : array_at(run.reference_summary, "samples"))
-      if (same_depth(number_at(entry, "indentation"), sample.depth)) sample.details = entry;
+      if (sample.details.empty() && same_depth(number_at(entry, "indentation"), sample.depth))
+        sample.details = entry;
     samples.push_back(std::move(sample));
   }
   const std::vector<double> depth = run.convergence.numbers("indentation [m]");
@@ -42,6 +43,8 @@ std::vector<Sample> read_samples(const RunData& run) {
   for (std::size_t i = 0; i < depth.size(); ++i) {
     for (Sample& sample : samples) {
       if (!same_depth(sample.depth, depth[i]) || !std::isfinite(mesh[i])) continue;
+      // Later rows of a mesh at one depth belong to a lateral motion that followed.
+      if (!sample.meshes.empty() && sample.meshes.back() == int(mesh[i])) continue;
       sample.meshes.push_back(int(mesh[i]));
       sample.unknowns.push_back(unknowns[i]);
       sample.forces.push_back(force[i]);
@@ -261,7 +264,7 @@ std::vector<SampleColumn> contact_columns(const RunData& run) {
   const bool finite = text_at(run.reference_summary, "strain") == "finite";
   const bool slides = text_at(run.reference_summary, "contact") == "coulomb";
   std::map<double, meshes::PressSample> response;
-  for (const meshes::PressSample& sample : run.reference.samples())
+  for (const meshes::PressSample& sample : run.reference.pressing())
     response[sample.indentation] = sample;
   std::vector<SampleColumn> columns;
   columns.push_back({plain("Contact radius", "cm"), [=](const Sample& s) {
@@ -345,7 +348,7 @@ std::string hertz_text(const RunData& run, const std::vector<Sample>& samples) {
       length(tip_radius(run)), percent(off(first)), length(first.depth));
   if (samples.size() > 1)
     text += fmt::format(" and {} at {}", percent(off(last)), length(last.depth));
-  const meshes::PressSample& deepest = run.reference.samples().back();
+  const meshes::PressSample& deepest = run.reference.pressing().back();
   text += fmt::format(", its peak pressure {} and its contact radius {} there.",
                       percent(deepest.max_pressure / hertz->max_pressure(last.depth) - 1.0),
                       percent(deepest.contact_radius / hertz->contact_radius(last.depth) - 1.0));

@@ -13,7 +13,7 @@ const std::string above = "outside top center horizontal";
 
 Series force_series(const meshes::PressResponse& response, const std::string& name) {
   Series series{model_label(name), name, {0.0}, {0.0}, {}, model_style(name)};
-  for (const meshes::PressSample& sample : response.samples()) {
+  for (const meshes::PressSample& sample : response.pressing()) {
     series.x.push_back(to_cm(sample.indentation));
     series.y.push_back(to_gf(sample.normal_force));
   }
@@ -25,7 +25,7 @@ Series reference_points(const meshes::PressResponse& response) {
   Series series = force_series(response, "reference");
   series.style.line = false;
   series.error.push_back(0.0);
-  for (const meshes::PressSample& sample : response.samples()) {
+  for (const meshes::PressSample& sample : response.pressing()) {
     series.error.push_back(to_gf(sample.force_error));
   }
   return series;
@@ -108,7 +108,7 @@ Table response_table(const RunData& run) {
     row.push_back(cell(run.reference));
     row.push_back({"–", "", Grade::none});
     row.push_back({"–", "", Grade::none});
-    for (const meshes::PressSample& sample : run.reference.samples()) {
+    for (const meshes::PressSample& sample : run.reference.pressing()) {
       if (std::abs(sample.indentation - depth) > 1e-9) continue;
       if (std::isfinite(sample.force_error))
         row[1].text += " ± " + number(to_gf(sample.force_error), 2);

@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
+#include <span>
+#include <string>
 
 #include "studies/files/mode_table.h"
 #include "studies/report/chapters.h"
@@ -16,16 +19,28 @@ constexpr std::size_t most_rows = 20;
 
 const Style single{"#0072B2", "", 2.2, 7, true};
 
-Panel curve_panel(const meshes::PressResponse& response, const std::string& label,
+using SampleRange = std::span<const meshes::PressSample>;
+
+/// What the samples are ordered by.
+struct SampleAxis {
+  const char* title;
+  double meshes::PressSample::*value;  ///< [m]
+};
+constexpr SampleAxis by_indentation{"Indentation", &meshes::PressSample::indentation};
+constexpr SampleAxis by_displacement{"Lateral displacement",
+                                     &meshes::PressSample::lateral_displacement};
+
+Panel curve_panel(SampleRange samples, const SampleAxis& axis, const std::string& label,
                   double meshes::PressSample::*value, double factor) {
   Panel panel;
-  panel.x_label = "indentation [cm]";
+  panel.x_label = axis.title + std::string(" [cm]");
+  panel.x_label[0] = char(std::tolower(panel.x_label[0]));
   panel.y_label = label;
   panel.key = "";
   Series series{"", "press", {}, {}, {}, single};
-  if (response.samples().size() > most_rows) series.style.point = 0;
-  for (const meshes::PressSample& sample : response.samples()) {
-    series.x.push_back(to_cm(sample.indentation));
+  if (samples.size() > most_rows) series.style.point = 0;
+  for (const meshes::PressSample& sample : samples) {
+    series.x.push_back(to_cm(sample.*axis.value));
     series.y.push_back(factor * sample.*value);
   }
   // From zero, where both begin, unless inertia pulls at the rod.
@@ -36,10 +51,9 @@ Panel curve_panel(const meshes::PressResponse& response, const std::string& labe
   return panel;
 }
 
-bool known(const meshes::PressResponse& response, double meshes::PressSample::*value) {
-  return std::ranges::any_of(response.samples(), [value](const meshes::PressSample& sample) {
-    return std::isfinite(sample.*value);
-  });
+bool known(SampleRange samples, double meshes::PressSample::*value) {
+  return std::ranges::any_of(
+      samples, [value](const meshes::PressSample& sample) { return std::isfinite(sample.*value); });
 }
 
 /// A column of the samples' table.
@@ -52,14 +66,14 @@ struct Column {
 };
 
 /// Whether a force is more than the round-off of the normal force.
-bool significant(const meshes::PressResponse& response, double meshes::PressSample::*force) {
+bool significant(SampleRange samples, double meshes::PressSample::*force) {
   constexpr double round_off = 1e-9;
-  return std::ranges::any_of(response.samples(), [force](const meshes::PressSample& sample) {
+  return std::ranges::any_of(samples, [force](const meshes::PressSample& sample) {
     return std::abs(sample.*force) > round_off * std::abs(sample.normal_force);
   });
 }
 
-Table sample_table(const meshes::PressResponse& response) {
+Table sample_table(SampleRange samples, const SampleAxis& axis) {
   static const Column columns[] = {
       {"Normal force", "gf", &meshes::PressSample::normal_force, to_gf(1.0), "N"},
       {"Estimated error", "gf", &meshes::PressSample::force_error, to_gf(1.0), "N"},
@@ -67,22 +81,21 @@ Table sample_table(const meshes::PressResponse& response) {
       {"Contact radius", "cm", &meshes::PressSample::contact_radius, to_cm(1.0), "m"},
       {"Peak pressure", "gf/cm²", &meshes::PressSample::max_pressure, to_gf_per_cm2(1.0), "Pa"}};
   Table table;
-  table.header = {plain("Indentation", "cm")};
+  table.header = {plain(axis.title, "cm")};
   std::vector<Column> shown;
   for (const Column& column : columns) {
-    if (!known(response, column.value)) continue;
+    if (!known(samples, column.value)) continue;
     if (column.value == &meshes::PressSample::lateral_force_x &&
-        !significant(response, column.value))
+        !significant(samples, column.value))
       continue;
     shown.push_back(column);
     table.header.push_back(plain(column.title, column.unit));
   }
-  const auto& samples = response.samples();
   const std::size_t rows = std::min(samples.size(), most_rows);
   for (std::size_t i = 0; i < rows; ++i) {
     // The last one is always among them.
     const auto& sample = samples[rows < 2 ? 0 : i * (samples.size() - 1) / (rows - 1)];
-    std::vector<Cell> row{plain(fmt::format("{:.4g}", to_cm(sample.indentation)))};
+    std::vector<Cell> row{plain(fmt::format("{:.4g}", to_cm(sample.*axis.value)))};
     for (const Column& column : shown) {
       const double value = sample.*column.value;
       row.push_back(std::isnan(value)
@@ -125,7 +138,7 @@ FigureBlock pressure_figure(const CsvTable& contact) {
   panel.series.push_back(std::move(series));
   panel.x_range = Range{0.0, meshes::unknown};
   return {{"contact_pressure", 760, 380, 1, {panel}},
-          "Contact pressure at full depth",
+          "Contact pressure at the end",
           "One dot per point of the true surface that the plane holds; points of one ring lie "
           "above each "
           "other where the contact is round."};
@@ -136,23 +149,24 @@ FigureBlock pressure_figure(const CsvTable& contact) {
 Chapter press_chapter(const meshes::PressResponse& response, const CsvTable& contact) {
   Chapter chapter{"press", "Force against indentation", {}};
   if (response.empty()) return chapter;
+  const SampleRange samples = response.pressing();
   chapter.blocks.push_back(
       FigureBlock{{"force_indentation",
                    760,
                    420,
                    1,
-                   {curve_panel(response, "normal force [gf]", &meshes::PressSample::normal_force,
-                                to_gf(1.0))}},
+                   {curve_panel(samples, by_indentation, "normal force [gf]",
+                                &meshes::PressSample::normal_force, to_gf(1.0))}},
                   "Normal force against indentation",
                   "Indentation counts from first touch."});
-  chapter.blocks.push_back(sample_table(response));
-  if (known(response, &meshes::PressSample::contact_radius))
+  chapter.blocks.push_back(sample_table(samples, by_indentation));
+  if (known(samples, &meshes::PressSample::contact_radius))
     chapter.blocks.push_back(
         FigureBlock{{"contact_radius",
                      760,
                      340,
                      1,
-                     {curve_panel(response, "contact radius [cm]",
+                     {curve_panel(samples, by_indentation, "contact radius [cm]",
                                   &meshes::PressSample::contact_radius, to_cm(1.0))}},
                     "Contact radius against indentation",
                     "Where a lattice touches with single points, its contact grows in steps."});
@@ -160,14 +174,40 @@ Chapter press_chapter(const meshes::PressResponse& response, const CsvTable& con
   return chapter;
 }
 
+Chapter sliding_chapter(const meshes::PressResponse& response) {
+  Chapter chapter{"sliding", "Lateral motion at full depth", {}};
+  if (response.sliding().empty()) return chapter;
+  // From where the press ended, which is the first sample of both.
+  const SampleRange samples =
+      SampleRange(response.samples()).subspan(response.pressing().size() - 1);
+  Panel panel = curve_panel(samples, by_displacement, "lateral force [gf]",
+                            &meshes::PressSample::lateral_force_x, to_gf(1.0));
+  const double end = to_cm(samples.back().lateral_displacement);
+  panel.x_range = Range{std::min(0.0, end), std::max(0.0, end)};
+  chapter.blocks.push_back(FigureBlock{
+      {"lateral_force", 760, 420, 1, {panel}},
+      "Lateral force against lateral displacement",
+      fmt::format("The plane moves along t1 at {} indentation; the force is the plane's "
+                  "on the finger along t1.",
+                  length(response.depth()))});
+  chapter.blocks.push_back(sample_table(samples, by_displacement));
+  return chapter;
+}
+
 std::string press_answer(const meshes::PressResponse& response) {
   if (response.empty()) return "The press has no sample.";
-  const meshes::PressSample& last = response.samples().back();
+  const meshes::PressSample& last = response.pressing().back();
   std::string text = fmt::format("Pressed {} deep, the finger pushes back with {}",
                                  length(last.indentation), force(last.normal_force));
   if (last.contact_radius > 0.0)
     text += fmt::format("; the contact's radius is {}", length(last.contact_radius));
-  return text + ".";
+  if (response.sliding().empty()) return text + ".";
+  const meshes::PressSample& end = response.sliding().back();
+  return text + fmt::format(
+                    ". Moved {} along the plane at that depth, the plane pulls it along "
+                    "with {} and pushes it with {}.",
+                    length(end.lateral_displacement), force(end.lateral_force_x),
+                    force(end.normal_force));
 }
 
 Chapter modes_chapter(const CsvTable& modes) {

@@ -17,7 +17,7 @@ bool has_reference(const MovingPress& press) {
 /// Relative differences at the samples of the continuum [%].
 Series error_series(const MovingPress& press, const Style& style) {
   Series series{press.label, "", {}, {}, {}, style};
-  for (const meshes::PressSample& sample : press.reference.samples()) {
+  for (const meshes::PressSample& sample : press.reference.pressing()) {
     series.x.push_back(to_cm(sample.indentation));
     series.y.push_back(100.0 *
                        (force_at(press.response, sample.indentation) / sample.normal_force - 1.0));
@@ -28,7 +28,7 @@ Series error_series(const MovingPress& press, const Style& style) {
 Series force_series(const meshes::PressResponse& response, const std::string& label,
                     const Style& style) {
   Series series{label, "", {}, {}, {}, style};
-  for (const meshes::PressSample& sample : response.samples()) {
+  for (const meshes::PressSample& sample : response.pressing()) {
     series.x.push_back(to_cm(sample.indentation));
     series.y.push_back(to_gf(sample.normal_force));
   }
@@ -75,10 +75,10 @@ Table error_table(const std::vector<MovingPress>& presses) {
   for (const MovingPress& press : presses) {
     if (!has_reference(press)) continue;
     if (table.header.size() == 1)
-      for (const meshes::PressSample& sample : press.reference.samples())
+      for (const meshes::PressSample& sample : press.reference.pressing())
         table.header.push_back(plain("F", fmt::format("{:.4g} cm", to_cm(sample.indentation))));
     std::vector<Cell> row{plain(press.label)};
-    for (const meshes::PressSample& sample : press.reference.samples()) {
+    for (const meshes::PressSample& sample : press.reference.pressing()) {
       const double f = force_at(press.response, sample.indentation);
       const double off = f / sample.normal_force - 1.0;
       row.push_back({number(to_gf(f)), percent(off), grade(off)});

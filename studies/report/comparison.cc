@@ -47,8 +47,7 @@ struct Force {
 
 /// The force of a sample at `depth`, else the one interpolated between samples around it.
 Force force_at(const Curve& curve, double depth) {
-  const auto& samples = curve.response.samples();
-  for (const meshes::PressSample& sample : samples)
+  for (const meshes::PressSample& sample : curve.response.pressing())
     if (std::abs(sample.indentation - depth) <= same_depth * std::abs(depth))
       return {sample.normal_force, false};
   if (!(depth > std::max(0.0, curve.first_depth()) && depth < curve.depth())) return {};
@@ -140,7 +139,7 @@ std::vector<double> compared_depths(const std::vector<Curve>& curves) {
   std::set<double> depths;
   for (std::size_t i = 1; i < curves.size(); ++i) {
     std::vector<double> common, inside;
-    for (const meshes::PressSample& sample : curves.front().response.samples()) {
+    for (const meshes::PressSample& sample : curves.front().response.pressing()) {
       const Force force = force_at(curves[i], sample.indentation);
       if (std::isnan(force.value) || !(sample.indentation > 0.0)) continue;
       inside.push_back(sample.indentation);
@@ -220,11 +219,28 @@ Panel force_panel(const std::vector<Curve>& curves) {
   panel.key = "outside top center horizontal";
   for (std::size_t i = 0; i < curves.size(); ++i) {
     Series series{curves[i].label, "", {}, {}, {}, curves[i].style};
-    for (const meshes::PressSample& sample : curves[i].response.samples()) {
+    for (const meshes::PressSample& sample : curves[i].response.pressing()) {
       series.x.push_back(to_cm(sample.indentation));
       series.y.push_back(to_gf(sample.normal_force));
     }
     panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+/// The lateral motions that followed presses; without series when none did.
+Panel lateral_panel(const std::vector<Curve>& curves) {
+  Panel panel;
+  panel.x_label = "lateral displacement [cm]";
+  panel.y_label = "lateral force [gf]";
+  panel.key = "outside top center horizontal";
+  for (const Curve& curve : curves) {
+    Series series{curve.label, "", {}, {}, {}, curve.style};
+    for (const meshes::PressSample& sample : curve.response.sliding()) {
+      series.x.push_back(to_cm(sample.lateral_displacement));
+      series.y.push_back(to_gf(sample.lateral_force_x));
+    }
+    if (!series.x.empty()) panel.series.push_back(std::move(series));
   }
   return panel;
 }
@@ -368,6 +384,30 @@ std::string table_text(const Comparison& comparison) {
   return text;
 }
 
+/// Lateral forces at displacements that every run has that moved on at full depth.
+std::string lateral_text(const std::vector<Curve>& curves) {
+  std::vector<const Curve*> sliding;
+  for (const Curve& curve : curves)
+    if (!curve.response.sliding().empty()) sliding.push_back(&curve);
+  if (sliding.size() < 2) return {};
+  std::string text = "lateral force at full depth [gf]\n" + fmt::format("{:>12}", "aside [cm]");
+  for (const Curve* curve : sliding) text += fmt::format("{:>24}", curve->label.substr(0, 23));
+  text += "\n";
+  for (const meshes::PressSample& wanted : sliding.front()->response.sliding()) {
+    const double place = wanted.lateral_displacement;
+    std::string row = fmt::format("{:12.4f}", to_cm(place));
+    std::size_t found = 0;
+    for (const Curve* curve : sliding)
+      for (const meshes::PressSample& sample : curve->response.sliding())
+        if (std::abs(sample.lateral_displacement - place) <= same_depth * std::abs(place)) {
+          row += fmt::format("{:24.4f}", to_gf(sample.lateral_force_x));
+          ++found;
+        }
+    if (found == sliding.size()) text += row + "\n";
+  }
+  return text;
+}
+
 std::string screen_text(const Comparison& comparison) {
   const std::vector<Curve>& curves = comparison.curves;
   std::string text = table_text(comparison);
@@ -379,6 +419,7 @@ std::string screen_text(const Comparison& comparison) {
   text += "\n";
   if (const std::string names = interpolated_curves(comparison); !names.empty())
     text += "~: interpolated between samples of " + names + "\n";
+  text += lateral_text(curves);
   for (const ComparisonRemark& remark : comparison.remarks)
     text += (remark.meaningless ? "WARNING: " : "note: ") + remark.text + "\n";
   return text;
@@ -400,6 +441,12 @@ Page comparison_page(const Comparison& comparison, FolderReader& reader) {
                     "At the depths of the table below."});
     chapter.blocks.push_back(difference_table(comparison));
   }
+  const Panel lateral = lateral_panel(curves);
+  if (!lateral.series.empty())
+    chapter.blocks.push_back(FigureBlock{{"comparison_lateral", 760, 420, 1, {lateral}},
+                                         "Lateral force against lateral displacement",
+                                         "Of the runs whose plane moved on at full depth. The "
+                                         "figures and numbers above end with the press."});
   Page page;
   page.title = fmt::format("Comparison of {} force curves", curves.size());
   page.subtitle = "Relative differences are against " + curves.front().label;

@@ -57,9 +57,15 @@ std::vector<PressureProfile> pressure_profiles(const RunData& run) {
   const std::vector<double> radius = run.pressure.numbers("radius [m]");
   const std::vector<double> pressure = run.pressure.numbers("pressure [Pa]");
   std::vector<PressureProfile> profiles;
+  const std::vector<double> lateral = run.pressure.numbers_if_any("lateral_displacement [m]");
+  std::size_t first = 0;  // of the profile
   for (std::size_t i = 0; i < depth.size(); ++i) {
-    if (profiles.empty() || !same_depth(profiles.back().depth, depth[i]))
+    if (profiles.empty() || !same_depth(profiles.back().depth, depth[i])) {
       profiles.push_back({depth[i], {}, {}});
+      first = i;
+    }
+    // At full depth others may follow, of a lateral motion.
+    if (!lateral.empty() && lateral[i] != lateral[first]) continue;
     profiles.back().radius.push_back(radius[i]);
     profiles.back().pressure.push_back(pressure[i]);
   }
@@ -204,9 +210,9 @@ std::vector<double> shown_depths(const RunData& run, const std::vector<double>& 
       wanted.push_back(computed[count > 1 ? i * (computed.size() - 1) / (count - 1) : 0]);
   }
   double worst = 0.0;
-  for (const meshes::PressSample& sample : run.reference.samples())
+  for (const meshes::PressSample& sample : run.reference.pressing())
     worst = std::fmax(worst, sample.force_error / sample.normal_force);
-  for (const meshes::PressSample& sample : run.reference.samples())
+  for (const meshes::PressSample& sample : run.reference.pressing())
     if (worst > 0.0 && sample.force_error / sample.normal_force == worst)
       wanted.push_back(sample.indentation);
   std::vector<double> shown;

@@ -224,6 +224,7 @@ class PageMaker {
                        "A mass-spring fingertip in equilibrium on a plane");
     page.answer = words([&] { return press_answer(run_.response); });
     add(page, [&] { return press_chapter(run_.response, run_.contact); });
+    add(page, [&] { return sliding_chapter(run_.response); });
     end(page);
     return page;
   }
@@ -232,7 +233,9 @@ class PageMaker {
   Page reference_page() {
     Page page = headed("Soft fingertip: the continuum", "A deal.II continuum pressed on a plane");
     page.answer = words([&] { return press_answer(run_.reference); });
-    for (const auto chapter : {force_chapter, continuum_chapter, pictures_chapter, cost_chapter})
+    add(page, [&] { return force_chapter(run_); });
+    add(page, [&] { return sliding_chapter(run_.reference); });
+    for (const auto chapter : {continuum_chapter, pictures_chapter, cost_chapter})
       add(page, [&] { return chapter(run_); });
     end(page);
     return page;

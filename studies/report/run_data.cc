@@ -207,7 +207,7 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   if (is_moduli_fit(run)) run.models.push_back(reader.attempt([&] { return fitted_model(run); }));
   run.target = reader.attempt([&] { return find_target(run); });
   if (run.depths.empty() && is_continuum(folder))
-    for (const meshes::PressSample& sample : run.reference.samples())
+    for (const meshes::PressSample& sample : run.reference.pressing())
       run.depths.push_back(sample.indentation);
   return run;
 }

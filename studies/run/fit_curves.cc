@@ -96,6 +96,11 @@ void name_once(const std::vector<Curve>& others, Curve& curve) {
 
 void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
   const lattice::PressSetup press = press_setup(own);
+  if (press.protocol.slides_after())
+    throw own.locate(
+        {{"press.lateral_path", "after",
+          "a fit takes forces against indentation, and a motion at full depth has none",
+          "choose diagonal, or leave press.lateral at 0"}});
   fit.order.conditions.push_back(described(press));
   if (curve.name.empty()) curve.name = fit.order.conditions.back();
   name_once(fit.order.curves, curve);

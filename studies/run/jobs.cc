@@ -71,6 +71,13 @@ void run_cubes(const meshes::Rubber& rubber, const lattice::SpringConstants& cen
   });
 }
 
+/// Of a lateral motion that follows the press; nothing where none does.
+void add_sliding(ordered_json& inputs, const meshes::PressProtocol& protocol) {
+  if (!protocol.slides_after()) return;
+  inputs["lateral_path"] = meshes::name(protocol.lateral_path);
+  inputs["lateral_samples"] = protocol.lateral_samples;
+}
+
 /// Only what the result depends on: neither mass nor damping enters an equilibrium, no press enters
 /// the natural frequencies.
 ordered_json inputs_of(const fem_reference::ReferenceJob& order) {
@@ -104,6 +111,7 @@ ordered_json inputs_of(const fem_reference::ReferenceJob& order) {
     inputs["contact"] = meshes::name(order.contact);
     inputs["tilt"] = order.tilt;
     inputs["lateral"] = order.lateral;
+    add_sliding(inputs, order.protocol());
     inputs["samples"] = order.samples;
     if (order.contact == meshes::ContactMode::coulomb) inputs["friction"] = order.friction;
   }
@@ -132,6 +140,7 @@ ordered_json to_json(const meshes::PressProtocol& protocol) {
                        {"depth", protocol.depth},
                        {"tilt", protocol.tilt},
                        {"lateral", protocol.lateral}};
+  add_sliding(json, protocol);
   if (protocol.contact == meshes::ContactMode::coulomb) json["friction"] = protocol.friction;
   if (protocol.mode != meshes::DriveMode::equilibrium) {
     json["speed"] = protocol.speed;

@@ -31,17 +31,20 @@ struct Row {
   meshes::CsvTable curve;                 ///< response.csv
 };
 
-/// Of the last row of response.csv, at full depth.
-constexpr const char* depth_columns[] = {"indentation [m]", "normal_force [N]",
-                                         "contact_radius [m]"};
+/// Of the last row of response.csv, at the end of the press; the last two where it moved aside.
+constexpr const char* end_columns[] = {"indentation [m]", "normal_force [N]", "contact_radius [m]",
+                                       "lateral_displacement [m]", "lateral_force_x [N]"};
 constexpr const char* lowest_frequency = "lowest_frequency [Hz]";
 
 /// The columns in which some row has its answer, in the order in which they are shown.
 std::vector<std::string> answer_columns(const std::vector<Row>& rows) {
   std::vector<std::string> columns;
-  for (const char* name : {depth_columns[0], depth_columns[1], depth_columns[2], lowest_frequency})
+  const auto add_if_any = [&](const char* name) {
     if (std::ranges::any_of(rows, [&](const Row& row) { return row.answers.contains(name); }))
       columns.emplace_back(name);
+  };
+  for (const char* name : end_columns) add_if_any(name);
+  add_if_any(lowest_frequency);
   return columns;
 }
 
@@ -75,11 +78,16 @@ meshes::CsvTable read_curve(const fs::path& file, FolderReader& reader) {
   });
 }
 
-/// What the point was computed for: force and contact at full depth, or the lowest frequency.
+/// What the point was computed for: force and contact at the end, or the lowest frequency.
 void read_answer(const fs::path& folder, Row& row, FolderReader& reader) {
   if (!row.curve.empty()) {
-    for (const char* name : depth_columns)
+    for (const char* name : end_columns)
       if (row.curve.has(name)) row.answers[name] = row.curve.numbers(name).back();
+    const auto aside = row.answers.find(end_columns[3]);
+    if (aside == row.answers.end() || !(std::abs(aside->second) > 0.0)) {
+      row.answers.erase(end_columns[3]);
+      row.answers.erase(end_columns[4]);
+    }
   }
   const meshes::CsvTable modes = reader.csv(folder / "modes.csv");
   if (!modes.empty()) row.answers[lowest_frequency] = modes.numbers("frequency [Hz]").front();

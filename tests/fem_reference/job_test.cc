@@ -40,6 +40,8 @@ TEST(ReferenceJob, SurvivesTheFile) {
   job.friction = 0.3;
   job.tilt = -0.2;
   job.lateral = 1e-3;
+  job.lateral_path = meshes::LateralPath::after;
+  job.lateral_samples = 3;
   job.samples = {1e-4, 1.0 / 3000.0, 2e-3};
   job.speed = 0.02;
   job.strain = Strain::finite;
@@ -68,6 +70,8 @@ TEST(ReferenceJob, SurvivesTheFile) {
   EXPECT_EQ(read.friction, job.friction);
   EXPECT_EQ(read.tilt, job.tilt);
   EXPECT_EQ(read.lateral, job.lateral);
+  EXPECT_EQ(read.lateral_path, job.lateral_path);
+  EXPECT_EQ(read.lateral_samples, job.lateral_samples);
   EXPECT_EQ(read.samples, job.samples);  // to the last bit
   EXPECT_EQ(read.speed, job.speed);
   EXPECT_EQ(read.analysis, job.analysis);
@@ -160,6 +164,7 @@ TEST(ReferenceJob, RefusesValuesOutOfRange) {
   rejects([](ReferenceJob& job) { job.tilt = 1.0; }, "press.tilt");
   rejects([](ReferenceJob& job) { job.tilt = std::nan(""); }, "press.tilt");
   rejects([](ReferenceJob& job) { job.lateral = 0.02; }, "press.lateral");
+  rejects([](ReferenceJob& job) { job.lateral_samples = 0; }, "press.lateral_samples");
   rejects(
       [](ReferenceJob& job) {
         job.contact = meshes::ContactMode::coulomb;

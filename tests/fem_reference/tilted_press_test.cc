@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "tests/fem_reference/pressing.h"
 
 using namespace fingertip;
 using fem_reference::PressState;
 using fem_reference::ReferenceJob;
+using fem_reference::Strain;
 using meshes::ContactMode;
 
 namespace {
@@ -110,6 +112,77 @@ TEST(LateralPress, FrictionlessFeelsNothing) {
   EXPECT_EQ(sample.lateral_force_x, 0.0);
   EXPECT_NEAR(sample.normal_force / still, 1.0, 1e-7);
   EXPECT_NEAR(sample.torque_y / sample.normal_force, 0.0, 1e-9);
+}
+
+ReferenceJob press_and_slide(ContactMode contact, double lateral) {
+  ReferenceJob job = small_press();
+  job.contact = contact;
+  job.samples = {5e-4, 1e-3};
+  job.lateral = lateral;
+  job.lateral_path = meshes::LateralPath::after;
+  job.lateral_samples = 2;
+  return job;
+}
+
+/// Along the path of `job`, at all its samples.
+std::vector<PressState> states_along(const ReferenceJob& job) {
+  Pressing pressing(job);
+  pressing.press.set_longest_step(0.05);
+  std::vector<PressState> states;
+  const meshes::PressPath path(job.protocol());
+  for (const double place : path.samples()) states.push_back(pressing.press.advance(place));
+  return states;
+}
+
+TEST(PressAndSlide, FrictionlessFeelsNothing) {
+  for (const Strain strain : {Strain::linear, Strain::finite}) {
+    ReferenceJob job = press_and_slide(ContactMode::frictionless, 5e-4);
+    job.strain = strain;
+    job.samples = {1e-4, 2e-4};
+    const auto states = states_along(job);
+    ASSERT_EQ(states.size(), 4u);
+    EXPECT_EQ(states[1].sample.lateral_displacement, 0.0);
+    EXPECT_EQ(states[3].sample.lateral_displacement, 5e-4);
+    for (const PressState& state : states) EXPECT_EQ(state.sample.lateral_force_x, 0.0);
+    for (const std::size_t i : {2, 3}) {
+      EXPECT_EQ(states[i].sample.indentation, 2e-4);
+      EXPECT_NEAR(states[i].sample.normal_force / states[1].sample.normal_force, 1.0, 1e-9);
+    }
+  }
+}
+
+/// On one mesh the way down is that of a press that does not move aside. While the same nodes touch
+/// the tip is a linear spring aside, and what the plane does is stored in it: at constant depth 1/2
+/// F_x shift. A diagonal drags it less, for what touches late has moved less.
+TEST(PressAndSlide, StuckItIsALinearSpringThatStoresTheWork) {
+  const ReferenceJob job = press_and_slide(ContactMode::stick, 2e-5);
+  const auto states = states_along(job);
+  ReferenceJob upright = job;
+  upright.lateral = 0.0;
+  upright.tilt = hardly;  // the half mesh
+  const auto straight = states_along(upright);
+  for (const std::size_t i : {0, 1})
+    EXPECT_NEAR(states[i].sample.normal_force / straight[i].sample.normal_force, 1.0, 1e-12);
+  const double force = states[3].sample.lateral_force_x;
+  EXPECT_GT(force, 0.0);
+  EXPECT_NEAR(states[2].sample.lateral_force_x / force, 0.5, 1e-3);
+  const double work = 0.5 * force * 2e-5;
+  EXPECT_NEAR((states[3].energy - states[1].energy) / work, 1.0, 0.01);
+
+  ReferenceJob diagonal = job;
+  diagonal.lateral_path = meshes::LateralPath::diagonal;
+  EXPECT_LT(states_along(diagonal).back().sample.lateral_force_x, 0.9 * force);
+}
+
+/// Pressed first, the tip slides when mu times the push is reached, and from then on under it.
+TEST(PressAndSlide, CoulombSlidesUnderFrictionTimesPush) {
+  ReferenceJob job = press_and_slide(ContactMode::coulomb, 1e-3);
+  job.friction = 0.2;
+  const auto states = states_along(job);
+  EXPECT_EQ(states[3].sliding_nodes, states[3].active_nodes);
+  EXPECT_GT(states[1].active_nodes, states[1].sliding_nodes);
+  EXPECT_NEAR(states[3].sample.lateral_force_x / states[3].sample.normal_force, 0.2, 0.002);
+  EXPECT_LT(std::abs(states[1].sample.lateral_force_x), 1e-3 * states[1].sample.normal_force);
 }
 
 TEST(CoulombPress, LiesBetweenFrictionlessAndStick) {

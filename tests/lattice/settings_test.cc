@@ -63,6 +63,21 @@ TEST(PressSetup, OnlyThePublishedModelIsPressedStraightOnAStraightGrid) {
   EXPECT_EQ(keys_of(setup.violations()), Keys{"lattice.rotation"});
 }
 
+TEST(PressSetup, AMovingRodDoesNotTurnACorner) {
+  lattice::PressSetup setup = valid_setup();
+  setup.protocol.lateral_path = meshes::LateralPath::after;
+  EXPECT_TRUE(setup.violations().empty()) << "there is no corner without lateral motion";
+  setup.protocol.lateral = 1e-3;
+  for (const auto mode : {meshes::DriveMode::pid, meshes::DriveMode::quasi_static}) {
+    setup.protocol.mode = mode;
+    ASSERT_EQ(keys_of(setup.violations()), Keys{"press.lateral_path"});
+    EXPECT_EQ(setup.violations()[0].value, "after");
+    EXPECT_NE(setup.violations()[0].remedy.find("press.mode = static"), std::string::npos);
+  }
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
+  EXPECT_TRUE(setup.violations().empty());
+}
+
 TEST(PressSetup, TheGridsAxesAreARotation) {
   lattice::PressSetup setup = valid_setup();
   for (const double x : {-1.0, 1.1, std::nan("")}) {

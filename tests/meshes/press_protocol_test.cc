@@ -69,10 +69,72 @@ TEST(PressProtocol, TiltStaysWithin45DegreesAndLateralWithinTheTip) {
   EXPECT_EQ(key_of(0.0, std::nan("")), "press.lateral");
 }
 
+TEST(PressProtocol, ALateralMotionHasOutputs) {
+  PressProtocol protocol;
+  protocol.lateral_samples = 0;
+  const auto found = protocol.violations(Geometry{});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].key, "press.lateral_samples");
+}
+
+TEST(PressPath, ADiagonalIsOneStraightLine) {
+  PressProtocol protocol;
+  protocol.depth = 2e-3;
+  protocol.lateral = -1e-3;
+  const PressPath path(protocol);
+  EXPECT_EQ(path.length(), 2e-3);
+  EXPECT_EQ(path.samples(), default_samples(2e-3));
+  EXPECT_EQ(path.slope(), -0.5);
+  for (const double s : {-1e-4, 3e-4, 2e-3}) {
+    EXPECT_EQ(path.at(s).indentation, s);
+    EXPECT_EQ(path.at(s).lateral, -0.5 * s);
+  }
+  EXPECT_FALSE(path.bends(0.0, 1.0));
+}
+
+TEST(PressPath, AfterGoesDownAndThenAside) {
+  for (const double lateral : {7e-4, -7e-4}) {
+    PressProtocol protocol;
+    protocol.depth = 2e-3;
+    protocol.samples = {1e-3, 2e-3};
+    protocol.lateral = lateral;
+    protocol.lateral_path = LateralPath::after;
+    protocol.lateral_samples = 7;
+    EXPECT_TRUE(protocol.slides_after());
+    const PressPath path(protocol);
+    EXPECT_NEAR(path.length(), 2.7e-3, 1e-18);
+    ASSERT_EQ(path.samples().size(), 9u);
+    EXPECT_EQ(path.samples().back(), path.length());
+    for (const double s : {-1e-4, 1e-3, 2e-3}) {
+      EXPECT_EQ(path.at(s).indentation, s);
+      EXPECT_EQ(path.at(s).lateral, 0.0);
+    }
+    for (int i = 1; i <= 7; ++i) {
+      const PressPose pose = path.at(path.samples()[std::size_t(i) + 1]);
+      EXPECT_EQ(pose.indentation, 2e-3);
+      EXPECT_EQ(pose.lateral, lateral * i / 7) << "a sample is where it was asked for";
+    }
+    EXPECT_NEAR(path.at(2.05e-3).lateral, std::copysign(5e-5, lateral), 1e-18);
+    EXPECT_TRUE(path.bends(1.9e-3, 2.1e-3));
+    EXPECT_FALSE(path.bends(1.9e-3, 2e-3));
+    EXPECT_FALSE(path.bends(2e-3, 2.1e-3));
+  }
+}
+
+TEST(PressPath, AfterWithoutLateralMotionIsAStraightPress) {
+  PressProtocol protocol;
+  protocol.lateral_path = LateralPath::after;
+  EXPECT_FALSE(protocol.slides_after());
+  EXPECT_EQ(PressPath(protocol).samples(), default_samples(protocol.depth));
+  EXPECT_EQ(PressPath(protocol).length(), protocol.depth);
+}
+
 TEST(PressProtocol, NamesTellTheModesApart) {
   EXPECT_EQ(name(ContactMode::stick), "stick");
   EXPECT_EQ(name(ContactMode::frictionless), "frictionless");
   EXPECT_EQ(name(ContactMode::coulomb), "coulomb");
+  EXPECT_EQ(name(LateralPath::diagonal), "diagonal");
+  EXPECT_EQ(name(LateralPath::after), "after");
 }
 
 }  // namespace

@@ -61,7 +61,29 @@ TEST_F(PressResponseFile, FirstLineNamesEveryColumnWithItsUnit) {
   EXPECT_EQ(line,
             "indentation [m],normal_force [N],lateral_force_x [N],lateral_force_y [N],"
             "torque_x [N m],torque_y [N m],torque_z [N m],contact_radius [m],max_pressure [Pa],"
-            "force_error [N],time [s]");
+            "force_error [N],time [s],lateral_displacement [m]");
+}
+
+TEST_F(PressResponseFile, ALateralMotionFollowsThePress) {
+  const PressResponse press = power_law(2.0, 1.5, 4, 2e-3);
+  PressResponse written;
+  for (PressSample sample : press.samples()) {
+    sample.lateral_displacement = 0.0;
+    written.append(sample);
+  }
+  for (const double lateral : {-1e-4, -2e-4})
+    written.append({.indentation = 2e-3, .normal_force = 9.0, .lateral_displacement = lateral});
+  written.write_csv(folder_ / "response.csv");
+  const PressResponse read = PressResponse::read_csv(folder_ / "response.csv");
+  ASSERT_EQ(read.pressing().size(), 4u);
+  ASSERT_EQ(read.sliding().size(), 2u);
+  EXPECT_EQ(read.sliding()[1].lateral_displacement, -2e-4);
+  EXPECT_EQ(read.depth(), 2e-3);
+  // The force against indentation is that of the press alone.
+  for (const double depth : {1e-4, 1.2e-3, 2e-3})
+    EXPECT_EQ(read.normal_force_at(depth), press.normal_force_at(depth));
+  EXPECT_TRUE(press.sliding().empty());
+  EXPECT_TRUE(PressResponse().pressing().empty());
 }
 
 TEST_F(PressResponseFile, AcceptsColumnsInAnyOrderAndUnknownOnes) {
@@ -80,6 +102,11 @@ TEST_F(PressResponseFile, RefusesDamagedFilesWithFileAndLine) {
   EXPECT_NE(refusal(titles + "0.1,nan\n").find("finite"), std::string::npos);
   EXPECT_NE(refusal(titles + ",1\n").find("response.csv:2"), std::string::npos);
   EXPECT_NE(refusal(titles + "0.2,1\n0.1,2\n").find("increase"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.2,1\n0.2,2\n").find("increase"), std::string::npos);
+  const std::string lateral =
+      "indentation [m],normal_force [N],lateral_displacement [m]\n0.2,1,0.1\n";
+  EXPECT_NE(refusal(lateral + "0.2,2,0.1\n").find("response.csv:3"), std::string::npos);
+  EXPECT_NE(refusal(lateral + "0.1,2,0.2\n").find("response.csv:3"), std::string::npos);
   EXPECT_NE(refusal(titles + "0.1,1\n0.2,2.0").find("truncated"), std::string::npos);
   EXPECT_NE(refusal("").find("empty"), std::string::npos);
   EXPECT_NE(refusal(titles + "0.1,1e70\n").find("finite"), std::string::npos);

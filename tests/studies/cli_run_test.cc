@@ -224,6 +224,47 @@ TEST(Run, StaticPressAgreesWithTheContinuum) {
   EXPECT_TRUE(std::isnan(response.samples()[0].time)) << "there is none";
 }
 
+// Pressed first and moved then: on the screen, in the folder, on its page and beside another run.
+TEST(Run, ALateralMotionFollowsTheStaticPress) {
+  const TemporaryFolder folder;
+  const auto press = [&](const char* out, const char* spacing) {
+    return run_program(
+        folder.path(),
+        {"press", "--out", out, "--set", "press.mode=static", "--set", spacing, "--set",
+         "press.samples=[\"0.05 cm\", \"0.1 cm\"]", "--set", "press.lateral=0.2 mm", "--set",
+         "press.lateral_path=after", "--set", "press.lateral_samples=2"});
+  };
+  const ProgramResult result = press("one", "lattice.spacing=tip_radius/4");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("then along the plane at 1 mm"), std::string::npos) << result.out;
+  const PressResponse response = PressResponse::read_csv(folder / "one/response.csv");
+  ASSERT_EQ(response.pressing().size(), 2U);
+  ASSERT_EQ(response.sliding().size(), 2U);
+  EXPECT_EQ(response.sliding()[0].lateral_displacement, 1e-4);
+  EXPECT_EQ(response.sliding()[1].lateral_displacement, 2e-4);
+  EXPECT_GT(response.sliding()[1].lateral_force_x, response.sliding()[0].lateral_force_x);
+  ASSERT_EQ(run_program(folder.path(), {"report", "one"}).code, 0);
+  EXPECT_NE(
+      read_text(folder / "one/report.html").find("Lateral force against lateral displacement"),
+      std::string::npos);
+  ASSERT_EQ(press("two", "lattice.spacing=tip_radius/5").code, 0);
+  const ProgramResult beside = run_program(folder.path(), {"compare", "one", "two"});
+  ASSERT_EQ(beside.code, 0) << beside.err;
+  EXPECT_NE(beside.out.find("lateral force at full depth"), std::string::npos) << beside.out;
+  EXPECT_EQ(beside.out.find("WARNING"), std::string::npos) << beside.out;
+
+  const ProgramResult moving =
+      run_program(folder.path(), {"press", "--out", "three", "--set", "press.lateral=0.2 mm",
+                                  "--set", "press.lateral_path=after"});
+  EXPECT_EQ(moving.code, 2);
+  EXPECT_NE(moving.err.find("press.lateral_path = after"), std::string::npos) << moving.err;
+  const ProgramResult fit =
+      run_program(folder.path(), {"calibrate", "--set", "calibration.problem=curve", "--out", "four", "--set",
+                                  "press.lateral=0.2 mm", "--set", "press.lateral_path=after"});
+  EXPECT_EQ(fit.code, 2);
+  EXPECT_NE(fit.err.find("press.lateral_path = after"), std::string::npos) << fit.err;
+}
+
 // The continuum's lowest frequencies are 49.18, 54.15 (twice) and 62.57 Hz
 // (fem_reference/README.md).
 TEST(Run, ModesOfTheLatticeAreThoseOfTheContinuum) {

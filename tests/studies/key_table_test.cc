@@ -48,6 +48,8 @@ TEST(KeyTable, HasTheContractsKeysWithItsDefaults) {
       {"press.friction", "0.5"},
       {"press.tilt", "\"0 deg\""},
       {"press.lateral", "\"0 cm\""},
+      {"press.lateral_path", "\"diagonal\""},
+      {"press.lateral_samples", "10"},
       {"reference.strain", "\"linear\""},
       {"reference.law", "\"A\""},
       {"reference.mode", "\"static\""},
@@ -124,10 +126,14 @@ TEST(KeyTable, DefaultsAreThoseOfTheRooms) {
   EXPECT_EQ(resolved.reference.friction, job.friction);
   EXPECT_EQ(resolved.reference.tilt, job.tilt);
   EXPECT_EQ(resolved.reference.lateral, job.lateral);
+  EXPECT_EQ(resolved.reference.lateral_path, job.lateral_path);
+  EXPECT_EQ(resolved.reference.lateral_samples, job.lateral_samples);
   EXPECT_EQ(resolved.reference.speed, job.speed);
   EXPECT_EQ(resolved.press.protocol.friction, rooms.protocol.friction);
   EXPECT_EQ(resolved.press.protocol.tilt, rooms.protocol.tilt);
   EXPECT_EQ(resolved.press.protocol.lateral, rooms.protocol.lateral);
+  EXPECT_EQ(resolved.press.protocol.lateral_path, rooms.protocol.lateral_path);
+  EXPECT_EQ(resolved.press.protocol.lateral_samples, rooms.protocol.lateral_samples);
   EXPECT_EQ(resolved.reference.write_fields, job.write_fields);
   EXPECT_EQ(resolved.reference.estimate_error, job.estimate_error);
 }

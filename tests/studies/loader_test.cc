@@ -67,6 +67,8 @@ TEST(Loader, ParametersFileReproducesEveryKey) {
                                          "press.friction=0.25",
                                          "press.tilt=-9 deg",
                                          "press.lateral=2 mm",
+                                         "press.lateral_path=after",
+                                         "press.lateral_samples=4",
                                          "lattice.kinematics=finite",
                                          "run.integrator=explicit-euler"};
   const LoadedConfig first = load_config({folder / "in.toml", sets, "3"});
@@ -92,6 +94,8 @@ TEST(Loader, ParametersFileReproducesEveryKey) {
   EXPECT_EQ(second.config.reference.friction, 0.25);
   EXPECT_NEAR(second.config.reference.tilt, -std::atan(1.0) / 5.0, 1e-14);
   EXPECT_EQ(second.config.reference.lateral, 0.002);
+  EXPECT_EQ(second.config.reference.lateral_path, fingertip::meshes::LateralPath::after);
+  EXPECT_EQ(second.config.reference.lateral_samples, 4);
 }
 
 TEST(Loader, SetIsALiteralOrElseBareText) {

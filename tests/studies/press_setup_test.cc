@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "calibration/material.h"
 #include "calibration/moduli.h"
 #include "lattice/statics/static_press.h"
@@ -281,6 +283,11 @@ TEST(Checks, WhatALatticeCanDoAtRestOrMoving) {
     const std::string text = broken({set, "lattice.model=published"});
     EXPECT_NE(text.find("press.mode = static"), std::string::npos) << text;
   }
+  const std::string after = "press.lateral_path=after", lateral = "press.lateral=1 mm";
+  EXPECT_EQ(broken({after, lateral, "press.mode=static"}), "");
+  EXPECT_EQ(broken({after, lateral}).find("--set press.lateral_path=after"), 0U)
+      << broken({after, lateral});
+  EXPECT_EQ(refusal(check_all, {after, lateral}), "") << "the continuum goes that way";
   EXPECT_EQ(broken({"run.integrator=explicit-euler", "lattice.model=published"}), "");
   EXPECT_NE(broken({"run.integrator=explicit-euler"}).find("symplectic-euler"), std::string::npos);
   EXPECT_NE(broken({"press.contact=coulomb", "press.mode=static"}), "");
@@ -317,6 +324,33 @@ TEST(Jobs, StaticPressesDependOnWhatIsStatic) {
                               "lattice.rotation=[\"1 deg\", \"0 deg\", \"0 deg\"]"}) {
     EXPECT_NE(key({}), key({matters})) << matters;
   }
+}
+
+TEST(Jobs, TheLateralPathMattersWhereThereIsLateralMotion) {
+  const std::string after = "press.lateral_path=after", lateral = "press.lateral=1 mm",
+                    one = "press.lateral_samples=1";
+  const auto differ = [](const auto& key) {
+    const auto [still, path, diagonal, moved, end, idle] = key;
+    EXPECT_EQ(still, path);
+    EXPECT_EQ(diagonal, idle);
+    EXPECT_NE(diagonal, moved);
+    EXPECT_NE(moved, end);
+  };
+  const auto keys = [&](const auto& key) {
+    return std::array<std::string, 6>{key({}),
+                                      key({after}),
+                                      key({lateral}),
+                                      key({after, lateral}),
+                                      key({after, lateral, one}),
+                                      key({lateral, one})};
+  };
+  differ(keys([](std::vector<std::string> sets) {
+    sets.emplace_back("press.mode=static");
+    return press_job(setup_of(std::move(sets))).key();
+  }));
+  differ(keys([](std::vector<std::string> sets) {
+    return reference_job(reference_order(load_config({{}, std::move(sets), {}}))).key();
+  }));
 }
 
 TEST(Jobs, ModesDependOnTheLatticeAndNotOnThePress) {

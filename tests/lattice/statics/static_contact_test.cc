@@ -151,7 +151,9 @@ TEST(StaticContact, ForceAndTangentAreDerivatives) {
 TEST(StaticContact, SticksWhereItFirstTouched) {
   const LatticeBody body = confined_block(ModelKind::hookean, Kinematics::small, 1e8);
   lattice::PressPlane plane = plane_above(height);
-  plane.lateral_ratio = 0.5;
+  meshes::PressProtocol protocol;
+  protocol.lateral = 0.5 * protocol.depth;
+  plane.path = meshes::PressPath(protocol);
   StaticContact contact(body, plane, ContactMode::stick);
   const auto moved = [&](const Vector3& by) {
     return on_particles(body, [&](const Vector3&) -> Vector3 { return by; });

@@ -231,6 +231,68 @@ TEST(StaticPress, LateralMotionDragsOnlyWhatSticks) {
               0.5 * stuck.contact_radius * stuck.normal_force);
 }
 
+/// Down and then aside, or both at once: a frictionless plane is the same everywhere.
+TEST(StaticPress, WithoutFrictionAPlaneMovesOnUnnoticed) {
+  for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
+    PressSetup setup =
+        press_at(5, {0.1, 0.2}, ContactMode::frictionless, ModelKind::network, kinematics);
+    const auto body = body_in_sectors(setup, 2);
+    const auto straight = lattice::run_static_press(setup, body).response;
+    setup.protocol.lateral = -4e-4;
+    const PressSample diagonal = last_sample(setup);
+    setup.protocol.lateral_path = meshes::LateralPath::after;
+    setup.protocol.lateral_samples = 3;
+    const auto after = lattice::run_static_press(setup, body).response;
+    ASSERT_EQ(after.samples().size(), 5u);
+    ASSERT_EQ(after.sliding().size(), 3u);
+    const double force = straight.samples().back().normal_force;
+    for (const PressSample& sample : after.samples())
+      EXPECT_NEAR(sample.lateral_force_x, 0.0, 1e-8 * force);
+    for (const PressSample& sample : after.sliding())
+      EXPECT_NEAR(sample.normal_force, force, 1e-8 * force);
+    EXPECT_EQ(after.samples().back().lateral_displacement, -4e-4);
+    expect_same(after.samples().back(), diagonal, 1e-7, setup.geometry.rod_length);
+  }
+}
+
+/// Whatever follows, the way down is that of the straight press to the last bit.
+TEST(StaticPress, WhatFollowsThePressDoesNotChangeIt) {
+  for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
+    PressSetup setup = press_at(5, {0.05, 0.1}, ContactMode::stick, ModelKind::network, kinematics);
+    const auto body = body_in_sectors(setup, 2);
+    const auto straight = lattice::run_static_press(setup, body).response;
+    setup.protocol.lateral = 2e-4;
+    setup.protocol.lateral_path = meshes::LateralPath::after;
+    setup.protocol.lateral_samples = 2;
+    const auto after = lattice::run_static_press(setup, body).response;
+    ASSERT_EQ(after.pressing().size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(after.samples()[i].lateral_displacement, 0.0);
+      EXPECT_EQ(after.samples()[i].normal_force, straight.samples()[i].normal_force);
+      EXPECT_EQ(after.samples()[i].lateral_force_x, straight.samples()[i].lateral_force_x);
+      EXPECT_EQ(after.samples()[i].torque_y, straight.samples()[i].torque_y);
+      EXPECT_EQ(after.samples()[i].max_pressure, straight.samples()[i].max_pressure);
+    }
+  }
+}
+
+/// A tip that sticks is a linear spring aside while the same points touch; sheared from first touch
+/// on, the same place of the plane drags it less, for what touches late has moved less.
+TEST(StaticPress, StuckItIsALinearSpringAside) {
+  PressSetup setup = press_at(6, {0.1, 0.2}, ContactMode::stick);
+  setup.protocol.lateral = 2e-6;
+  setup.protocol.lateral_path = meshes::LateralPath::after;
+  setup.protocol.lateral_samples = 4;
+  const auto after = lattice::run_static_press(setup).response;
+  const double end = after.sliding().back().lateral_force_x;
+  EXPECT_GT(end, 0.0);
+  for (int i = 1; i <= 4; ++i)
+    EXPECT_NEAR(after.sliding()[std::size_t(i) - 1].lateral_force_x / end, 0.25 * i, 2e-3) << i;
+  EXPECT_NEAR(after.samples()[1].lateral_force_x / end, 0.0, 1e-4);
+  setup.protocol.lateral_path = meshes::LateralPath::diagonal;
+  EXPECT_LT(last_sample(setup).lateral_force_x, 0.9 * end);
+}
+
 /// A grid turned by a right angle about an axis of its own is the same grid.
 TEST(StaticPress, GridTurnedByARightAngleChangesNothing) {
   PressSetup setup = press_at(5, {0.1});

@@ -123,6 +123,29 @@ TEST(Comparison, OneSampleOfEachAtOneDepthIsCompared) {
   EXPECT_NEAR(std::stod(rows[1][3]), 0.5, 1e-12);
 }
 
+/// At full depth the forces of a lateral motion are none of the press.
+TEST(Comparison, ForcesAgainstIndentationEndWithThePress) {
+  const TemporaryFolder folder;
+  const std::string press =
+      "indentation [m],normal_force [N],lateral_force_x [N],lateral_displacement [m]\n"
+      "0.001,1,0,0\n0.002,3,0,0\n";
+  report_testing::write_file(folder / "a/response.csv",
+                             press + "0.002,7,0.5,0.0001\n0.002,9,1,0.0002\n");
+  report_testing::write_file(folder / "b/response.csv", press + "0.002,8,0.7,0.0002\n");
+  const auto result = studies::write_comparison({folder / "a", folder / "b"}, folder / "out");
+  const auto rows = cells(read_text(folder / "out/comparison.csv"));
+  ASSERT_EQ(rows.size(), 3U);
+  for (const std::size_t i : {1, 2}) EXPECT_EQ(std::stod(rows[i][3]), 0.0);
+  const auto lateral = result.text.find("lateral force at full depth [gf]");
+  ASSERT_NE(lateral, std::string::npos) << result.text;
+  // The one displacement that both have: 1 and 0.7 N.
+  EXPECT_NE(result.text.find("101.9716", lateral), std::string::npos) << result.text;
+  EXPECT_NE(result.text.find("71.3801", lateral), std::string::npos) << result.text;
+  EXPECT_EQ(result.text.find("0.0100  ", lateral), std::string::npos) << result.text;
+  EXPECT_NE(read_text(folder / "out/comparison.html").find("comparison_lateral"),
+            std::string::npos);
+}
+
 TEST(Comparison, SaysThatRunsOfAnotherContactAreNotTheSameProblem) {
   const TemporaryFolder folder;
   const std::vector<std::pair<double, double>> samples = {{1e-3, 1.0}, {2e-3, 3.0}};
