@@ -7,9 +7,9 @@
 #include "meshes/press_response.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
-#include "studies/config/units.h"
 #include "studies/files/json_entry.h"
 #include "studies/files/mode_table.h"
+#include "studies/files/shown_units.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_notes.h"
@@ -21,23 +21,23 @@ namespace fingertip::studies {
 
 namespace {
 
-/// A cell of a table: the value in another unit, or nothing when it is unknown.
-std::string cell(double value, const char* from, const char* to, int decimals) {
+/// A cell of a table: the value as it is shown, or nothing when it is unknown.
+std::string cell(double value, const ShownUnit& unit) {
   if (std::isnan(value)) return fmt::format("{:>14}", "");
-  return fmt::format("{:14.{}f}", convert(value, from, to), decimals);
+  return fmt::format("{:14.4f}", unit(value));
 }
 
-/// The curve at the wanted depths, for a terminal; at the end the paper's unit of force.
+/// The curve at the wanted depths, for a terminal.
 void print_response(const std::filesystem::path& folder, const std::vector<double>& depths) {
   const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
-  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}\n", "depth [mm]", "force [mN]", "error [mN]",
-             "contact [mm]", "force [gf]");
+  const ShownUnit &length = shown_units().length, &force = shown_units().force;
+  fmt::print("{:>14}{:>14}{:>14}{:>14}\n", length.label("depth"), force.label("force"),
+             force.label("error"), length.label("contact"));
   for (const double depth : depths) {
     for (const meshes::PressSample& row : response.samples()) {
       if (std::abs(row.indentation - depth) > 1e-6 * depth) continue;
-      fmt::print("{}{}{}{}{}\n", cell(row.indentation, "m", "mm", 4),
-                 cell(row.normal_force, "N", "mN", 4), cell(row.force_error, "N", "mN", 4),
-                 cell(row.contact_radius, "m", "mm", 4), cell(row.normal_force, "N", "gf", 4));
+      fmt::print("{}{}{}{}\n", cell(row.indentation, length), cell(row.normal_force, force),
+                 cell(row.force_error, force), cell(row.contact_radius, length));
       break;
     }
   }
@@ -104,7 +104,7 @@ void print_accuracy(const std::filesystem::path& folder, const fem_reference::Re
   const bool reached = worst.relative <= order.tolerance;
   fmt::print("estimated error of the force: at most {:.3g} % ({:.3g} % wanted{})",
              100.0 * worst.relative, 100.0 * order.tolerance,
-             reached ? "" : fmt::format(", NOT REACHED at {:.4g} mm", 1e3 * worst.indentation));
+             reached ? "" : ", NOT REACHED at " + shown_units().length.text(worst.indentation));
   if (std::filesystem::exists(folder / "convergence.csv")) {
     const meshes::CsvTable meshes = meshes::read_csv(folder / "convergence.csv");
     const std::vector<double> unknowns = meshes.numbers("unknowns");
@@ -123,10 +123,11 @@ void print_control(const JsonEntry& summary) {
                speed = number_at(tracking, "speed_deviation"),
                tilt = number_at(tracking, "tilt_deg");
   const bool follows = tracking.at("follows_path").flag();
+  const ShownUnit& force = shown_units().force;
   std::string text = "controller:";
   if (!std::isnan(held)) {
-    text += fmt::format(" contact force {:.5g} mN held ({:.5g} mN wanted", 1e3 * held,
-                        1e3 * number_at(tracking, "wanted_force"));
+    text += fmt::format(" contact force {} held ({} wanted", force.text(held),
+                        force.text(number_at(tracking, "wanted_force")));
     if (!std::isnan(deviation))
       text += fmt::format(", within {:.2g} % in the last {:.0f} ms", 100.0 * deviation,
                           1e3 * held_time);
@@ -135,11 +136,11 @@ void print_control(const JsonEntry& summary) {
     text += fmt::format(" speed within {:.2f} %,", 100.0 * speed);
   }
   if (!follows && !std::isnan(number_at(end, "time"))) {
-    text += fmt::format(" {:.5g} mN at {:.4g} mm at the end ({:.3g} s),",
-                        1e3 * number_at(end, "normal_force"), 1e3 * number_at(end, "indentation"),
-                        number_at(end, "time"));
+    text += fmt::format(
+        " {} at {} at the end ({:.3g} s),", force.text(number_at(end, "normal_force")),
+        shown_units().length.text(number_at(end, "indentation")), number_at(end, "time"));
   }
-  if (!std::isnan(tilt)) text += fmt::format(" tilt within {:.2g} deg", tilt);
+  if (!std::isnan(tilt)) text += fmt::format(" tilt within {:.2g} degrees", tilt);
   fmt::print("{}\n", text);
 }
 

@@ -19,13 +19,13 @@ const Style single{"#0072B2", "", 2.2, 7, true};
 Panel curve_panel(const meshes::PressResponse& response, const std::string& label,
                   double meshes::PressSample::*value, double factor) {
   Panel panel;
-  panel.x_label = "indentation [cm]";
+  panel.x_label = shown_units().length.label("indentation");
   panel.y_label = label;
   panel.key = "";
   Series series{"", "press", {}, {}, {}, single};
   if (response.samples().size() > most_rows) series.style.point = 0;
   for (const meshes::PressSample& sample : response.samples()) {
-    series.x.push_back(to_cm(sample.indentation));
+    series.x.push_back(shown_units().length(sample.indentation));
     series.y.push_back(factor * sample.*value);
   }
   // From zero, where both begin, unless inertia pulls at the rod.
@@ -45,10 +45,9 @@ bool known(const meshes::PressResponse& response, double meshes::PressSample::*v
 /// A column of the samples' table.
 struct Column {
   const char* title;
-  const char* unit;
+  const char* direction;
   double meshes::PressSample::*value;
-  double factor;
-  const char* si;
+  ShownUnit unit;
 };
 
 /// Whether a force is more than the round-off of the normal force.
@@ -60,14 +59,15 @@ bool significant(const meshes::PressResponse& response, double meshes::PressSamp
 }
 
 Table sample_table(const meshes::PressResponse& response) {
-  static const Column columns[] = {
-      {"Normal force", "gf", &meshes::PressSample::normal_force, to_gf(1.0), "N"},
-      {"Estimated error", "gf", &meshes::PressSample::force_error, to_gf(1.0), "N"},
-      {"Lateral force", "along t1, gf", &meshes::PressSample::lateral_force_x, to_gf(1.0), "N"},
-      {"Contact radius", "cm", &meshes::PressSample::contact_radius, to_cm(1.0), "m"},
-      {"Peak pressure", "gf/cm²", &meshes::PressSample::max_pressure, to_gf_per_cm2(1.0), "Pa"}};
+  const ShownUnits& units = shown_units();
+  const Column columns[] = {
+      {"Normal force", "", &meshes::PressSample::normal_force, units.force},
+      {"Estimated error", "", &meshes::PressSample::force_error, units.force},
+      {"Lateral force", "along t1, ", &meshes::PressSample::lateral_force_x, units.force},
+      {"Contact radius", "", &meshes::PressSample::contact_radius, units.length},
+      {"Peak pressure", "", &meshes::PressSample::max_pressure, units.stress}};
   Table table;
-  table.header = {plain("Indentation", "cm")};
+  table.header = {plain("Indentation", unit_name(units.length))};
   std::vector<Column> shown;
   for (const Column& column : columns) {
     if (!known(response, column.value)) continue;
@@ -75,19 +75,19 @@ Table sample_table(const meshes::PressResponse& response) {
         !significant(response, column.value))
       continue;
     shown.push_back(column);
-    table.header.push_back(plain(column.title, column.unit));
+    table.header.push_back(plain(column.title, column.direction + unit_name(column.unit)));
   }
   const auto& samples = response.samples();
   const std::size_t rows = std::min(samples.size(), most_rows);
   for (std::size_t i = 0; i < rows; ++i) {
     // The last one is always among them.
     const auto& sample = samples[rows < 2 ? 0 : i * (samples.size() - 1) / (rows - 1)];
-    std::vector<Cell> row{plain(fmt::format("{:.4g}", to_cm(sample.indentation)))};
+    std::vector<Cell> row{plain(fmt::format("{:.4g}", shown_units().length(sample.indentation)))};
     for (const Column& column : shown) {
       const double value = sample.*column.value;
-      row.push_back(std::isnan(value)
-                        ? plain("–")
-                        : plain(number(column.factor * value), with_prefix(value, column.si)));
+      row.push_back(std::isnan(value) ? plain("–")
+                                      : plain(number(column.unit(value)),
+                                              si_note(value, std::string(column.unit.si))));
     }
     table.rows.push_back(std::move(row));
   }
@@ -113,14 +113,14 @@ FigureBlock pressure_figure(const CsvTable& contact) {
   };
   const double cx = centre(x, centre_x), cy = centre(y, centre_y);
   Panel panel;
-  panel.x_label = "distance from the contact's centre [cm]";
-  panel.y_label = "pressure [gf/cm²]";
+  panel.x_label = shown_units().length.label("distance from the contact's centre");
+  panel.y_label = shown_units().stress.label("pressure");
   panel.key = "";
   Series series{"", "points", {}, {}, {}, {"#0072B2", "", 1.0, 7, false, 0.45}};
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!(pressure[i] > 0.0)) continue;
-    series.x.push_back(to_cm(std::hypot(x[i] - cx, y[i] - cy)));
-    series.y.push_back(to_gf_per_cm2(pressure[i]));
+    series.x.push_back(shown_units().length(std::hypot(x[i] - cx, y[i] - cy)));
+    series.y.push_back(shown_units().stress(pressure[i]));
   }
   panel.series.push_back(std::move(series));
   panel.x_range = Range{0.0, meshes::unknown};
@@ -141,21 +141,21 @@ Chapter press_chapter(const meshes::PressResponse& response, const CsvTable& con
                    760,
                    420,
                    1,
-                   {curve_panel(response, "normal force [gf]", &meshes::PressSample::normal_force,
-                                to_gf(1.0))}},
+                   {curve_panel(response, shown_units().force.label("normal force"),
+                                &meshes::PressSample::normal_force, shown_units().force.factor)}},
                   "Normal force against indentation",
                   "Indentation counts from first touch."});
   chapter.blocks.push_back(sample_table(response));
   if (known(response, &meshes::PressSample::contact_radius))
-    chapter.blocks.push_back(
-        FigureBlock{{"contact_radius",
-                     760,
-                     340,
-                     1,
-                     {curve_panel(response, "contact radius [cm]",
-                                  &meshes::PressSample::contact_radius, to_cm(1.0))}},
-                    "Contact radius against indentation",
-                    "Where a lattice touches with single points, its contact grows in steps."});
+    chapter.blocks.push_back(FigureBlock{
+        {"contact_radius",
+         760,
+         340,
+         1,
+         {curve_panel(response, shown_units().length.label("contact radius"),
+                      &meshes::PressSample::contact_radius, shown_units().length.factor)}},
+        "Contact radius against indentation",
+        "Where a lattice touches with single points, its contact grows in steps."});
   if (!contact.empty()) chapter.blocks.push_back(pressure_figure(contact));
   return chapter;
 }

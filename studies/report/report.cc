@@ -284,9 +284,13 @@ std::vector<Damaged> damaged_parts(const FolderReader& reader) {
 
 }  // namespace reporting
 
-Damages write_report(const std::filesystem::path& run_folder) {
+Damages write_report(const std::filesystem::path& run_folder, std::optional<UnitSystem> units) {
   using namespace reporting;
   FolderReader reader;
+  const auto own = [&] {
+    return unit_system(text_at(reader.json(run_folder / "manifest.json"), "units"));
+  };
+  const ShowIn shown(units ? *units : reader.attempt(own));
   Page page;
   if (std::filesystem::exists(run_folder / "bench.json")) {
     page = bench_page(run_folder, reader);

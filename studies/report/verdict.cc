@@ -41,8 +41,7 @@ std::string describe(const RunData& run, const ModelData& model) {
   const std::size_t least = extreme(model, -1.0), most = extreme(model, 1.0);
   if (least == model.force_error.size()) return model.name + " is unknown";
   const auto at = [&](std::size_t i) {
-    return fmt::format("{} at {:.4g}{}cm", percent(model.force_error[i]), to_cm(run.depths[i]),
-                       gap);
+    return percent(model.force_error[i]) + " at " + shown_units().length.text(run.depths[i]);
   };
   const bool flat = model.force_error[most] - model.force_error[least] < 5e-4;
   if (flat) return fmt::format("{} is off by {}", model.name, percent(model.force_error[most]));
@@ -83,27 +82,36 @@ bool is_ratio(const Constant& constant) {
 
 Cell constant_cell(const Constant& constant, double value, double target) {
   const double error = deviation(value, target);
-  const double shown = is_ratio(constant) ? value : to_gf_per_cm2(value);
+  const double shown = is_ratio(constant) ? value : shown_units().stress(value);
   return {number(shown), percent(error), grade(error)};
+}
+
+/// Shown number, and below it what it is in the other system: the paper gives its rubber in gf and
+/// cm.
+Cell in_both(double value, ShownUnit ShownUnits::*quantity) {
+  const bool paper = shown_units().system == UnitSystem::paper;
+  const ShownUnits& other = units_of(paper ? UnitSystem::si : UnitSystem::paper);
+  return plain(with_unit(value, shown_units().*quantity), with_unit(value, other.*quantity));
 }
 
 Cell target_cell(const Constant& constant, double target) {
   if (is_ratio(constant)) return {number(target), "", Grade::none};
-  return {number(to_gf_per_cm2(target)), with_prefix(target, "Pa"), Grade::none};
+  return in_both(target, &ShownUnits::stress);
 }
 
 Table verdict_table(const RunData& run) {
   Table table;
-  table.caption =
-      "Every model against the rubber (elastic constants in gf/cm², deviation below) and against "
-      "the continuum (error of the normal force at each indentation). Real time: simulated over "
-      "wall time.";
+  table.caption = "Every model against the rubber (elastic constants in " +
+                  unit_name(shown_units().stress) +
+                  ", deviation below) and against the continuum (error of the normal force at each "
+                  "indentation). Real time: simulated over "
+                  "wall time.";
   table.graded = true;
   table.header = {{"Model", "", Grade::none}};
   for (const Constant& constant : constants)
     table.header.push_back({constant.label, "", Grade::none});
   for (double depth : run.depths) {
-    table.header.push_back({"F", fmt::format("{:.4g} cm", to_cm(depth)), Grade::none});
+    table.header.push_back({"F", shown_units().length.text(depth), Grade::none});
   }
   table.header.push_back({"F", "rel. L²", Grade::none});
   table.header.push_back({"Real time", "factor", Grade::none});
@@ -112,8 +120,7 @@ Table verdict_table(const RunData& run) {
     target.push_back(target_cell(constant, run.target.*constant.target));
   for (double depth : run.depths) {
     const double f = force_at(run.reference, depth);
-    target.push_back(
-        {std::isfinite(f) ? number(to_gf(f)) + gap + "gf" : "–", with_prefix(f, "N"), Grade::none});
+    target.push_back(std::isfinite(f) ? in_both(f, &ShownUnits::force) : plain("–"));
   }
   target.push_back({"", "", Grade::none});
   target.push_back({"", "", Grade::none});
@@ -165,16 +172,18 @@ std::string plain_number(double value, const char* format) {
 std::string text_table(const RunData& run) {
   std::string text = fmt::format("{:<12}", "model");
   for (const Constant& constant : constants) text += cell(constant.ascii, 8);
-  for (double depth : run.depths) text += cell(fmt::format("F {:.4g} cm", to_cm(depth)), 11);
+  for (double depth : run.depths) text += cell("F " + shown_units().length.text(depth), 11);
   text += cell("real time", 11) + "\n" + fmt::format("{:<12}", "target");
   const auto shown = [](const Constant& constant, double value) {
     return is_ratio(constant) ? plain_number(value, "{:.4f}")
-                              : plain_number(to_gf_per_cm2(value), "{:.2f}");
+                              : plain_number(shown_units().stress(value), "{:.2f}");
   };
   for (const Constant& constant : constants)
     text += cell(shown(constant, run.target.*constant.target), 8);
   for (double depth : run.depths) {
-    text += cell(plain_number(to_gf(force_at(run.reference, depth)), "{:.4g} gf"), 11);
+    text += cell(plain_number(shown_units().force(force_at(run.reference, depth)), "{:.4g} ") +
+                     std::string(shown_units().force.ascii),
+                 11);
   }
   text += "\n";
   for (const ModelData& model : run.models) {
@@ -184,7 +193,8 @@ std::string text_table(const RunData& run) {
     for (double error : model.force_error) text += cell(plain_percent(error), 11);
     text += cell(plain_number(model.real_time_factor, "{:.3g}"), 11) + "\n";
   }
-  return text + "moduli in gf/cm^2; F: force of the continuum, error of the models\n";
+  return text + fmt::format("moduli in {}; F: force of the continuum, error of the models\n",
+                            shown_units().stress.ascii);
 }
 
 }  // namespace
