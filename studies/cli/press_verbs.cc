@@ -140,7 +140,10 @@ void print_control(const JsonEntry& summary) {
         " {} at {} at the end ({:.3g} s),", force.text(number_at(end, "normal_force")),
         shown_units().length.text(number_at(end, "indentation")), number_at(end, "time"));
   }
-  if (!std::isnan(tilt)) text += fmt::format(" tilt within {:.2g} degrees", tilt);
+  // What is no more than round-off is not told by its digits.
+  if (!std::isnan(tilt))
+    text +=
+        fmt::format(" tilt within {} degrees", tilt < 1e-9 ? "1e-9" : fmt::format("{:.2g}", tilt));
   fmt::print("{}\n", text);
 }
 

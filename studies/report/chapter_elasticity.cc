@@ -213,9 +213,11 @@ void add_calibrations(const RunData& run, Chapter& chapter) {
          Grade::none},
         {number(shown_units().length(number_at(source, "spacing"))), "", Grade::none}};
     for (const char* key : {"k1", "k2", "k3"}) {
-      row.push_back({with_prefix(number_at(constants, key), "N/m"), "", Grade::none});
+      row.push_back(
+          {with_unit(number_at(constants, key), shown_units().stiffness), "", Grade::none});
     }
-    row.push_back({with_prefix(number_at(constants, "kappa"), "Pa"), "", Grade::none});
+    row.push_back(
+        {with_unit(number_at(constants, "kappa"), shown_units().stress), "", Grade::none});
     row.push_back({null_directions(model.calibration), "", Grade::none});
     table.rows.push_back(std::move(row));
   }

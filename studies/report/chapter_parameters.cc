@@ -204,11 +204,10 @@ void add_directions(Blocks& blocks, const Fit& fit, const std::string& key,
     if (std::isfinite(share))
       text += fmt::format(" Singular value: {} of the largest.", percent_magnitude(share));
     if (std::isfinite(width))
-      text +=
-          width <= 1.0
-              ? fmt::format(" 95 % interval along it: ±{} of the parameters.",
-                            percent_magnitude(width))
-              : std::string(" 95 % interval along it: wider than the parameters themselves.");
+      text += width <= 1.0
+                  ? fmt::format(" 95 % interval along it: ±{} of the parameters.",
+                                percent_magnitude(width))
+                  : std::string(" 95 % interval along it: wider than the parameters themselves.");
     blocks.push_back(Paragraph{lead, text, true});
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "studies/report/calibration_chapters.h"
@@ -99,44 +100,60 @@ Cell target_cell(const Constant& constant, double target) {
   return in_both(target, &ShownUnits::stress);
 }
 
-Table verdict_table(const RunData& run) {
+/// A row per model below the target's.
+Table model_table(const RunData& run, std::vector<Cell> header, std::vector<Cell> target,
+                  const std::function<void(const ModelData&, std::vector<Cell>&)>& fill) {
   Table table;
-  table.caption = "Every model against the rubber (elastic constants in " +
-                  unit_name(shown_units().stress) +
-                  ", deviation below) and against the continuum (error of the normal force at each "
-                  "indentation). Real time: simulated over "
-                  "wall time.";
   table.graded = true;
-  table.header = {{"Model", "", Grade::none}};
-  for (const Constant& constant : constants)
-    table.header.push_back({constant.label, "", Grade::none});
-  for (double depth : run.depths) {
-    table.header.push_back({"F", shown_units().length.text(depth), Grade::none});
-  }
-  table.header.push_back({"F", "rel. L²", Grade::none});
-  table.header.push_back({"Real time", "factor", Grade::none});
-  std::vector<Cell> target{{"Target", "rubber, continuum", Grade::none}};
-  for (const Constant& constant : constants)
-    target.push_back(target_cell(constant, run.target.*constant.target));
-  for (double depth : run.depths) {
-    const double f = force_at(run.reference, depth);
-    target.push_back(std::isfinite(f) ? in_both(f, &ShownUnits::force) : plain("–"));
-  }
-  target.push_back({"", "", Grade::none});
-  target.push_back({"", "", Grade::none});
+  table.header = std::move(header);
   table.rows.push_back(std::move(target));
   for (const ModelData& model : run.models) {
-    const std::string status = model.status == "ok" ? "" : model.status;
-    std::vector<Cell> row{{model_label(model.name), status, Grade::none}};
-    for (const Constant& constant : constants) {
-      row.push_back(
-          constant_cell(constant, model.moduli.*constant.value, run.target.*constant.target));
-    }
-    for (double error : model.force_error) row.push_back({percent(error), "", grade(error)});
-    row.push_back({percent_magnitude(model.l2_error), "", grade(model.l2_error)});
-    row.push_back({number(model.real_time_factor, 3), "", Grade::none});
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(
+        {plain(model_label(model.name), model.status == "ok" ? "" : model.status)});
+    fill(model, table.rows.back());
   }
+  return table;
+}
+
+Table constants_table(const RunData& run) {
+  std::vector<Cell> header{plain("Model")}, target{plain("Target", "rubber, continuum")};
+  for (const Constant& constant : constants) {
+    header.push_back(plain(constant.label));
+    target.push_back(target_cell(constant, run.target.*constant.target));
+  }
+  header.push_back(plain("Real time", "factor"));
+  target.push_back(plain(""));
+  Table table = model_table(
+      run, std::move(header), std::move(target), [&](const ModelData& model, auto& row) {
+        for (const Constant& constant : constants)
+          row.push_back(
+              constant_cell(constant, model.moduli.*constant.value, run.target.*constant.target));
+        row.push_back(plain(number(model.real_time_factor, 3)));
+      });
+  table.caption = fmt::format(
+      "Every model against the rubber: elastic constants in {}, deviation below. Real time: "
+      "simulated over wall time.",
+      shown_units().stress.name);
+  return table;
+}
+
+Table force_table(const RunData& run) {
+  std::vector<Cell> header{plain("Model")}, target{plain("Continuum")};
+  for (const double depth : run.depths) {
+    const double f = force_at(run.reference, depth);
+    header.push_back(plain("F", shown_units().length.text(depth)));
+    target.push_back(std::isfinite(f) ? in_both(f, &ShownUnits::force) : plain("–"));
+  }
+  header.push_back(plain("F", "rel. L²"));
+  target.push_back(plain(""));
+  Table table =
+      model_table(run, std::move(header), std::move(target), [](const ModelData& model, auto& row) {
+        for (const double error : model.force_error)
+          row.push_back({percent(error), "", grade(error)});
+        row.push_back({percent_magnitude(model.l2_error), "", grade(model.l2_error)});
+      });
+  table.caption =
+      "Every model against the continuum: error of the normal force at each indentation.";
   return table;
 }
 
@@ -233,7 +250,10 @@ std::string answer(const RunData& run, FolderReader& reader) {
 Chapter verdict_chapter(const RunData& run) {
   Chapter chapter{"verdict", "Verdict", {}};
   if (!run.description.empty()) chapter.blocks.push_back(Paragraph{"", run.description});
-  if (!run.models.empty()) chapter.blocks.push_back(verdict_table(run));
+  if (!run.models.empty()) {
+    chapter.blocks.push_back(force_table(run));
+    chapter.blocks.push_back(constants_table(run));
+  }
   if (!run.criteria.empty()) chapter.blocks.push_back(criteria_table(run));
   return chapter;
 }
