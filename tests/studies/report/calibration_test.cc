@@ -76,7 +76,7 @@ TEST_F(FitReport, TellsTheResultWithItsDoubts) {
         "Chi-square is 40.00 with 8 degrees of freedom", "3.2×10⁻⁶",
         "The residuals are larger than sigma explains", "One run: the model is too soft.",
         "E and G that rise together", "stick, tilt 20 deg", "of a curve that was left out, 7.7 %",
-        "25.49", "333.0", "20.0 % of the thickness", "Two presses were fitted."})
+        "2.500", "333.0", "20.0 % of the thickness", "Two presses were fitted."})
     EXPECT_TRUE(has(text, part)) << part;
   EXPECT_TRUE(has(text, "reported")) << "which of the minima";
   EXPECT_FALSE(has(text, "Truth"));
@@ -105,12 +105,12 @@ TEST_F(FitReport, WarnsOnlyWhereThereIsSomethingToWarnOf) {
   EXPECT_TRUE(has(visible_text(ratio), "ν ended at the limit set for the search"));
 }
 
-TEST_F(FitReport, CurvesAreInGramForceAndResidualsInSigma) {
+TEST_F(FitReport, CurvesAreInMillinewtonAndResidualsInSigma) {
   report();
   const auto measured = rows("fit_curves", "stick measured");
   ASSERT_EQ(measured.size(), 5u);
-  EXPECT_NEAR(measured[4][0], 0.2, 1e-12);
-  EXPECT_NEAR(measured[4][1], 1.1 * 1.02 * 1000.0 * std::pow(0.002, 1.5) / 9.80665e-3, 1e-9);
+  EXPECT_NEAR(measured[4][0], 2.0, 1e-12);
+  EXPECT_NEAR(measured[4][1], 1.1 * 1.02 * 1000.0 * std::pow(0.002, 1.5) * 1e3, 1e-9);
   for (const auto& row : rows("fit_curves", "stick")) EXPECT_NEAR(row[2], 2.0, 1e-9);
   EXPECT_TRUE(has(svg("fit_curves"), "force [mN]"));
   EXPECT_TRUE(has(svg("fit_curves"), "residual / sigma"));
@@ -124,7 +124,7 @@ TEST_F(FitReport, ProfileLinesAreThoseOfTheCovariance) {
   for (const auto& [series, level] : {std::pair{"68 %", 2.30}, {"95 %", 5.99}, {"ellipse", 5.99}}) {
     for (const auto& row : rows("fit_profile", series)) {
       if (std::isnan(row[0])) continue;
-      const double u = (row[0] * 98.0665 - 4000.0) / 80.0, v = (row[1] * 98.0665 - 1400.0) / 42.0;
+      const double u = (row[0] * 1e3 - 4000.0) / 80.0, v = (row[1] * 1e3 - 1400.0) / 42.0;
       EXPECT_NEAR((u * u - 1.2 * u * v + v * v) / 0.64, level, 0.02) << series;
       if (level > 5.0) widest = std::fmax(widest, u);
       ++points;
@@ -161,7 +161,7 @@ TEST_F(FitReport, SurfacesShowRuleAndFit) {
     least = std::fmin(least, row[3]), most = std::fmax(most, row[3]);
     EXPECT_NEAR(std::hypot(row[0], row[1], row[2]), row[3], 1e-9 * row[3]);
   }
-  EXPECT_NEAR(least, moduli["E_100"].get<double>() / 98.0665, 1e-6);
+  EXPECT_NEAR(least, moduli["E_100"].get<double>() / 1e3, 1e-6);
   EXPECT_NEAR(most, moduli["E_111"].get<double>() / 1e3, 0.01 * most);
   // k1 = k2 = aG, k3 = 0: isotropic with this G, and lambda = kappa + G.
   const double G = 1400.0, lambda = 9100.0;

@@ -98,15 +98,15 @@ TEST(Report, LeavesNothingButItsOwnFiles) {
   }
 }
 
-// 3.18403 E and 1.47701 E are the paper's stiffnesses; 89.9, 124.5, 142.9 and 59.1 gf/cm² follow.
+// 3.18403 E and 1.47701 E are the paper's stiffnesses; 8.818, 12.21, 14.01 and 5.794 kPa follow.
 TEST(Report, VerdictTableShowsTheModuliAndTheirDeviations) {
   SyntheticRun run;
   const std::string text = report_testing::visible_text(run.report());
-  for (const char* number : {"89.92", "124.5", "142.9", "59.08"})
+  for (const char* number : {"8.818", "12.21", "14.01", "5.794"})
     EXPECT_TRUE(has(text, number)) << number;
-  EXPECT_TRUE(has(text, "+125 %")) << "E_100 of the published model against 40 gf/cm²";
-  EXPECT_TRUE(has(text, "24.83")) << "K of the central model";
-  EXPECT_TRUE(has(text, "−73.4 %")) << "its deviation from 93.33 gf/cm²";
+  EXPECT_TRUE(has(text, "+125 %")) << "E_100 of the published model against 3.923 kPa";
+  EXPECT_TRUE(has(text, "2.435")) << "K of the central model";
+  EXPECT_TRUE(has(text, "−73.4 %")) << "its deviation from 9.153 kPa";
   EXPECT_TRUE(has(text, "+100 %")) << "force error of the published model";
   EXPECT_TRUE(has(text, "−10.0 %"));
   EXPECT_TRUE(has(text, "+2.0 %"));
@@ -168,7 +168,7 @@ TEST(Report, PolarPlotReachesTheModuliOfTheOtherDirections) {
     if (std::abs(std::stod(line.substr(comma + 1))) < 1e-6)
       along = std::max(along, std::stod(line.substr(start.size())));
   }
-  EXPECT_NEAR(along, double(published["E_110"]) / 98.0665, 1e-6);
+  EXPECT_NEAR(along, double(published["E_110"]) / 1e3, 1e-6);
 }
 
 TEST(Report, MissingChaptersAreLeftOutAndNamed) {
