@@ -42,7 +42,7 @@ std::string describe(const RunData& run, const ModelData& model) {
   const std::size_t least = extreme(model, -1.0), most = extreme(model, 1.0);
   if (least == model.force_error.size()) return model.name + " is unknown";
   const auto at = [&](std::size_t i) {
-    return percent(model.force_error[i]) + " at " + shown_units().length.text(run.depths[i]);
+    return percent(model.force_error[i]) + " at " + length(run.depths[i]);
   };
   const bool flat = model.force_error[most] - model.force_error[least] < 5e-4;
   if (flat) return fmt::format("{} is off by {}", model.name, percent(model.force_error[most]));

@@ -31,13 +31,13 @@ std::vector<std::string> bad_values(const Key& key) {
   std::vector<std::string> bad = {"1979-05-27"};
   switch (key.kind) {
     case Kind::quantity:
-      bad.insert(bad.end(), {"17", "\"3\"", "\"3 furlong\"", "\"inf m\""});
+      bad.insert(bad.end(), {"17", "\"3\"", "\"3 candela\"", "\"inf m\""});
       break;
     case Kind::choice: bad.insert(bad.end(), {"\"nonsense\"", "17"}); break;
     case Kind::integer: bad.insert(bad.end(), {"1.5", "\"two\"", "1e300"}); break;
     case Kind::number: bad.insert(bad.end(), {"\"3 m\"", "nan", "true"}); break;
     case Kind::boolean: bad.insert(bad.end(), {"2", "\"yes\""}); break;
-    case Kind::quantities: bad.insert(bad.end(), {"\"3 m\"", "[17]", "[\"3 furlong\"]"}); break;
+    case Kind::quantities: bad.insert(bad.end(), {"\"3 m\"", "[17]", "[\"3 candela\"]"}); break;
     case Kind::numbers:
     case Kind::number_pair: bad.insert(bad.end(), {"7", "[7]", "[\"a\", \"b\", \"c\"]"}); break;
     case Kind::texts:
