@@ -44,6 +44,9 @@ std::string fit_statement(const FitRecord& record);
 
 /// Half width of the 95 % interval of Poisson's ratio where E and G are sought; else 0.
 double poissons_ratio_interval(const CurveFit& fit);
+/// A half width beyond which Poisson's ratio counts as not determined: half of what rubbers have,
+/// 0 to 1/2.
+inline constexpr double open_ratio = 0.25;
 
 /// Why constants of this fit must not be used as they are, a sentence each; none: it passed its own
 /// tests. It fails where the search did not end; where the model does not describe the data

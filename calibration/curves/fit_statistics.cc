@@ -23,6 +23,11 @@ std::string number(double value) {
   return rounded(value, 2);
 }
 
+/// An interval over the size of what it is about: beyond that size its digits tell nothing.
+std::string interval_text(double relative) {
+  return relative <= 1.0 ? "is +-" + number(100.0 * relative) + " %" : "exceeds +-100 %";
+}
+
 /// The largest component becomes 1.
 Eigen::VectorXd normalised(const Eigen::VectorXd& direction) {
   Index largest = 0;
@@ -83,10 +88,10 @@ std::string statement_of(const Direction& direction, const Eigen::VectorXd& chan
   const std::string changes = describe_changes(direction.changes, parameters);
   if (parameters.size() == 1)
     return "the curves do not determine " + std::string(name(parameters.front())) +
-           ": its 95 % interval is +-" + number(100.0 * direction.interval) + " % of its size";
+           ": its 95 % interval " + interval_text(direction.interval) + " of its size";
   return "the curves hardly see the change " + changes +
-         " (of each parameter over its size): along it the 95 % interval is +-" +
-         number(100.0 * direction.interval) + " %, and the values respond " +
+         " (of each parameter over its size): along it the 95 % interval " +
+         interval_text(direction.interval) + ", and the values respond " +
          number(direction.relative_singular_value) +
          " times as strongly as to the best-seen change" +
          open_combination(change, direction.changes, parameters);

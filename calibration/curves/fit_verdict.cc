@@ -50,8 +50,8 @@ void judge_bounds(Sentences& found, const FitRecord& record) {
                       std::string(unit(fit.parameters[i])));
 }
 
-/// An interval as wide as what rubbers have, 0 to 1/2.
-constexpr double open_ratio = 0.25;
+/// Half of what elastic solids have, -1 to 1/2.
+constexpr double whole_ratio = 0.75;
 
 void judge_identifiability(Sentences& found, const FitRecord& record) {
   const CurveFit& fit = record.fit;
@@ -66,9 +66,11 @@ void judge_identifiability(Sentences& found, const FitRecord& record) {
     return;
   }
   const double width = poissons_ratio_interval(fit);
-  if (width > open_ratio)
-    found.push_back("the data do not determine Poisson's ratio (95 %: +-" + rounded(width, 2) +
-                    ")" + remedy);
+  if (!(width <= open_ratio)) {
+    const std::string told =
+        width <= whole_ratio ? "+-" + rounded(width, 2) : "wider than -1 to 1/2, all there is";
+    found.push_back("the data do not determine Poisson's ratio (95 %: " + told + ")" + remedy);
+  }
 }
 
 void judge_material(Sentences& found, const FitRecord& record) {

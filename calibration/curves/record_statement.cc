@@ -28,7 +28,9 @@ std::string ratio_text(const CurveFit& fit) {
   const double ratio = estimate(MaterialParameter::youngs_modulus) /
                            (2.0 * estimate(MaterialParameter::shear_modulus)) -
                        1.0;
-  return rounded(ratio, 3) + " +- " + rounded(poissons_ratio_interval(fit), 2);
+  const double width = poissons_ratio_interval(fit);
+  if (!(width <= open_ratio)) return "is not determined by these data";
+  return rounded(ratio, 3) + " +- " + rounded(width, 2);
 }
 
 std::string estimates(const CurveFit& fit) {

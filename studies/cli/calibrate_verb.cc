@@ -4,7 +4,7 @@
 
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
-#include "studies/config/units.h"
+#include "studies/files/shown_units.h"
 #include "studies/run/fit_plan.h"
 #include "studies/run/json_file.h"
 
@@ -27,67 +27,69 @@ bool run_stages(FitPlan& plan, Session& session) {
 }
 
 void print_moduli(const ordered_json& content) {
-  fmt::print("{:<22}{:>14}{:>14}{:>22}\n", "", "target", "achieved", "achieved [gf/cm^2]");
+  const ShownUnit& stress = shown_units().stress;
+  fmt::print("{:<22}{:>14}{:>14}\n", "", "target", "achieved");
   const auto& target = content["target"];
   const auto& achieved = content["achieved"];
   const auto row = [&](const char* name, const char* wanted, const char* reached) {
-    const double pascal = achieved[reached].get<double>();
-    fmt::print("{:<22}{:>14.6g}{:>14.6g}{:>22.6g}\n", name, 1e-3 * target[wanted].get<double>(),
-               1e-3 * pascal, convert(pascal, "Pa", "gf/cm^2"));
+    fmt::print("{:<22}{:>14.6g}{:>14.6g}\n", fmt::format("{} [{}]", name, stress.ascii),
+               stress(target[wanted].get<double>()), stress(achieved[reached].get<double>()));
   };
-  row("E_100 [kPa]", "youngs_modulus", "youngs_modulus_100");
-  row("E_110 [kPa]", "youngs_modulus", "youngs_modulus_110");
-  row("E_111 [kPa]", "youngs_modulus", "youngs_modulus_111");
-  row("G [kPa]", "shear_modulus", "shear_modulus");
-  row("K [kPa]", "bulk_modulus", "bulk_modulus");
+  row("E_100", "youngs_modulus", "youngs_modulus_100");
+  row("E_110", "youngs_modulus", "youngs_modulus_110");
+  row("E_111", "youngs_modulus", "youngs_modulus_111");
+  row("G", "shear_modulus", "shear_modulus");
+  row("K", "bulk_modulus", "bulk_modulus");
   fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "nu_100", target["poissons_ratio"].get<double>(),
              achieved["poissons_ratio_100"].get<double>());
   fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "anisotropy A", 1.0,
              achieved["anisotropy"].get<double>());
 }
 
-/// SI beside the units of the paper.
+/// A value as the table of units shows it, and its unit.
+std::pair<double, std::string> as_shown(double value, const std::string& si) {
+  const ShownUnit* unit = shown_units().of(si);
+  return unit == nullptr ? std::pair(value, si)
+                         : std::pair((*unit)(value), std::string(unit->ascii));
+}
+
 void print_parameters(const ordered_json& content) {
-  fmt::print("{:<24}{:>14}{:>14}{:>14}  {:<8}{:>16}\n", "", "estimate", "95 % from", "to", "unit",
-             "[gf, cm]");
+  fmt::print("{:<24}{:>14}{:>14}{:>14}  {}\n", "", "estimate", "95 % from", "to", "unit");
   const bool ratio_bound = !content.value("poissons_ratio_bound", ordered_json()).is_null();
   for (const ordered_json& one : content["parameters"]) {
-    const std::string unit = one["unit"];
-    const double value = number_of(one["estimate"]);
-    const std::string other =
-        unit == "Pa"    ? fmt::format("{:.5g} gf/cm^2", convert(value, "Pa", "gf/cm^2"))
-        : unit == "N/m" ? fmt::format("{:.5g} gf/cm", convert(value, "N/m", "gf/cm"))
-                        : "";
-    const double lower = number_of(one["lower"]), upper = number_of(one["upper"]);
+    const std::string si = one["unit"];
+    const auto [value, unit] = as_shown(number_of(one["estimate"]), si);
+    const double lower = as_shown(number_of(one["lower"]), si).first,
+                 upper = as_shown(number_of(one["upper"]), si).first;
     // Where Poisson's ratio has stopped at a bound neither modulus has an interval of its own.
     const bool open = !(upper - lower <= 2.0 * std::abs(value)) ||
                       (ratio_bound && one["name"].get<std::string>() != "modulus");
     const auto end = [&](double number) {
       return open ? std::string("open") : fmt::format("{:.6g}", number);
     };
-    fmt::print("{:<24}{:>14.6g}{:>14}{:>14}  {:<8}{:>16}\n", one["name"].get<std::string>(), value,
-               end(lower), end(upper), unit, other);
+    fmt::print("{:<24}{:>14.6g}{:>14}{:>14}  {}\n", one["name"].get<std::string>(), value,
+               end(lower), end(upper), unit);
   }
 }
 
 /// What a press takes: spring constants, or the network's moduli.
 void print_constants(const ordered_json& content) {
-  const auto row = [](const char* name, double value, const char* unit, const char* other) {
-    fmt::print("{:<24}{:>14.6g} {:<6}{:>14.6g} {}\n", name, value, unit,
-               convert(value, unit, other), other);
+  const auto row = [](const char* name, const ordered_json& number, const char* si) {
+    const auto [value, unit] = as_shown(number_of(number), si);
+    fmt::print("{:<24}{:>14.6g} {}\n", name, value, unit);
   };
   const ordered_json& constants = content["constants"];
   const bool network = content["model"] == "network";
-  fmt::print("\nconstants of the lattice, {}, spacing {:.6g} mm\n",
-             content["model"].get<std::string>(), 1e3 * number_of(content["spacing"]));
+  fmt::print("\nconstants of the lattice, {}, spacing {}\n", content["model"].get<std::string>(),
+             shown_units().length.text(number_of(content["spacing"])));
   if (network) {
-    row("E", number_of(content["achieved"]["youngs_modulus_100"]), "Pa", "gf/cm^2");
-    row("G", number_of(constants["G"]), "Pa", "gf/cm^2");
-    row("lambda", number_of(constants["lambda"]), "Pa", "gf/cm^2");
+    row("E", content["achieved"]["youngs_modulus_100"], "Pa");
+    row("G", constants["G"], "Pa");
+    row("lambda", constants["lambda"], "Pa");
     return;
   }
-  for (const char* name : {"k1", "k2", "k3"}) row(name, number_of(constants[name]), "N/m", "gf/cm");
-  row("kappa", number_of(constants["kappa"]), "Pa", "gf/cm^2");
+  for (const char* name : {"k1", "k2", "k3"}) row(name, constants[name], "N/m");
+  row("kappa", constants["kappa"], "Pa");
 }
 
 /// The rubber that measured curves tell.
@@ -95,8 +97,10 @@ void print_rubber(const ordered_json& content) {
   if (!content.contains("rubber") || content["problem"] == "damping") return;
   const double e = number_of(content["rubber"]["youngs_modulus"]),
                g = number_of(content["rubber"]["shear_modulus"]);
-  fmt::print("\nrubber: E {:.6g} kPa, G {:.6g} kPa, lambda {:.6g} kPa, Poisson's ratio {:.4f}\n",
-             1e-3 * e, 1e-3 * g, 1e-3 * g * (e - 2.0 * g) / (3.0 * g - e), 0.5 * e / g - 1.0);
+  const ShownUnit& stress = shown_units().stress;
+  fmt::print("\nrubber: E {:.6g} {u}, G {:.6g} {u}, lambda {:.6g} {u}, Poisson's ratio {:.4f}\n",
+             stress(e), stress(g), stress(g * (e - 2.0 * g) / (3.0 * g - e)), 0.5 * e / g - 1.0,
+             fmt::arg("u", stress.ascii));
 }
 
 /// Exit code of a fit that failed its own tests, with what that means on stderr.

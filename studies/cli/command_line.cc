@@ -16,6 +16,7 @@ enum Options : unsigned {
   config_options = 1U,  ///< --config, --set
   run_options = 2U,     ///< --threads, --progress, --resume
   out_options = 4U,     ///< --out, --force
+  units_option = 8U,    ///< --set run.units=...
 };
 
 struct Verb {
@@ -39,8 +40,8 @@ constexpr Verb verbs[] = {
     {"reference", "press the continuum (finite elements)", "", "", everything},
     {"calibrate", "fit the spring constants of lattice.model to the rubber", "", "", everything},
     {"compare", "compare force curves with the continuum's or the first one's", "RUN",
-     "run folders", out_options},
-    {"report", "write report.html anew", "RUN", "run folders of validate", 0U},
+     "run folders", out_options | units_option},
+    {"report", "write report.html anew", "RUN", "run folders", units_option},
     {"sweep", "run a verb for all combinations of values, whole or in shards", "VERB",
      "press (default), modes, reference or grasp", everything},
     {"export", "write an undamped lattice ([exchange]) for LAMMPS", "", "",
@@ -70,6 +71,13 @@ void add_config(CLI::App& app, CommandLine& line) {
   app.add_option("--set", line.config.sets,
                  "one key, e.g. --set press.depth=\"0.2 cm\"; repeatable")
       ->type_name("section.key=value")
+      ->allow_extra_args(false);
+}
+
+void add_units(CLI::App& app, CommandLine& line) {
+  app.add_option("--set", line.config.sets,
+                 "run.units=si or run.units=paper; a page takes no other key")
+      ->type_name("run.units=value")
       ->allow_extra_args(false);
 }
 
@@ -141,6 +149,7 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
   const std::string name = verb.name;
   if (*verb.argument != '\0') sub.add_option(verb.argument, line.arguments, verb.argument_help);
   if ((verb.options & config_options) != 0U) add_config(sub, line);
+  if ((verb.options & units_option) != 0U) add_units(sub, line);
   if ((verb.options & run_options) != 0U) add_run(sub, line, progress, resume);
   if ((verb.options & out_options) != 0U) {
     sub.add_option("--out", line.out, name == "init" ? "file to write" : "folder to write")

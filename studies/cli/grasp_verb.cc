@@ -4,7 +4,7 @@
 
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
-#include "studies/config/units.h"
+#include "studies/files/shown_units.h"
 #include "studies/run/grasp_job.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_setup.h"
@@ -13,12 +13,8 @@ namespace fingertip::studies {
 
 namespace {
 
-/// "12.3 mN (1.25 gf)"
-std::string in_both(const nlohmann::ordered_json& force) {
-  if (!force.is_number()) return "-";
-  const double newton = force.get<double>();
-  return fmt::format("{:.4g} mN ({:.4g} gf)", convert(newton, "N", "mN"),
-                     convert(newton, "N", "gf"));
+std::string force_text(const nlohmann::ordered_json& force) {
+  return force.is_number() ? shown_units().force.text(force.get<double>()) : "-";
 }
 
 void print_row(const char* what, const std::string& value) {
@@ -30,13 +26,13 @@ void print_grasp(const lattice::GraspSetup& setup, const std::filesystem::path& 
   const lattice::FingerSetup& finger = setup.hand.finger;
   fmt::print("two {} fingers, {} contact: the block was {}\n", lattice::name(finger.lattice.model),
              meshes::name(finger.contact.mode), summary["fate"].get<std::string>());
-  print_row("grip force per finger, wanted", in_both(summary["wanted_force"]));
+  print_row("grip force per finger, wanted", force_text(summary["wanted_force"]));
   if (finger.contact.mode == meshes::ContactMode::coulomb) {
-    print_row("least one by m g/(2 mu)", in_both(summary["least_force_at_rest"]));
-    print_row("with the lift's acceleration", in_both(summary["least_force"]));
+    print_row("least one by m g/(2 mu)", force_text(summary["least_force_at_rest"]));
+    print_row("with the lift's acceleration", force_text(summary["least_force"]));
   }
   if (summary["slip_force"].is_number()) {
-    print_row("every point slides from", in_both(summary["slip_force"]));
+    print_row("every point slides from", force_text(summary["slip_force"]));
     print_row("tangential over normal force there",
               fmt::format("{:.4g}", summary["slip_ratio"].get<double>()));
   }
@@ -46,7 +42,7 @@ void print_grasp(const lattice::GraspSetup& setup, const std::filesystem::path& 
   print_row("tangential over normal force",
             fmt::format("{:.4g}", summary["held_ratio"].get<double>()));
   print_row("slip at the end of the hold",
-            fmt::format("{:.3g} mm", 1e3 * summary["held_slip"].get<double>()));
+            shown_units().length.text(summary["held_slip"].get<double>()));
 }
 
 }  // namespace

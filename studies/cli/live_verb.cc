@@ -6,6 +6,7 @@
 
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
+#include "studies/run/asked_units.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/press_setup.h"
 
@@ -14,6 +15,7 @@ namespace fingertip::studies {
 int run_live(const CommandLine& line) {
   const LoadedConfig loaded = load_checked(line);
   const lattice::PressSetup setup = press_setup(loaded);
+  const ShowIn units(asked_units(loaded));
   watch_for_interrupts();
   LiveOptions options;
   options.port = line.port;

@@ -7,9 +7,9 @@
 #include "meshes/press_response.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
-#include "studies/config/units.h"
 #include "studies/files/json_entry.h"
 #include "studies/files/mode_table.h"
+#include "studies/files/shown_units.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_notes.h"
@@ -21,24 +21,24 @@ namespace fingertip::studies {
 
 namespace {
 
-/// A cell of a table: the value in another unit, or nothing when it is unknown.
-std::string cell(double value, const char* from, const char* to, int decimals) {
+/// A cell of a table: the value as it is shown, or nothing when it is unknown.
+std::string cell(double value, const ShownUnit& unit) {
   if (std::isnan(value)) return fmt::format("{:>14}", "");
-  return fmt::format("{:14.{}f}", convert(value, from, to), decimals);
+  return fmt::format("{:14.4f}", unit(value));
 }
 
-/// The curve at the wanted depths, for a terminal; at the end the paper's unit of force.
+/// The curve at the wanted depths, for a terminal.
 void print_depths(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
+  const ShownUnit &length = shown_units().length, &force = shown_units().force;
   const bool aside = protocol.lateral != 0.0 && !protocol.slides_after();
-  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}{}\n", "depth [mm]", "force [mN]", "error [mN]",
-             "contact [mm]", "force [gf]", aside ? "  lateral [mN]" : "");
+  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}\n", length.label("depth"), force.label("force"),
+             force.label("error"), length.label("contact"), aside ? force.label("lateral") : "");
   for (const double depth : protocol.samples) {
     for (const meshes::PressSample& row : response.pressing()) {
       if (std::abs(row.indentation - depth) > 1e-6 * depth) continue;
-      fmt::print("{}{}{}{}{}{}\n", cell(row.indentation, "m", "mm", 4),
-                 cell(row.normal_force, "N", "mN", 4), cell(row.force_error, "N", "mN", 4),
-                 cell(row.contact_radius, "m", "mm", 4), cell(row.normal_force, "N", "gf", 4),
-                 aside ? cell(row.lateral_force_x, "N", "mN", 4) : "");
+      fmt::print("{}{}{}{}{}\n", cell(row.indentation, length), cell(row.normal_force, force),
+                 cell(row.force_error, force), cell(row.contact_radius, length),
+                 aside ? cell(row.lateral_force_x, force) : "");
       break;
     }
   }
@@ -47,13 +47,14 @@ void print_depths(const meshes::PressResponse& response, const meshes::PressProt
 /// The lateral motion that followed, if one did.
 void print_sliding(const meshes::PressResponse& response) {
   if (response.sliding().empty()) return;
-  fmt::print("then along the plane at {:.4g} mm:\n{:>14}{:>14}{:>14}{:>14}{:>14}\n",
-             1e3 * response.depth(), "lateral [mm]", "force [mN]", "error [mN]", "contact [mm]",
-             "lateral [mN]");
+  const ShownUnit &length = shown_units().length, &force = shown_units().force;
+  fmt::print("then along the plane at {}:\n{:>14}{:>14}{:>14}{:>14}{:>14}\n",
+             length.text(response.depth()), length.label("lateral"), force.label("force"),
+             force.label("error"), length.label("contact"), force.label("lateral"));
   for (const meshes::PressSample& row : response.sliding())
-    fmt::print("{}{}{}{}{}\n", cell(row.lateral_displacement, "m", "mm", 4),
-               cell(row.normal_force, "N", "mN", 4), cell(row.force_error, "N", "mN", 4),
-               cell(row.contact_radius, "m", "mm", 4), cell(row.lateral_force_x, "N", "mN", 4));
+    fmt::print("{}{}{}{}{}\n", cell(row.lateral_displacement, length),
+               cell(row.normal_force, force), cell(row.force_error, force),
+               cell(row.contact_radius, length), cell(row.lateral_force_x, force));
 }
 
 void print_response(const std::filesystem::path& folder, const meshes::PressProtocol& protocol) {
@@ -123,7 +124,7 @@ void print_accuracy(const std::filesystem::path& folder, const fem_reference::Re
   const bool reached = worst.relative <= order.tolerance;
   fmt::print("estimated error of the force: at most {:.3g} % ({:.3g} % wanted{})",
              100.0 * worst.relative, 100.0 * order.tolerance,
-             reached ? "" : fmt::format(", NOT REACHED at {:.4g} mm", 1e3 * worst.indentation));
+             reached ? "" : ", NOT REACHED at " + shown_units().length.text(worst.indentation));
   if (std::filesystem::exists(folder / "convergence.csv")) {
     const meshes::CsvTable meshes = meshes::read_csv(folder / "convergence.csv");
     const std::vector<double> unknowns = meshes.numbers("unknowns");
@@ -142,10 +143,11 @@ void print_control(const JsonEntry& summary) {
                speed = number_at(tracking, "speed_deviation"),
                tilt = number_at(tracking, "tilt_deg");
   const bool follows = tracking.at("follows_path").flag();
+  const ShownUnit& force = shown_units().force;
   std::string text = "controller:";
   if (!std::isnan(held)) {
-    text += fmt::format(" contact force {:.5g} mN held ({:.5g} mN wanted", 1e3 * held,
-                        1e3 * number_at(tracking, "wanted_force"));
+    text += fmt::format(" contact force {} held ({} wanted", force.text(held),
+                        force.text(number_at(tracking, "wanted_force")));
     if (!std::isnan(deviation))
       text += fmt::format(", within {:.2g} % in the last {:.0f} ms", 100.0 * deviation,
                           1e3 * held_time);
@@ -154,11 +156,14 @@ void print_control(const JsonEntry& summary) {
     text += fmt::format(" speed within {:.2f} %,", 100.0 * speed);
   }
   if (!follows && !std::isnan(number_at(end, "time"))) {
-    text += fmt::format(" {:.5g} mN at {:.4g} mm at the end ({:.3g} s),",
-                        1e3 * number_at(end, "normal_force"), 1e3 * number_at(end, "indentation"),
-                        number_at(end, "time"));
+    text += fmt::format(
+        " {} at {} at the end ({:.3g} s),", force.text(number_at(end, "normal_force")),
+        shown_units().length.text(number_at(end, "indentation")), number_at(end, "time"));
   }
-  if (!std::isnan(tilt)) text += fmt::format(" tilt within {:.2g} deg", tilt);
+  // What is no more than round-off is not told by its digits.
+  if (!std::isnan(tilt))
+    text +=
+        fmt::format(" tilt within {} degrees", tilt < 1e-9 ? "1e-9" : fmt::format("{:.2g}", tilt));
   fmt::print("{}\n", text);
 }
 

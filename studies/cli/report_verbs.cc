@@ -4,7 +4,9 @@
 
 #include "meshes/errors.h"
 #include "studies/cli/verbs.h"
+#include "studies/config/value_reader.h"
 #include "studies/report/report.h"
+#include "studies/run/asked_units.h"
 #include "studies/run/fresh_folder.h"
 
 namespace fingertip::studies {
@@ -13,6 +15,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The units that --set asks for.
+std::optional<UnitSystem> wanted_units(const CommandLine& line) {
+  const LoadedConfig loaded = load_config({{}, line.config.sets, {}});
+  for (const auto& [key, entry] : loaded.entries) {
+    if (entry.given && key != "run.units")
+      throw ConfigError({{entry.place, key, unquoted(entry.literal),
+                          "a page of finished runs takes run.units alone",
+                          "give the key to the verb that makes the run"}});
+  }
+  return loaded.entries.at("run.units").given ? std::optional(asked_units(loaded)) : std::nullopt;
+}
+
 void throw_damage(const Damages& damage) {
   if (!damage.empty()) throw meshes::InvalidInput(damage);
 }
@@ -20,6 +34,7 @@ void throw_damage(const Damages& damage) {
 }  // namespace
 
 int run_compare(const CommandLine& line) {
+  const std::optional<UnitSystem> wanted = wanted_units(line);
   std::vector<fs::path> runs;
   for (const std::string& run : line.arguments) {
     if (!fs::is_directory(run)) refuse("RUN " + run, "there is no such folder", "give a run's");
@@ -30,6 +45,7 @@ int run_compare(const CommandLine& line) {
            "choose another folder, or say --force to write into it");
   }
   const fs::path out = line.out.empty() ? make_run_folder("comparison") : line.out;
+  const ShowIn units(wanted.value_or(UnitSystem::si));
   const ComparisonResult result = write_comparison(runs, out);
   if (!line.quiet) {
     fmt::print("{}comparison: {}\n", result.text, (out / "comparison.html").string());
@@ -43,10 +59,11 @@ int run_report(const CommandLine& line) {
   if (line.arguments.empty()) {
     refuse("report", "no run folder is given", "give the folder of a run");
   }
+  const std::optional<UnitSystem> units = wanted_units(line);
   Damages damage;
   for (const std::string& run : line.arguments) {
     if (!fs::is_directory(run)) refuse("RUN " + run, "there is no such folder", "give a run's");
-    const Damages found = write_report(run);
+    const Damages found = write_report(run, units);
     damage.insert(damage.end(), found.begin(), found.end());
     if (line.quiet) continue;
     fmt::print("report: {}{}\n", (fs::path(run) / "report.html").string(),

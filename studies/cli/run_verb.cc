@@ -7,6 +7,7 @@
 #include "lattice/control/controller.h"
 #include "meshes/cannot_write.h"
 #include "meshes/errors.h"
+#include "studies/run/asked_units.h"
 #include "studies/run/cache.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/press_setup.h"
@@ -49,6 +50,7 @@ LoadedConfig load_checked(const CommandLine& line) {
 
 int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std::string& case_text,
                   const std::function<int(Session&)>& body) {
+  const ShowIn units(asked_units(loaded));
   watch_for_interrupts();
   RunFolder folder({line.verb, line.out, line.force, line.resume, line.words}, loaded, case_text);
   if (!line.quiet) {

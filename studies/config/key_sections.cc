@@ -437,6 +437,11 @@ std::vector<Key> run_keys() {
       plain("run", "threads", Kind::integer, "0", {0, 1024, true},
             "threads to use, 0 for all cores; results do not depend on it",
             [](Config& config, const Value& value) { config.press.threads = int(value.number); }),
+      choice("run", "units", "si",
+             {{"si", "mN, mm, kPa"}, {"paper", "gf, cm, gf/cm^2, as in the paper of 1996"}},
+             "units of screens, pages, figures and the live view; files keep theirs, and no result "
+             "depends on it",
+             [](Config&, const Value&) {}),
       choice(
           "run", "integrator", "symplectic-euler",
           {{"symplectic-euler", "velocities first, then positions"},

@@ -11,6 +11,7 @@
 #include "meshes/files.h"
 #include "studies/config/elasticity.h"
 #include "studies/config/key_table.h"
+#include "studies/config/trimmed.h"
 #include "studies/config/units.h"
 #include "studies/config/value_reader.h"
 
@@ -24,12 +25,6 @@ std::string joined(const std::vector<Problem>& problems) {
   std::string text;
   for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + to_string(problem);
   return text;
-}
-
-std::string without_blanks(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == text.npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 /// As entries have it: "1e-6" is "1e-06" there.
@@ -141,13 +136,13 @@ void Reader::read_file(const std::filesystem::path& file) {
 void Reader::read_set(const std::string& text) {
   const std::string place = "--set " + text;
   const auto equals = text.find('=');
-  const std::string name = without_blanks(text.substr(0, equals));
+  const std::string name(trimmed(std::string_view(text).substr(0, equals)));
   if (equals == text.npos) {
     problems_.push_back({place, name, "", "must have the form section.key=value",
                          "write e.g. --set press.depth=\"0.2 cm\""});
     return;
   }
-  read_assignment(place, name, without_blanks(text.substr(equals + 1)));
+  read_assignment(place, name, std::string(trimmed(std::string_view(text).substr(equals + 1))));
 }
 
 void Reader::read_assignment(const std::string& place, const std::string& name,

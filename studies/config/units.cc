@@ -10,6 +10,8 @@
 #include <mutex>
 #include <optional>
 
+#include "studies/config/trimmed.h"
+
 namespace fingertip::studies {
 
 namespace {
@@ -47,12 +49,6 @@ std::recursive_mutex& parser() {
 Unit parse_unit(const std::string& text) {
   const std::lock_guard lock(parser());
   return Unit(ut_parse(&units(), text.c_str(), UT_UTF8));
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 /// Whether the two differ by an angle. UDUNITS counts the radian as a mere number, so that 5 %

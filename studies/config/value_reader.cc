@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 
 #include "meshes/files.h"
 #include "studies/config/units.h"
@@ -226,7 +227,12 @@ std::string toml_literal(const toml::node& node) {
   }
   if (const auto* number = node.as_integer()) return std::to_string(number->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  return node.is_table() ? "{...}" : "a date or time";
+  // What no key takes, for the message that refuses it.
+  std::ostringstream text;
+  node.visit([&text](const auto& value) {
+    if constexpr (!toml::is_table<decltype(value)>) text << value;
+  });
+  return node.is_table() ? "{...}" : text.str();
 }
 
 std::string unquoted(const std::string& literal) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "studies/files/shown_units.h"
+
 namespace fingertip::studies {
 
 namespace {
@@ -18,21 +20,20 @@ constexpr double rounding = 1e-9;
 struct Number {
   const char* name;
   double PressCondition::*value;
-  double factor;  ///< from SI to the unit that is shown
-  const char* unit;
+  ShownUnit ShownUnits::*unit;  ///< null: a ratio or an angle
 };
 
 /// Those that make another problem of it when they differ.
 constexpr Number numbers[] = {
-    {"friction", &PressCondition::friction, 1.0, ""},
-    {"tip radius", &PressCondition::tip_radius, 1e3, " mm"},
-    {"rod radius", &PressCondition::rod_radius, 1e3, " mm"},
-    {"sleeve length", &PressCondition::sleeve_length, 1e3, " mm"},
-    {"rod length", &PressCondition::rod_length, 1e3, " mm"},
-    {"Young's modulus", &PressCondition::youngs_modulus, 1e-3, " kPa"},
-    {"shear modulus", &PressCondition::shear_modulus, 1e-3, " kPa"},
-    {"tilt", &PressCondition::tilt, 180.0 / std::numbers::pi, " deg"},
-    {"lateral motion on the way down", &PressCondition::lateral, 1e3, " mm"}};
+    {"friction", &PressCondition::friction, nullptr},
+    {"tip radius", &PressCondition::tip_radius, &ShownUnits::length},
+    {"rod radius", &PressCondition::rod_radius, &ShownUnits::length},
+    {"sleeve length", &PressCondition::sleeve_length, &ShownUnits::length},
+    {"rod length", &PressCondition::rod_length, &ShownUnits::length},
+    {"Young's modulus", &PressCondition::youngs_modulus, &ShownUnits::stress},
+    {"shear modulus", &PressCondition::shear_modulus, &ShownUnits::stress},
+    {"tilt", &PressCondition::tilt, nullptr},
+    {"lateral motion on the way down", &PressCondition::lateral, &ShownUnits::length}};
 
 bool differ(double a, double b) {
   return std::abs(a - b) > rounding * std::max(std::abs(a), std::abs(b));
@@ -42,8 +43,15 @@ bool differ(const std::string& a, const std::string& b) {
   return !a.empty() && !b.empty() && a != b;
 }
 
+std::string told(const Number& number, double value) {
+  if (number.value == &PressCondition::tilt)
+    return fmt::format("{:.4g} degrees", value * 180.0 / std::numbers::pi);
+  return number.unit == nullptr ? fmt::format("{:.4g}", value)
+                                : (shown_units().*number.unit).text(value);
+}
+
 std::string moved(double speed) {
-  return speed > 0.0 ? fmt::format("pressed at {:.4g} mm/s", 1e3 * speed) : "in equilibrium";
+  return speed > 0.0 ? "pressed at " + shown_units().speed.text(speed) : "in equilibrium";
 }
 
 }  // namespace
@@ -90,9 +98,8 @@ std::vector<ConditionDifference> differences(const PressCondition& press,
   for (const Number& number : numbers) {
     const double a = press.*number.value, b = other.*number.value;
     if (!differ(a, b)) continue;
-    found.push_back({fmt::format("{}: {:.4g}{u}, not {:.4g}{u}", number.name, number.factor * a,
-                                 number.factor * b, fmt::arg("u", number.unit)),
-                     true});
+    found.push_back(
+        {fmt::format("{}: {}, not {}", number.name, told(number, a), told(number, b)), true});
   }
   if (differ(press.strain, other.strain))
     found.push_back({fmt::format("{} strain, not {}", press.strain, other.strain), false});

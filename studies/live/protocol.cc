@@ -180,6 +180,22 @@ Parsed parse_message(std::string_view text) {
   return "there is no such type of message";
 }
 
+namespace {
+
+/// The table of units, `first` first: {"system": "si", "length": [1000, "mm"], ...}.
+Json units_json(UnitSystem first) {
+  Json all = Json::array();
+  for (const UnitSystem system : unit_systems) {
+    Json one = {{"system", std::string(name(system))}};
+    for (const ShownUnit* unit : units_of(system).all())
+      one[std::string(unit->quantity)] = {unit->factor, std::string(unit->name)};
+    all.insert(system == first ? all.begin() : all.end(), std::move(one));
+  }
+  return all;
+}
+
+}  // namespace
+
 std::string encode_scene(const LiveScene& scene) {
   return text_of({{"type", "scene"},
                   {"protocol", live_protocol_version},
@@ -196,6 +212,7 @@ std::string encode_scene(const LiveScene& scene) {
                   {"reference", scene.reference},
                   {"remark", scene.remark},
                   {"comparable", scene.comparable},
+                  {"units", units_json(scene.units)},
                   {"overlays", scene.overlays}});
 }
 

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "studies/files/shown_units.h"
 #include "studies/live/rig.h"
 
 namespace fingertip::studies {
@@ -48,6 +49,7 @@ struct LiveScene {
   std::vector<std::array<double, 2>> reference;  ///< indentation [m], normal force [N]
   std::vector<double> overlays;                  ///< indentations of the continuum's fields [m]
   std::string remark;                            ///< on the reference; empty without any
+  UnitSystem units = UnitSystem::si;             ///< the page begins with; it has the others, too
   bool comparable = true;  ///< whether errors against the reference mean anything
 };
 

@@ -144,6 +144,7 @@ LiveServer::Implementation::Implementation(Simulation& simulation, const Referen
     scene.comparable = !reference_.remark->meaningless;
   }
   scene.title = title;
+  scene.units = shown_units().system;
   scene.geometry = rig.setup().geometry;
   scene.limits = rig.limits();
   scene.springs = rig.boundary().springs();

@@ -135,7 +135,8 @@ Range roomy(const std::vector<Series>& all, bool vertical, double include) {
 Figure pace_figure(const JsonEntry& bench) {
   Panel panel;
   panel.x_label = "real-time factor in the slowest 10 ms [1]";
-  panel.y_label = "largest force error, 0.1 to 0.3 cm [%]";
+  panel.y_label = fmt::format("largest force error, {} to {} [%]", shown_units().length.text(1e-3),
+                              shown_units().length.text(3e-3));
   panel.log_x = panel.log_y = 10;
   panel.key = "outside right top";
   add_lattices(panel, bench);

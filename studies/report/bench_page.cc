@@ -27,7 +27,9 @@ Table press_table(const JsonEntry& bench) {
       "the slowest 10 ms of simulated time from the first touch on, by the wall clock, of the "
       "fastest of up to five runs; below it by "
       "the processor time of the pressing thread, which others on the machine do not lengthen. "
-      "Errors: the largest from 0.1 cm on; of the press against the continuum of law A, of the "
+      "Errors: the largest from " +
+      shown_units().length.text(1e-3) +
+      " on; of the press against the continuum of law A, of the "
       "same lattice at rest against it, of the press against small strain. Steps: how many, and "
       "the longest.";
   table.header = {plain("Lattice", "strain, steps"),

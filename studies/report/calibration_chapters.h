@@ -19,7 +19,7 @@ std::vector<Block> parameter_blocks(const Fit& fit);
 /// What the data leave open in words, singular values and the profile; figures' names begin with
 /// `prefix`.
 std::vector<Block> identifiability_blocks(const Fit& fit, const std::string& prefix);
-/// "E = 40.1 gf/cm² (95 %: 39 … 41)"
+/// "E = 3.93 kPa (95 %: 3.8 … 4.1)"
 std::string estimate_words(const FitParameter& parameter);
 /// Fits against what they predict: table of the worst errors, and errors against indentation.
 Chapter transfer_chapter(const CalibrationData& data);

@@ -35,9 +35,9 @@ FitParameter read_parameter(const JsonEntry& entry, const JsonEntry& truth) {
   for (const ParameterName& known : known_parameters)
     if (known.name == parameter.name) parameter.symbol = known.symbol;
   parameter.si_unit = parameter.unit = without_one(text_at(entry, "unit"));
-  if (parameter.si_unit == "Pa") {
-    parameter.unit = "gf/cm²";
-    parameter.factor = to_gf_per_cm2(1.0);
+  if (const ShownUnit* known = shown_units().of(parameter.si_unit)) {
+    parameter.unit = known->name;
+    parameter.factor = known->factor;
   } else if (parameter.si_unit == "s") {
     parameter.unit = "ms";
     parameter.factor = 1e3;
@@ -204,8 +204,8 @@ Quantity quantity(const std::string& text) {
   while (result.name.ends_with(' ')) result.name.pop_back();
   if (bracketed) result.si_unit = without_one(text.substr(open + 1, close - open - 1));
   result.unit = result.si_unit;
-  if (result.si_unit == "m") result.unit = "cm", result.factor = to_cm(1.0);
-  if (result.si_unit == "N") result.unit = "gf", result.factor = to_gf(1.0);
+  if (const ShownUnit* known = shown_units().of(result.si_unit))
+    result.unit = known->name, result.factor = known->factor;
   return result;
 }
 

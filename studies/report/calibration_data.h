@@ -9,8 +9,8 @@
 
 namespace fingertip::studies::reporting {
 
-/// A quantity as files name it, "force [N]", and how the reader sees it. Lengths are shown in cm
-/// and forces in gf, anything else in SI.
+/// A quantity as files name it, "force [N]", and how the reader sees it: in the unit that
+/// the table of shown_units.h has for it, else in SI.
 struct Quantity {
   std::string name, si_unit;  ///< the unit empty when it is 1 or not given
   std::string unit;           ///< shown
@@ -25,7 +25,7 @@ Quantity quantity(const std::string& text);
 struct FitParameter {
   std::string name;
   std::string symbol;         ///< "E", "κ", …; the name itself when it is not a known one
-  std::string unit, si_unit;  ///< shown, and in files; Pa are shown as gf/cm², s as ms
+  std::string unit, si_unit;  ///< shown (s as ms), and in files
   double factor = 1.0;        ///< from SI to shown
   double estimate = meshes::unknown, standard_error = meshes::unknown;
   double lower = meshes::unknown, upper = meshes::unknown;  ///< 95 % interval

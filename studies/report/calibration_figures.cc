@@ -138,17 +138,18 @@ Figure curve_figure(const std::vector<const FitCurve*>& curves, const std::strin
 Panel surrogate_panel(const Fit& fit, const std::string& column, const std::string& knots_key,
                       const std::string& y_label, double factor) {
   Panel panel;
-  panel.x_label = "indentation [cm]";
+  panel.x_label = shown_units().length.label("indentation");
   panel.y_label = y_label;
-  panel.series.push_back({knots_key,
-                          knots_key,
-                          scaled(fit.surrogate.numbers("indentation [m]"), to_cm(1.0)),
-                          scaled(fit.surrogate.numbers(column), factor),
-                          {},
-                          {"#0072B2", "", 2.0, 0, true}});
+  panel.series.push_back(
+      {knots_key,
+       knots_key,
+       scaled(fit.surrogate.numbers("indentation [m]"), shown_units().length.factor),
+       scaled(fit.surrogate.numbers(column), factor),
+       {},
+       {"#0072B2", "", 2.0, 0, true}});
   Series knots{"knots",
                knots_key + " at knots",
-               scaled(numbers_at(fit.surrogate_notes, "knots"), to_cm(1.0)),
+               scaled(numbers_at(fit.surrogate_notes, "knots"), shown_units().length.factor),
                scaled(numbers_at(fit.surrogate_notes, knots_key), factor),
                {},
                {"#D55E00", "", 1.0, 7, false}};
@@ -166,7 +167,7 @@ Series surrogate_band(const Fit& fit) {
   band.filled = true;
   const auto add = [&](std::size_t i, double force) {
     if (std::isfinite(lower[i] + upper[i]))
-      band.x.push_back(to_cm(x[i])), band.y.push_back(to_gf(force));
+      band.x.push_back(shown_units().length(x[i])), band.y.push_back(shown_units().force(force));
   };
   for (std::size_t i = 0; i < x.size(); ++i) add(i, upper[i]);
   for (std::size_t i = x.size(); i-- > 0;) add(i, lower[i]);
@@ -262,9 +263,12 @@ Figure singular_value_figure(const Fit& fit, const std::string& prefix) {
 Figure surrogate_figure(const Fit& fit, const std::string& prefix) {
   Figure figure{prefix + "_surrogate", 760, 560, 1, {}};
   if (fit.surrogate.empty()) return figure;
-  Panel force = surrogate_panel(fit, "force [N]", "force", "normal force F [gf]", to_gf(1.0));
-  Panel stiffness = surrogate_panel(fit, "stiffness [N/m]", "stiffness", "dF/dδ [gf/cm]",
-                                    to_gf(1.0) / to_cm(1.0));
+  Panel force =
+      surrogate_panel(fit, "force [N]", "force", shown_units().force.label("normal force F"),
+                      shown_units().force.factor);
+  Panel stiffness =
+      surrogate_panel(fit, "stiffness [N/m]", "stiffness", shown_units().stiffness.label("dF/dδ"),
+                      shown_units().stiffness.factor);
   if (Series band = surrogate_band(fit); !band.x.empty())
     force.series.insert(force.series.begin(), std::move(band));
   figure.panels = {force, stiffness};
@@ -290,7 +294,7 @@ Figure transfer_figure(const CalibrationData& data) {
   for (const std::string& prediction : data.predictions) {
     Panel panel;
     panel.title = shortened(prediction);
-    panel.x_label = "indentation [cm]";
+    panel.x_label = shown_units().length.label("indentation");
     panel.y_label = "force error [%]";
     panel.key.clear();
     double unsure = 0.0;
@@ -299,7 +303,7 @@ Figure transfer_figure(const CalibrationData& data) {
       curve.style = curve_style(i, data.fits.size());
       for (const PredictedForce& row : data.transfer) {
         if (row.fit != data.fits[i].name || row.prediction != prediction) continue;
-        curve.x.push_back(to_cm(row.depth));
+        curve.x.push_back(shown_units().length(row.depth));
         curve.y.push_back(100.0 * row.error);
         unsure = std::fmax(unsure, 100.0 * std::abs(row.reference_error));
       }

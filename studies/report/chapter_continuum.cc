@@ -238,14 +238,13 @@ Cell iterations(const Sample& sample, bool finite) {
 
 std::vector<SampleColumn> force_columns(const RunData& run) {
   std::vector<SampleColumn> columns;
-  columns.push_back({plain("Force", "gf"), [](const Sample& s) {
-                       return plain(number(to_gf(s.force), 5), with_prefix(s.force, "N"));
+  columns.push_back({plain("Force", unit_name(shown_units().force)), [](const Sample& s) {
+                       return plain(number(shown_units().force(s.force), 5), si_note(s.force, "N"));
                      }});
   columns.push_back({plain("Error", "estimated"), [](const Sample& s) {
                        if (!std::isfinite(s.error)) return plain("–");
-                       return plain(
-                           percent_magnitude(s.relative_error()),
-                           number(to_gf(s.error), 2) + gap + "gf, " + with_prefix(s.error, "N"));
+                       return plain(percent_magnitude(s.relative_error()),
+                                    with_unit(s.error, shown_units().force, 2));
                      }});
   columns.push_back({plain("Convergence", "order"), [](const Sample& s) {
                        const std::string kind = text_at(s.details, "convergence");
@@ -267,13 +266,14 @@ std::vector<SampleColumn> contact_columns(const RunData& run) {
   for (const meshes::PressSample& sample : run.reference.pressing())
     response[sample.indentation] = sample;
   std::vector<SampleColumn> columns;
-  columns.push_back({plain("Contact radius", "cm"), [=](const Sample& s) {
-                       const double a = response.at(s.depth).contact_radius;
-                       return plain(number(to_cm(a)), number(1e3 * a) + gap + "mm");
-                     }});
-  columns.push_back({plain("Peak pressure", "gf/cm²"), [=](const Sample& s) {
+  columns.push_back(
+      {plain("Contact radius", unit_name(shown_units().length)), [=](const Sample& s) {
+         const double a = response.at(s.depth).contact_radius;
+         return plain(number(shown_units().length(a)), si_note(a, "m"));
+       }});
+  columns.push_back({plain("Peak pressure", unit_name(shown_units().stress)), [=](const Sample& s) {
                        const double p = response.at(s.depth).max_pressure;
-                       return plain(number(to_gf_per_cm2(p)), with_prefix(p, "Pa"));
+                       return plain(number(shown_units().stress(p)), si_note(p, "Pa"));
                      }});
   columns.push_back({plain("Nodes in contact", "along its radius a"), [=](const Sample& s) {
                        return contact_nodes(s, response.at(s.depth).contact_radius, slides);
@@ -295,11 +295,11 @@ Table sample_table(const RunData& run, const std::vector<Sample>& samples) {
       "while the edge of contact moves from node to node; the estimate does not depend on it.";
   std::vector<SampleColumn> columns = force_columns(run);
   for (SampleColumn& column : contact_columns(run)) columns.push_back(std::move(column));
-  table.header = {plain("Indentation", "cm")};
+  table.header = {plain("Indentation", unit_name(shown_units().length))};
   for (const SampleColumn& column : columns) table.header.push_back(column.header);
   for (const Sample& sample : samples) {
-    std::vector<Cell> row{plain(fmt::format("{:.4g}", to_cm(sample.depth)),
-                                fmt::format("{:.4g}{}mm", 1e3 * sample.depth, gap))};
+    std::vector<Cell> row{plain(fmt::format("{:.4g}", shown_units().length(sample.depth)),
+                                si_note(sample.depth, "m"))};
     for (const SampleColumn& column : columns) row.push_back(column.cell(sample));
     table.rows.push_back(std::move(row));
   }

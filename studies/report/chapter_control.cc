@@ -13,7 +13,7 @@ namespace fingertip::studies::reporting {
 namespace {
 
 constexpr double speed_limit = 1.0;      ///< tolerated deviation from the commanded speed [%]
-constexpr double tilt_limit = 0.05;      ///< tolerated tilt [°]
+constexpr double tilt_limit = 0.05;      ///< tolerated tilt [degrees]
 constexpr double force_limit = 5.0;      ///< tolerated overshoot of a force [%]
 constexpr double settling = 0.050;       ///< the speed is judged from then on [s] ...
 constexpr double first_contact = 0.020;  ///< ... but not for so long after first touch [s]
@@ -104,9 +104,10 @@ void name_phases(const Group& group, double height, Panel& panel) {
 }
 
 Panel speed_panel(const Group& group) {
-  Panel panel = trace_panel(group, "approach speed [cm/s]", column("speed [m/s]", 100.0));
-  const double speed = 100.0 * group.front()->approach_speed();
-  panel.title = fmt::format("{:.4g} cm/s", speed);
+  Panel panel = trace_panel(group, shown_units().speed.label("approach speed"),
+                            column("speed [m/s]", shown_units().speed.factor));
+  const double speed = shown_units().speed(group.front()->approach_speed());
+  panel.title = shown_units().speed.text(group.front()->approach_speed());
   panel.y_range = Range{0.0, 1.3 * speed};
   panel.key = "bottom right";
   name_phases(group, 1.18 * speed, panel);
@@ -121,7 +122,7 @@ Panel deviation_panel(const Group& group) {
 }
 
 Panel tilt_panel(const Group& group) {
-  Panel panel = trace_panel(group, "tilt [°]", column("tilt [rad]", degree_per_radian));
+  Panel panel = trace_panel(group, "tilt [degrees]", column("tilt [rad]", degree_per_radian));
   double most = tilt_limit;
   for (const Series& series : panel.series)
     for (const double tilt : series.y) most = std::fmax(most, tilt);
@@ -131,16 +132,16 @@ Panel tilt_panel(const Group& group) {
 }
 
 Panel command_panel(const Group& group) {
-  return trace_panel(group, "commanded force [gf]",
-                     column("command_force [N]", 1.0 / newton_per_gf));
+  return trace_panel(group, shown_units().force.label("commanded force"),
+                     column("command_force [N]", shown_units().force.factor));
 }
 
 Panel force_panel(const Group& group) {
-  Panel panel =
-      trace_panel(group, "force of the tip [gf]", column("normal_force [N]", 1.0 / newton_per_gf));
+  Panel panel = trace_panel(group, shown_units().force.label("force of the tip"),
+                            column("normal_force [N]", shown_units().force.factor));
   for (const MovingPress* press : group) {
     std::vector<double> wanted =
-        scaled(press->trace.numbers_if_any("wanted_force [N]"), 1.0 / newton_per_gf);
+        scaled(press->trace.numbers_if_any("wanted_force [N]"), shown_units().force.factor);
     if (std::isnan(largest_magnitude(wanted))) continue;
     const double last = wanted.back();
     panel.series.push_back({"wanted",
@@ -193,14 +194,14 @@ Table tracking_table(const std::vector<MovingPress>& presses) {
       "The approach speed is to stay within 1 % of its set point from 50 ms after the start, "
       "except "
       "for 20 ms after first touch, which have a column of their own; the orientation within "
-      "0.05°.";
+      "0.05 degrees.";
   table.header = {plain("Press"),
-                  plain("Approach", "cm/s"),
+                  plain("Approach", unit_name(shown_units().speed)),
                   plain("First touch", "s"),
                   plain("Speed deviation", "largest"),
                   plain("Speed deviation", "at first touch"),
                   plain("Tilt", "largest"),
-                  plain("Peak force", "gf")};
+                  plain("Peak force", unit_name(shown_units().force))};
   if (forces) {
     table.caption +=
         " Under force control the overshoot over the wanted force counts instead, and "
@@ -219,10 +220,10 @@ Table tracking_table(const std::vector<MovingPress>& presses) {
     const double peak = largest_magnitude(press.trace.numbers("normal_force [N]"));
     table.rows.push_back(
         {plain(press.label, press.status == "finished" || press.status == "ok" ? "" : press.status),
-         plain(number(100.0 * press.approach_speed())), plain(shown(touch_time(press), "", 4)),
-         deviation("speed_deviation"), deviation("speed_deviation_at_touch"),
-         plain(degrees(number_at(tracking, "tilt_deg"))),
-         plain(number(to_gf(peak)), with_prefix(peak, "N"))});
+         plain(number(shown_units().speed(press.approach_speed()))),
+         plain(shown(touch_time(press), "", 4)), deviation("speed_deviation"),
+         deviation("speed_deviation_at_touch"), plain(degrees(number_at(tracking, "tilt_deg"))),
+         plain(number(shown_units().force(peak)), si_note(peak, "N"))});
     if (!forces) continue;
     const double overshoot = force_overshoot(press.trace);
     table.rows.back().push_back(plain(std::isfinite(overshoot) ? percent(overshoot) : "–"));
@@ -292,7 +293,8 @@ Chapter control_chapter(const std::vector<MovingPress>& presses) {
                        {speed_panel, deviation_panel, tilt_panel, command_panel, force_panel}),
         "Speed, its deviation, tilt, commanded force and force of the tip over time",
         "Dotted verticals: first touch, and 20 ms later, when first contact counts as over. "
-        "Shaded: what is tolerated, 1 % of the commanded speed and 0.05° of tilt. The commanded "
+        "Shaded: what is tolerated, 1 % of the commanded speed and 0.05 degrees of tilt. The "
+        "commanded "
         "force acts along the approach."});
   if (!forced.empty())
     chapter.blocks.push_back(FigureBlock{

@@ -116,7 +116,9 @@ std::vector<MeshRow> mesh_rows(const JsonEntry& summary) {
        number(number_at(first, "min_scaled_jacobian"), 3)},
       {plain("Smallest Jacobian", "first mesh, m³"), number(number_at(first, "min_jacobian"), 3)},
       {plain("Volume", "first mesh: straight-sided elements, meshed sector"),
-       std::isfinite(volume) ? number(1e6 * volume) + gap + "cm³" : ""}};
+       std::isfinite(volume) ? number(volume * std::pow(shown_units().length.factor, 3)) + gap +
+                                   unit_name(shown_units().length) + "³"
+                             : ""}};
 }
 
 Table mesh_table(const RunData& run) {

@@ -27,7 +27,7 @@ Series polar_series(const std::string& name, const Vector3d& right, const Vector
   Series series{model_label(name), name, {}, {}, {}, model_style(name)};
   for (int degree = 0; degree <= 360; degree += 2) {
     const double angle = degree * std::numbers::pi / 180.0;
-    const double E = to_gf_per_cm2(modulus(std::cos(angle) * right + std::sin(angle) * up));
+    const double E = shown_units().stress(modulus(std::cos(angle) * right + std::sin(angle) * up));
     series.x.push_back(E * std::cos(angle));
     series.y.push_back(E * std::sin(angle));
   }
@@ -47,8 +47,8 @@ Panel polar_panel(const RunData& run, const std::string& title, const Vector3d& 
                   const Vector3d& up) {
   Panel panel;
   panel.title = title;
-  panel.x_label = "E · cos(angle) [gf/cm²]";
-  panel.y_label = "E · sin(angle) [gf/cm²]";
+  panel.x_label = shown_units().stress.label("E · cos(angle)");
+  panel.y_label = shown_units().stress.label("E · sin(angle)");
   panel.equal_scales = true;
   for (const ModelData& model : run.models) {
     if (!std::isfinite(model.moduli.E_100 + model.moduli.nu_100 + model.moduli.G)) continue;
@@ -108,10 +108,10 @@ Figure surface_figure(const RunData& run) {
 
 Table achieved_table(const RunData& run) {
   Table table;
-  table.caption =
-      "Homogenised constants of the infinite lattices: achieved value in gf/cm² with SI and "
-      "deviation. A = 2 C44/(C11 − "
-      "C12) is Zener's anisotropy, 1 for an isotropic material.";
+  table.caption = "Homogenised constants of the infinite lattices: achieved value in " +
+                  unit_name(shown_units().stress) +
+                  " and deviation. A = 2 C44/(C11 − "
+                  "C12) is Zener's anisotropy, 1 for an isotropic material.";
   table.graded = true;
   table.header = {{"Constant", "", Grade::none}, {"Target", "", Grade::none}};
   for (const ModelData& model : run.models)
@@ -131,14 +131,15 @@ Table achieved_table(const RunData& run) {
     const bool ratio = row.value == &Moduli::nu_100;
     const double target = run.target.*row.target;
     const auto shown = [&](double value) {
-      return ratio ? number(value) : number(to_gf_per_cm2(value));
+      return ratio ? number(value) : number(shown_units().stress(value));
     };
     std::vector<Cell> cells{{row.name, "", Grade::none},
-                            {shown(target), ratio ? "" : with_prefix(target, "Pa"), Grade::none}};
+                            {shown(target), ratio ? "" : si_note(target, "Pa"), Grade::none}};
     for (const ModelData& model : run.models) {
       const double value = model.moduli.*row.value;
       const double error = value / target - 1.0;
-      const std::string si = ratio ? "" : with_prefix(value, "Pa") + ", ";
+      std::string si = ratio ? "" : si_note(value, "Pa");
+      if (!si.empty()) si += ", ";
       cells.push_back({shown(value), si + percent(error), grade(error)});
     }
     table.rows.push_back(std::move(cells));
@@ -197,7 +198,7 @@ void add_calibrations(const RunData& run, Chapter& chapter) {
       "elastic "
       "constants notices.";
   table.header = {{"Model", "", Grade::none},
-                  {"Spacing", "cm", Grade::none},
+                  plain("Spacing", unit_name(shown_units().length)),
                   {"k1", "axis", Grade::none},
                   {"k2", "face diagonal", Grade::none},
                   {"k3", "body diagonal", Grade::none},
@@ -207,13 +208,16 @@ void add_calibrations(const RunData& run, Chapter& chapter) {
     const JsonEntry& source = model.calibration.empty() ? model.summary : model.calibration;
     const JsonEntry constants = object_at(source, "constants");
     if (constants.empty()) continue;
-    std::vector<Cell> row{{model_label(model.name),
-                           model.calibration.empty() ? "rule k = E a²/l₀" : "fitted", Grade::none},
-                          {number(to_cm(number_at(source, "spacing"))), "", Grade::none}};
+    std::vector<Cell> row{
+        {model_label(model.name), model.calibration.empty() ? "rule k = E a²/l₀" : "fitted",
+         Grade::none},
+        {number(shown_units().length(number_at(source, "spacing"))), "", Grade::none}};
     for (const char* key : {"k1", "k2", "k3"}) {
-      row.push_back({with_prefix(number_at(constants, key), "N/m"), "", Grade::none});
+      row.push_back(
+          {with_unit(number_at(constants, key), shown_units().stiffness), "", Grade::none});
     }
-    row.push_back({with_prefix(number_at(constants, "kappa"), "Pa"), "", Grade::none});
+    row.push_back(
+        {with_unit(number_at(constants, "kappa"), shown_units().stress), "", Grade::none});
     row.push_back({null_directions(model.calibration), "", Grade::none});
     table.rows.push_back(std::move(row));
   }
@@ -236,9 +240,10 @@ constexpr CubeColumn cube_columns[] = {
 
 Table cubes_table(const RunData& run) {
   Table table;
-  table.caption =
-      "Free cubes of whole cells, loaded on all faces (gf/cm²; deviation from the infinite lattice "
-      "of the same model below).";
+  table.caption = "Free cubes of whole cells, loaded on all faces (" +
+                  unit_name(shown_units().stress) +
+                  "; deviation from the infinite lattice "
+                  "of the same model below).";
   table.header = {{"Model", "", Grade::none}, {"Cells across", "", Grade::none}};
   const std::vector<std::string> models = run.cubes.texts("model");
   const std::vector<double> across = run.cubes.numbers("cells_across");
@@ -253,7 +258,7 @@ Table cubes_table(const RunData& run) {
     for (std::size_t c = 0; c < std::size(cube_columns); ++c) {
       const double value = run.cubes.numbers(cube_columns[c].column)[i];
       const bool ratio = c == 4;
-      row.push_back({number(ratio ? value : to_gf_per_cm2(value)),
+      row.push_back({number(ratio ? value : shown_units().stress(value)),
                      percent(value / infinite[c] - 1.0), Grade::none});
     }
     table.rows.push_back(std::move(row));
@@ -264,7 +269,7 @@ Table cubes_table(const RunData& run) {
 FigureBlock cubes_figure(const RunData& run) {
   Panel panel;
   panel.x_label = "cells across the cube";
-  panel.y_label = "E along [100] [gf/cm²]";
+  panel.y_label = shown_units().stress.label("E along [100]");
   panel.log_x = 2;
   panel.key = "top right";
   const std::vector<std::string> models = run.cubes.texts("model");
@@ -276,7 +281,7 @@ FigureBlock cubes_figure(const RunData& run) {
     for (std::size_t i = 0; i < models.size(); ++i) {
       if (models[i] != name) continue;
       series.x.push_back(across[i]);
-      series.y.push_back(to_gf_per_cm2(E[i]));
+      series.y.push_back(shown_units().stress(E[i]));
     }
     panel.series.push_back(std::move(series));
   }

@@ -18,7 +18,7 @@ struct StaticLattice {
   std::vector<double> depth, force, error;
 
   std::string label() const {
-    return fmt::format("{}, a = {} cm", model, number(to_cm(spacing), 3));
+    return fmt::format("{}, a = {}", model, with_unit(spacing, shown_units().length, 3));
   }
   /// Largest |error|; NaN when there is none.
   double worst() const { return largest_magnitude(error); }
@@ -48,19 +48,19 @@ std::vector<StaticLattice> read_lattices(const CsvTable& study) {
 
 Table force_table(const std::vector<StaticLattice>& lattices) {
   Table table;
-  table.caption =
-      "Contact force in equilibrium in gf, and its error against the continuum below, at each "
-      "indentation.";
+  table.caption = "Contact force in equilibrium in " + unit_name(shown_units().force) +
+                  ", and its error against the continuum below, at each "
+                  "indentation.";
   table.graded = true;
-  table.header = {{"Lattice", "", Grade::none}, {"Spacing", "cm", Grade::none}};
+  table.header = {{"Lattice", "", Grade::none}, plain("Spacing", unit_name(shown_units().length))};
   for (const double depth : lattices.front().depth)
-    table.header.push_back({"F", fmt::format("{:.4g} cm", to_cm(depth)), Grade::none});
+    table.header.push_back({"F", shown_units().length.text(depth), Grade::none});
   for (const StaticLattice& lattice : lattices) {
     std::vector<Cell> row{{lattice.model, "", Grade::none},
-                          {number(to_cm(lattice.spacing)), "", Grade::none}};
+                          {number(shown_units().length(lattice.spacing)), "", Grade::none}};
     for (std::size_t i = 0; i < lattice.depth.size(); ++i)
-      row.push_back(
-          {number(to_gf(lattice.force[i])), percent(lattice.error[i]), grade(lattice.error[i])});
+      row.push_back({number(shown_units().force(lattice.force[i])), percent(lattice.error[i]),
+                     grade(lattice.error[i])});
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -68,7 +68,7 @@ Table force_table(const std::vector<StaticLattice>& lattices) {
 
 FigureBlock error_figure(const std::vector<StaticLattice>& lattices, const RunData& run) {
   Panel panel;
-  panel.x_label = "indentation [cm]";
+  panel.x_label = shown_units().length.label("indentation");
   panel.y_label = "force error [%]";
   panel.key = "bottom right";
   double least = 0.0, most = 0.0;
@@ -76,7 +76,7 @@ FigureBlock error_figure(const std::vector<StaticLattice>& lattices, const RunDa
                        const std::vector<double>& error, const Style& style) {
     Series curve{label, label, {}, {}, {}, style};
     for (std::size_t i = 0; i < depth.size(); ++i) {
-      curve.x.push_back(to_cm(depth[i]));
+      curve.x.push_back(shown_units().length(depth[i]));
       curve.y.push_back(100.0 * error[i]);
       least = std::fmin(least, curve.y.back());
       most = std::fmax(most, curve.y.back());
@@ -110,9 +110,9 @@ std::string finding(const std::vector<StaticLattice>& lattices) {
                            [](const StaticLattice& lattice) { return lattice.model == "hookean"; });
   if (finest == lattices.rend() || std::isnan(finest->worst())) return "";
   return fmt::format(
-      " At a = {} cm the force of the hookean lattice is within {} of the continuum's "
+      " At a = {} the force of the hookean lattice is within {} of the continuum's "
       "at every depth of the table.",
-      number(to_cm(finest->spacing), 3), percent_magnitude(finest->worst()));
+      with_unit(finest->spacing, shown_units().length, 3), percent_magnitude(finest->worst()));
 }
 
 }  // namespace

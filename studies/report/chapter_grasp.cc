@@ -9,8 +9,6 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-constexpr double millimetres = 1e3;  ///< per metre
-
 /// Rows of a phase.
 struct Span {
   std::size_t begin = 0, end = 0;
@@ -83,10 +81,10 @@ Figure fate_figure(const std::vector<GraspRun>& grasps) {
 /// Grip force against slip while the grip falls.
 Figure release_figure(const std::vector<GraspRun>& released) {
   Panel panel;
-  panel.x_label = "slip of the block along the fingers [mm]";
-  panel.y_label = "grip force per finger [gf]";
+  panel.x_label = shown_units().length.label("slip of the block along the fingers");
+  panel.y_label = shown_units().force.label("grip force per finger");
   panel.key = "top right";
-  double far = 0.0, highest = 0.0, lowest = to_gf(released.front().rest_limit());
+  double far = 0.0, highest = 0.0, lowest = shown_units().force(released.front().rest_limit());
   for (std::size_t i = 0; i < released.size(); ++i) {
     const GraspRun& grasp = released[i];
     const Span span = phase_span(grasp, "release");
@@ -94,11 +92,11 @@ Figure release_figure(const std::vector<GraspRun>& released) {
     style.point = 0;
     Series curve{grasp.label,
                  "",
-                 part(grasp.rows.numbers("slip [m]"), span, millimetres),
-                 part(grasp.normal(), span, to_gf(1.0)),
+                 part(grasp.rows.numbers("slip [m]"), span, shown_units().length.factor),
+                 part(grasp.normal(), span, shown_units().force.factor),
                  {},
                  style};
-    const double slip_force = to_gf(number_at(grasp.summary, "slip_force"));
+    const double slip_force = shown_units().force(number_at(grasp.summary, "slip_force"));
     Series onset{i + 1 == released.size() ? "all points slide" : "",
                  "all points slide",
                  {},
@@ -117,7 +115,7 @@ Figure release_figure(const std::vector<GraspRun>& released) {
     panel.series.push_back(std::move(curve));
     panel.series.push_back(std::move(onset));
   }
-  const double limit = to_gf(released.front().rest_limit());
+  const double limit = shown_units().force(released.front().rest_limit());
   panel.series.push_back(
       {"m g/(2 mu)", "", {0.0, far}, {limit, limit}, {}, {"#000000", "(4,4)", 1.2, 0, true}});
   panel.x_range = Range{0.0, far};
@@ -157,17 +155,17 @@ Figure friction_figure(const std::vector<GraspRun>& grasps) {
   });
   if (slid != grasps.rend()) {
     const Span span = phase_span(*slid, "load");
-    figure.panels.push_back(
-        friction_panel(*slid, "the load grows: " + slid->label, "rise of the fingers [mm]",
-                       part(slid->rows.numbers("finger_height [m]"), span, millimetres), span));
+    figure.panels.push_back(friction_panel(
+        *slid, "the load grows: " + slid->label, shown_units().length.label("rise of the fingers"),
+        part(slid->rows.numbers("finger_height [m]"), span, shown_units().length.factor), span));
   }
   const auto fell = std::find_if(grasps.rbegin(), grasps.rend(),
                                  [](const GraspRun& grasp) { return grasp.released(); });
   if (fell != grasps.rend()) {
     const Span span = phase_span(*fell, "release");
-    figure.panels.push_back(
-        friction_panel(*fell, "the grip falls: " + fell->label, "slip of the block [mm]",
-                       part(fell->rows.numbers("slip [m]"), span, millimetres), span));
+    figure.panels.push_back(friction_panel(
+        *fell, "the grip falls: " + fell->label, shown_units().length.label("slip of the block"),
+        part(fell->rows.numbers("slip [m]"), span, shown_units().length.factor), span));
     figure.panels.back().x_range = Range{0.0, 0.5};
     if (figure.panels.size() > 1) figure.panels.front().key.clear();  // they share a legend
   }
@@ -186,14 +184,15 @@ Figure time_figure(const GraspRun& grasp) {
   };
   Panel forces, ways;
   forces.x_label = ways.x_label = "time [s]";
-  forces.y_label = "force [gf]";
-  ways.y_label = "way [cm]";
+  forces.y_label = shown_units().force.label("force");
+  ways.y_label = shown_units().length.label("way");
   forces.key = "bottom right";
   ways.key = "top left";
   forces.x_range = ways.x_range = Range{0.0, time.back()};
-  const double limit = to_gf(grasp.rest_limit());
-  forces.series = {curve("grip of each finger", grasp.normal(), to_gf(1.0), 0),
-                   curve("tangential force of each finger", grasp.tangential(), to_gf(1.0), 1)};
+  const double limit = shown_units().force(grasp.rest_limit());
+  forces.series = {
+      curve("grip of each finger", grasp.normal(), shown_units().force.factor, 0),
+      curve("tangential force of each finger", grasp.tangential(), shown_units().force.factor, 1)};
   if (limit > 0.0)  // there is none without Coulomb's friction
     forces.series.push_back({"m g/(2 mu)",
                              "",
@@ -202,9 +201,10 @@ Figure time_figure(const GraspRun& grasp) {
                              {},
                              {"#000000", "(4,4)", 1.2, 0, true}});
   ways.series = {
-      curve("rise of the fingers", grasp.rows.numbers("finger_height [m]"), to_cm(1.0), 0),
-      curve("rise of the block", grasp.rows.numbers("height [m]"), to_cm(1.0), 1),
-      curve("indentation", grasp.rows.numbers("indentation [m]"), to_cm(1.0), 2)};
+      curve("rise of the fingers", grasp.rows.numbers("finger_height [m]"),
+            shown_units().length.factor, 0),
+      curve("rise of the block", grasp.rows.numbers("height [m]"), shown_units().length.factor, 1),
+      curve("indentation", grasp.rows.numbers("indentation [m]"), shown_units().length.factor, 2)};
   return {"grasp_in_time", 860, 620, 1, {forces, ways}};
 }
 
@@ -221,11 +221,11 @@ Table grasp_table(const std::vector<GraspRun>& grasps) {
       "both contacts begins to slide for good, and at the end of the sliding, |t|/(mu n) is given "
       "less 1.";
   table.header = {plain("Grasp"),
-                  plain("Grip force", "gf"),
+                  plain("Grip force", unit_name(shown_units().force)),
                   plain("Over the limit", "m (g + a)/(2 mu)"),
                   plain("Fate"),
                   plain("Load", "over weight, less 1"),
-                  plain("All slide from", "gf, over m g/(2 mu)"),
+                  plain("All slide from", unit_name(shown_units().force) + ", over m g/(2 mu)"),
                   plain("|t|/(mu n) there", "less 1"),
                   plain("at the end", "less 1"),
                   plain("Momentum balance")};
@@ -235,10 +235,11 @@ Table grasp_table(const std::vector<GraspRun>& grasps) {
     const bool fell = grasp.released() && std::isfinite(slip);
     table.rows.push_back(
         {plain(grasp.label, grasp.status == "finished" || grasp.status == "ok" ? "" : grasp.status),
-         plain(number(to_gf(grasp.grip())), with_prefix(grasp.grip(), "N")),
+         plain(number(shown_units().force(grasp.grip())), si_note(grasp.grip(), "N")),
          plain(off(grasp.grip(), grasp.limit())), plain(grasp.fate()),
          plain(off(number_at(s, "held_load"), 1.0)),
-         fell ? plain(number(to_gf(slip)), off(slip, grasp.rest_limit())) : plain("–"),
+         fell ? plain(number(shown_units().force(slip)), off(slip, grasp.rest_limit()))
+              : plain("–"),
          plain(off(number_at(s, "slip_ratio"), mu)), plain(off(number_at(s, "sliding_ratio"), mu)),
          plain(number(number_at(s, "momentum_defect"), 2))});
   }
@@ -284,16 +285,18 @@ std::string grasp_answer(const std::vector<GraspRun>& grasps) {
 }
 
 std::string grasp_text(const std::vector<GraspRun>& grasps) {
-  std::string text = fmt::format("{:<36}{:>12}{:>12}{:>14}{:>14}{:>14}\n", "grasp", "grip [gf]",
-                                 "over limit", "fate", "slips at [gf]", "t/(mu n) there");
+  std::string text = fmt::format("{:<36}{:>12}{:>12}{:>14}{:>14}{:>14}\n", "grasp",
+                                 shown_units().force.label("grip"), "over limit", "fate",
+                                 shown_units().force.label("slips at"), "t/(mu n) there");
   for (const GraspRun& grasp : grasps) {
-    const double slip = to_gf(number_at(grasp.summary, "slip_force"));
+    const double slip = shown_units().force(number_at(grasp.summary, "slip_force"));
     const double share =
         number_at(grasp.summary, "slip_ratio") / number_at(grasp.summary, "friction");
-    text += fmt::format("{:<36}{:>12.4f}{:>10.2f} %{:>14}{:>14}{:>14}\n", grasp.label.substr(0, 35),
-                        to_gf(grasp.grip()), 100.0 * (grasp.grip() / grasp.limit() - 1.0),
-                        grasp.fate(), std::isfinite(slip) ? fmt::format("{:.4f}", slip) : "-",
-                        std::isfinite(share) ? fmt::format("{:.4f}", share) : "-");
+    text +=
+        fmt::format("{:<36}{:>12.4f}{:>10.2f} %{:>14}{:>14}{:>14}\n", grasp.label.substr(0, 35),
+                    shown_units().force(grasp.grip()), 100.0 * (grasp.grip() / grasp.limit() - 1.0),
+                    grasp.fate(), std::isfinite(slip) ? fmt::format("{:.4f}", slip) : "-",
+                    std::isfinite(share) ? fmt::format("{:.4f}", share) : "-");
   }
   return text + "limit: m (g + a)/(2 mu)\n";
 }

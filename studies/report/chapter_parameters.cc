@@ -14,19 +14,25 @@ namespace {
 
 using Blocks = std::vector<Block>;
 
-/// "40.1 gf/cm²" with SI as the note where the two differ.
+/// "40.1 kPa"; in the paper's units SI is the note.
 std::string shown(const FitParameter& parameter, double value) {
   const std::string unit = parameter.unit.empty() ? "" : gap + parameter.unit;
   return std::isfinite(value) ? number(parameter.factor * value) + unit : "–";
 }
 
 std::string in_si(const FitParameter& parameter, double value) {
-  if (parameter.unit == parameter.si_unit || !std::isfinite(value)) return "";
-  return with_prefix(value, parameter.si_unit);
+  return std::isfinite(value) && !parameter.si_unit.empty() ? si_note(value, parameter.si_unit)
+                                                            : "";
+}
+
+/// An interval wider than the value on both sides tells that the data leave it open.
+bool is_open(const FitParameter& one) {
+  return one.upper - one.lower > 2.0 * std::abs(one.estimate);
 }
 
 std::string interval(const FitParameter& parameter, double factor) {
   if (!std::isfinite(parameter.lower) && !std::isfinite(parameter.upper)) return "–";
+  if (is_open(parameter)) return "not determined by these data";
   return number(factor * parameter.lower) + " … " + number(factor * parameter.upper);
 }
 
@@ -43,12 +49,10 @@ Cell value_cell(const FitParameter& one, double value) {
 
 Cell interval_cell(const FitParameter& one) {
   if (one.at_bound) return plain(interval(one, one.factor), one.bounded + " at its bound");
-  const bool convertible =
-      one.unit != one.si_unit && std::isfinite(one.lower) && std::isfinite(one.upper);
-  return plain(interval(one, one.factor), convertible
-                                              ? with_prefix(one.lower, one.si_unit) + " … " +
-                                                    with_prefix(one.upper, one.si_unit)
-                                              : "");
+  if (is_open(one)) return plain(interval(one, one.factor));
+  const std::string lower = in_si(one, one.lower), upper = in_si(one, one.upper);
+  return plain(interval(one, one.factor),
+               lower.empty() || upper.empty() ? "" : lower + " … " + upper);
 }
 
 Cell prior_cell(const FitParameter& one) {
@@ -65,7 +69,8 @@ constexpr ParameterColumn parameter_columns[] = {
     {"Standard error", "of the estimate",
      [](const FitParameter& one) { return std::isfinite(one.standard_error); },
      [](const FitParameter& one) {
-       return plain(percent_magnitude(one.standard_error / std::abs(one.estimate)));
+       return plain(is_open(one) ? "–"
+                                 : percent_magnitude(one.standard_error / std::abs(one.estimate)));
      }},
     {"Truth", "", [](const FitParameter& one) { return std::isfinite(one.truth); },
      [](const FitParameter& one) {
@@ -92,7 +97,7 @@ constexpr ParameterColumn parameter_columns[] = {
 Table parameter_table(const Fit& fit) {
   Table table;
   table.caption =
-      "The parameters, SI below. Intervals are linearised at the estimates and know of no errors "
+      "The parameters. Intervals are linearised at the estimates and know of no errors "
       "of the model itself";
   const auto any = [&](const auto& there) { return std::ranges::any_of(fit.parameters, there); };
   table.caption += any([](const FitParameter& one) { return std::isfinite(one.bias); })
@@ -199,8 +204,10 @@ void add_directions(Blocks& blocks, const Fit& fit, const std::string& key,
     if (std::isfinite(share))
       text += fmt::format(" Singular value: {} of the largest.", percent_magnitude(share));
     if (std::isfinite(width))
-      text +=
-          fmt::format(" 95 % interval along it: ±{} of the parameters.", percent_magnitude(width));
+      text += width <= 1.0
+                  ? fmt::format(" 95 % interval along it: ±{} of the parameters.",
+                                percent_magnitude(width))
+                  : std::string(" 95 % interval along it: wider than the parameters themselves.");
     blocks.push_back(Paragraph{lead, text, true});
   }
 }
@@ -270,7 +277,8 @@ std::string estimate_words(const FitParameter& one) {
   std::string text = one.symbol + " = " + shown(one, one.estimate);
   if (one.at_bound) return text + " (" + one.bounded + " at its bound)";
   if (std::isfinite(one.lower) && std::isfinite(one.upper))
-    text += fmt::format(" (95 %: {})", interval(one, one.factor));
+    text += is_open(one) ? " (" + interval(one, one.factor) + ")"
+                         : fmt::format(" (95 %: {})", interval(one, one.factor));
   return text;
 }
 

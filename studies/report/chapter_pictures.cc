@@ -10,7 +10,7 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-/// All panels show the rod's frame with the pole below, in cm.
+/// All panels show the rod's frame with the pole below.
 struct Frame {
   Range x, z;
   double plane_at_touch = meshes::unknown, plane_at_end = meshes::unknown;
@@ -20,9 +20,10 @@ struct Frame {
 Frame common_frame(const RunData& run) {
   double radius = 0.0, top = -1e9, bottom = 1e9, depth = run.reference.depth();
   const auto include = [&](const std::vector<double>& x, const std::vector<double>& z) {
-    for (double value : x) radius = std::fmax(radius, std::abs(to_cm(value)));
+    for (double value : x) radius = std::fmax(radius, std::abs(shown_units().length(value)));
     for (double value : z)
-      top = std::fmax(top, to_cm(value)), bottom = std::fmin(bottom, to_cm(value));
+      top = std::fmax(top, shown_units().length(value)),
+      bottom = std::fmin(bottom, shown_units().length(value));
   };
   if (!run.section.empty()) include(run.section.numbers("x1 [m]"), run.section.numbers("z1 [m]"));
   for (const ModelData& model : run.models) {
@@ -36,15 +37,15 @@ Frame common_frame(const RunData& run) {
   frame.x = {-1.25 * radius, 1.25 * radius};
   frame.z = {top + margin, bottom - margin};
   frame.plane_at_touch = top;
-  frame.plane_at_end = top - to_cm(depth);
+  frame.plane_at_end = top - shown_units().length(depth);
   return frame;
 }
 
 Panel frame_panel(const Frame& frame, const std::string& title) {
   Panel panel;
   panel.title = title;
-  panel.x_label = "x [cm]";
-  panel.y_label = "z [cm]";
+  panel.x_label = shown_units().length.label("x");
+  panel.y_label = shown_units().length.label("z");
   panel.x_range = frame.x;
   panel.y_range = frame.z;
   panel.equal_scales = true;
@@ -76,7 +77,8 @@ Series boundary_series(const ModelData& model, bool deformed, const Style& style
   for (std::size_t s = 0; s < first.size(); ++s) {
     const std::size_t i = first[s], j = second[s];
     if (y[i] > 1e-9 || y[j] > 1e-9) continue;
-    add_segment(series, to_cm(x[i]), to_cm(z[i] - travel), to_cm(x[j]), to_cm(z[j] - travel));
+    add_segment(series, shown_units().length(x[i]), shown_units().length(z[i] - travel),
+                shown_units().length(x[j]), shown_units().length(z[j] - travel));
   }
   return series;
 }
@@ -89,8 +91,8 @@ Series anchored_series(const ModelData& model) {
   const double travel = rod_travel(model);
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (anchored[i] == 0.0) continue;
-    series.x.push_back(to_cm(x[i]));
-    series.y.push_back(to_cm(z[i] - travel));
+    series.x.push_back(shown_units().length(x[i]));
+    series.y.push_back(shown_units().length(z[i] - travel));
   }
   return series;
 }

@@ -14,8 +14,8 @@ const std::string above = "outside top center horizontal";
 Series force_series(const meshes::PressResponse& response, const std::string& name) {
   Series series{model_label(name), name, {0.0}, {0.0}, {}, model_style(name)};
   for (const meshes::PressSample& sample : response.pressing()) {
-    series.x.push_back(to_cm(sample.indentation));
-    series.y.push_back(to_gf(sample.normal_force));
+    series.x.push_back(shown_units().length(sample.indentation));
+    series.y.push_back(shown_units().force(sample.normal_force));
   }
   return series;
 }
@@ -26,7 +26,7 @@ Series reference_points(const meshes::PressResponse& response) {
   series.style.line = false;
   series.error.push_back(0.0);
   for (const meshes::PressSample& sample : response.pressing()) {
-    series.error.push_back(to_gf(sample.force_error));
+    series.error.push_back(shown_units().force(sample.force_error));
   }
   return series;
 }
@@ -38,16 +38,16 @@ Series reference_line(const meshes::PressResponse& response) {
   const int steps = 120;
   for (int i = 0; i <= steps; ++i) {
     const double depth = i == steps ? response.depth() : response.depth() * i / steps;
-    series.x.push_back(to_cm(depth));
-    series.y.push_back(to_gf(response.normal_force_at(depth)));
+    series.x.push_back(shown_units().length(depth));
+    series.y.push_back(shown_units().force(response.normal_force_at(depth)));
   }
   return series;
 }
 
 Panel force_panel(const RunData& run) {
   Panel panel;
-  panel.x_label = "indentation [cm]";
-  panel.y_label = "normal force [gf]";
+  panel.x_label = shown_units().length.label("indentation");
+  panel.y_label = shown_units().force.label("normal force");
   if (!run.reference.empty()) panel.series.push_back(reference_line(run.reference));
   for (const ModelData& model : run.models) {
     if (!model.response.empty()) panel.series.push_back(force_series(model.response, model.name));
@@ -66,7 +66,7 @@ Series error_series(const RunData& run, const ModelData& model) {
   const int steps = 60;
   for (int i = 0; i <= steps && to > from; ++i) {
     const double depth = i == steps ? to : from + (to - from) * i / steps;
-    series.x.push_back(to_cm(depth));
+    series.x.push_back(shown_units().length(depth));
     series.y.push_back(100.0 * meshes::relative_force_error(model.response, run.reference, depth));
   }
   return series;
@@ -75,7 +75,7 @@ Series error_series(const RunData& run, const ModelData& model) {
 /// Range of the error axis that shows the useful part: before the first depth of the verdict, where
 /// a point or two touch, a curve may leave the picture.
 Range error_axis(const RunData& run, const std::vector<Series>& curves) {
-  const double from = run.depths.empty() ? 0.0 : to_cm(run.depths.front());
+  const double from = run.depths.empty() ? 0.0 : shown_units().length(run.depths.front());
   double least = -5.0, most = 5.0;
   for (const Series& curve : curves) {
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
@@ -90,20 +90,20 @@ Range error_axis(const RunData& run, const std::vector<Series>& curves) {
 
 Table response_table(const RunData& run) {
   Table table;
-  table.caption =
-      "Normal force in gf (mN below) at the depths of the verdict, and the continuum's contact.";
-  table.header = {{"Indentation", "cm", Grade::none},
+  table.caption = "Normal force in " + unit_name(shown_units().force) +
+                  " at the depths of the verdict, and the continuum's contact.";
+  table.header = {plain("Indentation", unit_name(shown_units().length)),
                   {"Continuum", "± estimated error", Grade::none},
-                  {"Contact radius", "cm", Grade::none},
-                  {"Peak pressure", "gf/cm²", Grade::none}};
+                  plain("Contact radius", unit_name(shown_units().length)),
+                  plain("Peak pressure", unit_name(shown_units().stress))};
   for (const ModelData& model : run.models)
     table.header.push_back({model_label(model.name), "", Grade::none});
   for (double depth : run.depths) {
-    std::vector<Cell> row{{fmt::format("{:.4g}", to_cm(depth)), "", Grade::none}};
+    std::vector<Cell> row{{fmt::format("{:.4g}", shown_units().length(depth)), "", Grade::none}};
     const auto cell = [&](const meshes::PressResponse& response) -> Cell {
       const double f = force_at(response, depth);
       if (std::isnan(f)) return {"–", "", Grade::none};
-      return {number(to_gf(f)), number(1e3 * f) + gap + "mN", Grade::none};
+      return {number(shown_units().force(f)), si_note(f, "N"), Grade::none};
     };
     row.push_back(cell(run.reference));
     row.push_back({"–", "", Grade::none});
@@ -111,11 +111,11 @@ Table response_table(const RunData& run) {
     for (const meshes::PressSample& sample : run.reference.pressing()) {
       if (std::abs(sample.indentation - depth) > 1e-9) continue;
       if (std::isfinite(sample.force_error))
-        row[1].text += " ± " + number(to_gf(sample.force_error), 2);
-      row[2] = {number(to_cm(sample.contact_radius)),
-                number(1e3 * sample.contact_radius) + gap + "mm", Grade::none};
-      row[3] = {number(to_gf_per_cm2(sample.max_pressure)), with_prefix(sample.max_pressure, "Pa"),
-                Grade::none};
+        row[1].text += " ± " + number(shown_units().force(sample.force_error), 2);
+      row[2] = {number(shown_units().length(sample.contact_radius)),
+                si_note(sample.contact_radius, "m"), Grade::none};
+      row[3] = {number(shown_units().stress(sample.max_pressure)),
+                si_note(sample.max_pressure, "Pa"), Grade::none};
     }
     for (const ModelData& model : run.models) row.push_back(cell(model.response));
     table.rows.push_back(std::move(row));
@@ -135,7 +135,7 @@ Chapter force_chapter(const RunData& run) {
       "(mostly smaller than the points). A lattice that is the same material on the same body "
       "follows the black curve."});
   Panel errors;
-  errors.x_label = "indentation [cm]";
+  errors.x_label = shown_units().length.label("indentation");
   errors.y_label = "force error [%]";
   errors.key = above;
   errors.band = Band{-2.0, 2.0};

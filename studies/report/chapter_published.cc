@@ -21,7 +21,7 @@ struct Variant {
   }
   std::string offset() const { return fmt::format("({:.3g}, {:.3g}, {:.3g})", x, y, z); }
   std::string label() const {
-    if (varied == "spacing") return fmt::format("{} cm", number(to_cm(spacing), 3));
+    if (varied == "spacing") return with_unit(spacing, shown_units().length, 3);
     if (varied == "offset") return offset();
     return fmt::format("×{:.4g}", ligament);
   }
@@ -58,29 +58,29 @@ std::vector<double> all_depths(const std::vector<Variant>& variants) {
 
 Table study_table(const std::vector<Variant>& variants) {
   Table table;
-  table.caption =
-      "Contact force of the published lattice in gf, and its error against the continuum below, at "
-      "each indentation.";
+  table.caption = "Contact force of the published lattice in " + unit_name(shown_units().force) +
+                  ", and its error against the continuum below, at "
+                  "each indentation.";
   table.graded = true;
   table.header = {{"Varied", "", Grade::none},
-                  {"Spacing", "cm", Grade::none},
+                  plain("Spacing", unit_name(shown_units().length)),
                   {"Grid offset", "in spacings", Grade::none},
                   {"Ligaments", "stiffness ×", Grade::none}};
   const std::vector<double> depths = all_depths(variants);
   for (double depth : depths)
-    table.header.push_back({"F", fmt::format("{:.4g} cm", to_cm(depth)), Grade::none});
+    table.header.push_back({"F", shown_units().length.text(depth), Grade::none});
   for (const Variant& variant : variants) {
     std::string varied = variant.varied;
     std::replace(varied.begin(), varied.end(), '_', ' ');
     std::vector<Cell> row{{varied, "", Grade::none},
-                          {number(to_cm(variant.spacing)), "", Grade::none},
+                          {number(shown_units().length(variant.spacing)), "", Grade::none},
                           {variant.offset(), "", Grade::none},
                           {fmt::format("{:.4g}", variant.ligament), "", Grade::none}};
     for (double depth : depths) {
       Cell cell{"–", "", Grade::none};
       for (std::size_t i = 0; i < variant.depth.size(); ++i) {
         if (std::abs(variant.depth[i] - depth) > 1e-9) continue;
-        cell = {number(to_gf(variant.force[i])), percent(variant.error[i]),
+        cell = {number(shown_units().force(variant.force[i])), percent(variant.error[i]),
                 grade(variant.error[i])};
       }
       row.push_back(cell);
@@ -97,7 +97,7 @@ FigureBlock study_figure(const std::vector<Variant>& variants) {
     if (figure.panels.empty() || figure.panels.back().title != variant.varied) {
       Panel panel;
       panel.title = variant.varied;
-      panel.x_label = "indentation [cm]";
+      panel.x_label = shown_units().length.label("indentation");
       panel.y_label = "force error [%]";
       panel.key = "bottom right";
       figure.panels.push_back(panel);
@@ -105,7 +105,7 @@ FigureBlock study_figure(const std::vector<Variant>& variants) {
     std::vector<Series>& series = figure.panels.back().series;
     Series curve{variant.label(), variant.label(), {}, {}, {}, numbered_style(series.size())};
     for (std::size_t i = 0; i < variant.depth.size(); ++i) {
-      curve.x.push_back(to_cm(variant.depth[i]));
+      curve.x.push_back(shown_units().length(variant.depth[i]));
       curve.y.push_back(100.0 * variant.error[i]);
       least = std::fmin(least, curve.y.back());
       most = std::fmax(most, curve.y.back());

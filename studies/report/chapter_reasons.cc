@@ -102,7 +102,8 @@ std::string hookean_reason(const RunData& run, const ModelData& model) {
       " Surface, bond and contact are the tip's own: cells are cut by sphere and cylinder. What "
       "remains is the size of the cells";
   const double spacing = number_at(model.summary, "spacing");
-  if (std::isfinite(spacing)) text += fmt::format(" ({} cm)", number(to_cm(spacing), 3));
+  if (std::isfinite(spacing))
+    text += fmt::format(" ({})", with_unit(spacing, shown_units().length, 3));
   text +=
       ", which a small contact feels first, and what the press at speed adds by inertia and "
       "damping to the continuum's equilibrium.";
@@ -126,10 +127,10 @@ std::string dynamics_reason(const RunData& run) {
     double speed = meshes::unknown;
     for (double value : command) speed = std::fmax(speed, value);
     return fmt::format(
-        "The continuum is static, the lattices move: at {} cm/s inertia and damping add their "
+        "The continuum is static, the lattices move: at {} inertia and damping add their "
         "share to the force. It grows "
         "with speed, so it can be told from the lattice error by pressing more slowly.",
-        number(to_cm(speed), 3));
+        with_unit(speed, shown_units().speed, 3));
   }
   return "";
 }

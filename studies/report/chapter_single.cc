@@ -33,14 +33,14 @@ constexpr SampleAxis by_displacement{"Lateral displacement",
 Panel curve_panel(SampleRange samples, const SampleAxis& axis, const std::string& label,
                   double meshes::PressSample::*value, double factor) {
   Panel panel;
-  panel.x_label = axis.title + std::string(" [cm]");
+  panel.x_label = shown_units().length.label(axis.title);
   panel.x_label[0] = char(std::tolower(panel.x_label[0]));
   panel.y_label = label;
   panel.key = "";
   Series series{"", "press", {}, {}, {}, single};
   if (samples.size() > most_rows) series.style.point = 0;
   for (const meshes::PressSample& sample : samples) {
-    series.x.push_back(to_cm(sample.*axis.value));
+    series.x.push_back(shown_units().length(sample.*axis.value));
     series.y.push_back(factor * sample.*value);
   }
   // From zero, where both begin, unless inertia pulls at the rod.
@@ -59,10 +59,9 @@ bool known(SampleRange samples, double meshes::PressSample::*value) {
 /// A column of the samples' table.
 struct Column {
   const char* title;
-  const char* unit;
+  const char* direction;
   double meshes::PressSample::*value;
-  double factor;
-  const char* si;
+  ShownUnit unit;
 };
 
 /// Whether a force is more than the round-off of the normal force.
@@ -74,14 +73,15 @@ bool significant(SampleRange samples, double meshes::PressSample::*force) {
 }
 
 Table sample_table(SampleRange samples, const SampleAxis& axis) {
-  static const Column columns[] = {
-      {"Normal force", "gf", &meshes::PressSample::normal_force, to_gf(1.0), "N"},
-      {"Estimated error", "gf", &meshes::PressSample::force_error, to_gf(1.0), "N"},
-      {"Lateral force", "along t1, gf", &meshes::PressSample::lateral_force_x, to_gf(1.0), "N"},
-      {"Contact radius", "cm", &meshes::PressSample::contact_radius, to_cm(1.0), "m"},
-      {"Peak pressure", "gf/cm²", &meshes::PressSample::max_pressure, to_gf_per_cm2(1.0), "Pa"}};
+  const ShownUnits& units = shown_units();
+  const Column columns[] = {
+      {"Normal force", "", &meshes::PressSample::normal_force, units.force},
+      {"Estimated error", "", &meshes::PressSample::force_error, units.force},
+      {"Lateral force", "along t1, ", &meshes::PressSample::lateral_force_x, units.force},
+      {"Contact radius", "", &meshes::PressSample::contact_radius, units.length},
+      {"Peak pressure", "", &meshes::PressSample::max_pressure, units.stress}};
   Table table;
-  table.header = {plain(axis.title, "cm")};
+  table.header = {plain(axis.title, unit_name(units.length))};
   std::vector<Column> shown;
   for (const Column& column : columns) {
     if (!known(samples, column.value)) continue;
@@ -89,18 +89,18 @@ Table sample_table(SampleRange samples, const SampleAxis& axis) {
         !significant(samples, column.value))
       continue;
     shown.push_back(column);
-    table.header.push_back(plain(column.title, column.unit));
+    table.header.push_back(plain(column.title, column.direction + unit_name(column.unit)));
   }
   const std::size_t rows = std::min(samples.size(), most_rows);
   for (std::size_t i = 0; i < rows; ++i) {
     // The last one is always among them.
     const auto& sample = samples[rows < 2 ? 0 : i * (samples.size() - 1) / (rows - 1)];
-    std::vector<Cell> row{plain(fmt::format("{:.4g}", to_cm(sample.*axis.value)))};
+    std::vector<Cell> row{plain(fmt::format("{:.4g}", units.length(sample.*axis.value)))};
     for (const Column& column : shown) {
       const double value = sample.*column.value;
-      row.push_back(std::isnan(value)
-                        ? plain("–")
-                        : plain(number(column.factor * value), with_prefix(value, column.si)));
+      row.push_back(std::isnan(value) ? plain("–")
+                                      : plain(number(column.unit(value)),
+                                              si_note(value, std::string(column.unit.si))));
     }
     table.rows.push_back(std::move(row));
   }
@@ -126,14 +126,14 @@ FigureBlock pressure_figure(const CsvTable& contact) {
   };
   const double cx = centre(x, centre_x), cy = centre(y, centre_y);
   Panel panel;
-  panel.x_label = "distance from the contact's centre [cm]";
-  panel.y_label = "pressure [gf/cm²]";
+  panel.x_label = shown_units().length.label("distance from the contact's centre");
+  panel.y_label = shown_units().stress.label("pressure");
   panel.key = "";
   Series series{"", "points", {}, {}, {}, {"#0072B2", "", 1.0, 7, false, 0.45}};
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!(pressure[i] > 0.0)) continue;
-    series.x.push_back(to_cm(std::hypot(x[i] - cx, y[i] - cy)));
-    series.y.push_back(to_gf_per_cm2(pressure[i]));
+    series.x.push_back(shown_units().length(std::hypot(x[i] - cx, y[i] - cy)));
+    series.y.push_back(shown_units().stress(pressure[i]));
   }
   panel.series.push_back(std::move(series));
   panel.x_range = Range{0.0, meshes::unknown};
@@ -155,21 +155,21 @@ Chapter press_chapter(const meshes::PressResponse& response, const CsvTable& con
                    760,
                    420,
                    1,
-                   {curve_panel(samples, by_indentation, "normal force [gf]",
-                                &meshes::PressSample::normal_force, to_gf(1.0))}},
+                   {curve_panel(samples, by_indentation, shown_units().force.label("normal force"),
+                                &meshes::PressSample::normal_force, shown_units().force.factor)}},
                   "Normal force against indentation",
                   "Indentation counts from first touch."});
   chapter.blocks.push_back(sample_table(samples, by_indentation));
   if (known(samples, &meshes::PressSample::contact_radius))
-    chapter.blocks.push_back(
-        FigureBlock{{"contact_radius",
-                     760,
-                     340,
-                     1,
-                     {curve_panel(samples, by_indentation, "contact radius [cm]",
-                                  &meshes::PressSample::contact_radius, to_cm(1.0))}},
-                    "Contact radius against indentation",
-                    "Where a lattice touches with single points, its contact grows in steps."});
+    chapter.blocks.push_back(FigureBlock{
+        {"contact_radius",
+         760,
+         340,
+         1,
+         {curve_panel(samples, by_indentation, shown_units().length.label("contact radius"),
+                      &meshes::PressSample::contact_radius, shown_units().length.factor)}},
+        "Contact radius against indentation",
+        "Where a lattice touches with single points, its contact grows in steps."});
   if (!contact.empty()) chapter.blocks.push_back(pressure_figure(contact));
   return chapter;
 }
@@ -180,9 +180,9 @@ Chapter sliding_chapter(const meshes::PressResponse& response) {
   // From where the press ended, which is the first sample of both.
   const SampleRange samples =
       SampleRange(response.samples()).subspan(response.pressing().size() - 1);
-  Panel panel = curve_panel(samples, by_displacement, "lateral force [gf]",
-                            &meshes::PressSample::lateral_force_x, to_gf(1.0));
-  const double end = to_cm(samples.back().lateral_displacement);
+  Panel panel = curve_panel(samples, by_displacement, shown_units().force.label("lateral force"),
+                            &meshes::PressSample::lateral_force_x, shown_units().force.factor);
+  const double end = shown_units().length(samples.back().lateral_displacement);
   panel.x_range = Range{std::min(0.0, end), std::max(0.0, end)};
   chapter.blocks.push_back(FigureBlock{
       {"lateral_force", 760, 420, 1, {panel}},

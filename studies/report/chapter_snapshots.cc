@@ -33,8 +33,8 @@ class Camera {
     above_ = std::sin(elevation) * ahead + std::cos(elevation) * up;
   }
 
-  double x(const Vector3& place) const { return to_cm(place.dot(right_)); }
-  double y(const Vector3& place) const { return to_cm(place.dot(above_)); }
+  double x(const Vector3& place) const { return shown_units().length(place.dot(right_)); }
+  double y(const Vector3& place) const { return shown_units().length(place.dot(above_)); }
   /// Whether a surface with this outer normal can be seen.
   bool faces(const Vector3& normal) const { return normal.dot(toward_) > 0.0; }
   /// Toward the viewer.
@@ -253,10 +253,12 @@ class Drawing {
 
 /// The values at the endpoint, below the picture.
 std::string wrench_text(const Snapshot& snapshot, double largest_torque) {
-  const double depth = to_cm(snapshot.indentation);
-  const double torque = largest_torque > 0.0 ? to_cm(to_gf(snapshot.torque.norm())) : 0.0;
-  return fmt::format("{:.3f} cm {}, force {:.3f} gf, torque {:.3f} gf cm", std::abs(depth),
-                     depth < 0.0 ? "away" : "deep", to_gf(snapshot.force.norm()), torque);
+  const ShownUnits& units = shown_units();
+  const double torque = largest_torque > 0.0 ? snapshot.torque.norm() : 0.0;
+  return fmt::format("{} {}, force {}, torque {}",
+                     units.length.text(std::abs(snapshot.indentation)),
+                     snapshot.indentation < 0.0 ? "away" : "deep",
+                     units.force.text(snapshot.force.norm()), units.torque.text(torque));
 }
 
 /// The same part of space for all panels.

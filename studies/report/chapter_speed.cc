@@ -18,7 +18,7 @@ bool has_reference(const MovingPress& press) {
 Series error_series(const MovingPress& press, const Style& style) {
   Series series{press.label, "", {}, {}, {}, style};
   for (const meshes::PressSample& sample : press.reference.pressing()) {
-    series.x.push_back(to_cm(sample.indentation));
+    series.x.push_back(shown_units().length(sample.indentation));
     series.y.push_back(100.0 *
                        (force_at(press.response, sample.indentation) / sample.normal_force - 1.0));
   }
@@ -29,16 +29,16 @@ Series force_series(const meshes::PressResponse& response, const std::string& la
                     const Style& style) {
   Series series{label, "", {}, {}, {}, style};
   for (const meshes::PressSample& sample : response.pressing()) {
-    series.x.push_back(to_cm(sample.indentation));
-    series.y.push_back(to_gf(sample.normal_force));
+    series.x.push_back(shown_units().length(sample.indentation));
+    series.y.push_back(shown_units().force(sample.normal_force));
   }
   return series;
 }
 
 Figure force_figure(const std::vector<MovingPress>& presses) {
   Panel force, error;
-  force.x_label = error.x_label = "indentation [cm]";
-  force.y_label = "normal force [gf]";
+  force.x_label = error.x_label = shown_units().length.label("indentation");
+  force.y_label = shown_units().force.label("normal force");
   error.y_label = "force error [%]";
   error.key = "";  // the colours of the curves above
   error.y_range = Range{-1.5, 1.5};
@@ -58,7 +58,7 @@ Figure force_figure(const std::vector<MovingPress>& presses) {
     for (const double off : error.series.back().y)
       error.y_range->to = std::fmax(error.y_range->to, 1.1 * std::abs(off));
     error.y_range->from = -error.y_range->to;
-    const double depth = to_cm(press.reference.depth());
+    const double depth = shown_units().length(press.reference.depth());
     if (!force.x_range || force.x_range->to < depth) force.x_range = Range{0.0, 1.02 * depth};
   }
   error.x_range = force.x_range;
@@ -68,7 +68,8 @@ Figure force_figure(const std::vector<MovingPress>& presses) {
 Table error_table(const std::vector<MovingPress>& presses) {
   Table table;
   table.caption =
-      "Force of the lattice in gf at the continuum's samples, below it the error against the "
+      "Force of the lattice in " + unit_name(shown_units().force) +
+      " at the continuum's samples, below it the error against the "
       "continuum that is pressed at the same speed, with inertia and the same retardation time.";
   table.graded = true;
   table.header = {plain("Press")};
@@ -76,12 +77,12 @@ Table error_table(const std::vector<MovingPress>& presses) {
     if (!has_reference(press)) continue;
     if (table.header.size() == 1)
       for (const meshes::PressSample& sample : press.reference.pressing())
-        table.header.push_back(plain("F", fmt::format("{:.4g} cm", to_cm(sample.indentation))));
+        table.header.push_back(plain("F", shown_units().length.text(sample.indentation)));
     std::vector<Cell> row{plain(press.label)};
     for (const meshes::PressSample& sample : press.reference.pressing()) {
       const double f = force_at(press.response, sample.indentation);
       const double off = f / sample.normal_force - 1.0;
-      row.push_back({number(to_gf(f)), percent(off), grade(off)});
+      row.push_back({number(shown_units().force(f)), percent(off), grade(off)});
     }
     row.resize(table.header.size());
     table.rows.push_back(std::move(row));

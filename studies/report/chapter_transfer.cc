@@ -20,7 +20,7 @@ std::string trouble(const CalibrationData& data, const std::string& fit,
   return "";
 }
 
-/// Where the error is largest: "at 0.2 cm".
+/// Where the error is largest: "at 2 mm".
 std::string place(const CalibrationData& data, const std::string& fit,
                   const std::string& prediction) {
   const PredictedForce* worst = nullptr;
@@ -28,7 +28,7 @@ std::string place(const CalibrationData& data, const std::string& fit,
     if (row.fit != fit || row.prediction != prediction || !std::isfinite(row.error)) continue;
     if (worst == nullptr || std::abs(row.error) > std::abs(worst->error)) worst = &row;
   }
-  return worst == nullptr ? "" : fmt::format("at {:.4g}{}cm", to_cm(worst->depth), gap);
+  return worst == nullptr ? "" : "at " + shown_units().length.text(worst->depth);
 }
 
 Table transfer_table(const CalibrationData& data) {
@@ -99,9 +99,13 @@ std::string parameter_lines(const Fit& fit) {
     const auto value = [&](double si) {
       return std::isfinite(si) ? fmt::format("{:.5g}", one.factor * si) : std::string("-");
     };
-    const std::string unit = one.unit == "gf/cm²" ? "gf/cm^2" : one.unit;
-    text += fmt::format("  {:<18}{:>12} {:<8} 95 %: {} ... {}{}\n", ascii(one.name),
-                        value(one.estimate), ascii(unit), value(one.lower), value(one.upper),
+    const ShownUnit* known = shown_units().of(one.si_unit);
+    const std::string unit = known ? std::string(known->ascii) : one.unit;
+    const bool open = one.upper - one.lower > 2.0 * std::abs(one.estimate);
+    text += fmt::format("  {:<18}{:>12} {:<8} 95 %: {}{}\n", ascii(one.name), value(one.estimate),
+                        ascii(unit),
+                        open ? std::string("not determined by these data")
+                             : value(one.lower) + " ... " + value(one.upper),
                         one.at_bound ? fmt::format(" ({} at its bound)", ascii(one.bounded)) : "");
   }
   return text;

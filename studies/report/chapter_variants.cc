@@ -20,20 +20,22 @@ Table press_table(const std::vector<VariantPress>& presses) {
   Table table;
   table.caption =
       "Error of the normal force against the press's own continuum at each indentation, the force "
-      "in gf below. Time: one thread, when the press was computed.";
+      "below it in " +
+      unit_name(shown_units().force) + ". Time: one thread, when the press was computed.";
   table.graded = true;
-  table.header = {plain("Press"), plain("a", "cm")};
+  table.header = {plain("Press"), plain("a", unit_name(shown_units().length))};
   const std::vector<double>& depths = presses.front().depth;
   for (const double depth : depths)
-    table.header.push_back(plain("F", fmt::format("{:.4g} cm", to_cm(depth))));
+    table.header.push_back(plain("F", shown_units().length.text(depth)));
   table.header.push_back(plain("Time", "s"));
   for (const VariantPress& press : presses) {
-    std::vector<Cell> row{plain(press.name, press.series), plain(number(to_cm(press.spacing)))};
+    std::vector<Cell> row{plain(press.name, press.series),
+                          plain(number(shown_units().length(press.spacing)))};
     for (std::size_t d = 0; d < depths.size(); ++d) {
       const bool same = d < press.depth.size() && press.depth[d] == depths[d];
-      row.push_back(
-          same ? Cell{percent(press.error[d]), number(to_gf(press.force[d])), grade(press.error[d])}
-               : plain(""));
+      row.push_back(same ? Cell{percent(press.error[d]),
+                                number(shown_units().force(press.force[d])), grade(press.error[d])}
+                         : plain(""));
     }
     row.push_back(
         plain(number(press.wall_time, 2), press.status == "finished" ? "" : press.status));
@@ -89,8 +91,12 @@ Table continuum_table(const RunData& run, const std::vector<VariantPress>& press
   table.caption =
       "The continua, each with its largest estimated error over the indentations. At finite strain "
       "the material is law A, the one the network stands for.";
-  table.header = {plain("Continuum"),      plain("Contact"), plain("E", "gf/cm²"),
-                  plain("G", "gf/cm²"),    plain("ν"),       plain("Presses"),
+  table.header = {plain("Continuum"),
+                  plain("Contact"),
+                  plain("E", unit_name(shown_units().stress)),
+                  plain("G", unit_name(shown_units().stress)),
+                  plain("ν"),
+                  plain("Presses"),
                   plain("Estimated error")};
   const std::map<std::string, double> errors = continuum_errors(run.variants);
   for (const JsonEntry& entry : array_at(run.study, "continua")) {
@@ -99,8 +105,8 @@ Table continuum_table(const RunData& run, const std::vector<VariantPress>& press
     const auto error = errors.find(folder);
     table.rows.push_back(
         {plain(text_at(entry, "strain") + " strain", folder), plain(text_at(entry, "contact")),
-         plain(number(to_gf_per_cm2(number_at(entry, "youngs_modulus")))),
-         plain(number(to_gf_per_cm2(number_at(entry, "shear_modulus")))),
+         plain(number(shown_units().stress(number_at(entry, "youngs_modulus")))),
+         plain(number(shown_units().stress(number_at(entry, "shear_modulus")))),
          plain(number(number_at(entry, "poissons_ratio"), 3)), plain(std::to_string(count)),
          plain(error == errors.end() ? "–" : percent_magnitude(error->second))});
   }
@@ -116,7 +122,7 @@ Table budget_table(const JsonList& budgets) {
   table.header = {plain("Press and part")};
   const std::vector<double> depths = numbers_at(budgets.front(), "depths");
   for (const double depth : depths)
-    table.header.push_back(plain("share", fmt::format("{:.4g} cm", to_cm(depth))));
+    table.header.push_back(plain("share", shown_units().length.text(depth)));
   const auto add = [&](const std::string& what, const std::string& of,
                        const std::vector<double>& values) {
     std::vector<Cell> row{plain(what, of)};

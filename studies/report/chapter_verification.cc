@@ -138,7 +138,7 @@ Series slope_guide(const std::vector<Series>& curves, double order) {
 Panel study_panel(const JsonList& studies, const std::string& problem, const Norm& norm) {
   Panel panel;
   panel.title = problem;
-  panel.x_label = "element size h [cm]";
+  panel.x_label = shown_units().length.label("element size h");
   panel.y_label = std::string("relative ") + norm.label;
   panel.log_x = panel.log_y = 10;
   panel.key = "";
@@ -149,7 +149,7 @@ Panel study_panel(const JsonList& studies, const std::string& problem, const Nor
     for (const JsonEntry& mesh : array_at(study, "meshes")) {
       const double h = number_at(mesh, "h"), error = number_at(mesh, norm.error);
       if (!(h > 0.0 && error > 0.0)) continue;
-      series.x.push_back(to_cm(h));
+      series.x.push_back(shown_units().length(h));
       series.y.push_back(error);
     }
     if (series.x.empty()) continue;
@@ -185,17 +185,9 @@ FigureBlock orders_figure(const JsonList& studies) {
 
 /// A value with the unit that its quantity names in brackets, e.g. "deflection [m]", for people.
 Cell value_cell(double value, const std::string& quantity) {
-  struct Unit {
-    const char *si, *name;
-    double scale;
-  };
-  static constexpr Unit units[] = {{"m", "cm", 100.0},
-                                   {"N", "gf", 1.0 / newton_per_gf},
-                                   {"N/m", "gf/cm", 0.01 / newton_per_gf},
-                                   {"Pa", "gf/cm²", 1.0 / pascal_per_gf_per_cm2}};
-  for (const Unit& unit : units) {
-    if (!quantity.ends_with(fmt::format("[{}]", unit.si)) || !std::isfinite(value)) continue;
-    return plain(number(unit.scale * value, 5) + gap + unit.name, with_prefix(value, unit.si));
+  for (const ShownUnit* unit : shown_units().all()) {
+    if (!quantity.ends_with(fmt::format("[{}]", unit->si)) || !std::isfinite(value)) continue;
+    return plain(with_unit(value, *unit, 5), si_note(value, std::string(unit->si)));
   }
   return plain(number(value, std::abs(value) < 1e-3 ? 2 : 5));
 }

@@ -214,14 +214,14 @@ void write_csv(const Comparison& comparison, const fs::path& file) {
 
 Panel force_panel(const std::vector<Curve>& curves) {
   Panel panel;
-  panel.x_label = "indentation [cm]";
-  panel.y_label = "normal force [gf]";
+  panel.x_label = shown_units().length.label("indentation");
+  panel.y_label = shown_units().force.label("normal force");
   panel.key = "outside top center horizontal";
   for (std::size_t i = 0; i < curves.size(); ++i) {
     Series series{curves[i].label, "", {}, {}, {}, curves[i].style};
     for (const meshes::PressSample& sample : curves[i].response.pressing()) {
-      series.x.push_back(to_cm(sample.indentation));
-      series.y.push_back(to_gf(sample.normal_force));
+      series.x.push_back(shown_units().length(sample.indentation));
+      series.y.push_back(shown_units().force(sample.normal_force));
     }
     panel.series.push_back(std::move(series));
   }
@@ -231,14 +231,14 @@ Panel force_panel(const std::vector<Curve>& curves) {
 /// The lateral motions that followed presses; without series when none did.
 Panel lateral_panel(const std::vector<Curve>& curves) {
   Panel panel;
-  panel.x_label = "lateral displacement [cm]";
-  panel.y_label = "lateral force [gf]";
+  panel.x_label = shown_units().length.label("lateral displacement");
+  panel.y_label = shown_units().force.label("lateral force");
   panel.key = "outside top center horizontal";
   for (const Curve& curve : curves) {
     Series series{curve.label, "", {}, {}, {}, curve.style};
     for (const meshes::PressSample& sample : curve.response.sliding()) {
-      series.x.push_back(to_cm(sample.lateral_displacement));
-      series.y.push_back(to_gf(sample.lateral_force_x));
+      series.x.push_back(shown_units().length(sample.lateral_displacement));
+      series.y.push_back(shown_units().force(sample.lateral_force_x));
     }
     if (!series.x.empty()) panel.series.push_back(std::move(series));
   }
@@ -248,14 +248,14 @@ Panel lateral_panel(const std::vector<Curve>& curves) {
 Panel difference_panel(const Comparison& comparison) {
   const std::vector<Curve>& curves = comparison.curves;
   Panel panel;
-  panel.x_label = "indentation [cm]";
+  panel.x_label = shown_units().length.label("indentation");
   panel.y_label = "relative difference [%]";
   panel.key = "outside top center horizontal";
   for (std::size_t i = 1; i < curves.size(); ++i) {
     Series series{curves[i].label, "", {}, {}, {}, curves[i].style};
     for (std::size_t d = 0; d < comparison.depths.size(); ++d) {
       if (std::isnan(comparison.rows[d][i].difference)) continue;
-      series.x.push_back(to_cm(comparison.depths[d]));
+      series.x.push_back(shown_units().length(comparison.depths[d]));
       series.y.push_back(100.0 * comparison.rows[d][i].difference);
     }
     panel.series.push_back(std::move(series));
@@ -275,26 +275,28 @@ Table difference_table(const Comparison& comparison) {
   const std::vector<Curve>& curves = comparison.curves;
   Table table;
   table.caption = fmt::format(
-      "Normal force in gf, and its difference from {0} below, at samples of {0}. Nothing is told "
+      "Normal force in {1}, and its difference from {0} below, at samples of {0}. Nothing is told "
       "outside the samples of a run.",
-      curves.front().label);
+      curves.front().label, shown_units().force.name);
   if (const std::string names = interpolated_curves(comparison); !names.empty())
     table.caption += " ≈: interpolated between samples of " + names + ".";
   table.graded = std::ranges::none_of(comparison.remarks, &ComparisonRemark::meaningless);
-  table.header = {{"Indentation", "cm", Grade::none}};
+  table.header = {plain("Indentation", unit_name(shown_units().length))};
   for (const Curve& curve : curves) table.header.push_back({curve.label, "", Grade::none});
   for (std::size_t d = 0; d < comparison.depths.size(); ++d) {
-    std::vector<Cell> row{{fmt::format("{:.4g}", to_cm(comparison.depths[d])), "", Grade::none}};
+    std::vector<Cell> row{
+        {fmt::format("{:.4g}", shown_units().length(comparison.depths[d])), "", Grade::none}};
     for (std::size_t i = 0; i < curves.size(); ++i) {
       const Compared& cell = comparison.rows[d][i];
       const std::string about = cell.force.interpolated ? "≈ " : "";
       if (std::isnan(cell.force.value))
         row.push_back({"", "", Grade::none});
       else if (i == 0)
-        row.push_back(
-            {number(to_gf(cell.force.value)), with_prefix(cell.force.value, "N"), Grade::none});
+        row.push_back({number(shown_units().force(cell.force.value)),
+                       si_note(cell.force.value, "N"), Grade::none});
       else
-        row.push_back({about + number(to_gf(cell.force.value)), percent(cell.difference),
+        row.push_back({about + number(shown_units().force(cell.force.value)),
+                       percent(cell.difference),
                        table.graded ? grade(cell.difference) : Grade::none});
     }
     table.rows.push_back(std::move(row));
@@ -363,14 +365,14 @@ Comparison read_comparison(const std::vector<fs::path>& runs, FolderReader& read
 std::string table_text(const Comparison& comparison) {
   constexpr std::size_t shown = 20;
   const std::vector<Curve>& curves = comparison.curves;
-  std::string text =
-      fmt::format("{:>12}{:>26}", "depth [cm]", curves.front().label.substr(0, shown) + " [gf]");
+  std::string text = fmt::format("{:>12}{:>26}", shown_units().length.label("depth"),
+                                 shown_units().force.label(curves.front().label.substr(0, shown)));
   for (std::size_t i = 1; i < curves.size(); ++i)
     text += fmt::format("{:>24}", curves[i].label.substr(0, shown));
   text += "\n";
   for (std::size_t d = 0; d < comparison.depths.size(); ++d) {
-    text += fmt::format("{:12.4f}{:26.4f}", to_cm(comparison.depths[d]),
-                        to_gf(comparison.rows[d].front().force.value));
+    text += fmt::format("{:12.4f}{:26.4f}", shown_units().length(comparison.depths[d]),
+                        shown_units().force(comparison.rows[d].front().force.value));
     for (std::size_t i = 1; i < curves.size(); ++i) {
       const Compared& cell = comparison.rows[d][i];
       text +=
@@ -390,17 +392,18 @@ std::string lateral_text(const std::vector<Curve>& curves) {
   for (const Curve& curve : curves)
     if (!curve.response.sliding().empty()) sliding.push_back(&curve);
   if (sliding.size() < 2) return {};
-  std::string text = "lateral force at full depth [gf]\n" + fmt::format("{:>12}", "aside [cm]");
+  std::string text = shown_units().force.label("lateral force at full depth") + "\n" +
+                     fmt::format("{:>12}", shown_units().length.label("aside"));
   for (const Curve* curve : sliding) text += fmt::format("{:>24}", curve->label.substr(0, 23));
   text += "\n";
   for (const meshes::PressSample& wanted : sliding.front()->response.sliding()) {
     const double place = wanted.lateral_displacement;
-    std::string row = fmt::format("{:12.4f}", to_cm(place));
+    std::string row = fmt::format("{:12.4f}", shown_units().length(place));
     std::size_t found = 0;
     for (const Curve* curve : sliding)
       for (const meshes::PressSample& sample : curve->response.sliding())
         if (std::abs(sample.lateral_displacement - place) <= same_depth * std::abs(place)) {
-          row += fmt::format("{:24.4f}", to_gf(sample.lateral_force_x));
+          row += fmt::format("{:24.4f}", shown_units().force(sample.lateral_force_x));
           ++found;
         }
     if (found == sliding.size()) text += row + "\n";

@@ -18,7 +18,7 @@ constexpr std::size_t most_shown = 6;  ///< curves that a reader tells apart
 constexpr int rings = 80;              ///< into which a contact is divided for drawing
 constexpr int curve_points = 80;
 
-/// The ends of a mesh edge in cm, undeformed or deformed.
+/// The ends of a mesh edge in the units shown, undeformed or deformed.
 struct Edge {
   double x1, z1, x2, z2;
 };
@@ -36,7 +36,8 @@ std::vector<Edge> section_edges(const CsvTable& section, bool deformed) {
     std::array<long, 2> second{std::lround(1e9 * x2[i]), std::lround(1e9 * z2[i])};
     if (second < first) std::swap(first, second);
     if (!seen.insert({first[0], first[1], second[0], second[1]}).second) continue;
-    edges.push_back({to_cm(x1[i]), to_cm(z1[i]), to_cm(x2[i]), to_cm(z2[i])});
+    edges.push_back({shown_units().length(x1[i]), shown_units().length(z1[i]),
+                     shown_units().length(x2[i]), shown_units().length(z2[i])});
   }
   return edges;
 }
@@ -90,8 +91,8 @@ Series thinned(const PressureProfile& profile, const std::string& colour) {
   }
   for (const auto& [ring, pair] : extremes) {
     for (const std::size_t i : std::set<std::size_t>{pair.first, pair.second}) {
-      series.x.push_back(to_cm(profile.radius[i]));
-      series.y.push_back(to_gf_per_cm2(profile.pressure[i]));
+      series.x.push_back(shown_units().length(profile.radius[i]));
+      series.y.push_back(shown_units().stress(profile.pressure[i]));
     }
   }
   return series;
@@ -104,8 +105,8 @@ Series hertz_series(const fem_reference::analytic::Hertz& hertz, double depth,
   for (int i = 0; i <= curve_points; ++i) {
     // Denser towards the edge, where the curve is steep.
     const double r = i == curve_points ? a : a * std::sin(std::acos(-1.0) / 2 * i / curve_points);
-    series.x.push_back(to_cm(r));
-    series.y.push_back(to_gf_per_cm2(hertz.pressure(r, depth)));
+    series.x.push_back(shown_units().length(r));
+    series.y.push_back(shown_units().stress(hertz.pressure(r, depth)));
   }
   return series;
 }
@@ -113,8 +114,8 @@ Series hertz_series(const fem_reference::analytic::Hertz& hertz, double depth,
 Panel section_panel(const std::string& title) {
   Panel panel;
   panel.title = title;
-  panel.x_label = "x [cm]";
-  panel.y_label = "z [cm]";
+  panel.x_label = shown_units().length.label("x");
+  panel.y_label = shown_units().length.label("z");
   panel.equal_scales = true;
   panel.key = "";
   return panel;
@@ -141,11 +142,11 @@ Panel whole_section(const RunData& run) {
 /// The contact, pressed to the end.
 Panel contact_section(const RunData& run) {
   Panel panel = section_panel("near the contact, pressed");
-  const double a = to_cm(run.reference.samples().back().contact_radius);
+  const double a = shown_units().length(run.reference.samples().back().contact_radius);
   double top = -1e9;
   for (const Edge& edge : section_edges(run.section, false))
     top = std::fmax(top, std::fmax(edge.z1, edge.z2));
-  const double plane = top - to_cm(run.reference.depth());
+  const double plane = top - shown_units().length(run.reference.depth());
   const bool half = is_half_section(run);
   // A mirrored picture shows nothing new: one half, twice as large.
   const double from = half ? -0.05 * a : -1.6 * a, to = 1.6 * a, height = 0.95 * (to - from);
@@ -192,7 +193,7 @@ bool same_depth(double a, double b) {
 }
 
 std::string depth_label(double depth) {
-  return fmt::format("{:.4g} cm", to_cm(depth));
+  return shown_units().length.text(depth);
 }
 
 std::vector<double> shown_depths(const RunData& run, const std::vector<double>& computed) {
@@ -251,8 +252,8 @@ FigureBlock mesh_figure(const RunData& run) {
 
 FigureBlock pressure_figure(const RunData& run) {
   Panel panel;
-  panel.x_label = "radius [cm]";
-  panel.y_label = "contact pressure [gf/cm²]";
+  panel.x_label = shown_units().length.label("radius");
+  panel.y_label = shown_units().stress.label("contact pressure");
   panel.key = "outside right top";
   panel.y_range = Range{0.0, meshes::unknown};
   const std::vector<PressureProfile> profiles = pressure_profiles(run);

@@ -11,7 +11,7 @@
 
 namespace fingertip::studies::reporting {
 
-/// A rectangle of the section [cm]; a NaN bound does not bind.
+/// A rectangle of the section, in the units shown; a NaN bound does not bind.
 struct Window {
   double x_from = meshes::unknown, x_to = meshes::unknown;
   double z_from = meshes::unknown, z_to = meshes::unknown;
@@ -22,7 +22,7 @@ void add_segment(Series& series, double x1, double z1, double x2, double z2);
 /// A thin solid line.
 Style thin(const std::string& colour, double width = 0.7);
 /// The mesh's edges in y = 0 that touch `window`, each once, mirrored when only x >= 0 was
-/// computed [cm].
+/// computed; in the units shown.
 Series section_series(const RunData& run, bool deformed, const Style& style,
                       const Window& window = {});
 /// Only x >= 0 was computed.
@@ -33,7 +33,7 @@ bool is_half_section(const RunData& run);
 std::vector<double> shown_depths(const RunData& run, const std::vector<double>& computed);
 /// Two indentations [m] that are the same but for rounding.
 bool same_depth(double a, double b);
-/// "0.3 cm"
+/// "3 mm"
 std::string depth_label(double depth);
 
 /// Radius of the tip [m] by the continuum's job; NaN without one.

@@ -69,7 +69,7 @@ class BlockData {
     inner.set("header", header);
     inner.set("rows", rows);
     inner.set("graded", table.graded);
-    inner.set("dense", table.header.size() > 12);
+    inner.set("dense", table.header.size() > 8);
     return data("table", inner);
   }
 

@@ -18,6 +18,15 @@ std::string typeset(std::string text) {
   return text;
 }
 
+bool paper_units() {
+  return shown_units().system == UnitSystem::paper;
+}
+
+std::string with_si(double value, const ShownUnit& unit) {
+  const std::string si = with_prefix(value, std::string(unit.si));
+  return paper_units() ? fmt::format("{} ({})", with_unit(value, unit), si) : si;
+}
+
 std::string percent_digits(double fraction) {
   const double magnitude = std::abs(100.0 * fraction);
   if (magnitude < 1e-6) return "0";
@@ -67,16 +76,31 @@ std::string percent_magnitude(double fraction) {
 
 std::string length(double metre) {
   if (!std::isfinite(metre)) return "–";
-  return fmt::format("{0}{2}cm ({1}{2}mm)", typeset(fmt::format("{:.4g}", to_cm(metre))),
-                     typeset(fmt::format("{:.4g}", 1e3 * metre)), gap);
+  const auto in = [&](const ShownUnits& units) {
+    return typeset(fmt::format("{:.4g}", units.length(metre))) + gap + unit_name(units.length);
+  };
+  const std::string si = in(units_of(UnitSystem::si));
+  return paper_units() ? fmt::format("{} ({})", in(shown_units()), si) : si;
 }
 
 std::string force(double newton) {
-  return number(to_gf(newton)) + gap + "gf (" + with_prefix(newton, "N") + ")";
+  return with_si(newton, shown_units().force);
 }
 
 std::string stress(double pascal) {
-  return number(to_gf_per_cm2(pascal)) + gap + "gf/cm² (" + with_prefix(pascal, "Pa") + ")";
+  return with_si(pascal, shown_units().stress);
+}
+
+std::string si_note(double value, const std::string& unit) {
+  return paper_units() ? with_prefix(value, unit) : "";
+}
+
+std::string with_unit(double value, const ShownUnit& unit, int digits) {
+  return number(unit(value), digits) + (std::isfinite(value) ? gap + unit_name(unit) : "");
+}
+
+std::string unit_name(const ShownUnit& unit) {
+  return std::string(unit.name);
 }
 
 std::string with_prefix(double value, const std::string& unit) {

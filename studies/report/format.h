@@ -1,23 +1,13 @@
-/// Numbers for people: gf and cm beside SI, typographic signs, no line break before a unit.
+/// Numbers for people: in the units of run.units, typographic signs, no line break before a unit.
 #pragma once
 
 #include <string>
 
+#include "studies/files/shown_units.h"
+
 namespace fingertip::studies::reporting {
 
-inline constexpr double newton_per_gf = 9.80665e-3;       ///< standard gravity times 1 g
-inline constexpr double pascal_per_gf_per_cm2 = 98.0665;  ///< 1 gf over 1 cm²
 inline constexpr double degree_per_radian = 57.29577951308232;
-
-inline double to_gf(double newton) {
-  return newton / newton_per_gf;
-}
-inline double to_gf_per_cm2(double pascal) {
-  return pascal / pascal_per_gf_per_cm2;
-}
-inline double to_cm(double metre) {
-  return metre * 100.0;
-}
 
 /// `value` with `digits` significant digits, "–" for NaN; fixed notation from 1e-3 to 1e6, powers
 /// of ten as "1.2×10⁻⁹" outside.
@@ -39,14 +29,20 @@ std::string percent_magnitude(double fraction);
 /// Between a number and its unit: U+00A0.
 inline constexpr const char* gap = "\u00a0";
 
-/// "0.3 cm (3 mm)"
+/// "3 mm", in the paper's units "0.3 cm (3 mm)".
 std::string length(double metre);
-/// "19.42 gf (0.1905 N)"
+/// "190.5 mN", in the paper's units "19.42 gf (190.5 mN)".
 std::string force(double newton);
-/// "40 gf/cm² (3.923 kPa)"
+/// "3.923 kPa", in the paper's units "40.00 gf/cm² (3.923 kPa)".
 std::string stress(double pascal);
 /// SI alone, with the prefix that suits: "3.923 kPa", "190.5 mN", "43.1 µs".
 std::string with_prefix(double value, const std::string& unit);
+/// SI for the line below a number that is shown in the paper's units; nothing where it is in SI.
+std::string si_note(double value, const std::string& unit);
+/// "190.5 mN" or "19.42 gf": the number as a table shows it, and its unit.
+std::string with_unit(double value, const ShownUnit& unit, int digits = 4);
+/// "mm", as a cell's note takes it.
+std::string unit_name(const ShownUnit& unit);
 
 /// How far a relative error is off, for colours and marks.
 enum class Grade { none, close, fair, off, wrong };

@@ -28,7 +28,7 @@ std::vector<std::vector<Surface::Point>> polar_surface(const ElasticModuli& modu
       const double azimuth = j * std::numbers::pi / facets;
       const Eigen::Vector3d n(std::sin(polar) * std::cos(azimuth),
                               std::sin(polar) * std::sin(azimuth), std::cos(polar));
-      const double E = to_gf_per_cm2(calibration::youngs_modulus_along(moduli, n));
+      const double E = shown_units().stress(calibration::youngs_modulus_along(moduli, n));
       rows.back().push_back({E * n.x(), E * n.y(), E * n.z(), E});
     }
   }
@@ -58,15 +58,15 @@ Figure modulus_surface_figure(const std::string& name,
   for (const auto& [title, moduli] : materials) {
     if (!drawable(moduli)) continue;
     for (const double E : {moduli.youngs_modulus_100, moduli.youngs_modulus_111}) {
-      least = std::fmin(least, to_gf_per_cm2(E));
-      most = std::fmax(most, to_gf_per_cm2(E));
+      least = std::fmin(least, shown_units().stress(E));
+      most = std::fmax(most, shown_units().stress(E));
     }
     Panel panel;
     panel.title = title;
-    panel.x_label = "E·n₁ [gf/cm²]";
-    panel.y_label = "E·n₂ [gf/cm²]";
-    panel.surface =
-        Surface{polar_surface(moduli, facets_of(materials.size())), "E·n₃ [gf/cm²]", "E [gf/cm²]"};
+    panel.x_label = shown_units().stress.label("E·n₁");
+    panel.y_label = shown_units().stress.label("E·n₂");
+    panel.surface = Surface{polar_surface(moduli, facets_of(materials.size())),
+                            shown_units().stress.label("E·n₃"), shown_units().stress.label("E")};
     figure.panels.push_back(std::move(panel));
   }
   // Isotropic materials alone would leave the colours without a range.

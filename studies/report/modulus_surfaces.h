@@ -17,7 +17,7 @@ calibration::ElasticModuli cubic_material(double youngs_modulus, double poissons
                                           double shear_modulus);
 
 /// E(n) n over all directions n, a panel per material under its title, all at the same scale and
-/// with the same colours; gf/cm². Materials without finite positive moduli are left out; no panel
+/// with the same colours. Materials without finite positive moduli are left out; no panel
 /// when none is left.
 Figure modulus_surface_figure(
     const std::string& name,

@@ -61,15 +61,15 @@ std::string with_case(const RunData& run, const std::string& subject) {
          (started.empty() ? "" : ", " + started);
 }
 
-/// "k1 = 12.3 N/m, ...: " of a calibration.json.
+/// "k1 = 12.30 N/m, ...: " of a calibration.json.
 std::string constants_words(const JsonEntry& calibration) {
   const JsonEntry constants = object_at(calibration, "constants");
   std::string text;
-  for (const auto& [name, unit] : {std::pair{"k1", "N/m"}, std::pair{"k2", "N/m"},
-                                   std::pair{"k3", "N/m"}, std::pair{"kappa", "Pa"}}) {
+  for (const std::string name : {"k1", "k2", "k3", "kappa"}) {
     const double value = number_at(constants, name);
+    const ShownUnit& unit = name == "kappa" ? shown_units().stress : shown_units().stiffness;
     if (std::isfinite(value))
-      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, with_prefix(value, unit));
+      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, with_unit(value, unit));
   }
   return text.empty() ? text : text + ". ";
 }
@@ -287,9 +287,13 @@ std::vector<Damaged> damaged_parts(const FolderReader& reader) {
 
 }  // namespace reporting
 
-Damages write_report(const std::filesystem::path& run_folder) {
+Damages write_report(const std::filesystem::path& run_folder, std::optional<UnitSystem> units) {
   using namespace reporting;
   FolderReader reader;
+  const auto own = [&] {
+    return unit_system(text_at(reader.json(run_folder / "manifest.json"), "units"));
+  };
+  const ShowIn shown(units ? *units : reader.attempt(own));
   Page page;
   if (std::filesystem::exists(run_folder / "bench.json")) {
     page = bench_page(run_folder, reader);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "meshes/errors.h"
+#include "studies/files/shown_units.h"
 
 namespace fingertip::studies {
 
@@ -17,10 +19,12 @@ using Damages = std::vector<meshes::Violation>;
 /// missing are left out and named as not run. Damaged files do not keep the rest from being
 /// reported: the page names them and lacks what they hold, and they are returned.
 /// The old report stays until the new one is complete.
+/// The page is in `units`, without them in those of the run.
 /// Throws meshes::InvalidInput when the folder is none of a run (no summary.json, calibration.json
 /// or bench.json) and when gnuplot cannot be started; std::runtime_error when a figure cannot be
 /// drawn or a file cannot be written.
-Damages write_report(const std::filesystem::path& run_folder);
+Damages write_report(const std::filesystem::path& run_folder,
+                     std::optional<UnitSystem> units = std::nullopt);
 
 struct ComparisonResult {
   std::string text;  ///< for a terminal: table, differences, remarks
@@ -44,7 +48,7 @@ struct ComparisonResult {
 ComparisonResult write_comparison(const std::vector<std::filesystem::path>& runs,
                                   const std::filesystem::path& out_folder);
 
-/// The verdict table of a `validate` run folder as plain ASCII for a terminal, gf and cm: per
+/// The verdict table of a `validate` run folder as plain ASCII for a terminal: per
 /// model the elastic constants and the force error at each depth, then the criteria.
 /// Throws meshes::InvalidInput like write_report, and for damaged files.
 std::string verdict_text(const std::filesystem::path& run_folder);

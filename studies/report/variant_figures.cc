@@ -107,8 +107,8 @@ void add_presses(Panel& panel, const std::vector<VariantPress>& presses, bool er
     curve.style.width = 1.6;
     if (count > most_named) curve.style.colour = depth_shade(i, count);
     for (std::size_t d = 0; d < press.depth.size(); ++d) {
-      curve.x.push_back(to_cm(press.depth[d]));
-      curve.y.push_back(errors ? 100.0 * press.error[d] : to_gf(press.force[d]));
+      curve.x.push_back(shown_units().length(press.depth[d]));
+      curve.y.push_back(errors ? 100.0 * press.error[d] : shown_units().force(press.force[d]));
     }
     panel.series.push_back(std::move(curve));
   }
@@ -121,8 +121,8 @@ void add_continua(Panel& panel, const std::vector<VariantPress>& presses) {
     Series curve{drawn.size() > 1 ? "" : "continuum", press.continuum, {}, {}, {}, {}};
     curve.style = {"#000000", "(2,3)", 1.4, 0, true};
     for (std::size_t d = 0; d < press.depth.size(); ++d) {
-      curve.x.push_back(to_cm(press.depth[d]));
-      curve.y.push_back(to_gf(press.reference[d]));
+      curve.x.push_back(shown_units().length(press.depth[d]));
+      curve.y.push_back(shown_units().force(press.reference[d]));
     }
     panel.series.push_back(std::move(curve));
   }
@@ -154,7 +154,7 @@ Figure variant_error_figure(const std::vector<VariantPress>& presses, const std:
   const std::vector<std::string> series = series_of(presses);
   for (const double depth : shown_depths(presses)) {
     Panel panel;
-    panel.title = fmt::format("at {:.4g} cm", to_cm(depth));
+    panel.title = "at " + shown_units().length.text(depth);
     panel.x_label = x_label;
     panel.y_label = "force error [%]";
     panel.band = Band{-1.0, 1.0};
@@ -181,7 +181,7 @@ Figure variant_error_figure(const std::vector<VariantPress>& presses, const std:
 Figure convergence_figure(const std::vector<VariantPress>& presses, const JsonEntry& study) {
   Figure figure{"variants_convergence", 760, 440, 1, {}};
   Panel panel;
-  panel.x_label = "spacing a [cm]";
+  panel.x_label = shown_units().length.label("spacing a");
   panel.y_label = "largest force error [%]";
   panel.log_x = panel.log_y = 10;
   panel.key = "outside right top";
@@ -196,7 +196,7 @@ Figure convergence_figure(const std::vector<VariantPress>& presses, const JsonEn
     curve.style = numbered_style(index++);
     for (const VariantPress& press : presses) {
       if (press.series != name || !std::isfinite(press.worst())) continue;
-      curve.x.push_back(to_cm(press.spacing));
+      curve.x.push_back(shown_units().length(press.spacing));
       curve.y.push_back(100.0 * press.worst());
     }
     panel.series.push_back(std::move(curve));
@@ -211,8 +211,8 @@ Figure variant_force_figure(const std::vector<VariantPress>& presses) {
     const std::vector<VariantPress> own = presses_of(presses, series);
     Panel panel;
     panel.title = series;
-    panel.x_label = "indentation [cm]";
-    panel.y_label = "normal force [gf]";
+    panel.x_label = shown_units().length.label("indentation");
+    panel.y_label = shown_units().force.label("normal force");
     add_continua(panel, own);
     add_presses(panel, own, false);
     panel.y_range = with_room_for_legend(panel);
@@ -227,7 +227,7 @@ std::vector<Figure> variant_depth_figures(const std::vector<VariantPress>& press
   for (const std::string& series : series_of(presses)) {
     Figure figure{fmt::format("variants_depth_{}", figures.size() + 1), 860, 330, 1, {}};
     Panel panel;
-    panel.x_label = "indentation [cm]";
+    panel.x_label = shown_units().length.label("indentation");
     panel.y_label = "force error [%]";
     panel.key = "outside right top";
     panel.band = Band{-1.0, 1.0};

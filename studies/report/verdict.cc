@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "studies/report/calibration_chapters.h"
@@ -41,8 +42,7 @@ std::string describe(const RunData& run, const ModelData& model) {
   const std::size_t least = extreme(model, -1.0), most = extreme(model, 1.0);
   if (least == model.force_error.size()) return model.name + " is unknown";
   const auto at = [&](std::size_t i) {
-    return fmt::format("{} at {:.4g}{}cm", percent(model.force_error[i]), to_cm(run.depths[i]),
-                       gap);
+    return percent(model.force_error[i]) + " at " + length(run.depths[i]);
   };
   const bool flat = model.force_error[most] - model.force_error[least] < 5e-4;
   if (flat) return fmt::format("{} is off by {}", model.name, percent(model.force_error[most]));
@@ -83,53 +83,77 @@ bool is_ratio(const Constant& constant) {
 
 Cell constant_cell(const Constant& constant, double value, double target) {
   const double error = deviation(value, target);
-  const double shown = is_ratio(constant) ? value : to_gf_per_cm2(value);
+  const double shown = is_ratio(constant) ? value : shown_units().stress(value);
   return {number(shown), percent(error), grade(error)};
+}
+
+/// Shown number, and below it what it is in the other system: the paper gives its rubber in gf and
+/// cm.
+Cell in_both(double value, ShownUnit ShownUnits::*quantity) {
+  const bool paper = shown_units().system == UnitSystem::paper;
+  const ShownUnits& other = units_of(paper ? UnitSystem::si : UnitSystem::paper);
+  return plain(with_unit(value, shown_units().*quantity), with_unit(value, other.*quantity));
 }
 
 Cell target_cell(const Constant& constant, double target) {
   if (is_ratio(constant)) return {number(target), "", Grade::none};
-  return {number(to_gf_per_cm2(target)), with_prefix(target, "Pa"), Grade::none};
+  return in_both(target, &ShownUnits::stress);
 }
 
-Table verdict_table(const RunData& run) {
+/// A row per model below the target's.
+Table model_table(const RunData& run, std::vector<Cell> header, std::vector<Cell> target,
+                  const std::function<void(const ModelData&, std::vector<Cell>&)>& fill) {
   Table table;
-  table.caption =
-      "Every model against the rubber (elastic constants in gf/cm², deviation below) and against "
-      "the continuum (error of the normal force at each indentation). Real time: simulated over "
-      "wall time.";
   table.graded = true;
-  table.header = {{"Model", "", Grade::none}};
-  for (const Constant& constant : constants_shown)
-    table.header.push_back({constant.label, "", Grade::none});
-  for (double depth : run.depths) {
-    table.header.push_back({"F", fmt::format("{:.4g} cm", to_cm(depth)), Grade::none});
-  }
-  table.header.push_back({"F", "rel. L²", Grade::none});
-  table.header.push_back({"Real time", "factor", Grade::none});
-  std::vector<Cell> target{{"Target", "rubber, continuum", Grade::none}};
-  for (const Constant& constant : constants_shown)
-    target.push_back(target_cell(constant, run.target.*constant.target));
-  for (double depth : run.depths) {
-    const double f = force_at(run.reference, depth);
-    target.push_back(
-        {std::isfinite(f) ? number(to_gf(f)) + gap + "gf" : "–", with_prefix(f, "N"), Grade::none});
-  }
-  target.push_back({"", "", Grade::none});
-  target.push_back({"", "", Grade::none});
+  table.header = std::move(header);
   table.rows.push_back(std::move(target));
   for (const ModelData& model : run.models) {
-    const std::string status = model.status == "ok" ? "" : model.status;
-    std::vector<Cell> row{{model_label(model.name), status, Grade::none}};
-    for (const Constant& constant : constants_shown) {
-      row.push_back(
-          constant_cell(constant, model.moduli.*constant.value, run.target.*constant.target));
-    }
-    for (double error : model.force_error) row.push_back({percent(error), "", grade(error)});
-    row.push_back({percent_magnitude(model.l2_error), "", grade(model.l2_error)});
-    row.push_back({number(model.real_time_factor, 3), "", Grade::none});
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(
+        {plain(model_label(model.name), model.status == "ok" ? "" : model.status)});
+    fill(model, table.rows.back());
   }
+  return table;
+}
+
+Table constants_table(const RunData& run) {
+  std::vector<Cell> header{plain("Model")}, target{plain("Target", "rubber, continuum")};
+  for (const Constant& constant : constants_shown) {
+    header.push_back(plain(constant.label));
+    target.push_back(target_cell(constant, run.target.*constant.target));
+  }
+  header.push_back(plain("Real time", "factor"));
+  target.push_back(plain(""));
+  Table table = model_table(
+      run, std::move(header), std::move(target), [&](const ModelData& model, auto& row) {
+        for (const Constant& constant : constants_shown)
+          row.push_back(
+              constant_cell(constant, model.moduli.*constant.value, run.target.*constant.target));
+        row.push_back(plain(number(model.real_time_factor, 3)));
+      });
+  table.caption = fmt::format(
+      "Every model against the rubber: elastic constants in {}, deviation below. Real time: "
+      "simulated over wall time.",
+      shown_units().stress.name);
+  return table;
+}
+
+Table force_table(const RunData& run) {
+  std::vector<Cell> header{plain("Model")}, target{plain("Continuum")};
+  for (const double depth : run.depths) {
+    const double f = force_at(run.reference, depth);
+    header.push_back(plain("F", shown_units().length.text(depth)));
+    target.push_back(std::isfinite(f) ? in_both(f, &ShownUnits::force) : plain("–"));
+  }
+  header.push_back(plain("F", "rel. L²"));
+  target.push_back(plain(""));
+  Table table =
+      model_table(run, std::move(header), std::move(target), [](const ModelData& model, auto& row) {
+        for (const double error : model.force_error)
+          row.push_back({percent(error), "", grade(error)});
+        row.push_back({percent_magnitude(model.l2_error), "", grade(model.l2_error)});
+      });
+  table.caption =
+      "Every model against the continuum: error of the normal force at each indentation.";
   return table;
 }
 
@@ -165,16 +189,18 @@ std::string plain_number(double value, const char* format) {
 std::string text_table(const RunData& run) {
   std::string text = fmt::format("{:<12}", "model");
   for (const Constant& constant : constants_shown) text += cell(constant.ascii, 8);
-  for (double depth : run.depths) text += cell(fmt::format("F {:.4g} cm", to_cm(depth)), 11);
+  for (double depth : run.depths) text += cell("F " + shown_units().length.text(depth), 11);
   text += cell("real time", 11) + "\n" + fmt::format("{:<12}", "target");
   const auto shown = [](const Constant& constant, double value) {
     return is_ratio(constant) ? plain_number(value, "{:.4f}")
-                              : plain_number(to_gf_per_cm2(value), "{:.2f}");
+                              : plain_number(shown_units().stress(value), "{:.2f}");
   };
   for (const Constant& constant : constants_shown)
     text += cell(shown(constant, run.target.*constant.target), 8);
   for (double depth : run.depths) {
-    text += cell(plain_number(to_gf(force_at(run.reference, depth)), "{:.4g} gf"), 11);
+    text += cell(plain_number(shown_units().force(force_at(run.reference, depth)), "{:.4g} ") +
+                     std::string(shown_units().force.ascii),
+                 11);
   }
   text += "\n";
   for (const ModelData& model : run.models) {
@@ -184,7 +210,8 @@ std::string text_table(const RunData& run) {
     for (double error : model.force_error) text += cell(plain_percent(error), 11);
     text += cell(plain_number(model.real_time_factor, "{:.3g}"), 11) + "\n";
   }
-  return text + "moduli in gf/cm^2; F: force of the continuum, error of the models\n";
+  return text + fmt::format("moduli in {}; F: force of the continuum, error of the models\n",
+                            shown_units().stress.ascii);
 }
 
 }  // namespace
@@ -223,7 +250,10 @@ std::string answer(const RunData& run, FolderReader& reader) {
 Chapter verdict_chapter(const RunData& run) {
   Chapter chapter{"verdict", "Verdict", {}};
   if (!run.description.empty()) chapter.blocks.push_back(Paragraph{"", run.description});
-  if (!run.models.empty()) chapter.blocks.push_back(verdict_table(run));
+  if (!run.models.empty()) {
+    chapter.blocks.push_back(force_table(run));
+    chapter.blocks.push_back(constants_table(run));
+  }
   if (!run.criteria.empty()) chapter.blocks.push_back(criteria_table(run));
   return chapter;
 }

@@ -37,13 +37,6 @@ void FileProblems::throw_if_any() const {
   throw ConfigError(std::move(problems));
 }
 
-string_view trimmed(string_view text) {
-  constexpr const char* blank = " \t\r\v\f";
-  const auto first = text.find_first_not_of(blank);
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
 std::string shown(string_view text) {
   constexpr std::size_t most = 40;
   std::string result(text.substr(0, most));

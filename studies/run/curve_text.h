@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "studies/config/loader.h"
+#include "studies/config/trimmed.h"
 
 namespace fingertip::studies {
 
@@ -28,9 +29,6 @@ class FileProblems {
   std::vector<Problem> problems_;
   std::size_t further_ = 0;
 };
-
-/// Without blanks at both ends.
-std::string_view trimmed(std::string_view text);
 
 /// What a message may show of a file's text: printable and at most 40 characters.
 std::string shown(std::string_view text);

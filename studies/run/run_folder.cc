@@ -12,6 +12,7 @@
 #include "meshes/files.h"
 #include "source_hash.h"
 #include "studies/config/documents.h"
+#include "studies/run/asked_units.h"
 #include "studies/run/digest.h"
 #include "studies/run/fresh_folder.h"
 #include "studies/run/json_file.h"
@@ -133,6 +134,7 @@ RunFolder::RunFolder(const RunFolderOptions& options, const LoadedConfig& loaded
   manifest_ = {{"program", "fingertip"},
                {"version", program_version()},
                {"verb", options.verb},
+               {"units", name(asked_units(loaded))},
                {"status", "running"},
                {"command_line", options.command_line},
                {"started", utc_now()},

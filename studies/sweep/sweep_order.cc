@@ -132,7 +132,8 @@ std::string common_text(const std::string& verb, const LoadedConfig& base,
                         const std::set<std::string>& axes) {
   std::string text = verb + "\n";
   for (const auto& [name, entry] : base.entries) {
-    if (!entry.given || name == "run.threads" || axes.contains(name)) continue;
+    if (!entry.given || name == "run.threads" || name == "run.units" || axes.contains(name))
+      continue;
     text += name + "=" + entry.literal + "\n";
   }
   return text;

@@ -149,16 +149,16 @@ TEST_F(LivePage, ShowsWhatTheServerSays) {
   const auto frame = simulation_->frame();
   const studies::LiveRow& row = frame->picture.row;
   EXPECT_GT(row.normal_force, 0.0);
-  EXPECT_NEAR(shown("indentation"), 100.0 * row.indentation, 0.51e-4);
-  EXPECT_NEAR(shown("normal-force"), row.normal_force / 9.80665e-3, 0.51e-2);
-  EXPECT_NEAR(shown("torque"), frame->picture.measured.wrench.torque.norm() / 9.80665e-5, 0.51e-2);
+  EXPECT_NEAR(shown("indentation"), 1e3 * row.indentation, 0.51e-3);
+  EXPECT_NEAR(shown("normal-force"), 1e3 * row.normal_force, 0.51e-1);
+  EXPECT_NEAR(shown("torque"), 1e6 * frame->picture.measured.wrench.torque.norm(), 0.51e-1);
   EXPECT_NEAR(shown("time"), row.time, 0.51e-3);
   EXPECT_NEAR(shown("touching"), frame->picture.measured.contact->touching, 0.0);
   page_->click("#units");
   ASSERT_TRUE(
-      page_->wait_for("document.getElementById('normal-force').textContent.endsWith(' N')"));
-  EXPECT_NEAR(shown("indentation"), 1e3 * row.indentation, 0.51e-3);
-  EXPECT_NEAR(shown("normal-force"), row.normal_force, 0.51e-4);
+      page_->wait_for("document.getElementById('normal-force').textContent.endsWith(' gf')"));
+  EXPECT_NEAR(shown("indentation"), 100.0 * row.indentation, 0.51e-4);
+  EXPECT_NEAR(shown("normal-force"), row.normal_force / 9.80665e-3, 0.51e-2);
 }
 
 TEST_F(LivePage, StepsResetsAndObeysSliders) {
@@ -237,7 +237,7 @@ TEST_F(LiveForcePage, SetsTheContactForce) {
   slide("contact_force", 0.5);
   page_->click("#step");
   ASSERT_TRUE(page_->wait_for(
-      "document.getElementById('contact_force-value').textContent.endsWith(' gf')"));
+      "document.getElementById('contact_force-value').textContent.endsWith(' mN')"));
   settle();
   const studies::Span span = *simulation_->rig().limits().contact_force;
   EXPECT_NEAR(simulation_->frame()->state.settings.contact_force, 0.5 * (span.least + span.most),

@@ -24,6 +24,61 @@ TEST(KeyTable, NamesAreUniqueAndEverySectionIsDescribed) {
   }
 }
 
+namespace {
+
+/// TOML values that no key of this kind and range takes.
+std::vector<std::string> bad_values(const Key& key) {
+  std::vector<std::string> bad = {"1979-05-27"};
+  switch (key.kind) {
+    case Kind::quantity:
+      bad.insert(bad.end(), {"17", "\"3\"", "\"3 candela\"", "\"inf m\""});
+      break;
+    case Kind::choice: bad.insert(bad.end(), {"\"nonsense\"", "17"}); break;
+    case Kind::integer: bad.insert(bad.end(), {"1.5", "\"two\"", "1e300"}); break;
+    case Kind::number: bad.insert(bad.end(), {"\"3 m\"", "nan", "true"}); break;
+    case Kind::boolean: bad.insert(bad.end(), {"2", "\"yes\""}); break;
+    case Kind::quantities: bad.insert(bad.end(), {"\"3 m\"", "[17]", "[\"3 candela\"]"}); break;
+    case Kind::numbers:
+    case Kind::number_pair: bad.insert(bad.end(), {"7", "[7]", "[\"a\", \"b\", \"c\"]"}); break;
+    case Kind::texts:
+    case Kind::files: bad.insert(bad.end(), {"7", "[7]"}); break;
+    default: bad.emplace_back("17");
+  }
+  if (key.kind == Kind::number || key.kind == Kind::integer) {
+    if (key.range.maximum < 1e300) bad.emplace_back("1e301");
+    if (key.range.minimum > -1e300) bad.emplace_back("-1e301");
+  }
+  if (key.kind == Kind::quantity && key.range.minimum == 0.0)
+    bad.push_back("\"-3 " + key.unit + "\"");
+  return bad;
+}
+
+}  // namespace
+
+TEST(KeyTable, EveryRefusalTellsKeyValueRuleAndRemedy) {
+  for (const Key& key : key_table()) {
+    const std::string name = key.full_name();
+    for (const std::string& value : bad_values(key)) {
+      try {
+        load_config({{}, {name + "=" + value}, {}});
+        ADD_FAILURE() << name << " takes " << value;
+      } catch (const ConfigError& error) {
+        const Problem& problem = error.problems().front();
+        EXPECT_EQ(problem.key, name) << error.what();
+        // As it was written, but for quotes and the way numbers are spelt.
+        EXPECT_FALSE(problem.value.empty()) << error.what();
+        if (value.find('e') == value.npos) {
+          const bool quoted = value.front() == '"';
+          EXPECT_EQ(problem.value, quoted ? value.substr(1, value.size() - 2) : value);
+        }
+        EXPECT_FALSE(problem.rule.empty()) << error.what();
+        EXPECT_FALSE(problem.remedy.empty()) << error.what();
+        EXPECT_NE(to_string(problem).find(name + " = "), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
 TEST(KeyTable, HasTheContractsKeysWithItsDefaults) {
   const std::pair<const char*, const char*> contract[] = {
       {"geometry.tip_radius", "\"1 cm\""},

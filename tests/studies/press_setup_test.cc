@@ -315,6 +315,7 @@ TEST(Jobs, StaticPressesDependOnWhatIsStatic) {
     sets.emplace_back("press.mode=static");
     return press_job(setup_of(std::move(sets))).key();
   };
+  EXPECT_EQ(key({}), key({"run.units=paper"}));
   EXPECT_EQ(key({}), key({"press.speed=2 cm/s"}));
   EXPECT_EQ(key({}), key({"rod.density=2 g/cm^3"}));
   for (const char* matters : {"press.tilt=1 deg", "press.lateral=1 mm", "lattice.model=network",
@@ -376,6 +377,7 @@ TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
   EXPECT_EQ(key({}), key({"lattice.constants=rule"}));
   EXPECT_EQ(key({}), key({"reference.degree=1"}));
   EXPECT_NE(key({}), key({"press.speed=2 cm/s"}));
+  EXPECT_EQ(key({}), key({"run.units=paper"}));
   EXPECT_EQ(key({}), key({"press.friction=0.1"})) << "stick has no coefficient";
   EXPECT_NE(key({"press.contact=coulomb"}), key({"press.contact=coulomb", "press.friction=0.1"}));
   EXPECT_NE(key({}), key({"rod.density=2 g/cm^3"}));

@@ -40,6 +40,8 @@ class Page {
     if (message.type === 'error') this.notice(message.message);
     if (message.type !== 'scene') return;
     this.about = message;
+    Units.take(message.units);
+    element('units').textContent = Units.name;
     this.rows = [];
     this.epoch = null;
     element('title').textContent = message.title;
@@ -148,7 +150,8 @@ class Page {
     const scale = (most, quantity) => round(most / 1.1 * Units.factor(quantity)) / Units.factor(quantity);
     this.scene.forceUnit = scale(this.forceMost, 'force');
     this.scene.torqueUnit = scale(this.torqueMost, 'torque');
-    const told = (unit, quantity) => `1 cm = ${Number((unit * Units.factor(quantity)).toPrecision(2))} ${Units.unit(quantity)}`;
+    const length = `${Number((0.01 * Units.factor('length')).toPrecision(2))} ${Units.unit('length')}`;
+    const told = (unit, quantity) => `${length} = ${Number((unit * Units.factor(quantity)).toPrecision(2))} ${Units.unit(quantity)}`;
     element('force-scale').textContent = told(this.scene.forceUnit, 'force');
     element('torque-scale').textContent = told(this.scene.torqueUnit, 'torque');
   }

@@ -69,14 +69,14 @@ class FitReport : public testing::Test {
 
 TEST_F(FitReport, TellsTheResultWithItsDoubts) {
   const std::string text = visible_text(report());
-  // 4000 Pa / 98.0665, ± 1.96 × 80 Pa; 40 gf/cm² is 3922.66 Pa.
+  // 4000 Pa ± 1.96 × 80 Pa; the prior is 3922.66 Pa ± 98.07 Pa.
   for (const char* part :
-       {"The model hookean, fitted to 2 curves, has E = 40.79 gf/cm²", "39.19 … 42.39",
-        "3.843 kPa … 4.157 kPa", "40.00 ± 1.00", "−3.0 %", "2.0 %", "0.600",
+       {"The model hookean, fitted to 2 curves, has E = 4.000 kPa", "3.843 … 4.157",
+        "3.923 ± 0.0981", "−3.0 %", "2.0 %", "0.600",
         "Chi-square is 40.00 with 8 degrees of freedom", "3.2×10⁻⁶",
         "The residuals are larger than sigma explains", "One run: the model is too soft.",
         "E and G that rise together", "stick, tilt 20 deg", "of a curve that was left out, 7.7 %",
-        "25.49", "333.0", "20.0 % of the thickness", "Two presses were fitted."})
+        "2.500", "333.0", "20.0 % of the thickness", "Two presses were fitted."})
     EXPECT_TRUE(has(text, part)) << part;
   EXPECT_TRUE(has(text, "reported")) << "which of the minima";
   EXPECT_FALSE(has(text, "Truth"));
@@ -105,14 +105,14 @@ TEST_F(FitReport, WarnsOnlyWhereThereIsSomethingToWarnOf) {
   EXPECT_TRUE(has(visible_text(ratio), "ν ended at the limit set for the search"));
 }
 
-TEST_F(FitReport, CurvesAreInGramForceAndResidualsInSigma) {
+TEST_F(FitReport, CurvesAreInMillinewtonAndResidualsInSigma) {
   report();
   const auto measured = rows("fit_curves", "stick measured");
   ASSERT_EQ(measured.size(), 5u);
-  EXPECT_NEAR(measured[4][0], 0.2, 1e-12);
-  EXPECT_NEAR(measured[4][1], 1.1 * 1.02 * 1000.0 * std::pow(0.002, 1.5) / 9.80665e-3, 1e-9);
+  EXPECT_NEAR(measured[4][0], 2.0, 1e-12);
+  EXPECT_NEAR(measured[4][1], 1.1 * 1.02 * 1000.0 * std::pow(0.002, 1.5) * 1e3, 1e-9);
   for (const auto& row : rows("fit_curves", "stick")) EXPECT_NEAR(row[2], 2.0, 1e-9);
-  EXPECT_TRUE(has(svg("fit_curves"), "force [gf]"));
+  EXPECT_TRUE(has(svg("fit_curves"), "force [mN]"));
   EXPECT_TRUE(has(svg("fit_curves"), "residual / sigma"));
 }
 
@@ -124,7 +124,7 @@ TEST_F(FitReport, ProfileLinesAreThoseOfTheCovariance) {
   for (const auto& [series, level] : {std::pair{"68 %", 2.30}, {"95 %", 5.99}, {"ellipse", 5.99}}) {
     for (const auto& row : rows("fit_profile", series)) {
       if (std::isnan(row[0])) continue;
-      const double u = (row[0] * 98.0665 - 4000.0) / 80.0, v = (row[1] * 98.0665 - 1400.0) / 42.0;
+      const double u = (row[0] * 1e3 - 4000.0) / 80.0, v = (row[1] * 1e3 - 1400.0) / 42.0;
       EXPECT_NEAR((u * u - 1.2 * u * v + v * v) / 0.64, level, 0.02) << series;
       if (level > 5.0) widest = std::fmax(widest, u);
       ++points;
@@ -132,7 +132,7 @@ TEST_F(FitReport, ProfileLinesAreThoseOfTheCovariance) {
   }
   EXPECT_GT(points, 200u);
   EXPECT_NEAR(widest, std::sqrt(5.99), 0.01);
-  EXPECT_TRUE(has(svg("fit_profile"), "E [gf/cm²]"));
+  EXPECT_TRUE(has(svg("fit_profile"), "E [kPa]"));
 }
 
 TEST_F(FitReport, ProfileTooCoarseForItsValleyShowsPointsAlone) {
@@ -161,11 +161,11 @@ TEST_F(FitReport, SurfacesShowRuleAndFit) {
     least = std::fmin(least, row[3]), most = std::fmax(most, row[3]);
     EXPECT_NEAR(std::hypot(row[0], row[1], row[2]), row[3], 1e-9 * row[3]);
   }
-  EXPECT_NEAR(least, moduli["E_100"].get<double>() / 98.0665, 1e-6);
-  EXPECT_NEAR(most, moduli["E_111"].get<double>() / 98.0665, 0.01 * most);
+  EXPECT_NEAR(least, moduli["E_100"].get<double>() / 1e3, 1e-6);
+  EXPECT_NEAR(most, moduli["E_111"].get<double>() / 1e3, 0.01 * most);
   // k1 = k2 = aG, k3 = 0: isotropic with this G, and lambda = kappa + G.
   const double G = 1400.0, lambda = 9100.0;
-  const double ball = G * (3.0 * lambda + 2.0 * G) / (lambda + G) / 98.0665;
+  const double ball = G * (3.0 * lambda + 2.0 * G) / (lambda + G) / 1e3;
   for (const auto& row : rows("fit_moduli", "after: fitted")) EXPECT_NEAR(row[3], ball, 1e-6);
   EXPECT_LT(fs::file_size(run_ / "figures" / "fit_moduli.svg"), 300'000u);
 }
@@ -175,8 +175,7 @@ TEST_F(FitReport, SurrogateHasForceAndStiffnessWithKnots) {
   const std::string text = visible_text(report());
   EXPECT_TRUE(has(text, "Condition: frictionless. Three knots. The band is at most 4.0 %"));
   EXPECT_FALSE(has(text, "(surrogate.csv, surrogate.json)"));
-  // 100 N/m are 0.01 × 100/9.80665e-3 gf/cm.
-  EXPECT_NEAR(rows("fit_surrogate", "stiffness at knots").at(1)[2], 1.0 / 9.80665e-3, 1e-9);
+  EXPECT_NEAR(rows("fit_surrogate", "stiffness at knots").at(1)[2], 100.0, 1e-9);
   EXPECT_EQ(rows("fit_surrogate", "band").size(), 42u);
 }
 
@@ -222,7 +221,7 @@ TEST_F(FitReport, OtherQuantitiesKeepTheirUnitsAndTheirOwnFigures) {
   result["profile"] = nullptr;
   result["curves"] = json::array(
       {{{"name", "loss"}},
-       {{"name", "pull"}, {"x_quantity", "stretch [1]"}, {"y_quantity", "nominal stress [Pa]"}}});
+       {{"name", "pull"}, {"x_quantity", "stretch [1]"}, {"y_quantity", "nominal stress [kPa]"}}});
   report_testing::write_file(run_ / "calibration.json", result.dump());
   report_testing::write_file(run_ / "fit_data.csv",
                              "curve,x,measured,sigma,fitted,left_out\nloss,1,0.1,0.01,0.1,\n"
@@ -231,8 +230,8 @@ TEST_F(FitReport, OtherQuantitiesKeepTheirUnitsAndTheirOwnFigures) {
   EXPECT_TRUE(has(text, "τ = 0.3100 ms")) << text.substr(0, 600);
   EXPECT_TRUE(has(svg("fit_curves1"), "frequency [Hz]"));
   EXPECT_TRUE(has(svg("fit_curves1"), ">loss factor<"));
-  EXPECT_TRUE(has(svg("fit_curves2"), "nominal stress [Pa]"));
-  EXPECT_NEAR(rows("fit_curves2", "pull measured").at(0)[1], 900.0, 1e-9);
+  EXPECT_TRUE(has(svg("fit_curves2"), "nominal stress [kPa]"));
+  EXPECT_NEAR(rows("fit_curves2", "pull measured").at(0)[1], 0.9, 1e-12);
 }
 
 TEST_F(FitReport, OddEntriesAreNotFatal) {

@@ -142,7 +142,7 @@ TEST(ControlReport, ShowsSpeedsSideBySideSnapshotsAndForceControl) {
   EXPECT_TRUE(has(text, "0.12 %"));  // the change against another press
   EXPECT_TRUE(has(text, "Control <1>"));
   const std::string svg = read_text(run / "figures/snapshots_1.svg");
-  EXPECT_TRUE(has(svg, "0.200 cm deep, force 10.000 gf, torque 10.000 gf cm"));
+  EXPECT_TRUE(has(svg, "2 mm deep, force 98.07 mN, torque 980.7 mN mm"));
 }
 
 TEST(ControlReport, SnapshotsHideTheBackOfTheTip) {

@@ -104,12 +104,12 @@ TEST(GraspReport, FigureOfReleaseIsGripAgainstSlip) {
   studies::write_report(run);
   const CsvTable figure = fingertip::meshes::read_csv(run / "figures/grasp_release.csv");
   const auto slip = figure.numbers("slip of the block along the fingers [mm]");
-  const auto force = figure.numbers("grip force per finger [gf]");
+  const auto force = figure.numbers("grip force per finger [mN]");
   ASSERT_GE(slip.size(), 30u);
   EXPECT_NEAR(slip[0], 0.01, 1e-9);
-  EXPECT_NEAR(force[0], 0.06 / newton_per_gf, 1e-6);
-  EXPECT_NEAR(force[10], 0.054 / newton_per_gf, 1e-6);
-  EXPECT_NEAR(force.back(), limit / newton_per_gf, 1e-6);  // the limit is the last curve
+  EXPECT_NEAR(force[0], 60.0, 1e-6);
+  EXPECT_NEAR(force[10], 54.0, 1e-6);
+  EXPECT_NEAR(force.back(), 1e3 * limit, 1e-6);  // the limit is the last curve
 }
 
 TEST(GraspReport, AGraspAloneHasItsPage) {

@@ -98,15 +98,15 @@ TEST(Report, LeavesNothingButItsOwnFiles) {
   }
 }
 
-// 3.18403 E and 1.47701 E are the paper's stiffnesses; 89.9, 124.5, 142.9 and 59.1 gf/cm² follow.
+// 3.18403 E and 1.47701 E are the paper's stiffnesses; 8.818, 12.21, 14.01 and 5.794 kPa follow.
 TEST(Report, VerdictTableShowsTheModuliAndTheirDeviations) {
   SyntheticRun run;
   const std::string text = report_testing::visible_text(run.report());
-  for (const char* number : {"89.92", "124.5", "142.9", "59.08"})
+  for (const char* number : {"8.818", "12.21", "14.01", "5.794"})
     EXPECT_TRUE(has(text, number)) << number;
-  EXPECT_TRUE(has(text, "+125 %")) << "E_100 of the published model against 40 gf/cm²";
-  EXPECT_TRUE(has(text, "24.83")) << "K of the central model";
-  EXPECT_TRUE(has(text, "−73.4 %")) << "its deviation from 93.33 gf/cm²";
+  EXPECT_TRUE(has(text, "+125 %")) << "E_100 of the published model against 3.923 kPa";
+  EXPECT_TRUE(has(text, "2.435")) << "K of the central model";
+  EXPECT_TRUE(has(text, "−73.4 %")) << "its deviation from 9.153 kPa";
   EXPECT_TRUE(has(text, "+100 %")) << "force error of the published model";
   EXPECT_TRUE(has(text, "−10.0 %"));
   EXPECT_TRUE(has(text, "+2.0 %"));
@@ -136,18 +136,18 @@ TEST(Report, AnswersInWordsBestModelFirst) {
   ASSERT_NE(published, std::string::npos);
   EXPECT_LT(hookean, published);
   EXPECT_TRUE(has(text, "All 2 criteria of the case are met."));
-  // 1200 N/m^1.5 (3 mm)^1.5 = 0.19718 N = 20.11 gf
-  EXPECT_TRUE(has(text, "20.11 gf (197.2 mN)"));
+  // 1200 N/m^1.5 (3 mm)^1.5 = 0.19718 N
+  EXPECT_TRUE(has(text, "pushes back with 197.2 mN"));
 }
 
 TEST(Report, FigureDataCarryUnitsAndTheMeasuredValues) {
   SyntheticRun run;
   run.report();
   const fs::path forces = run.path / "figures" / "force_indentation.csv";
-  EXPECT_TRUE(has(read_text(forces), "panel,series,indentation [cm],normal force [gf]\n"));
-  EXPECT_NEAR(csv_value(forces, "reference", 0.3, 2, 3),
-              report_testing::continuum_force(0.003) / 9.80665e-3, 1e-9);
-  EXPECT_NEAR(csv_value(run.path / "figures" / "force_error.csv", "central", 0.3, 2, 3), -10.0,
+  EXPECT_TRUE(has(read_text(forces), "panel,series,indentation [mm],normal force [mN]\n"));
+  EXPECT_NEAR(csv_value(forces, "reference", 3.0, 2, 3),
+              report_testing::continuum_force(0.003) * 1e3, 1e-9);
+  EXPECT_NEAR(csv_value(run.path / "figures" / "force_error.csv", "central", 3.0, 2, 3), -10.0,
               1e-9);
 }
 
@@ -168,7 +168,7 @@ TEST(Report, PolarPlotReachesTheModuliOfTheOtherDirections) {
     if (std::abs(std::stod(line.substr(comma + 1))) < 1e-6)
       along = std::max(along, std::stod(line.substr(start.size())));
   }
-  EXPECT_NEAR(along, double(published["E_110"]) / 98.0665, 1e-6);
+  EXPECT_NEAR(along, double(published["E_110"]) / 1e3, 1e-6);
 }
 
 TEST(Report, MissingChaptersAreLeftOutAndNamed) {
@@ -282,19 +282,70 @@ TEST(VerdictText, IsPlainAsciiWithTheSameNumbers) {
   SyntheticRun run;
   const std::string text = studies::verdict_text(run.path);
   for (char c : text) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << int(c);
-  for (const char* part : {"published", "central", "hookean", "89.92", "142.86", "+100.0 %",
-                           "-10.0 %", "20.11 gf", "met "}) {
+  for (const char* part : {"published", "central", "hookean", "8.82", "14.01", "+100.0 %",
+                           "-10.0 %", "197.2 mN", "met "}) {
     EXPECT_TRUE(has(text, part)) << part << "\n" << text;
   }
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 140U) << line;
 }
 
-TEST(Format, TurnsSiIntoGramForceAndCentimetre) {
+TEST(Units, AreThoseOfTheTable) {
+  using studies::UnitSystem, studies::units_of, studies::unit_systems;
+  // gf and cm by their definitions, one quantity from another.
+  const auto& paper = units_of(UnitSystem::paper);
+  EXPECT_NEAR(paper.stress(3922.66), 40.0, 1e-12);
+  EXPECT_NEAR(paper.force(0.0980665), 10.0, 1e-12);
+  for (const UnitSystem system : unit_systems) {
+    const auto& units = units_of(system);
+    EXPECT_EQ(studies::unit_system(name(system)), system);
+    const double area = units.length.factor * units.length.factor;
+    EXPECT_NEAR(units.stress.factor * area / units.force.factor, 1.0, 1e-12);
+    EXPECT_NEAR(units.stiffness.factor * units.length.factor / units.force.factor, 1.0, 1e-12);
+    EXPECT_NEAR(units.torque.factor / units.length.factor / units.force.factor, 1.0, 1e-12);
+    EXPECT_NEAR(units.speed.factor / units.length.factor, 1.0, 1e-12);
+    for (const studies::ShownUnit* unit : units.all()) EXPECT_EQ(units.of(unit->si), unit);
+  }
+  EXPECT_EQ(paper.of("Hz"), nullptr);
+}
+
+TEST(Units, OfTheRunAreThePagesUnlessOthersAreAskedFor) {
+  SyntheticRun run;
+  const auto text = [&](std::optional<studies::UnitSystem> units) {
+    studies::write_report(run.path, units);
+    return report_testing::visible_text(read_text(run.path / "report.html"));
+  };
+  const auto axes = [&] {
+    return read_text(run.path / "figures/force_indentation.csv").substr(0, 60);
+  };
+  const std::string si = text({});
+  EXPECT_TRUE(has(si, "pushes back with 197.2 mN"));
+  // The paper's rubber stands there in its own units, too.
+  EXPECT_TRUE(has(si, "3.923 kPa")) << si.substr(0, 2000);
+  EXPECT_TRUE(has(si, "40.00 gf/cm²"));
+  EXPECT_TRUE(has(axes(), "indentation [mm],normal force [mN]"));
+  const std::string paper = text(studies::UnitSystem::paper);
+  EXPECT_TRUE(has(paper, "20.11 gf (197.2 mN)"));
+  EXPECT_TRUE(has(axes(), "indentation [cm],normal force [gf]"));
+  EXPECT_EQ(studies::shown_units().system, studies::UnitSystem::si);
+  auto manifest = nlohmann::json::parse(read_text(run.path / "manifest.json"));
+  manifest["units"] = "paper";
+  report_testing::write_file(run.path / "manifest.json", manifest.dump());
+  EXPECT_EQ(text({}), paper);
+  EXPECT_EQ(text(studies::UnitSystem::si), si);
+}
+
+TEST(Format, TellsSiBesideThePapersUnits) {
   using namespace studies::reporting;
-  EXPECT_NEAR(to_gf_per_cm2(3922.66), 40.0, 1e-12);
-  EXPECT_NEAR(to_gf(0.0980665), 10.0, 1e-12);
-  EXPECT_EQ(stress(3922.66), "40.00\u00a0gf/cm² (3.923\u00a0kPa)");
+  EXPECT_EQ(stress(3922.66), "3.923\u00a0kPa");
+  EXPECT_EQ(length(0.003), "3\u00a0mm");
+  EXPECT_EQ(si_note(0.1, "N"), "");
+  {
+    const studies::ShowIn paper(studies::UnitSystem::paper);
+    EXPECT_EQ(stress(3922.66), "40.00\u00a0gf/cm² (3.923\u00a0kPa)");
+    EXPECT_EQ(length(0.003), "0.3\u00a0cm (3\u00a0mm)");
+    EXPECT_EQ(si_note(0.1, "N"), "100.0\u00a0mN");
+  }
   EXPECT_EQ(number(-1234567.0, 3), "−1.23×10⁶");
   EXPECT_EQ(number(9.9996, 4), "10.00");
   EXPECT_EQ(number(3.2e-13, 2), "3.2×10⁻¹³");

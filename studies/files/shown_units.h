@@ -1,0 +1,64 @@
+/// Units in which people read results: one table for screens, pages, figures and the live view.
+/// Files are SI, or name their unit. Which system it is belongs to the presentation alone (key
+/// run.units), like a language: no result and no cached entry depends on it.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace fingertip::studies {
+
+enum class UnitSystem {
+  si,     ///< mN, mm, kPa
+  paper,  ///< gf, cm, gf/cm², as in Reznik & Laugier (1996)
+};
+inline constexpr std::array unit_systems{UnitSystem::si, UnitSystem::paper};
+/// The word for it in run.units.
+std::string_view name(UnitSystem system);
+/// The system of that name; SI for any other word.
+UnitSystem unit_system(std::string_view name);
+
+/// How a quantity is shown.
+struct ShownUnit {
+  std::string_view quantity;  ///< "stress"
+  std::string_view si;        ///< its unit in files
+  std::string_view name;      ///< as it is printed, "gf/cm²"
+  std::string_view ascii;     ///< on a terminal, "gf/cm^2"
+  double factor;              ///< from SI
+
+  double operator()(double value) const { return factor * value; }
+  /// "depth [mm]", for axes and columns.
+  std::string label(std::string_view what) const;
+  /// "3 mm" of a value in SI, four digits.
+  std::string text(double value) const;
+};
+
+struct ShownUnits {
+  UnitSystem system;
+  ShownUnit length, force, stress, stiffness, torque, speed;
+
+  std::array<const ShownUnit*, 6> all() const;
+  /// That of a quantity whose unit in files is `si`; null when the table has none.
+  const ShownUnit* of(std::string_view si) const;
+};
+
+const ShownUnits& units_of(UnitSystem system);
+
+/// Those of today.
+const ShownUnits& shown_units();
+
+/// Shows in `system` as long as this lives. For one thread at a time: pages and screens are made
+/// by the thread that has started the verb.
+class ShowIn {
+ public:
+  explicit ShowIn(UnitSystem system);
+  ~ShowIn();
+  ShowIn(const ShowIn&) = delete;
+  ShowIn& operator=(const ShowIn&) = delete;
+
+ private:
+  UnitSystem before_;
+};
+
+}  // namespace fingertip::studies
