@@ -221,7 +221,7 @@ TEST_F(FitReport, OtherQuantitiesKeepTheirUnitsAndTheirOwnFigures) {
   result["profile"] = nullptr;
   result["curves"] = json::array(
       {{{"name", "loss"}},
-       {{"name", "pull"}, {"x_quantity", "stretch [1]"}, {"y_quantity", "nominal stress [kPa]"}}});
+       {{"name", "pull"}, {"x_quantity", "stretch [1]"}, {"y_quantity", "nominal stress [Pa]"}}});
   report_testing::write_file(run_ / "calibration.json", result.dump());
   report_testing::write_file(run_ / "fit_data.csv",
                              "curve,x,measured,sigma,fitted,left_out\nloss,1,0.1,0.01,0.1,\n"
