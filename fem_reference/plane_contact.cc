@@ -132,11 +132,13 @@ void PlaneContact::change(std::size_t node, const HeldSolution& solution) {
     if (of_node[c] >= 0) trial_.reaction[of_node[c]] = 0.0;
   if (status != NodeStatus::open) {
     status = NodeStatus::open;
+    ++releases_[node];
     return;
   }
   const double before = std::max(0.0, gap(node, committed_.displacement, committed_.pose));
   const double after = gap(node, solution.displacement, trial_.pose);
-  anchor(node, solution.displacement, before / (before - after));
+  const bool twice = releases_[node] > 1;
+  anchor(node, solution.displacement, twice ? 1.0 : before / (before - after));
   status = mode_ == ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
 }
 
@@ -187,6 +189,7 @@ double PlaneContact::update_friction(const HeldSolution& solution, double relaxa
 ContactEffort PlaneContact::settle(ContactSolver& solver, const PlanePose& pose) {
   ContactEffort effort;
   trial_.pose = pose;
+  releases_.assign(trial_.status.size(), 0);
   touch_at_start();
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int stalled = 0;

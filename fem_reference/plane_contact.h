@@ -42,7 +42,10 @@ struct ContactEffort {
 ///
 /// Stick: a node put on the plane is anchored at its lateral position at first touch, interpolated
 /// linearly between the start of the step and the trial state in which it was found penetrating.
-/// The error of the anchor is of second order in the step. Anchors move with the plane.
+/// The error of the anchor is of second order in the step. Anchors move with the plane. A plane
+/// that moves aside may pull a node off that would penetrate as soon as it is let go: neither held
+/// where it was nor open is a solution. It has come off and down again within the step; pulled off
+/// a second time, it is anchored where it comes down, at the end of the step.
 ///
 /// Coulomb: a node sticks while |t| <= mu p; beyond, it slides under t = mu p d. In each round the
 /// force of a sliding node is projected anew, t <- mu p (t - rho s)/|t - rho s| with its slip s
@@ -101,6 +104,7 @@ class PlaneContact {
   meshes::ContactMode mode_;
   double friction_, shear_modulus_;
   State committed_, trial_;
+  std::vector<int> releases_;  ///< of each node, since `settle` began
 };
 
 }  // namespace fingertip::fem_reference

@@ -64,11 +64,11 @@ struct Column {
   ShownUnit unit;
 };
 
-/// Whether a force is more than the round-off of the normal force.
+/// Whether a force is more than what solvers leave of the normal force.
 bool significant(SampleRange samples, double meshes::PressSample::*force) {
-  constexpr double round_off = 1e-9;
+  constexpr double left = 1e-7;
   return std::ranges::any_of(samples, [force](const meshes::PressSample& sample) {
-    return std::abs(sample.*force) > round_off * std::abs(sample.normal_force);
+    return std::abs(sample.*force) > left * std::abs(sample.normal_force);
   });
 }
 

@@ -32,7 +32,7 @@ struct Contact {
   }
 
   double gap(const TiedPoint& point, const VectorXd& u) const {
-    return (position(point, u) - plane.point(contact->indentation())).dot(plane.normal);
+    return (position(point, u) - plane.point(contact->place())).dot(plane.normal);
   }
   VectorXd forces(const VectorXd& u) const {
     VectorXd force = VectorXd::Zero(u.size());
