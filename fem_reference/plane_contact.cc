@@ -137,7 +137,7 @@ void PlaneContact::change(std::size_t node, const HeldSolution& solution) {
   }
   const double before = std::max(0.0, gap(node, committed_.displacement, committed_.pose));
   const double after = gap(node, solution.displacement, trial_.pose);
-  const bool twice = releases_[node] > 1;
+  const bool twice = mode_ == ContactMode::stick && releases_[node] > 1;
   anchor(node, solution.displacement, twice ? 1.0 : before / (before - after));
   status = mode_ == ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
 }

@@ -37,6 +37,9 @@ constexpr std::array<Column, 12> columns{{
     {"lateral_displacement [m]", &PressSample::lateral_displacement},
 }};
 
+/// Columns of every file that is written; the last one where the plane moved along itself.
+constexpr std::size_t common_columns = 11;
+
 /// Columns that a file must have, and no empty cells in them: the first two.
 constexpr std::size_t needed_columns = 2;
 
@@ -120,13 +123,17 @@ double PressResponse::normal_force_at(double indentation) const {
 }
 
 void PressResponse::write_csv(const std::filesystem::path& file) const {
+  const bool aside = std::ranges::any_of(samples_, [](const PressSample& sample) {
+    return std::abs(sample.lateral_displacement) > 0.0;
+  });
+  const std::span written(columns.data(), aside ? columns.size() : common_columns);
   write_atomically(file, [&](std::ostream& out) {
-    for (const Column& column : columns) {
+    for (const Column& column : written) {
       out << (&column == columns.data() ? "" : ",") << column.title;
     }
     out << '\n';
     for (const PressSample& sample : samples_) {
-      for (const Column& column : columns) {
+      for (const Column& column : written) {
         out << (&column == columns.data() ? "" : ",") << to_text(sample.*column.value);
       }
       out << '\n';

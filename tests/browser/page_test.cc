@@ -179,7 +179,7 @@ TEST_F(LivePage, StepsResetsAndObeysSliders) {
               limits.depth.least + 0.8 * (limits.depth.most - limits.depth.least), 1e-9);
   EXPECT_NEAR(state.settings.natural_frequency, 5.0 + 0.25 * 115.0, 1e-6);
   EXPECT_EQ(state.rate, 0.0);
-  EXPECT_NEAR(shown("depth-value"), 100.0 * state.settings.depth, 0.51e-4);
+  EXPECT_NEAR(shown("depth-value"), 1e3 * state.settings.depth, 0.51e-3);
   page_->click("#reset");
   ASSERT_TRUE(page_->wait_for("document.getElementById('time').textContent === '0.000 s'"));
   page_->evaluate("document.activeElement.blur()");

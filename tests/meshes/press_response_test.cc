@@ -54,14 +54,19 @@ TEST_F(PressResponseFile, ReadsBackExactlyWhatItWrote) {
 }
 
 TEST_F(PressResponseFile, FirstLineNamesEveryColumnWithItsUnit) {
-  PressResponse().write_csv(folder_ / "response.csv");
-  std::string line;
-  std::ifstream in(folder_ / "response.csv");
-  std::getline(in, line);
-  EXPECT_EQ(line,
-            "indentation [m],normal_force [N],lateral_force_x [N],lateral_force_y [N],"
-            "torque_x [N m],torque_y [N m],torque_z [N m],contact_radius [m],max_pressure [Pa],"
-            "force_error [N],time [s],lateral_displacement [m]");
+  const std::string common =
+      "indentation [m],normal_force [N],lateral_force_x [N],lateral_force_y [N],"
+      "torque_x [N m],torque_y [N m],torque_z [N m],contact_radius [m],max_pressure [Pa],"
+      "force_error [N],time [s]";
+  PressResponse response;
+  for (const double lateral : {0.0, -1e-4}) {
+    response.append({.indentation = 1e-3, .normal_force = 1.0, .lateral_displacement = lateral});
+    response.write_csv(folder_ / "response.csv");
+    std::string line;
+    std::ifstream in(folder_ / "response.csv");
+    std::getline(in, line);
+    EXPECT_EQ(line, lateral == 0.0 ? common : common + ",lateral_displacement [m]");
+  }
 }
 
 TEST_F(PressResponseFile, ALateralMotionFollowsThePress) {

@@ -136,12 +136,12 @@ TEST(Comparison, ForcesAgainstIndentationEndWithThePress) {
   const auto rows = cells(read_text(folder / "out/comparison.csv"));
   ASSERT_EQ(rows.size(), 3U);
   for (const std::size_t i : {1, 2}) EXPECT_EQ(std::stod(rows[i][3]), 0.0);
-  const auto lateral = result.text.find("lateral force at full depth [gf]");
+  const auto lateral = result.text.find("lateral force at full depth [mN]");
   ASSERT_NE(lateral, std::string::npos) << result.text;
   // The one displacement that both have: 1 and 0.7 N.
-  EXPECT_NE(result.text.find("101.9716", lateral), std::string::npos) << result.text;
-  EXPECT_NE(result.text.find("71.3801", lateral), std::string::npos) << result.text;
-  EXPECT_EQ(result.text.find("0.0100  ", lateral), std::string::npos) << result.text;
+  EXPECT_NE(result.text.find("1000.0000", lateral), std::string::npos) << result.text;
+  EXPECT_NE(result.text.find("700.0000", lateral), std::string::npos) << result.text;
+  EXPECT_EQ(result.text.find("0.1000  ", lateral), std::string::npos) << result.text;
   EXPECT_NE(read_text(folder / "out/comparison.html").find("comparison_lateral"),
             std::string::npos);
 }
