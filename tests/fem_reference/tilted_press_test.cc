@@ -175,6 +175,21 @@ TEST(PressAndSlide, StuckItIsALinearSpringThatStoresTheWork) {
   EXPECT_LT(states_along(diagonal).back().sample.lateral_force_x, 0.9 * force);
 }
 
+/// Far aside the trailing edge is pulled off the plane. Nodes that neither hold where they are nor
+/// stay away take hold anew within the step: the contact settles, and the plane still pulls.
+TEST(PressAndSlide, StuckItSettlesFarAside) {
+  ReferenceJob job = press_and_slide(ContactMode::stick, 1.5e-3);
+  job.lateral_samples = 3;
+  const auto states = states_along(job);
+  ASSERT_EQ(states.size(), job.samples.size() + 3);
+  const std::size_t pressed = job.samples.size() - 1;
+  for (std::size_t i = pressed + 1; i < states.size(); ++i) {
+    EXPECT_GT(states[i].sample.lateral_force_x, states[i - 1].sample.lateral_force_x);
+    EXPECT_GT(states[i].energy, states[i - 1].energy);
+    EXPECT_NEAR(states[i].sample.normal_force / states[pressed].sample.normal_force, 1.0, 0.1);
+  }
+}
+
 /// Pressed first, the tip slides when mu times the push is reached, and from then on under it.
 TEST(PressAndSlide, CoulombSlidesUnderFrictionTimesPush) {
   ReferenceJob job = press_and_slide(ContactMode::coulomb, 1e-3);
