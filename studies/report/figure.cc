@@ -205,16 +205,17 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   return text + plot + "\n";
 }
 
-/// Where the panels sit: the same room for labels in px around each of them. Panels of one column
-/// share their horizontal axis, so only the lowest needs its label.
+/// Where the panels sit: the same room for labels in px around each of them; gnuplot leaves out a
+/// vertical axis' label that finds no place beside ticks of six digits. Panels of one column share
+/// their horizontal axis, so only the lowest needs its label.
 std::string layout(const Figure& figure, int columns, int rows) {
   const double w = figure.width, h = figure.height;
   const bool shared = columns == 1;
   return fmt::format(
       "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen "
       "{:.4f},{:.4f}\n",
-      rows, columns, 78 / w, 1.0 - figure.right_margin / w, 66 / h, 1.0 - (shared ? 14 : 46) / h,
-      84 / w, (shared ? 34 : 92) / h);
+      rows, columns, 100 / w, 1.0 - figure.right_margin / w, 66 / h, 1.0 - (shared ? 14 : 46) / h,
+      106 / w, (shared ? 34 : 92) / h);
 }
 
 std::string script(const Figure& figure, const std::string& svg) {
