@@ -176,13 +176,14 @@ void PressModel::check_other_nodes(double place) const {
   std::vector<long> unknowns;
   for (const SurfaceNode& node : outer_nodes_) unknowns.push_back(node.unknown[2]);
   const std::vector<double> lift = body_->fine.gather(displacement_, unknowns);
+  const meshes::PressPose at = path_.at(place);
   const double plane = pose(place).height + 1e-6 * job_.geometry.tip_radius;
   for (std::size_t i = 0; i < lift.size(); ++i)
     if (outer_nodes_[i].position.z() + lift[i] > plane)
       throw meshes::NotConverged(
           "the rubber rises through the plane far beside the contact at an indentation of " +
-          meshes::to_text(path_.at(place).indentation) + " m and a lateral displacement of " +
-          meshes::to_text(path_.at(place).lateral) + " m; press less deep or move less far");
+          meshes::to_text(at.indentation) + " m and a lateral displacement of " +
+          meshes::to_text(at.lateral) + " m; press less deep or move less far");
 }
 
 meshes::Vector3 PressModel::bond_reaction() const {

@@ -25,7 +25,7 @@ std::string number(double value) {
 
 /// An interval over the size of what it is about: beyond that size its digits tell nothing.
 std::string interval_text(double relative) {
-  return relative <= 1.0 ? "is +-" + number(100.0 * relative) + " %" : "exceeds +-100 %";
+  return relative <= 1.0 ? "is +-" + percent(relative) : "exceeds +-100 %";
 }
 
 /// The largest component becomes 1.

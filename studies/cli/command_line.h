@@ -17,6 +17,7 @@ struct CommandLine {
   std::vector<std::string> arguments;  ///< positional ones: cases, runs, a file, a key
   ConfigSource config;                 ///< --config, --set, --threads
   std::filesystem::path out;
+  std::string folder_stem;  ///< where out is empty: runs/<stem>-<time>; empty: the verb
   bool force = false;
   bool resume = false;
   bool quiet = false;

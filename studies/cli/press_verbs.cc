@@ -27,18 +27,28 @@ std::string cell(double value, const ShownUnit& unit) {
   return fmt::format("{:14.4f}", unit(value));
 }
 
+/// A table of samples: what they are ordered by, force, error, contact and, `aside`, lateral force.
+void print_head(const char* ordered_by, bool aside) {
+  const ShownUnit &length = shown_units().length, &force = shown_units().force;
+  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}\n", length.label(ordered_by), force.label("force"),
+             force.label("error"), length.label("contact"), aside ? force.label("lateral") : "");
+}
+
+void print_row(double place, const meshes::PressSample& sample, bool aside) {
+  const ShownUnit &length = shown_units().length, &force = shown_units().force;
+  fmt::print("{}{}{}{}{}\n", cell(place, length), cell(sample.normal_force, force),
+             cell(sample.force_error, force), cell(sample.contact_radius, length),
+             aside ? cell(sample.lateral_force_x, force) : "");
+}
+
 /// The curve at the wanted depths, for a terminal.
 void print_depths(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
-  const ShownUnit &length = shown_units().length, &force = shown_units().force;
   const bool aside = protocol.lateral != 0.0 && !protocol.slides_after();
-  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}\n", length.label("depth"), force.label("force"),
-             force.label("error"), length.label("contact"), aside ? force.label("lateral") : "");
+  print_head("depth", aside);
   for (const double depth : protocol.samples) {
-    for (const meshes::PressSample& row : response.pressing()) {
-      if (std::abs(row.indentation - depth) > 1e-6 * depth) continue;
-      fmt::print("{}{}{}{}{}\n", cell(row.indentation, length), cell(row.normal_force, force),
-                 cell(row.force_error, force), cell(row.contact_radius, length),
-                 aside ? cell(row.lateral_force_x, force) : "");
+    for (const meshes::PressSample& sample : response.pressing()) {
+      if (std::abs(sample.indentation - depth) > 1e-6 * depth) continue;
+      print_row(sample.indentation, sample, aside);
       break;
     }
   }
@@ -47,14 +57,10 @@ void print_depths(const meshes::PressResponse& response, const meshes::PressProt
 /// The lateral motion that followed, if one did.
 void print_sliding(const meshes::PressResponse& response) {
   if (response.sliding().empty()) return;
-  const ShownUnit &length = shown_units().length, &force = shown_units().force;
-  fmt::print("then along the plane at {}:\n{:>14}{:>14}{:>14}{:>14}{:>14}\n",
-             length.text(response.depth()), length.label("lateral"), force.label("force"),
-             force.label("error"), length.label("contact"), force.label("lateral"));
-  for (const meshes::PressSample& row : response.sliding())
-    fmt::print("{}{}{}{}{}\n", cell(row.lateral_displacement, length),
-               cell(row.normal_force, force), cell(row.force_error, force),
-               cell(row.contact_radius, length), cell(row.lateral_force_x, force));
+  fmt::print("then along the plane at {}:\n", shown_units().length.text(response.depth()));
+  print_head("lateral", true);
+  for (const meshes::PressSample& sample : response.sliding())
+    print_row(sample.lateral_displacement, sample, true);
 }
 
 void print_response(const std::filesystem::path& folder, const meshes::PressProtocol& protocol) {

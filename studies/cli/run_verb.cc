@@ -52,7 +52,8 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
                   const std::function<int(Session&)>& body) {
   const ShowIn units(asked_units(loaded));
   watch_for_interrupts();
-  RunFolder folder({line.verb, line.out, line.force, line.resume, line.words}, loaded, case_text);
+  RunFolder folder({line.verb, line.out, line.force, line.resume, line.words, line.folder_stem},
+                   loaded, case_text);
   if (!line.quiet) {
     for (const std::string& note : loaded.notes) fmt::print(stderr, "fingertip: note: {}\n", note);
   }

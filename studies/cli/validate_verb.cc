@@ -7,7 +7,6 @@
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/report/report.h"
-#include "studies/run/fresh_folder.h"
 
 namespace fingertip::studies {
 
@@ -35,12 +34,7 @@ std::vector<fs::path> wanted_cases(const CommandLine& line) {
 CommandLine line_for(const CommandLine& line, const Case& one, bool several) {
   CommandLine own = line;
   if (several && !line.out.empty()) own.out = line.out / one.name;
-  if (several && line.out.empty()) {
-    // The folder alone is named after the case: its manifest tells the verb that repeats it. It is
-    // empty, so that nothing is resumed.
-    own.out = make_run_folder(line.verb + "-" + one.name);
-    own.resume = true;
-  }
+  if (several) own.folder_stem = line.verb + "-" + one.name;
   return own;
 }
 

@@ -21,12 +21,6 @@ std::string_view name(ForwardKind forward) {
 
 namespace {
 
-void assign_problem(Config& config, const Value& value) {
-  using enum CalibrationProblem;
-  for (const auto problem : {moduli, curve, experiment, finite_strain, damping})
-    if (name(problem) == value.word) config.calibration.problem = problem;
-}
-
 /// A key whose value is one number, stored in a member of the order.
 template <typename Number>
 Key number(const char* key, Kind kind, const char* preset, Range range, const char* help,
@@ -51,6 +45,7 @@ Key list(const char* key, const char* help, std::vector<std::string> Calibration
 }
 
 Key problem_key() {
+  using enum CalibrationProblem;
   return choice(
       "calibration", "problem", "moduli",
       {{"moduli", "spring constants to Young's and shear modulus"},
@@ -58,7 +53,10 @@ Key problem_key() {
        {"experiment", "Young's and shear modulus to measured forces"},
        {"finite-strain", "law A to measured stress and stretch, or shear"},
        {"damping", "the retardation time to loss factors, creep, a held ramp or a press"}},
-      "what is fitted to what", assign_problem);
+      "what is fitted to what",
+      assign_named(
+          [](Config & config) -> auto& { return config.calibration.problem; },
+          std::vector{moduli, curve, experiment, finite_strain, damping}));
 }
 
 Key data_key() {

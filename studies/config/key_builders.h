@@ -54,6 +54,17 @@ inline Key choice(const char* section, const char* name, const char* preset,
   return key;
 }
 
+/// For a choice: stores in `target` the one of `values` that is called as the key's value says;
+/// they have the names that the rooms give them, so that a choice cannot mean one thing here and
+/// another in a job file.
+template <typename Target, typename Enum>
+auto assign_named(Target target, std::vector<Enum> values) {
+  return [target, values = std::move(values)](Config& config, const Value& value) {
+    for (const Enum one : values)
+      if (name(one) == value.word) target(config) = one;
+  };
+}
+
 inline Key with_rule(Key key, const char* rule, std::vector<std::string> related) {
   key.rule = rule;
   key.related = std::move(related);

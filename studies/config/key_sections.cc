@@ -31,14 +31,6 @@ void assign_kinematics(Config& config, const Value& value) {
   if (value.word == "finite") config.kinematics = lattice::Kinematics::finite;
 }
 
-void assign_model(Config& config, const Value& value) {
-  using lattice::ModelKind;
-  for (const auto model :
-       {ModelKind::published, ModelKind::central, ModelKind::hookean, ModelKind::network}) {
-    if (lattice::name(model) == value.word) config.press.lattice.model = model;
-  }
-}
-
 void assign_rotation(Config& config, const Value& value) {
   config.rotation = value.numbers;
 }
@@ -58,37 +50,12 @@ void assign_time_step(Config& config, const Value& value) {
   if (value.word.empty()) config.press.time_step = value.number;
 }
 
-/// Stores the one of `values` that is called as the key's value says; they have the names that the
-/// rooms give them, so that a choice cannot mean one thing here and another in a job file.
-template <typename Enum>
-auto assign_named(Enum fem_reference::ReferenceJob::*member, std::vector<Enum> values) {
-  return [member, values = std::move(values)](Config& config, const Value& value) {
-    for (const Enum one : values) {
-      if (name(one) == value.word) config.reference.*member = one;
-    }
+/// Members of what the continuum is asked for, as targets of keys.
+constexpr auto job = [](auto fem_reference::ReferenceJob::*member) {
+  return [member](Config & config) -> auto& {
+    return config.reference.*member;
   };
-}
-
-void assign_mode(Config& config, const Value& value) {
-  using meshes::DriveMode;
-  for (const auto mode : {DriveMode::pid, DriveMode::quasi_static, DriveMode::equilibrium}) {
-    if (meshes::name(mode) == value.word) config.press.protocol.mode = mode;
-  }
-}
-
-void assign_lateral_path(Config& config, const Value& value) {
-  using meshes::LateralPath;
-  for (const auto path : {LateralPath::diagonal, LateralPath::after}) {
-    if (meshes::name(path) == value.word) config.press.protocol.lateral_path = path;
-  }
-}
-
-void assign_contact(Config& config, const Value& value) {
-  using meshes::ContactMode;
-  for (const auto mode : {ContactMode::stick, ContactMode::frictionless, ContactMode::coulomb}) {
-    if (meshes::name(mode) == value.word) config.press.protocol.contact = mode;
-  }
-}
+};
 
 }  // namespace
 
@@ -180,6 +147,7 @@ std::vector<Key> specimen_keys() {
 }
 
 std::vector<Key> lattice_keys() {
+  using lattice::ModelKind;
   Key spacing =
       with_rule(quantity("lattice", "spacing", "tip_radius/12", "m", positive,
                          "a, distance of neighbouring masses along the axes",
@@ -209,7 +177,11 @@ std::vector<Key> lattice_keys() {
               {"central", "spring constants fitted to E and G, weighted per cell"},
               {"hookean", "central plus one volume constant per cell: exact E, G and nu"},
               {"network", "fibres of zero rest length under a cell pressure: finite strain"}},
-             "which mass-spring model", assign_model),
+             "which mass-spring model",
+             assign_named(
+                 [](Config & config) -> auto& { return config.press.lattice.model; },
+                 std::vector{ModelKind::published, ModelKind::central, ModelKind::hookean,
+                             ModelKind::network})),
       spacing,
       plain("lattice", "offset", Kind::numbers, "[0.0, 0.0, 0.0]", {-1.0, 1.0, true},
             "shift of the grid along x, y, z in units of the spacing",
@@ -243,9 +215,14 @@ std::vector<Key> lattice_keys() {
 }
 
 std::vector<Key> press_keys() {
-  const auto protocol = [](double meshes::PressProtocol::*member) {
-    return [member](Config& config) -> double& { return config.press.protocol.*member; };
+  const auto protocol = [](auto meshes::PressProtocol::*member) {
+    return [member](Config & config) -> auto& {
+      return config.press.protocol.*member;
+    };
   };
+  using meshes::ContactMode;
+  using meshes::DriveMode;
+  using meshes::LateralPath;
   using meshes::PressProtocol;
   Key samples = with_rule(
       plain("press", "samples", Kind::quantities, "[]", positive,
@@ -264,14 +241,20 @@ std::vector<Key> press_keys() {
              {{"pid", "dynamics; a controller holds speed and orientation"},
               {"quasi-static", "dynamics; the rod's motion is prescribed"},
               {"static", "no time: equilibrium at every sample depth"}},
-             "what moves the rod (lattice only)", assign_mode),
+             "what moves the rod (lattice only)",
+             assign_named(
+                 protocol(&PressProtocol::mode),
+                 std::vector{DriveMode::pid, DriveMode::quasi_static, DriveMode::equilibrium})),
       choice("press", "contact", "stick",
              {{"stick", "infinite friction: anchored where it first touched"},
               {"frictionless", "only the normal gap is held, compressive only"},
               {"coulomb",
                "sticks until the shear exceeds friction times the push, then slides "
                "(moving lattices and reference)"}},
-             "how tip and plane interact", assign_contact),
+             "how tip and plane interact",
+             assign_named(
+                 protocol(&PressProtocol::contact),
+                 std::vector{ContactMode::stick, ContactMode::frictionless, ContactMode::coulomb})),
       only_with("press.contact", {"coulomb"},
                 plain("press", "friction", Kind::number, "0.5", positive,
                       "Coulomb's coefficient of friction",
@@ -295,7 +278,9 @@ std::vector<Key> press_keys() {
                          "on the way down, in proportion to the indentation: a tip that sticks is "
                          "sheared from first touch on"},
                         {"after", "first down to full depth, then along the plane at that depth"}},
-                       "when the plane moves by press.lateral", assign_lateral_path),
+                       "when the plane moves by press.lateral",
+                       assign_named(protocol(&PressProtocol::lateral_path),
+                                    std::vector{LateralPath::diagonal, LateralPath::after})),
                 "after: static presses and reference", {"press.mode"}),
       only_with(
           "press.lateral_path", {"after"},
@@ -329,13 +314,14 @@ std::vector<Key> continuum_model_keys() {
   using namespace fem_reference;
   using Job = ReferenceJob;
   return {
-      with_rule(choice("reference", "strain", "linear",
-                       {{"linear", "small strain, Hooke's law"},
-                        {"finite", "large strain, the law of reference.law"}},
-                       "continuum theory",
-                       assign_named(&Job::strain, std::vector{Strain::linear, Strain::finite})),
-                "finite needs a Poisson's ratio of 0 or more",
-                {"rubber.youngs_modulus", "rubber.shear_modulus", "rubber.poissons_ratio"}),
+      with_rule(
+          choice("reference", "strain", "linear",
+                 {{"linear", "small strain, Hooke's law"},
+                  {"finite", "large strain, the law of reference.law"}},
+                 "continuum theory",
+                 assign_named(job(&Job::strain), std::vector{Strain::linear, Strain::finite})),
+          "finite needs a Poisson's ratio of 0 or more",
+          {"rubber.youngs_modulus", "rubber.shear_modulus", "rubber.poissons_ratio"}),
       only_with(
           "reference.strain", {"finite"},
           choice("reference", "law", "A",
@@ -343,18 +329,18 @@ std::vector<Key> continuum_model_keys() {
                   {"B", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (J - 1)^2"},
                   {"C", "W = G/2 (J^(-2/3) I1 - 3) + K/2 (ln J)^2"}},
                  "strain energy at finite strain (neo-Hookean, same E and G at small strain)",
-                 assign_named(&Job::law, std::vector{StrainEnergy::law_a, StrainEnergy::law_b,
-                                                     StrainEnergy::law_c}))),
-      with_rule(
-          choice("reference", "mode", "static",
-                 {{"static", "one equilibrium per output depth"},
-                  {"transient", "the press at press.speed, with inertia and damping"},
-                  {"modes", "natural frequencies of the tip bonded to a fixed rod"}},
-                 "what is solved",
-                 assign_named(&Job::analysis, std::vector{Analysis::static_press,
-                                                          Analysis::transient, Analysis::modes})),
-          "transient: linear strain, stick or frictionless, no tilt, no lateral motion",
-          {"reference.strain", "press.contact", "press.tilt", "press.lateral"}),
+                 assign_named(job(&Job::law), std::vector{StrainEnergy::law_a, StrainEnergy::law_b,
+                                                          StrainEnergy::law_c}))),
+      with_rule(choice("reference", "mode", "static",
+                       {{"static", "one equilibrium per output depth"},
+                        {"transient", "the press at press.speed, with inertia and damping"},
+                        {"modes", "natural frequencies of the tip bonded to a fixed rod"}},
+                       "what is solved",
+                       assign_named(job(&Job::analysis),
+                                    std::vector{Analysis::static_press, Analysis::transient,
+                                                Analysis::modes})),
+                "transient: linear strain, stick or frictionless, no tilt, no lateral motion",
+                {"reference.strain", "press.contact", "press.tilt", "press.lateral"}),
       only_with("reference.mode", {"modes"},
                 plain("reference", "modes", Kind::integer, "10", {1, 1000, true},
                       "how many natural frequencies, lowest first",
@@ -386,7 +372,7 @@ std::vector<Key> continuum_solver_keys() {
              {{"pointwise", "at every quadrature point: the plain displacement element"},
               {"projected", "its dilatation projected, per element, on one degree lower"}},
              "how the volumetric part of the energy is integrated",
-             assign_named(&Job::volumetric,
+             assign_named(job(&Job::volumetric),
                           std::vector{Volumetric::pointwise, Volumetric::projected})),
       plain("reference", "refinement", Kind::number, "0.5", {0.25, 4, true},
             "factor on the element counts of the first mesh", number(&Job::refinement)),
@@ -397,14 +383,14 @@ std::vector<Key> continuum_solver_keys() {
       plain("reference", "max_unknowns", Kind::number, "4e5", {1e3, 1e9, true},
             "no mesh with more unknowns is tried; 4e5 needs about 8 GB",
             number(&Job::max_unknowns)),
-      choice(
-          "reference", "solver", "automatic",
-          {{"automatic", "condensed while it fits into memory, else multigrid"},
-           {"condensed", "sparse Cholesky factors, condensed to the contact patch"},
-           {"multigrid", "conjugate gradients with algebraic multigrid"}},
-          "linear solver",
-          assign_named(&Job::solver, std::vector{LinearSolver::automatic, LinearSolver::condensed,
-                                                 LinearSolver::multigrid})),
+      choice("reference", "solver", "automatic",
+             {{"automatic", "condensed while it fits into memory, else multigrid"},
+              {"condensed", "sparse Cholesky factors, condensed to the contact patch"},
+              {"multigrid", "conjugate gradients with algebraic multigrid"}},
+             "linear solver",
+             assign_named(job(&Job::solver),
+                          std::vector{LinearSolver::automatic, LinearSolver::condensed,
+                                      LinearSolver::multigrid})),
       plain("reference", "solver_tolerance", Kind::number, "1e-10", {1e-14, 1e-4, true},
             "relative residual of the multigrid solver (the condensed one is direct)",
             number(&Job::solver_tolerance)),

@@ -30,18 +30,18 @@ constexpr SampleAxis by_indentation{"Indentation", &meshes::PressSample::indenta
 constexpr SampleAxis by_displacement{"Lateral displacement",
                                      &meshes::PressSample::lateral_displacement};
 
-Panel curve_panel(SampleRange samples, const SampleAxis& axis, const std::string& label,
-                  double meshes::PressSample::*value, double factor) {
+Panel curve_panel(SampleRange samples, const SampleAxis& axis, const char* title,
+                  double meshes::PressSample::*value, const ShownUnit& unit) {
   Panel panel;
   panel.x_label = shown_units().length.label(axis.title);
   panel.x_label[0] = char(std::tolower(panel.x_label[0]));
-  panel.y_label = label;
+  panel.y_label = unit.label(title);
   panel.key = "";
   Series series{"", "press", {}, {}, {}, single};
   if (samples.size() > most_rows) series.style.point = 0;
   for (const meshes::PressSample& sample : samples) {
     series.x.push_back(shown_units().length(sample.*axis.value));
-    series.y.push_back(factor * sample.*value);
+    series.y.push_back(unit(sample.*value));
   }
   // From zero, where both begin, unless inertia pulls at the rod.
   panel.x_range = Range{0.0, meshes::unknown};
@@ -155,21 +155,21 @@ Chapter press_chapter(const meshes::PressResponse& response, const CsvTable& con
                    760,
                    420,
                    1,
-                   {curve_panel(samples, by_indentation, shown_units().force.label("normal force"),
-                                &meshes::PressSample::normal_force, shown_units().force.factor)}},
+                   {curve_panel(samples, by_indentation, "normal force",
+                                &meshes::PressSample::normal_force, shown_units().force)}},
                   "Normal force against indentation",
                   "Indentation counts from first touch."});
   chapter.blocks.push_back(sample_table(samples, by_indentation));
   if (known(samples, &meshes::PressSample::contact_radius))
-    chapter.blocks.push_back(FigureBlock{
-        {"contact_radius",
-         760,
-         340,
-         1,
-         {curve_panel(samples, by_indentation, shown_units().length.label("contact radius"),
-                      &meshes::PressSample::contact_radius, shown_units().length.factor)}},
-        "Contact radius against indentation",
-        "Where a lattice touches with single points, its contact grows in steps."});
+    chapter.blocks.push_back(
+        FigureBlock{{"contact_radius",
+                     760,
+                     340,
+                     1,
+                     {curve_panel(samples, by_indentation, "contact radius",
+                                  &meshes::PressSample::contact_radius, shown_units().length)}},
+                    "Contact radius against indentation",
+                    "Where a lattice touches with single points, its contact grows in steps."});
   if (!contact.empty()) chapter.blocks.push_back(pressure_figure(contact));
   return chapter;
 }
@@ -180,8 +180,8 @@ Chapter sliding_chapter(const meshes::PressResponse& response) {
   // From where the press ended, which is the first sample of both.
   const SampleRange samples =
       SampleRange(response.samples()).subspan(response.pressing().size() - 1);
-  Panel panel = curve_panel(samples, by_displacement, shown_units().force.label("lateral force"),
-                            &meshes::PressSample::lateral_force_x, shown_units().force.factor);
+  Panel panel = curve_panel(samples, by_displacement, "lateral force",
+                            &meshes::PressSample::lateral_force_x, shown_units().force);
   const double end = shown_units().length(samples.back().lateral_displacement);
   panel.x_range = Range{std::min(0.0, end), std::max(0.0, end)};
   chapter.blocks.push_back(FigureBlock{

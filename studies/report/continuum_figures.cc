@@ -66,7 +66,7 @@ std::vector<PressureProfile> pressure_profiles(const RunData& run) {
       first = i;
     }
     // At full depth others may follow, of a lateral motion.
-    if (!lateral.empty() && std::isfinite(lateral[i]) && lateral[i] != lateral[first]) continue;
+    if (std::abs(lateral[i] - lateral[first]) > 0.0) continue;
     profiles.back().radius.push_back(radius[i]);
     profiles.back().pressure.push_back(pressure[i]);
   }

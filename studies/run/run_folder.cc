@@ -163,7 +163,7 @@ RunFolder::RunFolder(const RunFolderOptions& options, const LoadedConfig& loaded
 
 void RunFolder::claim(const RunFolderOptions& options) {
   if (path_.empty())
-    path_ = make_run_folder(options.verb), made_ = true;
+    path_ = make_run_folder(options.stem.empty() ? options.verb : options.stem), made_ = true;
   else
     made_ = make(path_);
   if (!made_ && !options.force && !options.resume) {

@@ -19,6 +19,7 @@ struct RunFolderOptions {
   bool force = false;         ///< replace an existing run folder
   bool resume = false;        ///< keep the finished parts of an existing run folder
   std::vector<std::string> command_line;
+  std::string stem{};  ///< of the folder's name in the place of `verb`, which the manifest keeps
 };
 
 /// Created by the constructor, which refuses (ConfigError) an existing folder without `force` or

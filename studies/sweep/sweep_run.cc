@@ -83,8 +83,8 @@ PointResult run_point(const SweepOrder& order, const PlannedPoint& planned, cons
   const FileLock lock(folder / "locks" / point.id);
   if (!lock.held()) return {point.id, "at work elsewhere", false};
   const fs::path own = folder / "points" / point.id;
-  remove_abandoned_parts(own,
-                         true);  // also where the point was finished when its process was killed
+  // Also where the point was finished when its process was killed.
+  remove_abandoned_parts(own, true);
   const std::string status = marked_status(job, own);
   if (!status.empty()) return {point.id, status, true};
   return compute(order, planned, own, command_line);

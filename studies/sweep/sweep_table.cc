@@ -31,9 +31,9 @@ struct Row {
   meshes::CsvTable curve;                 ///< response.csv
 };
 
-/// Of the last row of response.csv, at the end of the press; the last two where it moved aside.
-constexpr const char* end_columns[] = {"indentation [m]", "normal_force [N]", "contact_radius [m]",
-                                       "lateral_displacement [m]", "lateral_force_x [N]"};
+/// Of the last row of response.csv, at the end of the press; with those of a lateral motion.
+constexpr const char* end_columns[] = {"indentation [m]", "normal_force [N]", "contact_radius [m]"};
+constexpr const char* aside_columns[] = {"lateral_displacement [m]", "lateral_force_x [N]"};
 constexpr const char* lowest_frequency = "lowest_frequency [Hz]";
 
 /// The columns in which some row has its answer, in the order in which they are shown.
@@ -44,6 +44,7 @@ std::vector<std::string> answer_columns(const std::vector<Row>& rows) {
       columns.emplace_back(name);
   };
   for (const char* name : end_columns) add_if_any(name);
+  for (const char* name : aside_columns) add_if_any(name);
   add_if_any(lowest_frequency);
   return columns;
 }
@@ -81,13 +82,12 @@ meshes::CsvTable read_curve(const fs::path& file, FolderReader& reader) {
 /// What the point was computed for: force and contact at the end, or the lowest frequency.
 void read_answer(const fs::path& folder, Row& row, FolderReader& reader) {
   if (!row.curve.empty()) {
-    for (const char* name : end_columns)
+    const auto take = [&](const char* name) {
       if (row.curve.has(name)) row.answers[name] = row.curve.numbers(name).back();
-    const auto aside = row.answers.find(end_columns[3]);
-    if (aside == row.answers.end() || !(std::abs(aside->second) > 0.0)) {
-      row.answers.erase(end_columns[3]);
-      row.answers.erase(end_columns[4]);
-    }
+    };
+    for (const char* name : end_columns) take(name);
+    if (row.curve.has(aside_columns[0]))  // only where the plane moved along itself
+      for (const char* name : aside_columns) take(name);
   }
   const meshes::CsvTable modes = reader.csv(folder / "modes.csv");
   if (!modes.empty()) row.answers[lowest_frequency] = modes.numbers("frequency [Hz]").front();
