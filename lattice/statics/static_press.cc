@@ -70,7 +70,6 @@ class StaticPress {
 
   void take_census();
   void march_to(double target);
-  const meshes::PressPath& path() const { return now_.contact.plane().path; }
   bool step_to(double place);
   VectorXd extrapolated(double place) const;
   bool anchor(State& next) const;
@@ -82,6 +81,7 @@ class StaticPress {
   const PressSetup& setup_;
   const LatticeBody& body_;
   const StaticObserver& observer_;
+  const meshes::PressPath path_;
   const ElasticSystem system_;
   EquilibriumSolver solver_;
   const SlopeSystem* slope_system_ = nullptr;
@@ -100,6 +100,7 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
     : setup_(setup),
       body_(body),
       observer_(observer),
+      path_(setup.protocol),
       system_(body),
       solver_(system_),
       now_{StaticContact(body, press_plane(setup.protocol, setup.geometry), setup.protocol.contact),
@@ -107,7 +108,7 @@ StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
            {}},
       previous_displacement_(now_.displacement) {
   const double thickness = setup.geometry.thickness();
-  largest_step_ = path().length();
+  largest_step_ = path_.length();
   if (body.finite) largest_step_ = finite_step * thickness;
   if (setup.protocol.contact == ContactMode::stick) largest_step_ = sticking_step * thickness;
   step_ = largest_step_;
@@ -133,7 +134,7 @@ void StaticPress::take_census() {
 }
 
 StaticOutcome StaticPress::run() {
-  for (const double target : path().samples()) {
+  for (const double target : path_.samples()) {
     march_to(target);
     outcome_.response.append(sample());
     if (slope_system_) note_slopes();
@@ -168,7 +169,7 @@ void StaticPress::march_to(double target) {
 /// The last step's motion continued, where that turns no cell inside out.
 VectorXd StaticPress::extrapolated(double place) const {
   const double from = now_.contact.place(), before = from - previous_place_;
-  if (!(before > 0.0) || path().bends(previous_place_, place)) return now_.displacement;
+  if (!(before > 0.0) || path_.bends(previous_place_, place)) return now_.displacement;
   const VectorXd guess =
       now_.displacement + (place - from) / before * (now_.displacement - previous_displacement_);
   return std::isfinite(system_.energy(guess)) ? guess : now_.displacement;
@@ -270,7 +271,7 @@ void StaticPress::report() {
   outcome_.factorisations = solver_.effort().factorisations;
   outcome_.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  if (observer_ && !observer_(outcome_, now_.contact.place() / path().length()))
+  if (observer_ && !observer_(outcome_, now_.contact.place() / path_.length()))
     throw meshes::Interrupted("the press was interrupted");
 }
 

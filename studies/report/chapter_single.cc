@@ -180,6 +180,11 @@ Chapter sliding_chapter(const meshes::PressResponse& response) {
   // From where the press ended, which is the first sample of both.
   const SampleRange samples =
       SampleRange(response.samples()).subspan(response.pressing().size() - 1);
+  if (!significant(samples, &meshes::PressSample::lateral_force_x)) {
+    chapter.blocks.push_back(Paragraph{"", "The plane slides free: nothing holds it back."});
+    chapter.blocks.push_back(sample_table(samples, by_displacement));
+    return chapter;
+  }
   Panel panel = curve_panel(samples, by_displacement, "lateral force",
                             &meshes::PressSample::lateral_force_x, shown_units().force);
   const double end = shown_units().length(samples.back().lateral_displacement);
@@ -203,10 +208,13 @@ std::string press_answer(const meshes::PressResponse& response) {
     text += fmt::format("; the contact's radius is {}", length(last.contact_radius));
   if (response.sliding().empty()) return text + ".";
   const meshes::PressSample& end = response.sliding().back();
+  const bool held = significant(response.sliding(), &meshes::PressSample::lateral_force_x);
   return text + fmt::format(
-                    ". Moved {} along the plane at that depth, the plane pulls it along "
-                    "with {} and pushes it with {}.",
-                    length(end.lateral_displacement), force(end.lateral_force_x),
+                    ". Moved {} along the plane at that depth, the plane {} and pushes it "
+                    "with {}.",
+                    length(end.lateral_displacement),
+                    held ? "pulls it along with " + force(end.lateral_force_x)
+                         : std::string("slides free"),
                     force(end.normal_force));
 }
 

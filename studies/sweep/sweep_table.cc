@@ -72,6 +72,7 @@ std::string bare(const std::string& literal) {
 
 /// A curve whose cells are all numbers, or nothing.
 meshes::CsvTable read_curve(const fs::path& file, FolderReader& reader) {
+  if (reader.response(file).empty()) return {};
   return reader.attempt([&] {
     const meshes::CsvTable table = reader.csv(file);
     for (const std::string& name : table.names) table.numbers(name);
@@ -117,8 +118,8 @@ Row read_row(const JsonEntry& point, const std::vector<std::string>& axes, const
   return row;
 }
 
-void write_head(const std::vector<std::string>& axes, std::ostream& out) {
-  for (const std::string& axis : axes) out << ',' << cell(axis);
+void write_cells(const std::vector<std::string>& texts, std::ostream& out) {
+  for (const std::string& text : texts) out << ',' << cell(text);
 }
 
 std::string text_in(const std::map<std::string, double>& values, const std::string& name) {
@@ -135,13 +136,13 @@ void write_table(const std::vector<Row>& rows, const std::vector<std::string>& a
   }
   meshes::write_atomically(file, [&](std::ostream& out) {
     out << "point,status";
-    write_head(axes, out);
-    for (const std::string& name : answers) out << ',' << cell(name);
+    write_cells(axes, out);
+    write_cells(answers, out);
     for (const std::string& name : columns) out << ',' << cell(name);
     out << '\n';
     for (const Row& row : rows) {
       out << row.id << ',' << cell(row.status);
-      for (const std::string& value : row.settings) out << ',' << cell(value);
+      write_cells(row.settings, out);
       for (const std::string& name : answers) out << ',' << text_in(row.answers, name);
       for (const std::string& name : columns) out << ',' << text_in(row.values, name);
       out << '\n';
@@ -149,38 +150,30 @@ void write_table(const std::vector<Row>& rows, const std::vector<std::string>& a
   });
 }
 
-/// The curves of all points, which are of one shape; one of another is noted and left out.
-void write_curves(std::vector<Row>& rows, const std::vector<std::string>& axes,
-                  const fs::path& folder, FolderReader& reader) {
-  const Row* first = nullptr;
-  std::string text;
-  for (Row& row : rows) {
-    if (row.curve.names.empty()) continue;
-    if (first == nullptr) {
-      first = &row;
-      text = "point";
-      for (const std::string& name : axes) text += ',' + cell(name);
-      for (const std::string& name : row.curve.names) text += ',' + cell(name);
-      text += '\n';
+/// The curves of all points. Cells are empty in columns that a point's own curve does not have.
+void write_curves(const std::vector<Row>& rows, const std::vector<std::string>& axes,
+                  const fs::path& file) {
+  std::vector<std::string> columns;
+  for (const Row& row : rows)
+    for (const std::string& name : row.curve.names)
+      if (std::ranges::find(columns, name) == columns.end()) columns.push_back(name);
+  if (columns.empty()) return;
+  meshes::write_atomically(file, [&](std::ostream& out) {
+    out << "point";
+    write_cells(axes, out);
+    write_cells(columns, out);
+    out << '\n';
+    for (const Row& row : rows) {
+      std::vector<std::vector<std::string>> cells;
+      for (const std::string& name : columns) cells.push_back(row.curve.texts(name));
+      for (std::size_t i = 0; i < row.curve.rows.size(); ++i) {
+        out << row.id;
+        write_cells(row.settings, out);
+        for (const auto& column : cells) out << ',' << cell(column[i]);
+        out << '\n';
+      }
     }
-    const bool fits = reader.attempt([&] {
-      if (row.curve.names == first->curve.names) return true;
-      throw meshes::InvalidInput({row.curve.file.string() + ":1", "",
-                                  "has other columns than " + first->curve.file.string(),
-                                  "compute the point again: take its folder away and resume"});
-    });
-    if (!fits) row.status = "damaged";
-    std::string front = row.id;
-    for (const std::string& value : row.settings) front += ',' + cell(value);
-    for (std::size_t i = 0; fits && i < row.curve.rows.size(); ++i) {
-      text += front;
-      for (const std::string& value : row.curve.rows[i]) text += ',' + cell(value);
-      text += '\n';
-    }
-  }
-  if (first != nullptr) {
-    meshes::write_atomically(folder / "curves.csv", [&](std::ostream& out) { out << text; });
-  }
+  });
 }
 
 /// For a terminal: the first rows with settings and answers.
@@ -229,7 +222,7 @@ SweepCensus collect(const fs::path& folder) {
   std::vector<Row> rows;
   for (const JsonEntry& point : array_at(sweep, "points"))
     rows.push_back(read_row(point, axes, folder / "points", reader));
-  write_curves(rows, axes, folder, reader);
+  write_curves(rows, axes, folder / "curves.csv");
   write_table(rows, axes, folder / "table.csv");
   SweepCensus census;
   census.points = rows.size();

@@ -227,12 +227,12 @@ TEST(Run, StaticPressAgreesWithTheContinuum) {
 // Pressed first and moved then: on the screen, in the folder, on its page and beside another run.
 TEST(Run, ALateralMotionFollowsTheStaticPress) {
   const TemporaryFolder folder;
-  const auto press = [&](const char* out, const char* spacing) {
-    return run_program(
-        folder.path(),
-        {"press", "--out", out, "--set", "press.mode=static", "--set", spacing, "--set",
-         "press.samples=[\"0.05 cm\", \"0.1 cm\"]", "--set", "press.lateral=0.2 mm", "--set",
-         "press.lateral_path=after", "--set", "press.lateral_samples=2"});
+  const auto press = [&](const char* out, const char* change) {
+    return run_program(folder.path(),
+                       {"press", "--out", out, "--set", "press.mode=static", "--set",
+                        "lattice.spacing=tip_radius/4", "--set", change, "--set",
+                        "press.samples=[\"0.05 cm\", \"0.1 cm\"]", "--set", "press.lateral=0.2 mm",
+                        "--set", "press.lateral_path=after", "--set", "press.lateral_samples=2"});
   };
   const ProgramResult result = press("one", "lattice.spacing=tip_radius/4");
   ASSERT_EQ(result.code, 0) << result.err;
@@ -253,14 +253,21 @@ TEST(Run, ALateralMotionFollowsTheStaticPress) {
   EXPECT_NE(beside.out.find("lateral force at full depth"), std::string::npos) << beside.out;
   EXPECT_EQ(beside.out.find("WARNING"), std::string::npos) << beside.out;
 
+  // Without friction the page tells that, not what solvers leave of nothing.
+  ASSERT_EQ(press("free", "press.contact=frictionless").code, 0);
+  ASSERT_EQ(run_program(folder.path(), {"report", "free"}).code, 0);
+  const std::string free = read_text(folder / "free/report.html");
+  EXPECT_NE(free.find("the plane slides free and pushes it with"), std::string::npos);
+  EXPECT_EQ(free.find("Lateral force against lateral displacement"), std::string::npos);
+
   const ProgramResult moving =
       run_program(folder.path(), {"press", "--out", "three", "--set", "press.lateral=0.2 mm",
                                   "--set", "press.lateral_path=after"});
   EXPECT_EQ(moving.code, 2);
   EXPECT_NE(moving.err.find("press.lateral_path = after"), std::string::npos) << moving.err;
-  const ProgramResult fit =
-      run_program(folder.path(), {"calibrate", "--set", "calibration.problem=curve", "--out", "four", "--set",
-                                  "press.lateral=0.2 mm", "--set", "press.lateral_path=after"});
+  const ProgramResult fit = run_program(
+      folder.path(), {"calibrate", "--set", "calibration.problem=curve", "--out", "four", "--set",
+                      "press.lateral=0.2 mm", "--set", "press.lateral_path=after"});
   EXPECT_EQ(fit.code, 2);
   EXPECT_NE(fit.err.find("press.lateral_path = after"), std::string::npos) << fit.err;
 }

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <thread>
 
+#include "meshes/csv_table.h"
 #include "program.h"
 #include "tests/temporary_folder.h"
 
@@ -103,6 +104,26 @@ TEST(SweepVerb, ShardsAreDisjointAndMakeUpTheWholeInAnyOrderOfWriting) {
        "lattice.model=[\"network\",\"hookean\"]", "--set", "press.samples=[\"0.05 cm\"]", "--set",
        "press.contact=frictionless", "--set", "press.mode=static"});
   EXPECT_EQ(first_words(turned.out), whole) << turned.err;
+}
+
+/// A press that moves aside has a column more than one that does not.
+TEST(SweepVerb, CurvesOfDifferentColumnsStandInOneTable) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program(folder.path(),
+                  {"sweep", "--out", "aside", "--set", "press.mode=static", "--set",
+                   "lattice.spacing=tip_radius/4", "--set", "press.samples=[\"0.5 mm\", \"1 mm\"]",
+                   "--set", "press.depth=1 mm", "--set", "press.lateral_path=after", "--set",
+                   "press.lateral_samples=2", "--set", "press.lateral=[\"0 mm\", \"0.2 mm\"]"});
+  EXPECT_EQ(result.code, 0) << result.err << result.out;
+  EXPECT_NE(result.out.find("2 finished"), std::string::npos) << result.out;
+  const auto curves = fingertip::meshes::read_csv(folder / "aside/curves.csv");
+  const auto sideways = curves.texts("lateral_displacement [m]");
+  ASSERT_EQ(sideways.size(), 2U + 4U);
+  EXPECT_EQ(std::ranges::count(sideways, ""), 2);
+  EXPECT_EQ(std::ranges::count(sideways, "2e-04"), 1);
+  const auto table = fingertip::meshes::read_csv(folder / "aside/table.csv");
+  for (const double force : table.numbers("normal_force [N]")) EXPECT_GT(force, 0.0);
 }
 
 TEST(SweepVerb, TwoShardsAtATimeGiveTheTableOfTheWhole) {

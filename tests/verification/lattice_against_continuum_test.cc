@@ -5,10 +5,11 @@
 
 #include "fem_reference/press.h"
 #include "lattice/press.h"
-#include "meshes/volume_mesh.h"
-#include "tests/temporary_folder.h"
+#include "lattice/statics/static_press.h"
+#include "tests/fem_reference/pressing.h"
 
 using namespace fingertip;
+using fem_reference::ReferenceJob;
 using meshes::ContactMode;
 
 namespace {
@@ -19,21 +20,23 @@ meshes::Rubber rubber_with(double poissons_ratio) {
   return rubber;
 }
 
-meshes::PressResponse press_continuum(const meshes::Geometry& geometry,
-                                      const meshes::Rubber& rubber, ContactMode contact,
-                                      double depth) {
-  const TemporaryFolder folder;
-  const auto mesh = folder / "tip.msh";
-  meshes::write_tip_mesh(geometry, meshes::TipMeshOptions{}.refined(0.6), mesh);
-  fem_reference::ReferenceJob job;
+meshes::PressResponse press_continuum(const ReferenceJob& job) {
+  Pressing pressing(job);
+  meshes::PressResponse response;
+  const meshes::PressPath path(job.protocol());
+  for (const double place : path.samples()) response.append(pressing.press.advance(place).sample);
+  return response;
+}
+
+ReferenceJob continuum_job(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
+                           ContactMode contact, double depth) {
+  ReferenceJob job;
   job.geometry = geometry;
   job.rubber = rubber;
   job.contact = contact;
   job.samples = meshes::default_samples(depth);
-  fem_reference::ContinuumPress press(job, mesh);
-  meshes::PressResponse response;
-  for (const double sample : job.samples) response.append(press.advance(sample).sample);
-  return response;
+  job.refinement = 0.6;
+  return job;
 }
 
 lattice::PressSetup lattice_press(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
@@ -55,7 +58,7 @@ double error_of_lattice(const meshes::Geometry& geometry, double poissons_ratio,
                         ContactMode contact) {
   const double depth = 0.4 * geometry.thickness();
   const meshes::Rubber rubber = rubber_with(poissons_ratio);
-  const auto continuum = press_continuum(geometry, rubber, contact, depth);
+  const auto continuum = press_continuum(continuum_job(geometry, rubber, contact, depth));
   const auto lattice =
       lattice::run_press(lattice_press(geometry, rubber, contact, depth, 10.0)).response;
   return meshes::relative_l2_force_error(lattice, continuum, depth / 6.0, depth);
@@ -95,7 +98,32 @@ TEST(LatticeAgainstContinuum, CentralSpringsAloneMissAsCauchysRelationPredicts) 
   setup.lattice.model = lattice::ModelKind::central;
   setup.lattice.constants.kappa = 0.0;
   setup.lattice.constants.k1 *= 18.48 / 14.0;  // C11 = (k1 + 2 k2)/a = 46.48 gf/cm²: E_100 = E
-  const auto continuum = press_continuum({}, rubber, ContactMode::frictionless, depth);
+  const auto continuum =
+      press_continuum(continuum_job({}, rubber, ContactMode::frictionless, depth));
   const auto lattice = lattice::run_press(setup).response;
   EXPECT_LT(meshes::relative_force_error(lattice, continuum, depth), -0.06);
+}
+
+/// Pressed and then moved aside, stuck: the tip's stiffness in shear under a load.
+TEST(LatticeAgainstContinuum, PullsAsHardWhenItIsMovedAside) {
+  const meshes::Rubber rubber;
+  const double depth = 2e-3;
+  ReferenceJob job = continuum_job({}, rubber, ContactMode::stick, depth);
+  job.samples = {depth};
+  job.lateral = 5e-4;
+  job.lateral_path = meshes::LateralPath::after;
+  job.lateral_samples = 2;
+  lattice::PressSetup setup = lattice_press({}, rubber, ContactMode::stick, depth, 8.0);
+  setup.protocol = job.protocol();
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
+  const auto continuum = press_continuum(job);
+  const auto lattice = lattice::run_static_press(setup).response;
+  ASSERT_EQ(continuum.sliding().size(), 2u);
+  ASSERT_EQ(lattice.sliding().size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto &expected = continuum.sliding()[i], &found = lattice.sliding()[i];
+    EXPECT_NEAR(found.lateral_displacement, expected.lateral_displacement, 1e-12);
+    EXPECT_NEAR(found.lateral_force_x / expected.lateral_force_x, 1.0, coarseness);
+    EXPECT_NEAR(found.normal_force / expected.normal_force, 1.0, coarseness);
+  }
 }
