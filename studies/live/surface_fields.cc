@@ -60,7 +60,8 @@ std::string decode_base64(std::string_view text) {
 template <class Number>
 std::vector<Number> numbers_in(std::string_view bytes) {
   std::vector<Number> numbers(bytes.size() / sizeof(Number));
-  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+  if (!numbers.empty())  // else there is no address to copy to
+    std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
   return numbers;
 }
 
