@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 
 namespace fingertip::calibration {
 

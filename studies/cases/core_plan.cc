@@ -49,7 +49,7 @@ std::vector<PlannedJob> CorePlan::jobs() {
   const meshes::Rubber& rubber = config().press.rubber;
   std::vector<PlannedJob> jobs;
   // The longest first, so that the lanes end together.
-  jobs.push_back({"reference", reference_job(reference_order(case_.loaded)), false});
+  jobs.push_back({"reference", reference_job(continuum_job(case_.loaded)), false});
   jobs.push_back({"verification", verification_job(), false});
   std::map<std::string, lattice::PressSetup> setups;
   for (const std::string& model : validated_models()) {

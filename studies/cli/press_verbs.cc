@@ -262,7 +262,7 @@ int run_modes(const CommandLine& line) {
 
 int run_reference(const CommandLine& line) {
   const LoadedConfig loaded = load_checked(line);
-  const fem_reference::ReferenceJob order = reference_order(loaded);
+  const fem_reference::ReferenceJob order = continuum_job(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const JobResult result = session.run({"", reference_job(order), false});
     const std::filesystem::path& folder = session.folder().path();

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "fixtures.h"
-#include "lattice/cells/cell_forces.h"
-#include "lattice/cells/cut_tip.h"
-#include "lattice/kernel.h"
+#include "lattice/forces/cell_forces.h"
+#include "lattice/kernels/kernel.h"
+#include "lattice/model/cut_tip.h"
+#include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
 using namespace fixtures;

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "lattice/press.h"
+#include "lattice/press/press.h"
 
 using namespace fingertip;
 using lattice::Integrator;

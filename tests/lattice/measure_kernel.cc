@@ -5,8 +5,8 @@
 #include <ctime>
 #include <string>
 
-#include "fixtures.h"
-#include "lattice/finger.h"
+#include "lattice/dynamics/finger.h"
+#include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
 using namespace fixtures;

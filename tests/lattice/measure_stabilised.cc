@@ -11,10 +11,10 @@
 #include <random>
 #include <vector>
 
-#include "fixtures.h"
-#include "lattice/forces.h"
-#include "lattice/spectrum.h"
-#include "lattice/time_step.h"
+#include "lattice/dynamics/spectrum.h"
+#include "lattice/dynamics/time_step.h"
+#include "lattice/forces/forces.h"
+#include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
 using namespace fixtures;

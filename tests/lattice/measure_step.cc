@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "fixtures.h"
-#include "lattice/energy.h"
-#include "lattice/tied_bond.h"
-#include "lattice/tied_contact.h"
-#include "lattice/virtual_finger.h"
+#include "lattice/contact/penalty_contact.h"
+#include "lattice/contact/tied_bond.h"
+#include "lattice/control/virtual_finger.h"
+#include "lattice/forces/energy.h"
+#include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
 using namespace fixtures;
@@ -59,7 +59,7 @@ void measure_step(const lattice::VirtualFinger& pressed) {
   lattice::Team team(1);
   lattice::InternalForces internal(model, team);
   lattice::TiedBond bond(model, team);
-  lattice::TiedContact contact(model, finger.plane(), meshes::ContactMode::stick, team);
+  lattice::PenaltyContact contact(model, finger.plane(), meshes::ContactMode::stick, team);
   lattice::VectorField force(model.points());
   for (int i = 0; i < 20; ++i) contact.add(finger.state(), finger.plane(), step, force);
   print("internal forces", 500, [&] { internal.accumulate(finger.state(), force); });

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "finger_scenes.h"
+#include "tests/lattice/finger_scenes.h"
 
 using namespace fingertip;
 using namespace fixtures;

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "fem_reference/press.h"
-#include "lattice/press.h"
-#include "lattice/statics/static_press.h"
+#include "lattice/press/press.h"
+#include "lattice/press/static_press.h"
 #include "tests/fem_reference/pressing.h"
 
 using namespace fingertip;

@@ -91,7 +91,7 @@ TEST(VibrationModes, AreThoseOfADenseSolver) {
   LatticeBody tip = build_cut_tip({}, {}, settings_for(0.01 / 4.0), 4);
   for (const LatticeBody& body : {held, tip}) {
     MatrixXd K = stiffness(body);
-    for (const TiedPoint& point : body.bond)
+    for (const EmbeddedPoint& point : body.bond)
       for (std::size_t c = 0; c < 8; ++c)
         for (std::size_t d = 0; d < 8; ++d)
           K.block<3, 3>(3 * point.corners[c], 3 * point.corners[d]) +=
