@@ -1,4 +1,4 @@
-// The cells' energy and forces in plain code: README of this folder, formula by formula.
+// The cells' energy and forces in plain code: README of kernels/, formula by formula.
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>

@@ -136,7 +136,7 @@ bool is_whole(const Block& block) {
 
 /// Where blocks begin so that they cost least.
 int best_phase(const std::vector<CutCell>& cells) {
-  constexpr std::size_t whole_cost = 2, cut_cost = 3;  // README of this folder: measured
+  constexpr std::size_t whole_cost = 2, cut_cost = 3;  // lattice/MEASUREMENTS.md
   std::array<std::size_t, lanes> costs{};
   for (std::size_t phase = 0; phase < lanes; ++phase) {
     for (const Block& block : blocks_of(cells, int(phase))) {

@@ -5,7 +5,7 @@
 
 namespace fingertip::lattice {
 
-/// central, hookean or network on cells cut by the tip's true surfaces (cells/cut_tip.h), laid out
+/// central, hookean or network on cells cut by the tip's true surfaces (cut_tip.h), laid out
 /// for the kernels. Masses are moments of the shape functions over the rubber, but no particle is
 /// lighter than what keeps it, its neighbours held, from vibrating at more than 1.7 times the
 /// squared frequency of a particle among whole cells: the far corners of slivers would otherwise

@@ -14,7 +14,7 @@
 namespace fingertip::lattice {
 
 /// Stiffness of the ties to rod and plane per area over C44/a. Softer ties are felt, stiffer ones
-/// lock the lattice (README of statics: measured).
+/// lock the lattice (lattice/MEASUREMENTS.md).
 inline constexpr double tie_stiffness = 160.0;
 /// Cells with less rubber than this are left out.
 inline constexpr double smallest_fraction = 1e-6;

@@ -22,7 +22,7 @@ namespace fingertip::lattice {
 
 /// What hangs a published particle on the rod: an isotropic spring with zero force at rest between
 /// the particle and the point of the rigid rod (extended beyond its surface) that coincides with it
-/// at rest. Energy ½ k |x_p - T(X_p)|², T the rod's pose (README: bond).
+/// at rest. Energy ½ k |x_p - T(X_p)|², T the rod's pose (README of contact/).
 struct Ligament {
   std::size_t particle = 0;                        ///< grid index
   meshes::Vector3 rest = meshes::Vector3::Zero();  ///< X_p [m]

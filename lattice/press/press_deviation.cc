@@ -108,7 +108,7 @@ double sway_deviation(const Sway& sway, const PressSetup& setup, double step, do
 
 double plain_step(const PressSetup& setup) {
   const double highest = 2.0 * setup.rubber.longitudinal_wave_speed() / setup.lattice.spacing;
-  SpectralBounds bounds;  // README of the room: stable steps
+  SpectralBounds bounds;  // README of dynamics/: stable steps
   bounds.stiffness = 1.15 * highest * highest;
   bounds.damping = setup.rubber.retardation_time * bounds.stiffness;
   return largest_stable_step(bounds, Integrator::symplectic_euler);

@@ -30,8 +30,8 @@ inline constexpr double tolerated_deviation = 0.02;
 ///
 /// and the deviation is the amplitude of the difference to s = 0; of the sum, once they have come
 /// apart by half a turn. The factor of s is measured
-/// (README): ties of the bond and the V-cycle's weakness make it, and it does not depend on the
-/// spacing between R/6 and R/12 or on tau up to 1.2 ms.
+/// (lattice/MEASUREMENTS.md): ties of the bond and the V-cycle's weakness make it, and it does not
+/// depend on the spacing between R/6 and R/12 or on tau up to 1.2 ms.
 ///
 /// Contact. S is some chi (dt²/4 + dt tau/2) K, chi = 5.5 (mass_scaling.h), which filters the
 /// smooth force as b F'' v², b that factor. A ring of particles, a part a/sqrt(R delta) of the

@@ -20,7 +20,8 @@ struct StaticContactPoint {
 /// Counts and contact points are those of the part computed, 1/sectors of the tip; forces, torques
 /// and radii are the whole tip's. Of the response's columns time and force_error stay unknown.
 /// contact_radius and max_pressure are those of contact_patch: true ones at finite strain, at small
-/// strain those of the shape at rest. How far off they are stands in the README.
+/// strain those of the shape at rest. How far off they are stands in
+/// lattice/MEASUREMENTS.md (contact).
 struct StaticOutcome {
   meshes::PressResponse response;  ///< at the samples of the protocol's path
   std::size_t particles = 0, cells = 0, springs = 0, unknowns = 0;

@@ -1,6 +1,6 @@
 // Prints what the parts of a time step of the default press cost (network, finite, stick) on one
 // thread, at first touch and deep in the rubber: microseconds of processor time, medians. Not a
-// test: lattice/README.md quotes it. Usage: lattice_measure_step [steps per radius = 12]
+// test: lattice/MEASUREMENTS.md quotes it. Usage: lattice_measure_step [steps per radius = 12]
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

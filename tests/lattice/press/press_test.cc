@@ -83,7 +83,7 @@ TEST(PidPress, NetworkHoldsSpeedAndOrientationThroughContact) {
 
 TEST(QuasiStaticPress, HookeanComesCloseToTheContinuum) {
   // Independent axisymmetric finite elements, frictionless, small strain (default specimen):
-  // indentation [cm], force [gf]. At R/8 few cells touch at first (README of statics), and at
+  // indentation [cm], force [gf]. At R/8 few cells touch at first (lattice/MEASUREMENTS.md), and at
   // 1 cm/s the rubber's damping adds up to half a per cent.
   const PressOutcome outcome = lattice::run_press(
       setup_for(ModelKind::hookean, 8, DriveMode::quasi_static, ContactMode::frictionless));

@@ -1,4 +1,4 @@
-// The matrix of speeds, steps, spacings and models (README of lattice/scaling).
+// The matrix of speeds, steps, spacings and models (lattice/MEASUREMENTS.md).
 #include "press_deviation_cases.h"
 
 using namespace press_deviation;

@@ -159,7 +159,7 @@ TEST(DeepPress, NetworkGoesToSeventyPerCentOfTheThickness) {
       if (samples[n].indentation < 1e-3) continue;
       EXPECT_GT(samples[n].normal_force, samples[n - 1].normal_force);
     }
-    // The continuum, frictionless, 0.35 cm: 41.46 gf (README of statics), R/6 within 5 %.
+    // The continuum, frictionless, 0.35 cm: 41.46 gf (lattice/MEASUREMENTS.md), R/6 within 5 %.
     if (mode == ContactMode::frictionless) {
       EXPECT_NEAR(samples.back().normal_force / 9.80665e-3, 41.46, 0.05 * 41.46);
     }

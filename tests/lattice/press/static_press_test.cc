@@ -317,7 +317,7 @@ TEST(StaticPress, PublishedLatticeIsPressedOnItsParticles) {
     EXPECT_NEAR(s.normal_force, free.response.samples()[i].normal_force, 1e-6 * s.normal_force);
     EXPECT_NEAR(s.lateral_force_x, 0.0, 1e-8 * s.normal_force);
   }
-  // The dynamic press of the same lattice at 1 cm/s (lattice/README.md): 0.57 and 19.86 gf.
+  // The dynamic press of the same lattice at 1 cm/s (lattice/MEASUREMENTS.md): 0.57 and 19.86 gf.
   EXPECT_NEAR(stick.response.samples()[1].normal_force / gf, 0.57, 0.02);
   EXPECT_NEAR(stick.response.samples()[2].normal_force / gf, 19.86, 0.6);
 }
