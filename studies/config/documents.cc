@@ -1,8 +1,8 @@
 #include "studies/config/documents.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "meshes/files.h"
