@@ -31,7 +31,7 @@ void print_samples(std::span<const meshes::PressSample> samples, const char* ord
   struct Column {
     std::string title;
     double Sample::*value;
-    const ShownUnit& unit;
+    ShownUnit unit;
   };
   const ShownUnit &length = shown_units().length, &force = shown_units().force;
   std::vector<Column> columns{{length.label(ordered_by), place, length},

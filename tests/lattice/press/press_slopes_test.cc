@@ -10,9 +10,9 @@
 #include <random>
 #include <vector>
 
-#include "body_sums.h"
 #include "lattice/press/static_press.h"
 #include "lattice/statics/cut_lattice.h"
+#include "tests/lattice/statics/body_sums.h"
 
 using namespace fingertip;
 using body_sums::LatticeBody;
