@@ -142,7 +142,9 @@ std::string page_points(const Figure& figure, const std::string& log) {
   if (panels.empty()) return "";
   // "</script>" in a label would end the element; \u003c is the same to JSON.
   std::string text;
-  for (const char c : panels.dump()) text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  // Names of folders need not be UTF-8.
+  for (const char c : panels.dump(-1, ' ', false, ordered_json::error_handler_t::replace))
+    text += c == '<' ? std::string("\\u003c") : std::string(1, c);
   return text;
 }
 
