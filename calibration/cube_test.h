@@ -1,7 +1,7 @@
 /// Virtual material tests: a finite cube of the lattice, loaded by tractions on all six faces.
 #pragma once
 
-#include "lattice/cube.h"
+#include "lattice/forces/cube.h"
 
 namespace fingertip::calibration {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibration/moduli.h"
-#include "lattice/constants.h"
+#include "lattice/model/constants.h"
 #include "meshes/rubber.h"
 
 namespace fingertip::calibration {

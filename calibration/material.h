@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 #include "meshes/errors.h"
 #include "meshes/geometry.h"
 #include "meshes/press_protocol.h"

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "lattice/constants.h"
+#include "lattice/model/constants.h"
 
 namespace fingertip::calibration {
 

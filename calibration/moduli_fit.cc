@@ -12,7 +12,7 @@
 
 #include "calibration/cube_test.h"
 #include "calibration/fit_statement.h"
-#include "lattice/cube.h"
+#include "lattice/forces/cube.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 

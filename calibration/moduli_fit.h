@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibration/moduli.h"
-#include "lattice/constants.h"
+#include "lattice/model/constants.h"
 #include "meshes/rubber.h"
 
 namespace fingertip::calibration {

@@ -30,11 +30,12 @@ class CondensedSolver : public FieldSolver {
     offset_ = factor_->solve(load_)(contact_);
   }
 
-  HeldSolution hold(const std::vector<char>& held, const Eigen::VectorXd& values,
-                    const Eigen::VectorXd& loads) override {
+  ConstrainedSolution solve_constrained(const std::vector<char>& held,
+                                        const Eigen::VectorXd& values,
+                                        const Eigen::VectorXd& loads) override {
     cholesky_->choose(held);
     const std::vector<int>& indices = cholesky_->indices();
-    HeldSolution solution;
+    ConstrainedSolution solution;
     solution.reaction = loads;
     solution.reaction(indices).setZero();
     const Eigen::VectorXd free_displacement =

@@ -7,7 +7,7 @@
 namespace fingertip::fem_reference {
 
 /// Answer on the contact unknowns, in the order in which they were given.
-struct HeldSolution {
+struct ConstrainedSolution {
   Eigen::VectorXd displacement;  ///< [m]
   Eigen::VectorXd reaction;      ///< force that holds the unknown; where it is free its load [N]
   int cg_iterations = 0;         ///< 0 from a direct solver
@@ -20,8 +20,9 @@ class ContactSolver {
   /// Equilibrium with contact unknown i at `values[i]` [m] where `held[i]` is 1, and under the
   /// force `loads[i]` [N] elsewhere. All three have one entry per contact unknown; every process
   /// calls it with the same arguments and gets the same answer. Throws NotConverged.
-  virtual HeldSolution hold(const std::vector<char>& held, const Eigen::VectorXd& values,
-                            const Eigen::VectorXd& loads) = 0;
+  virtual ConstrainedSolution solve_constrained(const std::vector<char>& held,
+                                                const Eigen::VectorXd& values,
+                                                const Eigen::VectorXd& loads) = 0;
 
   /// Reactions below this fraction of the largest one are noise.
   virtual double noise() const = 0;

@@ -101,8 +101,9 @@ class EliminatingSolver : public FieldSolver {
 
   void set_load(const Vector& load) override { load_ = free_.restrict(load); }
 
-  HeldSolution hold(const std::vector<char>& held, const Eigen::VectorXd& values,
-                    const Eigen::VectorXd& loads) override {
+  ConstrainedSolution solve_constrained(const std::vector<char>& held,
+                                        const Eigen::VectorXd& values,
+                                        const Eigen::VectorXd& loads) override {
     factorise(held);
     Eigen::VectorXd fixed = Eigen::VectorXd::Zero(free_.size()), right = load_;
     for (std::size_t i = 0; i < held.size(); ++i)
@@ -111,7 +112,7 @@ class EliminatingSolver : public FieldSolver {
     for (std::size_t i = 0; i < held.size(); ++i)
       if (held[i]) right[contact_[i]] = 0.0;
     displacement_ = factor_->solve(right) + fixed;
-    HeldSolution solution;
+    ConstrainedSolution solution;
     solution.displacement = displacement_(contact_);
     solution.reaction = (multiply(matrix_, displacement_) - load_)(contact_);
     for (std::size_t i = 0; i < held.size(); ++i)

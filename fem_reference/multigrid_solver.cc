@@ -41,8 +41,9 @@ class MultigridSolver : public FieldSolver {
 
   void set_load(const Vector& load) override { load_ = load; }
 
-  HeldSolution hold(const std::vector<char>& held, const Eigen::VectorXd& values,
-                    const Eigen::VectorXd& loads) override {
+  ConstrainedSolution solve_constrained(const std::vector<char>& held,
+                                        const Eigen::VectorXd& values,
+                                        const Eigen::VectorXd& loads) override {
     held_ = constrained_;
     Vector load = load_;
     for (std::size_t i = 0; i < held.size(); ++i) {
@@ -58,7 +59,7 @@ class MultigridSolver : public FieldSolver {
     for (std::size_t i = 0; i < constrained_.size(); ++i)
       if (constrained_[i]) displacement_.begin()[i] = load.begin()[i] = 0.0;
     prepare(held);
-    HeldSolution solution;
+    ConstrainedSolution solution;
     solution.cg_iterations = relax(load);
     Vector force = body_.fine.vector();
     system_->matrix.vmult(force, displacement_);
@@ -84,7 +85,7 @@ class MultigridSolver : public FieldSolver {
     if (double(changed) <= worth_rebuilding * double(std::ranges::count(held, 1)) &&
         built_for_.size() == held.size())
       return;
-    preconditioner_->hold(held_);
+    preconditioner_->solve_constrained(held_);
     built_for_ = held;
   }
 

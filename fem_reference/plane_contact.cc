@@ -82,7 +82,7 @@ double PlaneContact::gap(std::size_t node, const Eigen::VectorXd& displacement,
          displacement[unknowns_.of_node[node][2]];
 }
 
-HeldSolution PlaneContact::solve(ContactSolver& solver) const {
+ConstrainedSolution PlaneContact::solve(ContactSolver& solver) const {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(trial_.displacement.size());
   Eigen::VectorXd loads = values;
   for (std::size_t node = 0; node < trial_.status.size(); ++node) {
@@ -95,10 +95,11 @@ HeldSolution PlaneContact::solve(ContactSolver& solver) const {
       if (trial_.status[node] == NodeStatus::slide) loads[of_node[c]] = trial_.reaction[of_node[c]];
     }
   }
-  return solver.hold(held(), values, loads);
+  return solver.solve_constrained(held(), values, loads);
 }
 
-std::vector<std::size_t> PlaneContact::offenders(const HeldSolution& solution, double noise) const {
+std::vector<std::size_t> PlaneContact::offenders(const ConstrainedSolution& solution,
+                                                 double noise) const {
   // Both thresholds sit above the solver's noise, or nodes that barely touch would flicker.
   const double pull =
       solution.reaction.size() ? noise * solution.reaction.cwiseAbs().maxCoeff() : 0.0;
@@ -125,7 +126,7 @@ void PlaneContact::anchor(std::size_t node, const Eigen::VectorXd& trial, double
   }
 }
 
-void PlaneContact::change(std::size_t node, const HeldSolution& solution) {
+void PlaneContact::change(std::size_t node, const ConstrainedSolution& solution) {
   const auto& of_node = unknowns_.of_node[node];
   NodeStatus& status = trial_.status[node];
   for (std::size_t c = 0; c < 2; ++c)
@@ -152,7 +153,7 @@ void PlaneContact::touch_at_start() {
     }
 }
 
-double PlaneContact::update_friction(const HeldSolution& solution, double relaxation) {
+double PlaneContact::update_friction(const ConstrainedSolution& solution, double relaxation) {
   double largest_push = 0.0, largest_change = 0.0;
   for (std::size_t node = 0; node < trial_.status.size(); ++node) {
     if (trial_.status[node] == NodeStatus::open) continue;
@@ -186,7 +187,7 @@ double PlaneContact::update_friction(const HeldSolution& solution, double relaxa
   return largest_push > 0.0 ? largest_change / largest_push : 0.0;
 }
 
-ContactEffort PlaneContact::settle(ContactSolver& solver, const PlanePose& pose) {
+ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) {
   ContactEffort effort;
   trial_.pose = pose;
   releases_.assign(trial_.status.size(), 0);
@@ -194,7 +195,7 @@ ContactEffort PlaneContact::settle(ContactSolver& solver, const PlanePose& pose)
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int stalled = 0;
   while (effort.rounds < max_rounds) {
-    const HeldSolution solution = solve(solver);
+    const ConstrainedSolution solution = solve(solver);
     ++effort.rounds;
     effort.cg_iterations += solution.cg_iterations;
     std::vector<std::size_t> wrong = offenders(solution, solver.noise());

@@ -61,7 +61,7 @@ class PlaneContact {
   /// Finds the contact state under the plane at `pose` for the solver's present linear system.
   /// Newton's method calls it repeatedly, each time starting from the last answer; the state stays
   /// a trial until `commit`. Throws NotConverged.
-  ContactEffort settle(ContactSolver& solver, const PlanePose& pose);
+  ContactEffort solve(ContactSolver& solver, const PlanePose& pose);
   /// The trial becomes the state from which the next step starts.
   void commit();
   /// Back to the last committed state.
@@ -91,14 +91,14 @@ class PlaneContact {
 
  private:
   double gap(std::size_t node, const Eigen::VectorXd& displacement, const PlanePose& pose) const;
-  HeldSolution solve(ContactSolver& solver) const;
+  ConstrainedSolution solve(ContactSolver& solver) const;
   void touch_at_start();
-  std::vector<std::size_t> offenders(const HeldSolution& solution, double noise) const;
-  void change(std::size_t node, const HeldSolution& solution);
+  std::vector<std::size_t> offenders(const ConstrainedSolution& solution, double noise) const;
+  void change(std::size_t node, const ConstrainedSolution& solution);
   /// Anchors a node where it was at `time`, 0 ... 1, between the start of the step and `trial`.
   void anchor(std::size_t node, const Eigen::VectorXd& trial, double time);
   /// One round of Coulomb's law; the largest change of a friction force over the largest push.
-  double update_friction(const HeldSolution& solution, double relaxation);
+  double update_friction(const ConstrainedSolution& solution, double relaxation);
 
   ContactUnknowns unknowns_;
   meshes::ContactMode mode_;

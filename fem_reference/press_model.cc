@@ -100,7 +100,7 @@ void PressModel::step(double place, PressState& effort) {
 }
 
 void PressModel::linear_step(const PlanePose& target, PressState& effort) {
-  const ContactEffort spent = contact_->settle(*solver_, target);
+  const ContactEffort spent = contact_->solve(*solver_, target);
   effort.active_set_iterations += spent.rounds;
   effort.cg_iterations += spent.cg_iterations;
   displacement_ = solver_->field();
@@ -139,7 +139,7 @@ void PressModel::newton_step(const PlanePose& target, PressState& effort) {
     load -= system_->force;
     solver_->set_load(load);
     const std::vector<NodeStatus> before = contact_->status();
-    const ContactEffort spent = contact_->settle(*solver_, target);
+    const ContactEffort spent = contact_->solve(*solver_, target);
     effort.active_set_iterations += spent.rounds;
     effort.cg_iterations += spent.cg_iterations;
     const bool same_contact = iteration > 0 && contact_->status() == before;

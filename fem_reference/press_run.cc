@@ -166,11 +166,14 @@ class PressRun {
   }
 
   [[noreturn]] void give_up(double worst) const {
-    throw meshes::NotConverged(
-        "the force error of " + percent(worst) + " is above the tolerance of " +
-        percent(job_.tolerance) + " after " + std::to_string(history_.meshes().size()) +
-        " meshes, and a finer one would exceed reference.max_unknowns = " +
-        to_text(job_.max_unknowns) + "; allow more unknowns or a larger reference.tolerance");
+    const std::string error = std::isnan(worst)
+                                  ? "the force error cannot be estimated"
+                                  : "the force error of " + percent(worst) +
+                                        " is above the tolerance of " + percent(job_.tolerance);
+    throw meshes::NotConverged(error + " after " + std::to_string(history_.meshes().size()) +
+                               " meshes, and a finer one would exceed reference.max_unknowns = " +
+                               to_text(job_.max_unknowns) +
+                               "; allow more unknowns or a larger reference.tolerance");
   }
 
   void write_sample(const ContinuumPress& press, std::size_t index) {

@@ -88,7 +88,7 @@ struct TransientPress::Implementation {
     const double dissipation = motion.dissipation_rate();
     motion.set_step(duration, *solver);
     solver->set_load(motion.load());
-    const ContactEffort spent = contact->settle(*solver, pose(indentation));
+    const ContactEffort spent = contact->solve(*solver, pose(indentation));
     motion.advance(solver->field());
     contact->commit();
     ++effort.steps;

@@ -1,8 +1,8 @@
 /// A press that is quick enough for a test.
 #pragma once
 
-#include "lattice/constants.h"
-#include "lattice/settings.h"
+#include "lattice/model/constants.h"
+#include "lattice/press/press_setup.h"
 
 /// Five particles per radius, 5 cm/s, to 0.1 cm, from `clearance` [m].
 inline fingertip::lattice::PressSetup coarse_press(double clearance = 0.5e-3) {

@@ -10,7 +10,7 @@
 
 #include "calibration/curves/curve.h"
 #include "calibration/curves/forward_model.h"
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 
 namespace fingertip::calibration {
 

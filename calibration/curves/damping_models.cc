@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "lattice/cut_model.h"
-#include "lattice/press.h"
-#include "lattice/time_step.h"
+#include "lattice/dynamics/time_step.h"
+#include "lattice/model/cut_model.h"
+#include "lattice/press/press.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 

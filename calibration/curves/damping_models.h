@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "calibration/curves/forward_model.h"
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::calibration {

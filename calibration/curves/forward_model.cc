@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "lattice/statics/static_press.h"
+#include "lattice/press/static_press.h"
 #include "meshes/errors.h"
 
 namespace fingertip::calibration {

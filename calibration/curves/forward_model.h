@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "lattice/settings.h"
-#include "lattice/statics/press_parameters.h"
+#include "lattice/press/press_parameters.h"
+#include "lattice/press/press_setup.h"
 
 namespace fingertip::calibration {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lattice/constants.h"
-#include "lattice/statics/static_press.h"
+#include "lattice/model/constants.h"
+#include "lattice/press/static_press.h"
 
 namespace fingertip::calibration {
 

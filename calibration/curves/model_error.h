@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 
 namespace fingertip::calibration {
 
@@ -22,8 +22,8 @@ namespace fingertip::calibration {
 ///   one number for all; the network alone.
 /// Measured, each as the root mean square, with presses of the default finger at R/5 to R/12 on
 /// three grids against an axisymmetric continuum; the last two from lattices down to R/24
-/// (README; lattice/statics). They are errors of known size and unknown value: their signs, mostly
-/// positive, are not used.
+/// (README; lattice/MEASUREMENTS.md). They are errors of known size and unknown value: their signs,
+/// mostly positive, are not used.
 Eigen::MatrixXd lattice_covariance(const std::vector<lattice::PressSetup>& presses);
 
 /// By how much forces of law A exceed those of small strain under `press`, relative, at every

@@ -236,7 +236,7 @@ void ElasticProblem::solve(const Loading& loading) {
     const auto solver = make_condensed_solver(body, contact);
     solver->set_matrix(system);
     solver->set_load(load);
-    solver->hold({0}, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
+    solver->solve_constrained({0}, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
     self.displacement = solver->field();
   }
   body.fine.constraints.distribute(self.displacement);

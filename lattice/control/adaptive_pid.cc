@@ -27,7 +27,7 @@ AdaptivePid::Tuning AdaptivePid::tune(const PidSettings& pid, const AdaptiveSett
   if (!broken.empty()) throw meshes::InvalidInput(broken);
   // Without experiment: the hold's own delay and the mass as told.
   Tuning tuning{std::nullopt, 0.5 * task.period, 0.5 * task.period, task.inertia(0, 0), pid};
-  if (settings.relay && task.rehearse) {
+  if (settings.relay && task.identify) {
     const double share = pid.bond_compensation;
     tuning.relay = relay_experiment(task, share);
     if (!tuning.relay || !(tuning.relay->delay > 0.0 && tuning.relay->mass > 0.0)) {

@@ -7,7 +7,7 @@
 #include "lattice/control/controller.h"
 #include "lattice/control/hardware.h"
 #include "lattice/control/pid.h"
-#include "lattice/virtual_finger.h"
+#include "lattice/control/virtual_finger.h"
 
 namespace fingertip::lattice {
 

@@ -27,6 +27,24 @@ class Rules {
 
 }  // namespace
 
+std::vector<meshes::Violation> PidSettings::violations() const {
+  Rules rules;
+  rules.positive("controller.period", period);
+  rules.positive("controller.natural_frequency", natural_frequency);
+  rules.positive("controller.derivative_filter", derivative_filter);
+  rules.require(bond_compensation >= 0.0 && bond_compensation <= 1.0,
+                "controller.bond_compensation", bond_compensation,
+                "the share of the measured wrench fed forward must lie between 0 and 1",
+                "1 cancels the tip's pull on the rod, 0 leaves it to the integrator");
+  rules.require(setpoint_weight >= 0.0 && setpoint_weight <= 1.0, "controller.setpoint_weight",
+                setpoint_weight,
+                "the share of the set point in the proportional part must lie between 0 and 1",
+                "1 answers a set point like an error, 0 spares the actuator");
+  rules.positive("controller.force_limit", force_limit);
+  rules.positive("controller.torque_limit", torque_limit);
+  return rules.found;
+}
+
 std::vector<meshes::Violation> AdaptiveSettings::violations() const {
   Rules rules;
   rules.require(sensitivity >= 1.2 && sensitivity <= 3.0, "controller.sensitivity", sensitivity,

@@ -1,4 +1,4 @@
-/// Settings of the controllers beyond the plain PID.
+/// Settings of the controllers.
 #pragma once
 
 #include <functional>
@@ -7,6 +7,20 @@
 #include "meshes/errors.h"
 
 namespace fingertip::lattice {
+
+/// The 6-degree-of-freedom PID at the rod's endpoint. Gains follow from the rod's inertia and a
+/// triple closed-loop pole at the natural frequency (README of control/).
+struct PidSettings {
+  double period = 1.0e-3;           ///< sampling period, zero-order hold in between [s], > 0
+  double natural_frequency = 60.0;  ///< of the closed loop with the bare rod [Hz], > 0
+  double derivative_filter = 10.0;  ///< N > 0: the derivative's low-pass over the natural frequency
+  double setpoint_weight = 1.0;     ///< b: share of the set point in the proportional part, 0 to 1
+  double bond_compensation = 1.0;   ///< share of the measured bond wrench fed forward, 0 to 1
+  double force_limit = 20.0;        ///< of the actuator, along each axis [N], > 0
+  double torque_limit = 1.0;        ///< of the actuator, about each axis [N m], > 0
+
+  std::vector<meshes::Violation> violations() const;
+};
 
 /// Stiffness of the contact, dF/d(indentation) [N/m], at an indentation [m].
 using StiffnessSchedule = std::function<double(double indentation)>;

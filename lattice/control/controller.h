@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <variant>
 
-#include "lattice/rod.h"
+#include "lattice/model/rod.h"
 
 namespace fingertip::lattice {
 

@@ -10,15 +10,15 @@ namespace fingertip::lattice {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double filter_over_bandwidth = 8.0;
 
-EstimatorLimits limits_for(const ForceSettings& settings, const ControlTask& task, double servo) {
-  const double omega = turn * servo, mass = task.inertia(0, 0);
+EstimatorLimits limits_of(const ForceSettings& settings, const ControlTask& task, double servo) {
+  const double omega = full_turn * servo, mass = task.inertia(0, 0);
   // A fiftieth of the touch force: what counts as noise, and a third of the loop's time to forget.
   const double stiff = mass * omega * omega;
   return {100.0 * stiff, stiff, 3.0 * mass * omega, 0.02 * settings.touch_force,
-          1.0 / (3.0 * turn * settings.bandwidth)};
+          1.0 / (3.0 * full_turn * settings.bandwidth)};
 }
 
 }  // namespace
@@ -37,9 +37,9 @@ void check(const ForceSettings& settings, const PidSettings& servo) {
 ForceLoop::ForceLoop(const ForceSettings& settings, const ControlTask& task, double servo)
     : settings_(settings),
       task_(task),
-      omega_(turn * settings.bandwidth),
-      acceleration_(0.25 * turn * servo * task.speed),
-      estimator_(limits_for(settings, task, servo), task.period) {}
+      omega_(full_turn * settings.bandwidth),
+      acceleration_(0.25 * full_turn * servo * task.speed),
+      estimator_(limits_of(settings, task, servo), task.period) {}
 
 void ForceLoop::reset() {
   estimator_.reset();

@@ -5,8 +5,8 @@
 #include <functional>
 #include <optional>
 
+#include "lattice/control/control_settings.h"
 #include "lattice/control/controller.h"
-#include "lattice/settings.h"
 
 namespace fingertip::lattice {
 

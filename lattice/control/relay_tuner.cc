@@ -123,10 +123,10 @@ std::optional<RelayResult> RelayTuner::result() const {
 }
 
 std::optional<RelayResult> relay_experiment(const ControlTask& task, double share) {
-  if (!task.rehearse) return std::nullopt;
+  if (!task.identify) return std::nullopt;
   for (const double part : {1e-3, 1e-2, 1e-1}) {
     RelayTuner tuner(task, share, part * task.force_limit);
-    task.rehearse(
+    task.identify(
         tuner, [&tuner] { return tuner.finished(); }, longest_experiment * task.period);
     if (const auto found = tuner.result()) return found;
   }

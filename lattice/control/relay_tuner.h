@@ -62,7 +62,7 @@ class RelayTuner final : public Controller {
 };
 
 /// Lets relays of growing level play on the robot until one oscillates; empty when none does, or
-/// when the task allows no rehearsal.
+/// when the task allows no identification.
 std::optional<RelayResult> relay_experiment(const ControlTask& task, double share);
 
 /// omega L of the triple pole -omega on the plant exp(-L s)/(M s²) at which the sensitivity's peak

@@ -28,7 +28,7 @@ struct ControlTask {
   /// `longest` [s]; afterwards all is as before. For identification; empty where there is no such
   /// chance.
   std::function<void(Controller& trial, const std::function<bool()>& done, double longest)>
-      rehearse;
+      identify;
 };
 
 /// Makes the controller of a press. May throw ControllerFailed.

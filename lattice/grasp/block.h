@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "lattice/plane.h"
-#include "lattice/rod.h"
+#include "lattice/model/plane.h"
+#include "lattice/model/rod.h"
 #include "meshes/errors.h"
 
 namespace fingertip::lattice {

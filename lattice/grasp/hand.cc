@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <set>
 
-#include "lattice/energy.h"
+#include "lattice/forces/energy.h"
 #include "meshes/files.h"
 
 namespace fingertip::lattice {
@@ -63,7 +63,7 @@ double Hand::find_coupling() const {
   for (std::size_t i = 0; i < 2; ++i) {
     const LatticeModel& model = fingers_[i]->model();
     std::set<std::uint32_t> corners;
-    for (const TiedPoint& tie : model.outer) {
+    for (const EmbeddedPoint& tie : model.outer) {
       if (tie.rest.z() >= lowest) corners.insert(tie.corners.begin(), tie.corners.end());
     }
     for (const std::uint32_t corner : corners) {

@@ -4,8 +4,8 @@
 #include <array>
 #include <memory>
 
+#include "lattice/control/virtual_finger.h"
 #include "lattice/grasp/block.h"
-#include "lattice/virtual_finger.h"
 
 namespace fingertip::lattice {
 

@@ -9,7 +9,7 @@
 #include <new>
 #include <type_traits>
 
-#include "lattice/stencil.h"
+#include "lattice/kernels/stencil.h"
 
 namespace fingertip::lattice::springs {
 

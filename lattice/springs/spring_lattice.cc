@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lattice/kernel.h"
+#include "lattice/kernels/kernel.h"
 #include "lattice/springs/lane_storage.h"
 #include "lattice/springs/sweep.h"
 #include "lattice/springs/wavefront.h"

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "lattice/spin.h"
+#include "lattice/kernels/spin.h"
 
 namespace fingertip::lattice::springs {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice/parallel.h"
+#include "lattice/kernels/parallel.h"
 
 namespace fingertip::lattice::springs {
 

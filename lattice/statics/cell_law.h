@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "lattice/constants.h"
+#include "lattice/model/constants.h"
 #include "meshes/rubber.h"
 
 namespace fingertip::lattice {
@@ -30,7 +30,7 @@ class CellLaw {
  public:
   CellLaw() = default;  // none
 
-  /// C by homogenisation of springs and volume constant (README: physics): C12 = C44 + kappa,
+  /// C by homogenisation of springs and volume constant (README of model/): C12 = C44 + kappa,
   /// C11 = (k1 + 2 k2 + 4/3 k3)/a + kappa, C44 = (k2 + 4/3 k3)/a, along the columns of `axes`, a
   /// rotation. `spacing` a > 0 [m], 0 <= `share` s <= 1.
   static CellLaw cubic(const SpringConstants& constants, double spacing, double share,

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lattice/cells/cut_tip.h"
+#include "lattice/model/cut_tip.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 
@@ -19,10 +19,11 @@ using meshes::Violation;
 
 namespace {
 
-void add_springs(const GridCells& cells, const Recipe& recipe, LatticeBody& body) {
+void add_springs(const GridCells& cells, const Formulation& formulation, LatticeBody& body) {
   const std::array<std::vector<double>, directions> shares = spring_shares(cells);
-  const std::array<double, 3> k{recipe.constants.k1, recipe.constants.k2, recipe.constants.k3};
-  const double whole_fibre = recipe.material.bending * cells.grid().spacing;
+  const std::array<double, 3> k{formulation.constants.k1, formulation.constants.k2,
+                                formulation.constants.k3};
+  const double whole_fibre = formulation.material.bending * cells.grid().spacing;
   for (std::uint32_t p = 0; p < cells.particles(); ++p) {
     for (std::size_t s = 0; s < half_stencil.size(); ++s) {
       const double share = shares[s][cells.point(p)];
@@ -30,7 +31,7 @@ void add_springs(const GridCells& cells, const Recipe& recipe, LatticeBody& body
       const Family family = half_stencil[s].family;
       const std::ptrdiff_t step = neighbour_offset(cells.grid().size, int(s));
       const std::uint32_t q = cells.particle_at(cells.point(p) + std::size_t(step));
-      const double central = recipe.central_springs ? share * k[family] : 0.0;
+      const double central = formulation.central_springs ? share * k[family] : 0.0;
       if (central > 0.0) body.springs.push_back({{p, q}, central});
       const double fibre = family == axis ? share * whole_fibre : 0.0;
       if (fibre > 0.0) body.fibres.push_back({{p, q}, fibre});
@@ -38,19 +39,20 @@ void add_springs(const GridCells& cells, const Recipe& recipe, LatticeBody& body
   }
 }
 
-CellLaw law_for(const Recipe& recipe, const Rubber& rubber, const CubicGrid& grid) {
-  const CellMaterial& material = recipe.material;
-  if (!recipe.cell_law) return {};
+CellLaw law_for(const Formulation& formulation, const Rubber& rubber, const CubicGrid& grid) {
+  const CellMaterial& material = formulation.material;
+  if (!formulation.cell_law) return {};
   if (material.kind == CellLawKind::volume) return CellLaw::volume(material.kappa, true);
   if (material.kind == CellLawKind::network) return CellLaw::network(rubber, fibre_share);
-  return CellLaw::cubic(recipe.constants, grid.spacing, fibre_share, grid.axes);
+  return CellLaw::cubic(formulation.constants, grid.spacing, fibre_share, grid.axes);
 }
 
 /// Particles, springs and cells; no bond, no outer points, nothing held.
-LatticeBody elastic_body(const GridCells& cells, const Recipe& recipe, const Rubber& rubber) {
+LatticeBody elastic_body(const GridCells& cells, const Formulation& formulation,
+                         const Rubber& rubber) {
   LatticeBody body;
-  body.finite = recipe.finite;
-  body.law = law_for(recipe, rubber, cells.grid());
+  body.finite = formulation.finite;
+  body.law = law_for(formulation, rubber, cells.grid());
   body.mass.assign(cells.particles(), 0.0);
   body.fixed.assign(3 * cells.particles(), 0);
   for (std::size_t p = 0; p < cells.particles(); ++p) body.rest.push_back(cells.rest_position(p));
@@ -62,7 +64,7 @@ LatticeBody elastic_body(const GridCells& cells, const Recipe& recipe, const Rub
     body.cells.push_back(
         {corners, mean_gradients(moments, spacing, cells.grid().axes), cell.fraction() * cube});
   }
-  add_springs(cells, recipe, body);
+  add_springs(cells, formulation, body);
   return body;
 }
 
@@ -102,7 +104,7 @@ LatticeBody published_springs(const LatticeModel& model, std::vector<std::uint32
 LatticeBody build_cut_tip(const Geometry& geometry, const Rubber& rubber,
                           const LatticeSettings& settings, int sectors) {
   CutTip tip = cut_tip(geometry, rubber, settings, sectors);
-  LatticeBody body = elastic_body(tip.cells, tip.recipe, rubber);
+  LatticeBody body = elastic_body(tip.cells, tip.formulation, rubber);
   body.sectors = sectors;
   hold_mirror_planes(settings.spacing, sectors, body);
   body.bond = std::move(tip.bond);
@@ -147,8 +149,8 @@ LatticeBody build_free_block(const Rubber& rubber, const LatticeSettings& settin
   grid.spacing = settings.spacing;
   grid.axes = settings.axes;
   grid.size = {cells[0] + 1, cells[1] + 1, cells[2] + 1};
-  return elastic_body(GridCells(grid, whole_cells({0, 0, 0}, cells)), recipe_for(rubber, settings),
-                      rubber);
+  return elastic_body(GridCells(grid, whole_cells({0, 0, 0}, cells)),
+                      formulation_for(rubber, settings), rubber);
 }
 
 int largest_symmetry(const LatticeSettings& settings, const meshes::PressProtocol& protocol) {

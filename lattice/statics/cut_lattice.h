@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "lattice/cells/cut_tip.h"
-#include "lattice/model.h"
-#include "lattice/settings.h"
+#include "lattice/model/cut_tip.h"
+#include "lattice/model/lattice_settings.h"
+#include "lattice/model/model.h"
 #include "lattice/statics/lattice_body.h"
 #include "meshes/geometry.h"
 #include "meshes/press_protocol.h"
@@ -16,8 +16,8 @@ namespace fingertip::lattice {
 
 /// Tie of a published particle to the plane over E a.
 inline constexpr double particle_tie = 20.0;
-/// central, hookean or network on cells cut by the tip's true surfaces (cut_tip, Recipe); a cell
-/// gives its springs, law and mass what of them lies in its rubber, mirror planes hold the
+/// central, hookean or network on cells cut by the tip's true surfaces (cut_tip, Formulation); a
+/// cell gives its springs, law and mass what of them lies in its rubber, mirror planes hold the
 /// displacement across them. Where fibres and a cell law make up the material, a linear
 /// displacement costs the rubber's energy in every cell, and its nodal forces are those of its
 /// traction on the true surfaces (patch test). Throws InvalidInput as cut_tip does.

@@ -14,14 +14,14 @@ using Eigen::Matrix3d;
 using Eigen::VectorXd;
 using meshes::Vector3;
 
-Vector3 shift(const TiedPoint& point, const VectorXd& displacement) {
+Vector3 shift(const EmbeddedPoint& point, const VectorXd& displacement) {
   Vector3 sum = Vector3::Zero();
   for (std::size_t c = 0; c < 8; ++c)
     sum += point.weights[c] * displacement.segment<3>(3 * Eigen::Index(point.corners[c]));
   return sum;
 }
 
-Vector3 position(const TiedPoint& point, const VectorXd& displacement) {
+Vector3 position(const EmbeddedPoint& point, const VectorXd& displacement) {
   return point.rest + shift(point, displacement);
 }
 
@@ -43,7 +43,7 @@ std::vector<std::vector<std::uint32_t>> groups_of(const LatticeBody& body) {
   for (const MeanCell& cell : body.cells)
     groups.emplace_back(cell.corners.begin(), cell.corners.end());
   for (const auto* points : {&body.bond, &body.outer})
-    for (const TiedPoint& point : *points)
+    for (const EmbeddedPoint& point : *points)
       groups.emplace_back(point.corners.begin(), point.corners.end());
   return groups;
 }
@@ -77,7 +77,7 @@ struct ElasticSystem::Implementation {
   explicit Implementation(const LatticeBody& lattice_body);
 
   void add_spring(const Spring& spring, const Matrix3d& block, double* values) const;
-  void add_tied(const TiedPoint& point, const Matrix3d& block, double* values) const;
+  void add_tied(const EmbeddedPoint& point, const Matrix3d& block, double* values) const;
   void add_cell(std::size_t cell, const Eigen::Matrix<double, 9, 9>& tangent, double* values) const;
   void assemble_springs(const VectorXd& displacement, VectorXd& force, double* values) const;
   void assemble_cells(const VectorXd& displacement, VectorXd& force, double* values) const;
@@ -102,7 +102,7 @@ ElasticSystem::Implementation::Implementation(const LatticeBody& lattice_body)
     rest_force.segment<3>(3 * fibre.ends[0]) += pull;
     rest_force.segment<3>(3 * fibre.ends[1]) -= pull;
   }
-  for (const TiedPoint& point : body.bond)
+  for (const EmbeddedPoint& point : body.bond)
     add_tied(point, point.stiffness * Matrix3d::Identity(), values);
   if (!body.finite) {
     for (const Spring& spring : body.springs) {
@@ -125,7 +125,7 @@ void ElasticSystem::Implementation::add_spring(const Spring& spring, const Matri
   pattern.add(low, pattern.rank(high, low), -block, values);
 }
 
-void ElasticSystem::Implementation::add_tied(const TiedPoint& point, const Matrix3d& block,
+void ElasticSystem::Implementation::add_tied(const EmbeddedPoint& point, const Matrix3d& block,
                                              double* values) const {
   for (std::size_t c = 0; c < 8; ++c) {
     if (point.weights[c] == 0.0) continue;
@@ -246,7 +246,7 @@ Tangent ElasticSystem::empty_tangent() const {
   return implementation_->pattern.empty();
 }
 
-void ElasticSystem::add_tied(const TiedPoint& point, const Matrix3d& block,
+void ElasticSystem::add_tied(const EmbeddedPoint& point, const Matrix3d& block,
                              Tangent& tangent) const {
   implementation_->add_tied(point, block, tangent.valuePtr());
 }

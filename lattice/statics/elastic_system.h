@@ -36,7 +36,7 @@ class ElasticSystem {
   Tangent empty_tangent() const;
   /// Adds weight_a weight_b block to the entries of a tied point's corners (lower triangle).
   /// `block` is symmetric; the point must be one of the body's bond or outer points.
-  void add_tied(const TiedPoint& point, const Eigen::Matrix3d& block, Tangent& tangent) const;
+  void add_tied(const EmbeddedPoint& point, const Eigen::Matrix3d& block, Tangent& tangent) const;
   /// Smallest det(1 + H) over the cells; 1 without cells.
   double smallest_jacobian(const Eigen::VectorXd& displacement) const;
 
@@ -48,10 +48,10 @@ class ElasticSystem {
 };
 
 /// Displacement of a tied point [m].
-meshes::Vector3 shift(const TiedPoint& point, const Eigen::VectorXd& displacement);
+meshes::Vector3 shift(const EmbeddedPoint& point, const Eigen::VectorXd& displacement);
 
 /// Position of a tied point at a displacement [m].
-meshes::Vector3 position(const TiedPoint& point, const Eigen::VectorXd& displacement);
+meshes::Vector3 position(const EmbeddedPoint& point, const Eigen::VectorXd& displacement);
 
 /// Mean displacement gradient of a cell.
 Eigen::Matrix3d cell_gradient(const MeanCell& cell, const Eigen::VectorXd& displacement);

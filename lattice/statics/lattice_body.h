@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice/cells/tied_points.h"
+#include "lattice/model/embedded_points.h"
 #include "lattice/statics/cell_law.h"
 #include "meshes/geometry.h"
 
@@ -38,9 +38,9 @@ struct LatticeBody {
   std::vector<Spring> fibres, springs;
   std::vector<MeanCell> cells;
   CellLaw law;
-  bool finite = false;           ///< kinematics of springs, fibres and law
-  std::vector<TiedPoint> bond;   ///< on the rod's surface
-  std::vector<TiedPoint> outer;  ///< where the plane may touch
+  bool finite = false;               ///< kinematics of springs, fibres and law
+  std::vector<EmbeddedPoint> bond;   ///< on the rod's surface
+  std::vector<EmbeddedPoint> outer;  ///< where the plane may touch
   /// Per unknown (3 particle + component): 1 where a mirror plane holds it.
   std::vector<std::uint8_t> fixed;
   int sectors = 1;  ///< how often this body makes up the tip: 1, 2 (y >= 0) or 4 (x, y >= 0)

@@ -35,7 +35,7 @@ bool StaticContact::touches(std::size_t point, const VectorXd& displacement) con
 }
 
 Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement) const {
-  const TiedPoint& outer = body_->outer[point];
+  const EmbeddedPoint& outer = body_->outer[point];
   if (!stick_) {
     const double g = gap(point, displacement, place_);
     return -outer.stiffness * std::min(g, 0.0) * plane_.normal;
@@ -62,7 +62,7 @@ double StaticContact::add(const VectorXd& displacement, const ElasticSystem& sys
   double sum = 0.0;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (!touches(i, displacement)) continue;
-    const TiedPoint& outer = body_->outer[i];
+    const EmbeddedPoint& outer = body_->outer[i];
     const Vector3 push = tie_force(i, displacement);
     sum += push.norm();
     for (std::size_t c = 0; c < 8; ++c)
@@ -112,7 +112,7 @@ int StaticContact::release_pulled(const VectorXd& displacement) {
 PlaneReaction StaticContact::reaction(const VectorXd& displacement, const Vector3& about) const {
   PlaneReaction result;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
-    const TiedPoint& outer = body_->outer[i];
+    const EmbeddedPoint& outer = body_->outer[i];
     const Vector3 push = tie_force(i, displacement);
     const Vector3 place = body_->finite ? position(outer, displacement) : outer.rest;
     result.force += push;
@@ -126,7 +126,7 @@ std::vector<LoadedPoint> StaticContact::loaded_points(const VectorXd& displaceme
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     const double push = tie_force(i, displacement).dot(plane_.normal);
     if (!(push > 0.0)) continue;
-    const TiedPoint& outer = body_->outer[i];
+    const EmbeddedPoint& outer = body_->outer[i];
     const Vector3 place = body_->finite ? position(outer, displacement) : outer.rest;
     points.push_back({{place.dot(plane_.t1), place.dot(plane_.t2)},
                       push,

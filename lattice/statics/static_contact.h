@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice/cells/contact_patch.h"
-#include "lattice/plane.h"
+#include "lattice/contact/contact_patch.h"
+#include "lattice/model/plane.h"
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/lattice_body.h"
 #include "meshes/geometry.h"

@@ -19,8 +19,8 @@ struct VibrationMode {
 /// ElasticSystem's tangent at rest, bond included, M the particles' masses. A mode of multiplicity
 /// n appears n times, rigid motions of a body without bond with f = 0 up to round-off (about 1e-6
 /// of the lowest other frequency). Frequencies are converged to 1e-9; that they differ from the
-/// continuum's is the lattice's matter (README). A body that is one of several sectors has the
-/// modes that are symmetric about its mirror planes.
+/// continuum's is the lattice's matter (lattice/MEASUREMENTS.md). A body that is one of several
+/// sectors has the modes that are symmetric about its mirror planes.
 ///
 /// Inverse Lanczos iteration (Spectra) with a CHOLMOD factor, repeated in the complement of what
 /// has been found until nothing lower turns up. Throws InvalidInput unless 1 <= count < number of

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "lattice/kernel.h"
+#include "lattice/kernels/kernel.h"
 #include "studies/bench/continua.h"
 #include "studies/bench/kernels.h"
 #include "studies/bench/pace.h"

@@ -20,7 +20,7 @@ std::vector<double> even(double from, double to, int count) {
 fem_reference::ReferenceJob order_for(const LoadedConfig& loaded, bool finite,
                                       const std::vector<double>& depths, int degree,
                                       double refinement) {
-  return reference_order(
+  return continuum_job(
       loaded.with({"press.contact=stick", samples_setting(depths),
                    fmt::format("reference.strain={}", finite ? "finite" : "linear"),
                    fmt::format("reference.degree={}", degree),

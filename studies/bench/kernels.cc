@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "meshes/press_response.h"
-#include "studies/bench/child.h"
 #include "studies/bench/lammps.h"
 #include "studies/exchange/lammps_program.h"
+#include "studies/files/process.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/json_file.h"
 #include "studies/run/provenance.h"
@@ -91,7 +91,7 @@ class Programs {
     if (number >= plan_.wide_rounds)
       words.push_back("--benchmark_filter=multiply-add|edge_list|springs/.*float64.*size:(20|48)/");
     const fs::path log = folder_ / "kernels.log";
-    if (const int code = run_child(words, {}, log); code != 0)
+    if (const int code = run_process({words, {}}, log, interrupted); code != 0)
       throw std::runtime_error(
           fmt::format("fingertip-kernels ended with {}; see {}", code, log.string()));
     round.merge(read_kernel_round(out));
@@ -118,7 +118,8 @@ class Programs {
   void bullet(KernelRound& round) {
     if (rounds_.missing.contains("bullet")) return;
     const fs::path log = folder_ / "bullet.json";
-    const int code = run_child({bullet_.string(), "20", plan_.quick ? "20" : "100"}, {}, log);
+    const int code =
+        run_process({{bullet_.string(), "20", plan_.quick ? "20" : "100"}, {}}, log, interrupted);
     if (code != 0) {
       rounds_.missing["bullet"] = fmt::format("fingertip-bullet ended with {}", code);
       return;

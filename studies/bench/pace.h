@@ -1,7 +1,7 @@
 /// How fast a press ran, and how far its force was off.
 #pragma once
 
-#include "lattice/press.h"
+#include "lattice/press/press.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::studies {

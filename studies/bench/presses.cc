@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lattice/press.h"
+#include "lattice/press/press.h"
 #include "studies/bench/continua.h"
 #include "studies/bench/pace.h"
 #include "studies/run/jobs.h"

@@ -34,7 +34,7 @@ fem_reference::ReferenceJob continuum_at_speed(LoadedConfig loaded) {
   order.analysis = fem_reference::Analysis::transient;
   order.strain = fem_reference::Strain::linear;
   order.write_fields = false;
-  return reference_order(loaded);
+  return continuum_job(loaded);
 }
 
 class ControlPlan : public Plan {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
+#include "meshes/csv_table.h"
 #include "meshes/files.h"
 #include "meshes/press_response.h"
 #include "studies/cases/equilibrium_study.h"
@@ -49,7 +49,7 @@ std::vector<PlannedJob> CorePlan::jobs() {
   const meshes::Rubber& rubber = config().press.rubber;
   std::vector<PlannedJob> jobs;
   // The longest first, so that the lanes end together.
-  jobs.push_back({"reference", reference_job(reference_order(case_.loaded)), false});
+  jobs.push_back({"reference", reference_job(continuum_job(case_.loaded)), false});
   jobs.push_back({"verification", verification_job(), false});
   std::map<std::string, lattice::PressSetup> setups;
   for (const std::string& model : validated_models()) {
@@ -112,20 +112,20 @@ ordered_json CorePlan::model_entry(const fs::path& press, const std::string& sta
 
 /// Largest relative deviation of the hookean cubes in cubes.csv from the rubber's E, G, nu.
 double cube_error(const fs::path& folder, const meshes::Rubber& rubber) {
-  const std::vector<double> wanted = {rubber.youngs_modulus, rubber.youngs_modulus,
-                                      rubber.youngs_modulus, rubber.shear_modulus,
-                                      rubber.poissons_ratio()};
+  const std::pair<const char*, double> wanted[] = {
+      {"youngs_modulus_100 [Pa]", rubber.youngs_modulus},
+      {"youngs_modulus_110 [Pa]", rubber.youngs_modulus},
+      {"youngs_modulus_111 [Pa]", rubber.youngs_modulus},
+      {"shear_modulus [Pa]", rubber.shear_modulus},
+      {"poissons_ratio_100", rubber.poissons_ratio()}};
+  const meshes::CsvTable cubes = meshes::read_csv(folder / "cubes.csv");
+  const std::vector<std::string> models = cubes.texts("model");
   double worst = std::nan("");
-  std::ifstream in(folder / "cubes.csv");
-  for (std::string line; std::getline(in, line);) {
-    if (!line.starts_with("hookean,")) continue;
-    std::istringstream cells(line);
-    std::string cell;
-    std::getline(cells, cell, ',');
-    std::getline(cells, cell, ',');
-    for (const double target : wanted) {
-      std::getline(cells, cell, ',');
-      const double error = std::abs(std::stod(cell) - target) / std::max(std::abs(target), 1e-3);
+  for (const auto& [column, target] : wanted) {
+    const std::vector<double> values = cubes.numbers(column);
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      if (models[row] != "hookean") continue;
+      const double error = std::abs(values[row] - target) / std::max(std::abs(target), 1e-3);
       if (std::isnan(error)) return error;
       worst = std::isnan(worst) ? error : std::max(worst, error);
     }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 #include "meshes/press_response.h"
 #include "studies/run/session.h"
 

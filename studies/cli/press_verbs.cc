@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "meshes/csv_table.h"
 #include "meshes/press_response.h"
@@ -21,46 +23,56 @@ namespace fingertip::studies {
 
 namespace {
 
-/// A cell of a table: the value as it is shown, or nothing when it is unknown.
-std::string cell(double value, const ShownUnit& unit) {
-  if (std::isnan(value)) return fmt::format("{:>14}", "");
-  return fmt::format("{:14.4f}", unit(value));
-}
-
-/// A table of samples: what they are ordered by, force, error, contact and, `aside`, lateral force.
-void print_head(const char* ordered_by, bool aside) {
+/// A table of samples by `place`: force, error, contact and, with `aside`, lateral force; no column
+/// that nobody knows.
+void print_samples(std::span<const meshes::PressSample> samples, const char* ordered_by,
+                   double meshes::PressSample::*place, bool aside) {
+  using Sample = meshes::PressSample;
+  struct Column {
+    std::string title;
+    double Sample::*value;
+    ShownUnit unit;
+  };
   const ShownUnit &length = shown_units().length, &force = shown_units().force;
-  fmt::print("{:>14}{:>14}{:>14}{:>14}{:>14}\n", length.label(ordered_by), force.label("force"),
-             force.label("error"), length.label("contact"), aside ? force.label("lateral") : "");
-}
-
-void print_row(double place, const meshes::PressSample& sample, bool aside) {
-  const ShownUnit &length = shown_units().length, &force = shown_units().force;
-  fmt::print("{}{}{}{}{}\n", cell(place, length), cell(sample.normal_force, force),
-             cell(sample.force_error, force), cell(sample.contact_radius, length),
-             aside ? cell(sample.lateral_force_x, force) : "");
+  std::vector<Column> columns{{length.label(ordered_by), place, length},
+                              {force.label("force"), &Sample::normal_force, force},
+                              {force.label("error"), &Sample::force_error, force},
+                              {length.label("contact"), &Sample::contact_radius, length}};
+  if (aside) columns.push_back({force.label("lateral"), &Sample::lateral_force_x, force});
+  std::erase_if(columns, [&](const Column& column) {
+    return std::ranges::all_of(
+        samples, [&](const Sample& sample) { return std::isnan(sample.*column.value); });
+  });
+  for (const Column& column : columns) fmt::print("{:>14}", column.title);
+  fmt::print("\n");
+  for (const Sample& sample : samples) {
+    for (const Column& column : columns) {
+      const double value = sample.*column.value;
+      fmt::print("{:>14}", std::isnan(value) ? "" : fmt::format("{:.4f}", column.unit(value)));
+    }
+    fmt::print("\n");
+  }
 }
 
 /// The curve at the wanted depths, for a terminal.
 void print_depths(const meshes::PressResponse& response, const meshes::PressProtocol& protocol) {
-  const bool aside = protocol.lateral != 0.0 && !protocol.slides_after();
-  print_head("depth", aside);
+  std::vector<meshes::PressSample> wanted;
   for (const double depth : protocol.samples) {
-    for (const meshes::PressSample& sample : response.pressing()) {
-      if (std::abs(sample.indentation - depth) > 1e-6 * depth) continue;
-      print_row(sample.indentation, sample, aside);
-      break;
-    }
+    const auto found =
+        std::ranges::find_if(response.pressing(), [&](const meshes::PressSample& sample) {
+          return std::abs(sample.indentation - depth) <= 1e-6 * depth;
+        });
+    if (found != response.pressing().end()) wanted.push_back(*found);
   }
+  print_samples(wanted, "depth", &meshes::PressSample::indentation,
+                protocol.lateral != 0.0 && !protocol.slides_after());
 }
 
 /// The lateral motion that followed, if one did.
 void print_sliding(const meshes::PressResponse& response) {
   if (response.sliding().empty()) return;
   fmt::print("then along the plane at {}:\n", shown_units().length.text(response.depth()));
-  print_head("lateral", true);
-  for (const meshes::PressSample& sample : response.sliding())
-    print_row(sample.lateral_displacement, sample, true);
+  print_samples(response.sliding(), "lateral", &meshes::PressSample::lateral_displacement, true);
 }
 
 void print_response(const std::filesystem::path& folder, const meshes::PressProtocol& protocol) {
@@ -262,7 +274,7 @@ int run_modes(const CommandLine& line) {
 
 int run_reference(const CommandLine& line) {
   const LoadedConfig loaded = load_checked(line);
-  const fem_reference::ReferenceJob order = reference_order(loaded);
+  const fem_reference::ReferenceJob order = continuum_job(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const JobResult result = session.run({"", reference_job(order), false});
     const std::filesystem::path& folder = session.folder().path();

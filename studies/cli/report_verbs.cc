@@ -44,9 +44,18 @@ int run_compare(const CommandLine& line) {
     refuse("--out " + line.out.string(), "the output folder exists already",
            "choose another folder, or say --force to write into it");
   }
-  const fs::path out = line.out.empty() ? make_run_folder("comparison") : line.out;
   const ShowIn units(wanted.value_or(UnitSystem::si));
-  const ComparisonResult result = write_comparison(runs, out);
+  const bool own_folder = line.out.empty();
+  const fs::path out = own_folder ? make_run_folder("comparison") : line.out;
+  const ComparisonResult result = [&] {
+    try {
+      return write_comparison(runs, out);
+    } catch (...) {
+      std::error_code not_empty;
+      if (own_folder) fs::remove(out, not_empty);  // what was refused leaves nothing
+      throw;
+    }
+  }();
   if (!line.quiet) {
     fmt::print("{}comparison: {}\n", result.text, (out / "comparison.html").string());
     std::fflush(stdout);

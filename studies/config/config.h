@@ -10,7 +10,7 @@
 #include "fem_reference/job.h"
 #include "lattice/control/control_settings.h"
 #include "lattice/grasp/grasp.h"
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 
 namespace fingertip::studies {
 

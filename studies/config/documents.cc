@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "meshes/files.h"
@@ -139,9 +140,9 @@ std::string explanation(const Key& key) {
     text += fmt::format("  allowed: {}\n", key.allowed());
   }
   for (const Choice& choice : key.choices) {
-    text += fmt::format("  {:<17}{}\n", choice.word, choice.meaning);
+    text += fmt::format("  {:<18} {}\n", choice.word, choice.meaning);
   }
-  if (key.kind == Kind::source) text += fmt::format("  {:<17}{}\n", "PATH", "a file");
+  if (key.kind == Kind::source) text += fmt::format("  {:<18} {}\n", "PATH", "a file");
   if (!key.rule.empty()) text += fmt::format("  rule:    {}\n", key.rule);
   if (!key.matters_with.empty())
     text += fmt::format("  matters: with {} = {}\n", key.matters_with,
@@ -153,8 +154,10 @@ std::string explanation(const Key& key) {
 }
 
 std::string key_overview() {
-  return by_section([](const Key& key) {
-           return fmt::format("  {:<32} {:<18} {}\n", key.full_name(), key.preset, key.help);
+  std::size_t width = 0;
+  for (const Key& key : key_table()) width = std::max(width, key.full_name().size());
+  return by_section([&](const Key& key) {
+           return fmt::format("  {:<{}} {:<18} {}\n", key.full_name(), width, key.preset, key.help);
          })
       .substr(1);
 }

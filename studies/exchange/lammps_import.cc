@@ -4,7 +4,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "lattice/energy.h"
+#include "lattice/forces/energy.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 #include "studies/exchange/lammps_files.h"

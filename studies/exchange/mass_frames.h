@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "lattice/model.h"
-#include "lattice/state.h"
+#include "lattice/model/model.h"
+#include "lattice/model/state.h"
 
 namespace fingertip::studies {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "lattice/bond.h"
-#include "lattice/cut_model.h"
-#include "lattice/time_step.h"
+#include "lattice/contact/bond.h"
+#include "lattice/dynamics/time_step.h"
+#include "lattice/model/cut_model.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "lattice/model.h"
-#include "lattice/plane.h"
-#include "lattice/rod.h"
-#include "lattice/state.h"
+#include "lattice/model/model.h"
+#include "lattice/model/plane.h"
+#include "lattice/model/rod.h"
+#include "lattice/model/state.h"
 #include "studies/config/loader.h"
 
 namespace fingertip::studies {

@@ -1,7 +1,7 @@
 #include "studies/exchange/undamped_march.h"
 
-#include "lattice/bond.h"
-#include "lattice/energy.h"
+#include "lattice/contact/bond.h"
+#include "lattice/forces/energy.h"
 
 namespace fingertip::studies {
 

@@ -1,7 +1,7 @@
 /// Our own march of an undamped body, which others are compared with.
 #pragma once
 
-#include "lattice/finger.h"
+#include "lattice/dynamics/finger.h"
 #include "studies/exchange/undamped_body.h"
 
 namespace fingertip::studies {

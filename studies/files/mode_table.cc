@@ -11,9 +11,9 @@ std::vector<std::string> mode_motions(const meshes::CsvTable& modes) {
     if (multiplicity[i] == 1.0)
       motion = motion == "AA" ? "torsion" : "along the axis, breathing";
     else if (motion == "SA" || motion == "AS")
-      motion = "sideways, 3 or more odd waves";
+      motion = "sideways (an odd number of waves)";
     else if (!motion.empty())
-      motion = "2 or more even waves";
+      motion = "an even number of waves";
   }
   return motions;
 }

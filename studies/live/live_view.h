@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 
 namespace fingertip::studies {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "lattice/boundary_view.h"
 #include "lattice/control/control_loop.h"
-#include "lattice/press_task.h"
+#include "lattice/press/boundary_view.h"
+#include "lattice/press/press_task.h"
 #include "studies/live/live_controller.h"
 #include "studies/live/moving_set_point.h"
 

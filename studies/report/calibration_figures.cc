@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "calibration/moduli.h"
-#include "lattice/constants.h"
+#include "lattice/model/constants.h"
 #include "studies/report/format.h"
 #include "studies/report/modulus_surfaces.h"
 

@@ -91,10 +91,13 @@ Table sample_table(SampleRange samples, const SampleAxis& axis) {
     shown.push_back(column);
     table.header.push_back(plain(column.title, column.direction + unit_name(column.unit)));
   }
-  const std::size_t rows = std::min(samples.size(), most_rows);
-  for (std::size_t i = 0; i < rows; ++i) {
-    // The last one is always among them.
-    const auto& sample = samples[rows < 2 ? 0 : i * (samples.size() - 1) / (rows - 1)];
+  // Every 2nd, 5th, 10th ... so that depths stay round, and the last one is among them.
+  std::size_t every = 1;
+  for (const std::size_t step : {2, 5, 10, 20, 50, 100, 200, 500, 1000})
+    if ((samples.size() + every - 1) / every > most_rows) every = step;
+  std::size_t rows = 0;
+  for (std::size_t i = (samples.size() - 1) % every; i < samples.size(); i += every, ++rows) {
+    const auto& sample = samples[i];
     std::vector<Cell> row{plain(fmt::format("{:.4g}", units.length(sample.*axis.value)))};
     for (const Column& column : shown) {
       const double value = sample.*column.value;

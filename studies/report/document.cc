@@ -75,7 +75,10 @@ class BlockData {
 
   data operator()(const FigureBlock& block) const {
     data inner;
-    inner.set("svg", draw(block.figure, block.title, figures_));
+    const Drawing drawing = draw(block.figure, block.title, figures_);
+    inner.set("svg", drawing.svg);
+    inner.set("points", drawing.points);
+    inner.set("has_points", !drawing.points.empty());
     inner.set("figure_name", block.figure.name);
     inner.set("figure_title", block.title);
     inner.set("figure_caption", block.caption);

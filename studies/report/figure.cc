@@ -1,10 +1,6 @@
 #include "studies/report/figure.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -17,24 +13,15 @@
 #include "meshes/errors.h"
 #include "meshes/files.h"
 #include "meshes/press_response.h"
+#include "studies/files/process.h"
 #include "studies/report/document.h"
+#include "studies/report/figure_points.h"
 #include "studies/report/format.h"
 
 namespace fingertip::studies::reporting {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Whether something of the series can be seen: logarithmic axes show positive numbers alone.
-bool has_points(const Panel& panel, const Series& series) {
-  for (std::size_t i = 0; i < series.x.size(); ++i) {
-    const bool shown = std::isfinite(series.x[i]) && std::isfinite(series.y[i]) &&
-                       (panel.log_x == 0 || series.shift * series.x[i] > 0.0) &&
-                       (panel.log_y == 0 || series.y[i] > 0.0);
-    if (shown) return true;
-  }
-  return false;
-}
 
 std::string data_block(const Series& series, const std::string& name) {
   std::string text = name + " << EOD\n";
@@ -179,6 +166,12 @@ std::string axis(const Panel& panel, bool vertical) {
   return text + axis_range(name, range, base != 0);
 }
 
+/// Into gnuplot's log, for page_points().
+constexpr const char* tell_axes =
+    "print sprintf('axes %.6g %.6g %.6g %.6g %.9g %.9g %.9g %.9g', GPVAL_TERM_XMIN, "
+    "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX, GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, "
+    "GPVAL_Y_MAX)\n";
+
 std::string panel_script(const Panel& panel, std::size_t index) {
   std::string text = "unset object\nunset arrow\nunset label\nunset logscale\n";
   text += "set title " + gnuplot_string(panel.title) + " offset 0,-0.5\n";
@@ -189,20 +182,21 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   text += panel.key.empty() ? "unset key\n" : "set key " + panel.key + " Left reverse samplen 3\n";
   text += panel.bare ? "unset border\nunset xtics\nunset ytics\nunset grid\n" : "";
   text += decorations(panel);
-  const auto visible = [&](const Series& series) { return has_points(panel, series); };
-  if (std::none_of(panel.series.begin(), panel.series.end(), visible)) {
+  const auto seen = [&](const Series& series) { return visible(panel, series); };
+  if (std::none_of(panel.series.begin(), panel.series.end(), seen)) {
     // An empty panel keeps its place in the layout.
-    return text + "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\n";
+    return text + "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\n" +
+           tell_axes;
   }
   std::string plot;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const bool legend_only = panel.series[i].legend_only;
-    if (!legend_only && !visible(panel.series[i])) continue;
+    if (!legend_only && !seen(panel.series[i])) continue;
     const std::string block = fmt::format("$p{}s{}", index, i);
     if (!legend_only) text += data_block(panel.series[i], block);
     plot += (plot.empty() ? "plot " : ", \\\n  ") + plot_item(panel.series[i], block);
   }
-  return text + plot + "\n";
+  return text + plot + "\n" + tell_axes;
 }
 
 /// Where the panels sit: the same room for labels in px around each of them; gnuplot leaves out a
@@ -247,25 +241,13 @@ std::string read_file(const fs::path& file) {
 /// Runs gnuplot on a script file, in that file's folder: whatever characters the path has, gnuplot
 /// sees names of ours alone. Returns its exit code, -1 when it could not be started.
 int run_gnuplot(const fs::path& script_file, const fs::path& log) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_addchdir_np(&actions, script_file.parent_path().c_str());
-  std::string program = "gnuplot", option = "--default-settings",
-              name = script_file.filename().string();
-  std::array<char*, 4> arguments{program.data(), option.data(), name.data(), nullptr};
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return -1;
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return -1;
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  const fs::path gnuplot = program_on_path("gnuplot");
+  if (gnuplot.empty()) return -1;
+  return run_process(
+      {{fs::absolute(gnuplot).string(), "--default-settings", script_file.filename().string()},
+       {},
+       script_file.parent_path()},
+      log);
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
@@ -305,50 +287,6 @@ std::string inlined(std::string svg, const std::string& name, const std::string&
   return svg;
 }
 
-void write_points(const Figure& figure, const fs::path& file) {
-  std::vector<std::string> labels;
-  const auto column = [&](const std::string& label) {
-    const auto found = std::find(labels.begin(), labels.end(), label);
-    if (found != labels.end()) return std::size_t(found - labels.begin());
-    labels.push_back(label);
-    return labels.size() - 1;
-  };
-  for (const Panel& panel : figure.panels) {
-    column(panel.x_label), column(panel.y_label);
-    if (panel.surface) column(panel.surface->z_label), column(panel.surface->value_label);
-  }
-  meshes::write_atomically(file, [&](std::ostream& out) {
-    out << "panel,series";
-    for (const std::string& label : labels) out << ',' << csv_cell(label);
-    out << '\n';
-    using Value = std::pair<std::string, double>;
-    const auto write = [&](const Panel& panel, const std::string& series,
-                           std::initializer_list<Value> values) {
-      std::vector<std::string> cells(labels.size());
-      for (const auto& [label, value] : values) cells[column(label)] = meshes::to_text(value);
-      out << csv_cell(panel.title) << ',' << csv_cell(series);
-      for (const std::string& cell : cells) out << ',' << cell;
-      out << '\n';
-    };
-    for (const Panel& panel : figure.panels) {
-      for (const Series& series : panel.series) {
-        for (std::size_t i = 0; i < series.x.size(); ++i)
-          write(panel, series.key.empty() ? series.label : series.key,
-                {{panel.x_label, series.x[i]}, {panel.y_label, series.y[i]}});
-      }
-      if (!panel.surface) continue;
-      for (const auto& row : panel.surface->rows) {
-        for (const Surface::Point& point : row)
-          write(panel, panel.title,
-                {{panel.x_label, point.x},
-                 {panel.y_label, point.y},
-                 {panel.surface->z_label, point.z},
-                 {panel.surface->value_label, point.value}});
-      }
-    }
-  });
-}
-
 }  // namespace
 
 std::string gnuplot_string(const std::string& text) {
@@ -360,13 +298,6 @@ std::string gnuplot_string(const std::string& text) {
       result += c == '\n' || c == '\r' ? ' ' : c;
   }
   return result + "'";
-}
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
 }
 
 Style model_style(const std::string& name) {
@@ -403,7 +334,7 @@ std::string model_label(const std::string& name) {
   return name == "published" ? "published (1996)" : name;
 }
 
-std::string draw(const Figure& figure, const std::string& title, const fs::path& folder) {
+Drawing draw(const Figure& figure, const std::string& title, const fs::path& folder) {
   const fs::path svg = folder / (figure.name + ".svg");
   const fs::path script_file = folder / (figure.name + ".gnuplot");
   const fs::path log = folder / (figure.name + ".log");
@@ -422,7 +353,7 @@ std::string draw(const Figure& figure, const std::string& title, const fs::path&
   fs::remove(script_file);
   fs::remove(log);
   write_points(figure, folder / (figure.name + ".csv"));
-  return inlined(std::move(image), figure.name, title);
+  return {inlined(std::move(image), figure.name, title), page_points(figure, message)};
 }
 
 }  // namespace fingertip::studies::reporting

@@ -111,11 +111,14 @@ struct Figure {
 
 /// Draws the figure with gnuplot (started as a process) into `folder`/NAME.svg and writes what is
 /// plotted to `folder`/NAME.csv: one row per point, `panel,series`, then one column per distinct
-/// axis label. Returns the SVG for use inside an HTML page: without XML prolog, with ids that
-/// are unique to the figure and `title` as its accessible name.
+/// axis label. The picture is for use inside an HTML page: without XML prolog, with ids that are
+/// unique to the figure and `title` as its accessible name.
 /// Throws std::runtime_error with gnuplot's message when it is missing or fails.
-std::string draw(const Figure& figure, const std::string& title,
-                 const std::filesystem::path& folder);
+struct Drawing {
+  std::string svg;
+  std::string points;  ///< page_points()
+};
+Drawing draw(const Figure& figure, const std::string& title, const std::filesystem::path& folder);
 
 /// `text` as a string in a gnuplot script: in single quotes, which suspend every other escape.
 std::string gnuplot_string(const std::string& text);

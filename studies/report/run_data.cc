@@ -162,9 +162,10 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   run.folder = folder;
   const auto has = [&](const char* name) { return fs::exists(fs::symlink_status(folder / name)); };
   if (!has("summary.json") && !has("calibration.json") && !has("finished.json")) {
-    throw meshes::InvalidInput({folder.string(), "",
-                                "holds no summary.json, which every run that came to a result has",
-                                "name the folder of a run, or run it to its end"});
+    throw meshes::InvalidInput(
+        {folder.string(), "", "holds no summary.json, which every run that came to a result has",
+         fs::exists(folder / "sweep.json") ? "of a sweep, name a folder in its points/"
+                                           : "name the folder of a run, or run it to its end"});
   }
   reader.note_missing(folder);
   run.own_calibration = reader.json(folder / "calibration.json");

@@ -1,7 +1,7 @@
 /// From section [controller] to what makes the controller of a press.
 #pragma once
 
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 #include "studies/config/loader.h"
 
 namespace fingertip::studies {

@@ -4,15 +4,13 @@
 #include <sys/types.h>
 
 #include <filesystem>
-#include <string>
 #include <vector>
+
+#include "studies/files/process.h"
 
 namespace fingertip::studies {
 
-/// A program with its arguments and what is added to the environment.
-struct FemCommand {
-  std::vector<std::string> words;        ///< absolute path first
-  std::vector<std::string> environment;  ///< "NAME=value"
+struct FemCommand : Command {
   bool under_mpirun = false;
 };
 
@@ -20,10 +18,6 @@ struct FemCommand {
 /// with one thread each. Throws InvalidInput when the program, or mpirun, is not there.
 FemCommand fem_command(const std::filesystem::path& program, const std::filesystem::path& folder,
                        int threads, int ranks);
-
-/// Starts it in a process group of its own, without standard input, its output going to the two
-/// file descriptors. It gets SIGTERM when the calling thread ends.
-pid_t start_process(const FemCommand& command, int out, int err);
 
 /// The processes whose parent is `parent`: of mpirun, the ranks.
 std::vector<pid_t> children_of(pid_t parent);

@@ -151,13 +151,6 @@ class Watch {
   Clock::time_point asked_at_;
 };
 
-int wait_for(pid_t child) {
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : signal_base + WTERMSIG(status);
-}
-
 std::string lost_message(int signal, const std::filesystem::path& folder,
                          const std::string& last_words) {
   std::string text = fmt::format("a process of the continuum was lost: signal {} ({})", signal,

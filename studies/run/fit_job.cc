@@ -9,7 +9,7 @@
 #include "calibration/curves/model_error.h"
 #include "calibration/curves/remembered_model.h"
 #include "calibration/curves/stretch_models.h"
-#include "lattice/statics/static_press.h"
+#include "lattice/press/static_press.h"
 #include "source_hash.h"
 #include "studies/run/digest.h"
 #include "studies/run/fit_order.h"

@@ -10,7 +10,7 @@
 #include "calibration/curves/curve_fit.h"
 #include "calibration/curves/fit_record.h"
 #include "calibration/curves/scaled_table.h"
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 #include "studies/config/config.h"
 #include "studies/run/job.h"
 

@@ -361,7 +361,7 @@ fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
                                                            : fem_reference::Strain::linear;
   order.law = fem_reference::StrainEnergy::law_a;
   order.write_fields = false;
-  return reference_order(own);
+  return continuum_job(own);
 }
 
 FitSetup fit_setup(const LoadedConfig& loaded) {

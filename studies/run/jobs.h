@@ -3,7 +3,7 @@
 
 #include "calibration/moduli_fit.h"
 #include "fem_reference/job.h"
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 #include "studies/run/job.h"
 
 namespace fingertip::studies {

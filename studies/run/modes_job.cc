@@ -1,8 +1,8 @@
 #include <cmath>
 #include <ostream>
 
+#include "lattice/press/static_press.h"
 #include "lattice/statics/mode_motion.h"
-#include "lattice/statics/static_press.h"
 #include "lattice/statics/vibration_modes.h"
 #include "meshes/files.h"
 #include "source_hash.h"

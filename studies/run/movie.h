@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lattice/boundary_view.h"
+#include "lattice/press/boundary_view.h"
 #include "meshes/geometry.h"
 
 namespace fingertip::studies {

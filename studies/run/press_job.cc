@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "calibration/moduli.h"
-#include "lattice/press.h"
-#include "lattice/scaling/press_deviation.h"
+#include "lattice/press/press.h"
+#include "lattice/press/press_deviation.h"
 #include "meshes/files.h"
 #include "source_hash.h"
 #include "studies/run/controller_choice.h"

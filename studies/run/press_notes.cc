@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lattice/control/approach.h"
-#include "lattice/scaling/press_deviation.h"
+#include "lattice/press/press_deviation.h"
 #include "meshes/cubic_grid.h"
 #include "studies/run/progress.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 
 namespace fingertip::studies {
 

@@ -154,7 +154,7 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded) {
   return setup;
 }
 
-fem_reference::ReferenceJob reference_order(const LoadedConfig& loaded) {
+fem_reference::ReferenceJob continuum_job(const LoadedConfig& loaded) {
   std::vector<meshes::Violation> broken = loaded.config.reference.violations();
   for (meshes::Violation& violation : broken) {
     // About E and G together: the key that asks for finite strain names both.
@@ -186,7 +186,7 @@ void check_all(const LoadedConfig& loaded) {
   if (!lattice::beyond_the_lattice(within_the_lattice.config.press).empty())
     protocol.mode = meshes::DriveMode::equilibrium;
   press_setup(within_the_lattice);
-  reference_order(loaded);
+  continuum_job(loaded);
 }
 
 void check_validation(const LoadedConfig& loaded) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "calibration/moduli_fit.h"
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 #include "studies/config/loader.h"
 
 namespace fingertip::studies {
@@ -24,12 +24,12 @@ LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use);
 lattice::PressSetup press_setup(const LoadedConfig& loaded);
 
 /// The continuum's order. Throws ConfigError.
-fem_reference::ReferenceJob reference_order(const LoadedConfig& loaded);
+fem_reference::ReferenceJob continuum_job(const LoadedConfig& loaded);
 
 /// Options of the fit for `model` at the configuration's spacing.
 calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::ModelKind model);
 
-/// Checks everything that does not depend on the verb: press_setup and reference_order, but not
+/// Checks everything that does not depend on the verb: press_setup and continuum_job, but not
 /// whether the lattice can do what the continuum is asked for. Throws ConfigError.
 void check_all(const LoadedConfig& loaded);
 

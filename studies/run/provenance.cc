@@ -81,18 +81,6 @@ std::filesystem::path executable_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
-std::filesystem::path program_on_path(const std::string& program) {
-  const char* const path = std::getenv("PATH");
-  std::string rest = path == nullptr ? "" : path;
-  while (!rest.empty()) {
-    const auto colon = rest.find(':');
-    const auto candidate = std::filesystem::path(rest.substr(0, colon)) / program;
-    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
-    rest = colon == rest.npos ? "" : rest.substr(colon + 1);
-  }
-  return {};
-}
-
 std::filesystem::path reference_program() {
   return executable_folder() / "fingertip-fem";
 }

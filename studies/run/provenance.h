@@ -22,9 +22,6 @@ std::string utc_now();
 /// The folder this executable lies in.
 std::filesystem::path executable_folder();
 
-/// The executable that the shell would take for `program`; empty when there is none on $PATH.
-std::filesystem::path program_on_path(const std::string& program);
-
 /// fingertip-fem beside this executable; need not exist.
 std::filesystem::path reference_program();
 

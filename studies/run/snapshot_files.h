@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "lattice/press.h"
+#include "lattice/press/press.h"
 
 namespace fingertip::studies {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "lattice/statics/static_press.h"
+#include "lattice/press/static_press.h"
 #include "meshes/files.h"
 #include "source_hash.h"
 #include "studies/run/jobs.h"

@@ -1,7 +1,7 @@
 /// A press without time, and what it shares with the press of moving lattices.
 #pragma once
 
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 #include "studies/run/job.h"
 
 namespace fingertip::studies {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calibration/curves/forward_model.h"
-#include "lattice/settings.h"
+#include "lattice/press/press_setup.h"
 #include "studies/run/job.h"
 
 namespace fingertip::studies {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lattice/press.h"
+#include "lattice/press/press.h"
 
 namespace fingertip::studies {
 

@@ -36,7 +36,7 @@ nlohmann::ordered_json content_of(const SweepOrder& order) {
 Job job_of(const SweepOrder& order, const SweepPoint& point) {
   LoadedConfig loaded = config_of(order, point);
   check_all(loaded);
-  if (order.verb == "reference") return reference_job(reference_order(loaded));
+  if (order.verb == "reference") return reference_job(continuum_job(loaded));
   const bool press = order.verb == "press";
   loaded = with_material(loaded, press ? LatticeUse::press : LatticeUse::modes);
   if (press) return press_job(press_setup(loaded));

@@ -48,18 +48,21 @@ class PlantedTree : public testing::Test {
             ("fingertip_architecture_" +
              std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(root_);
-    for (const char* room : {"meshes", "lattice", "fem_reference", "calibration", "studies"})
+    for (const char* room : {"meshes", "lattice", "lattice/kernels", "lattice/model",
+                             "lattice/forces", "lattice/contact", "lattice/dynamics",
+                             "lattice/control", "lattice/statics", "lattice/press", "lattice/grasp",
+                             "lattice/springs", "fem_reference", "calibration", "studies"})
       plant(std::string(room) + "/README.md", "# room\n");
     plant("tests/README.md", "# tests\n");
     plant("meshes/shape.h", header("meshes", ""));
     plant("meshes/volume_mesh.h", header("meshes", ""));
     plant("meshes/volume_mesh.cc", body("meshes", "#include <gmsh.h>\n"));
-    plant("lattice/model.h", header("lattice", "#include \"meshes/shape.h\"\n"));
+    plant("lattice/model/model.h", header("lattice", "#include \"meshes/shape.h\"\n"));
     plant("fem_reference/job.h", header("fem_reference", "#include \"meshes/shape.h\"\n"));
     plant("fem_reference/problem.h",
           header("fem_reference",
                  "#include <deal.II/fe/fe_q.h>\n#include \"meshes/volume_mesh.h\"\n"));
-    plant("calibration/fit.h", header("calibration", "#include \"lattice/model.h\"\n"));
+    plant("calibration/fit.h", header("calibration", "#include \"lattice/model/model.h\"\n"));
     plant("calibration/fit.cc", body("calibration", "#include <ceres/ceres.h>\n"));
     plant("studies/cli/run.cc", body("studies", "#include \"fem_reference/job.h\"\n"));
     plant("studies/cli/main.cc", "int main() {}\n");
@@ -97,8 +100,11 @@ TEST_F(PlantedTree, IsCleanBeforePlanting) {
 
 TEST_F(PlantedTree, ForbiddenArrowsAreCaught) {
   for (const auto& [from, to] : {std::pair{"meshes", "lattice"},
-                                 {"lattice", "fem_reference"},
-                                 {"lattice", "calibration"},
+                                 {"lattice/press", "fem_reference"},
+                                 {"lattice/model", "calibration"},
+                                 {"lattice/kernels", "lattice/model"},
+                                 {"lattice/statics", "lattice/press"},
+                                 {"lattice/control", "lattice/press"},
                                  {"fem_reference", "lattice"},
                                  {"calibration", "fem_reference"},
                                  {"calibration", "studies"}}) {
@@ -133,28 +139,32 @@ TEST_F(PlantedTree, MisplacedPackagesAreCaught) {
   plant("meshes/shape.h", header("meshes", "#include <gmsh.h>\n"));
   expect_caught(architecture::check_packages, "meshes/shape.h", "gmsh");
   plant("meshes/shape.h", header("meshes", ""));
-  plant("lattice/model.h", header("lattice", "#include \"meshes/volume_mesh.h\"\n"));
-  expect_caught(architecture::check_packages, "lattice/model.h", "mesher");
+  plant("lattice/model/model.h", header("lattice", "#include \"meshes/volume_mesh.h\"\n"));
+  expect_caught(architecture::check_packages, "lattice/model/model.h", "mesher");
 }
 
 TEST_F(PlantedTree, HeaderCyclesAreCaught) {
-  plant("lattice/a.h", header("lattice", "#include \"lattice/b.h\"\n"));
-  plant("lattice/b.h", header("lattice", "#include \"lattice/c.h\"\n"));
-  plant("lattice/c.h", header("lattice", "#include \"lattice/a.h\"\n"));
-  expect_caught(architecture::check_header_cycles, "lattice/a.h", "lattice/b.h → lattice/c.h");
+  plant("lattice/model/a.h", header("lattice", "#include \"lattice/model/b.h\"\n"));
+  plant("lattice/model/b.h", header("lattice", "#include \"lattice/model/c.h\"\n"));
+  plant("lattice/model/c.h", header("lattice", "#include \"lattice/model/a.h\"\n"));
+  expect_caught(architecture::check_header_cycles, "lattice/model/a.h",
+                "lattice/model/b.h → lattice/model/c.h");
 }
 
 TEST_F(PlantedTree, BadFormIsCaught) {
-  plant("lattice/planted.h", "#pragma once\n" + body("lattice", ""));
-  expect_caught(architecture::check_form, "lattice/planted.h", "///");
-  plant("lattice/planted.h", "/// Something.\n" + body("lattice", ""));
-  expect_caught(architecture::check_form, "lattice/planted.h", "#pragma once");
-  plant("lattice/planted.h", "/// Something.\n#pragma once\n");
-  expect_caught(architecture::check_form, "lattice/planted.h", "lacks namespace");
-  plant("lattice/planted.h", header("lattice", "") + body("meshes", ""));
-  expect_caught(architecture::check_form, "lattice/planted.h", "room meshes");
-  plant("lattice/planted.h", header("lattice", "") + std::string(600, '\n'));
-  expect_caught(architecture::check_form, "lattice/planted.h", "longer than 600");
+  plant("lattice/model/planted.h", "#pragma once\n" + body("lattice", ""));
+  expect_caught(architecture::check_form, "lattice/model/planted.h", "///");
+  plant("lattice/model/planted.h", "/// Something.\n" + body("lattice", ""));
+  expect_caught(architecture::check_form, "lattice/model/planted.h", "#pragma once");
+  plant("lattice/model/planted.h", "/// Something.\n#pragma once\n");
+  expect_caught(architecture::check_form, "lattice/model/planted.h", "lacks namespace");
+  plant("lattice/model/planted.h", header("lattice", "") + body("meshes", ""));
+  expect_caught(architecture::check_form, "lattice/model/planted.h", "room meshes");
+  plant("lattice/model/planted.h", header("lattice", "") + std::string(600, '\n'));
+  expect_caught(architecture::check_form, "lattice/model/planted.h", "longer than 600");
+  fs::remove(root_ / "lattice/model/planted.h");
+  plant("lattice/planted.cc", body("lattice", ""));
+  expect_caught(architecture::check_form, "lattice/planted.cc", "none of the rooms of lattice");
 }
 
 TEST_F(PlantedTree, CHeadersAreInNoNamespace) {

@@ -13,15 +13,55 @@ namespace {
 namespace fs = std::filesystem;
 using Findings = std::vector<Finding>;
 
-/// Room → rooms it may use besides itself.
+/// Room → rooms it may use besides itself. A room within a room may also use what that one may.
 const std::map<std::string, std::set<std::string>>& arrows() {
   static const std::map<std::string, std::set<std::string>> allowed{
       {"meshes", {}},
       {"lattice", {"meshes"}},
+      {"lattice/kernels", {}},
+      {"lattice/model", {"lattice/kernels"}},
+      {"lattice/forces", {"lattice/model", "lattice/kernels"}},
+      {"lattice/contact", {"lattice/model", "lattice/kernels"}},
+      {"lattice/dynamics",
+       {"lattice/contact", "lattice/forces", "lattice/model", "lattice/kernels"}},
+      {"lattice/control", {"lattice/dynamics", "lattice/model"}},
+      {"lattice/statics", {"lattice/contact", "lattice/model"}},
+      {"lattice/press",
+       {"lattice/control", "lattice/statics", "lattice/dynamics", "lattice/contact",
+        "lattice/model", "lattice/kernels"}},
+      {"lattice/grasp", {"lattice/control", "lattice/forces", "lattice/model"}},
+      {"lattice/springs", {"lattice/kernels"}},
       {"fem_reference", {"meshes"}},
       {"calibration", {"lattice", "meshes"}},
       {"studies", {"meshes", "lattice", "fem_reference", "calibration"}}};
   return allowed;
+}
+
+/// The outermost room: folder, namespace, library.
+std::string house_of(const std::string& room) {
+  return room.substr(0, room.find('/'));
+}
+
+/// The innermost room in which `path` stands; empty for packages and the standard library.
+std::string room_of(const std::string& path) {
+  std::string found;
+  for (const auto& [room, uses] : arrows())
+    if (path.starts_with(room + '/') && room.size() > found.size()) found = room;
+  return found;
+}
+
+bool has_inner_rooms(const std::string& room) {
+  return std::ranges::any_of(
+      arrows(), [&](const auto& entry) { return entry.first.starts_with(room + '/'); });
+}
+
+bool may_use(const std::string& from, const std::string& to) {
+  const auto leads = [&](const std::string& allowed) {
+    return to == allowed || to.starts_with(allowed + '/');
+  };
+  const std::string house = house_of(from);
+  return from == to || std::ranges::any_of(arrows().at(from), leads) ||
+         (house != house_of(to) && std::ranges::any_of(arrows().at(house), leads));
 }
 
 /// A source text of one room, with its includes.
@@ -45,9 +85,10 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return lines;
 }
 
-SourceFile read_source(const fs::path& source, const fs::path& file, const std::string& room) {
+SourceFile read_source(const fs::path& source, const fs::path& file) {
   static const std::regex include(R"(^\s*#\s*include\s*["<]([^">]+)[">])");
-  SourceFile text{fs::relative(file, source).generic_string(), room, lines_of(file), {}};
+  const std::string path = fs::relative(file, source).generic_string();
+  SourceFile text{path, room_of(path), lines_of(file), {}};
   std::smatch match;
   for (std::size_t i = 0; i < text.lines.size(); ++i)
     if (std::regex_search(text.lines[i], match, include))
@@ -56,13 +97,13 @@ SourceFile read_source(const fs::path& source, const fs::path& file, const std::
 }
 
 /// All files below the rooms with one of the given names or extensions, in a fixed order.
-std::vector<std::pair<fs::path, std::string>> room_files(
-    const fs::path& source, const std::function<bool(const fs::path&)>& wanted) {
-  std::vector<std::pair<fs::path, std::string>> files;
+std::vector<fs::path> room_files(const fs::path& source,
+                                 const std::function<bool(const fs::path&)>& wanted) {
+  std::vector<fs::path> files;
   for (const auto& [room, uses] : arrows()) {
-    if (!fs::is_directory(source / room)) continue;
+    if (room != house_of(room) || !fs::is_directory(source / room)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(source / room))
-      if (entry.is_regular_file() && wanted(entry.path())) files.emplace_back(entry.path(), room);
+      if (entry.is_regular_file() && wanted(entry.path())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -73,19 +114,8 @@ std::vector<SourceFile> sources(const fs::path& source) {
   const auto wanted = [](const fs::path& file) {
     return file.extension() == ".h" || file.extension() == ".cc";
   };
-  for (const auto& [file, room] : room_files(source, wanted))
-    all.push_back(read_source(source, file, room));
+  for (const fs::path& file : room_files(source, wanted)) all.push_back(read_source(source, file));
   return all;
-}
-
-/// The room an include leads to; empty for packages and the standard library.
-std::string room_of(const std::string& include) {
-  const std::string head = include.substr(0, include.find('/'));
-  return include.find('/') != std::string::npos && arrows().count(head) != 0 ? head : "";
-}
-
-bool may_use(const std::string& from, const std::string& to) {
-  return from == to || arrows().at(from).count(to) != 0;
 }
 
 /// Headers of a room that files of other rooms include, and headers those include in turn.
@@ -97,7 +127,8 @@ std::set<std::string> public_headers(const std::vector<SourceFile>& files,
     for (const SourceFile& file : files)
       if (file.room != room || reached.count(file.path) != 0)
         for (const auto& include : file.includes)
-          if (room_of(include.target) == room) grown |= reached.insert(include.target).second;
+          if (house_of(room_of(include.target)) == room)
+            grown |= reached.insert(include.target).second;
   }
   return reached;
 }
@@ -143,13 +174,13 @@ void check_namespaces(const SourceFile& file, Findings& findings) {
     has_none = has_none || std::regex_search(file.lines[i], program) ||
                std::regex_search(file.lines[i], interface);
     if (!std::regex_search(file.lines[i], match, opening)) continue;
-    if (match[1] == file.room)
+    if (match[1] == house_of(file.room))
       own = true;
     else
       findings.push_back({file.path, int(i) + 1, "opens the namespace of room " + match[1].str()});
   }
   if (!own && !has_none)
-    findings.push_back({file.path, 0, "lacks namespace fingertip::" + file.room});
+    findings.push_back({file.path, 0, "lacks namespace fingertip::" + house_of(file.room)});
 }
 
 }  // namespace
@@ -176,8 +207,8 @@ Findings check_link_arrows(const fs::path& source) {
   static const std::regex library(R"(fingertip::(\w+))");
   Findings findings;
   const auto wanted = [](const fs::path& file) { return file.filename() == "CMakeLists.txt"; };
-  for (const auto& [path, room] : room_files(source, wanted)) {
-    const std::string file = fs::relative(path, source).generic_string();
+  for (const fs::path& path : room_files(source, wanted)) {
+    const std::string file = fs::relative(path, source).generic_string(), room = room_of(file);
     const std::vector<std::string> lines = lines_of(path);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::string code = lines[i].substr(0, lines[i].find('#'));
@@ -241,6 +272,8 @@ Findings check_form(const fs::path& source) {
         findings.push_back({file.path, 0, "lacks #pragma once"});
     }
     check_namespaces(file, findings);
+    if (has_inner_rooms(file.room))
+      findings.push_back({file.path, 0, "stands in none of the rooms of " + file.room});
   }
   return findings;
 }

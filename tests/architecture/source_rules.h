@@ -17,7 +17,7 @@ struct Finding {
 std::string to_string(const Finding& finding);
 
 /// Includes between rooms other than lattice → meshes, fem_reference → meshes,
-/// calibration → {lattice, meshes}, studies → all.
+/// calibration → {lattice, meshes}, studies → all, and those between the rooms of lattice.
 std::vector<Finding> check_include_arrows(const std::filesystem::path& source);
 
 /// The same arrows between the libraries that the rooms' CMakeLists.txt link; and the gmsh mesher
@@ -34,7 +34,7 @@ std::vector<Finding> check_header_cycles(const std::filesystem::path& source);
 
 /// Every header starts with a /// comment and has #pragma once; every file opens only its own
 /// room's namespace, and at least that unless it is a program's main; none is longer than 600
-/// lines.
+/// lines, and none stands in the root of a room that has rooms of its own.
 std::vector<Finding> check_form(const std::filesystem::path& source);
 
 /// Every room, and tests, has a README.md.

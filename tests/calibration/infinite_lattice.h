@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "lattice/constants.h"
+#include "lattice/model/constants.h"
 
 namespace infinite_lattice {
 

@@ -50,7 +50,7 @@ struct Tip {
   }
 
   void press(double indentation, double shift) {
-    contact->settle(*solver, {R - indentation, shift});
+    contact->solve(*solver, {R - indentation, shift});
     contact->commit();
   }
   meshes::Vector3 resultant() const {

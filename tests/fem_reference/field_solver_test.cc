@@ -16,9 +16,9 @@
 
 using namespace fingertip;
 using fem_reference::Body;
+using fem_reference::ConstrainedSolution;
 using fem_reference::ContactUnknowns;
 using fem_reference::FieldSolver;
-using fem_reference::HeldSolution;
 using fem_reference::HookeKernel;
 using fem_reference::LinearSystem;
 using fem_reference::Vector;
@@ -99,7 +99,8 @@ TEST_P(FieldSolverTest, MultigridIsInEquilibrium) {
   solver->set_load(problem.load);
   for (const auto& [radius, stick] : stages) {
     const Request wanted = request(problem.contact, radius, stick);
-    const HeldSolution solution = solver->hold(wanted.held, wanted.values, wanted.loads);
+    const ConstrainedSolution solution =
+        solver->solve_constrained(wanted.held, wanted.values, wanted.loads);
     const Vector u = solver->field();
     Vector out_of_balance = problem.load;
     problem.system->matrix.vmult(out_of_balance, u);
@@ -138,8 +139,10 @@ TEST_P(FieldSolverTest, CondensedAgreesWithMultigrid) {
   }
   for (const auto& [radius, stick] : stages) {
     const Request wanted = request(problem.contact, radius, stick);
-    const HeldSolution one = direct->hold(wanted.held, wanted.values, wanted.loads);
-    const HeldSolution two = iterative->hold(wanted.held, wanted.values, wanted.loads);
+    const ConstrainedSolution one =
+        direct->solve_constrained(wanted.held, wanted.values, wanted.loads);
+    const ConstrainedSolution two =
+        iterative->solve_constrained(wanted.held, wanted.values, wanted.loads);
     EXPECT_LT((one.displacement - two.displacement).norm(), 1e-7 * one.displacement.norm());
     EXPECT_LT((one.reaction - two.reaction).norm(), 1e-7 * one.reaction.norm());
     Vector difference = direct->field();
@@ -177,8 +180,8 @@ class HollowSphere {
     const auto solver = make_condensed_solver(*body_, unknowns_);
     solver->set_matrix(system);
     const Eigen::Map<Eigen::VectorXd> wanted(values_.data(), Eigen::Index(values_.size()));
-    const HeldSolution solution = solver->hold(std::vector<char>(unknowns_.size(), 1), wanted,
-                                               Eigen::VectorXd::Zero(wanted.size()));
+    const ConstrainedSolution solution = solver->solve_constrained(
+        std::vector<char>(unknowns_.size(), 1), wanted, Eigen::VectorXd::Zero(wanted.size()));
     for (std::size_t k = 0; k < unknowns_.size(); ++k)
       if (pushes_[k]) force_ += solution.reaction[Eigen::Index(k)];
     const Vector u = solver->field();

@@ -9,8 +9,8 @@
 #include "meshes/errors.h"
 
 using namespace fingertip;
+using fem_reference::ConstrainedSolution;
 using fem_reference::ContactUnknowns;
-using fem_reference::HeldSolution;
 using fem_reference::NodeStatus;
 using fem_reference::PlaneContact;
 using fem_reference::PlanePose;
@@ -31,11 +31,12 @@ class DenseBody : public fem_reference::ContactSolver {
  public:
   explicit DenseBody(Eigen::MatrixXd compliance) : compliance_(std::move(compliance)) {}
 
-  HeldSolution hold(const std::vector<char>& held, const Eigen::VectorXd& values,
-                    const Eigen::VectorXd& loads) override {
+  ConstrainedSolution solve_constrained(const std::vector<char>& held,
+                                        const Eigen::VectorXd& values,
+                                        const Eigen::VectorXd& loads) override {
     if (fail) throw meshes::NotConverged("as told");
     std::vector<int> indices;
-    HeldSolution solution;
+    ConstrainedSolution solution;
     solution.reaction = loads;
     for (std::size_t i = 0; i < held.size(); ++i)
       if (held[i]) {
@@ -81,7 +82,7 @@ constexpr PlanePose start{1.0, 0.0};
 
 /// Settles under the plane `indentation` below its start, moved by `shift`, and makes it the state.
 void press(PlaneContact& contact, DenseBody& body, double indentation, double shift = 0.0) {
-  contact.settle(body, {1.0 - indentation, shift});
+  contact.solve(body, {1.0 - indentation, shift});
   contact.commit();
 }
 
@@ -129,7 +130,8 @@ TEST(PlaneContact, FrictionlessFindsTheOnlyAdmissibleSet) {
         held[std::size_t(i)] = char((set >> i) & 1u);
         values[i] = 0.65 - heights[std::size_t(i)];
       }
-      const HeldSolution trial = body.hold(held, values, Eigen::VectorXd::Zero(n));
+      const ConstrainedSolution trial =
+          body.solve_constrained(held, values, Eigen::VectorXd::Zero(n));
       bool good = true;
       for (int i = 0; i < n; ++i)
         good = good &&
@@ -205,14 +207,14 @@ TEST(PlaneContact, AbandonedTrialsLeaveNoTrace) {
   PlaneContact contact = sticking(nodes_at({1.0, 0.9}, true));
   press(contact, body, 0.05);
   const meshes::Vector3 before = contact.reaction(0);
-  contact.settle(body, {0.7, 0.1});
+  contact.solve(body, {0.7, 0.1});
   EXPECT_EQ(contact.active_nodes(), 2);
   contact.abandon();
   EXPECT_EQ(contact.reaction(0), before);
   EXPECT_EQ(contact.active_nodes(), 1);
 
   body.fail = true;
-  EXPECT_THROW(contact.settle(body, {0.7, 0.1}), meshes::NotConverged);
+  EXPECT_THROW(contact.solve(body, {0.7, 0.1}), meshes::NotConverged);
   contact.abandon();
   EXPECT_EQ(contact.reaction(0), before);
   EXPECT_EQ(contact.committed().pose.height, 0.95);

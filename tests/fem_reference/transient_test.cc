@@ -51,7 +51,7 @@ struct FreeVibration {
     motion.set_step(time / steps, *solver);
     for (int i = 0; i < steps; ++i) {
       solver->set_load(motion.load());
-      solver->hold({}, Eigen::VectorXd(0), Eigen::VectorXd(0));
+      solver->solve_constrained({}, Eigen::VectorXd(0), Eigen::VectorXd(0));
       motion.advance(solver->field());
     }
     // The shape is M-orthonormal and stays alone: u = q v.
@@ -113,7 +113,7 @@ TEST(GeneralisedAlpha, KeepsWhatMovesUniformlyAndKnowsItsMass) {
   motion.set_step(1e-3, *solver);
   for (int i = 0; i < 5; ++i) {
     solver->set_load(motion.load());
-    solver->hold({}, Eigen::VectorXd(0), Eigen::VectorXd(0));
+    solver->solve_constrained({}, Eigen::VectorXd(0), Eigen::VectorXd(0));
     motion.advance(solver->field());
   }
   const double body_mass = rubber.density * 0.02 * 0.01 * 0.005;
@@ -149,9 +149,9 @@ TEST(GeneralisedAlpha, CarriesAPressureWaveAtItsSpeed) {
   const double pressure = rubber.density * rubber.longitudinal_wave_speed() * speed * width * width;
   const auto advance_to = [&](int step) {
     solver->set_load(motion.load());
-    const auto end_state =
-        solver->hold(held, Eigen::VectorXd::Constant(count, -speed * transit * step / steps),
-                     Eigen::VectorXd::Zero(count));
+    const auto end_state = solver->solve_constrained(
+        held, Eigen::VectorXd::Constant(count, -speed * transit * step / steps),
+        Eigen::VectorXd::Zero(count));
     motion.advance(solver->field());
     return -end_state.reaction.sum();
   };

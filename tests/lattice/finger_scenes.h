@@ -1,8 +1,8 @@
 /// Coarse fingers behind the control interface, and what tests ask of them.
 #pragma once
 
-#include "fixtures.h"
-#include "lattice/virtual_finger.h"
+#include "lattice/control/virtual_finger.h"
+#include "tests/lattice/fixtures.h"
 
 namespace fixtures {
 

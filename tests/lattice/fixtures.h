@@ -7,12 +7,12 @@
 #include <random>
 #include <string>
 
-#include "lattice/cells/recipe.h"
-#include "lattice/cut_model.h"
-#include "lattice/model.h"
-#include "lattice/reference_forces.h"
-#include "lattice/state.h"
-#include "lattice/stiffness.h"
+#include "lattice/forces/reference_forces.h"
+#include "lattice/forces/stiffness.h"
+#include "lattice/model/cut_model.h"
+#include "lattice/model/formulation.h"
+#include "lattice/model/model.h"
+#include "lattice/model/state.h"
 
 namespace fixtures {
 
@@ -53,11 +53,11 @@ inline lattice::LatticeModel cell_block(lattice::LatticeSettings settings,
   grid.origin = Vector3::Constant(-settings.spacing);
   grid.size = {cells[0] + 3 + lattice::row_margin, cells[1] + 3, cells[2] + 3};
   return lattice::build_model(lattice::GridCells(grid, lattice::whole_cells({1, 1, 1}, cells)),
-                              settings.model, lattice::recipe_for(rubber, settings),
+                              settings.model, lattice::formulation_for(rubber, settings),
                               rubber.density);
 }
 
-/// The same on R/10; network from its recipe, the others from springs.
+/// The same on R/10; network from its formulation, the others from springs.
 inline lattice::LatticeModel block(lattice::ModelKind kind, lattice::Kinematics kinematics,
                                    std::array<int, 3> cells, double retardation_time = 3e-4) {
   const double spacing = 1e-3;

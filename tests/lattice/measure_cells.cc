@@ -1,6 +1,6 @@
 // Prints what the forces of the cells cost: nanoseconds of processor time per cell on one thread,
 // for every law and register width, on whole cells alone and on the default tip; then how much
-// faster two threads are. Not a test: the README of lattice/cells quotes it.
+// faster two threads are. Not a test: lattice/MEASUREMENTS.md quotes it.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "fixtures.h"
-#include "lattice/cells/cell_forces.h"
-#include "lattice/cells/cut_tip.h"
-#include "lattice/kernel.h"
+#include "lattice/forces/cell_forces.h"
+#include "lattice/kernels/kernel.h"
+#include "lattice/model/cut_tip.h"
+#include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
 using namespace fixtures;

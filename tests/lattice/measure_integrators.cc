@@ -1,5 +1,5 @@
 // Prints what a press costs by every integrator and how far its force is from that of Runge-Kutta
-// steps at 1e-8, as CSV (lattice/integrators/README.md). One thread; processor time as a ratio to
+// steps at 1e-8, as CSV (lattice/dynamics/integrators). One thread; processor time as a ratio to
 // symplectic Euler at its largest step.
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "lattice/press.h"
+#include "lattice/press/press.h"
 
 using namespace fingertip;
 using lattice::Integrator;

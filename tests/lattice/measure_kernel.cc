@@ -1,12 +1,12 @@
 // Prints what a time step of the default tip costs on one thread: nanoseconds of processor time per
-// spring or fibre, for every register width the processor has. Not a test: lattice/README.md quotes
-// it.
+// spring or fibre, for every register width the processor has. Not a test:
+// lattice/MEASUREMENTS.md quotes it.
 #include <cstdio>
 #include <ctime>
 #include <string>
 
-#include "fixtures.h"
-#include "lattice/finger.h"
+#include "lattice/dynamics/finger.h"
+#include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
 using namespace fixtures;

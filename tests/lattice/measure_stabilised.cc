@@ -2,7 +2,8 @@
 // (RKC; Sommeijer, Shampine & Verwer, J. Comput. Appl. Math. 88 (1998) 315-326), beside symplectic
 // Euler at its largest step: force evaluations and processor time per millisecond of free rubber,
 // network, tau = 0.3 ms, one thread. The number of stages is the one that needs fewest evaluations;
-// that such a step is stable, and one a tenth longer is not, is tried (lattice/integrators).
+// that such a step is stable, and one a tenth longer is not, is tried
+// (lattice/dynamics/integrators; lattice/MEASUREMENTS.md quotes it).
 #include <array>
 #include <cmath>
 #include <complex>
@@ -11,10 +12,10 @@
 #include <random>
 #include <vector>
 
-#include "fixtures.h"
-#include "lattice/forces.h"
-#include "lattice/spectrum.h"
-#include "lattice/time_step.h"
+#include "lattice/dynamics/spectrum.h"
+#include "lattice/dynamics/time_step.h"
+#include "lattice/forces/forces.h"
+#include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
 using namespace fixtures;

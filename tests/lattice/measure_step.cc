@@ -1,6 +1,6 @@
 // Prints what the parts of a time step of the default press cost (network, finite, stick) on one
 // thread, at first touch and deep in the rubber: microseconds of processor time, medians. Not a
-// test: lattice/README.md quotes it. Usage: lattice_measure_step [steps per radius = 12]
+// test: lattice/MEASUREMENTS.md quotes it. Usage: lattice_measure_step [steps per radius = 12]
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "fixtures.h"
-#include "lattice/energy.h"
-#include "lattice/tied_bond.h"
-#include "lattice/tied_contact.h"
-#include "lattice/virtual_finger.h"
+#include "lattice/contact/penalty_contact.h"
+#include "lattice/contact/tied_bond.h"
+#include "lattice/control/virtual_finger.h"
+#include "lattice/forces/energy.h"
+#include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
 using namespace fixtures;
@@ -59,7 +59,7 @@ void measure_step(const lattice::VirtualFinger& pressed) {
   lattice::Team team(1);
   lattice::InternalForces internal(model, team);
   lattice::TiedBond bond(model, team);
-  lattice::TiedContact contact(model, finger.plane(), meshes::ContactMode::stick, team);
+  lattice::PenaltyContact contact(model, finger.plane(), meshes::ContactMode::stick, team);
   lattice::VectorField force(model.points());
   for (int i = 0; i < 20; ++i) contact.add(finger.state(), finger.plane(), step, force);
   print("internal forces", 500, [&] { internal.accumulate(finger.state(), force); });

@@ -1,6 +1,7 @@
-// Prints what loops cost on the lattice's own threads (lattice/parallel.h) and on oneTBB's, on a
-// quiet machine and beside threads that never rest: microseconds of wall time, medians and, in
-// brackets, means; they take turns of a tenth of a second. Not a test: lattice/README.md quotes it.
+// Prints what loops cost on the lattice's own threads (lattice/kernels/parallel.h) and on oneTBB's,
+// on a quiet machine and beside threads that never rest: microseconds of wall time, medians and, in
+// brackets, means; they take turns of a tenth of a second. Not a test:
+// lattice/MEASUREMENTS.md quotes it.
 // Usage: lattice_measure_team [threads = 2] [busy threads = 1] [steps per radius = 12]
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -15,10 +16,10 @@
 #include <thread>
 #include <vector>
 
-#include "fixtures.h"
-#include "lattice/cells/cell_arrays.h"
-#include "lattice/cells/cell_kernel.h"
-#include "lattice/parallel.h"
+#include "lattice/forces/cell_arrays.h"
+#include "lattice/kernels/cell_kernel.h"
+#include "lattice/kernels/parallel.h"
+#include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
 using namespace fixtures;

@@ -1,6 +1,6 @@
 // Prints what whole steps of the default press cost (network, finite, stick) on one thread and on
 // several, in turns: microseconds of wall time, medians over groups of steps, and whether both give
-// the same bits. Not a test: lattice/README.md quotes it.
+// the same bits. Not a test: lattice/MEASUREMENTS.md quotes it.
 // Usage: lattice_measure_threads [steps per radius = 12] [threads = 2]
 #include <algorithm>
 #include <chrono>
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "finger_scenes.h"
+#include "tests/lattice/finger_scenes.h"
 
 using namespace fingertip;
 using namespace fixtures;

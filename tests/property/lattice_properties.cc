@@ -5,11 +5,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "lattice/energy.h"
-#include "lattice/forces.h"
-#include "lattice/model.h"
-#include "lattice/reference_forces.h"
-#include "lattice/state.h"
+#include "lattice/forces/energy.h"
+#include "lattice/forces/forces.h"
+#include "lattice/forces/reference_forces.h"
+#include "lattice/model/model.h"
+#include "lattice/model/state.h"
 
 using namespace fingertip;
 using lattice::Kinematics;
@@ -53,7 +53,7 @@ struct Block {
     grid.origin = Vector3::Constant(-spacing);
     grid.size = {cells[0] + 3 + lattice::row_margin, cells[1] + 3, cells[2] + 3};
     return lattice::build_model(lattice::GridCells(grid, lattice::whole_cells({1, 1, 1}, cells)),
-                                kind, lattice::recipe_for(rubber, settings), rubber.density);
+                                kind, lattice::formulation_for(rubber, settings), rubber.density);
   }
 };
 

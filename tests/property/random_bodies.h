@@ -6,7 +6,7 @@
 #include <array>
 #include <random>
 
-#include "lattice/model.h"
+#include "lattice/model/model.h"
 #include "lattice/statics/cut_lattice.h"
 #include "tests/property/random_numbers.h"
 

@@ -12,9 +12,9 @@
 using namespace fingertip;
 using namespace fingertip::random;
 using lattice::ElasticSystem;
+using lattice::EmbeddedPoint;
 using lattice::StaticContact;
 using lattice::Tangent;
-using lattice::TiedPoint;
 
 namespace {
 
@@ -31,7 +31,7 @@ struct Contact {
     contact = std::make_unique<StaticContact>(specimen.body, plane, mode);
   }
 
-  double gap(const TiedPoint& point, const VectorXd& u) const {
+  double gap(const EmbeddedPoint& point, const VectorXd& u) const {
     return (position(point, u) - plane.point(contact->place())).dot(plane.normal);
   }
   VectorXd forces(const VectorXd& u) const {
@@ -41,7 +41,7 @@ struct Contact {
   }
   double stiffness() const {
     double sum = 0.0;
-    for (const TiedPoint& point : specimen.body.outer) sum += point.stiffness;
+    for (const EmbeddedPoint& point : specimen.body.outer) sum += point.stiffness;
     return sum;
   }
 
@@ -84,7 +84,7 @@ void check_derivatives(const Contact& c, const VectorXd& u) {
 
 /// Whether differences taken this near to `u` see no tie open or close.
 bool away_from_kinks(const Contact& c, const VectorXd& u) {
-  return std::ranges::all_of(c.specimen.body.outer, [&](const TiedPoint& point) {
+  return std::ranges::all_of(c.specimen.body.outer, [&](const EmbeddedPoint& point) {
     return std::abs(c.gap(point, u)) > 1e-5 * c.specimen.spacing;
   });
 }
@@ -97,7 +97,7 @@ bool frictionless_contact_only_pushes() {
     RC_PRE(away_from_kinks(c, u));
     double work = 0.0;
     for (std::size_t i = 0; i < c.specimen.body.outer.size(); ++i) {
-      const TiedPoint& point = c.specimen.body.outer[i];
+      const EmbeddedPoint& point = c.specimen.body.outer[i];
       const Vector3 force = c.contact->tie_force(i, u);
       const double push = force.dot(c.plane.normal), gap = c.gap(point, u);
       RC_ASSERT((force - push * c.plane.normal).norm() <= 1e-14 * push);
@@ -123,7 +123,7 @@ bool sticking_contact_holds_what_it_touched() {
     const int anchored = c.contact->anchor_touching(rest, 0.0, u);
     int crossed = 0;
     for (std::size_t i = 0; i < c.specimen.body.outer.size(); ++i) {
-      const TiedPoint& point = c.specimen.body.outer[i];
+      const EmbeddedPoint& point = c.specimen.body.outer[i];
       // Seen from the plane the point goes straight from `first` to `last`; the plane holds it
       // where it crossed.
       const Vector3 first = point.rest - c.plane.point(0.0);

@@ -15,8 +15,8 @@
 using namespace fingertip;
 using namespace fingertip::random;
 using lattice::ElasticSystem;
+using lattice::EmbeddedPoint;
 using lattice::Tangent;
-using lattice::TiedPoint;
 
 namespace {
 
@@ -204,7 +204,7 @@ bool linear_fields_are_reproduced() {
       u.segment<3>(3 * Eigen::Index(p)) = constant + H * body.rest[p];
     for (const auto* points : {&body.bond, &body.outer}) {
       RC_ASSERT(!points->empty());
-      for (const TiedPoint& point : *points) {
+      for (const EmbeddedPoint& point : *points) {
         const Vector3 expected = constant + H * point.rest;
         RC_ASSERT((shift(point, u) - expected).norm() <= 1e-11 * specimen.spacing);
         const auto [least, most] = std::ranges::minmax(point.weights);

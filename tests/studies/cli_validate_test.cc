@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "meshes/press_response.h"
@@ -66,12 +65,9 @@ TEST(Validate, GoesFromRubberToReportAndComesFromTheCacheAfterwards) {
   }
   EXPECT_EQ(summary["criteria"][0]["passed"], true);
 
-  const auto start = std::chrono::steady_clock::now();
   const ProgramResult second =
       run_program(folder.path(), {"validate", "--config", "one/parameters.toml", "--out", "two"});
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   EXPECT_EQ(second.code, 0) << second.err;
-  EXPECT_LT(taken.count(), 5.0);
   EXPECT_EQ(read_text(folder / "two/log.txt").find(": started\n"), std::string::npos);
   json again = json::parse(read_text(folder / "two/summary.json"));
   again["case"] = summary["case"];

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <map>
 
-#include "lattice/press.h"
+#include "lattice/press/press.h"
 #include "tests/coarse_press.h"
 #include "tests/temporary_folder.h"
 

@@ -6,7 +6,7 @@
 
 #include "calibration/material.h"
 #include "calibration/moduli.h"
-#include "lattice/statics/static_press.h"
+#include "lattice/press/static_press.h"
 #include "studies/config/documents.h"
 #include "studies/run/jobs.h"
 #include "tests/temporary_folder.h"
@@ -230,7 +230,7 @@ TEST(Checks, WhatAPressCannotDoIsRefusedToTheValidationAlone) {
        {"press.tilt=5 deg", "press.lateral=1 mm",
         "lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]", "lattice.contact_stiffness=2"}) {
     EXPECT_EQ(refusal(check_all, {set}), "") << set;
-    EXPECT_NO_THROW(reference_order(load_config({{}, {set}, {}}))) << set;
+    EXPECT_NO_THROW(continuum_job(load_config({{}, {set}, {}}))) << set;
     EXPECT_EQ(refusal(check_validation, {set}).find("--set " + std::string(set)), 0U) << set;
     EXPECT_THROW(setup_of({set, "lattice.model=published"}), ConfigError) << set;
   }
@@ -350,7 +350,7 @@ TEST(Jobs, TheLateralPathMattersWhereThereIsLateralMotion) {
     return press_job(setup_of(std::move(sets))).key();
   }));
   differ(keys([](std::vector<std::string> sets) {
-    return reference_job(reference_order(load_config({{}, std::move(sets), {}}))).key();
+    return reference_job(continuum_job(load_config({{}, std::move(sets), {}}))).key();
   }));
 }
 
@@ -387,7 +387,7 @@ TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
   EXPECT_EQ(key({"press.mode=quasi-static"}),
             key({"press.mode=quasi-static", "controller.natural_frequency=50 Hz"}));
   const auto continuum = [](std::vector<std::string> sets) {
-    return reference_job(reference_order(load_config({{}, std::move(sets), {}}))).key();
+    return reference_job(continuum_job(load_config({{}, std::move(sets), {}}))).key();
   };
   EXPECT_EQ(continuum({}), continuum({"rubber.density=1 g/cm^3"}));
   EXPECT_EQ(continuum({}), continuum({"lattice.spacing=0.2 cm"}));

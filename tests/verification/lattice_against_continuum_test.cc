@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "fem_reference/press.h"
-#include "lattice/press.h"
-#include "lattice/statics/static_press.h"
+#include "lattice/press/press.h"
+#include "lattice/press/static_press.h"
 #include "tests/fem_reference/pressing.h"
 
 using namespace fingertip;
@@ -64,8 +64,9 @@ double error_of_lattice(const meshes::Geometry& geometry, double poissons_ratio,
   return meshes::relative_l2_force_error(lattice, continuum, depth / 6.0, depth);
 }
 
-// At R/10 and 1 cm/s a lattice with true surfaces is within about one per cent (lattice/README.md);
-// a wrong Poisson's ratio, a wrong first-touch rule or a missing factor costs more than ten.
+// At R/10 and 1 cm/s a lattice with true surfaces is within about one per cent
+// (lattice/MEASUREMENTS.md); a wrong Poisson's ratio, a wrong first-touch rule or a missing factor
+// costs more than ten.
 constexpr double coarseness = 0.02;
 
 }  // namespace

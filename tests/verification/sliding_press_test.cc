@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "lattice/press.h"
+#include "lattice/press/press.h"
 
 using namespace fingertip;
 

@@ -15,7 +15,7 @@
 #include <string>
 
 #include "benchmarks.h"
-#include "lattice/kernel.h"
+#include "lattice/kernels/kernel.h"
 #include "multiply_rate.h"
 #include "probes.h"
 

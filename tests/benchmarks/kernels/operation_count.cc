@@ -4,9 +4,9 @@
 
 #include "counted.h"
 // The free functions that the kernels call on their numbers must be known before the kernels are.
-#include "lattice/cells/cell_kernel_body.h"
-#include "lattice/kernel_body.h"
-#include "lattice/state.h"
+#include "lattice/kernels/cell_kernel_body.h"
+#include "lattice/kernels/kernel_body.h"
+#include "lattice/model/state.h"
 
 namespace kernel_probes {
 

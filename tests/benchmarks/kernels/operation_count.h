@@ -1,7 +1,7 @@
 /// How many floating-point operations the internal forces of a lattice take.
 #pragma once
 
-#include "lattice/model.h"
+#include "lattice/model/model.h"
 
 namespace kernel_probes {
 

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "benchmarks.h"
-#include "lattice/cut_model.h"
-#include "lattice/finger.h"
-#include "lattice/forces.h"
+#include "lattice/dynamics/finger.h"
+#include "lattice/forces/forces.h"
+#include "lattice/model/cut_model.h"
 #include "operation_count.h"
 
 namespace kernel_benchmarks {

@@ -1,6 +1,6 @@
 // Nanoseconds per spring and step of the spring engine and of the edge list, and the fraction of
 // the processor's multiply rate; with --ratios what one is over the other, measured in turns.
-// Not a test: lattice/springs/README.md quotes it.
+// Not a test: lattice/MEASUREMENTS.md quotes it.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

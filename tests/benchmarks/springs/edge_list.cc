@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lattice/stencil.h"
+#include "lattice/kernels/stencil.h"
 
 namespace spring_peers {
 

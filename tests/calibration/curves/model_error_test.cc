@@ -9,7 +9,7 @@
 #include "calibration/curves/fit_record.h"
 #include "calibration/curves/fit_statistics.h"
 #include "fit_fixtures.h"
-#include "lattice/statics/static_press.h"
+#include "lattice/press/static_press.h"
 
 using namespace fit_fixtures;
 

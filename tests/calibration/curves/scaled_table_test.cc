@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "calibration/curves/curve_fit.h"
-#include "lattice/statics/static_press.h"
+#include "lattice/press/static_press.h"
 #include "meshes/errors.h"
 
 using namespace fingertip;

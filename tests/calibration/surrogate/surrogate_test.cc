@@ -13,7 +13,7 @@
 #include <sstream>
 
 #include "calibration/surrogate/non_negative.h"
-#include "lattice/statics/static_press.h"
+#include "lattice/press/static_press.h"
 #include "meshes/errors.h"
 #include "tests/temporary_folder.h"
 

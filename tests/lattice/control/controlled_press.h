@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "../fixtures.h"
 #include "lattice/control/adaptive_pid.h"
-#include "lattice/press.h"
-#include "lattice/statics/static_press.h"
+#include "lattice/press/press.h"
+#include "lattice/press/static_press.h"
+#include "tests/lattice/fixtures.h"
 
 namespace controlled {
 

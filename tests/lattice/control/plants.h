@@ -92,7 +92,7 @@ inline ControlTask task_for(const Slider& slider, double speed) {
 
 /// The task with a plant of the same kind to try.
 inline ControlTask with_rehearsal(ControlTask task, const Slider& slider) {
-  task.rehearse = [slider, period = task.period](
+  task.identify = [slider, period = task.period](
                       Controller& trial, const std::function<bool()>& done, double longest) {
     Slider copy = slider;
     while (copy.time < longest && !done()) copy.cycle(trial, period);

@@ -13,10 +13,10 @@ namespace body_sums {
 
 using Eigen::Matrix3d;
 using Eigen::VectorXd;
+using fingertip::lattice::EmbeddedPoint;
 using fingertip::lattice::LatticeBody;
 using fingertip::lattice::MeanCell;
 using fingertip::lattice::Spring;
-using fingertip::lattice::TiedPoint;
 using fingertip::meshes::Vector3;
 
 /// A displacement field on the particles.
@@ -41,7 +41,7 @@ inline Matrix3d mean_gradient(const MeanCell& cell, const VectorXd& u) {
   return H;
 }
 
-inline Vector3 displacement(const TiedPoint& point, const VectorXd& u) {
+inline Vector3 displacement(const EmbeddedPoint& point, const VectorXd& u) {
   Vector3 sum = Vector3::Zero();
   for (std::size_t c = 0; c < 8; ++c) sum += point.weights[c] * at(u, point.corners[c]);
   return sum;
@@ -74,7 +74,7 @@ inline double elastic_energy(const LatticeBody& body, const VectorXd& u) {
 
 inline double bond_energy(const LatticeBody& body, const VectorXd& u) {
   double sum = 0.0;
-  for (const TiedPoint& point : body.bond) {
+  for (const EmbeddedPoint& point : body.bond) {
     sum += 0.5 * point.stiffness * displacement(point, u).squaredNorm();
   }
   return sum;

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "body_sums.h"
-#include "lattice/cut_model.h"
+#include "lattice/model/cut_model.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/surface_points.h"
 
@@ -76,9 +76,9 @@ double volume_of(const LatticeBody& body) {
   return sum * body.sectors;
 }
 
-double area_of(const std::vector<TiedPoint>& points) {
+double area_of(const std::vector<EmbeddedPoint>& points) {
   double sum = 0.0;
-  for (const TiedPoint& point : points) sum += point.area;
+  for (const EmbeddedPoint& point : points) sum += point.area;
   return sum;
 }
 
@@ -237,13 +237,13 @@ TEST(CutLattice, MassHasTheTipsCentroid) {
   EXPECT_LT((sum / mass - Vector3(0.0, 0.0, height)).norm(), 1e-6 * R);
 }
 
-TEST(CutLattice, TiedPointsStayNearTheirCells) {
+TEST(CutLattice, EmbeddedPointsStayNearTheirCells) {
   for (const LatticeSettings& settings :
        {settings_for(ModelKind::hookean, Kinematics::small, 0.000833333),
         skew_settings(ModelKind::hookean, Kinematics::small, 0.01 / 7)}) {
     const LatticeBody body = lattice::build_cut_tip({}, {}, settings, 1);
     for (const auto* points : {&body.bond, &body.outer}) {
-      for (const TiedPoint& point : *points) {
+      for (const EmbeddedPoint& point : *points) {
         Vector3 position = Vector3::Zero();
         double sum = 0.0;
         for (std::size_t c = 0; c < 8; ++c) {
@@ -266,10 +266,10 @@ TEST(CutLattice, TiesAreProportionalToAreaAndShearModulus) {
     settings.ligament_stiffness = 0.5;
     const LatticeBody body = lattice::build_cut_tip({}, rubber, settings, 4);
     const double per_area = lattice::tie_stiffness * rubber.shear_modulus / a;
-    for (const TiedPoint& point : body.outer) {
+    for (const EmbeddedPoint& point : body.outer) {
       ASSERT_NEAR(point.stiffness / (per_area * point.area), 1.0, 1e-12);
     }
-    for (const TiedPoint& point : body.bond) {
+    for (const EmbeddedPoint& point : body.bond) {
       ASSERT_NEAR(point.stiffness / (0.5 * per_area * point.area), 1.0, 1e-12);
     }
   }
@@ -353,7 +353,7 @@ TEST(CutLattice, PublishedBodyHasEverySpringOfThePaper) {
   EXPECT_EQ(body.outer.size(), skin);
   EXPECT_GT(skin, 100u);
   for (const auto* points : {&body.bond, &body.outer}) {
-    for (const TiedPoint& point : *points) {
+    for (const EmbeddedPoint& point : *points) {
       ASSERT_EQ(point.rest, body.rest[point.corners[0]]);
       ASSERT_EQ(point.weights[0], 1.0);
       ASSERT_EQ(std::count(point.weights.begin(), point.weights.end(), 0.0), 7);

@@ -176,7 +176,7 @@ TEST(ElasticSystem, InternalForcesBalance) {
   });
 }
 
-TEST(ElasticSystem, TiedPointsAddTheirBlockToTheTangent) {
+TEST(ElasticSystem, EmbeddedPointsAddTheirBlockToTheTangent) {
   const LatticeBody body = quarter_tip(settings_for(ModelKind::hookean, Kinematics::small));
   const ElasticSystem system(body);
   Matrix3d block;
@@ -184,7 +184,7 @@ TEST(ElasticSystem, TiedPointsAddTheirBlockToTheTangent) {
   Tangent tangent = system.empty_tangent();
   double expected = 0.0;
   const VectorXd d = random_displacement(body, 1.0, 7);
-  for (const TiedPoint& point : body.outer) {
+  for (const EmbeddedPoint& point : body.outer) {
     system.add_tied(point, block, tangent);
     const Vector3 shift = displacement(point, d);
     expected += shift.dot(block * shift);

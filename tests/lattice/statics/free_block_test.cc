@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "body_sums.h"
+#include "lattice/kernels/stencil.h"
 #include "lattice/statics/cut_lattice.h"
-#include "lattice/stencil.h"
 
 using namespace fingertip;
 using namespace body_sums;

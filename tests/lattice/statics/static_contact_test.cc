@@ -10,7 +10,7 @@
 #include <random>
 
 #include "body_sums.h"
-#include "lattice/cells/contact_patch.h"
+#include "lattice/contact/contact_patch.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/equilibrium.h"
 
@@ -44,7 +44,8 @@ LatticeBody confined_block(ModelKind model, Kinematics kinematics, double tie) {
   for (std::size_t p = 0; p < body.rest.size(); ++p)
     if (body.rest[p].z() > 0.5 * spacing) body.fixed[3 * p + 2] = 0;
   for (const MeanCell& cell : body.cells) {
-    TiedPoint point{cell.corners, {}, Vector3::Zero(), spacing * spacing, tie * spacing * spacing};
+    EmbeddedPoint point{
+        cell.corners, {}, Vector3::Zero(), spacing * spacing, tie * spacing * spacing};
     int top = 0;
     for (std::size_t c = 0; c < 8; ++c) {
       if (body.rest[cell.corners[c]].z() < height - 0.5 * spacing) continue;

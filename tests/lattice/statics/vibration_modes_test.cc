@@ -91,7 +91,7 @@ TEST(VibrationModes, AreThoseOfADenseSolver) {
   LatticeBody tip = build_cut_tip({}, {}, settings_for(0.01 / 4.0), 4);
   for (const LatticeBody& body : {held, tip}) {
     MatrixXd K = stiffness(body);
-    for (const TiedPoint& point : body.bond)
+    for (const EmbeddedPoint& point : body.bond)
       for (std::size_t c = 0; c < 8; ++c)
         for (std::size_t d = 0; d < 8; ++d)
           K.block<3, 3>(3 * point.corners[c], 3 * point.corners[d]) +=
@@ -155,6 +155,7 @@ TEST(VibrationModes, TheTipVibratesLikeTheContinuum) {
   const std::array<double, 10> continuum{49.175, 54.139, 54.139, 62.565, 67.206,
                                          69.256, 69.256, 75.590, 75.590, 81.041};
   const Modes& modes = whole_tip().modes;
+  ASSERT_GE(modes.size(), continuum.size());
   for (std::size_t i = 0; i < continuum.size(); ++i)
     EXPECT_NEAR(modes[i].frequency, continuum[i], 0.01 * continuum[i]) << i;
 }
@@ -168,6 +169,7 @@ TEST(VibrationModes, PairsOfTheTipAreEqual) {
 
 TEST(VibrationModes, ShapesAreOrthonormalAndCarryTheirEnergy) {
   const auto& [body, modes] = whole_tip();
+  ASSERT_GE(modes.size(), 10U);
   const VectorXd mass = masses(body);
   for (const VibrationMode& x : modes) {
     for (const VibrationMode& y : modes)

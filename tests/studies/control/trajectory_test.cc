@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <limits>
 
-#include "lattice/cut_model.h"
-#include "lattice/press.h"
+#include "lattice/model/cut_model.h"
+#include "lattice/press/press.h"
 #include "studies/control/c_structs.h"
 #include "studies/control/examples/shared_object/pid_law.h"
 #include "studies/control/shared_object_controller.h"
@@ -66,7 +66,7 @@ double resolution_of_force() {
   const lattice::LatticeModel model =
       lattice::build_tip(setup.geometry, setup.rubber, setup.lattice);
   double stiffness = 0.0;
-  for (const lattice::TiedPoint& tie : model.bond) stiffness += tie.stiffness;
+  for (const lattice::EmbeddedPoint& tie : model.bond) stiffness += tie.stiffness;
   const double centre = lattice::rod_body(setup.geometry, setup.rod).centre.norm();
   return stiffness * std::numeric_limits<double>::epsilon() * centre;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lattice/energy.h"
+#include "lattice/forces/energy.h"
 #include "studies/exchange/lammps_files.h"
 #include "studies/exchange/lammps_import.h"
 #include "studies/exchange/lammps_program.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lattice/control/force_controller.h"
-#include "lattice/press.h"
+#include "lattice/press/press.h"
 #include "tests/coarse_press.h"
 
 using namespace fingertip;

@@ -12,7 +12,8 @@ struct Tag {
   bool closing = false, self_closing = false;
 };
 
-/// The tags of a page in order; comments, the doctype and the content of <style> are skipped.
+/// The tags of a page in order; comments, the doctype and the content of <style> and <script> are
+/// skipped.
 std::vector<Tag> tags(const std::string& html, std::vector<std::string>& faults) {
   std::vector<Tag> result;
   for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at)) {
@@ -36,7 +37,8 @@ std::vector<Tag> tags(const std::string& html, std::vector<std::string>& faults)
     tag.name = inner.substr(0, space);
     if (space != std::string::npos) tag.attributes = inner.substr(space);
     result.push_back(tag);
-    at = tag.name == "style" && !tag.closing ? html.find("</style", end) : end;
+    const bool raw = (tag.name == "style" || tag.name == "script") && !tag.closing;
+    at = raw ? html.find("</" + tag.name, end) : end;
   }
   return result;
 }
@@ -77,18 +79,32 @@ std::vector<std::string> structure_faults(const std::string& html) {
   return faults;
 }
 
+std::string without_own_scripts(std::string html) {
+  for (const char* opening :
+       {"<script type=\"application/json\">", "<script>\n// Figures answer:"}) {
+    const std::string closing = "</script>";
+    for (std::size_t at; (at = html.find(opening)) != std::string::npos;)
+      html.erase(at, html.find(closing, at) + closing.size() - at);
+  }
+  return html;
+}
+
 std::vector<std::string> outside_references(const std::string& html) {
   static const std::regex outside(
-      R"rx(https?:|\bsrc\s*=|<script|<link|<iframe|@import|url\((?!#)|javascript:|\son\w+\s*=)rx",
+      R"rx(https?:|\bsrc\s*=|<link|<iframe|@import|url\((?!#)|javascript:|\son\w+\s*=)rx",
       std::regex::icase);
   std::vector<std::string> found;
   for (std::sregex_iterator it(html.begin(), html.end(), outside), end; it != end; ++it) {
     found.push_back(html.substr(std::size_t(it->position()), 60));
   }
+  const std::string rest = without_own_scripts(html);
+  for (std::size_t at = 0; (at = rest.find("<script", at)) != std::string::npos; ++at)
+    found.push_back(rest.substr(at, 60));
   return found;
 }
 
-std::string visible_text(const std::string& html) {
+std::string visible_text(const std::string& page) {
+  const std::string html = without_own_scripts(page);
   std::string text;
   bool inside_tag = false;
   for (char c : html) {

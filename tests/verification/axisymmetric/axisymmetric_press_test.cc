@@ -51,7 +51,7 @@ TEST(AxisymmetricPress, AgreesWithTheReferenceTable) {
 }
 
 /// The laws meet where strain is small. At 0.1 cm law A is 8.3 % stiffer, and sticking gives 3.322
-/// gf: three-dimensional meshes say so (README.md, lattice/statics/README.md).
+/// gf: three-dimensional meshes say so (README.md, lattice/MEASUREMENTS.md).
 TEST(AxisymmetricPress, LawsMeetAtSmallDepthAndPartAtLarge) {
   const AxisymmetricJob linear = coarse({0.01, 0.1});
   AxisymmetricJob finite = linear;

@@ -1,0 +1,70 @@
+#include "lattice/contact/cut_surfaces.h"
+
+#include <stdexcept>
+
+#include "lattice/contact/particle_surfaces.h"
+
+namespace fingertip::lattice {
+
+CutSurfaces::CutSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law,
+                         Team& team)
+    : model_(&model), bond_(model, team), contact_(model, plane, law, team) {
+  shared_.reserve(model.boundary.size());
+  bond_inertia_.reserve(8 * model.bond.size());
+  plane_inertia_.reserve(model.particles.size());
+}
+
+Wrench CutSurfaces::apply(const State& state, const RodState& rod, const Plane& plane, double step,
+                          VectorField& force) {
+  return hold_with(contact_, state, rod, plane, step, force, on_tip_);
+}
+
+Surfaces::Trial CutSurfaces::attempt(const State& state, const RodState& rod, const Plane& plane,
+                                     VectorField& force) {
+  if (!trial_) trial_ = contact_;
+  trial_->try_from(contact_);
+  Trial trial;
+  trial.bond = hold_with(*trial_, state, rod, plane, 0.0, force, trial.plane);
+  trial.contact_energy = trial_->energy();
+  return trial;
+}
+
+Wrench CutSurfaces::hold_with(PenaltyContact& contact, const State& state, const RodState& rod,
+                              const Plane& plane, double step, VectorField& force, Wrench& on_tip) {
+  shared_.clear();
+  on_tip = contact.add(state, plane, step, force, &shared_);
+  const Wrench on_rod = bond_.add(state, rod, step, force, &shared_);
+  for (const SharedLoad& load : shared_) {
+    const meshes::Vector3 held_back = model_->grid.axes * load.held_back;
+    on_tip.force += held_back;
+    on_tip.torque += position(*model_, state, load.particle).cross(held_back);
+  }
+  return on_rod;
+}
+
+std::span<const BondInertia> CutSurfaces::bond_inertia(double step) {
+  bond_.list_inertia(step, bond_inertia_);
+  return bond_inertia_;
+}
+
+PlaneHold CutSurfaces::plane_hold(double step) {
+  contact_.list_inertia(step, plane_inertia_);
+  const Eigen::Matrix3d to_grid = model_->grid.axes.transpose();
+  return {plane_inertia_, contact_.normal(), {to_grid * on_tip_.force, to_grid * on_tip_.torque}};
+}
+
+double CutSurfaces::energy(const State& state, const RodState& rod) const {
+  return bond_energy(state, rod) + contact_.energy();
+}
+
+Surfaces::Trial Surfaces::attempt(const State&, const RodState&, const Plane&, VectorField&) {
+  throw std::logic_error("these surfaces act between steps, not by forces alone");
+}
+
+std::unique_ptr<Surfaces> make_surfaces(const LatticeModel& model, const Plane& plane,
+                                        const ContactLaw& law, Team& team) {
+  if (model.is_cut()) return std::make_unique<CutSurfaces>(model, plane, law, team);
+  return std::make_unique<ParticleSurfaces>(model, plane, law);
+}
+
+}  // namespace fingertip::lattice

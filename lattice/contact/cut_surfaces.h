@@ -1,0 +1,54 @@
+/// Bond and contact on the tip's true surfaces.
+#pragma once
+
+#include <optional>
+
+#include "lattice/contact/penalty_contact.h"
+#include "lattice/contact/surfaces.h"
+#include "lattice/contact/tied_bond.h"
+
+namespace fingertip::lattice {
+
+/// Elastic ties to the rod (tied_bond.h) and to the plane (penalty_contact.h).
+class CutSurfaces : public Surfaces {
+ public:
+  CutSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law, Team& team);
+
+  std::unique_ptr<Surfaces> clone() const override { return std::make_unique<CutSurfaces>(*this); }
+  Wrench apply(const State& state, const RodState& rod, const Plane& plane, double step,
+               VectorField& force) override;
+  std::span<const BondInertia> bond_inertia(double step) override;
+  PlaneHold plane_hold(double step) override;
+  void set_plane_wrench(const Wrench& on_tip) override { on_tip_ = on_tip; }
+  Trial attempt(const State& state, const RodState& rod, const Plane& plane,
+                VectorField& force) override;
+  Wrench correct(State&, const VectorField&, const Plane&, double step) override {
+    return {step * on_tip_.force, step * on_tip_.torque};
+  }
+  double bond_energy(const State& state, const RodState& rod) const override {
+    return bond_.energy(state, rod);
+  }
+  double energy(const State& state, const RodState& rod) const override;
+  int touching() const override { return contact_.touching(); }
+  int sliding() const override { return contact_.sliding(); }
+  ContactPatch patch() const override { return contact_.patch(); }
+  std::vector<PointLoad> point_loads(const State& state) const override {
+    return contact_.point_loads(state);
+  }
+  std::vector<std::uint8_t> held() const override { return contact_.held(); }
+
+ private:
+  Wrench hold_with(PenaltyContact& contact, const State& state, const RodState& rod,
+                   const Plane& plane, double step, VectorField& force, Wrench& on_tip);
+
+  const LatticeModel* model_;
+  TiedBond bond_;
+  PenaltyContact contact_;
+  std::optional<PenaltyContact> trial_;  ///< contact_ as attempt() needs it, made by the first one
+  std::vector<BondInertia> bond_inertia_;      ///< of the last bond_inertia()
+  std::vector<ContactInertia> plane_inertia_;  ///< of the last plane_hold()
+  std::vector<SharedLoad> shared_;             ///< particles on both surfaces
+  Wrench on_tip_;                              ///< of the plane, about the world's origin
+};
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,38 @@
+/// Bond and contact of the published model.
+#pragma once
+
+#include "lattice/contact/contact.h"
+#include "lattice/contact/surfaces.h"
+#include "meshes/press_response.h"
+
+namespace fingertip::lattice {
+
+/// Ligaments (bond.h) and boundary particles that the plane anchors (contact.h).
+class ParticleSurfaces : public Surfaces {
+ public:
+  ParticleSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law);
+
+  std::unique_ptr<Surfaces> clone() const override {
+    return std::make_unique<ParticleSurfaces>(*this);
+  }
+  Wrench apply(const State& state, const RodState& rod, const Plane& plane, double step,
+               VectorField& force) override;
+  std::span<const BondInertia> bond_inertia(double /*step*/) override { return {}; }
+  PlaneHold plane_hold(double /*step*/) override { return {}; }
+  void set_plane_wrench(const Wrench& /*on_tip*/) override {}
+  Wrench correct(State& state, const VectorField& force, const Plane& plane, double step) override;
+  double bond_energy(const State& state, const RodState& rod) const override;
+  double energy(const State& state, const RodState& rod) const override {
+    return bond_energy(state, rod);
+  }
+  int touching() const override { return contact_.anchored(); }
+  int sliding() const override { return contact_.sliding(); }
+  ContactPatch patch() const override { return {contact_.radius(), meshes::unknown}; }
+  std::vector<std::uint8_t> held() const override;
+
+ private:
+  const LatticeModel* model_;
+  PlaneContact contact_;
+};
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,83 @@
+#include "lattice/control/virtual_finger.h"
+
+#include <algorithm>
+
+#include "lattice/model/cut_model.h"
+
+namespace fingertip::lattice {
+
+VirtualFinger::VirtualFinger(const FingerSetup& setup)
+    : setup_(setup),
+      model_(build_tip(setup.geometry, setup.rubber, setup.lattice)),
+      rod_(lattice::rod_body(setup.geometry, setup.rod)),
+      team_(setup.threads),
+      steps_(model_, setup.prescribed ? nullptr : &rod_, setup.integrator, setup.time_step, team_) {
+  const double step = steps_.at_rest(1.0);
+  finger_ = std::make_unique<Finger>(model_, rod_, setup.plane, setup.contact, setup.integrator,
+                                     step, team_);
+  finger_->set_gravity(setup.gravity);
+  const double tip = setup.geometry.tip_radius;
+  stepper_ = make_stepper({setup.integrator, setup.time_step, setup.tolerance, setup.energy_bound,
+                           setup.rubber.youngs_modulus * tip * tip * tip},
+                          *finger_, steps_);
+  if (setup.prescribed) drive_ = Motion([](double) { return RodMotion{}; });
+  start_ = save();
+}
+
+Measurement VirtualFinger::read() const {
+  const RodState& rod = finger_->rod();
+  const meshes::Vector3 endpoint = rod.endpoint();
+  Measurement m;
+  m.time = finger_->time();
+  m.pose = {endpoint, rod.pose().orientation};
+  m.twist = {rod.velocity_at(endpoint), rod.angular_velocity()};
+  m.wrench = finger_->bond();
+  const Wrench& impulse = finger_->plane_impulse();
+  const meshes::Vector3 force = impulse.force / finger_->step();
+  m.contact = ContactState{finger_->touching(),
+                           finger_->contact_patch().radius,
+                           {force, impulse.torque / finger_->step() - endpoint.cross(force)}};
+  return m;
+}
+
+void VirtualFinger::write(const Wrench& applied) {
+  drive_ = applied;
+}
+
+void VirtualFinger::write(Motion motion) {
+  drive_ = std::move(motion);
+}
+
+StepReport VirtualFinger::step_report(double period) const {
+  StepReport report = steps_.report(steps_.at_rest(period));
+  const double smallest = stepper_->count().smallest;
+  report.smallest = smallest > 0.0 ? std::min(report.step, smallest) : report.step;
+  const std::string more = stepper_->explanation();
+  if (!more.empty()) report.explanation += "; " + more;
+  return report;
+}
+
+bool VirtualFinger::do_step(double duration, const StepObserver& after_step) {
+  const double until = finger_->time() + duration;
+  bool arrived = true;
+  stepper_->begin(drive_, duration);
+  while (arrived && finger_->time() < until - 1e-6 * finger_->step()) {
+    stepper_->step(drive_, until);
+    arrived = !after_step || after_step();
+  }
+  stepper_->end();
+  return arrived;
+}
+
+VirtualFinger::Snapshot VirtualFinger::save() const {
+  return {finger_->save(), steps_.memory(), stepper_->memory(), drive_};
+}
+
+void VirtualFinger::load(const Snapshot& snapshot) {
+  finger_->load(snapshot.finger);
+  steps_.recall(snapshot.steps);
+  stepper_->recall(snapshot.stepper);
+  drive_ = snapshot.drive;
+}
+
+}  // namespace fingertip::lattice

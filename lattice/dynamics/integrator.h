@@ -1,0 +1,20 @@
+/// How the moving lattice is integrated in time.
+#pragma once
+
+#include <string_view>
+
+namespace fingertip::lattice {
+
+/// Time integration of x' = v, v' = f/m.
+enum class Integrator {
+  symplectic_euler,   ///< v first, then x with the new v; the default
+  explicit_euler,     ///< as printed in the paper's Fig. 4: x with the old v, then v
+  runge_kutta,        ///< explicit, of order 5, its step chosen by the estimated error
+  mass_scaled,        ///< symplectic Euler with inertia against deformation, at long steps
+  energy_controlled,  ///< symplectic Euler, its step chosen by the energy it gains or loses
+};
+std::string_view name(Integrator integrator);
+/// Whether it chooses every step by what the last ones did, not by stability alone.
+bool is_adaptive(Integrator integrator);
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,82 @@
+/// How a finger is marched through time: who chooses the steps, and by which formula.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "lattice/dynamics/finger.h"
+#include "lattice/dynamics/integrator.h"
+#include "lattice/dynamics/time_step.h"
+#include "meshes/errors.h"
+
+namespace fingertip::lattice {
+
+/// Where a prescribed rod is at a time [s].
+using Motion = std::function<RodMotion(double time)>;
+/// What moves the rod: a wrench at its endpoint (world axes), or that it is told where to be.
+using Drive = std::variant<Wrench, Motion>;
+
+/// Thrown when compression turns cells inside out or would need endless steps.
+class CrushedCells : public meshes::NotConverged {
+ public:
+  using meshes::NotConverged::NotConverged;
+};
+
+/// What a run took.
+struct StepCount {
+  long accepted = 0, rejected = 0;
+  /// Steps taken although they left their bound, because smaller ones are not tried.
+  long forced = 0;
+  double smallest = 0.0;  ///< of the accepted ones that were not cut short by the end of a span [s]
+};
+
+/// Marches a finger through spans of time, during each of which the drive and the plane's
+/// velocities hold. A span is begin(), step() until its end is reached, end(). What a stepper knows
+/// between two spans is in memory(), so that recall() and the same spans give the same bits.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  /// A span of `duration` [s] > 0 begins now. Throws CrushedCells.
+  virtual void begin(const Drive& drive, double duration) = 0;
+  /// One step that does not go beyond `until` [s], the span's end. Throws CrushedCells.
+  virtual void step(const Drive& drive, double until) = 0;
+  /// The span has ended, perhaps early. Finger::bond() is then the present one, or, for Euler
+  /// steps, that at the start of the last step.
+  virtual void end() {}
+
+  /// In whatever meaning a stepper gives them; zeros: nothing is known yet.
+  using Memory = std::array<double, 4>;
+  virtual Memory memory() const { return {}; }
+  virtual void recall(const Memory& /*memory*/) {}
+
+  const StepCount& count() const { return count_; }
+  /// How steps are chosen and how many there were, for people; empty for steps that the stability
+  /// bound alone rules.
+  virtual std::string explanation() const { return {}; }
+
+ protected:
+  void accept(double step, bool whole);
+  std::string counted() const;
+
+  StepCount count_;
+};
+
+/// What a stepper has to keep to.
+struct StepperSettings {
+  Integrator integrator = Integrator::symplectic_euler;
+  std::optional<double> time_step;  ///< largest one [s]
+  double tolerance = 1e-6;          ///< runge_kutta.h
+  double energy_bound = 1e-7;       ///< energy_stepper.h
+  double energy_scale = 0.0;        ///< [J]
+};
+
+/// Finger and controller must outlive it.
+std::unique_ptr<Stepper> make_stepper(const StepperSettings& settings, Finger& finger,
+                                      StepController& steps);
+
+}  // namespace fingertip::lattice

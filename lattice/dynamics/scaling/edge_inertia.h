@@ -1,0 +1,77 @@
+/// Graph Laplacians above the elastic and viscous stiffness of cells.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lattice/dynamics/scaling/sweeps.h"
+#include "lattice/kernels/parallel.h"
+#include "lattice/model/model.h"
+#include "lattice/model/state.h"
+
+namespace fingertip::lattice {
+
+using sweeps::Single;
+
+/// Per component of a displacement and axis, of the edges from each point to the next [kg].
+using EdgeInertia = std::array<std::array<std::vector<Single>, 3>, 3>;
+
+/// S = Σ_cells a Σ_components Σ_edges (M_cd c_e + N b_e) (u_c,i - u_c,j)², d the axis of edge e,
+///
+///   M = dt² E/4 + dt tau V/2,  N = (dt²/4 + dt tau/2) bending [Pa s²],
+///
+/// so that dt² K + 2 dt C <= 4 S. E_cd and V_cd bound the row sums of |d²W/dF²| and of its viscous
+/// counterpart over all entries of F; as diagonal forms, Σ E_cd dF_cd², they are not below them
+/// (Gershgorin). At rest they are 3 lambda + 2 G where c = d and 2 G elsewhere: only stretches
+/// along the axes meet the bulk, so that what shears is not made as heavy as what swells. The mean
+/// gradient of a cell is one of its edges' gradients, weighted with the shares w_e of the rubber
+/// that they own, and (Σ w_e g_e)² <= Σ c_e g_e² if Σ w_e²/c_e <= 1; b_e are for what the edges
+/// differ by (cells/cell_edges.h), but for the small part of their damping that hangs on how much
+/// they differ already.
+///
+/// Law `network`, T = F⁻ᵀ, r_c and k_d the sums of |T| along row c and column d, s that of all:
+///   d²W/dF²  G dF:dF + (G - lambda ln J) tr (F⁻¹ dF)² + lambda (T:dF)²,
+///            E_cd = G + p r_c k_d + lambda s |T_cd|,  p = G + lambda (max(J, 1/J) - 1),
+///   viscous  with L = dF F⁻¹ G (L:L + L:Lᵀ) + lambda (tr L)²,
+///            V_cd = G (Σ_e |TᵀT|_de + r_c k_d) + lambda s |T_cd|.
+class EdgeInertiaRule {
+ public:
+  /// The model's cells have law `cubic` or `network` and it knows their edges (model.edges); throws
+  /// std::invalid_argument otherwise.
+  explicit EdgeInertiaRule(const LatticeModel& model);
+
+  /// For steps of `step` [s] > 0 about a state, multiplied with `allowance`: what cells may stiffen
+  /// by later; never less than at rest. `edges` of at least the model's points. Returns a measure
+  /// of S, from some of the cells, to be compared with that of other states [kg].
+  double find(const State& state, double step, double allowance, Team& team, EdgeInertia& edges);
+
+  /// Of one cell's edges; nothing for cells that are not there.
+  struct Shares {
+    Single mean[12][lanes] = {};      ///< CellEdges::mean
+    Single majorant[12][lanes] = {};  ///< CellEdges::majorant
+    Single spread[12][lanes] = {};    ///< CellEdges::spread
+
+    bool operator==(const Shares&) const = default;
+  };
+  /// Eight cells side by side along x.
+  struct Pack {
+    std::uint32_t first = 0;          ///< lowest corner of the first one
+    std::uint32_t shares = 0;         ///< where in the rule's list
+    Single moduli[3][3][lanes] = {};  ///< a M of the cells as they are now [kg]
+  };
+  /// Moduli that M is made of, times a [kg].
+  struct Factors {
+    Single elastic_shear, elastic_bulk, viscous_shear, viscous_bulk;
+    Single rest_same, rest_other;  ///< of M at rest, c = d and elsewhere
+  };
+
+ private:
+  Factors factors(double elastic, double viscous) const;
+
+  const LatticeModel* model_;
+  std::vector<Shares> shares_;  ///< the first is that of whole cells
+  std::vector<Pack> packs_;
+};
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,53 @@
+/// The points of a lattice and of ever coarser grids over them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lattice/model/model.h"
+
+namespace fingertip::lattice {
+
+/// One grid: its points, and how fields on it are passed on to the grid of twice the spacing, whose
+/// point i lies at 2i - 1 along every axis. In two sweeps: along y and z onto a sheet, rows of the
+/// coarser grid with the points of this one, and then along x.
+struct GridLevel {
+  std::array<int, 3> size{};             ///< with a layer of empty points on every side
+  std::array<std::ptrdiff_t, 3> next{};  ///< to the next point along x, y, z
+  std::vector<std::uint8_t> is_node;     ///< per point: 1 at a particle, or at what carries one
+  std::vector<std::uint32_t> blocks;     ///< first points of runs of `lanes` that cover the nodes
+  /// Per block: where the up to four rows of the sheet start from which its points are interpolated
+  /// with equal weights (some of them the same).
+  std::vector<std::array<std::uint32_t, 4>> parents;
+  std::size_t sheet_points = 0;
+  struct SheetBlock {
+    std::uint32_t sheet;  ///< its first point there
+    std::uint32_t row;    ///< the point of this grid in its middle row
+  };
+  std::vector<SheetBlock> sheet_blocks;  ///< cover what the nodes are restricted to
+  std::vector<std::uint32_t>
+      coarser_sheets;  ///< per block of the coarser grid: 2i - 1 on the sheet
+
+  std::size_t points() const { return is_node.size(); }
+};
+
+/// From the particles to a handful of points. A coarse point is a node if a finer node is
+/// interpolated from it.
+class GridHierarchy {
+ public:
+  explicit GridHierarchy(const LatticeModel& model);
+  const std::vector<GridLevel>& levels() const { return levels_; }
+
+ private:
+  std::vector<GridLevel> levels_;
+};
+
+/// The points of the coarser grid from which point `p` of a level is interpolated, trilinearly.
+struct CoarsePoints {
+  int count = 0;  ///< of them, at most eight, with equal weights
+  std::array<std::uint32_t, 8> point{};
+};
+CoarsePoints coarse_points(const GridLevel& fine, const GridLevel& coarse, std::uint32_t p);
+}  // namespace fingertip::lattice

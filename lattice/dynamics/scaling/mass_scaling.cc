@@ -1,0 +1,229 @@
+#include "lattice/dynamics/scaling/mass_scaling.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+namespace fingertip::lattice {
+
+using meshes::Vector3;
+
+namespace {
+
+Vector3 vector_at(const MultigridFields::Field& field, std::size_t point) {
+  return {field[0][point], field[1][point], field[2][point]};
+}
+
+/// Whether what was found for one sum serves for another. Less is held than then: too much is kept,
+/// which is safe.
+bool serves(double then, double now) {
+  return now <= 1.1 * then && now >= 0.8 * then;
+}
+
+bool serves(const Restraint::Ground& then, const Restraint::Ground& now, double spacing) {
+  constexpr double turned = 0.99;  // cosine
+  return serves(then.along, now.along) && serves(then.aside, now.aside) &&
+         serves(then.edges, now.edges) && (then.patch - now.patch).norm() < spacing &&
+         then.normal.dot(now.normal) > turned;
+}
+
+/// Keeps the other directions as near to what they were as a normal lets them.
+void turn(Restraint& restraint, const Vector3& normal) {
+  auto& [along, across, beside] = restraint.directions;
+  along = normal;
+  across = (across - normal.dot(across) * normal).normalized();
+  beside = normal.cross(across);
+}
+
+}  // namespace
+
+ScalingGround::ScalingGround(const LatticeModel& lattice)
+    : model(&lattice),
+      hierarchy(std::make_shared<GridHierarchy>(lattice)),
+      rubber(lattice),
+      rule(lattice) {}
+
+MassScaling::MassScaling(std::shared_ptr<ScalingGround> ground)
+    : ground_(std::move(ground)),
+      inertia_(ground_->model->mass),
+      gain_(ground_->model->is_particle.begin(), ground_->model->is_particle.end()),
+      grids_(ground_->hierarchy) {
+  tied_.reserve(ground_->model->particles.size());
+}
+
+void MassScaling::make(const State& state, std::span<const BondInertia> bond, double step,
+                       Team& team, double allowance) {
+  const LatticeModel& model = *ground_->model;
+  for (const std::uint32_t p : tied_) {
+    inertia_[p] = model.mass[p];
+    gain_[p] = 1.0;
+  }
+  tied_.clear();
+  for (const BondInertia& tie : bond) {
+    inertia_[tie.particle] += tie.inertia;
+    tied_.push_back(tie.particle);
+  }
+  for (const std::uint32_t p : tied_) gain_[p] = inertia_[p] * model.inverse_mass[p];
+  step_ = step;
+  sum_of_edges_ = ground_->rule.find(state, step, allowance, team, grids_.finest_edges());
+  grids_.set(inertia_, team);
+}
+
+AccelerationFields MassScaling::fields() const {
+  return {MultigridFields(*ground_->hierarchy), ground_->rubber.scratch()};
+}
+
+Restraint MassScaling::restraint() const {
+  Restraint none;
+  for (auto& share : none.share) share.assign(inertia_.size(), 0.0F);
+  return none;
+}
+
+void MassScaling::set_contact(const PlaneHold& plane, MultigridFields::Level& finest) const {
+  finest.contact.clear();
+  for (const ContactInertia& tie : plane.ties)
+    finest.contact.push_back({tie.particle, Single(tie.along), Single(tie.aside)});
+}
+
+void MassScaling::restrain(const State& state, const PlaneHold& plane, Team& team,
+                           AccelerationFields& fields, Restraint& restraint) const {
+  Restraint::Ground now;
+  for (const ContactInertia& tie : plane.ties) {
+    now.along += tie.along;
+    now.aside += tie.aside;
+    now.patch += tie.along * tie.rest;
+  }
+  restraint.holds = now.along > 0.0;
+  if (!restraint.holds) return;
+  now.patch /= now.along;
+  now.normal = plane.normal;
+  now.edges = sum_of_edges_;
+  if (!serves(restraint.found, now, ground_->model->spacing())) {
+    find_shares(plane, team, fields, restraint);
+    restraint.found = now;
+  }
+  turn(restraint, now.normal);
+  find_inertia(state, plane, restraint);
+}
+
+/// B C of unit accelerations along the normal and both ways across it: all at the same time where
+/// they are the grid's axes, for then neither the plane's ties nor S couple them.
+void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFields& fields,
+                              Restraint& restraint) const {
+  MultigridFields::Level& finest = fields.grids.levels.front();
+  Eigen::Index axis = 0;
+  plane.normal.cwiseAbs().minCoeff(&axis);
+  restraint.directions[1] = Vector3::Unit(axis);
+  turn(restraint, plane.normal);
+  const Vector3& normal = restraint.directions[0];
+  set_contact(plane, finest);
+  const bool along_axes = normal.cwiseAbs().maxCoeff() > 1.0 - 1e-6;
+  for (std::size_t first = 0; first < 3; first += along_axes ? 3 : 1) {
+    const std::size_t last = along_axes ? 3 : first + 1;
+    for (auto& component : finest.load) std::fill(component.begin(), component.end(), 0.0F);
+    for (const ContactInertia& tie : plane.ties) {
+      Vector3 taken = Vector3::Zero();
+      for (std::size_t n = first; n < last; ++n)
+        taken += (n == 0 ? tie.along : tie.aside) * restraint.directions[n];
+      for (std::size_t c = 0; c < 3; ++c)
+        finest.load[c][tie.particle] = Single(taken[Eigen::Index(c)]);
+    }
+    grids_.solve(normal, team, fields.grids);
+    for (std::size_t n = first; n < last; ++n)
+      take_share(restraint.directions[n], finest.solution, restraint.share[n]);
+  }
+}
+
+void MassScaling::take_share(const Vector3& direction, const MultigridFields::Field& follows,
+                             std::vector<Single>& share) const {
+  for (const std::uint32_t p : ground_->model->particles)
+    share[p] = Single(std::clamp(direction.dot(vector_at(follows, p)), 0.0, 1.0));
+}
+
+/// Finds the patch's centre, and what the rod feels: the patch as a whole by what Y leaves of C,
+/// and turned about its centre by C.
+void MassScaling::find_inertia(const State& state, const PlaneHold& plane,
+                               Restraint& restraint) const {
+  Vector3 left = Vector3::Zero();  // along the restraint's directions
+  restraint.centre.setZero();
+  double sum = 0.0;
+  for (const ContactInertia& tie : plane.ties) {
+    const double inertia[3] = {tie.along, tie.aside, tie.aside};
+    for (std::size_t n = 0; n < 3; ++n)
+      left[Eigen::Index(n)] += inertia[n] * (1.0 - double(restraint.share[n][tie.particle]));
+    restraint.centre += tie.along * (tie.rest + state.displacement.at(tie.particle));
+    sum += tie.along;
+  }
+  restraint.centre /= sum;
+  Eigen::Matrix3d along, turned = Eigen::Matrix3d::Zero();
+  for (std::size_t n = 0; n < 3; ++n) along.col(Eigen::Index(n)) = restraint.directions[n];
+  const Eigen::Matrix<double, 3, 6> shifted = along.transpose() * rigid_motion(restraint.centre);
+  restraint.inertia = shifted.transpose() * left.asDiagonal() * shifted;
+  for (const ContactInertia& tie : plane.ties) {
+    const Vector3 arm = tie.rest + state.displacement.at(tie.particle) - restraint.centre,
+                  tilt = arm.cross(plane.normal);  // the normal part of w x arm is w . tilt
+    turned += tie.aside * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    turned += (tie.along - tie.aside) * tilt * tilt.transpose();
+  }
+  restraint.inertia.bottomRightCorner<3, 3>() += turned;
+}
+
+/// The forces as they are, D a, in the frame of a rod that accelerates as expected.
+void MassScaling::set_load(const Vector6& expected, const State& state, const VectorField& force,
+                           const PlaneHold& plane, Team& team,
+                           MultigridFields::Level& finest) const {
+  const LatticeModel& model = *ground_->model;
+  ground_->rubber.load(expected, gain_, state, team, force, finest.load);
+  set_contact(plane, finest);
+  for (const ContactInertia& tie : plane.ties) {
+    const Vector3 more =
+        plane.taken(tie, model.inverse_mass[tie.particle] * force.at(tie.particle));
+    for (std::size_t c = 0; c < 3; ++c)
+      finest.load[c][tie.particle] += Single(more[Eigen::Index(c)]);
+  }
+}
+
+Reactions MassScaling::accelerate(const State& state, const OuterLoads& outer,
+                                  const VectorField& force, Team& team,
+                                  AccelerationFields& fields) const {
+  const CarriedRubber& rubber = ground_->rubber;
+  const std::vector<double>& inverse_mass = ground_->model->inverse_mass;
+  MultigridFields::Level& finest = fields.grids.levels.front();
+  const Vector6 expected = outer.rod ? outer.rod->expected : Vector6(Vector6::Zero());
+  set_load(expected, state, force, outer.plane, team, finest);
+  grids_.solve(outer.plane.normal, team, fields.grids);
+
+  Reactions reactions;
+  reactions.plane << outer.plane.wrench.force, outer.plane.wrench.torque;
+  for (const ContactInertia& tie : outer.plane.ties) {
+    const std::size_t i = tie.particle;
+    const Vector3 change = vector_at(finest.solution, i) - inverse_mass[i] * force.at(i);
+    reactions.plane -=
+        acting_at(tie.rest + state.displacement.at(i), outer.plane.taken(tie, change));
+  }
+  const CarriedRubber::Sums sums = rubber.sums(finest.solution, state, team, fields.carried);
+  const Vector6 on_rubber =
+      reactions.plane - sums.taken + sums.inertia.leftCols<3>() * outer.gravity;
+  reactions.bond = on_rubber;
+  if (!outer.rod) return reactions;
+  const Restraint* restraint = outer.rod->restraint;
+  const Matrix6 held =
+                    restraint && restraint->holds ? restraint->inertia : Matrix6(Matrix6::Zero()),
+                carried = sums.inertia + held, whole = outer.rod->inertia + carried;
+  reactions.rod = whole.ldlt().solve(outer.rod->load + on_rubber);
+  reactions.bond -= carried * reactions.rod;
+  reactions.plane -= held * reactions.rod;
+  return reactions;
+}
+
+CarriedRubber::Moved MassScaling::move(State& state, const OuterLoads& outer,
+                                       const Reactions& reactions, Team& team,
+                                       AccelerationFields& fields) const {
+  const Restraint* restraint = outer.rod ? outer.rod->restraint : nullptr;
+  if (restraint && !restraint->holds) restraint = nullptr;
+  return ground_->rubber.move(reactions.rod, restraint, fields.grids.levels.front().solution, step_,
+                              team, fields.carried, state);
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,305 @@
+#include "lattice/dynamics/scaling/multigrid.h"
+
+#include <algorithm>
+
+#include "lattice/kernels/stencil.h"
+
+namespace fingertip::lattice {
+
+namespace {
+
+constexpr std::size_t sweeps_at_once = 64;  // blocks of eight points
+constexpr std::size_t contact_grain = 128;
+/// Of Jacobi's sweeps, on S alone: where it is small the sweeps are exact.
+constexpr Single sweep_damping = 1.3F;
+constexpr int last_sweeps = 8;  // on the coarsest grid; even, so that B <= A⁻¹
+
+MultigridFields::Field field(std::size_t points) {
+  MultigridFields::Field result;
+  for (auto& component : result) component.assign(points, 0.0F);
+  return result;
+}
+
+void point_to(MultigridFields::Field& field, Single* (&pointers)[3]) {
+  for (std::size_t c = 0; c < 3; ++c) pointers[c] = field[c].data();
+}
+
+std::array<Single, 3> at(const MultigridFields::Field& field, std::size_t point) {
+  return {field[0][point], field[1][point], field[2][point]};
+}
+
+void put(MultigridFields::Field& field, std::size_t point, const std::array<Single, 3>& value) {
+  for (std::size_t c = 0; c < 3; ++c) field[c][point] = value[c];
+}
+
+/// Shares of a level's contact go to the points around.
+void share_contact(const GridLevel& fine, const GridLevel& coarse,
+                   const std::vector<PointTie>& from, MultigridFields::Level& to) {
+  for (const PointTie& one : to.contact) to.contact_at[one.point] = -1;
+  to.contact.clear();
+  for (const PointTie& one : from) {
+    const CoarsePoints points = coarse_points(fine, coarse, one.point);
+    const Single share = 1.0F / Single(points.count);
+    for (std::size_t n = 0; n < std::size_t(points.count); ++n) {
+      std::int32_t& place = to.contact_at[points.point[n]];
+      if (place < 0) {
+        place = std::int32_t(to.contact.size());
+        to.contact.push_back({points.point[n], 0.0F, 0.0F});
+      }
+      PointTie& sum = to.contact[std::size_t(place)];
+      sum.along += share * one.along;
+      sum.aside += share * one.aside;
+    }
+  }
+}
+
+/// What a coarse point (or, along its own axis, edge) gets of the fine ones around 2i - 1.
+constexpr std::array<Single, 3> of_points{0.5F, 1.0F, 0.5F}, of_edges{0.0F, 1.0F, 1.0F};
+
+/// `axis`: of edges; 3 for what points have.
+void coarsen(const GridLevel& fine_grid, const GridLevel& coarse_grid,
+             const std::vector<Single>& fine, std::size_t axis, std::vector<Single>& sheet,
+             std::vector<Single>& coarse) {
+  sweeps::Weights weights{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto& along = d == axis ? of_edges : of_points;
+    std::copy(along.begin(), along.end(), weights.along[d]);
+  }
+  weights.next[0] = fine_grid.next[1];
+  weights.next[1] = fine_grid.next[2];
+  weights.all = axis < 3 ? 0.25F : 1.0F;
+  sweeps::share_across(weights, fine.data(), fine_grid.sheet_blocks.data(),
+                       fine_grid.sheet_blocks.size(), sheet.data());
+  sweeps::share_along(weights, sheet.data(), fine_grid.coarser_sheets.data(),
+                      coarse_grid.blocks.data(), coarse_grid.blocks.size(), coarse.data());
+}
+
+}  // namespace
+
+MultigridFields::MultigridFields(const GridHierarchy& hierarchy) {
+  for (const GridLevel& level : hierarchy.levels()) {
+    const std::size_t points = level.points();
+    levels.push_back({field(points),
+                      field(points),
+                      field(points),
+                      field(level.sheet_points),
+                      field(level.sheet_points),
+                      {},
+                      std::vector<std::int32_t>(points, -1)});
+    levels.back().contact.reserve(points);
+  }
+}
+
+Multigrid::Multigrid(std::shared_ptr<const GridHierarchy> hierarchy)
+    : hierarchy_(std::move(hierarchy)) {
+  for (const GridLevel& level : hierarchy_->levels()) {
+    Matrix matrix;
+    matrix.edge.fill(field(level.points()));
+    matrix.inertia.assign(level.points(), 0.0F);
+    matrix.relaxation = field(level.points());
+    for (auto& sheet : matrix.sheets) sheet.assign(level.sheet_points, 0.0F);
+    matrices_.push_back(std::move(matrix));
+  }
+}
+
+void Multigrid::set(const std::vector<double>& inertia, Team& team) {
+  std::copy(inertia.begin(), inertia.end(), matrices_.front().inertia.begin());
+  for (std::size_t level = 0; level < matrices_.size(); ++level) {
+    finish(level, team);
+    if (level + 1 < matrices_.size()) coarsen(level, team);
+  }
+}
+
+void Multigrid::finish(std::size_t level, Team& team) {
+  const GridLevel& grid = hierarchy_->levels()[level];
+  Matrix& matrix = matrices_[level];
+  sweeps::RelaxationArrays a{};
+  a.inertia = matrix.inertia.data();
+  a.damping = sweep_damping;
+  for (std::size_t c = 0; c < 3; ++c) {
+    a.relaxation[c] = matrix.relaxation[c].data();
+    for (std::size_t d = 0; d < 3; ++d) a.edge[c][d] = matrix.edge[c][d].data();
+  }
+  std::copy(grid.next.begin(), grid.next.end(), a.next);
+  team.split(grid.blocks.size(), sweeps_at_once, [&](std::size_t from, std::size_t to) {
+    sweeps::find_relaxation(a, grid.blocks.data() + from, to - from);
+  });
+}
+
+/// Of the two points below and above on an axis, which may be the same, each gets half.
+void Multigrid::coarsen(std::size_t level, Team& team) {
+  const GridLevel &grid = hierarchy_->levels()[level], &coarser = hierarchy_->levels()[level + 1];
+  Matrix &fine = matrices_[level], &coarse = matrices_[level + 1];
+  team.split(10, 1, [&](std::size_t from, std::size_t to) {
+    for (std::size_t n = from; n < to; ++n) {
+      const std::size_t c = n / 3, d = n % 3;
+      if (n == 9) {
+        lattice::coarsen(grid, coarser, fine.inertia, 3, fine.sheets[n], coarse.inertia);
+      } else {
+        lattice::coarsen(grid, coarser, fine.edge[c][d], d, fine.sheets[n], coarse.edge[c][d]);
+      }
+    }
+  });
+}
+
+/// Of one level, for one solve.
+class Multigrid::Cycle {
+ public:
+  Cycle(const Multigrid& grids, const std::array<Single, 3>& normal, Team& team,
+        MultigridFields& fields)
+      : grids_(&grids), normal_(normal), team_(&team), fields_(&fields) {}
+
+  void run(std::size_t level) {
+    const GridLevel& grid = grids_->hierarchy_->levels()[level];
+    const Matrix& matrix = grids_->matrices_[level];
+    MultigridFields::Level& fields = fields_->levels[level];
+    begin(grid, matrix, fields);
+    if (level + 1 == grids_->matrices_.size()) {
+      for (int n = 1; n < last_sweeps; ++n) smooth(grid, matrix, fields);
+      return;
+    }
+    find_residual(grid, matrix, fields);
+    pass_on(level);
+    run(level + 1);
+    take_back(level);
+    smooth(grid, matrix, fields);
+  }
+
+ private:
+  static sweeps::LevelArrays arrays(const GridLevel& grid, const Matrix& matrix,
+                                    MultigridFields::Level& fields) {
+    sweeps::LevelArrays a{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t d = 0; d < 3; ++d) a.edge[c][d] = matrix.edge[c][d].data();
+      a.relaxation[c] = matrix.relaxation[c].data();
+      a.load[c] = fields.load[c].data();
+    }
+    point_to(fields.solution, a.solution);
+    point_to(fields.residual, a.residual);
+    a.inertia = matrix.inertia.data();
+    a.next[0] = grid.next[1];
+    a.next[1] = grid.next[2];
+    return a;
+  }
+
+  template <typename Loop>
+  void over(std::size_t count, const Loop& loop) {
+    team_->split(count, sweeps_at_once, loop);
+  }
+
+  /// Points of the contact are all different.
+  template <typename Body>
+  void over_contact(const MultigridFields::Level& fields, const Body& body) {
+    team_->split(fields.contact.size(), contact_grain, [&](std::size_t from, std::size_t to) {
+      for (std::size_t n = from; n < to; ++n) body(fields.contact[n]);
+    });
+  }
+
+  /// A damped Jacobi step at a contact's point, the same for all directions of the rubber.
+  std::array<Single, 3> relaxed(const Matrix& matrix, const PointTie& one,
+                                const std::array<Single, 3>& residual) const {
+    const auto share = at(matrix.relaxation, one.point);
+    const Single rubber = 1.0F / std::min({share[0], share[1], share[2]});
+    return product(residual, 1.0F / (rubber + one.along), 1.0F / (rubber + one.aside));
+  }
+
+  /// along n nᵀ u + aside (1 - n nᵀ) u
+  std::array<Single, 3> product(const std::array<Single, 3>& u, Single along, Single aside) const {
+    const Single towards = normal_[0] * u[0] + normal_[1] * u[1] + normal_[2] * u[2];
+    std::array<Single, 3> result{};
+    for (std::size_t c = 0; c < 3; ++c)
+      result[c] = aside * u[c] + (along - aside) * towards * normal_[c];
+    return result;
+  }
+
+  void begin(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
+    const sweeps::LevelArrays a = arrays(grid, matrix, fields);
+    over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::first_sweep(a, grid.blocks.data() + from, to - from);
+    });
+    over_contact(fields, [&](const PointTie& one) {
+      put(fields.solution, one.point, relaxed(matrix, one, at(fields.load, one.point)));
+    });
+  }
+
+  void find_residual(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
+    const sweeps::LevelArrays a = arrays(grid, matrix, fields);
+    over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::find_residual(a, grid.blocks.data() + from, to - from);
+    });
+    over_contact(fields, [&](const PointTie& one) {
+      const auto taken = product(at(fields.solution, one.point), one.along, one.aside);
+      for (std::size_t c = 0; c < 3; ++c) fields.residual[c][one.point] -= taken[c];
+    });
+  }
+
+  void smooth(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
+    const sweeps::LevelArrays a = arrays(grid, matrix, fields);
+    over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::smooth(a, grid.blocks.data() + from, to - from);
+    });
+    over_contact(fields, [&](const PointTie& one) {
+      const auto before = at(fields.solution, one.point), plain = at(fields.residual, one.point);
+      const auto taken = product(before, one.along, one.aside);
+      std::array<Single, 3> residual{};
+      for (std::size_t c = 0; c < 3; ++c)
+        residual[c] = (plain[c] - before[c]) / matrix.relaxation[c][one.point] - taken[c];
+      const auto step = relaxed(matrix, one, residual);
+      put(fields.residual, one.point,
+          {before[0] + step[0], before[1] + step[1], before[2] + step[2]});
+    });
+    std::swap(fields.solution, fields.residual);
+  }
+
+  sweeps::TransferArrays transfer(std::size_t level, MultigridFields::Field& fine,
+                                  MultigridFields::Field& sheet, MultigridFields::Field& coarse) {
+    sweeps::TransferArrays t{};
+    const GridLevel& grid = grids_->hierarchy_->levels()[level];
+    point_to(fine, t.fine);
+    point_to(sheet, t.sheet);
+    point_to(coarse, t.coarse);
+    t.next[0] = grid.next[1];
+    t.next[1] = grid.next[2];
+    return t;
+  }
+
+  void pass_on(std::size_t level) {
+    const GridLevel& grid = grids_->hierarchy_->levels()[level];
+    const GridLevel& coarse = grids_->hierarchy_->levels()[level + 1];
+    MultigridFields::Level &here = fields_->levels[level], &there = fields_->levels[level + 1];
+    const sweeps::TransferArrays t = transfer(level, here.residual, here.gathered, there.load);
+    over(grid.sheet_blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::gather(t, grid.sheet_blocks.data() + from, to - from);
+    });
+    over(coarse.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::contract(t, coarse.blocks.data() + from, grid.coarser_sheets.data() + from,
+                       to - from);
+    });
+    share_contact(grid, coarse, here.contact, there);
+  }
+
+  void take_back(std::size_t level) {
+    const GridLevel& grid = grids_->hierarchy_->levels()[level];
+    const GridLevel& coarse = grids_->hierarchy_->levels()[level + 1];
+    MultigridFields::Level &here = fields_->levels[level], &there = fields_->levels[level + 1];
+    const sweeps::TransferArrays t = transfer(level, here.solution, here.stretched, there.solution);
+    over(coarse.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::stretch(t, coarse.blocks.data() + from, grid.coarser_sheets.data() + from, to - from);
+    });
+    over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
+      sweeps::spread(t, grid.blocks.data() + from, grid.parents.data() + from, to - from);
+    });
+  }
+
+  const Multigrid* grids_;
+  std::array<Single, 3> normal_;
+  Team* team_;
+  MultigridFields* fields_;
+};
+
+void Multigrid::solve(const meshes::Vector3& normal, Team& team, MultigridFields& fields) const {
+  const std::array<Single, 3> along{Single(normal[0]), Single(normal[1]), Single(normal[2])};
+  Cycle(*this, along, team, fields).run(0);
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,18 @@
+#include "lattice/forces/cell_energy.h"
+
+#include "lattice/forces/cell_arrays.h"
+#include "lattice/kernels/cell_energy_kernel.h"
+#include "lattice/kernels/sum_in_portions.h"
+
+namespace fingertip::lattice {
+
+double fast_cell_energy(const CellLattice& cells, const VectorField& displacement, Team& team,
+                        int width) {
+  const kernel::CellEnergy energy = kernel::select_cell_energy(cells.material.kind, width);
+  const kernel::CellArrays arrays = cell_arrays(cells, displacement);
+  return sum_in_portions<64>(team, cells.blocks.size(), [&](std::size_t begin, std::size_t end) {
+    return energy(arrays, cells.blocks.data() + begin, end - begin);
+  });
+}
+
+}  // namespace fingertip::lattice

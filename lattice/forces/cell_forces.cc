@@ -1,0 +1,79 @@
+#include "lattice/forces/cell_forces.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "lattice/forces/cell_arrays.h"
+
+namespace fingertip::lattice {
+
+namespace {
+
+constexpr std::size_t cells_at_once = 16;  // blocks of eight cells; some microseconds of work
+
+bool has_rates(const CellMaterial& material) {
+  return material.kind != CellLawKind::cubic && material.retardation_time > 0.0;
+}
+
+void extend(kernel::CellBounds& all, const kernel::CellBounds& some) {
+  all.smallest_jacobian = std::min(all.smallest_jacobian, some.smallest_jacobian);
+  all.tangent = std::max(all.tangent, some.tangent);
+  all.viscosity = std::max(all.viscosity, some.viscosity);
+  all.fastest = std::max(all.fastest, some.fastest);
+  all.velocity_gradient = std::max(all.velocity_gradient, some.velocity_gradient);
+}
+
+CellExtremes extremes_of(const CellMaterial& m, const kernel::CellBounds& bounds) {
+  CellExtremes result;
+  if (m.kind == CellLawKind::cubic) return result;
+  result.smallest_jacobian = bounds.smallest_jacobian;
+  const double G = m.shear, lambda = m.lambda, tangent = bounds.tangent;
+  double stiffening = tangent;
+  if (m.kind == CellLawKind::network) {
+    stiffening =
+        std::max((G + tangent) / (lambda + 2.0 * G),
+                 (G + tangent + 2.0 * lambda * bounds.viscosity) / (3.0 * lambda + 2.0 * G));
+  }
+  result.stiffening = std::max(1.0, stiffening);
+  result.thickening = bounds.viscosity;
+  if (has_rates(m)) {
+    result.fastest = bounds.fastest / m.retardation_time;
+    result.velocity_gradient = bounds.velocity_gradient / m.retardation_time;
+  }
+  return result;
+}
+
+}  // namespace
+
+CellForces::CellForces(const CellLattice& cells, Team& team, int width)
+    : cells_(&cells),
+      team_(&team),
+      sweep_(kernel::select_cells(cells.material.kind, has_rates(cells.material), width)) {}
+
+CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
+                             VectorField& force) const {
+  kernel::CellArrays arrays = cell_arrays(*cells_, displacement);
+  for (std::size_t c = 0; c < 3; ++c) {
+    arrays.velocity[c] = velocity.component[c].data();
+    arrays.force[c] = force.component[c].data();
+  }
+  kernel::CellBounds all;
+  std::mutex guard;
+  for (const auto& planes : cells_->planes) {
+    // Shared out by blocks, not by planes, which hold more or fewer: so threads have as much to do,
+    // and the same thread has neighbouring planes of both halves, with most of their particles in
+    // its own cache.
+    team_->split(cells_->blocks.size(), cells_at_once, [&](std::size_t begin, std::size_t end) {
+      kernel::CellBounds some;
+      for (const CellLattice::Plane& plane : planes) {
+        if (plane.first < begin || plane.first >= end) continue;
+        sweep_(arrays, cells_->blocks.data(), plane.first, plane.last, some);
+      }
+      const std::lock_guard<std::mutex> lock(guard);
+      extend(all, some);
+    });
+  }
+  return extremes_of(cells_->material, all);
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,55 @@
+/// Forces of the cells on the particles.
+#pragma once
+
+#include "lattice/kernels/cell_kernel.h"
+#include "lattice/kernels/parallel.h"
+#include "lattice/model/cell_lattice.h"
+#include "lattice/model/state.h"
+
+namespace fingertip::lattice {
+
+/// How far the cells are from rest, over all of them; rest itself counts among them, and `cubic` is
+/// always at rest. With g >= the largest eigenvalue of F⁻¹F⁻ᵀ (Gershgorin):
+struct CellExtremes {
+  double smallest_jacobian = 1.0;  ///< J of the mean deformation
+  /// Largest factor by which the largest eigenvalue of a cell's d²W/dF² can exceed that at rest,
+  /// be it over all dF or over those of plane waves, a (x) n. `network`: with X = |G - lambda ln J|
+  /// the larger of (G + (X + lambda) g)/(lambda + 2G) (waves) and (G + (X + 3 lambda) g)/(3 lambda
+  /// + 2G); `volume`: J² g (1 + |J - 1|/J).
+  double stiffening = 1.0;
+  double thickening = 1.0;  ///< the same for the viscosity: `network` g, `volume` J² g
+  double fastest = 0.0;     ///< largest |dJ/dt|/J [1/s]; 0 where tau = 0
+  /// `network`: largest row sum of |dF/dt F⁻¹|, how fast a cell deforms or turns [1/s]; 0 where tau
+  /// = 0.
+  double velocity_gradient = 0.0;
+};
+
+/// Evaluates the cells of a lattice; allocates nothing in add(). Lattice and team must outlive it.
+class CellForces {
+ public:
+  /// `width`: doubles per register (2, 4, 8), 0 for the widest the processor has.
+  CellForces(const CellLattice& cells, Team& team, int width = 0);
+
+  /// force += the cells' forces [N]. `cubic`: at the displacement handed over (u, or u + tau v to
+  /// include damping; the velocity is not read). Others: at u, and with damping at v if tau > 0.
+  /// The result is the same bits for any number of threads and any register width.
+  /// Where a cell is turned inside out (J <= 0) forces are meaningless and smallest_jacobian says
+  /// so.
+  CellExtremes add(const VectorField& displacement, const VectorField& velocity,
+                   VectorField& force) const;
+
+ private:
+  const CellLattice* cells_;
+  Team* team_;
+  kernel::CellSweep sweep_;
+};
+
+/// Energy of all cells [J], scalar and plain; infinite where the law needs J > 0 and has not got
+/// it.
+double cell_energy(const CellLattice& cells, const VectorField& displacement);
+
+/// What CellForces::add does, one cell at a time in plain code, for people to read and for tests.
+void reference_cell_forces(const CellLattice& cells, const VectorField& displacement,
+                           const VectorField& velocity, VectorField& force);
+
+}  // namespace fingertip::lattice

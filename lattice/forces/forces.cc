@@ -1,0 +1,80 @@
+#include "lattice/forces/forces.h"
+
+#include <algorithm>
+
+namespace fingertip::lattice {
+
+namespace {
+
+constexpr std::size_t points_at_once = 16;  // blocks of eight points; about 20 microseconds of work
+
+}  // namespace
+
+InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
+    : model_(&model),
+      team_(&team),
+      cells_(model.cell_lattice, team, width),
+      rates_(model.kinematics == Kinematics::finite || !model.proportional_damping) {
+  if (model.has_springs()) {
+    const kernel::Variant variant{model.kinematics == Kinematics::finite, rates_};
+    springs_ = width == 0 ? kernel::select(variant) : kernel::select(variant, width);
+  }
+  for (std::size_t s = 0; s < directions; ++s) {
+    arrays_.weight[s] = model.weight[s].data();
+    arrays_.neighbour[s] = neighbour_offset(model.grid.size, int(s));
+  }
+  arrays_.spacing = model.spacing();
+  std::copy(model.stiffness.begin(), model.stiffness.end(), arrays_.stiffness);
+  std::copy(model.damping.begin(), model.damping.end(), arrays_.damping);
+  if (!rates_) damped_ = VectorField(model.points());
+}
+
+CellExtremes InternalForces::accumulate(const State& state, VectorField& force) {
+  const VectorField& displacement = rates_ ? state.displacement : damped(state);
+  if (springs_ != nullptr) {
+    gather_springs(displacement, state, force);
+  } else {
+    clear(force);
+  }
+  return cells_.add(displacement, state.velocity, force);
+}
+
+const VectorField& InternalForces::damped(const State& state) {
+  const double tau = model_->retardation_time;
+  const std::vector<std::uint32_t>& blocks = model_->blocks;
+  team_->split(blocks.size(), points_at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double* u = state.displacement.component[c].data();
+      const double* v = state.velocity.component[c].data();
+      double* w = damped_.component[c].data();
+      for (std::size_t b = begin; b < end; ++b) {
+        for (std::size_t i = blocks[b]; i < blocks[b] + lanes; ++i) w[i] = u[i] + tau * v[i];
+      }
+    }
+  });
+  return damped_;
+}
+
+void InternalForces::gather_springs(const VectorField& displacement, const State& state,
+                                    VectorField& force) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    arrays_.displacement[c] = displacement.component[c].data();
+    arrays_.velocity[c] = state.velocity.component[c].data();
+    arrays_.force[c] = force.component[c].data();
+  }
+  team_->split(model_->blocks.size(), points_at_once, [&](std::size_t begin, std::size_t end) {
+    springs_(arrays_, model_->blocks.data(), begin, end);
+  });
+}
+
+void InternalForces::clear(VectorField& force) {
+  const std::vector<std::uint32_t>& blocks = model_->blocks;
+  team_->split(blocks.size(), points_at_once, [&](std::size_t begin, std::size_t end) {
+    for (auto& component : force.component) {
+      for (std::size_t b = begin; b < end; ++b)
+        std::fill_n(component.data() + blocks[b], lanes, 0.0);
+    }
+  });
+}
+
+}  // namespace fingertip::lattice

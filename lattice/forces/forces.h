@@ -1,0 +1,38 @@
+/// Internal forces of the lattice: the paper's AccumulateForces, equation (1), and the cells.
+#pragma once
+
+#include "lattice/forces/cell_forces.h"
+#include "lattice/kernels/kernel.h"
+#include "lattice/kernels/parallel.h"
+#include "lattice/model/model.h"
+#include "lattice/model/state.h"
+
+namespace fingertip::lattice {
+
+/// Evaluates springs and cells with the vectorised kernels. Holds the scratch arrays, so that
+/// accumulate() allocates nothing. Model and team must outlive it.
+class InternalForces {
+ public:
+  /// `width`: doubles per register (2, 4, 8), 0 for the widest the processor has.
+  InternalForces(const LatticeModel& model, Team& team, int width = 0);
+
+  /// force = sum of spring and cell forces [N] at every particle for this state; at points that
+  /// are no particles the force is zero or left as it was. `force` has model.points() entries.
+  /// Returns how far the cells are from rest (rest itself for models without a cell law).
+  CellExtremes accumulate(const State& state, VectorField& force);
+
+ private:
+  const VectorField& damped(const State& state);
+  void gather_springs(const VectorField& displacement, const State& state, VectorField& force);
+  void clear(VectorField& force);
+
+  const LatticeModel* model_;
+  Team* team_;
+  kernel::GatherForces springs_ = nullptr;  ///< null without springs
+  CellForces cells_;
+  bool rates_ = true;  ///< else one pass at u + tau v serves stiffness and damping
+  kernel::Arrays arrays_{};
+  VectorField damped_;  ///< u + tau v
+};
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,50 @@
+/// Interface of the vectorised kernel of the cells: raw arrays only, so that the same source can be
+/// compiled for several instruction sets (no inline function of a library is shared with them).
+#pragma once
+
+#include <cstddef>
+
+#include "lattice/kernels/cell_material.h"
+#include "lattice/kernels/lanes.h"
+
+namespace fingertip::lattice::kernel {
+
+/// Borrowed arrays of a CellLattice and a state; sizes and units as in cell_lattice.h.
+struct CellArrays {
+  const double* displacement[3];
+  const double* velocity[3];  ///< read with rates only
+  double* force[3];           ///< added to, at the cells' corners [N]
+  const Lanes* cut;
+  std::ptrdiff_t row, plane;
+  double spacing;
+  CellMaterial material;
+};
+
+/// Extremes over cells that a sweep has seen; rest counts among them. The order of sweeps does not
+/// matter.
+struct CellBounds {
+  double smallest_jacobian = 1.0;
+  /// network: largest (|G - lambda ln J| + lambda) g [Pa], volume: J² g (1 + |J - 1|/|J|), with g
+  /// at least the largest eigenvalue of F⁻¹F⁻ᵀ (Gershgorin).
+  double tangent = 0.0;
+  double viscosity = 1.0;          ///< network: largest g, volume: J² g
+  double fastest = 0.0;            ///< largest tau |dJ/dt|/J
+  double velocity_gradient = 0.0;  ///< network: largest row sum of tau |dF/dt F⁻¹|
+};
+
+/// Adds the forces of blocks[begin, end), in their order, and extends `bounds`. Two calls at a
+/// time must not share a particle.
+using CellSweep = void (*)(const CellArrays& arrays, const CellBlock* blocks, std::size_t begin,
+                           std::size_t end, CellBounds& bounds);
+
+/// The kernel for a law and a number of doubles per register: 2 (every x86-64), 4 (AVX2), 8
+/// (AVX-512), or 0 for the widest the processor has; the caller makes sure that it has the others.
+/// `rates`: whether velocities enter; never for `cubic`.
+CellSweep select_cells(CellLawKind law, bool rates, int width);
+
+/// What the file compiled for one register width offers; called through select_cells.
+CellSweep cells_width2(CellLawKind law, bool rates);
+CellSweep cells_width4(CellLawKind law, bool rates);
+CellSweep cells_width8(CellLawKind law, bool rates);
+
+}  // namespace fingertip::lattice::kernel

@@ -1,0 +1,18 @@
+// The kernel of the cells for every x86-64: compiled with that instruction set's flags
+// (CMakeLists.txt).
+#include "lattice/kernels/cell_kernel_body.h"
+
+namespace fingertip::lattice::kernel {
+
+using Pack = std::experimental::native_simd<double>;
+static_assert(Pack::size() == 2, "wrong compiler flags");
+
+CellSweep cells_width2(CellLawKind law, bool rates) {
+  return CellBody<Pack>::select(law, rates);
+}
+
+CellEnergy cell_energy_width2(CellLawKind law) {
+  return CellBody<Pack>::select_energy(law);
+}
+
+}  // namespace fingertip::lattice::kernel

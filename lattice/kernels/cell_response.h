@@ -1,0 +1,207 @@
+/// From the deformation of a pack of cells to the forces conjugate to it, law by law; included by
+/// the kernel of the cells only. Formulas: README of this folder.
+#pragma once
+
+#include <cstddef>
+
+#include "lattice/kernels/cell_kernel.h"
+#include "lattice/kernels/pack_algebra.h"
+#include "lattice/kernels/stencil.h"
+
+namespace fingertip::lattice::kernel {
+
+/// Component by component, wherever components do not mix: few packs are alive at a time then.
+/// Every function is inlined by force: handing dozens of packs on would lead through memory.
+template <typename Pack>
+struct CellResponse : PackAlgebra<Pack> {
+  using Algebra = PackAlgebra<Pack>;
+  using Algebra::dot, Algebra::load, Algebra::scaled;
+  using Algebra::transposed_times;
+  using typename Algebra::Rows;
+  using typename Algebra::Vector;
+
+  static constexpr std::ptrdiff_t block = std::ptrdiff_t(lanes);
+
+  struct Modes {
+    Pack yz, zx, xy, xyz;
+
+    [[gnu::always_inline]] friend Modes operator+(const Modes& a, const Modes& b) {
+      return {a.yz + b.yz, a.zx + b.zx, a.xy + b.xy, a.xyz + b.xyz};
+    }
+  };
+  /// Of one component of a displacement or velocity the mean gradient over the rubber and the
+  /// bilinear modes; or what is conjugate to them.
+  struct Row {
+    Vector H;
+    Modes q;
+  };
+  struct Field {
+    Row x, y, z;
+  };
+  struct Extremes {
+    Pack jacobian, tangent, viscosity, rate, swiftness;
+  };
+
+  /// Values of a block's cut cells, from the pack's first lane on.
+  struct Cut {
+    const Lanes* values;
+    std::ptrdiff_t lane;
+
+    [[gnu::always_inline]] Pack operator[](int v) const { return load(values[v].at + lane); }
+    [[gnu::always_inline]] Pack fraction() const { return (*this)[0]; }
+    /// Means over the rubber.
+    [[gnu::always_inline]] Vector mean() const { return {(*this)[1], (*this)[2], (*this)[3]}; }
+    /// Means of yz, zx, xy.
+    [[gnu::always_inline]] Vector product() const { return {(*this)[4], (*this)[5], (*this)[6]}; }
+  };
+
+  /// From whole cells' gradient at the centre to the mean over the rubber.
+  [[gnu::always_inline]] static Vector mean(const Row& r, const Cut& cut) {
+    const Vector m = cut.mean(), p = cut.product();
+    return {r.H.x + m.z * r.q.zx + m.y * r.q.xy + p.x * r.q.xyz,
+            r.H.y + m.z * r.q.yz + m.x * r.q.xy + p.y * r.q.xyz,
+            r.H.z + m.y * r.q.yz + m.x * r.q.zx + p.z * r.q.xyz};
+  }
+  /// Its transpose: what means hand back to the modes.
+  [[gnu::always_inline]] static Modes fold(const Vector& P, const Cut& cut) {
+    const Vector m = cut.mean(), p = cut.product();
+    return {m.z * P.y + m.y * P.z, m.z * P.x + m.x * P.z, m.y * P.x + m.x * P.y,
+            p.x * P.x + p.y * P.y + p.z * P.z};
+  }
+  /// R q, and below Rᵀ g: cut cells know their modes by R q, whose stiffness is 1.
+  [[gnu::always_inline]] static Modes root(const Modes& q, const Cut& cut) {
+    return {cut[7] * q.yz + cut[8] * q.zx + cut[9] * q.xy + cut[10] * q.xyz,
+            cut[11] * q.zx + cut[12] * q.xy + cut[13] * q.xyz, cut[14] * q.xy + cut[15] * q.xyz,
+            cut[16] * q.xyz};
+  }
+  [[gnu::always_inline]] static Modes transposed_root(const Modes& g, const Cut& cut) {
+    return {cut[7] * g.yz, cut[8] * g.yz + cut[11] * g.zx,
+            cut[9] * g.yz + cut[12] * g.zx + cut[14] * g.xy,
+            cut[10] * g.yz + cut[13] * g.zx + cut[15] * g.xy + cut[16] * g.xyz};
+  }
+
+  /// Stiffness of the modes times q, in the units of `area`.
+  template <bool Whole>
+  [[gnu::always_inline]] static Modes bend(const CellMaterial& m, const Pack& area,
+                                           const Modes& q) {
+    if constexpr (Whole) {
+      const Pack one = area * Pack(m.bending), bilinear = Pack(2.0) * one,
+                 trilinear = Pack(3.0) * one;
+      return {bilinear * q.yz, bilinear * q.zx, bilinear * q.xy, trilinear * q.xyz};
+    } else {
+      return q;
+    }
+  }
+
+  [[gnu::always_inline]] static Rows gradient(const Field& u) { return {u.x.H, u.y.H, u.z.H}; }
+
+  /// `area`, here and below: a²/4 times the rubber's fraction, which makes stresses forces.
+  template <bool Whole, typename Take>
+  [[gnu::always_inline]] static void cubic(const CellMaterial& m, const Pack& area, const Field& u,
+                                           const Take& take) {
+    const Pack c12 = area * Pack(m.c12), c44 = area * Pack(m.c44);
+    const Pack trace = c12 * (u.x.H.x + u.y.H.y + u.z.H.z), excess = area * Pack(m.c11 - m.c12);
+    const Pack yz = c44 * (u.y.H.z + u.z.H.y), zx = c44 * (u.z.H.x + u.x.H.z),
+               xy = c44 * (u.x.H.y + u.y.H.x);
+    const Rows P{{excess * u.x.H.x + trace, xy, zx},
+                 {xy, excess * u.y.H.y + trace, yz},
+                 {zx, yz, excess * u.z.H.z + trace}};
+    for_components([&](auto c) __attribute__((always_inline)) {
+      take(c, Row{entry<c()>(P), bend<Whole>(m, area, entry<c()>(u).q)});
+    });
+  }
+
+  /// Keeps the compiler from reading what follows ahead of time, only to spill it: worth 5 % with
+  /// AVX-512, where reading is cheap; with half the registers it costs as much.
+  [[gnu::always_inline]] static void read_later() {
+    if constexpr (Pack::size() == lanes) asm volatile("" ::: "memory");
+  }
+
+  [[gnu::always_inline]] static void extend(Extremes& e, const Pack& jacobian, const Pack& tangent,
+                                            const Pack& viscosity) {
+    e.jacobian = min(e.jacobian, jacobian);
+    e.tangent = max(e.tangent, tangent);
+    e.viscosity = max(e.viscosity, viscosity);
+  }
+
+  /// `velocity(c)`: velocities times tau, as everywhere below.
+  template <bool Rates, typename Velocity, typename Take>
+  [[gnu::always_inline]] static void volume(const CellMaterial& m, const Pack& area, const Field& u,
+                                            const Velocity& velocity, Extremes& extremes,
+                                            const Take& take) {
+    const Rows F = Algebra::plus_one(gradient(u)), cofactor = Algebra::cofactor(F);
+    const Pack J = dot(F.x, cofactor.x), inverse = Pack(1.0) / abs(J);
+    const Pack square = Algebra::gershgorin(cofactor);  // J² g
+    Pack excess = J - Pack(1.0);
+    extend(extremes, J, square * (Pack(1.0) + abs(excess) * inverse), square);
+    if constexpr (Rates) {
+      Pack rate = 0.0;
+      for_components([&](auto c) __attribute__((always_inline)) {
+        rate += dot(entry<c()>(cofactor), velocity(c).H);
+      });
+      extremes.rate = max(extremes.rate, abs(rate) * inverse);
+      excess += rate;
+    }
+    const Pack pressure = area * Pack(m.kappa) * excess;
+    for_components([&](auto c) __attribute__((always_inline)) {
+      take(c, Row{scaled(pressure, entry<c()>(cofactor)), {}});
+    });
+  }
+
+  template <bool Rates, bool Whole, typename Velocity, typename Take>
+  [[gnu::always_inline]] static void network(const CellMaterial& m, const Pack& area,
+                                             const Field& u, const Velocity& velocity,
+                                             Extremes& extremes, const Take& take) {
+    const Rows F = Algebra::plus_one(gradient(u));
+    Rows T = Algebra::cofactor(F);
+    const Pack J = dot(F.x, T.x), lambda = m.lambda, G = area * Pack(m.shear);
+    T = Algebra::multiple(Pack(1.0) / J, T);  // F⁻ᵀ
+    const Pack pressure = lambda * Algebra::log(J) - Pack(m.shear), g = Algebra::gershgorin(T);
+    extend(extremes, J, (abs(pressure) + lambda) * g, g);
+    if constexpr (Rates) {
+      read_later();
+      Rows L, drag;
+      struct {
+        Modes x, y, z;
+      } h;
+      for_components([&](auto c) __attribute__((always_inline)) {
+        const Row w = velocity(c);
+        const Vector l = Algebra::times(T, w.H);
+        const Modes slip{w.q.yz - (l.x * u.x.q.yz + l.y * u.y.q.yz + l.z * u.z.q.yz),
+                         w.q.zx - (l.x * u.x.q.zx + l.y * u.y.q.zx + l.z * u.z.q.zx),
+                         w.q.xy - (l.x * u.x.q.xy + l.y * u.y.q.xy + l.z * u.z.q.xy),
+                         w.q.xyz - (l.x * u.x.q.xyz + l.y * u.y.q.xyz + l.z * u.z.q.xyz)};
+        const Modes d = bend<Whole>(m, area, slip);
+        entry<c()>(L) = l;
+        entry<c()>(drag) = {contract(d, u.x.q), contract(d, u.y.q), contract(d, u.z.q)};
+        entry<c()>(h) = bend<Whole>(m, area, entry<c()>(u).q) + d;
+      });
+      const Pack trace = L.x.x + L.y.y + L.z.z, diagonal = area * (pressure + lambda * trace);
+      extremes.rate = max(extremes.rate, abs(trace));
+      for_components([&](auto c) __attribute__((always_inline)) {
+        const Vector& l = entry<c()>(L);
+        extremes.swiftness = max(extremes.swiftness, abs(l.x) + abs(l.y) + abs(l.z));
+      });
+      // Kirchhoff stress but for the part G F Fᵀ.
+      const Pack yz = G * (L.y.z + L.z.y), zx = G * (L.z.x + L.x.z), xy = G * (L.x.y + L.y.x);
+      const Rows A{{G * (L.x.x + L.x.x) - drag.x.x + diagonal, xy - drag.x.y, zx - drag.x.z},
+                   {xy - drag.y.x, G * (L.y.y + L.y.y) - drag.y.y + diagonal, yz - drag.y.z},
+                   {zx - drag.z.x, yz - drag.z.y, G * (L.z.z + L.z.z) - drag.z.z + diagonal}};
+      for_components([&](auto c) __attribute__((always_inline)) {
+        take(c, Row{scaled(G, entry<c()>(F)) + transposed_times(T, entry<c()>(A)), entry<c()>(h)});
+      });
+    } else {
+      const Pack p = area * pressure;
+      for_components([&](auto c) __attribute__((always_inline)) {
+        take(c, Row{scaled(G, entry<c()>(F)) + scaled(p, entry<c()>(T)),
+                    bend<Whole>(m, area, entry<c()>(u).q)});
+      });
+    }
+  }
+
+  [[gnu::always_inline]] static Pack contract(const Modes& a, const Modes& b) {
+    return a.yz * b.yz + a.zx * b.zx + (a.xy * b.xy + a.xyz * b.xyz);
+  }
+};
+
+}  // namespace fingertip::lattice::kernel

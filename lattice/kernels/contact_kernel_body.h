@@ -1,0 +1,283 @@
+/// The kernels of the contact, compiled once per instruction set (contact_kernel_width2/4/8.cc).
+/// Included by those files only.
+#pragma once
+
+#include <array>
+
+#include "lattice/kernels/contact_kernel.h"
+#include "lattice/kernels/packs.h"
+
+namespace fingertip::lattice::kernel {
+
+template <typename Pack>
+struct ContactBody : Packs<Pack> {
+  using Base = Packs<Pack>;
+  using Vector = typename Base::Vector;
+  using Mask = typename Pack::mask_type;
+  using Base::gather, Base::load, Base::parts, Base::store, Base::width;
+
+  /// Of the eight corners of a group [m].
+  struct Corners {
+    double at[3][lanes];
+  };
+  /// What eight ties do: their pull along the grid's axes [N], and how much of the stiffness acts
+  /// along the normal and in the plane [N/m].
+  struct Pulls {
+    double force[3][lanes];
+    double stiffness[lanes], aside[lanes];
+  };
+
+  static Vector load(const Lanes* field, std::size_t lane) {
+    return {Base::load(field[0].at + lane), Base::load(field[1].at + lane),
+            Base::load(field[2].at + lane)};
+  }
+  static void store(Lanes* field, std::size_t lane, const Vector& value) {
+    Base::store(field[0].at + lane, value.x);
+    Base::store(field[1].at + lane, value.y);
+    Base::store(field[2].at + lane, value.z);
+  }
+  static Pack load(const Lanes& field, std::size_t lane) { return Base::load(field.at + lane); }
+  static void store(Lanes& field, std::size_t lane, const Pack& value) {
+    Base::store(field.at + lane, value);
+  }
+  static Vector broadcast(const double* v) { return {v[0], v[1], v[2]}; }
+  static Pack choose(const Mask& mask, const Pack& yes, const Pack& no) {
+    Pack result = no;
+    where(mask, result) = yes;
+    return result;
+  }
+  static Vector choose(const Mask& mask, const Vector& yes, const Vector& no) {
+    return {choose(mask, yes.x, no.x), choose(mask, yes.y, no.y), choose(mask, yes.z, no.z)};
+  }
+
+  static double closing(const double* const* velocity, const double* normal,
+                        const std::uint32_t* particles, std::size_t count) {
+    Pack fastest = 0.0;
+    std::size_t i = 0;
+    for (; i + width <= count; i += width) {
+      const Vector v = gather(velocity, particles + i);
+      fastest = std::experimental::max(fastest, -dot(broadcast(normal), v));
+    }
+    double result = std::experimental::hmax(fastest);
+    for (; i < count; ++i) {
+      const std::uint32_t p = particles[i];
+      const double speed =
+          -(normal[0] * velocity[0][p] + normal[1] * velocity[1][p] + normal[2] * velocity[2][p]);
+      result = speed > result ? speed : result;
+    }
+    return result;
+  }
+
+  static Corners corners(const ContactArrays& a, const ContactGroup& group, double ahead) {
+    Corners result;
+    for (std::size_t lane = 0; lane < lanes; lane += width) {
+      const Vector u = gather(a.displacement, group.corner + lane);
+      const Vector v = gather(a.velocity, group.corner + lane);
+      const Vector moved = u + Pack(ahead) * v;
+      Base::store(result.at[0] + lane, moved.x);
+      Base::store(result.at[1] + lane, moved.y);
+      Base::store(result.at[2] + lane, moved.z);
+    }
+    return result;
+  }
+
+  /// Relative to the plane, of points from `lane` on.
+  static Vector places(const ContactGroup& group, const Corners& corners, const PlaneFrame& frame,
+                       std::size_t lane) {
+    Vector x = load(group.rest, lane);
+    for (std::size_t c = 0; c < lanes; ++c) {
+      const Pack weight = load(group.weight[c], lane);
+      x += weight * Vector{corners.at[0][c], corners.at[1][c], corners.at[2][c]};
+    }
+    const double* t = frame.turn;
+    return broadcast(frame.shift) + Vector{t[0] * x.x + t[1] * x.y + t[2] * x.z,
+                                           t[3] * x.x + t[4] * x.y + t[5] * x.z,
+                                           t[6] * x.x + t[7] * x.y + t[8] * x.z};
+  }
+
+  static double look(const ContactArrays& a, double margin, std::size_t number) {
+    const ContactGroup& group = a.groups[number];
+    const Corners then = corners(a, group, a.ahead);
+    std::array<Vector, parts> place;
+    std::array<Pack, parts> gap;
+    double least = 1e300;
+    for (std::size_t part = 0; part < parts; ++part) {
+      place[part] = places(group, then, a.then, part * width);
+      gap[part] = dot(broadcast(a.normal), place[part]);
+      const double smallest = std::experimental::hmin(gap[part]);
+      least = smallest < least ? smallest : least;
+    }
+    if (least < margin) return least;
+    for (std::size_t part = 0; part < parts; ++part) {
+      store(a.memory[number].place, part * width, place[part]);
+      store(a.memory[number].gap, part * width, gap[part]);
+    }
+    return least;
+  }
+
+  static void add_up(const ContactGroup& group, const ContactMemory& memory, const PatchView& view,
+                     PatchSums& sums) {
+    std::array<std::array<Vector, parts>, 5> powers;
+    std::array<Pack, parts> area;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t lane = part * width;
+      const Vector at = load(view.at_rest ? group.rest : memory.place, lane);
+      const Pack x = dot(broadcast(view.tangent[0]), at), y = dot(broadcast(view.tangent[1]), at),
+                 push = load(memory.push, lane);
+      const Pack xx = push * x * x, xy = push * x * y, yy = push * y * y;
+      powers[0][part] = {push, push * x, push * y};
+      powers[1][part] = {xx, xy, yy};
+      powers[2][part] = {xx * x, xx * y, xy * y};
+      powers[3][part] = {yy * y, xx * x * x, xx * x * y};
+      powers[4][part] = {xx * y * y, xy * y * y, yy * y * y};
+      area[part] =
+          push * std::experimental::abs(dot(broadcast(view.normal), load(group.facing, lane)));
+    }
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+      double three[3];
+      Base::total(powers[k], three);
+      for (std::size_t i = 0; i < 3; ++i) sums.power[3 * k + i] += three[i];
+    }
+    sums.area += Base::total(area);
+  }
+
+  /// The part of a tie in the plane, not longer than `longest`; its share of what it was.
+  struct Clipped {
+    Vector aside;
+    Pack share;
+  };
+  static Clipped clip(const Vector& stretch, const Vector& normal, const Pack& longest) {
+    const Vector aside = stretch - dot(stretch, normal) * normal;
+    const Pack length = std::experimental::sqrt(dot(aside, aside));
+    const Pack share = choose(length > longest, longest / length, Pack(1.0));
+    return {share * aside, share};
+  }
+
+  /// Brings anchors to where slip has left them by the start of the step.
+  static void drag(const ContactArrays& a, const Vector& place, std::size_t lane,
+                   ContactMemory& memory) {
+    const Vector normal = broadcast(a.normal), anchor = load(memory.anchor, lane);
+    const Pack depth = -dot(normal, place);
+    const Vector stretch = anchor - place;
+    const Clipped kept = clip(stretch, normal, a.friction * depth);
+    // Points not yet there are anchored where they will be.
+    const Mask anchored = load(memory.anchored, lane) != 0.0;
+    const Mask slips = anchored && depth > 0.0 && kept.share < 1.0;
+    const Vector dragged = place + dot(stretch, normal) * normal + kept.aside;
+    store(memory.anchor, lane, choose(slips, dragged, anchor));
+    store(memory.sliding, lane, choose(slips, Pack(1.0), Pack(0.0)));
+  }
+
+  /// Anchors what crossed the plane in this step, linearly interpolated, and lets go what left it.
+  static void look_at(const Vector& place, const Pack& gap, std::size_t lane,
+                      ContactMemory& memory) {
+    const Pack before = std::experimental::max(load(memory.gap, lane), Pack(0.0));
+    const Mask was = load(memory.anchored, lane) != 0.0;
+    const Mask crosses = !was && gap < 0.0, leaves = was && gap > 0.0;
+    const Pack fraction = choose(crosses, before / (before - gap), Pack(0.0));
+    const Vector crossing = (1.0 - fraction) * load(memory.place, lane) + fraction * place;
+    store(memory.anchor, lane, choose(crosses, crossing, load(memory.anchor, lane)));
+    Pack anchored = load(memory.anchored, lane), sliding = load(memory.sliding, lane);
+    where(crosses, anchored) = 1.0;
+    where(leaves, anchored) = 0.0;
+    where(leaves, sliding) = 0.0;
+    store(memory.anchored, lane, anchored);
+    store(memory.sliding, lane, sliding);
+  }
+
+  /// How far the ties pull, and what share of the stiffness acts in the plane.
+  template <Grip grip>
+  static Clipped stretches(const ContactArrays& a, const Vector& place, const Pack& gap,
+                           const ContactMemory& memory, std::size_t lane) {
+    const Vector normal = broadcast(a.normal);
+    const Pack depth = std::experimental::max(-gap, Pack(0.0));
+    if constexpr (grip == Grip::frictionless) return {depth * normal, 0.0};
+    const Mask anchored = load(memory.anchored, lane) != 0.0;
+    const Vector nothing{0.0, 0.0, 0.0};
+    Clipped result{load(memory.anchor, lane) - place, 1.0};
+    if constexpr (grip == Grip::coulomb) {
+      const Clipped kept = clip(result.aside, normal, a.friction * depth);
+      result.share = kept.share;
+      result.aside = choose(kept.share < 1.0, depth * normal + kept.aside, result.aside);
+    }
+    result.aside = choose(anchored, result.aside, nothing);
+    return result;
+  }
+
+  static void note(const ContactArrays& a, const ContactGroup& group, const Clipped& tie,
+                   std::size_t lane, ContactMemory& memory, Pulls& pulls, GroupFindings& found) {
+    const Pack stiffness = load(group.stiffness, lane);
+    const Vector& s = tie.aside;
+    const Vector force = stiffness * s;
+    const double* t = a.then.turn;
+    Base::store(pulls.force[0] + lane, t[0] * force.x + t[3] * force.y + t[6] * force.z);
+    Base::store(pulls.force[1] + lane, t[1] * force.x + t[4] * force.y + t[7] * force.z);
+    Base::store(pulls.force[2] + lane, t[2] * force.x + t[5] * force.y + t[8] * force.z);
+    const Mask acts = force.x != 0.0 || force.y != 0.0 || force.z != 0.0;
+    const Pack inertia = choose(acts, load(group.inertia, lane), Pack(0.0));
+    Base::store(pulls.stiffness + lane, inertia);
+    Base::store(pulls.aside + lane, tie.share * inertia);
+    store(memory.push, lane, dot(force, broadcast(a.normal)));
+    store(memory.force, lane, force);
+    found.touching += popcount(acts);
+    found.sliding += popcount(acts && load(memory.sliding, lane) != 0.0);
+    double energy[width];
+    Base::store(energy, 0.5 * dot(force, s));
+    for (const double e : energy) found.energy += e;
+  }
+
+  template <Grip grip>
+  static GroupFindings apply_law(const ContactArrays& a, std::size_t number) {
+    const ContactGroup& group = a.groups[number];
+    ContactMemory& memory = a.memory[number];
+    const Corners then = corners(a, group, a.ahead);
+    Corners now{};
+    if constexpr (grip == Grip::coulomb) now = corners(a, group, 0.0);
+    Pulls pulls;
+    GroupFindings found{.smallest_gap = 1e300};
+    for (std::size_t lane = 0; lane < lanes; lane += width) {
+      if constexpr (grip == Grip::coulomb) drag(a, places(group, now, a.now, lane), lane, memory);
+      const Vector place = places(group, then, a.then, lane);
+      const Pack gap = dot(broadcast(a.normal), place);
+      if constexpr (grip != Grip::frictionless) look_at(place, gap, lane, memory);
+      store(memory.place, lane, place);
+      store(memory.gap, lane, gap);
+      note(a, group, stretches<grip>(a, place, gap, memory, lane), lane, memory, pulls, found);
+      const double least = std::experimental::hmin(gap);
+      found.smallest_gap = least < found.smallest_gap ? least : found.smallest_gap;
+      found.anchored = found.anchored || any_of(load(memory.anchored, lane) != 0.0);
+    }
+    if (found.touching > 0) load_corners(group, pulls, a.loads[number]);
+    return found;
+  }
+
+  static void load_corners(const ContactGroup& group, const Pulls& pulls, GroupLoads& loads) {
+    for (std::size_t corner = 0; corner < lanes; corner += width) {
+      Vector force{0.0, 0.0, 0.0};
+      Pack stiffness = 0.0, aside = 0.0;
+      for (std::size_t p = 0; p < lanes; ++p) {
+        const Pack share = load(group.share[p], corner);
+        const Pack size = std::experimental::abs(share);
+        force += share * Vector{pulls.force[0][p], pulls.force[1][p], pulls.force[2][p]};
+        stiffness += pulls.stiffness[p] * size;
+        aside += pulls.aside[p] * size;
+      }
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        loads.corner[corner + lane] = {
+            {force.x[lane], force.y[lane], force.z[lane]}, stiffness[lane], aside[lane]};
+      }
+    }
+  }
+
+  static GroupFindings apply(const ContactArrays& a, Grip grip, std::size_t group) {
+    switch (grip) {
+      case Grip::frictionless: return apply_law<Grip::frictionless>(a, group);
+      case Grip::stick: return apply_law<Grip::stick>(a, group);
+      default: return apply_law<Grip::coulomb>(a, group);
+    }
+  }
+
+  static constexpr ContactKernels kernels{closing, look, apply, add_up};
+};
+
+}  // namespace fingertip::lattice::kernel

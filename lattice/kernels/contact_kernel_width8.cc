@@ -1,0 +1,14 @@
+// The kernels of the contact for AVX-512: compiled with that instruction set's flags
+// (CMakeLists.txt).
+#include "lattice/kernels/contact_kernel_body.h"
+
+namespace fingertip::lattice::kernel {
+
+using Pack = std::experimental::native_simd<double>;
+static_assert(Pack::size() == 8, "wrong compiler flags");
+
+const ContactKernels& contact_width8() {
+  return ContactBody<Pack>::kernels;
+}
+
+}  // namespace fingertip::lattice::kernel

@@ -1,0 +1,13 @@
+// The force kernel for every x86-64: compiled with that instruction set's flags (CMakeLists.txt).
+#include "lattice/kernels/kernel_body.h"
+
+namespace fingertip::lattice::kernel {
+
+using Pack = std::experimental::native_simd<double>;
+static_assert(Pack::size() == 2, "wrong compiler flags");
+
+Offer offer_width2() {
+  return {Body<Pack>::select, Body<Pack>::move};
+}
+
+}  // namespace fingertip::lattice::kernel

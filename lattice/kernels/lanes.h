@@ -1,0 +1,13 @@
+/// Eight values side by side, as the kernels of the surfaces read them.
+#pragma once
+
+#include "lattice/kernels/stencil.h"
+
+namespace fingertip::lattice::kernel {
+
+/// In one line of the cache: loads that straddle two cost twice.
+struct alignas(64) Lanes {
+  double at[lanes];
+};
+
+}  // namespace fingertip::lattice::kernel

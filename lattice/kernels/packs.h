@@ -1,0 +1,95 @@
+/// Vectors of packed doubles for the kernels of the surfaces. Included only by files that are
+/// compiled once per instruction set: `Pack` differs between them, which keeps their instantiations
+/// apart.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <experimental/simd>
+
+#include "lattice/kernels/stencil.h"
+
+namespace fingertip::lattice::kernel {
+
+template <typename Pack>
+struct PackVector {
+  Pack x, y, z;
+
+  PackVector& operator+=(const PackVector& other) {
+    x += other.x;
+    y += other.y;
+    z += other.z;
+    return *this;
+  }
+  friend PackVector operator+(const PackVector& a, const PackVector& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend PackVector operator-(const PackVector& a, const PackVector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend PackVector operator*(const Pack& factor, const PackVector& a) {
+    return {factor * a.x, factor * a.y, factor * a.z};
+  }
+  friend Pack dot(const PackVector& a, const PackVector& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+  friend PackVector cross(const PackVector& a, const PackVector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+};
+
+/// Loads and stores of packs; `lanes` doubles are `parts` packs of `width`.
+template <typename Pack>
+struct Packs {
+  using Vector = PackVector<Pack>;
+  static constexpr std::size_t width = Pack::size();
+  static constexpr std::size_t parts = lanes / width;
+
+  static Pack load(const double* from) { return Pack(from, std::experimental::element_aligned); }
+  static void store(double* to, const Pack& value) {
+    value.copy_to(to, std::experimental::element_aligned);
+  }
+  static Vector load(const double* const* field, std::size_t i) {
+    return {load(field[0] + i), load(field[1] + i), load(field[2] + i)};
+  }
+  static void store(double* const* field, std::size_t i, const Vector& value) {
+    store(field[0] + i, value.x);
+    store(field[1] + i, value.y);
+    store(field[2] + i, value.z);
+  }
+  static Pack gather(const double* from, const std::uint32_t* index) {
+    return Pack([&](auto lane) { return from[index[lane]]; });
+  }
+  static Vector gather(const double* const* field, const std::uint32_t* index) {
+    return {gather(field[0], index), gather(field[1], index), gather(field[2], index)};
+  }
+  static void scatter(double* const* field, const std::uint32_t* index, const Vector& value) {
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      field[0][index[lane]] = value.x[lane];
+      field[1][index[lane]] = value.y[lane];
+      field[2][index[lane]] = value.z[lane];
+    }
+  }
+  /// Sum over all lanes in their order.
+  static double total(const std::array<Pack, parts>& sum) {
+    double result = 0.0;
+    for (const Pack& part : sum) {
+      for (std::size_t lane = 0; lane < width; ++lane) result += part[lane];
+    }
+    return result;
+  }
+  static void total(const std::array<Vector, parts>& sum, double* result) {
+    std::array<Pack, parts> x, y, z;
+    for (std::size_t part = 0; part < parts; ++part) {
+      x[part] = sum[part].x;
+      y[part] = sum[part].y;
+      z[part] = sum[part].z;
+    }
+    result[0] = total(x);
+    result[1] = total(y);
+    result[2] = total(z);
+  }
+};
+
+}  // namespace fingertip::lattice::kernel

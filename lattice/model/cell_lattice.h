@@ -1,0 +1,48 @@
+/// Cells that store energy in their deformation, laid out for the vectorised kernel.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lattice/kernels/cell_material.h"
+#include "lattice/kernels/lanes.h"
+#include "meshes/cubic_grid.h"
+#include "meshes/cut_cells.h"
+
+namespace fingertip::lattice {
+
+/// Immutable. Blocks do not overlap and begin a multiple of `lanes` apart along x: those of a plane
+/// are sorted along x, and where they begin at the same x, along y, so that a block mostly follows
+/// its neighbour along y and shares a side with it.
+struct CellLattice {
+  /// Per lane of a cut block, value by value (value v of lane l at cut[block.cut + v].at[l]): the
+  /// volume fraction (0: absent), the means over the rubber of x, y, z, yz, zx, xy, the cell being
+  /// [-1, 1]³, and the upper triangle, row by row, of the matrix R with RᵀR = a²/4 fraction bending
+  /// Omega [√N].
+  static constexpr std::size_t cut_values = 17;
+
+  CellMaterial material;
+  double spacing = 0.0;               ///< a [m]
+  std::ptrdiff_t row = 0, plane = 0;  ///< from a grid point to the next along y and z
+  std::vector<CellBlock> blocks;
+  /// Blocks with even and with odd k of their cells' index are separated, for cells of one plane
+  /// share no particle with those of the second next: planes[p] holds the range
+  /// [first, last) of the blocks of one plane of cells.
+  struct Plane {
+    std::uint32_t first = 0, last = 0;
+  };
+  std::array<std::vector<Plane>, 2> planes;  ///< [0]: even k, [1]: odd k
+  std::vector<kernel::Lanes> cut;
+
+  bool empty() const { return blocks.empty(); }
+};
+
+/// Lays the cells out; they must be sorted by grid index. The grid must have at least `lanes` - 1
+/// points without particles at the end of every row and one layer of them on every other side, so
+/// that the kernel may read and write whole blocks; throws std::invalid_argument otherwise.
+CellLattice lay_out(const meshes::CubicGrid& grid, const std::vector<meshes::CutCell>& cells,
+                    const CellMaterial& material);
+
+}  // namespace fingertip::lattice

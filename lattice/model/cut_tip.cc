@@ -1,0 +1,130 @@
+#include "lattice/model/cut_tip.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "meshes/errors.h"
+#include "meshes/files.h"
+
+namespace fingertip::lattice {
+
+using meshes::CubicGrid;
+using meshes::CutCell;
+using meshes::Geometry;
+using meshes::Rubber;
+using meshes::Surface;
+using meshes::SurfacePoint;
+using meshes::Vector3;
+using meshes::Violation;
+
+namespace {
+
+/// Surface points lie a third of a spacing apart.
+constexpr double points_per_spacing = 3.0;
+/// The finest lattice: beyond, surface_points has none that near, and the grid would not fit.
+constexpr double smallest_spacing = 3.1e-3;  // of R
+
+void append(std::vector<Violation>& found, const std::vector<Violation>& more) {
+  found.insert(found.end(), more.begin(), more.end());
+}
+
+void check_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSettings& settings,
+               int sectors) {
+  std::vector<Violation> found = geometry.violations();
+  append(found, material_violations(rubber, settings));
+  append(found, rotation_violations(settings.axes));
+  if (settings.spacing < smallest_spacing * geometry.tip_radius) {
+    found.push_back({"lattice.spacing", meshes::to_text(settings.spacing) + " m",
+                     "the spacing of cells cut by true surfaces must be at least R/320",
+                     "choose a coarser lattice"});
+  }
+  const auto check_factor = [&found](const char* key, double factor) {
+    if (std::isfinite(factor) && factor > 0.0) return;
+    found.push_back({key, meshes::to_text(factor), "the factor on ties must be finite and positive",
+                     "1 is the standard tie"});
+  };
+  check_factor("lattice.ligament_stiffness", settings.ligament_stiffness);
+  check_factor("lattice.contact_stiffness", settings.contact_stiffness);
+  if ((sectors != 1 && sectors != 2 && sectors != 4) || sectors > grid_symmetry(settings)) {
+    found.push_back({"sectors", std::to_string(sectors),
+                     "the tip divides into 1, 2 or 4 parts, and into several only along planes "
+                     "of grid points",
+                     "compute the whole tip, or remove offset and rotation"});
+  }
+  if (!found.empty()) throw meshes::InvalidInput(found);
+}
+
+/// The grid, its directions renamed in turn so that x is the one nearest the finger's axis: rows of
+/// whole cells are longest there, and forces are computed row by row (cell_lattice.h).
+CubicGrid grid_of(const Geometry& geometry, const LatticeSettings& settings) {
+  Eigen::Index nearest = 0;
+  settings.axes.row(2).cwiseAbs().maxCoeff(&nearest);
+  Eigen::Matrix3d order = Eigen::Matrix3d::Zero();
+  for (Eigen::Index d = 0; d < 3; ++d) order((nearest + d) % 3, d) = 1.0;
+  return meshes::covering_grid(geometry, settings.spacing, order.transpose() * settings.offset, 1,
+                               settings.axes * order);
+}
+
+/// Leaves the cells of the sector alone.
+void keep_sector(const CubicGrid& grid, int sectors, std::vector<CutCell>& cells) {
+  if (sectors == 1) return;
+  std::erase_if(cells, [&](const CutCell& cell) {
+    // Cells lie on one side of the mirror planes, so any point within tells.
+    const Vector3 at = grid.position(cell.index[0], cell.index[1], cell.index[2]) +
+                       Vector3::Constant(0.5 * grid.spacing);
+    return at.y() < 0.0 || (sectors == 4 && at.x() < 0.0);
+  });
+}
+
+/// Points of a surface above `lowest` [m], in the sector, tied with `stiffness` [Pa/m].
+std::vector<EmbeddedPoint> tied_surface(const GridCells& cells, const Geometry& geometry,
+                                        Surface surface, double lowest, int sectors,
+                                        double stiffness) {
+  std::vector<EmbeddedPoint> tied;
+  const double apart = cells.grid().spacing / points_per_spacing;
+  for (const SurfacePoint& point : meshes::surface_points(geometry, surface, apart)) {
+    const Vector3& at = point.position;
+    if (at.z() < lowest || (sectors > 1 && at.y() < 0.0) || (sectors == 4 && at.x() < 0.0)) {
+      continue;
+    }
+    tied.push_back(tie(cells, point, stiffness));
+  }
+  return tied;
+}
+
+}  // namespace
+
+CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSettings& settings,
+               int sectors, int spare_rows) {
+  check_tip(geometry, rubber, settings, sectors);
+  CubicGrid grid = grid_of(geometry, settings);
+  grid.size[0] += spare_rows;
+  std::vector<CutCell> cut = meshes::cut_cells(geometry, grid, smallest_fraction);
+  keep_sector(grid, sectors, cut);
+  CutTip tip{GridCells(grid, largest_piece(grid, cut)), formulation_for(rubber, settings), {}, {}};
+  const double stiffness = tie_stiffness * tip.formulation.shear / grid.spacing;
+  tip.bond = tied_surface(tip.cells, geometry, Surface::bond, -geometry.sleeve_length, sectors,
+                          stiffness * settings.ligament_stiffness);
+  tip.outer = tied_surface(tip.cells, geometry, Surface::outer, lowest_contact(geometry), sectors,
+                           stiffness * settings.contact_stiffness);
+  return tip;
+}
+
+std::vector<Violation> rotation_violations(const Eigen::Matrix3d& axes) {
+  const Eigen::Matrix3d defect = axes.transpose() * axes - Eigen::Matrix3d::Identity();
+  if (axes.allFinite() && defect.cwiseAbs().maxCoeff() < 1e-9 && axes.determinant() > 0.0)
+    return {};
+  return {{"lattice.rotation", "", "the grid's directions must be orthonormal and right-handed",
+           "give three angles, or a rotation matrix"}};
+}
+
+int grid_symmetry(const LatticeSettings& settings) {
+  if (!settings.axes.isIdentity(0.0) || settings.offset.y() != 0.0) return 1;
+  return settings.offset.x() == 0.0 ? 4 : 2;
+}
+
+double lowest_contact(const Geometry& geometry) {
+  return -geometry.thickness();
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,51 @@
+/// The tip cut out of a cubic grid along its true surfaces: cells, and points of the surfaces tied
+/// to them. What statics and the moving lattice have in common.
+#pragma once
+
+#include <vector>
+
+#include "lattice/model/embedded_points.h"
+#include "lattice/model/formulation.h"
+#include "lattice/model/grid_cells.h"
+#include "lattice/model/lattice_settings.h"
+#include "meshes/geometry.h"
+#include "meshes/rubber.h"
+
+namespace fingertip::lattice {
+
+/// Stiffness of the ties to rod and plane per area over C44/a. Softer ties are felt, stiffer ones
+/// lock the lattice (lattice/MEASUREMENTS.md).
+inline constexpr double tie_stiffness = 160.0;
+/// Cells with less rubber than this are left out.
+inline constexpr double smallest_fraction = 1e-6;
+
+/// Immutable. Corners of tied points are particle numbers of `cells`. Bond and outer points lie at
+/// most a/3 apart; the outer ones cover the hemisphere and R - r of the sleeve. Ties: tie_stiffness
+/// C44/a per area, the bond's times ligament_stiffness, the outer ones times contact_stiffness.
+struct CutTip {
+  GridCells cells;
+  Formulation formulation;
+  std::vector<EmbeddedPoint> bond, outer;
+};
+
+/// `sectors` = 4, 2 or 1 asks for the quarter (x, y >= 0), half (y >= 0) or whole tip; mirror
+/// planes must go through grid points. The directions of `cells.grid()` are those
+/// of the settings, renamed in turn so that x is nearest the finger's axis. `spare_rows` adds that
+/// many empty points at the end of every row of the grid. Throws InvalidInput for a specimen that
+/// breaks a rule, the published model, a spacing above (R - r)/2 or below R/320, a rotation or
+/// offset out of range, constants that are negative or without a diagonal, nu < 0 in the network at
+/// finite strain, sectors the grid's symmetry does not have, and a lattice in several pieces.
+CutTip cut_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
+               const LatticeSettings& settings, int sectors, int spare_rows = 0);
+
+/// Empty if `axes` is a rotation.
+std::vector<meshes::Violation> rotation_violations(const Eigen::Matrix3d& axes);
+
+/// 4, 2 or 1: into how many mirror images the grid's planes through x = 0 and y = 0 divide the tip.
+int grid_symmetry(const LatticeSettings& settings);
+
+/// Deepest height at which the outer surface can meet the plane [m]: a sleeve as long as the rubber
+/// is thick, since no press goes deeper than that.
+double lowest_contact(const meshes::Geometry& geometry);
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,82 @@
+#include "lattice/model/embedded_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshes/errors.h"
+#include "meshes/files.h"
+
+namespace fingertip::lattice {
+
+using meshes::Vector3;
+
+namespace {
+
+/// Distance of a point from a cell, both in grid coordinates; 0 inside.
+double distance(const Vector3& at, const Vector3& lowest) {
+  const Vector3 local = at - lowest;
+  return (local - local.cwiseMax(0.0).cwiseMin(1.0)).norm();
+}
+
+/// The cell that holds the point at grid coordinates `at`, or the nearest of those around it.
+std::uint32_t nearest_cell(const GridCells& cells, const Vector3& at) {
+  const int i = int(std::floor(at.x())), j = int(std::floor(at.y())), k = int(std::floor(at.z()));
+  std::uint32_t nearest = cells.cell_at(i, j, k);
+  if (nearest != GridCells::none) return nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (int dk = -1; dk <= 1; ++dk) {
+    for (int dj = -1; dj <= 1; ++dj) {
+      for (int di = -1; di <= 1; ++di) {
+        const std::uint32_t cell = cells.cell_at(i + di, j + dj, k + dk);
+        if (cell == GridCells::none) continue;
+        const double away = distance(at, Vector3(i + di, j + dj, k + dk));
+        if (away >= least) continue;
+        least = away;
+        nearest = cell;
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+Vector3 outer_normal(const Vector3& rest) {
+  return Vector3(rest.x(), rest.y(), std::max(rest.z(), 0.0)).normalized();
+}
+
+EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, double stiffness) {
+  const Vector3 at = cells.grid().coordinates(point.position);
+  const std::uint32_t nearest = nearest_cell(cells, at);
+  if (nearest == GridCells::none) {
+    throw meshes::InvalidInput({"lattice.spacing", meshes::to_text(cells.grid().spacing) + " m",
+                                "every point of the tip's surface needs a cell near it",
+                                "choose a finer lattice"});
+  }
+  const meshes::CutCell& cell = cells.cells()[nearest];
+  const Vector3 local = at - Vector3(cell.index[0], cell.index[1], cell.index[2]);
+  EmbeddedPoint tied;
+  tied.corners = cells.corners(cell);
+  for (int c = 0; c < 8; ++c) {
+    double& weight = tied.weights[std::size_t(c)];
+    weight = 1.0;
+    for (int d = 0; d < 3; ++d) weight *= (c >> d & 1) != 0 ? local[d] : 1.0 - local[d];
+  }
+  tied.rest = point.position;
+  tied.area = point.area;
+  tied.stiffness = stiffness * point.area;
+  return tied;
+}
+
+EmbeddedPoint tie_to_particle(std::uint32_t particle, const Vector3& rest, double area,
+                              double stiffness) {
+  EmbeddedPoint tied;
+  tied.corners.fill(particle);
+  tied.weights[0] = 1.0;
+  tied.rest = rest;
+  tied.area = area;
+  tied.stiffness = stiffness;
+  return tied;
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,34 @@
+/// Points of the tip's true surfaces, tied to the particles around them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "lattice/model/grid_cells.h"
+#include "meshes/surface_points.h"
+
+namespace fingertip::lattice {
+
+/// A point that moves with particles: x = rest + Σ weight_c u(corner_c), Σ weight_c = 1.
+struct EmbeddedPoint {
+  std::array<std::uint32_t, 8> corners{};
+  std::array<double, 8> weights{};
+  meshes::Vector3 rest = meshes::Vector3::Zero();  ///< on the true surface [m]
+  double area = 0.0;                               ///< of the surface it stands for [m²]
+  double stiffness = 0.0;                          ///< of its tie to rod or plane [N/m]
+};
+
+/// Unit normal out of the rubber where the outer surface is nearest to `rest`.
+meshes::Vector3 outer_normal(const meshes::Vector3& rest);
+
+/// The surface point tied to the eight corners of its cell by trilinear weights, its stiffness
+/// `stiffness` [Pa/m] times its area. A point whose cell was left out is tied to the nearest of the
+/// 26 cells around that: the weights then extrapolate, and none exceeds 8 in magnitude.
+/// Throws InvalidInput when none of them exists either.
+EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, double stiffness);
+
+/// `particle` itself as a tied point.
+EmbeddedPoint tie_to_particle(std::uint32_t particle, const meshes::Vector3& rest, double area,
+                              double stiffness);
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,112 @@
+#include "lattice/model/formulation.h"
+
+#include <cmath>
+
+#include "meshes/files.h"
+
+namespace fingertip::lattice {
+
+using meshes::Rubber;
+using meshes::Violation;
+
+namespace {
+
+/// C by homogenisation of springs and volume constant: C12 = C44 + kappa.
+CellMaterial cubic_material(const SpringConstants& k, double spacing, double shear) {
+  CellMaterial material;
+  material.kind = CellLawKind::cubic;
+  material.c11 = (k.k1 + k.k2) / spacing + shear + k.kappa;
+  material.c12 = shear + k.kappa;
+  material.c44 = shear;
+  material.bending = fibre_share * shear;
+  return material;
+}
+
+CellMaterial network_material(const Rubber& rubber) {
+  CellMaterial material;
+  material.kind = CellLawKind::network;
+  material.shear = rubber.shear_modulus;
+  material.lambda = rubber.lame_lambda();
+  material.bending = fibre_share * rubber.shear_modulus;
+  return material;
+}
+
+/// kappa alone: kappa/2 (tr H)² or kappa/2 (J - 1)².
+CellMaterial volume_material(double kappa, bool finite) {
+  CellMaterial material;
+  material.kind = finite ? CellLawKind::volume : CellLawKind::cubic;
+  material.kappa = kappa;
+  material.c11 = material.c12 = kappa;
+  return material;
+}
+
+}  // namespace
+
+Formulation formulation_for(const Rubber& rubber, const LatticeSettings& settings) {
+  const double a = settings.spacing;
+  Formulation formulation;
+  formulation.finite = settings.kinematics == Kinematics::finite;
+  formulation.constants =
+      settings.model == ModelKind::network ? hookean_constants(rubber, a) : settings.constants;
+  if (settings.model == ModelKind::central) formulation.constants.kappa = 0.0;
+  formulation.shear = shear_stiffness(formulation.constants, a);
+  const bool network = settings.model == ModelKind::network;
+  formulation.central_springs =
+      settings.model == ModelKind::central || (formulation.finite && !network);
+  formulation.cell_law = settings.model != ModelKind::central;
+  if (network && formulation.finite) {
+    formulation.material = network_material(rubber);
+  } else if (formulation.central_springs) {
+    formulation.material = volume_material(formulation.constants.kappa, formulation.finite);
+  } else {
+    formulation.material = cubic_material(formulation.constants, a, formulation.shear);
+  }
+  formulation.material.retardation_time = rubber.retardation_time;
+  return formulation;
+}
+
+Formulation spring_formulation(ModelKind kind, Kinematics kinematics,
+                               const SpringConstants& constants, double retardation_time) {
+  Formulation formulation;
+  formulation.finite = kinematics == Kinematics::finite;
+  formulation.constants = constants;
+  formulation.central_springs = true;
+  formulation.cell_law = kind == ModelKind::hookean && constants.kappa != 0.0;
+  if (!formulation.cell_law) formulation.constants.kappa = 0.0;
+  formulation.material = volume_material(formulation.constants.kappa, formulation.finite);
+  formulation.material.retardation_time = retardation_time;
+  return formulation;
+}
+
+std::vector<Violation> material_violations(const Rubber& rubber, const LatticeSettings& settings) {
+  std::vector<Violation> found = rubber.violations();
+  if (settings.model == ModelKind::published) {
+    found.push_back({"lattice.model", "published", "the published lattice has no cells to cut",
+                     "choose central, hookean or network"});
+  }
+  if (settings.model == ModelKind::network) {
+    // The margin keeps round-off in other units than the user's from refusing nu = 0.
+    if (settings.kinematics == Kinematics::finite && rubber.poissons_ratio() < -1e-12) {
+      found.push_back({"rubber.youngs_modulus", meshes::to_text(rubber.youngs_modulus) + " Pa",
+                       "the network at finite strain needs nu >= 0, that is E >= 2G: with a "
+                       "negative Lame constant lambda the energy falls without bound as J -> 0",
+                       "raise youngs_modulus to 2 shear_modulus or more, or take kinematics "
+                       "small"});
+    }
+    return found;
+  }
+  const SpringConstants& k = settings.constants;
+  const auto not_negative = [](double value) { return std::isfinite(value) && value >= 0.0; };
+  if (!(not_negative(k.k1) && not_negative(k.k2) && not_negative(k.k3) && k.k2 + k.k3 > 0.0 &&
+        std::isfinite(k.kappa))) {
+    found.push_back({"lattice.constants",
+                     "k1 " + meshes::to_text(k.k1) + ", k2 " + meshes::to_text(k.k2) + ", k3 " +
+                         meshes::to_text(k.k3) + " N/m",
+                     "spring constants must be finite and not negative, and some diagonal must "
+                     "resist shear",
+                     "use the model's closed form or a calibration"});
+  }
+  return found;
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,31 @@
+/// Which lattice the tip is made of.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lattice/model/constants.h"
+#include "meshes/errors.h"
+#include "meshes/geometry.h"
+#include "meshes/rubber.h"
+
+namespace fingertip::lattice {
+
+/// The lattice of the tip.
+struct LatticeSettings {
+  ModelKind model = ModelKind::hookean;
+  Kinematics kinematics = Kinematics::small;
+  double spacing = 0.01 / 12.0;                      ///< a [m], at most (R - r)/2
+  meshes::Vector3 offset = meshes::Vector3::Zero();  ///< shift of the grid in units of a
+  /// Columns: the grid's axes in the tip's frame, a rotation.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  SpringConstants constants;        ///< for this spacing
+  double ligament_stiffness = 1.0;  ///< multiplies the stiffness of the bond to the rod
+  double contact_stiffness = 1.0;   ///< multiplies the ties of true surfaces to the plane
+
+  /// What this geometry and this rubber cannot be built of.
+  std::vector<meshes::Violation> violations(const meshes::Geometry& geometry,
+                                            const meshes::Rubber& rubber) const;
+};
+
+}  // namespace fingertip::lattice

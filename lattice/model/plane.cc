@@ -1,0 +1,32 @@
+#include "lattice/model/plane.h"
+
+#include <cmath>
+
+#include "lattice/model/rod.h"
+
+namespace fingertip::lattice {
+
+using meshes::Vector3;
+
+PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry) {
+  const double s = std::sin(protocol.tilt), c = std::cos(protocol.tilt);
+  PressPlane plane;
+  plane.normal = Vector3(-s, 0.0, -c);
+  plane.t1 = first_tangent(plane.normal);
+  plane.t2 = plane.t1.cross(plane.normal);
+  plane.radius = geometry.tip_radius;
+  plane.path = meshes::PressPath(protocol);
+  return plane;
+}
+
+Plane Plane::after(double duration) const {
+  if (at_rest()) return *this;
+  Plane moved = *this;
+  const Eigen::Quaterniond turn = rotation_by(duration * angular_velocity);
+  moved.point += duration * velocity;
+  moved.normal = (turn * normal).normalized();
+  moved.turned = (turn * turned).normalized();
+  return moved;
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,289 @@
+#include "lattice/press/press.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <memory>
+#include <sstream>
+
+#include "lattice/control/approach.h"
+#include "lattice/control/control_loop.h"
+#include "lattice/control/virtual_finger.h"
+#include "lattice/press/press_deviation.h"
+#include "lattice/press/press_pictures.h"
+#include "lattice/press/press_recorder.h"
+#include "lattice/press/press_task.h"
+
+namespace fingertip::lattice {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Of the calling thread [s].
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+LatticeCensus take_census(const PressSetup& setup, const LatticeModel& model) {
+  LatticeCensus census;
+  census.particles = model.particles.size();
+  census.springs = model.spring_count();
+  census.cells = model.cells.size();
+  census.boundary_particles = model.boundary.size();
+  census.ligaments = model.ligaments.size() + model.bond.size();
+  census.expected_particles =
+      meshes::expected_particle_count(setup.geometry, setup.lattice.spacing);
+  census.mass = model.total_mass();
+  census.added_mass = model.added_mass;
+  census.exact_mass = setup.rubber.density * setup.geometry.tip_volume();
+  return census;
+}
+
+/// Scaled masses as far as they serve.
+FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way) {
+  FingerSetup finger = finger_setup(setup, way);
+  if (setup.integrator != Integrator::mass_scaled) return finger;
+  const ScalingChoice choice = choose_scaling(setup);
+  if (choice.scaled) {
+    finger.time_step = choice.step;
+  } else {
+    finger.integrator = Integrator::symplectic_euler;
+  }
+  return finger;
+}
+
+/// One press from start to depth.
+class Press {
+ public:
+  Press(const PressSetup& setup, const PressObserver& observer, const PressFilm& film);
+  PressOutcome run();
+
+ private:
+  double indentation() const;
+  void make_controller();
+  void identify(Controller& trial, const std::function<bool()>& done, double longest);
+  double lateral() const;
+  PressInstant now() const {
+    return {finger_.time(), indentation(), lateral(), finger_.finger().bond()};
+  }
+  bool run_period();
+  bool follow_motion();
+  bool after_step();
+  void look_after();  // once per period: trace, observer, sanity
+  void check_sanity();
+  void update() {
+    recorder_.update(wall_time());
+    pictures_.update();
+  }
+  double expected_time() const;
+  void report(bool in_any_case);
+  [[noreturn]] void give_up(const std::string& why);
+  double wall_time() const {
+    return std::chrono::duration<double>(Clock::now() - started_).count();
+  }
+  ElapsedTime elapsed() const { return {wall_time(), processor_time() - processor_start_}; }
+
+  const PressSetup& setup_;
+  const PressObserver& observer_;
+  PressOutcome outcome_;
+  PressWay way_;
+  VirtualFinger finger_;
+  Approach approach_;
+  PressRecorder recorder_;
+  PressPictures pictures_;
+  std::unique_ptr<Controller> controller_;  // null when the motion is prescribed
+  std::unique_ptr<ControlLoop> loop_;
+  PressInstant start_of_step_;
+  double time_limit_ = 0.0;
+  Clock::time_point started_, last_report_;
+  double processor_start_ = 0.0;  // [s]
+};
+
+Press::Press(const PressSetup& setup, const PressObserver& observer, const PressFilm& film)
+    : setup_(setup),
+      observer_(observer),
+      way_(setup.protocol, setup.geometry),
+      finger_(pressed_finger(setup, way_)),
+      approach_(setup.protocol.speed, setup.protocol.clearance),
+      recorder_(setup.protocol, finger_.finger().plane(), finger_.finger(), outcome_),
+      pictures_(setup, finger_.finger(), expected_time(), film, outcome_) {
+  const meshes::PressProtocol& protocol = setup.protocol;
+  outcome_.census = take_census(setup, finger_.model());
+  outcome_.step = finger_.step_report(setup.controller.period);
+  if (finger_.setup().prescribed) {
+    finger_.write([this](double time) {
+      const SetPoint point = approach_.at(time);
+      return RodMotion{point.distance * way_.direction, point.speed * way_.direction};
+    });
+  } else {
+    make_controller();
+  }
+  time_limit_ =
+      setup.duration.value_or(2.0 * approach_.time_at(protocol.clearance + protocol.depth) + 0.5);
+}
+
+/// When the press will end if all goes well [s].
+double Press::expected_time() const {
+  const double at_depth = approach_.time_at(setup_.protocol.clearance + setup_.protocol.depth);
+  const double latest = setup_.duration.value_or(at_depth);
+  return setup_.follows_path ? std::min(at_depth, latest) : latest;
+}
+
+void Press::identify(Controller& trial, const std::function<bool()>& done, double longest) {
+  const VirtualFinger::Snapshot start = finger_.save();
+  finger_.write(Wrench{});
+  ControlLoop loop(finger_, trial, setup_.hardware, setup_.controller, setup_.controller.period);
+  while (finger_.time() < longest && !done()) {
+    loop.sample();
+    loop.advance();
+  }
+  finger_.load(start);
+  finger_.write(Wrench{});
+}
+
+void Press::make_controller() {
+  ControlTask order = control_task(setup_, way_, finger_.rod_body());
+  order.identify = [this](Controller& trial, const std::function<bool()>& done, double longest) {
+    identify(trial, done, longest);
+  };
+  if (setup_.make_controller) {
+    controller_ = setup_.make_controller(order);
+  } else {
+    controller_ = std::make_unique<PidController>(setup_.controller, order.inertia, order.path);
+  }
+  loop_ = std::make_unique<ControlLoop>(finger_, *controller_, setup_.hardware, setup_.controller,
+                                        order.period);
+}
+
+double Press::indentation() const {
+  return way_.indentation(finger_.rod_body().endpoint, finger_.finger().rod().endpoint(),
+                          setup_.protocol.clearance);
+}
+
+double Press::lateral() const {
+  return way_.lateral(finger_.rod_body().endpoint, finger_.finger().rod().endpoint(),
+                      setup_.protocol.clearance);
+}
+
+/// Whether the press goes on.
+bool Press::after_step() {
+  start_of_step_.bond = finger_.finger().bond();  // of the configuration the step started from
+  if (recorder_.add_step(start_of_step_)) report(true);
+  const bool deep_enough = start_of_step_.indentation >= setup_.protocol.depth;
+  const bool late = setup_.duration && finger_.time() >= time_limit_;
+  start_of_step_ = now();
+  pictures_.look(start_of_step_.indentation);
+  return !deep_enough && !late;
+}
+
+bool Press::run_period() {
+  if (loop_) loop_->sample();
+  look_after();
+  start_of_step_ = now();
+  return loop_ ? loop_->advance([this] { return after_step(); }) : follow_motion();
+}
+
+/// One period of prescribed motion. Adaptive steps may be long: they end where samples are taken,
+/// for in between forces would be interpolated.
+bool Press::follow_motion() {
+  const auto observe = [this] { return after_step(); };
+  const double period = setup_.controller.period;
+  if (!is_adaptive(setup_.integrator)) return finger_.do_step(period, observe);
+  const meshes::PressProtocol& protocol = setup_.protocol;
+  const double end = finger_.time() + period;
+  while (true) {
+    const auto depth = recorder_.next_depth(indentation() + 1e-9 * protocol.depth);
+    const double until = depth ? approach_.time_at(protocol.clearance + *depth) : end;
+    if (!(until < end - 1e-6 * period)) return finger_.do_step(end - finger_.time(), observe);
+    if (!finger_.do_step(until - finger_.time(), observe)) return false;
+  }
+}
+
+void Press::look_after() {
+  PressInstant instant = now();
+  const Wrench held =
+      loop_ ? loop_->commanded() : Wrench{-instant.bond.force, -instant.bond.torque};
+  recorder_.add_trace(instant, approach_.at(instant.time), held,
+                      controller_ ? controller_->report() : ControllerReport{});
+  outcome_.elapsed.push_back(elapsed());
+  check_sanity();
+  report(false);
+}
+
+void Press::check_sanity() {
+  const TraceRow& row = outcome_.trace.back();
+  const double largest = 1e3 * setup_.rubber.longitudinal_modulus() * setup_.geometry.tip_volume();
+  if (!(row.kinetic_energy + row.elastic_energy < largest)) {
+    give_up("the lattice blew up: its energy left every bound");
+  }
+  const double commanded = approach_.at(row.time).distance - setup_.protocol.clearance;
+  const double ahead = row.indentation - commanded;
+  const bool off_path = setup_.follows_path && !(ahead <= 0.1 * setup_.geometry.thickness());
+  if (row.tilt > 0.5 || off_path) {
+    give_up("the controller lost the rod: controller.natural_frequency is too high for its period");
+  }
+  if (!setup_.duration && finger_.time() > time_limit_) {
+    give_up("the rod did not reach the depth: the controller's limits are too low");
+  }
+}
+
+void Press::report(bool in_any_case) {
+  if (!observer_) return;
+  const Clock::time_point instant = Clock::now();
+  if (!in_any_case && instant - last_report_ < std::chrono::milliseconds(100)) return;
+  last_report_ = instant;
+  update();
+  const double done = finger_.time() / expected_time();  // as wall time goes, but for shorter steps
+  if (!observer_(outcome_, std::clamp(done, 0.0, 1.0))) {
+    throw meshes::Interrupted("the press was stopped at an indentation of " +
+                              std::to_string(indentation()) + " m");
+  }
+}
+
+void Press::give_up(const std::string& why) {
+  update();
+  if (observer_) observer_(outcome_, 0.0);
+  std::ostringstream text;
+  text << why << " (at " << finger_.time() << " s, indentation " << start_of_step_.indentation
+       << " m, step " << finger_.finger().step() << " s)";
+  throw meshes::NotConverged(text.str());
+}
+
+PressOutcome Press::run() {
+  started_ = last_report_ = Clock::now();
+  processor_start_ = processor_time();
+  pictures_.look(indentation());
+  try {
+    while (run_period()) continue;
+  } catch (const CrushedCells& error) {
+    give_up(error.what());
+  } catch (const ControllerFailed&) {
+    update();
+    if (observer_) observer_(outcome_, 0.0);
+    throw;
+  }
+  look_after();  // a rod that ran away within the last period must not pass for a finished press
+  outcome_.step = finger_.step_report(setup_.controller.period);
+  outcome_.steps = finger_.step_count();
+  outcome_.force_evaluations = finger_.finger().force_evaluations();
+  pictures_.finish(indentation());
+  update();
+  if (observer_) observer_(outcome_, 1.0);
+  return std::move(outcome_);
+}
+
+}  // namespace
+
+PressOutcome run_press(const PressSetup& setup, const PressObserver& observer,
+                       const PressFilm& film) {
+  const auto violations = setup.violations();
+  if (!violations.empty()) throw meshes::InvalidInput(violations);
+  Press press(setup, observer, film);
+  return press.run();
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,173 @@
+#include "lattice/press/press_deviation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "lattice/control/approach.h"
+#include "lattice/dynamics/time_step.h"
+
+namespace fingertip::lattice {
+
+namespace {
+
+using Complex = std::complex<double>;
+using meshes::Geometry;
+using meshes::Rubber;
+
+constexpr double sway_factor = 43.0;      // of (w dt)², measured
+constexpr double contact_factor = 5.5;    // chi, with the room that S leaves for stiffening
+constexpr double resolved_patch = 1.25;   // spacings
+constexpr double longest_usual = 2.5e-4;  // [s]
+constexpr double cost = 2.0;              // of a scaled step, in plain ones
+
+/// F = factor (delta^3/2 + layer delta²).
+struct RoughForce {
+  double factor = 0.0, layer = 0.0;
+
+  RoughForce(const Geometry& geometry, const Rubber& rubber) {
+    const double nu = rubber.poissons_ratio(), radius = std::sqrt(geometry.tip_radius),
+                 alpha = (1.2876 - 1.4678 * nu + 1.3442 * nu * nu) / (1.0 - nu);
+    factor = 4.0 / 3.0 * rubber.youngs_modulus / (1.0 - nu * nu) * radius;
+    layer = 2.0 / std::numbers::pi * alpha * radius / geometry.thickness();
+  }
+  double value(double d) const { return factor * (std::pow(d, 1.5) + layer * d * d); }
+  double slope(double d) const { return factor * (1.5 * std::sqrt(d) + 2.0 * layer * d); }
+  double curvature(double d) const { return factor * (0.75 / std::sqrt(d) + 2.0 * layer); }
+};
+
+/// Of the rubber on its rod, the sleeve's lowest mode.
+struct Sway {
+  double frequency = 0.0;  ///< [rad/s]
+  double mass = 0.0;       ///< mu m [kg]
+
+  Sway(const Geometry& geometry, const Rubber& rubber) {
+    constexpr int intervals = 200;
+    const double r = geometry.rod_radius, R = geometry.tip_radius, h = (R - r) / intervals;
+    double area = 0.0, first = 0.0, second = 0.0, strain = 0.0;
+    for (int i = 0; i < intervals; ++i) {  // midpoints
+      const double at = r + (i + 0.5) * h, ring = at * h,
+                   u = R * R * std::log(at / r) - 0.5 * (at * at - r * r), slope = R * R / at - at;
+      area += ring;
+      first += ring * u;
+      second += ring * u * u;
+      strain += ring * slope * slope;
+    }
+    frequency = rubber.shear_wave_speed() * std::sqrt(strain / second);
+    mass = rubber.density * geometry.tip_volume() * first * first / (area * second);
+  }
+};
+
+/// mu m z'' of one mode [N] after the rise, Re(amplitude exp(i frequency t)).
+struct Swing {
+  Complex amplitude;       ///< at a time, with its phase then
+  double frequency = 0.0;  ///< [rad/s]; 0: it creeps back
+};
+
+Swing swing_of(double mass, double w, double s, double tau, const Approach& approach, double speed,
+               double time) {
+  const double T = approach.rise_time(), turn = 2.0 * std::numbers::pi / T;
+  const double half = 0.5 * w * w * tau / (1.0 + s);
+  const Complex root = std::sqrt(Complex(half * half - w * w / (1.0 + s)));
+  // ∫ a(t') exp(p (time - t')) dt' of a = speed/T (1 - cos turn t')
+  const auto response = [&](const Complex& p) {
+    const Complex pulse = std::exp(p * time) - std::exp(p * (time - T));
+    return speed / T * pulse * turn * turn / (p * (p * p + turn * turn));
+  };
+  const Complex up = -half + root, down = -half - root;
+  const Complex both = mass / ((1.0 + s) * (up - down));
+  if (root.imag() != 0.0) return {2.0 * both * up * up * response(up), root.imag()};
+  return {both * (up * up * response(up) - down * down * response(down)), 0.0};
+}
+
+/// Largest difference that the two come to about `time`: once they have come apart by half a turn,
+/// it counts no more that they meet again.
+double largest_difference(const Swing& one, const Swing& other, double time) {
+  const double apart = std::abs(one.frequency - other.frequency) * time;
+  if (apart > std::numbers::pi) return std::abs(one.amplitude) + std::abs(other.amplitude);
+  return std::abs(one.amplitude - other.amplitude);
+}
+
+double sway_deviation(const Sway& sway, const PressSetup& setup, double step, double time) {
+  const double speed = setup.protocol.speed, tau = setup.rubber.retardation_time;
+  const Approach approach(speed, setup.protocol.clearance);
+  double sum = 0.0;
+  for (const double n : {1.0, 3.0, 5.0}) {
+    const double w = n * sway.frequency, mass = sway.mass / (n * n),
+                 s = sway_factor * w * w * step * step;
+    const auto swing = [&](double inertia) {
+      return swing_of(mass, w, inertia, tau, approach, speed, time);
+    };
+    sum += largest_difference(swing(s), swing(0.0), time - 0.5 * approach.rise_time());
+  }
+  return sum;
+}
+
+}  // namespace
+
+double plain_step(const PressSetup& setup) {
+  const double highest = 2.0 * setup.rubber.longitudinal_wave_speed() / setup.lattice.spacing;
+  SpectralBounds bounds;  // README of dynamics/: stable steps
+  bounds.stiffness = 1.15 * highest * highest;
+  bounds.damping = setup.rubber.retardation_time * bounds.stiffness;
+  return largest_stable_step(bounds, Integrator::symplectic_euler);
+}
+
+double rough_force(const Geometry& geometry, const Rubber& rubber, double indentation) {
+  return RoughForce(geometry, rubber).value(indentation);
+}
+
+std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup, double step) {
+  const meshes::PressProtocol& protocol = setup.protocol;
+  const RoughForce force(setup.geometry, setup.rubber);
+  const Sway sway(setup.geometry, setup.rubber);
+  const Approach approach(protocol.speed, protocol.clearance);
+  const double v = protocol.speed, spacing = setup.lattice.spacing,
+               filter = contact_factor *
+                        (0.25 * step * step + 0.5 * step * setup.rubber.retardation_time);
+  std::vector<ForceDeviation> found;
+  const auto depths =
+      protocol.samples.empty() ? meshes::default_samples(protocol.depth) : protocol.samples;
+  for (const double depth : depths) {
+    const double patch = std::sqrt(setup.geometry.tip_radius * depth);
+    if (patch < resolved_patch * spacing) continue;
+    const double time = approach.time_at(protocol.clearance + depth);
+    const double contact = filter * v * v * force.curvature(depth) +
+                           v * std::sqrt(filter) * force.slope(depth) * spacing / patch;
+    found.push_back(
+        {depth, (contact + sway_deviation(sway, setup, step, time)) / force.value(depth)});
+  }
+  return found;
+}
+
+ForceDeviation worst_of(const std::vector<ForceDeviation>& deviations, double from) {
+  ForceDeviation worst;
+  for (const ForceDeviation& one : deviations) {
+    if (one.indentation >= from && one.relative > worst.relative) worst = one;
+  }
+  return worst;
+}
+
+double judged_from(const PressSetup& setup) {
+  constexpr double round_off = 1e-9;
+  return setup.protocol.depth / 6.0 * (1.0 - round_off);
+}
+
+ScalingChoice best_scaling(const PressSetup& setup) {
+  const auto worst = [&](double step) {
+    return worst_of(scaling_deviations(setup, step), judged_from(setup)).relative;
+  };
+  const double plain = plain_step(setup);
+  double step = longest_usual;
+  while (step >= cost * plain && worst(step) > tolerated_deviation) step *= 0.9;
+  if (step < cost * plain) return {false, plain, {}};
+  return {true, step, scaling_deviations(setup, step)};
+}
+
+ScalingChoice choose_scaling(const PressSetup& setup) {
+  if (!setup.time_step) return best_scaling(setup);
+  return {true, *setup.time_step, scaling_deviations(setup, *setup.time_step)};
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,185 @@
+#include "lattice/press/press_parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "lattice/kernels/stencil.h"
+#include "lattice/model/formulation.h"
+#include "lattice/statics/cut_lattice.h"
+#include "meshes/errors.h"
+
+namespace fingertip::lattice {
+
+namespace {
+
+/// What one unit of a parameter adds to the quantities that a body is made of.
+struct Rates {
+  SpringConstants constants;         ///< of the springs, or of a cubic law
+  double shear = 0.0, lambda = 0.0;  ///< C44 or G; lambda of the network at finite strain
+  double bond = 0.0, contact = 0.0;  ///< factors on ties
+};
+
+Rates rates_of(PressParameter parameter, const LatticeSettings& settings) {
+  Rates rates;
+  const double a = settings.spacing;
+  switch (parameter) {
+    case PressParameter::k1: rates.constants.k1 = 1.0; break;
+    case PressParameter::k2: rates.constants.k2 = 1.0; break;
+    case PressParameter::k3: rates.constants.k3 = 1.0; break;
+    case PressParameter::kappa: rates.constants.kappa = 1.0; break;
+    // The network at small strain is hookean with k1 = k2 = a G, k3 = 0, kappa = lambda - G.
+    case PressParameter::shear_modulus: rates.constants = {a, a, 0.0, -1.0}; break;
+    case PressParameter::lambda:
+      rates.constants.kappa = 1.0;
+      rates.lambda = 1.0;
+      break;
+    case PressParameter::bond: rates.bond = 1.0; break;
+    case PressParameter::contact: rates.contact = 1.0; break;
+  }
+  rates.shear = shear_stiffness(rates.constants, a);
+  return rates;
+}
+
+CellLaw law_slope(const Formulation& formulation, const Rates& rates,
+                  const LatticeSettings& settings) {
+  const SpringConstants& k = rates.constants;
+  if (formulation.central_springs) {
+    return formulation.cell_law && k.kappa != 0.0 ? CellLaw::volume(k.kappa, formulation.finite)
+                                                  : CellLaw();
+  }
+  if (formulation.material.kind == CellLawKind::network) {
+    if (rates.shear == 0.0 && rates.lambda == 0.0) return {};
+    return CellLaw::network(rates.shear, rates.lambda, fibre_share);
+  }
+  if (k.k1 == 0.0 && k.k2 == 0.0 && k.k3 == 0.0 && k.kappa == 0.0) return {};
+  return CellLaw::cubic(k, settings.spacing, fibre_share, settings.axes);
+}
+
+/// The family whose springs have the length of this one.
+std::size_t family_of(const Spring& spring, const LatticeBody& body, double spacing) {
+  const double length = (body.rest[spring.ends[1]] - body.rest[spring.ends[0]]).norm();
+  return std::size_t(std::lround(length * length / (spacing * spacing))) - 1;
+}
+
+/// The springs of a family per unit of its constant. Where that is zero the body has none: they are
+/// taken from one made with another constant.
+std::vector<Spring> unit_springs(const LatticeBody& body, const PressSetup& setup,
+                                 PressParameter parameter, std::size_t family) {
+  const double constant = value_of(parameter, setup);
+  if (constant == 0.0) {
+    PressSetup other = setup;
+    set_value(parameter, 1.0, other);
+    const LatticeBody full =
+        build_cut_tip(other.geometry, other.rubber, other.lattice, body.sectors);
+    return unit_springs(full, other, parameter, family);
+  }
+  std::vector<Spring> springs;
+  for (const Spring& spring : body.springs)
+    if (family_of(spring, body, setup.lattice.spacing) == family)
+      springs.push_back({spring.ends, spring.stiffness / constant});
+  return springs;
+}
+
+std::vector<Spring> springs_slope(const LatticeBody& body, const PressSetup& setup,
+                                  PressParameter parameter) {
+  switch (parameter) {
+    case PressParameter::k1: return unit_springs(body, setup, parameter, axis);
+    case PressParameter::k2: return unit_springs(body, setup, parameter, face_diagonal);
+    case PressParameter::k3: return unit_springs(body, setup, parameter, body_diagonal);
+    default: return {};
+  }
+}
+
+template <typename Element>
+void scale(double factor, std::vector<Element>& elements) {
+  for (Element& element : elements) element.stiffness *= factor;
+}
+
+}  // namespace
+
+std::string_view name(PressParameter parameter) {
+  switch (parameter) {
+    case PressParameter::k1: return "k1";
+    case PressParameter::k2: return "k2";
+    case PressParameter::k3: return "k3";
+    case PressParameter::kappa: return "kappa";
+    case PressParameter::shear_modulus: return "shear_modulus";
+    case PressParameter::lambda: return "lambda";
+    case PressParameter::bond: return "bond";
+    case PressParameter::contact: return "contact";
+  }
+  return "unknown";
+}
+
+std::vector<PressParameter> press_parameters(const LatticeSettings& settings) {
+  using enum PressParameter;
+  switch (settings.model) {
+    case ModelKind::published: return {};
+    case ModelKind::central: return {k1, k2, k3, bond, contact};
+    case ModelKind::hookean: return {k1, k2, k3, kappa, bond, contact};
+    case ModelKind::network: return {shear_modulus, lambda, bond, contact};
+  }
+  return {};
+}
+
+double value_of(PressParameter parameter, const PressSetup& setup) {
+  const LatticeSettings& lattice = setup.lattice;
+  switch (parameter) {
+    case PressParameter::k1: return lattice.constants.k1;
+    case PressParameter::k2: return lattice.constants.k2;
+    case PressParameter::k3: return lattice.constants.k3;
+    case PressParameter::kappa: return lattice.constants.kappa;
+    case PressParameter::shear_modulus: return setup.rubber.shear_modulus;
+    case PressParameter::lambda: return setup.rubber.lame_lambda();
+    case PressParameter::bond: return lattice.ligament_stiffness;
+    case PressParameter::contact: return lattice.contact_stiffness;
+  }
+  return 0.0;
+}
+
+void set_value(PressParameter parameter, double value, PressSetup& setup) {
+  LatticeSettings& lattice = setup.lattice;
+  const auto set_rubber = [&](double shear, double lambda) {
+    setup.rubber.shear_modulus = shear;
+    setup.rubber.youngs_modulus = shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear);
+  };
+  switch (parameter) {
+    case PressParameter::k1: lattice.constants.k1 = value; break;
+    case PressParameter::k2: lattice.constants.k2 = value; break;
+    case PressParameter::k3: lattice.constants.k3 = value; break;
+    case PressParameter::kappa: lattice.constants.kappa = value; break;
+    case PressParameter::shear_modulus: set_rubber(value, setup.rubber.lame_lambda()); break;
+    case PressParameter::lambda: set_rubber(setup.rubber.shear_modulus, value); break;
+    case PressParameter::bond: lattice.ligament_stiffness = value; break;
+    case PressParameter::contact: lattice.contact_stiffness = value; break;
+  }
+}
+
+LatticeBody body_slope(const LatticeBody& body, const PressSetup& setup, PressParameter parameter) {
+  const std::vector<PressParameter> known = press_parameters(setup.lattice);
+  if (std::ranges::find(known, parameter) == known.end()) {
+    throw meshes::InvalidInput({"parameter", std::string(name(parameter)),
+                                "a press of the " + std::string(name(setup.lattice.model)) +
+                                    " model has no derivative with respect to it",
+                                "ask for those of press_parameters"});
+  }
+  const Formulation formulation = formulation_for(setup.rubber, setup.lattice);
+  const Rates rates = rates_of(parameter, setup.lattice);
+  const double shear = rates.shear / formulation.shear;  // fibres and ties are proportional to it
+  LatticeBody slope = body;
+  slope.law = law_slope(formulation, rates, setup.lattice);
+  if (slope.law.none()) slope.cells.clear();
+  slope.springs =
+      formulation.central_springs ? springs_slope(body, setup, parameter) : std::vector<Spring>();
+  scale(shear, slope.fibres);
+  scale(shear + rates.bond / setup.lattice.ligament_stiffness, slope.bond);
+  scale(shear + rates.contact / setup.lattice.contact_stiffness, slope.outer);
+  const auto idle = [](const auto& element) { return element.stiffness == 0.0; };
+  std::erase_if(slope.fibres, idle);
+  std::erase_if(slope.bond, idle);
+  return slope;
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,47 @@
+/// The material parameters that a static press can be differentiated by.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "lattice/press/press_setup.h"
+#include "lattice/statics/lattice_body.h"
+
+namespace fingertip::lattice {
+
+/// Every energy of a cut tip is linear in them, its ties included, which are proportional to
+/// C44 = (k2 + 4/3 k3)/a, in the network to G, and to their factors.
+enum class PressParameter {
+  k1,             ///< SpringConstants [N/m]
+  k2,             ///< [N/m]
+  k3,             ///< [N/m]
+  kappa,          ///< [Pa]
+  shear_modulus,  ///< G of the network's rubber, lambda held [Pa]
+  lambda,         ///< of the network's rubber, G held [Pa]
+  bond,           ///< LatticeSettings::ligament_stiffness
+  contact,        ///< LatticeSettings::contact_stiffness
+};
+
+/// The enumerator's name.
+std::string_view name(PressParameter parameter);
+
+/// What a press with these settings depends on: hookean k1, k2, k3, kappa, central without kappa,
+/// network shear_modulus and lambda, all of them bond and contact. Empty for the published lattice,
+/// which snaps through where an equilibrium ends.
+std::vector<PressParameter> press_parameters(const LatticeSettings& settings);
+
+/// Value in a setup, in the parameter's unit.
+double value_of(PressParameter parameter, const PressSetup& setup);
+
+/// Changes one parameter alone. With G or lambda, E = G (3 lambda + 2 G)/(lambda + G) follows.
+void set_value(PressParameter parameter, double value, PressSetup& setup);
+
+/// dE/dp at a held displacement is the energy of a body, too: of the one returned. Its particles
+/// and outer points are those of `body`, which is static_body of `setup` in any number of sectors;
+/// its stiffnesses are derivatives with respect to p, so forces come in N per unit of p. What does
+/// not depend on p is left out, save outer points, whose stiffness is then zero; springs that
+/// `body` does not have because p = 0 are there. Throws InvalidInput for a parameter that is not
+/// among press_parameters.
+LatticeBody body_slope(const LatticeBody& body, const PressSetup& setup, PressParameter parameter);
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,57 @@
+/// Collects what a press yields while it runs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lattice/control/approach.h"
+#include "lattice/dynamics/finger.h"
+#include "lattice/press/press.h"
+#include "meshes/press_protocol.h"
+
+namespace fingertip::lattice {
+
+/// The finger at the start of a step, as far as the response needs it.
+struct PressInstant {
+  double time = 0.0;         ///< [s]
+  double indentation = 0.0;  ///< negative before contact [m]
+  double lateral = 0.0;      ///< displacement of the plane along t1 [m]
+  Wrench bond;               ///< on the rod about its endpoint
+};
+
+/// Fills a PressOutcome: the response at the sample depths and 60 evenly spaced ones (linear in
+/// indentation between steps) and one trace row per controller period.
+class PressRecorder {
+ public:
+  PressRecorder(const meshes::PressProtocol& protocol, const Plane& plane, const Finger& finger,
+                PressOutcome& outcome);
+
+  /// To be called after every step with the finger as it was at the step's start. Returns whether
+  /// one of the protocol's sample depths was passed.
+  bool add_step(const PressInstant& start);
+  /// The first indentation beyond this one at which the response is taken [m], if there is one.
+  std::optional<double> next_depth(double beyond) const;
+  /// To be called once per controller period.
+  void add_trace(const PressInstant& now, const SetPoint& commanded, const Wrench& applied,
+                 const ControllerReport& controller);
+  /// Brings the outcome up to date: times, momentum balance.
+  void update(double wall_time);
+
+ private:
+  meshes::PressSample sample_between(const PressInstant& end, double indentation) const;
+
+  meshes::Vector3 normal_;
+  bool aside_;  ///< whether the plane is asked to move along itself
+  const Finger* finger_;
+  PressOutcome* outcome_;
+  std::vector<double> depths_;           ///< increasing [m]
+  std::vector<std::uint8_t> is_sample_;  ///< whether the protocol asked for the depth
+  std::size_t next_ = 0;
+  PressInstant previous_;
+  double plane_impulse_ = 0.0;  ///< along the normal since the last trace row [N s]
+  double plane_since_ = 0.0;    ///< time of the last trace row [s]
+};
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,155 @@
+#include "lattice/press/press_setup.h"
+
+#include <cmath>
+
+#include "lattice/model/rod.h"
+#include "meshes/files.h"
+
+namespace fingertip::lattice {
+
+using meshes::Violation;
+
+namespace {
+
+bool positive(double value) {
+  return std::isfinite(value) && value > 0.0;
+}
+
+void add_rod(std::vector<Violation>& found, const RodSettings& rod) {
+  if (positive(rod.density)) return;
+  found.push_back({"rod.density", meshes::to_text(rod.density) + " kg/m^3",
+                   "the rod's density must be finite and positive", "aluminium has 2700"});
+}
+
+/// The controller scales its gains with the bare rod and answers the tip's pull a period late: with
+/// a rod much lighter than the tip that loop is unstable (control/README.md).
+void add_light_rod(std::vector<Violation>& found, const PressSetup& setup) {
+  const bool known = positive(setup.rod.density) && setup.geometry.violations().empty() &&
+                     setup.rubber.violations().empty();
+  if (!known || setup.protocol.mode != meshes::DriveMode::pid) return;
+  const std::string density = meshes::to_text(setup.rod.density) + " kg/m^3";
+  const double tip_mass = setup.rubber.density * setup.geometry.tip_volume();
+  if (rod_body(setup.geometry, setup.rod).mass < tip_mass) {
+    found.push_back({"rod.density", density,
+                     "under the controller the rod must weigh at least as much as the rubber (" +
+                         meshes::to_text(tip_mass) + " kg), or the loop is unstable",
+                     "take a denser or longer rod, or press.mode = quasi-static"});
+  }
+}
+
+void add_adaptive_steps(std::vector<Violation>& found, const PressSetup& setup) {
+  if (!is_adaptive(setup.integrator)) return;
+  const std::string integrator(name(setup.integrator));
+  if (setup.lattice.model == ModelKind::published) {
+    found.push_back({"run.integrator", integrator,
+                     "the published lattice stops particles at touch from one step to the next: "
+                     "neither an error nor an energy of a step can be kept small",
+                     "take symplectic-euler or explicit-euler, or another model"});
+  }
+  if (setup.integrator == Integrator::energy_controlled &&
+      setup.protocol.contact == meshes::ContactMode::coulomb) {
+    found.push_back({"run.integrator", integrator,
+                     "what slip dissipates is not part of the energy balance",
+                     "take another integrator, or stick or frictionless contact"});
+  }
+}
+
+void add_step_control(std::vector<Violation>& found, const PressSetup& setup) {
+  const auto below_one = [](double value) { return positive(value) && value < 1.0; };
+  if (!below_one(setup.tolerance)) {
+    found.push_back({"run.tolerance", meshes::to_text(setup.tolerance),
+                     "the tolerance of runge-kutta must lie between 0 and 1", "1e-6 is usual"});
+  }
+  if (!below_one(setup.energy_bound)) {
+    found.push_back({"run.energy_bound", meshes::to_text(setup.energy_bound),
+                     "the bound of energy-controlled steps must lie between 0 and 1",
+                     "1e-7 is usual"});
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// Of what the lattice cannot do: contact, model and integrator.
+std::vector<Violation> beyond_the_model(const PressSetup& setup) {
+  const meshes::PressProtocol& protocol = setup.protocol;
+  std::vector<Violation> found;
+  if (protocol.mode == meshes::DriveMode::equilibrium) {
+    if (protocol.contact == meshes::ContactMode::coulomb) {
+      found.push_back({"press.contact", "coulomb",
+                       "the lattice in equilibrium sticks or is free of friction",
+                       "take press.mode = quasi-static or pid, where it slides, or compute "
+                       "the equilibrium with `reference`"});
+    }
+    return found;
+  }
+  if (protocol.slides_after()) {
+    found.push_back({"press.lateral_path", std::string(name(protocol.lateral_path)),
+                     "a moving rod goes a straight way, along the plane on the way down",
+                     "take press.mode = static or press.lateral_path = diagonal"});
+  }
+  const LatticeSettings& lattice = setup.lattice;
+  if (lattice.model == ModelKind::published) {
+    const auto straight = [&found](const char* key, double value, const char* unit) {
+      if (value == 0.0) return;
+      found.push_back(
+          {key, meshes::to_text(value) + unit,
+           "the published lattice, moving, is pressed straight along the plane's normal",
+           "leave it at 0, or take another model or press.mode = static"});
+    };
+    straight("press.tilt", protocol.tilt, " rad");
+    straight("press.lateral", protocol.lateral, " m");
+  } else if (setup.integrator == Integrator::explicit_euler) {
+    found.push_back({"run.integrator", std::string(name(setup.integrator)),
+                     "explicit Euler adds energy to undamped motion, and the ties of true surfaces "
+                     "are undamped",
+                     "take symplectic-euler; explicit-euler is for the published model"});
+  }
+  add_adaptive_steps(found, setup);
+  const bool springs = lattice.model == ModelKind::published || lattice.model == ModelKind::central;
+  const bool volume =
+      lattice.model == ModelKind::hookean && lattice.kinematics == Kinematics::finite;
+  if (setup.integrator == Integrator::mass_scaled && (springs || volume)) {
+    found.push_back({"run.integrator", std::string(name(setup.integrator)),
+                     "masses are scaled cell by cell, so the model must consist of cells: hookean "
+                     "at small strain, or network",
+                     "take symplectic-euler, or another model"});
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
+  std::vector<Violation> found = beyond_the_model(setup);
+  add_light_rod(found, setup);
+  return found;
+}
+
+std::vector<Violation> PressSetup::violations() const {
+  std::vector<Violation> found = geometry.violations();
+  const auto append = [&found](const std::vector<Violation>& more) {
+    found.insert(found.end(), more.begin(), more.end());
+  };
+  append(rubber.violations());
+  append(protocol.violations(geometry));
+  append(beyond_the_model(*this));
+  append(lattice.violations(geometry, rubber));
+  append(controller.violations());
+  append(hardware.violations());
+  if (duration && !positive(*duration)) {
+    found.push_back({"press.duration", meshes::to_text(*duration) + " s",
+                     "the duration must be finite and positive", "or leave it out"});
+  }
+  add_rod(found, rod);
+  if (found.empty()) add_light_rod(found, *this);
+  add_step_control(found, *this);
+  if (threads < 0) {
+    found.push_back({"run.threads", std::to_string(threads),
+                     "the number of threads must not be negative", "0 takes all cores"});
+  }
+  return found;
+}
+
+}  // namespace fingertip::lattice

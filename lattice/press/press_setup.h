@@ -1,0 +1,54 @@
+/// Everything that defines a lattice press, apart from the specimen itself.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lattice/control/control_settings.h"
+#include "lattice/control/hardware.h"
+#include "lattice/control/task.h"
+#include "lattice/dynamics/integrator.h"
+#include "lattice/model/lattice_settings.h"
+#include "lattice/model/rod.h"
+#include "meshes/errors.h"
+#include "meshes/geometry.h"
+#include "meshes/press_protocol.h"
+#include "meshes/rubber.h"
+
+namespace fingertip::lattice {
+
+/// The complete order for one press.
+struct PressSetup {
+  meshes::Geometry geometry;
+  meshes::Rubber rubber;
+  meshes::PressProtocol protocol;
+  LatticeSettings lattice;
+  RodSettings rod;
+  PidSettings controller;  ///< the built-in servo, and the controller unless another is made
+  ControllerFactory make_controller;  ///< another one; empty: PidController on the way of the press
+  /// Tells one maker from another wherever results are kept; empty with an empty maker.
+  std::string controller_identity;
+  /// Whether the controller is to stay on the way of the press; if not, leaving it is no failure.
+  bool follows_path = true;
+  HardwareSettings hardware;
+  std::optional<double> duration;  ///< ends the press at this time [s], if not at its depth before
+  double gravity = 0.0;            ///< toward the plane [m/s²]
+  Integrator integrator = Integrator::symplectic_euler;
+  std::optional<double> time_step;  ///< largest one [s]; the largest safe one when absent
+  double tolerance = 1e-6;          ///< of runge_kutta, > 0 (integrators/runge_kutta.h)
+  double energy_bound = 1e-7;       ///< of energy_controlled, > 0 (integrators/energy_stepper.h)
+  int threads = 0;                  ///< 0: all cores. The result does not depend on it.
+
+  /// Every broken rule of specimen, protocol, lattice, rod and controller, and what is
+  /// beyond_the_lattice.
+  std::vector<meshes::Violation> violations() const;
+};
+
+/// What of a valid order the lattice cannot do: Coulomb friction in equilibrium; a lateral motion
+/// after the press while the rod moves; the published model, moving, is pressed straight and needs
+/// an Euler step; explicit Euler is for it alone; under a controller the rod weighs at least as
+/// much as the rubber.
+std::vector<meshes::Violation> beyond_the_lattice(const PressSetup& setup);
+
+}  // namespace fingertip::lattice

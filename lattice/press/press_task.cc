@@ -1,0 +1,49 @@
+#include "lattice/press/press_task.h"
+
+namespace fingertip::lattice {
+
+using meshes::Vector3;
+
+Target PressWay::at(const Vector3& start, const SetPoint& point) const {
+  Target target;
+  target.pose.position = start + point.distance * direction;
+  target.twist.velocity = point.speed * direction;
+  target.acceleration.velocity = point.acceleration * direction;
+  return target;
+}
+
+FingerSetup finger_setup(const PressSetup& setup, const PressWay& way) {
+  FingerSetup finger;
+  finger.geometry = setup.geometry;
+  finger.rubber = setup.rubber;
+  finger.lattice = setup.lattice;
+  finger.rod = setup.rod;
+  finger.contact = {setup.protocol.contact, setup.protocol.friction};
+  finger.plane = {way.plane.point(-setup.protocol.clearance), way.plane.normal};
+  finger.gravity = -setup.gravity * way.plane.normal;
+  finger.prescribed = setup.protocol.mode == meshes::DriveMode::quasi_static;
+  finger.integrator = setup.integrator;
+  finger.time_step = setup.time_step;
+  finger.tolerance = setup.tolerance;
+  finger.energy_bound = setup.energy_bound;
+  finger.threads = setup.threads;
+  return finger;
+}
+
+ControlTask control_task(const PressSetup& setup, const PressWay& way, const RodBody& rod) {
+  const meshes::PressProtocol& protocol = setup.protocol;
+  ControlTask task;
+  task.period = setup.controller.period;
+  task.inertia = rod.inertia_at_endpoint();
+  task.force_limit = setup.controller.force_limit;
+  task.torque_limit = setup.controller.torque_limit;
+  task.normal = way.plane.normal;
+  task.clearance = protocol.clearance;
+  task.depth = protocol.depth;
+  task.speed = protocol.speed;
+  task.path = [start = rod.endpoint, way, approach = Approach(protocol.speed, protocol.clearance)](
+                  double time) { return way.at(start, approach.at(time)); };
+  return task;
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,312 @@
+#include "lattice/press/static_press.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "lattice/contact/contact_patch.h"
+#include "lattice/model/model.h"
+#include "lattice/statics/cut_lattice.h"
+#include "lattice/statics/elastic_system.h"
+#include "lattice/statics/equilibrium.h"
+#include "lattice/statics/static_contact.h"
+#include "meshes/files.h"
+
+namespace fingertip::lattice {
+
+using Eigen::VectorXd;
+using meshes::ContactMode;
+using meshes::DriveMode;
+using meshes::PressSample;
+using meshes::Vector3;
+
+namespace {
+
+/// Largest steps as shares of the rubber's thickness.
+constexpr double sticking_step = 1.0 / 100.0;
+constexpr double finite_step = 1.0 / 40.0;
+/// A step is not made smaller than this share of the largest.
+constexpr double smallest_share = 1.0 / 128.0;
+/// Rounds of anchoring and releasing within a step.
+constexpr int most_rounds = 60;
+/// Unbalanced force that is small enough to see which points touch.
+constexpr double search_tolerance = 1e-4;
+
+/// What PressSetup::violations() demands of a static press, whatever mode it says.
+std::vector<meshes::Violation> violations_of(const PressSetup& setup) {
+  PressSetup relevant = setup;
+  relevant.protocol.mode = DriveMode::equilibrium;
+  relevant.rod = {};
+  relevant.controller = {};
+  return relevant.violations();
+}
+
+void check(const PressSetup& setup) {
+  const auto found = violations_of(setup);
+  if (!found.empty()) throw meshes::InvalidInput(found);
+}
+
+/// One path of equilibria.
+class StaticPress {
+ public:
+  StaticPress(const PressSetup& setup, const LatticeBody& body, const StaticObserver& observer);
+  /// Carries derivatives along; `system` must outlive the press.
+  void differentiate(const SlopeSystem& system);
+  StaticOutcome run();
+  /// Of the samples, a row each; as many as were finished.
+  const PressSlopes& slopes() const { return slopes_; }
+
+ private:
+  /// All that a step changes.
+  struct State {
+    StaticContact contact;
+    VectorXd displacement;
+    StateSlopes slopes;  ///< empty unless differentiated
+  };
+
+  void take_census();
+  void march_to(double target);
+  bool step_to(double place);
+  VectorXd extrapolated(double place) const;
+  bool anchor(State& next) const;
+  PressSample sample() const;
+  void note_slopes();
+  void note_contact();
+  void report();
+
+  const PressSetup& setup_;
+  const LatticeBody& body_;
+  const StaticObserver& observer_;
+  const meshes::PressPath path_;
+  const ElasticSystem system_;
+  EquilibriumSolver solver_;
+  const SlopeSystem* slope_system_ = nullptr;
+  double search_tolerance_ = search_tolerance, tolerance_ = force_tolerance;
+  State now_;
+  double previous_place_ = 0.0;
+  VectorXd previous_displacement_;  ///< one step ago
+  double largest_step_ = 0.0, step_ = 0.0;
+  StaticOutcome outcome_;
+  PressSlopes slopes_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+};
+
+StaticPress::StaticPress(const PressSetup& setup, const LatticeBody& body,
+                         const StaticObserver& observer)
+    : setup_(setup),
+      body_(body),
+      observer_(observer),
+      path_(setup.protocol),
+      system_(body),
+      solver_(system_),
+      now_{StaticContact(body, press_plane(setup.protocol, setup.geometry), setup.protocol.contact),
+           VectorXd::Zero(body.unknowns()),
+           {}},
+      previous_displacement_(now_.displacement) {
+  const double thickness = setup.geometry.thickness();
+  largest_step_ = path_.length();
+  if (body.finite) largest_step_ = finite_step * thickness;
+  if (setup.protocol.contact == ContactMode::stick) largest_step_ = sticking_step * thickness;
+  step_ = largest_step_;
+  take_census();
+}
+
+void StaticPress::differentiate(const SlopeSystem& system) {
+  slope_system_ = &system;
+  search_tolerance_ = tolerance_ = slope_tolerance;
+  now_.slopes = system.at_rest();
+}
+
+void StaticPress::take_census() {
+  outcome_.particles = body_.rest.size();
+  outcome_.cells = body_.cells.size();
+  outcome_.springs = body_.fibres.size() + body_.springs.size();
+  outcome_.unknowns =
+      std::size_t(body_.unknowns()) - std::size_t(std::ranges::count(body_.fixed, std::uint8_t{1}));
+  outcome_.sectors = body_.sectors;
+  outcome_.volume = body_.sectors * std::accumulate(body_.mass.begin(), body_.mass.end(), 0.0) /
+                    setup_.rubber.density;
+  outcome_.exact_volume = setup_.geometry.tip_volume();
+}
+
+StaticOutcome StaticPress::run() {
+  for (const double target : path_.samples()) {
+    march_to(target);
+    outcome_.response.append(sample());
+    if (slope_system_) note_slopes();
+    note_contact();
+    report();
+  }
+  return std::move(outcome_);
+}
+
+void StaticPress::march_to(double target) {
+  // Steps of equal length, so that none is left over at the end.
+  while (now_.contact.place() < target) {
+    const double left = target - now_.contact.place();
+    const double count = std::ceil(left / step_ - 1e-9);
+    const bool last = count <= 1.0;
+    if (step_to(last ? target : now_.contact.place() + left / count)) {
+      step_ = std::min(2.0 * step_, largest_step_);
+      if (!last) report();
+      continue;
+    }
+    step_ = 0.5 * left / std::max(count, 1.0);
+    if (step_ < smallest_share * largest_step_) {
+      throw meshes::NotConverged("the static press found no equilibrium beyond an indentation of " +
+                                 meshes::to_text(now_.contact.pose().indentation) +
+                                 " m and a lateral displacement of " +
+                                 meshes::to_text(now_.contact.pose().lateral) +
+                                 " m; take a finer lattice, press less deep or move less far");
+    }
+  }
+}
+
+/// The last step's motion continued, where that turns no cell inside out.
+VectorXd StaticPress::extrapolated(double place) const {
+  const double from = now_.contact.place(), before = from - previous_place_;
+  if (!(before > 0.0) || path_.bends(previous_place_, place)) return now_.displacement;
+  const VectorXd guess =
+      now_.displacement + (place - from) / before * (now_.displacement - previous_displacement_);
+  return std::isfinite(system_.energy(guess)) ? guess : now_.displacement;
+}
+
+bool StaticPress::step_to(double place) {
+  const double from = now_.contact.place();
+  State next{now_.contact, extrapolated(place), now_.slopes};
+  next.contact.move_to(place);
+  next.contact.begin_step();
+  const bool stick = setup_.protocol.contact == ContactMode::stick;
+  double tolerance = stick ? search_tolerance_ : tolerance_;
+  bool settled = false;
+  for (int round = 0; round < most_rounds && !settled; ++round) {
+    if (!solver_.solve(next.contact, next.displacement, tolerance)) return false;
+    if (stick && slope_system_)
+      slope_system_->respond(solver_, next.contact, next.displacement, next.slopes);
+    if (anchor(next)) continue;
+    if (next.contact.release_pulled(next.displacement) > 0) continue;
+    settled = tolerance == tolerance_;
+    tolerance = tolerance_;
+  }
+  if (!settled) return false;
+  previous_place_ = from;
+  previous_displacement_.swap(now_.displacement);
+  now_ = std::move(next);
+  ++outcome_.steps;
+  outcome_.smallest_jacobian =
+      std::min(outcome_.smallest_jacobian, system_.smallest_jacobian(now_.displacement));
+  return true;
+}
+
+/// Anchors what has crossed the plane since the step's start; whether anything has.
+bool StaticPress::anchor(State& next) const {
+  const double from = now_.contact.place();
+  if (slope_system_) {
+    slope_system_->anchor(next.contact.first_touches(now_.displacement, from, next.displacement),
+                          next.contact.plane().normal, now_.slopes, next.slopes);
+  }
+  return next.contact.anchor_touching(now_.displacement, from, next.displacement) > 0;
+}
+
+/// Force and torque on the rod from the bond's ties. A tie's pull goes through its point on the
+/// rod, at rest or not, and the body's forces balance: they are those of the plane, too.
+PressSample StaticPress::sample() const {
+  const Vector3 endpoint = setup_.geometry.rod_endpoint();
+  Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
+  for (const EmbeddedPoint& point : body_.bond) {
+    const Vector3 pull = point.stiffness * shift(point, now_.displacement);
+    force += pull;
+    torque += (point.rest - endpoint).cross(pull);
+  }
+  // Mirror images: y -> -y turns (f, t) into (fx, -fy, fz), (-tx, ty, -tz); x -> -x likewise.
+  if (body_.sectors > 1) force.y() = torque.x() = torque.z() = 0.0;
+  if (body_.sectors > 2) force.x() = torque.y() = 0.0;
+  force *= body_.sectors;
+  torque *= body_.sectors;
+  const PressPlane& plane = now_.contact.plane();
+  const ContactPatch patch =
+      contact_patch(now_.contact.loaded_points(now_.displacement), body_.sectors);
+  PressSample sample;
+  const meshes::PressPose pose = now_.contact.pose();
+  sample.indentation = pose.indentation;
+  sample.lateral_displacement = pose.lateral;
+  sample.normal_force = force.dot(plane.normal);
+  sample.lateral_force_x = force.dot(plane.t1);
+  sample.lateral_force_y = force.dot(plane.t2);
+  sample.torque_x = torque.x();
+  sample.torque_y = torque.y();
+  sample.torque_z = torque.z();
+  sample.contact_radius = patch.radius;
+  sample.max_pressure = patch.max_pressure;
+  return sample;
+}
+
+/// Frictionless, a state owes nothing to those before it: only samples need slopes.
+void StaticPress::note_slopes() {
+  slope_system_->respond(solver_, now_.contact, now_.displacement, now_.slopes);
+  const Eigen::Matrix3Xd force = slope_system_->force(now_.displacement, now_.slopes);
+  const PressPlane& plane = now_.contact.plane();
+  const auto append = [](const Eigen::RowVectorXd& row, Eigen::MatrixXd& table) {
+    table.conservativeResize(table.rows() + 1, row.size());
+    table.bottomRows(1) = row;
+  };
+  append(plane.normal.transpose() * force, slopes_.normal_force);
+  append(plane.t1.transpose() * force, slopes_.lateral_force_x);
+  append(plane.t2.transpose() * force, slopes_.lateral_force_y);
+}
+
+void StaticPress::note_contact() {
+  outcome_.contact.clear();
+  for (std::size_t i = 0; i < body_.outer.size(); ++i)
+    outcome_.contact.push_back({body_.outer[i].rest, position(body_.outer[i], now_.displacement),
+                                now_.contact.pressure(i, now_.displacement)});
+}
+
+void StaticPress::report() {
+  outcome_.newton_iterations = solver_.effort().newton_iterations;
+  outcome_.factorisations = solver_.effort().factorisations;
+  outcome_.wall_time =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  if (observer_ && !observer_(outcome_, now_.contact.place() / path_.length()))
+    throw meshes::Interrupted("the press was interrupted");
+}
+
+}  // namespace
+
+LatticeBody static_body(const PressSetup& setup, int sectors) {
+  if (setup.lattice.model != ModelKind::published)
+    return build_cut_tip(setup.geometry, setup.rubber, setup.lattice, sectors);
+  return body_of(build_published_tip(setup.geometry, setup.rubber, setup.lattice), setup.geometry,
+                 setup.rubber);
+}
+
+StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer) {
+  check(setup);
+  const LatticeBody body = static_body(setup, largest_symmetry(setup.lattice, setup.protocol));
+  return StaticPress(setup, body, observer).run();
+}
+
+StaticOutcome run_static_press(const PressSetup& setup, const LatticeBody& body,
+                               const StaticObserver& observer) {
+  check(setup);
+  return StaticPress(setup, body, observer).run();
+}
+
+StaticOutcomeWithSlopes run_static_press_with_slopes(const PressSetup& setup,
+                                                     const std::vector<PressParameter>& parameters,
+                                                     const StaticObserver& observer) {
+  check(setup);
+  const LatticeBody body = static_body(setup, largest_symmetry(setup.lattice, setup.protocol));
+  const SlopeSystem system(setup, body, parameters);
+  StaticPress press(setup, body, observer);
+  press.differentiate(system);
+  StaticOutcomeWithSlopes result{press.run(), press.slopes()};
+  result.slopes.parameters = parameters;
+  return result;
+}
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,74 @@
+/// The press without time: a path of equilibria.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lattice/press/press_setup.h"
+#include "lattice/press/press_slopes.h"
+#include "lattice/statics/lattice_body.h"
+#include "meshes/press_response.h"
+
+namespace fingertip::lattice {
+
+/// The state of an outer point at the end of a press.
+struct StaticContactPoint {
+  meshes::Vector3 rest, deformed;  ///< [m]
+  double pressure = 0.0;  ///< along the plane's normal, per rest area [Pa]; 0: not touching
+};
+
+/// Counts and contact points are those of the part computed, 1/sectors of the tip; forces, torques
+/// and radii are the whole tip's. Of the response's columns time and force_error stay unknown.
+/// contact_radius and max_pressure are those of contact_patch: true ones at finite strain, at small
+/// strain those of the shape at rest. How far off they are stands in
+/// lattice/MEASUREMENTS.md (contact).
+struct StaticOutcome {
+  meshes::PressResponse response;  ///< at the samples of the protocol's path
+  std::size_t particles = 0, cells = 0, springs = 0, unknowns = 0;
+  int sectors = 1;
+  double volume = 0.0, exact_volume = 0.0;  ///< of the rubber, whole tip [m³]
+  int steps = 0, newton_iterations = 0, factorisations = 0;
+  double smallest_jacobian = 1.0;           ///< over all cells and steps
+  double wall_time = 0.0;                   ///< [s]
+  std::vector<StaticContactPoint> contact;  ///< at the last sample finished
+};
+
+/// The lattice of `setup` as lists: the published model on its own particles (sectors = 1), the
+/// others on cut cells. Throws InvalidInput as build_tip and build_cut_tip do.
+LatticeBody static_body(const PressSetup& setup, int sectors);
+
+/// Called after every sample and after the steps between; false ends the press with Interrupted.
+using StaticObserver = std::function<bool(const StaticOutcome& so_far, double fraction_done)>;
+
+/// Presses `setup`'s lattice quasi-statically along the protocol's PressPath, with stick or
+/// frictionless contact, tilt and lateral motion.
+/// Contact is a one-sided elastic tie of every outer point to the plane (EmbeddedPoint::stiffness):
+/// frictionless along the normal; stick to the place where the point first touched, interpolated
+/// within the step, and released when pulled. Steps are at most (R - r)/100 with stick, (R - r)/40
+/// at finite strain without; a step that fails is halved, down to 1/128 of that. The published
+/// model is computed on its own particles, the others on cut cells, on the smallest part that
+/// symmetry allows. Of `setup`, the protocol's mode, rod, controller and integrator do not matter.
+/// Throws InvalidInput for a setup that breaks a rule, NotConverged when Newton's method fails at
+/// the smallest step (the observer has seen what was finished), Interrupted when the observer asks.
+StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer = {});
+
+/// The same with a body of one's own, made for `setup` (largest_symmetry for its sectors).
+StaticOutcome run_static_press(const PressSetup& setup, const LatticeBody& body,
+                               const StaticObserver& observer = {});
+
+struct StaticOutcomeWithSlopes {
+  StaticOutcome outcome;
+  PressSlopes slopes;
+};
+
+/// run_static_press, and the derivatives of its forces with respect to `parameters` (which may be
+/// none): exact for the path computed, as long as every point touches, slides or is released in the
+/// same step. All states are in equilibrium to slope_tolerance, so that forces may differ from
+/// run_static_press's by what its coarser search for the points that stick leaves, and finite
+/// differences of them are good for comparison. Throws InvalidInput as body_slope does,
+/// NotConverged also where a tangent is not positive definite.
+StaticOutcomeWithSlopes run_static_press_with_slopes(const PressSetup& setup,
+                                                     const std::vector<PressParameter>& parameters,
+                                                     const StaticObserver& observer = {});
+
+}  // namespace fingertip::lattice

@@ -1,0 +1,146 @@
+#include "lattice/dynamics/scaling/multigrid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "lattice/dynamics/scaling/edge_inertia.h"
+#include "tests/lattice/fixtures.h"
+
+using namespace fingertip;
+using namespace fixtures;
+using lattice::GridHierarchy;
+using lattice::LatticeModel;
+using lattice::Multigrid;
+using lattice::MultigridFields;
+using lattice::VectorField;
+
+namespace {
+
+/// A tip cut at random places, with the inertia that steps of `step` ask for.
+struct Scene {
+  LatticeModel model;
+  lattice::EdgeInertia edges;
+  std::shared_ptr<const GridHierarchy> hierarchy;
+  std::vector<lattice::PointTie> contact;
+  Vector3 normal = Vector3(1.0, -2.0, 2.0) / 3.0;
+
+  Scene(int per_radius, double step, bool touches) {
+    lattice::LatticeSettings settings =
+        settings_for(lattice::ModelKind::network, lattice::Kinematics::finite, per_radius);
+    settings.constants = lattice::hookean_constants({}, settings.spacing);
+    settings.offset = Vector3(0.3, -0.2, 0.1);
+    model = lattice::build_tip({}, {}, settings);
+    hierarchy = std::make_shared<GridHierarchy>(model);
+    const std::size_t points = hierarchy->levels().front().points();
+    for (auto& component : edges) component.fill(std::vector<float>(points, 0.0F));
+    lattice::Team team(1);
+    lattice::EdgeInertiaRule(model).find(lattice::State(model), step, 1.0, team, edges);
+    for (std::size_t n = 0; touches && n < model.particles.size(); n += 3) {
+      const std::uint32_t i = model.particles[n];
+      contact.push_back({i, float(50.0 * model.mass[i]), float(double(n % 2) * model.mass[i])});
+    }
+  }
+
+  /// A u, A = D + S.
+  VectorField product(const VectorField& u) const {
+    VectorField result(model.points());
+    for (const std::uint32_t i : model.particles) {
+      result.add(i, model.mass[i] * u.at(i));
+      for (std::size_t d = 0; d < 3; ++d) {
+        const std::size_t other = i + std::size_t(hierarchy->levels()[0].next[d]);
+        Vector3 pull = u.at(i) - u.at(other);
+        for (std::size_t c = 0; c < 3; ++c) pull[Eigen::Index(c)] *= double(edges[c][d][i]);
+        result.add(i, pull);
+        result.add(other, -pull);
+      }
+    }
+    for (const lattice::PointTie& one : contact) {
+      const Vector3 v = u.at(one.point), along = normal.dot(v) * normal;
+      result.add(one.point, double(one.along) * along + double(one.aside) * (v - along));
+    }
+    return result;
+  }
+
+  double dot(const VectorField& u, const VectorField& v) const {
+    double sum = 0.0;
+    for (const std::uint32_t i : model.particles) sum += u.at(i).dot(v.at(i));
+    return sum;
+  }
+
+  VectorField random(unsigned seed) const {
+    return random_state(model, 1.0, 0.0, seed).displacement;
+  }
+};
+
+/// B, by V-cycles.
+class Solver {
+ public:
+  explicit Solver(const Scene& scene)
+      : scene_(&scene), grids_(scene.hierarchy), fields_(*scene.hierarchy), team_(1) {
+    grids_.finest_edges() = scene.edges;
+    grids_.set(scene.model.mass, team_);
+    fields_.levels[0].contact = scene.contact;
+  }
+
+  VectorField solve(const VectorField& load) {
+    MultigridFields::Level& finest = fields_.levels[0];
+    for (const std::uint32_t i : scene_->model.particles)
+      for (std::size_t c = 0; c < 3; ++c) finest.load[c][i] = float(load.component[c][i]);
+    grids_.solve(scene_->normal, team_, fields_);
+    VectorField result(scene_->model.points());
+    for (const std::uint32_t i : scene_->model.particles)
+      result.set(i, Vector3(finest.solution[0][i], finest.solution[1][i], finest.solution[2][i]));
+    return result;
+  }
+
+ private:
+  const Scene* scene_;
+  Multigrid grids_;
+  MultigridFields fields_;
+  lattice::Team team_;
+};
+
+/// Largest eigenvalue of B A - shift, of which the other sign wins if |shift| does: power iteration
+/// with quotients in the product <., A .>, in which it is self-adjoint.
+double dominant(const Scene& scene, double shift) {
+  Solver solver(scene);
+  VectorField u = scene.random(5);
+  double quotient = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    VectorField load = scene.product(u);
+    const double size = scene.dot(u, load);
+    for (const std::uint32_t i : scene.model.particles) load.set(i, load.at(i) / std::sqrt(size));
+    VectorField next = solver.solve(load);
+    quotient = scene.dot(load, next) - shift;
+    for (const std::uint32_t i : scene.model.particles)
+      next.add(i, -shift / std::sqrt(size) * u.at(i));
+    u = next;
+  }
+  return quotient + shift;
+}
+
+class VCycle : public testing::TestWithParam<std::tuple<int, double, bool>> {
+ protected:
+  const Scene scene_{std::get<0>(GetParam()), std::get<1>(GetParam()), std::get<2>(GetParam())};
+};
+
+}  // namespace
+
+TEST_P(VCycle, IsSymmetric) {
+  Solver solver(scene_);
+  const VectorField f = scene_.random(1), g = scene_.random(2);
+  const VectorField to_f = solver.solve(f), to_g = solver.solve(g);
+  EXPECT_NEAR(scene_.dot(f, to_g), scene_.dot(g, to_f), 1e-5 * scene_.dot(f, to_f));
+}
+
+TEST_P(VCycle, LiesBetweenAShareOfTheInverseAndTheInverse) {
+  EXPECT_LT(dominant(scene_, 0.0), 1.0 + 1e-5);
+  EXPECT_GT(dominant(scene_, 0.0), 0.8);
+  EXPECT_GT(dominant(scene_, 1.0), 0.18);
+}
+
+INSTANTIATE_TEST_SUITE_P(Steps, VCycle,
+                         testing::Combine(testing::Values(4, 6, 8),
+                                          testing::Values(1e-5, 2.5e-4, 1e-3), testing::Bool()));

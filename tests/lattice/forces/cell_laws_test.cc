@@ -1,0 +1,233 @@
+// What the cells' laws promise, seen through the kernel.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+#include "lattice/kernels/pack_algebra.h"
+#include "lattice/statics/cell_law.h"
+#include "tests/lattice/cell_scenes.h"
+
+using namespace fingertip;
+using namespace cell_scenes;
+
+namespace {
+
+/// First Piola-Kirchhoff stress of law A.
+Matrix3d law_a_stress(const CellMaterial& m, const Matrix3d& F) {
+  const Matrix3d T = F.inverse().transpose();
+  return m.shear * (F - T) + m.lambda * std::log(F.determinant()) * T;
+}
+
+/// Sum of the forces on the particles of the block's face of largest x.
+Vector3 force_on_face(const Scene& scene, const VectorField& force) {
+  int last = 0;
+  for (const CutCell& cell : scene.cells) last = std::max(last, cell.index[0] + 1);
+  Vector3 result = Vector3::Zero();
+  for (int k = 0; k < scene.grid.size[2]; ++k) {
+    for (int j = 0; j < scene.grid.size[1]; ++j) {
+      result += force.at(scene.grid.index(last, j, k));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST(CellForces, TurnWithTheBody) {
+  const Matrix3d Q = Eigen::AngleAxisd(2.1, Vector3(1.0, -2.0, 0.5).normalized()).matrix();
+  for_all_scenes([&](const Scene& scene) {
+    for (const CellLawKind kind : finite_laws) {
+      const CellLattice cells = scene.of(material(kind, tau));
+      const VectorField u = strained(scene, 6), v = random_field(scene, 0.3, 7);
+      VectorField turned(scene.grid.points()), turned_v = turned, turned_force = turned;
+      const VectorField force = forces(cells, u, v);
+      const VectorField rest = on_particles(scene, [](const Vector3& x) { return x; });
+      for (std::size_t p = 0; p < scene.grid.points(); ++p) {
+        turned.set(p, Q * (rest.at(p) + u.at(p)) + Vector3(0.01, 0.02, -0.03) - rest.at(p));
+        turned_v.set(p, Q * v.at(p));
+        turned_force.set(p, Q * force.at(p));
+      }
+      const double energy = cell_energy(cells, u);
+      EXPECT_NEAR(cell_energy(cells, turned), energy, 1e-11 * energy);
+      EXPECT_LT(largest(sum(forces(cells, turned, turned_v), -1.0, turned_force)),
+                1e-11 * largest(force));
+    }
+  });
+}
+
+TEST(CellForces, RigidMotionOfADeformedBodyIsNotDamped) {
+  for_all_scenes([](const Scene& scene) {
+    for (const CellLawKind kind : finite_laws) {
+      const CellLattice cells = scene.of(material(kind, tau));
+      const VectorField u = strained(scene, 8), rest(scene.grid.points());
+      const Vector3 spin(30.0, -10.0, 20.0);
+      VectorField x = on_particles(scene, [](const Vector3& X) { return X; });
+      x = sum(x, 1.0, u);
+      VectorField v(scene.grid.points());
+      for (std::size_t p = 0; p < scene.grid.points(); ++p) {
+        v.set(p, Vector3(0.1, 0.2, -0.3) + spin.cross(x.at(p)));
+      }
+      CellExtremes extremes;
+      const VectorField without = forces(cells, u, rest), with = forces(cells, u, v, &extremes);
+      const VectorField damped = forces(cells, u, random_field(scene, 0.1, 9));
+      EXPECT_LT(largest(sum(with, -1.0, without)), 1e-12 * largest(sum(damped, -1.0, without)));
+      EXPECT_LT(extremes.fastest, 1e-11 * spin.norm());
+      if (kind != CellLawKind::network) continue;
+      const double largest_row = 50.0;  // of [spin]x: |30| + |20|
+      EXPECT_NEAR(extremes.velocity_gradient, largest_row, 1e-9 * largest_row);
+    }
+  });
+}
+
+TEST(CellForces, BalanceInForceAndTorque) {
+  for_all_materials([](const Scene& scene, const CellMaterial& m) {
+    const VectorField u = strained(scene, 11), v = random_field(scene, 0.3, 12);
+    const VectorField force = forces(scene.of(m), u, v);
+    // Small strain exerts its forces where the particles rest.
+    VectorField x = on_particles(scene, [](const Vector3& X) { return X; });
+    if (m.kind != CellLawKind::cubic) x = sum(x, 1.0, u);
+    Vector3 total = Vector3::Zero(), torque = Vector3::Zero();
+    double magnitude = 0.0;
+    for (std::size_t p = 0; p < scene.grid.points(); ++p) {
+      total += force.at(p);
+      torque += x.at(p).cross(force.at(p));
+      magnitude += force.at(p).norm();
+    }
+    EXPECT_LT(total.norm(), 1e-13 * magnitude);
+    EXPECT_LT(torque.norm(), 1e-13 * magnitude * 0.03);
+  });
+}
+
+TEST(CellForces, DampersDissipate) {
+  for_all_scenes([](const Scene& scene) {
+    for (const CellLawKind kind : finite_laws) {
+      const CellLattice cells = scene.of(material(kind, tau));
+      for (unsigned seed = 20; seed < 30; ++seed) {
+        const VectorField u = strained(scene, seed), v = random_field(scene, 0.5, seed + 100);
+        const VectorField without = forces(cells, u, VectorField(scene.grid.points()));
+        EXPECT_LT(product(sum(forces(cells, u, v), -1.0, without), v), 0.0);
+      }
+    }
+  });
+}
+
+TEST(CellForces, DampingAtRestIsTauTimesTheStiffness) {
+  for_all_scenes([](const Scene& scene) {
+    for (const CellLawKind kind : finite_laws) {
+      const CellMaterial m = material(kind, tau);
+      CellMaterial linear = material(CellLawKind::cubic);
+      const bool network = kind == CellLawKind::network;
+      linear.c44 = network ? m.shear : 0.0;
+      linear.c12 = network ? m.lambda : m.kappa;
+      linear.c11 = linear.c12 + 2.0 * linear.c44;
+      if (!network) linear.bending = 0.0;
+      const VectorField v = random_field(scene, 0.5, 13), rest(scene.grid.points());
+      const VectorField expected = forces(scene.of(linear), sum(rest, tau, v), rest);
+      EXPECT_LT(largest(sum(forces(scene.of(m), rest, v), -1.0, expected)),
+                1e-13 * largest(expected));
+      EXPECT_EQ(largest(forces(scene.of(m), rest, rest)), 0.0);
+    }
+  });
+}
+
+TEST(CellForces, HomogeneousDeformationHasTheStressOfLawA) {
+  const Scene scene = block(10, 3, 2);
+  const double area = 6.0 * scene.grid.spacing * scene.grid.spacing;
+  const CellMaterial m = material(CellLawKind::network);
+  const CellLattice cells = scene.of(m);
+  const auto stress_of = [&](const Matrix3d& F) -> Vector3 {
+    const VectorField u = on_particles(
+        scene, [&](const Vector3& x) { return Vector3((F - Matrix3d::Identity()) * x); });
+    return -force_on_face(scene, forces(cells, u, VectorField(scene.grid.points()))) / area;
+  };
+  const Matrix3d shear = some_gradient();
+  for (double stretch = 0.5; stretch < 1.55; stretch += 0.1) {
+    for (const double sheared : {0.0, 1.0}) {
+      Matrix3d F = Vector3(stretch, 1.0, 1.0 / std::sqrt(stretch)).asDiagonal();
+      F += sheared * shear;
+      const Vector3 expected = law_a_stress(m, F).col(0);
+      EXPECT_LT((stress_of(F) - expected).norm(), 1e-12 * m.lambda) << stretch;
+    }
+  }
+  // Volumes that need the logarithm's range reduction.
+  for (int power = -11; power <= 11; ++power) {
+    const Matrix3d F = 1.1 * std::exp2(power / 3.0) * Matrix3d::Identity();
+    const Vector3 expected = law_a_stress(m, F).col(0);
+    EXPECT_LT((stress_of(F) - expected).norm(), 1e-12 * expected.norm()) << power;
+  }
+}
+
+TEST(CellForces, LogarithmIsGoodToOneUnitInTheLastPlace) {
+  using Pack = std::experimental::native_simd<double>;
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> near(0.7, 1.42), exponent(-12.0, 12.0);
+  for (int i = 0; i < 100000; ++i) {
+    const double value = i % 2 == 0 ? near(generator) : std::exp2(exponent(generator));
+    const double computed = lattice::kernel::PackAlgebra<Pack>::log(value)[0];
+    const long double exact = std::log(static_cast<long double>(value));
+    EXPECT_LE(std::abs(computed - exact), 2.3e-16L * std::abs(exact)) << value;
+  }
+}
+
+TEST(CellForces, ExtremesOfAKnownDeformation) {
+  const Scene scene = block(10, 3, 2);
+  const auto extremes = [&](CellLawKind kind, double stretch, double rate) {
+    const auto along_x = [&](double factor) {
+      return on_particles(scene, [=](const Vector3& x) { return Vector3(factor * x.x(), 0, 0); });
+    };
+    CellExtremes found;
+    forces(scene.of(material(kind, tau)), along_x(stretch - 1.0), along_x(rate), &found);
+    return found;
+  };
+  const CellMaterial m = material(CellLawKind::network, tau);
+  const CellExtremes network = extremes(CellLawKind::network, 0.4, 1.2);
+  const double g = 1.0 / 0.16, pressure = m.shear - m.lambda * std::log(0.4);
+  EXPECT_NEAR(network.smallest_jacobian, 0.4, 1e-13);
+  EXPECT_NEAR(network.thickening, g, 1e-11);
+  EXPECT_NEAR(network.stiffening,
+              (m.shear + (pressure + m.lambda) * g) / (m.lambda + 2.0 * m.shear), 1e-11);
+  EXPECT_NEAR(network.fastest, 3.0, 1e-11);
+  const CellExtremes volume = extremes(CellLawKind::volume, 0.4, 1.2);
+  EXPECT_NEAR(volume.smallest_jacobian, 0.4, 1e-13);
+  EXPECT_NEAR(volume.thickening, 1.0, 1e-12);
+  EXPECT_NEAR(volume.stiffening, 1.0 + 0.6 / 0.4, 1e-12);
+  EXPECT_NEAR(volume.fastest, 3.0, 1e-11);
+  EXPECT_NEAR(extremes(CellLawKind::network, -0.5, 0.0).smallest_jacobian, -0.5, 1e-13);
+  expect_equal(extremes(CellLawKind::cubic, 0.4, 1.2), CellExtremes{});
+  expect_equal(extremes(CellLawKind::network, 1.0, 0.0), CellExtremes{});
+}
+
+/// Against the eigenvalues of the statics' tangents.
+TEST(CellForces, StiffeningBoundsTheTangent) {
+  using Eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>>;
+  const Scene scene = block(1, 1, 1);
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  for (const double ratio : {0.0, 0.5, 7.0}) {
+    CellMaterial network = material(CellLawKind::network);
+    network.lambda = ratio * network.shear;
+    meshes::Rubber rubber;
+    rubber.shear_modulus = network.shear;
+    rubber.youngs_modulus = network.shear * (3.0 * ratio + 2.0) / (ratio + 1.0);
+    const CellMaterial volume = material(CellLawKind::volume);
+    const lattice::CellLaw laws[] = {lattice::CellLaw::network(rubber, 0.0),
+                                     lattice::CellLaw::volume(volume.kappa, true)};
+    for (int i = 0; i < 300; ++i) {
+      const double size = i % 2 == 0 ? 0.2 : 0.5;
+      Matrix3d H = size * Matrix3d::NullaryExpr([&] { return normal(generator); });
+      if (i % 3 == 0) H = (std::exp(normal(generator)) - 1.0) * Matrix3d::Identity();
+      if ((Matrix3d::Identity() + H).determinant() < 0.01) continue;
+      const VectorField u = on_particles(scene, [&](const Vector3& x) { return Vector3(H * x); });
+      for (const int law : {0, 1}) {
+        const auto largest_of = [&](const Matrix3d& at) {
+          return Eigenvalues(laws[law].evaluate(at).tangent).eigenvalues().cwiseAbs().maxCoeff();
+        };
+        CellExtremes extremes;
+        forces(scene.of(law == 0 ? network : volume), u, u, &extremes);
+        EXPECT_LE(largest_of(H), extremes.stiffening * largest_of(Matrix3d::Zero()) * (1.0 + 1e-9));
+      }
+    }
+  }
+}

@@ -1,0 +1,366 @@
+#include "lattice/press/static_press.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "lattice/statics/cut_lattice.h"
+
+using namespace fingertip;
+using lattice::Kinematics;
+using lattice::ModelKind;
+using lattice::PressSetup;
+using lattice::StaticOutcome;
+using meshes::ContactMode;
+using meshes::PressSample;
+using meshes::Vector3;
+
+namespace {
+
+constexpr double gf = 9.80665e-3;  // [N]
+constexpr double cm = 1e-2;
+
+PressSetup press_at(int per_radius, std::vector<double> samples_cm,
+                    ContactMode contact = ContactMode::frictionless,
+                    ModelKind model = ModelKind::hookean,
+                    Kinematics kinematics = Kinematics::small) {
+  PressSetup setup;
+  setup.lattice.model = model;
+  setup.lattice.kinematics = kinematics;
+  setup.lattice.spacing = setup.geometry.tip_radius / per_radius;
+  setup.lattice.constants = model == ModelKind::published
+                                ? lattice::published_constants(setup.rubber, setup.lattice.spacing)
+                                : lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
+  setup.protocol.contact = contact;
+  for (const double sample : samples_cm) setup.protocol.samples.push_back(sample * cm);
+  setup.protocol.depth = setup.protocol.samples.back();
+  return setup;
+}
+
+PressSample last_sample(const PressSetup& setup) {
+  return lattice::run_static_press(setup).response.samples().back();
+}
+
+lattice::LatticeBody body_in_sectors(const PressSetup& setup, int sectors) {
+  return build_cut_tip(setup.geometry, setup.rubber, setup.lattice, sectors);
+}
+
+void expect_same(const PressSample& a, const PressSample& b, double share, double length) {
+  EXPECT_NEAR(a.normal_force, b.normal_force, share * b.normal_force);
+  EXPECT_NEAR(a.lateral_force_x, b.lateral_force_x, share * b.normal_force);
+  EXPECT_NEAR(a.lateral_force_y, b.lateral_force_y, share * b.normal_force);
+  EXPECT_NEAR(a.torque_x, b.torque_x, share * b.normal_force * length);
+  EXPECT_NEAR(a.torque_y, b.torque_y, share * b.normal_force * length);
+  EXPECT_NEAR(a.torque_z, b.torque_z, share * b.normal_force * length);
+  EXPECT_NEAR(a.contact_radius, b.contact_radius, share * length);
+  EXPECT_NEAR(a.max_pressure, b.max_pressure, share * b.max_pressure);
+}
+
+}  // namespace
+
+/// Against axisymmetric quadratic finite elements, accurate to 0.03 %
+/// (tests/fem_reference/data/press_linear_frictionless.csv).
+TEST(StaticPress, AgreesWithTheContinuum) {
+  struct Truth {
+    double force_gf, radius_cm;
+  };
+  const std::map<double, Truth> truth = {{0.05, {1.02296, 0.2448}},
+                                         {0.10, {3.25628, 0.3494}},
+                                         {0.20, {10.22344, 0.4837}},
+                                         {0.30, {19.42179, 0.5720}}};
+  for (const auto& [per_radius, tolerance] : {std::pair{6, 0.035}, {8, 0.03}, {10, 0.02}}) {
+    const auto outcome = lattice::run_static_press(press_at(per_radius, {0.05, 0.1, 0.2, 0.3}));
+    EXPECT_EQ(outcome.sectors, 4);
+    EXPECT_NEAR(outcome.volume / outcome.exact_volume, 1.0, 1e-5);
+    for (const PressSample& sample : outcome.response.samples()) {
+      const Truth& exact = truth.at(std::round(sample.indentation / cm * 1e4) / 1e4);
+      const double depth_cm = sample.indentation / cm;
+      EXPECT_NEAR(sample.normal_force / gf / exact.force_gf, 1.0,
+                  depth_cm < 0.075 ? 2 * tolerance : tolerance)
+          << per_radius << ' ' << depth_cm;
+      // A quarter of a spacing while few cells touch.
+      EXPECT_NEAR(sample.contact_radius / cm, exact.radius_cm,
+                  depth_cm < 0.075 ? 0.25 / per_radius : 0.01)
+          << per_radius << ' ' << depth_cm;
+    }
+  }
+}
+
+/// The continuum that sticks, small strain: 22.08 gf at 0.3 cm where it slides with 19.42.
+TEST(StaticPress, SticksLikeTheContinuum) {
+  const auto outcome =
+      lattice::run_static_press(press_at(8, {0.05, 0.1, 0.2, 0.3}, ContactMode::stick));
+  const std::vector<double> truth_gf = {1.03, 3.32, 10.99, 22.08};
+  for (std::size_t i = 0; i < truth_gf.size(); ++i) {
+    EXPECT_NEAR(outcome.response.samples()[i].normal_force / gf / truth_gf[i], 1.0,
+                i == 0 ? 0.06 : 0.02);
+  }
+  EXPECT_GE(outcome.steps, 60);
+}
+
+/// Law A of the continuum, good to some 0.3 %.
+TEST(StaticPress, NetworkAgreesWithLawA) {
+  const auto outcome =
+      lattice::run_static_press(press_at(8, {0.05, 0.1, 0.2, 0.3, 0.35}, ContactMode::frictionless,
+                                         ModelKind::network, Kinematics::finite));
+  const std::vector<double> truth_gf = {1.038, 3.535, 13.15, 29.74, 41.50};
+  for (std::size_t i = 0; i < truth_gf.size(); ++i) {
+    EXPECT_NEAR(outcome.response.samples()[i].normal_force / gf / truth_gf[i], 1.0,
+                i == 0 ? 0.06 : 0.025);
+  }
+  EXPECT_GT(outcome.smallest_jacobian, 0.5);
+  EXPECT_LT(outcome.smallest_jacobian, 0.9);
+}
+
+/// Largest true pressure and radius at 0.3 cm of law A from axisymmetric finite elements
+/// (tests/verification/axisymmetric).
+TEST(StaticPress, PressureAndRadiusAtLargeStrain) {
+  struct Truth {
+    ContactMode contact;
+    double radius_cm, pressure_gf_cm2;
+  };
+  for (const Truth& truth : {Truth{ContactMode::frictionless, 0.6578, 41.98},
+                             Truth{ContactMode::stick, 0.6488, 50.26}}) {
+    const PressSample sample =
+        last_sample(press_at(8, {0.3}, truth.contact, ModelKind::network, Kinematics::finite));
+    EXPECT_NEAR(sample.contact_radius / cm / truth.radius_cm, 1.0, 0.025);
+    EXPECT_NEAR(sample.max_pressure / (gf / (cm * cm)) / truth.pressure_gf_cm2, 1.0, 0.075);
+  }
+}
+
+/// Strain is of the order of sqrt(depth/R): ten times less deep, the laws are closer.
+TEST(StaticPress, FiniteStrainTendsToSmallStrain) {
+  const auto difference = [](double depth_cm) {
+    const auto force = [&](Kinematics kinematics) {
+      return last_sample(
+                 press_at(6, {depth_cm}, ContactMode::frictionless, ModelKind::network, kinematics))
+          .normal_force;
+    };
+    return std::abs(force(Kinematics::finite) / force(Kinematics::small) - 1.0);
+  };
+  EXPECT_GT(difference(0.2), 0.1);
+  EXPECT_LT(difference(0.02), 0.02);
+  EXPECT_LT(difference(0.002), 0.001);
+}
+
+TEST(StaticPress, PartsAreTheWhole) {
+  const double length = meshes::Geometry{}.rod_length;
+  for (const ContactMode contact : {ContactMode::frictionless, ContactMode::stick}) {
+    const PressSetup setup = press_at(5, {0.1}, contact);
+    const PressSample quarter = last_sample(setup);
+    EXPECT_EQ(quarter.lateral_force_x, 0.0);
+    EXPECT_EQ(quarter.torque_y, 0.0);
+    for (const int sectors : {2, 1}) {
+      const auto outcome = lattice::run_static_press(setup, body_in_sectors(setup, sectors));
+      EXPECT_EQ(outcome.sectors, sectors);
+      expect_same(outcome.response.samples().back(), quarter, 1e-7, length);
+    }
+  }
+}
+
+TEST(StaticPress, TiltedHalfIsTheWhole) {
+  PressSetup setup = press_at(5, {0.05, 0.1}, ContactMode::stick);
+  setup.protocol.tilt = 0.2;
+  setup.protocol.lateral = 3e-4;
+  const PressSample half = last_sample(setup);
+  const auto whole = lattice::run_static_press(setup, body_in_sectors(setup, 1));
+  // Anchors are found on states converged to 1e-4 only, on both sides of the mirror plane.
+  expect_same(whole.response.samples().back(), half, 1e-6, setup.geometry.rod_length);
+  EXPECT_GT(half.lateral_force_x, 0.0);
+}
+
+TEST(StaticPress, MirrorsWithTiltAndLateralMotion) {
+  PressSetup setup = press_at(5, {0.1}, ContactMode::stick);
+  setup.protocol.tilt = 0.3;
+  setup.protocol.lateral = 2e-4;
+  const PressSample one = last_sample(setup);
+  setup.protocol.tilt = -0.3;
+  setup.protocol.lateral = -2e-4;
+  PressSample two = last_sample(setup);
+  EXPECT_GT(std::abs(one.lateral_force_x), 1e-3 * one.normal_force);
+  two.lateral_force_x *= -1.0;
+  two.torque_y *= -1.0;
+  expect_same(two, one, 1e-6, setup.geometry.rod_length);
+}
+
+/// The rod takes what the plane gives: force, and moment about the endpoint, at rest positions at
+/// small strain and at present ones at finite strain.
+TEST(StaticPress, BondAndPlaneBalance) {
+  for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
+    PressSetup setup =
+        press_at(6, {0.15}, ContactMode::frictionless, ModelKind::network, kinematics);
+    setup.protocol.tilt = 0.25;
+    const auto body = body_in_sectors(setup, 2);
+    const auto outcome = lattice::run_static_press(setup, body);
+    const Vector3 n(-std::sin(0.25), 0.0, -std::cos(0.25));
+    double force = 0.0, moment = 0.0;
+    for (std::size_t i = 0; i < body.outer.size(); ++i) {
+      const auto& point = outcome.contact[i];
+      const Vector3 push = 2.0 * point.pressure * body.outer[i].area * n;
+      const Vector3 place = kinematics == Kinematics::finite ? point.deformed : point.rest;
+      force += push.dot(n);
+      moment += (place - setup.geometry.rod_endpoint()).cross(push).y();
+    }
+    const PressSample& sample = outcome.response.samples().back();
+    EXPECT_NEAR(sample.normal_force, force, 1e-8 * force);
+    EXPECT_NEAR(sample.lateral_force_x, 0.0, 1e-8 * force);
+    EXPECT_NEAR(sample.torque_y, moment, 1e-8 * force * setup.geometry.rod_length);
+    // The push goes through the contact, near the foot of the sphere's centre.
+    const double arm = sample.torque_y / sample.normal_force +
+                       setup.geometry.rod_length * std::sin(setup.protocol.tilt);
+    EXPECT_LT(std::abs(arm), 0.1 * sample.contact_radius);
+  }
+}
+
+TEST(StaticPress, LateralMotionDragsOnlyWhatSticks) {
+  PressSetup setup = press_at(5, {0.1}, ContactMode::frictionless);
+  const double still = last_sample(setup).normal_force;
+  setup.protocol.lateral = 3e-4;
+  const PressSample sliding = last_sample(setup);
+  EXPECT_NEAR(sliding.normal_force, still, 1e-8 * still);
+  EXPECT_NEAR(sliding.lateral_force_x, 0.0, 1e-8 * still);
+  setup.protocol.contact = ContactMode::stick;
+  const PressSample stuck = last_sample(setup);
+  EXPECT_GT(stuck.lateral_force_x, 0.05 * stuck.normal_force);
+  const double height = setup.geometry.tip_radius + setup.geometry.rod_length;
+  EXPECT_NEAR(stuck.torque_y, height * stuck.lateral_force_x,
+              0.5 * stuck.contact_radius * stuck.normal_force);
+}
+
+/// Down and then aside, or both at once: a frictionless plane is the same everywhere.
+TEST(StaticPress, WithoutFrictionAPlaneMovesOnUnnoticed) {
+  for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
+    PressSetup setup =
+        press_at(5, {0.1, 0.2}, ContactMode::frictionless, ModelKind::network, kinematics);
+    const auto body = body_in_sectors(setup, 2);
+    const auto straight = lattice::run_static_press(setup, body).response;
+    setup.protocol.lateral = -4e-4;
+    const PressSample diagonal = last_sample(setup);
+    setup.protocol.lateral_path = meshes::LateralPath::after;
+    setup.protocol.lateral_samples = 3;
+    const auto after = lattice::run_static_press(setup, body).response;
+    ASSERT_EQ(after.samples().size(), 5u);
+    ASSERT_EQ(after.sliding().size(), 3u);
+    const double force = straight.samples().back().normal_force;
+    for (const PressSample& sample : after.samples())
+      EXPECT_NEAR(sample.lateral_force_x, 0.0, 1e-8 * force);
+    for (const PressSample& sample : after.sliding())
+      EXPECT_NEAR(sample.normal_force, force, 1e-8 * force);
+    EXPECT_EQ(after.samples().back().lateral_displacement, -4e-4);
+    expect_same(after.samples().back(), diagonal, 1e-7, setup.geometry.rod_length);
+  }
+}
+
+/// Whatever follows, the way down is that of the straight press to the last bit.
+TEST(StaticPress, WhatFollowsThePressDoesNotChangeIt) {
+  for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
+    PressSetup setup = press_at(5, {0.05, 0.1}, ContactMode::stick, ModelKind::network, kinematics);
+    const auto body = body_in_sectors(setup, 2);
+    const auto straight = lattice::run_static_press(setup, body).response;
+    setup.protocol.lateral = 2e-4;
+    setup.protocol.lateral_path = meshes::LateralPath::after;
+    setup.protocol.lateral_samples = 2;
+    const auto after = lattice::run_static_press(setup, body).response;
+    ASSERT_EQ(after.pressing().size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(after.samples()[i].lateral_displacement, 0.0);
+      EXPECT_EQ(after.samples()[i].normal_force, straight.samples()[i].normal_force);
+      EXPECT_EQ(after.samples()[i].lateral_force_x, straight.samples()[i].lateral_force_x);
+      EXPECT_EQ(after.samples()[i].torque_y, straight.samples()[i].torque_y);
+      EXPECT_EQ(after.samples()[i].max_pressure, straight.samples()[i].max_pressure);
+    }
+  }
+}
+
+/// A tip that sticks is a linear spring aside while the same points touch; sheared from first touch
+/// on, the same place of the plane drags it less, for what touches late has moved less.
+TEST(StaticPress, StuckItIsALinearSpringAside) {
+  PressSetup setup = press_at(6, {0.1, 0.2}, ContactMode::stick);
+  setup.protocol.lateral = 2e-6;
+  setup.protocol.lateral_path = meshes::LateralPath::after;
+  setup.protocol.lateral_samples = 4;
+  const auto after = lattice::run_static_press(setup).response;
+  const double end = after.sliding().back().lateral_force_x;
+  EXPECT_GT(end, 0.0);
+  for (int i = 1; i <= 4; ++i)
+    EXPECT_NEAR(after.sliding()[std::size_t(i) - 1].lateral_force_x / end, 0.25 * i, 2e-3) << i;
+  EXPECT_NEAR(after.samples()[1].lateral_force_x / end, 0.0, 1e-4);
+  setup.protocol.lateral_path = meshes::LateralPath::diagonal;
+  EXPECT_LT(last_sample(setup).lateral_force_x, 0.9 * end);
+}
+
+/// A grid turned by a right angle about an axis of its own is the same grid.
+TEST(StaticPress, GridTurnedByARightAngleChangesNothing) {
+  PressSetup setup = press_at(5, {0.1});
+  const PressSample straight = last_sample(setup);
+  setup.lattice.axes << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+  const auto turned = lattice::run_static_press(setup);
+  EXPECT_EQ(turned.sectors, 1);
+  expect_same(turned.response.samples().back(), straight, 1e-7, setup.geometry.rod_length);
+}
+
+/// The published lattice touches with its pole particle alone for long; stuck or not hardly matters
+/// then, and lateral forces vanish by symmetry.
+TEST(StaticPress, PublishedLatticeIsPressedOnItsParticles) {
+  const auto stick = lattice::run_static_press(
+      press_at(8, {0.05, 0.1, 0.3}, ContactMode::stick, ModelKind::published, Kinematics::finite));
+  const auto free = lattice::run_static_press(press_at(8, {0.05, 0.1}, ContactMode::frictionless,
+                                                       ModelKind::published, Kinematics::finite));
+  EXPECT_EQ(stick.sectors, 1);
+  EXPECT_EQ(stick.cells, 0U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const PressSample& s = stick.response.samples()[i];
+    EXPECT_NEAR(s.normal_force, free.response.samples()[i].normal_force, 1e-6 * s.normal_force);
+    EXPECT_NEAR(s.lateral_force_x, 0.0, 1e-8 * s.normal_force);
+  }
+  // The dynamic press of the same lattice at 1 cm/s (lattice/MEASUREMENTS.md): 0.57 and 19.86 gf.
+  EXPECT_NEAR(stick.response.samples()[1].normal_force / gf, 0.57, 0.02);
+  EXPECT_NEAR(stick.response.samples()[2].normal_force / gf, 19.86, 0.6);
+}
+
+TEST(StaticPress, ReportsAsItGoes) {
+  const PressSetup setup = press_at(5, {0.02, 0.05}, ContactMode::stick);
+  double last = 0.0;
+  std::size_t seen = 0;
+  const auto outcome = lattice::run_static_press(setup, [&](const StaticOutcome& now, double done) {
+    EXPECT_GT(done, last - 1e-12);
+    EXPECT_GE(now.response.samples().size(), seen);
+    last = done;
+    seen = now.response.samples().size();
+    return true;
+  });
+  EXPECT_NEAR(last, 1.0, 1e-12);
+  EXPECT_EQ(seen, 2U);
+  EXPECT_EQ(outcome.response.samples()[0].indentation, 0.02 * cm);
+  EXPECT_TRUE(std::isnan(outcome.response.samples()[0].time));
+  std::size_t kept = 0;
+  EXPECT_THROW(lattice::run_static_press(setup,
+                                         [&](const StaticOutcome& now, double) {
+                                           kept = now.response.samples().size();
+                                           return kept == 0;
+                                         }),
+               meshes::Interrupted);
+  EXPECT_EQ(kept, 1U);
+}
+
+TEST(StaticPress, RefusesBadInput) {
+  const auto refused = [](const auto& spoil) {
+    PressSetup setup = press_at(5, {0.1});
+    spoil(setup);
+    EXPECT_THROW(lattice::run_static_press(setup), meshes::InvalidInput);
+  };
+  refused([](PressSetup& s) { s.lattice.spacing = 0.003; });
+  refused([](PressSetup& s) { s.protocol.contact = ContactMode::coulomb; });
+  refused([](PressSetup& s) { s.protocol.tilt = 1.0; });
+  refused([](PressSetup& s) { s.protocol.samples = {0.002, 0.001}; });
+  refused([](PressSetup& s) { s.rubber.youngs_modulus = -1.0; });
+  refused([](PressSetup& s) { s.lattice.constants.k1 = -1.0; });
+  refused([](PressSetup& s) {
+    s.lattice.model = ModelKind::published;
+    s.lattice.axes << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+  });
+}
