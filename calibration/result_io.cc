@@ -1,27 +1,12 @@
 #include "calibration/result_io.h"
 
-#include <nlohmann/json.hpp>
-#include <ostream>
 #include <string>
 
+#include "calibration/file_parts.h"
 #include "calibration/fit_statement.h"
-#include "calibration/json_parts.h"
-#include "meshes/files.h"
+#include "meshes/json_fields.h"
 
 namespace fingertip::calibration {
-namespace {
-
-using nlohmann::ordered_json;
-
-ordered_json direction_json(const Eigen::Vector4d& direction) {
-  return {{"k1", direction(0)},
-          {"k2", direction(1)},
-          {"k3", direction(2)},
-          {"kappa", direction(3)},
-          {"meaning", describe_direction(direction)}};
-}
-
-}  // namespace
 
 Material material_from(const ModuliFit& fit) {
   Material material;
@@ -44,22 +29,19 @@ Material material_from(const ModuliFit& fit) {
 }
 
 void write_calibration_json(const ModuliFit& fit, const std::filesystem::path& file) {
-  ordered_json json;
-  json["model"] = lattice::name(fit.model);
-  json["spacing"] = fit.spacing;
-  json["constants"] = constants_json(fit.model, fit.constants, fit.target);
-  json["damping"] = {{"retardation_time", fit.target.retardation_time}};
-  json["target"] = rubber_json(fit.target);
-  json["achieved"] = moduli_json(fit.achieved);
-  json["covariance"] = nullptr;
-  json["unidentifiable"] = ordered_json::array();
-  for (const Eigen::Vector4d& direction : fit.unidentifiable)
-    json["unidentifiable"].push_back(direction_json(direction));
-  json["residuals"] = ordered_json::object();
+  ModuliFile content;
+  content.model = lattice::name(fit.model);
+  content.spacing = fit.spacing;
+  content.constants = constants_entry(fit.model, fit.constants, fit.target);
+  content.damping = {fit.target.retardation_time};
+  content.target = rubber_entry(fit.target);
+  content.achieved = achieved_entry(fit.achieved);
+  for (const Eigen::Vector4d& one : fit.unidentifiable)
+    content.unidentifiable.push_back({one(0), one(1), one(2), one(3), describe_direction(one)});
   for (std::size_t i = 0; i < fit.residual_names.size(); ++i)
-    json["residuals"][fit.residual_names[i]] = fit.residuals(Eigen::Index(i));
-  json["statement"] = fit.statement;
-  meshes::write_atomically(file, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
+    content.residuals[fit.residual_names[i]] = fit.residuals(Eigen::Index(i));
+  content.statement = fit.statement;
+  meshes::write_json_file(content, file);
 }
 
 }  // namespace fingertip::calibration

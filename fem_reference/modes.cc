@@ -6,15 +6,15 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <ostream>
 
 #include "fem_reference/force_error.h"
 #include "fem_reference/run_files.h"
 #include "fem_reference/run_progress.h"
+#include "fem_reference/run_tables.h"
 #include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/table_rows.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -168,27 +168,24 @@ class ModesRun {
 
   void write_tables(const RunOutcome& outcome) const {
     if (!first_process()) return;
-    nlohmann::ordered_json summary = summary_head(outcome, job_);
-    summary["meshes"] = nlohmann::ordered_json::array();
+    RunSummary summary = summary_head(outcome, job_);
     for (const ModesOnMesh& mesh : meshes_)
-      summary["meshes"].push_back(mesh_summary(mesh.mesh, mesh.wall_time));
+      summary.plain_meshes.push_back(mesh_entry(mesh.mesh, mesh.wall_time));
     if (!meshes_.empty()) {
-      summary["cells"] = meshes_.back().mesh.cells;
-      summary["dofs"] = meshes_.back().mesh.unknowns;
-      summary["worst_relative_error"] = known(worst_relative_error());
+      summary.cells = meshes_.back().mesh.cells;
+      summary.dofs = meshes_.back().mesh.unknowns;
+      summary.worst_relative_error = worst_relative_error();
       write_modes(lowest());
     }
     write_summary(std::move(summary), progress_, folder_);
   }
 
   void write_modes(const std::vector<NaturalMode>& modes) const {
-    meshes::write_atomically(folder_ / "modes.csv", [&](std::ostream& out) {
-      out << "mode,frequency [Hz],frequency_error [Hz],symmetry,multiplicity\n";
-      int number = 0;
-      for (const NaturalMode& mode : modes)
-        out << ++number << ',' << to_text(mode.frequency) << ',' << to_text(error(mode)) << ','
-            << name(mode.symmetry) << ',' << mode.multiplicity << '\n';
-    });
+    std::vector<ModeRow> rows;
+    for (const NaturalMode& mode : modes)
+      rows.push_back({int(rows.size()) + 1, mode.frequency, error(mode), name(mode.symmetry),
+                      mode.multiplicity});
+    meshes::write_rows(rows, folder_ / "modes.csv");
   }
 
   const fs::path folder_;

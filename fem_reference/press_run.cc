@@ -250,57 +250,42 @@ class PressRun {
     write_summary(summarise(best, outcome), progress_, folder_);
   }
 
-  ordered_json summarise(const std::vector<PressState>& best, const RunOutcome& outcome) const {
-    ordered_json summary = summary_head(outcome, job_);
-    summary["contact"] = meshes::name(job_.contact);
-    summary["strain"] = fem_reference::name(job_.strain);
-    if (job_.strain == Strain::finite) summary["law"] = fem_reference::name(job_.law);
-    summary["worst_relative_error"] = known(history_.worst_relative_error());
-    if (!history_.meshes().empty()) {
-      const MeshSummary& mesh = history_.meshes().back().mesh;
-      summary["solver"] = fem_reference::name(mesh.solver);
-      summary["cells"] = mesh.cells;
-      summary["dofs"] = mesh.unknowns;
-      summary["contact_unknowns"] = mesh.contact_unknowns;
-    }
-    summary["mesh"] = {{"hexahedra", mesh_quality_.hexahedra},
-                       {"nodes", mesh_quality_.nodes},
-                       {"min_jacobian", mesh_quality_.min_jacobian},
-                       {"min_scaled_jacobian", mesh_quality_.min_scaled_jacobian},
-                       {"volume", mesh_quality_.volume}};
-    summary["meshes"] = ordered_json::array();
+  RunSummary summarise(const std::vector<PressState>& best, const RunOutcome& outcome) const {
+    RunSummary summary = summary_head(outcome, job_);
+    summary.contact = meshes::name(job_.contact);
+    summary.strain = fem_reference::name(job_.strain);
+    if (job_.strain == Strain::finite) summary.law = fem_reference::name(job_.law);
+    summary.worst_relative_error = history_.worst_relative_error();
+    if (!history_.meshes().empty()) add_finest(history_.meshes().back().mesh, summary);
+    summary.mesh = first_mesh(mesh_quality_);
     for (const MeshRecord& record : history_.meshes())
-      summary["meshes"].push_back({{"cells", record.mesh.cells},
-                                   {"dofs", record.mesh.unknowns},
-                                   {"samples", record.states.size()},
-                                   {"wall_time", record.wall_time}});
-    summary["contact_node_spacing"] =
-        best.empty() ? ordered_json() : ordered_json(best.back().node_spacing);
-    summary["samples"] = ordered_json::array();
+      summary.meshes.push_back(
+          {record.mesh.cells, record.mesh.unknowns, record.states.size(), record.wall_time});
+    if (!best.empty()) summary.contact_node_spacing = best.back().node_spacing;
     for (std::size_t i = 0; i < best.size(); ++i)
-      summary["samples"].push_back(sample_summary(best[i], history_.error(i)));
+      summary.samples.push_back(sample_entry(best[i], history_.error(i)));
     return summary;
   }
 
-  static ordered_json sample_summary(const PressState& state, const ForceError& error) {
-    return {{"indentation", state.sample.indentation},
-            {"lateral_displacement", state.sample.lateral_displacement},
-            {"normal_force", state.sample.normal_force},
-            {"contact_radius", known(state.sample.contact_radius)},
-            {"max_pressure", known(state.sample.max_pressure)},
-            {"force_error", known(error.value)},
-            {"convergence", name(error.convergence)},
-            {"order", known(error.order)},
-            {"min_jacobian", state.min_jacobian},
-            {"energy", state.energy},
-            {"steps", state.steps},
-            {"newton_iterations", state.newton_iterations},
-            {"active_set_iterations", state.active_set_iterations},
-            {"cg_iterations", state.cg_iterations},
-            {"active_nodes", state.active_nodes},
-            {"sliding_nodes", state.sliding_nodes},
-            {"node_spacing", state.node_spacing},
-            {"wall_time", state.wall_time}};
+  static SampleEntry sample_entry(const PressState& state, const ForceError& error) {
+    return {.indentation = state.sample.indentation,
+            .lateral_displacement = state.sample.lateral_displacement,
+            .normal_force = state.sample.normal_force,
+            .contact_radius = state.sample.contact_radius,
+            .max_pressure = state.sample.max_pressure,
+            .force_error = error.value,
+            .convergence = std::string(name(error.convergence)),
+            .order = error.order,
+            .min_jacobian = state.min_jacobian,
+            .energy = state.energy,
+            .steps = state.steps,
+            .newton_iterations = state.newton_iterations,
+            .active_set_iterations = state.active_set_iterations,
+            .cg_iterations = state.cg_iterations,
+            .active_nodes = state.active_nodes,
+            .sliding_nodes = state.sliding_nodes,
+            .node_spacing = state.node_spacing,
+            .wall_time = state.wall_time};
   }
 
   const fs::path folder_;

@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <ostream>
 
+#include "fem_reference/run_tables.h"
 #include "meshes/files.h"
+#include "meshes/table_rows.h"
 
 namespace fingertip::fem_reference {
 
@@ -13,43 +15,32 @@ void write_samples(const std::vector<PressState>& states, const std::filesystem:
   meshes::PressResponse response;
   for (const PressState& state : states) response.append(state.sample);
   response.write_csv(folder / "response.csv");
-  meshes::write_atomically(folder / "pressure.csv", [&](std::ostream& out) {
-    out << "indentation [m],radius [m],pressure [Pa],lateral_displacement [m]\n";
-    for (const PressState& state : states)
-      for (const ContactPoint& point : state.contact)
-        out << to_text(state.sample.indentation) << ',' << to_text(point.radius) << ','
-            << to_text(point.pressure) << ',' << to_text(state.sample.lateral_displacement) << '\n';
-  });
+  std::vector<PressureRow> rows;
+  for (const PressState& state : states)
+    for (const ContactPoint& point : state.contact)
+      rows.push_back({state.sample.indentation, point.radius, point.pressure,
+                      state.sample.lateral_displacement});
+  meshes::write_rows(rows, folder / "pressure.csv");
 }
 
 void write_convergence(const MeshHistory& history, const std::filesystem::path& folder) {
-  meshes::write_atomically(folder / "convergence.csv", [&](std::ostream& out) {
-    out << "mesh,cells,unknowns,indentation [m],normal_force [N],contact_radius [m],"
-           "max_pressure [Pa],node_spacing [m],energy [J],indicator [J],lateral_displacement [m]\n";
-    int number = 0;
-    for (const MeshRecord& record : history.meshes()) {
-      ++number;
-      for (const PressState& state : record.states)
-        out << number << ',' << record.mesh.cells << ',' << record.mesh.unknowns << ','
-            << to_text(state.sample.indentation) << ',' << to_text(state.sample.normal_force) << ','
-            << to_text(state.sample.contact_radius) << ',' << to_text(state.sample.max_pressure)
-            << ',' << to_text(state.node_spacing) << ',' << to_text(state.energy) << ','
-            << to_text(state.indicator) << ',' << to_text(state.sample.lateral_displacement)
-            << '\n';
-    }
-  });
+  std::vector<ConvergenceRow> rows;
+  int number = 0;
+  for (const MeshRecord& record : history.meshes()) {
+    ++number;
+    for (const PressState& state : record.states)
+      rows.push_back({number, record.mesh.cells, record.mesh.unknowns, state.sample.indentation,
+                      state.sample.normal_force, state.sample.contact_radius,
+                      state.sample.max_pressure, state.node_spacing, state.energy, state.indicator,
+                      state.sample.lateral_displacement});
+  }
+  meshes::write_rows(rows, folder / "convergence.csv");
 }
 
 void write_section(const std::vector<SectionEdge>& edges, const std::filesystem::path& folder) {
-  meshes::write_atomically(folder / "section.csv", [&](std::ostream& out) {
-    out << "x1 [m],z1 [m],x2 [m],z2 [m],"
-           "deformed_x1 [m],deformed_z1 [m],deformed_x2 [m],deformed_z2 [m]\n";
-    for (const SectionEdge& edge : edges) {
-      for (std::size_t k = 0; k < 4; ++k) out << (k ? "," : "") << to_text(edge.undeformed[k]);
-      for (std::size_t k = 0; k < 4; ++k) out << ',' << to_text(edge.deformed[k]);
-      out << '\n';
-    }
-  });
+  std::vector<SectionRow> rows;
+  for (const SectionEdge& edge : edges) rows.push_back({edge.undeformed, edge.deformed});
+  meshes::write_rows(rows, folder / "section.csv");
 }
 
 std::string field_name(std::size_t index) {

@@ -10,13 +10,10 @@
 
 namespace fingertip::fem_reference {
 
-/// response.csv and pressure.csv (`indentation [m],radius [m],pressure [Pa],lateral_displacement
-/// [m]`) of the best samples.
+/// response.csv and pressure.csv (rows: run_tables.h) of the best samples.
 void write_samples(const std::vector<PressState>& states, const std::filesystem::path& folder);
 
-/// convergence.csv: `mesh,cells,unknowns,indentation [m],normal_force [N],contact_radius [m],
-/// max_pressure [Pa],node_spacing [m],energy [J],indicator [J],lateral_displacement [m]`, one row
-/// per mesh and sample.
+/// convergence.csv: one row per mesh and sample.
 void write_convergence(const MeshHistory& history, const std::filesystem::path& folder);
 
 /// section.csv: ends of the mesh's edges in y = 0, undeformed and deformed [m].

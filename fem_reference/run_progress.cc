@@ -3,12 +3,11 @@
 #include <mpi.h>
 #include <sys/resource.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 #include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/json_fields.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -89,35 +88,44 @@ RunOutcome outcome_of(const std::function<void()>& work) {
   return {};
 }
 
-ordered_json summary_head(const RunOutcome& outcome, const ReferenceJob& job) {
+RunSummary summary_head(const RunOutcome& outcome, const ReferenceJob& job) {
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  ordered_json summary{{"program", "fingertip-fem"}, {"status", name(outcome.status)}};
-  if (!outcome.message.empty()) summary["message"] = outcome.message;
-  summary["analysis"] = fem_reference::name(job.analysis);
-  summary["degree"] = job.degree;
-  summary["volumetric"] = fem_reference::name(job.volumetric);
-  summary["refinement"] = job.refinement;
-  summary["tolerance"] = job.tolerance;
-  summary["ranks"] = ranks;
+  RunSummary summary;
+  summary.program = "fingertip-fem";
+  summary.status = name(outcome.status);
+  summary.message = outcome.message;
+  summary.analysis = fem_reference::name(job.analysis);
+  summary.degree = job.degree;
+  summary.volumetric = fem_reference::name(job.volumetric);
+  summary.refinement = job.refinement;
+  summary.tolerance = job.tolerance;
+  summary.ranks = ranks;
   return summary;
 }
 
-ordered_json mesh_summary(const MeshSummary& mesh, double wall_time) {
-  return {{"cells", mesh.cells}, {"dofs", mesh.unknowns}, {"wall_time", wall_time}};
+FirstMeshEntry first_mesh(const meshes::MeshQuality& quality) {
+  return {quality.hexahedra, quality.nodes, quality.min_jacobian, quality.min_scaled_jacobian,
+          quality.volume};
 }
 
-void write_summary(ordered_json summary, const RunProgress& progress,
+MeshEntry mesh_entry(const MeshSummary& mesh, double wall_time) {
+  return {mesh.cells, mesh.unknowns, wall_time};
+}
+
+void add_finest(const MeshSummary& mesh, RunSummary& summary) {
+  summary.solver = fem_reference::name(mesh.solver);
+  summary.cells = mesh.cells;
+  summary.dofs = mesh.unknowns;
+  summary.contact_unknowns = mesh.contact_unknowns;
+}
+
+void write_summary(RunSummary summary, const RunProgress& progress,
                    const std::filesystem::path& folder) {
   if (!first_process()) return;
-  summary["wall_time"] = progress.wall_time();
-  summary["peak_memory"] = peak_memory();
-  meshes::write_atomically(folder / "summary.json",
-                           [&](std::ostream& out) { out << summary.dump(2) << '\n'; });
-}
-
-ordered_json known(double value) {
-  return std::isnan(value) ? ordered_json() : ordered_json(value);
+  summary.wall_time = progress.wall_time();
+  summary.peak_memory = peak_memory();
+  meshes::write_json_file(summary, folder / "summary.json");
 }
 
 }  // namespace fingertip::fem_reference

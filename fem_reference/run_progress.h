@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "fem_reference/job.h"
 #include "fem_reference/press.h"
 #include "fem_reference/run.h"
+#include "fem_reference/run_summary.h"
 #include "meshes/volume_mesh.h"
 
 namespace fingertip::fem_reference {
@@ -43,18 +43,17 @@ meshes::MeshQuality write_mesh_once(const meshes::Geometry& geometry,
                                     const meshes::TipMeshOptions& options,
                                     const std::filesystem::path& file);
 
-/// The entries of summary.json with which every run's summary starts: program, status, message,
-/// the discretisation that the job asked for, and the number of processes.
-nlohmann::ordered_json summary_head(const RunOutcome& outcome, const ReferenceJob& job);
+/// What every run's summary.json starts with: program, status, message, the discretisation that the
+/// job asked for, and the number of processes.
+RunSummary summary_head(const RunOutcome& outcome, const ReferenceJob& job);
 
-/// {"cells", "dofs", "wall_time"} of one mesh.
-nlohmann::ordered_json mesh_summary(const MeshSummary& mesh, double wall_time);
+FirstMeshEntry first_mesh(const meshes::MeshQuality& quality);
+MeshEntry mesh_entry(const MeshSummary& mesh, double wall_time);
+/// What the summary of a press tells of its finest mesh.
+void add_finest(const MeshSummary& mesh, RunSummary& summary);
 
-/// Appends wall_time [s] and peak_memory [byte] and writes `folder`/summary.json.
-void write_summary(nlohmann::ordered_json summary, const RunProgress& progress,
+/// Adds wall_time [s] and peak_memory [byte] and writes `folder`/summary.json.
+void write_summary(RunSummary summary, const RunProgress& progress,
                    const std::filesystem::path& folder);
-
-/// null for NaN.
-nlohmann::ordered_json known(double value);
 
 }  // namespace fingertip::fem_reference

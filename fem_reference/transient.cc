@@ -5,22 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
 
 #include "fem_reference/mesh_history.h"
 #include "fem_reference/run_files.h"
 #include "fem_reference/run_progress.h"
+#include "fem_reference/run_tables.h"
 #include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/table_rows.h"
 
 namespace fingertip::fem_reference {
 namespace {
 
 namespace fs = std::filesystem;
 using meshes::to_text;
-using nlohmann::ordered_json;
 
 /// Meshes before the static error can be told, and how they grow: as in a static press.
 constexpr std::size_t fewest_meshes = 3;
@@ -177,51 +176,46 @@ class TransientRun {
     write_samples(states_, folder_);
     write_convergence(static_presses_, folder_);
     write_steps();
-    ordered_json summary = summary_head(outcome, job_);
-    summary["contact"] = meshes::name(job_.contact);
-    summary["strain"] = fem_reference::name(job_.strain);
-    summary["speed"] = job_.speed;
-    summary["solver"] = fem_reference::name(mesh_.solver);
-    summary["cells"] = mesh_.cells;
-    summary["dofs"] = mesh_.unknowns;
-    summary["contact_unknowns"] = mesh_.contact_unknowns;
-    summary["time_steps"] = steps_.empty() ? 0 : steps_.size() - 1;
-    summary["transient_wall_time"] = press_time_;
-    summary["mesh"] = {{"hexahedra", quality_.hexahedra},
-                       {"min_scaled_jacobian", quality_.min_scaled_jacobian},
-                       {"volume", quality_.volume}};
-    summary["static_meshes"] = ordered_json::array();
+    RunSummary summary = summary_head(outcome, job_);
+    summary.contact = meshes::name(job_.contact);
+    summary.strain = fem_reference::name(job_.strain);
+    summary.speed = job_.speed;
+    add_finest(mesh_, summary);
+    summary.time_steps = steps_.empty() ? 0 : steps_.size() - 1;
+    summary.transient_wall_time = press_time_;
+    summary.mesh = first_mesh(quality_);
     for (const MeshRecord& record : static_presses_.meshes())
-      summary["static_meshes"].push_back(mesh_summary(record.mesh, record.wall_time));
-    summary["static_mesh_of_transient"] = chosen_ > 0 ? ordered_json(chosen_) : ordered_json();
-    summary["samples"] = ordered_json::array();
-    for (const PressState& state : states_) summary["samples"].push_back(sample_summary(state));
+      summary.static_meshes.push_back(mesh_entry(record.mesh, record.wall_time));
+    if (chosen_ > 0) summary.static_mesh_of_transient = chosen_;
+    for (const PressState& state : states_)
+      summary.transient_samples.push_back(sample_entry(state));
     write_summary(std::move(summary), progress_, folder_);
   }
 
-  static ordered_json sample_summary(const PressState& state) {
-    return {{"indentation", state.sample.indentation},
-            {"time", state.sample.time},
-            {"normal_force", state.sample.normal_force},
-            {"contact_radius", known(state.sample.contact_radius)},
-            {"max_pressure", known(state.sample.max_pressure)},
-            {"force_error", known(state.sample.force_error)},
-            {"energy", state.energy},
-            {"steps", state.steps},
-            {"active_set_iterations", state.active_set_iterations},
-            {"cg_iterations", state.cg_iterations},
-            {"active_nodes", state.active_nodes},
-            {"wall_time", state.wall_time}};
+  static TransientSampleEntry sample_entry(const PressState& state) {
+    TransientSampleEntry entry;
+    entry.indentation = state.sample.indentation;
+    entry.time = state.sample.time;
+    entry.normal_force = state.sample.normal_force;
+    entry.contact_radius = state.sample.contact_radius;
+    entry.max_pressure = state.sample.max_pressure;
+    entry.force_error = state.sample.force_error;
+    entry.energy = state.energy;
+    entry.steps = state.steps;
+    entry.active_set_iterations = state.active_set_iterations;
+    entry.cg_iterations = state.cg_iterations;
+    entry.active_nodes = state.active_nodes;
+    entry.wall_time = state.wall_time;
+    return entry;
   }
 
   void write_steps() const {
-    meshes::write_atomically(folder_ / "transient.csv", [&](std::ostream& out) {
-      out << "time [s],indentation [m],normal_force [N],contact_force [N]\n";
-      const std::size_t stride = (steps_.size() + most_rows - 1) / most_rows;
-      for (std::size_t i = 0; i < steps_.size(); i += stride)
-        out << to_text(steps_[i].time) << ',' << to_text(steps_[i].indentation) << ','
-            << to_text(steps_[i].normal_force) << ',' << to_text(steps_[i].contact_force) << '\n';
-    });
+    std::vector<TransientRow> rows;
+    const std::size_t stride = (steps_.size() + most_rows - 1) / most_rows;
+    for (std::size_t i = 0; i < steps_.size(); i += stride)
+      rows.push_back(
+          {steps_[i].time, steps_[i].indentation, steps_[i].normal_force, steps_[i].contact_force});
+    meshes::write_rows(rows, folder_ / "transient.csv");
   }
 
   const fs::path folder_;

@@ -1,68 +1,36 @@
 #include "meshes/press_response.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
-#include <ostream>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
-#include "meshes/csv_table.h"
-#include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/press_columns.h"
+#include "meshes/table_rows.h"
 
 namespace fingertip::meshes {
 
 namespace {
 
-struct Column {
-  std::string_view title;
-  double PressSample::*value;
-};
-
-constexpr std::array<Column, 12> columns{{
-    {"indentation [m]", &PressSample::indentation},
-    {"normal_force [N]", &PressSample::normal_force},
-    {"lateral_force_x [N]", &PressSample::lateral_force_x},
-    {"lateral_force_y [N]", &PressSample::lateral_force_y},
-    {"torque_x [N m]", &PressSample::torque_x},
-    {"torque_y [N m]", &PressSample::torque_y},
-    {"torque_z [N m]", &PressSample::torque_z},
-    {"contact_radius [m]", &PressSample::contact_radius},
-    {"max_pressure [Pa]", &PressSample::max_pressure},
-    {"force_error [N]", &PressSample::force_error},
-    {"time [s]", &PressSample::time},
-    {"lateral_displacement [m]", &PressSample::lateral_displacement},
-}};
-
-/// Columns of every file that is written; the last one where the plane moved along itself.
-constexpr std::size_t common_columns = 11;
-
-/// Columns that a file must have, and no empty cells in them: the first two.
-constexpr std::size_t needed_columns = 2;
-
-[[noreturn]] void refuse(const CsvTable& table, std::size_t row, const Column& column,
+[[noreturn]] void refuse(const CsvTable& table, std::size_t row, const std::string& column,
                          const std::string& value, const std::string& rule) {
-  throw InvalidInput({table.file.string() + ":" + std::to_string(table.lines[row]) + ", " +
-                          std::string(column.title),
+  throw InvalidInput({table.file.string() + ":" + std::to_string(table.lines[row]) + ", " + column,
                       value, rule, "correct the file, or run again what writes it"});
 }
 
-/// Indentation and force, which every row must have.
-std::vector<double> needed(const CsvTable& table, const Column& column) {
-  const std::string title(column.title);
-  if (!table.has(title)) {
-    throw InvalidInput({table.file.string() + ":1", table.names.front(),
-                        "the column '" + title + "' is missing",
-                        "the first line must name the columns with their units, as in "
-                        "'indentation [m],normal_force [N]'"});
+/// Indentation and force, which every row must have; also of people's own files.
+void check_needed(const CsvTable& table) {
+  for (const char* title : {"indentation [m]", "normal_force [N]"}) {
+    if (!table.has(title))
+      throw InvalidInput({table.file.string() + ":1", table.names.front(),
+                          std::string("the column '") + title + "' is missing",
+                          "the first line must name the columns with their units, as in "
+                          "'indentation [m],normal_force [N]'"});
+    const std::vector<double> values = table.numbers(title);
+    for (std::size_t row = 0; row < values.size(); ++row)
+      if (std::isnan(values[row])) refuse(table, row, title, "", "must not be empty");
   }
-  std::vector<double> values = table.numbers(title);
-  for (std::size_t row = 0; row < values.size(); ++row)
-    if (std::isnan(values[row])) refuse(table, row, column, "", "must not be empty");
-  return values;
 }
 
 /// Slopes of the monotone cubic through (x, y): Fritsch & Carlson, SIAM J. Numer. Anal. 17 (1980)
@@ -126,36 +94,22 @@ void PressResponse::write_csv(const std::filesystem::path& file) const {
   const bool aside = std::ranges::any_of(samples_, [](const PressSample& sample) {
     return std::abs(sample.lateral_displacement) > 0.0;
   });
-  const std::span written(columns.data(), aside ? columns.size() : common_columns);
-  write_atomically(file, [&](std::ostream& out) {
-    for (const Column& column : written) {
-      out << (&column == columns.data() ? "" : ",") << column.title;
-    }
-    out << '\n';
-    for (const PressSample& sample : samples_) {
-      for (const Column& column : written) {
-        out << (&column == columns.data() ? "" : ",") << to_text(sample.*column.value);
-      }
-      out << '\n';
-    }
-  });
+  std::vector<PressSample> rows = samples_;
+  if (!aside)
+    for (PressSample& row : rows) row.lateral_displacement = unknown;
+  write_rows(rows, file);
 }
 
 PressResponse PressResponse::read_csv(const std::filesystem::path& file) {
   const CsvTable table = meshes::read_csv(file);
-  std::vector<PressSample> samples(table.rows.size());
-  for (const Column& column : columns) {
-    const bool is_needed = &column < columns.data() + needed_columns;
-    const std::vector<double> values =
-        is_needed ? needed(table, column) : table.numbers_if_any(std::string(column.title));
-    for (std::size_t row = 0; row < values.size(); ++row) samples[row].*column.value = values[row];
-  }
+  check_needed(table);
+  std::vector<PressSample> samples = known_rows<PressSample>(table);
   for (std::size_t row = 1; row < samples.size(); ++row) {
     const PressSample &before = samples[row - 1], &now = samples[row];
     const bool slides = now.indentation == before.indentation &&
                         std::abs(now.lateral_displacement) > std::abs(before.lateral_displacement);
     if (now.indentation <= before.indentation && !slides) {
-      refuse(table, row, columns.front(), to_text(now.indentation),
+      refuse(table, row, "indentation [m]", to_text(now.indentation),
              "indentations must increase from row to row (or lateral displacements at full depth)");
     }
   }

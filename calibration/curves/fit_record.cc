@@ -3,79 +3,64 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <ostream>
 
-#include "calibration/json_parts.h"
+#include "calibration/file_parts.h"
+#include "calibration/fit_tables.h"
 #include "calibration/moduli.h"
-#include "meshes/files.h"
+#include "meshes/json_fields.h"
+#include "meshes/table_rows.h"
 
 namespace fingertip::calibration {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using meshes::to_text;
-using nlohmann::ordered_json;
 
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-ordered_json or_null(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json();
+std::vector<double> list(const VectorXd& values) {
+  return {values.begin(), values.end()};
 }
 
-ordered_json list(const VectorXd& values) {
-  ordered_json result = ordered_json::array();
-  for (const double value : values) result.push_back(or_null(value));
-  return result;
-}
-
-ordered_json rows(const MatrixXd& matrix) {
-  ordered_json result = ordered_json::array();
+std::vector<std::vector<double>> rows(const MatrixXd& matrix) {
+  std::vector<std::vector<double>> result;
   for (Index i = 0; i < matrix.rows(); ++i) result.push_back(list(matrix.row(i).transpose()));
   return result;
 }
 
-ordered_json or_null(const std::optional<double>& value) {
-  return value ? or_null(*value) : ordered_json();
-}
-
 /// What is at its bound: of E it may be Poisson's ratio.
-ordered_json bound_of(const CurveFit& fit, std::size_t i) {
-  if (!fit.at_bound[i]) return nullptr;
-  return fit.poissons_ratio_bound ? "poissons_ratio" : name(fit.parameters[i]);
+std::optional<std::string> bound_of(const CurveFit& fit, std::size_t i) {
+  if (!fit.at_bound[i]) return std::nullopt;
+  return fit.poissons_ratio_bound ? "poissons_ratio" : std::string(name(fit.parameters[i]));
 }
 
-ordered_json parameter_entry(const FitRecord& record, std::size_t i) {
+ParameterEntry parameter_entry(const FitRecord& record, std::size_t i) {
   const CurveFit& fit = record.fit;
   const FreeParameter& free = record.options.free[i];
-  ordered_json prior;
-  if (free.prior) prior = {{"mean", free.prior->mean}, {"deviation", free.prior->deviation}};
-  return {{"name", name(free.parameter)},
-          {"unit", unit(free.parameter)},
-          {"estimate", or_null(fit.estimates(Index(i)))},
-          {"standard_error", or_null(fit.standard_errors(Index(i)))},
-          {"lower", or_null(fit.lower(Index(i)))},
-          {"upper", or_null(fit.upper(Index(i)))},
-          {"at_bound", bool(fit.at_bound[i])},
-          {"bound_of", bound_of(fit, i)},
-          {"start", free.start},
-          {"prior", prior},
-          {"bias", nullptr}};
+  ParameterEntry entry;
+  entry.name = name(free.parameter);
+  entry.unit = unit(free.parameter);
+  entry.estimate = fit.estimates(Index(i));
+  entry.standard_error = fit.standard_errors(Index(i));
+  entry.lower = fit.lower(Index(i));
+  entry.upper = fit.upper(Index(i));
+  entry.at_bound = fit.at_bound[i];
+  entry.bound_of = bound_of(fit, i);
+  entry.start = free.start;
+  if (free.prior) entry.prior = {free.prior->mean, free.prior->deviation};
+  return entry;
 }
 
-ordered_json directions(const FitRecord& record, const std::vector<Direction>& found) {
-  ordered_json result = ordered_json::array();
+std::vector<DirectionEntry> directions(const FitRecord& record,
+                                       const std::vector<Direction>& found) {
+  std::vector<DirectionEntry> result;
   for (const Direction& one : found) {
-    ordered_json changes = ordered_json::object();
+    std::map<std::string, double> changes;
     for (std::size_t i = 0; i < record.fit.parameters.size(); ++i)
-      changes[std::string(name(record.fit.parameters[i]))] = or_null(one.changes(Index(i)));
-    result.push_back({{"direction", changes},
-                      {"relative_singular_value", or_null(one.relative_singular_value)},
-                      {"interval", or_null(one.interval)},
-                      {"statement", one.statement}});
+      changes[std::string(name(record.fit.parameters[i]))] = one.changes(Index(i));
+    result.push_back({changes, one.relative_singular_value, one.interval, one.statement});
   }
   return result;
 }
@@ -99,62 +84,49 @@ RelativeSize relative_size(const VectorXd& residuals, const std::vector<double>&
   return size;
 }
 
-ordered_json curve_entry(const FitRecord& record, std::size_t i) {
+CurveEntry curve_entry(const FitRecord& record, std::size_t i) {
   const Curve& curve = record.curves[i];
-  const VectorXd& residuals = record.fit.residuals[i];
   const ResidualStructure structure = structure_of(record, i);
-  const RelativeSize size = relative_size(residuals, curve.y);
-  ordered_json left_out;
+  const RelativeSize size = relative_size(record.fit.residuals[i], curve.y);
+  CurveEntry entry;
+  entry.name = curve.name;
+  entry.condition = record.conditions[i];
+  entry.x_quantity = curve.x_quantity;
+  entry.y_quantity = curve.y_quantity;
+  entry.points = curve.x.size();
+  entry.worst_relative_residual = size.worst;
+  entry.rms_relative_residual = size.rms;
+  entry.structure = {structure.runs, structure.probability, structure.statement};
   if (!record.left_out.empty()) {
     const LeftOut& without = record.left_out[i];
-    left_out = {{"estimates", list(without.estimates)},
-                {"worst_relative_error",
-                 without.failure.empty() ? or_null(without.worst_relative_error) : ordered_json()},
-                {"failure", without.failure}};
+    entry.left_out = {list(without.estimates),
+                      without.failure.empty() ? without.worst_relative_error : unknown,
+                      without.failure};
   }
-  return {{"name", curve.name},
-          {"condition", record.conditions[i]},
-          {"x_quantity", curve.x_quantity},
-          {"y_quantity", curve.y_quantity},
-          {"points", curve.x.size()},
-          {"worst_relative_residual", or_null(size.worst)},
-          {"rms_relative_residual", or_null(size.rms)},
-          {"structure",
-           {{"runs", structure.runs},
-            {"probability", or_null(structure.probability)},
-            {"statement", structure.statement}}},
-          {"left_out", left_out}};
+  return entry;
 }
 
-ordered_json profile_entry(const FitRecord& record) {
-  if (!record.profile) return nullptr;
+std::optional<ProfileEntry> profile_entry(const FitRecord& record) {
+  if (!record.profile) return std::nullopt;
   const Profile& profile = *record.profile;
-  return {{"first", name(record.profile_first)},
-          {"second", name(record.profile_second)},
-          {"first_values", list(profile.first_values)},
-          {"second_values", list(profile.second_values)},
-          {"increase", rows(profile.increase)}};
+  return ProfileEntry{std::string(name(record.profile_first)),
+                      std::string(name(record.profile_second)), list(profile.first_values),
+                      list(profile.second_values), rows(profile.increase)};
 }
 
 /// How deep the deepest press went, as a share of the rubber's thickness; null without presses.
-ordered_json validity_entry(const Material& material) {
+ValidityEntry validity_entry(const Material& material) {
   const Validity& validity = material.validity;
   const bool pressed = validity.largest_indentation && validity.thickness;
-  return {{"largest_strain_measure",
-           pressed ? or_null(*validity.largest_indentation / *validity.thickness) : ordered_json()},
-          {"spacing", material.spacing},
-          {"poissons_ratio", material.rubber.poissons_ratio()},
-          {"model", lattice::name(material.model)},
-          {"kinematics", lattice::name(material.kinematics.value_or(lattice::Kinematics::small))}};
+  return {pressed ? *validity.largest_indentation / *validity.thickness : unknown, material.spacing,
+          material.rubber.poissons_ratio(), std::string(lattice::name(material.model)),
+          std::string(lattice::name(material.kinematics.value_or(lattice::Kinematics::small)))};
 }
 
-ordered_json minima(const CurveFit& fit) {
-  ordered_json result = ordered_json::array();
+std::vector<MinimumEntry> minima(const CurveFit& fit) {
+  std::vector<MinimumEntry> result;
   for (const Minimum& one : fit.minima)
-    result.push_back({{"estimates", list(one.estimates)},
-                      {"loss", or_null(one.loss)},
-                      {"iterations", one.iterations},
-                      {"converged", one.converged}});
+    result.push_back({list(one.estimates), one.loss, one.iterations, one.converged});
   return result;
 }
 
@@ -168,43 +140,39 @@ ElasticModuli moduli_of(const Material& material) {
 }
 
 /// What the contract's readers of a fit to moduli know, too.
-ordered_json material_entries(const FitRecord& record) {
+void add_material(const FitRecord& record, FitFile& file) {
   const Material& material = record.material;
-  ordered_json json = {
-      {"problem", record.problem},
-      {"model", lattice::name(material.model)},
-      {"spacing", material.spacing},
-      {"constants", constants_json(material.model, material.constants, material.rubber)},
-      {"damping", {{"retardation_time", material.rubber.retardation_time}}}};
-  json["target"] = record.target ? rubber_json(*record.target) : ordered_json();
-  json["rubber"] = rubber_json(material.rubber);
-  json["achieved"] = moduli_json(moduli_of(material));
-  json["forward"] = record.forward;
-  return json;
+  file.problem = record.problem;
+  file.model = lattice::name(material.model);
+  file.spacing = material.spacing;
+  file.constants = constants_entry(material.model, material.constants, material.rubber);
+  file.damping = {material.rubber.retardation_time};
+  if (record.target) file.target = rubber_entry(*record.target);
+  file.rubber = rubber_entry(material.rubber);
+  file.achieved = achieved_entry(moduli_of(material));
+  file.forward = record.forward;
 }
 
-ordered_json statistics_entries(const FitRecord& record) {
+void add_statistics(const FitRecord& record, FitFile& file) {
   const CurveFit& fit = record.fit;
-  ordered_json json;
-  json["parameters"] = ordered_json::array();
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-    json["parameters"].push_back(parameter_entry(record, i));
-  json["covariance"] = rows(fit.covariance);
-  json["correlation"] = rows(fit.correlation);
-  json["singular_values"] = list(fit.singular_values);
-  json["unidentifiable"] = directions(record, fit.unidentifiable);
-  json["only_from_priors"] = directions(record, fit.only_from_priors);
-  json["degrees_of_freedom"] = fit.degrees_of_freedom;
-  json["chi_square"] = or_null(fit.chi_square);
-  json["chi_square_probability"] = or_null(fit.chi_square_probability);
-  json["birge_ratio"] = fit.birge_ratio;
-  json["model_error"] =
-      record.model_error.empty() ? ordered_json() : ordered_json(record.model_error);
-  json["converged"] = fit.converged;
-  json["poissons_ratio_bound"] = or_null(fit.poissons_ratio_bound);
-  json["residual_deviation"] = or_null(fit.residual_deviation);
-  json["minima"] = minima(fit);
-  return json;
+    file.parameters.push_back(parameter_entry(record, i));
+  file.covariance = rows(fit.covariance);
+  file.correlation = rows(fit.correlation);
+  file.singular_values = list(fit.singular_values);
+  file.unidentifiable = directions(record, fit.unidentifiable);
+  file.only_from_priors = directions(record, fit.only_from_priors);
+  file.degrees_of_freedom = fit.degrees_of_freedom;
+  file.chi_square = fit.chi_square.value_or(unknown);
+  file.chi_square_probability = fit.chi_square_probability.value_or(unknown);
+  file.birge_ratio = fit.birge_ratio;
+  if (!record.model_error.empty()) file.model_error = record.model_error;
+  file.converged = fit.converged;
+  file.poissons_ratio_bound = fit.poissons_ratio_bound.value_or(unknown);
+  file.residual_deviation = fit.residual_deviation;
+  file.minima = minima(fit);
+  file.iterations = fit.iterations;
+  file.evaluations = fit.evaluations;
 }
 
 /// All curves' lists one below the other; NaN where there are none.
@@ -224,16 +192,6 @@ Columns columns(const FitRecord& record) {
                                         : VectorXd::Constant(y.size(), unknown));
   }
   return result;
-}
-
-std::string cell(double value) {
-  return std::isfinite(value) ? to_text(value) : "";
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + '"';
 }
 
 }  // namespace
@@ -267,40 +225,35 @@ double worst_relative_residual(const FitRecord& record) {
 }
 
 void write_fit_json(const FitRecord& record, const std::filesystem::path& file) {
-  ordered_json json = material_entries(record);
-  json.update(statistics_entries(record));
-  json["x_quantity"] = record.curves.front().x_quantity;
-  json["y_quantity"] = record.curves.front().y_quantity;
-  json["curves"] = ordered_json::array();
-  json["residuals"] = ordered_json::array();
+  FitFile fit;
+  add_material(record, fit);
+  add_statistics(record, fit);
+  fit.x_quantity = record.curves.front().x_quantity;
+  fit.y_quantity = record.curves.front().y_quantity;
   for (std::size_t i = 0; i < record.curves.size(); ++i) {
-    json["curves"].push_back(curve_entry(record, i));
-    json["residuals"].push_back(list(record.fit.residuals[i]));
+    fit.curves.push_back(curve_entry(record, i));
+    fit.residuals.push_back(list(record.fit.residuals[i]));
   }
-  json["influence"] = rows(record.fit.influence);
-  json["profile"] = profile_entry(record);
-  json["iterations"] = record.fit.iterations;
-  json["evaluations"] = record.fit.evaluations;
-  json["wall_time"] = record.wall_time;
-  json["validity"] = validity_entry(record.material);
-  json["failed"] = failed_tests(record);
-  json["statement"] = fit_statement(record);
-  meshes::write_atomically(file, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
+  fit.influence = rows(record.fit.influence);
+  fit.profile = profile_entry(record);
+  fit.wall_time = record.wall_time;
+  fit.validity = validity_entry(record.material);
+  fit.failed = failed_tests(record);
+  fit.statement = fit_statement(record);
+  meshes::write_json_file(fit, file);
 }
 
 void write_fit_data(const FitRecord& record, const std::filesystem::path& file) {
   const Columns computed = columns(record);
-  meshes::write_atomically(file, [&](std::ostream& out) {
-    out << "curve,x,measured,sigma,fitted,left_out\n";
-    for (std::size_t c = 0; c < record.curves.size(); ++c) {
-      const Curve& curve = record.curves[c];
-      for (std::size_t i = 0; i < curve.x.size(); ++i)
-        out << quoted(curve.name) << ',' << to_text(curve.x[i]) << ',' << to_text(curve.y[i]) << ','
-            << (curve.sigma.empty() ? "" : to_text(curve.sigma[i])) << ','
-            << cell(computed.fitted[c](Index(i))) << ',' << cell(computed.left_out[c](Index(i)))
-            << '\n';
-    }
-  });
+  std::vector<FitDataRow> rows;
+  for (std::size_t c = 0; c < record.curves.size(); ++c) {
+    const Curve& curve = record.curves[c];
+    for (std::size_t i = 0; i < curve.x.size(); ++i)
+      rows.push_back({curve.name, curve.x[i], curve.y[i],
+                      curve.sigma.empty() ? unknown : curve.sigma[i], computed.fitted[c](Index(i)),
+                      computed.left_out[c](Index(i))});
+  }
+  meshes::write_rows(rows, file);
 }
 
 }  // namespace fingertip::calibration

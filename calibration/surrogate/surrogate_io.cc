@@ -3,17 +3,18 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "calibration/fit_file.h"
+#include "calibration/fit_tables.h"
 #include "calibration/surrogate/surrogate.h"
-#include "meshes/files.h"
+#include "meshes/json_fields.h"
+#include "meshes/table_rows.h"
 
 namespace fingertip::calibration {
 namespace {
 
 using meshes::InvalidInput;
-using meshes::to_text;
-using nlohmann::ordered_json;
 
-const nlohmann::json column_units = {
+const std::map<std::string, std::string> column_units = {
     {"knots", "m"}, {"force", "N"}, {"stiffness", "N/m"}, {"band", "N"}};
 
 }  // namespace
@@ -21,24 +22,20 @@ const nlohmann::json column_units = {
 void write_surrogate_csv(const Surrogate& surrogate, const std::filesystem::path& file, int rows) {
   if (rows < 2)
     throw InvalidInput({"rows", std::to_string(rows), "a table has at least 2 rows", "take 65"});
-  meshes::write_atomically(file, [&](std::ostream& out) {
-    out << "indentation [m],force [N],stiffness [N/m],force_lower [N],force_upper [N]\n";
-    for (int row = 0; row < rows; ++row) {
-      const double x = surrogate.depth() * row / (rows - 1);
-      const double force = surrogate.force(x), band = surrogate.band(x);
-      out << to_text(x) << ',' << to_text(force) << ',' << to_text(surrogate.stiffness(x)) << ','
-          << to_text(std::max(0.0, force - band)) << ',' << to_text(force + band) << '\n';
-    }
-  });
+  std::vector<SurrogateRow> table;
+  for (int row = 0; row < rows; ++row) {
+    const double x = surrogate.depth() * row / (rows - 1);
+    const double force = surrogate.force(x), band = surrogate.band(x);
+    table.push_back({x, force, surrogate.stiffness(x), std::max(0.0, force - band), force + band});
+  }
+  meshes::write_rows(table, file);
 }
 
 void write_surrogate_json(const Surrogate& surrogate, const std::filesystem::path& file) {
   const SurrogateTable& table = surrogate.table();
-  const ordered_json json = {{"knots", table.knots},         {"force", table.force},
-                             {"stiffness", table.stiffness}, {"band", table.band},
-                             {"statement", table.statement}, {"condition", table.condition},
-                             {"units", column_units}};
-  meshes::write_atomically(file, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
+  const SurrogateFile content{table.knots,     table.force,     table.stiffness, table.band,
+                              table.statement, table.condition, column_units};
+  meshes::write_json_file(content, file);
 }
 
 Surrogate read_surrogate_json(const std::filesystem::path& file) {
@@ -50,7 +47,7 @@ Surrogate read_surrogate_json(const std::filesystem::path& file) {
     std::ifstream in(file);
     if (!std::filesystem::is_regular_file(file) || !in) refuse("the file cannot be read");
     const nlohmann::json json = nlohmann::json::parse(in);
-    if (json.at("units") != column_units) refuse("units must be m, N, N/m and N");
+    if (json.at("units") != nlohmann::json(column_units)) refuse("units must be m, N, N/m and N");
     json.at("knots").get_to(table.knots);
     json.at("force").get_to(table.force);
     json.at("stiffness").get_to(table.stiffness);

@@ -11,45 +11,9 @@
 #include "fem_reference/job.h"
 #include "fem_reference/run.h"
 #include "fem_reference/verification/elastic_problem.h"
+#include "fem_reference/verification/verification_file.h"
 
 namespace fingertip::fem_reference {
-
-/// Errors of one element on meshes of one body, coarse to fine, and how fast they fall.
-struct ConvergenceStudy {
-  std::string problem;
-  int degree = 0;
-  Volumetric volumetric = Volumetric::projected;
-  double poissons_ratio = 0.0;
-  struct Mesh {
-    double h = 0.0;         ///< edge of an element: along block or height, or through the wall [m]
-    double unknowns = 0.0;  ///< their number
-    /// FieldError: relative, of the displacement and of its gradient
-    double error_l2 = 0.0, error_h1 = 0.0;
-  };
-  std::vector<Mesh> meshes;
-  /// -d log error / d log(1/h) between the two finest meshes, and the theory's degree + 1 and
-  /// degree
-  double order_l2 = 0.0, order_h1 = 0.0, expected_l2 = 0.0, expected_h1 = 0.0;
-};
-
-/// A number that is known otherwise.
-struct Check {
-  std::string name, quantity, source;
-  double value = 0.0, expected = 0.0;
-  /// |value - expected| / |expected|; where zero is expected |value|, which then is a ratio itself
-  double relative_error = 0.0;
-  double tolerance = 0.0;
-  bool passed = false;
-};
-
-/// One stiffness-like figure of one element at one Poisson's ratio.
-struct LockingPoint {
-  std::string problem;
-  std::string element;  ///< "Q2 projected" and so on
-  double poissons_ratio = 0.0;
-  double value = 0.0, reference = 0.0;
-  double relative_error = 0.0;  ///< value / reference - 1; positive is too stiff
-};
 
 /// The default rubber's E with another Poisson's ratio, -1 < nu < 0.5.
 meshes::Rubber rubber_with(double poissons_ratio);

@@ -4,20 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <nlohmann/json.hpp>
-#include <ostream>
 #include <utility>
 
 #include "fem_reference/run_progress.h"
 #include "fem_reference/verification/check.h"
 #include "fem_reference/verification/verification.h"
 #include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/json_fields.h"
 
 namespace fingertip::fem_reference {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using enum Volumetric;
 namespace fs = std::filesystem;
 
@@ -32,56 +29,11 @@ const std::array<std::vector<int>, 4> sphere_divisions{{{}, {2, 4, 8}, {2, 4, 8}
 const std::array<std::vector<int>, 4> cylinder_divisions{{{}, {4, 8, 16}, {4, 8, 16}, {2, 4, 8}}};
 const std::array<std::vector<int>, 4> plate_divisions{{{}, {2, 4, 8}, {2, 4, 8}, {}}};
 
-struct Tables {
-  std::vector<ConvergenceStudy> studies;
-  std::vector<Check> checks;
-  std::vector<LockingPoint> locking;
-};
+using Tables = VerificationFile;
 
 template <class T>
 void append(std::vector<T>& table, std::vector<T> more) {
   std::ranges::move(more, std::back_inserter(table));
-}
-
-Json to_json(const ConvergenceStudy& study) {
-  Json grids = Json::array();
-  for (const auto& mesh : study.meshes)
-    grids.push_back({{"h", mesh.h},
-                     {"unknowns", mesh.unknowns},
-                     {"error_l2", mesh.error_l2},
-                     {"error_h1", mesh.error_h1}});
-  return {{"problem", study.problem},
-          {"degree", study.degree},
-          {"volumetric", name(study.volumetric)},
-          {"poissons_ratio", study.poissons_ratio},
-          {"meshes", grids},
-          {"order_l2", study.order_l2},
-          {"order_h1", study.order_h1},
-          {"expected_l2", study.expected_l2},
-          {"expected_h1", study.expected_h1}};
-}
-
-Json to_json(const Check& check) {
-  return {{"name", check.name},           {"quantity", check.quantity},
-          {"source", check.source},       {"value", check.value},
-          {"expected", check.expected},   {"relative_error", check.relative_error},
-          {"tolerance", check.tolerance}, {"passed", check.passed}};
-}
-
-Json to_json(const LockingPoint& point) {
-  return {{"problem", point.problem},
-          {"element", point.element},
-          {"poissons_ratio", point.poissons_ratio},
-          {"value", point.value},
-          {"reference", point.reference},
-          {"relative_error", point.relative_error}};
-}
-
-template <class T>
-Json to_json(const std::vector<T>& table) {
-  Json rows = Json::array();
-  for (const T& row : table) rows.push_back(to_json(row));
-  return rows;
 }
 
 struct Part {
@@ -180,14 +132,10 @@ class VerificationRun {
 
   void write(const RunOutcome& outcome) const {
     if (!first_process()) return;
-    const Json result{{"studies", to_json(tables_.studies)},
-                      {"checks", to_json(tables_.checks)},
-                      {"locking", to_json(tables_.locking)}};
-    meshes::write_atomically(folder_ / "verification.json",
-                             [&](std::ostream& out) { out << result.dump(2) << '\n'; });
-    Json summary = summary_head(outcome, job_);
-    summary["checks"] = tables_.checks.size();
-    summary["failed_checks"] = failed();
+    meshes::write_json_file(tables_, folder_ / "verification.json");
+    RunSummary summary = summary_head(outcome, job_);
+    summary.checks = tables_.checks.size();
+    summary.failed_checks = failed();
     write_summary(std::move(summary), progress_, folder_);
   }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lattice/grasp/grasp_table.h"
 #include "lattice/grasp/grip.h"
 #include "lattice/grasp/hand.h"
 
@@ -22,27 +23,6 @@ struct GraspSetup {
   /// contacts each up to mu N: m (g + a)/(2 mu). `acceleration` [m/s²] upward. Stick: 0,
   /// frictionless: infinite.
   double least_force(double acceleration) const;
-};
-
-/// One row of grasp.csv, once per period. World axes; forces are means over the last step.
-struct GraspRow {
-  double time = 0.0;  ///< [s]
-  GripPhase phase = GripPhase::squeeze;
-  double height = 0.0;         ///< of the box's centre above its start [m]
-  double velocity = 0.0;       ///< upward [m/s]
-  double tilt = 0.0;           ///< rotation of the block since the start [rad]
-  double finger_height = 0.0;  ///< travel of the rods upward [m]
-  double indentation = 0.0;    ///< travel of each rod toward the block since first touch [m]
-  double support_force = 0.0;  ///< [N]
-  /// Per finger: normal and tangential force on the block [N], points that touch and of these that
-  /// slide.
-  std::array<double, 2> normal{}, tangential{};
-  std::array<int, 2> touching{}, sliding{};
-  /// Per finger, at its points: sum of the magnitudes of their tangential forces, mu times `normal`
-  /// where all slide, and of their parts on the tip toward the contact's centre [N].
-  std::array<double, 2> point_friction{}, inward_friction{};
-  double load = 0.0;  ///< upward force of both fingers on the block [N]
-  double slip = 0.0;  ///< of the block down along the fingers since it left its support [m]
 };
 
 enum class GraspFate {
@@ -82,8 +62,5 @@ using GraspObserver = std::function<bool(const GraspOutcome& so_far, double frac
 /// reached before the rubber is crushed (the observer has seen what was finished), Interrupted when
 /// the observer asks.
 GraspOutcome run_grasp(const GraspSetup& setup, const GraspObserver& observer = {});
-
-/// grasp.csv: a row per period, first line with names and units.
-void write_grasp_csv(const std::vector<GraspRow>& rows, const std::filesystem::path& file);
 
 }  // namespace fingertip::lattice

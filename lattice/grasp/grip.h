@@ -1,6 +1,7 @@
 /// How a robot grasps: close until the wanted grip force, take up the weight, lift, hold.
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +36,12 @@ enum class GripPhase {
   done,
 };
 std::string_view name(GripPhase phase);
+inline constexpr std::array grip_phases{GripPhase::squeeze, GripPhase::load,    GripPhase::lift,
+                                        GripPhase::hold,    GripPhase::release, GripPhase::done};
+/// What a column of phases may hold.
+constexpr const auto& values_of(GripPhase) {
+  return grip_phases;
+}
 
 /// What the robot feels once per period.
 struct GripFeeling {

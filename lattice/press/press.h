@@ -13,31 +13,10 @@
 #include "lattice/dynamics/time_step.h"
 #include "lattice/press/boundary_view.h"
 #include "lattice/press/press_setup.h"
+#include "lattice/press/trace.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::lattice {
-
-/// One row of trace.csv, taken once per controller period. SI; vectors in the rod's starting axes.
-struct TraceRow {
-  double time = 0.0;             ///< [s]
-  double indentation = 0.0;      ///< negative before contact [m]
-  double commanded_speed = 0.0;  ///< set-point of the approach speed [m/s]
-  double speed = 0.0;            ///< approach speed of the rod's endpoint [m/s]
-  double tilt = 0.0;             ///< angle between the rod's axis and its start [rad]
-  double normal_force = 0.0;     ///< bond force on the rod along the plane normal [N]
-  double lateral_force = 0.0;    ///< magnitude of the bond force in the plane [N]
-  double torque = 0.0;           ///< magnitude of the bond torque about the endpoint [N m]
-  double command_force = 0.0;    ///< controller's force along the approach direction [N]
-  double plane_force = 0.0;      ///< reaction of the plane along its normal [N]
-  double contact_stiffness = meshes::unknown;  ///< as the controller takes it to be [N/m]
-  double wanted_force = meshes::unknown;       ///< contact force the controller wants [N]
-  bool force_mode = false;                     ///< whether it controls the contact force
-  int anchored = 0;             ///< boundary particles, or points of the true surface, on the plane
-  int sliding = 0;              ///< of these (contact coulomb)
-  double kinetic_energy = 0.0;  ///< of the particles [J]
-  double rod_kinetic_energy = 0.0;  ///< [J]
-  double elastic_energy = 0.0;      ///< of springs, cells, bond and contact [J]
-};
 
 /// What the lattice consists of, for reports and pictures.
 struct LatticeCensus {
@@ -99,8 +78,5 @@ struct PressFilm {
 /// seen what was finished), ControllerFailed likewise, Interrupted when the observer asks.
 PressOutcome run_press(const PressSetup& setup, const PressObserver& observer = {},
                        const PressFilm& film = {});
-
-/// trace.csv: one row per controller period, first line with names and units (README: trace).
-void write_trace_csv(const std::vector<TraceRow>& trace, const std::filesystem::path& file);
 
 }  // namespace fingertip::lattice

@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
 
-#include "meshes/files.h"
+#include "meshes/table_rows.h"
 #include "studies/cases/fit_measures.h"
 #include "studies/cases/folders.h"
 #include "studies/cases/force_errors.h"
 #include "studies/cases/plan.h"
-#include "studies/report/figure.h"
+#include "studies/files/case_summary.h"
+#include "studies/files/run_tables.h"
 #include "studies/report/run_data.h"
 #include "studies/run/fit_plan.h"
 #include "studies/run/fit_setup.h"
@@ -24,7 +24,6 @@ namespace {
 
 using meshes::PressResponse;
 using nlohmann::ordered_json;
-using reporting::csv_cell;
 using reporting::force_at;
 namespace fs = std::filesystem;
 
@@ -56,7 +55,8 @@ class CalibrationPlan : public Plan {
   LoadedConfig combined(const CaseVariant& fit, const CaseVariant& prediction) const;
   void plan_transfer(std::size_t fit, std::size_t prediction, std::vector<PlannedJob>& jobs);
   std::vector<PlannedJob> presses(const fs::path& folder);
-  std::string rows_of(const Transfer& transfer, const fs::path& folder, const std::string& status);
+  std::vector<TransferRow> rows_of(const Transfer& transfer, const fs::path& folder,
+                                   const std::string& status);
 
   const Case& case_;
   std::vector<Fit> fits_;
@@ -140,28 +140,20 @@ std::vector<PlannedJob> CalibrationPlan::presses(const fs::path& folder) {
   return jobs;
 }
 
-constexpr const char* table_head =
-    "fit,prediction,model,indentation [m],normal_force [N],reference_force [N],reference_error,"
-    "relative_error,status\n";
-
-std::string CalibrationPlan::rows_of(const Transfer& transfer, const fs::path& folder,
-                                     const std::string& status) {
+std::vector<TransferRow> CalibrationPlan::rows_of(const Transfer& transfer, const fs::path& folder,
+                                                  const std::string& status) {
   const PressResponse response = response_in(folder / transfer.folder);
   const PressResponse continuum = response_in(folder / transfer.continuum);
   double& worst = errors_[transfer.fit][transfer.prediction];
   worst = 0.0;
-  std::string rows;
+  std::vector<TransferRow> rows;
   for (const double depth : transfer.setup.protocol.samples) {
     const double force = force_at(response, depth), wanted = force_at(continuum, depth);
     const double error = force / wanted - 1.0;
     worst = std::isfinite(error) ? std::max(worst, std::abs(error)) : std::nan("");
-    rows += csv_cell(case_.fits[transfer.fit].name) + "," +
-            csv_cell(case_.predictions[transfer.prediction].name) + "," +
-            std::string(lattice::name(transfer.setup.lattice.model));
-    for (const double value :
-         {depth, force, wanted, estimated_force_error(continuum, depth), error})
-      rows += "," + meshes::to_text(value);
-    rows += "," + csv_cell(status) + "\n";
+    rows.push_back({case_.fits[transfer.fit].name, case_.predictions[transfer.prediction].name,
+                    std::string(lattice::name(transfer.setup.lattice.model)), depth, force, wanted,
+                    estimated_force_error(continuum, depth), error, status});
   }
   return rows;
 }
@@ -169,40 +161,28 @@ std::string CalibrationPlan::rows_of(const Transfer& transfer, const fs::path& f
 ordered_json CalibrationPlan::conclude(const fs::path& folder,
                                        const std::vector<JobResult>& results) {
   errors_.assign(fits_.size(), std::vector<double>(case_.predictions.size(), std::nan("")));
-  std::string rows;
+  std::vector<TransferRow> rows;
   for (const Transfer& transfer : transfers_) {
     const auto job = std::ranges::find(results, transfer.folder, &JobResult::name);
-    rows += rows_of(transfer, folder, job->status);
+    for (TransferRow& row : rows_of(transfer, folder, job->status)) rows.push_back(std::move(row));
   }
-  if (!rows.empty())
-    meshes::write_atomically(folder / "transfer.csv",
-                             [&](std::ostream& out) { out << table_head << rows; });
-  ordered_json fits = ordered_json::array(), predictions = ordered_json::array(),
-               worst = ordered_json::array();
+  if (!rows.empty()) meshes::write_rows(rows, folder / "transfer.csv");
+  TransferEntry entry;
   for (std::size_t f = 0; f < fits_.size(); ++f) {
     calibrations_.push_back(read_json(folder / fits_[f].folder / "calibration.json"));
     const ordered_json& calibration = calibrations_.back();
-    fits.push_back({{"name", case_.fits[f].name},
-                    {"folder", fits_[f].folder},
-                    {"model", calibration.value("model", "")},
-                    {"problem", calibration.value("problem", "moduli")}});
-    ordered_json row = ordered_json::array();
-    for (const double error : errors_[f]) row.push_back(number_or_null(error));
-    worst.push_back(row);
+    entry.fits.push_back({case_.fits[f].name, fits_[f].folder, calibration.value("model", ""),
+                          calibration.value("problem", "moduli")});
   }
+  entry.worst_error = errors_;
   for (const CaseVariant& prediction : case_.predictions)
-    predictions.push_back({{"name", prediction.name}});
+    entry.predictions.push_back({prediction.name});
   const meshes::Rubber& rubber = case_.loaded.config.press.rubber;
-  return {{"calibration",
-           {{"fits", fits},
-            {"predictions", predictions},
-            {"worst_error", worst},
-            {"truth",
-             {{"parameters",
-               {{"youngs_modulus", rubber.youngs_modulus},
-                {"shear_modulus", rubber.shear_modulus},
-                {"lambda", rubber.lame_lambda()},
-                {"retardation_time", rubber.retardation_time}}}}}}}};
+  entry.truth.parameters = {{"youngs_modulus", rubber.youngs_modulus},
+                            {"shear_modulus", rubber.shear_modulus},
+                            {"lambda", rubber.lame_lambda()},
+                            {"retardation_time", rubber.retardation_time}};
+  return {{"calibration", meshes::json_of(entry)}};
 }
 
 std::map<std::string, double> CalibrationPlan::measures(const fs::path&,

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "studies/report/moving_press.h"
-#include "studies/run/json_file.h"
 
 namespace fingertip::studies {
 
@@ -32,14 +31,15 @@ const std::vector<std::string>& press_measures() {
 RunMeasures tracking_measures(const fs::path& folder) {
   RunMeasures measures;
   if (fs::exists(folder / "summary.json")) {
-    const JsonEntry summary = read_entry(folder / "summary.json");
-    const JsonEntry tracking = object_at(summary, "tracking");
-    for (const char* name : {"speed_deviation", "speed_deviation_at_touch", "tilt_deg"})
-      measures[name] = number_at(tracking, name);
-    measures["momentum_defect"] = number_at(summary, "momentum_defect");
+    const auto summary = struct_of<PressSummary>(read_entry(folder / "summary.json"));
+    measures["speed_deviation"] = summary.tracking.speed_deviation;
+    measures["speed_deviation_at_touch"] = summary.tracking.speed_deviation_at_touch;
+    measures["tilt_deg"] = summary.tracking.tilt_deg;
+    measures["momentum_defect"] = summary.momentum_defect;
   }
-  meshes::CsvTable trace;
-  if (fs::exists(folder / "trace.csv")) trace = meshes::read_csv(folder / "trace.csv");
+  std::vector<lattice::TraceRow> trace;
+  if (fs::exists(folder / "trace.csv"))
+    trace = meshes::read_rows<lattice::TraceRow>(folder / "trace.csv");
   measures["force_overshoot"] = reporting::force_overshoot(trace);
   measures["mode_switches"] = reporting::mode_switches(trace);
   std::erase_if(measures, [](const auto& entry) { return std::isnan(entry.second); });

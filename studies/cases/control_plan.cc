@@ -8,6 +8,8 @@
 #include "studies/cases/folders.h"
 #include "studies/cases/force_errors.h"
 #include "studies/cases/plan.h"
+#include "studies/files/case_summary.h"
+#include "studies/files/json_fields.h"
 #include "studies/report/run_data.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -159,10 +161,9 @@ ordered_json ControlPlan::conclude(const fs::path& folder, const std::vector<Job
     if (!job->ok()) ++not_converged_;
     // What an incomplete press did so far must not pass for what it did.
     measures_.push_back(job->ok() ? measure(i, folder) : RunMeasures());
-    ordered_json entry = {{"series", press.series},       {"name", press.name},
-                          {"folder", presses_[i].folder}, {"continuum", presses_[i].continuum},
-                          {"beside", press.beside},       {"pictured", press.snapshots},
-                          {"status", job->status}};
+    ordered_json entry = meshes::json_of(PressEntry{press.series, press.name, presses_[i].folder,
+                                                    presses_[i].continuum, press.beside,
+                                                    press.snapshots, job->status});
     for (const auto& [name, value] : measures_.back()) entry[name] = value;
     list.push_back(std::move(entry));
   }

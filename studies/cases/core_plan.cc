@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "meshes/csv_table.h"
-#include "meshes/files.h"
+#include "fem_reference/verification/verification_file.h"
 #include "meshes/press_response.h"
+#include "meshes/table_rows.h"
 #include "studies/cases/equilibrium_study.h"
+#include "studies/cases/folders.h"
 #include "studies/cases/force_errors.h"
 #include "studies/cases/measures.h"
 #include "studies/cases/plan.h"
 #include "studies/cases/published_study.h"
-#include "studies/files/json_entry.h"
+#include "studies/files/case_summary.h"
+#include "studies/files/json_fields.h"
+#include "studies/files/press_summary.h"
+#include "studies/files/run_tables.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_setup.h"
@@ -35,7 +39,7 @@ class CorePlan : public Plan {
 
  private:
   ordered_json reference_entry() const;
-  ordered_json model_entry(const fs::path& press, const std::string& status) const;
+  ModelEntry model_entry(const fs::path& press, const std::string& status) const;
 
   const Config& config() const { return case_.loaded.config; }
 
@@ -84,48 +88,50 @@ ordered_json CorePlan::reference_entry() const {
 }
 
 ordered_json verification_entry(const fs::path& folder) {
-  const JsonList checks =
-      array_at(read_entry(folder / "verification" / "verification.json"), "checks");
-  const auto failed = std::ranges::count_if(
-      checks, [](const JsonEntry& check) { return !check.at("passed").flag(); });
+  const auto checks = struct_of<fem_reference::VerificationFile>(
+                          read_entry(folder / "verification" / "verification.json"))
+                          .checks;
+  const auto failed = std::ranges::count(checks, false, &fem_reference::Check::passed);
   return {{"checks", checks.size()}, {"failed_checks", failed}};
 }
 
-ordered_json CorePlan::model_entry(const fs::path& press, const std::string& status) const {
-  ordered_json entry;
+ModelEntry CorePlan::model_entry(const fs::path& press, const std::string& status) const {
+  ModelEntry entry;
   if (fs::exists(press / "summary.json")) {
-    const ordered_json summary = read_json(press / "summary.json");
-    entry = summary["moduli"];
-    entry["real_time_factor"] = summary["real_time_factor"];
+    const auto summary = struct_of<PressSummary>(read_entry(press / "summary.json"));
+    const ModuliEntry& moduli = summary.moduli;
+    entry.E_100 = moduli.E_100;
+    entry.E_110 = moduli.E_110;
+    entry.E_111 = moduli.E_111;
+    entry.G = moduli.G;
+    entry.nu_100 = moduli.nu_100;
+    entry.K = moduli.K;
+    entry.anisotropy = moduli.anisotropy;
+    entry.real_time_factor = summary.real_time_factor;
   }
-  PressResponse response;
-  if (fs::exists(press / "response.csv"))
-    response = PressResponse::read_csv(press / "response.csv");
-  entry["force_error"] = force_errors(response, reference_, config().press.protocol.depth);
+  const PressResponse response = response_in(press);
+  for (const auto& error : force_errors(response, reference_, config().press.protocol.depth))
+    entry.force_error.push_back(number_of(error));
   const double reached = std::min(response.depth(), reference_.depth());
-  entry["relative_l2_force_error"] =
-      reached > 0.0 ? number_or_null(relative_l2_force_error(response, reference_, 0.0, reached))
-                    : ordered_json();
-  entry["status"] = status == finished ? "ok" : status;
+  if (reached > 0.0)
+    entry.relative_l2_force_error = relative_l2_force_error(response, reference_, 0.0, reached);
+  entry.status = status == finished ? "ok" : status;
   return entry;
 }
 
 /// Largest relative deviation of the hookean cubes in cubes.csv from the rubber's E, G, nu.
 double cube_error(const fs::path& folder, const meshes::Rubber& rubber) {
-  const std::pair<const char*, double> wanted[] = {
-      {"youngs_modulus_100 [Pa]", rubber.youngs_modulus},
-      {"youngs_modulus_110 [Pa]", rubber.youngs_modulus},
-      {"youngs_modulus_111 [Pa]", rubber.youngs_modulus},
-      {"shear_modulus [Pa]", rubber.shear_modulus},
-      {"poissons_ratio_100", rubber.poissons_ratio()}};
-  const meshes::CsvTable cubes = meshes::read_csv(folder / "cubes.csv");
-  const std::vector<std::string> models = cubes.texts("model");
+  const std::pair<double CubeRow::*, double> wanted[] = {
+      {&CubeRow::youngs_modulus_100, rubber.youngs_modulus},
+      {&CubeRow::youngs_modulus_110, rubber.youngs_modulus},
+      {&CubeRow::youngs_modulus_111, rubber.youngs_modulus},
+      {&CubeRow::shear_modulus, rubber.shear_modulus},
+      {&CubeRow::poissons_ratio_100, rubber.poissons_ratio()}};
   double worst = std::nan("");
-  for (const auto& [column, target] : wanted) {
-    const std::vector<double> values = cubes.numbers(column);
-    for (std::size_t row = 0; row < values.size(); ++row) {
-      if (models[row] != "hookean") continue;
-      const double error = std::abs(values[row] - target) / std::max(std::abs(target), 1e-3);
+  for (const CubeRow& cube : meshes::read_rows<CubeRow>(folder / "cubes.csv")) {
+    if (cube.model != "hookean") continue;
+    for (const auto& [value, target] : wanted) {
+      const double error = std::abs(cube.*value - target) / std::max(std::abs(target), 1e-3);
       if (std::isnan(error)) return error;
       worst = std::isnan(worst) ? error : std::max(worst, error);
     }
@@ -163,7 +169,7 @@ ordered_json CorePlan::conclude(const fs::path& folder, const std::vector<JobRes
       {"equilibrium", {{"hookean_force_error", equilibrium_.hookean_errors(folder, reference_)}}}};
   for (const std::string& model : validated_models()) {
     const auto result = std::ranges::find(results, model, &JobResult::name);
-    summary["models"][model] = model_entry(folder / model, result->status);
+    summary["models"][model] = meshes::json_of(model_entry(folder / model, result->status));
   }
   return summary;
 }

@@ -1,13 +1,13 @@
 #include "studies/cases/equilibrium_study.h"
 
 #include <cmath>
-#include <ostream>
 
 #include <fmt/format.h>
 
-#include "meshes/files.h"
+#include "meshes/table_rows.h"
 #include "studies/cases/folders.h"
 #include "studies/cases/force_errors.h"
+#include "studies/files/run_tables.h"
 #include "studies/report/run_data.h"
 #include "studies/run/jobs.h"
 
@@ -53,21 +53,17 @@ std::vector<PlannedJob> EquilibriumStudy::jobs() const {
 
 void EquilibriumStudy::write_table(const std::filesystem::path& folder,
                                    const PressResponse& reference) const {
-  std::string rows;
+  std::vector<EquilibriumStudyRow> rows;
   for (const Variant& variant : variants_) {
     const PressResponse response = response_in(folder / variant.name);
     for (const double depth : verdict_depths(variant.setup.protocol.depth)) {
       const double force = force_at(response, depth);
       const double error = force / force_at(reference, depth) - 1.0;
-      rows += std::string(lattice::name(variant.setup.lattice.model));
-      for (const double value : {variant.setup.lattice.spacing, depth, force, error})
-        rows += "," + meshes::to_text(value);
-      rows += "\n";
+      rows.push_back({std::string(lattice::name(variant.setup.lattice.model)),
+                      variant.setup.lattice.spacing, depth, force, error});
     }
   }
-  meshes::write_atomically(folder / "equilibrium_study.csv", [&](std::ostream& out) {
-    out << "model,spacing [m],indentation [m],normal_force [N],relative_error\n" << rows;
-  });
+  meshes::write_rows(rows, folder / "equilibrium_study.csv");
 }
 
 nlohmann::ordered_json EquilibriumStudy::hookean_errors(const std::filesystem::path& folder,

@@ -30,22 +30,20 @@ const std::vector<std::string>& grasp_measures() {
   return names;
 }
 
-RunMeasures measure_grasp(const JsonEntry& summary) {
+RunMeasures measure_grasp(const GraspSummary& summary) {
   RunMeasures measures;
-  const std::string fate = text_at(summary, "fate");
-  const double friction = number_at(summary, "friction");
+  const std::string& fate = summary.fate;
+  const double friction = summary.friction;
   measures["held"] = fate == "held" ? 1.0 : 0.0;
   measures["lost"] = fate == "held" ? 0.0 : 1.0;
-  measures["surplus"] =
-      number_at(summary, "wanted_force") / number_at(summary, "least_force") - 1.0;
-  measures["slip_error"] = relative_error(number_at(summary, "slip_ratio"), friction);
-  measures["sliding_error"] = relative_error(number_at(summary, "sliding_ratio"), friction);
+  measures["surplus"] = summary.wanted_force / summary.least_force - 1.0;
+  measures["slip_error"] = relative_error(summary.slip_ratio, friction);
+  measures["sliding_error"] = relative_error(summary.sliding_ratio, friction);
   // Where the grip does not fall, the force of slip is the one that was asked for.
   if (fate == "held")
-    measures["slip_force_error"] =
-        relative_error(number_at(summary, "slip_force"), number_at(summary, "least_force_at_rest"));
-  measures["load_error"] = relative_error(number_at(summary, "held_load"), 1.0);
-  measures["momentum_defect"] = number_at(summary, "momentum_defect");
+    measures["slip_force_error"] = relative_error(summary.slip_force, summary.least_force_at_rest);
+  measures["load_error"] = relative_error(summary.held_load, 1.0);
+  measures["momentum_defect"] = summary.momentum_defect;
   std::erase_if(measures, [](const auto& entry) { return !std::isfinite(entry.second); });
   return measures;
 }

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "studies/cases/judged_runs.h"
-#include "studies/files/json_entry.h"
+#include "studies/files/grasp_summary.h"
 
 namespace fingertip::studies {
 
 /// What a grasp of a case may be measured by (studies/cases/README.md says what each is).
 const std::vector<std::string>& grasp_measures();
 
-/// From summary.json of a grasp that came to its end.
-RunMeasures measure_grasp(const JsonEntry& summary);
+/// Of a grasp that came to its end.
+RunMeasures measure_grasp(const GraspSummary& summary);
 
 /// How far a series is from the friction limit, where it should begin to hold: the larger of the
 /// distances, relative, of its weakest grip that holds and of its strongest that does not. NaN

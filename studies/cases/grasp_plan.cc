@@ -5,6 +5,8 @@
 #include "studies/cases/folders.h"
 #include "studies/cases/grasp_measures.h"
 #include "studies/cases/plan.h"
+#include "studies/files/case_summary.h"
+#include "studies/files/json_fields.h"
 #include "studies/run/grasp_job.h"
 
 namespace fingertip::studies {
@@ -76,12 +78,11 @@ ordered_json GraspPlan::conclude(const fs::path& folder, const std::vector<JobRe
     const auto job = std::ranges::find(results, folders_[i], &JobResult::name);
     if (!job->ok()) ++not_converged_;
     // What an incomplete grasp did so far must not pass for what it did.
-    measures_.push_back(job->ok() ? measure_grasp(read_entry(folder / folders_[i] / "summary.json"))
+    measures_.push_back(job->ok() ? measure_grasp(struct_of<GraspSummary>(
+                                        read_entry(folder / folders_[i] / "summary.json")))
                                   : RunMeasures());
-    ordered_json entry = {{"series", grasp.series},
-                          {"name", grasp.name},
-                          {"folder", folders_[i]},
-                          {"status", job->status}};
+    ordered_json entry =
+        meshes::json_of(GraspEntry{grasp.series, grasp.name, folders_[i], job->status});
     for (const auto& [name, value] : measures_.back()) entry[name] = value;
     list.push_back(std::move(entry));
   }

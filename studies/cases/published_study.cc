@@ -1,12 +1,12 @@
 #include "studies/cases/published_study.h"
 
 #include <cmath>
-#include <ostream>
 
 #include <fmt/format.h>
 
-#include "meshes/files.h"
+#include "meshes/table_rows.h"
 #include "studies/cases/force_errors.h"
+#include "studies/files/run_tables.h"
 #include "studies/report/run_data.h"
 #include "studies/run/jobs.h"
 
@@ -63,7 +63,7 @@ std::vector<PlannedJob> PublishedStudy::jobs() const {
 
 void PublishedStudy::write_table(const std::filesystem::path& folder,
                                  const PressResponse& reference) const {
-  std::string rows;
+  std::vector<PublishedStudyRow> rows;
   for (const Variant& variant : variants_) {
     const auto file = folder / variant.name / "response.csv";
     const PressResponse response =
@@ -72,20 +72,11 @@ void PublishedStudy::write_table(const std::filesystem::path& folder,
     for (const double depth : verdict_depths(variant.setup.protocol.depth)) {
       const double force = force_at(response, depth);
       const double error = force / force_at(reference, depth) - 1.0;
-      rows += variant.varied;
-      for (const double value :
-           {settings.spacing, settings.offset.x(), settings.offset.y(), settings.offset.z(),
-            settings.ligament_stiffness, depth, force, error}) {
-        rows += "," + meshes::to_text(value);
-      }
-      rows += "\n";
+      rows.push_back({variant.varied, settings.spacing, settings.offset,
+                      settings.ligament_stiffness, depth, force, error});
     }
   }
-  meshes::write_atomically(folder / "published_study.csv", [&](std::ostream& out) {
-    out << "varied,spacing [m],offset_x,offset_y,offset_z,ligament_stiffness,indentation [m],"
-           "normal_force [N],relative_error\n"
-        << rows;
-  });
+  meshes::write_rows(rows, folder / "published_study.csv");
 }
 
 }  // namespace fingertip::studies

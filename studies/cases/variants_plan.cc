@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
 #include <set>
 
-#include "meshes/files.h"
+#include "meshes/table_rows.h"
 #include "studies/cases/folders.h"
 #include "studies/cases/force_errors.h"
 #include "studies/cases/plan.h"
 #include "studies/cases/variant_measures.h"
-#include "studies/report/figure.h"
+#include "studies/files/case_summary.h"
+#include "studies/files/json_fields.h"
+#include "studies/files/press_summary.h"
+#include "studies/files/run_tables.h"
 #include "studies/report/run_data.h"
 #include "studies/run/fit_setup.h"
 #include "studies/run/jobs.h"
@@ -25,7 +27,6 @@ namespace {
 
 using meshes::PressResponse;
 using nlohmann::ordered_json;
-using reporting::csv_cell;
 using reporting::force_at;
 namespace fs = std::filesystem;
 
@@ -57,10 +58,11 @@ class VariantsPlan : public Plan {
   std::size_t continuum_of(const LoadedConfig& loaded, const lattice::PressSetup& setup);
   std::string free_folder(const CaseVariant& variant);
   VariantResult result_of(const Press& press, const fs::path& folder) const;
-  std::string rows_of(std::size_t place, const fs::path& folder, const std::string& status) const;
-  ordered_json series_entries() const;
-  ordered_json continuum_entries() const;
-  ordered_json budget_entries() const;
+  std::vector<VariantRow> rows_of(std::size_t place, const fs::path& folder,
+                                  const std::string& status) const;
+  std::vector<SeriesEntry> series_entries() const;
+  std::vector<ContinuumEntry> continuum_entries() const;
+  std::vector<BudgetEntry> budget_entries() const;
 
   const Case& case_;
   std::vector<Press> presses_;  ///< in the order of the case's variants
@@ -145,104 +147,84 @@ VariantResult VariantsPlan::result_of(const Press& press, const fs::path& folder
   return result;
 }
 
-constexpr const char* table_head =
-    "series,name,x,model,kinematics,contact,poissons_ratio,spacing [m],continuum,indentation [m],"
-    "normal_force [N],reference_force [N],reference_error,relative_error,volume_defect,"
-    "wall_time [s],status\n";
-
-std::string VariantsPlan::rows_of(std::size_t place, const fs::path& folder,
-                                  const std::string& status) const {
+std::vector<VariantRow> VariantsPlan::rows_of(std::size_t place, const fs::path& folder,
+                                              const std::string& status) const {
   const CaseVariant& variant = case_.variants[place];
   const Press& press = presses_[place];
   const VariantResult& result = results_[place];
   const fs::path file = folder / press.folder / "summary.json";
-  const JsonEntry summary = fs::exists(file) ? read_entry(file) : JsonEntry();
-  const JsonEntry census = object_at(summary, "census");
-  const double defect = number_at(census, "volume") / number_at(census, "exact_volume") - 1.0;
-  const std::string head = fmt::format(
-      "{},{},{},{},{},{},{},{},{}", csv_cell(variant.series), csv_cell(variant.name),
-      meshes::to_text(variant.x), lattice::name(press.setup.lattice.model),
-      lattice::name(press.setup.lattice.kinematics), meshes::name(press.setup.protocol.contact),
-      meshes::to_text(press.setup.rubber.poissons_ratio()), meshes::to_text(result.spacing),
-      continua_[press.continuum].folder);
-  std::string rows;
+  PressSummary summary;
+  if (fs::exists(file)) summary = struct_of<PressSummary>(read_entry(file));
+  VariantRow row;
+  row.series = variant.series;
+  row.name = variant.name;
+  row.x = variant.x;
+  row.model = lattice::name(press.setup.lattice.model);
+  row.kinematics = lattice::name(press.setup.lattice.kinematics);
+  row.contact = meshes::name(press.setup.protocol.contact);
+  row.poissons_ratio = press.setup.rubber.poissons_ratio();
+  row.spacing = result.spacing;
+  row.continuum = continua_[press.continuum].folder;
+  row.volume_defect = summary.static_census.volume / summary.static_census.exact_volume - 1.0;
+  row.wall_time = summary.wall_time;
+  row.status = status;
+  std::vector<VariantRow> rows;
   for (std::size_t d = 0; d < result.depth.size(); ++d) {
-    rows += head;
-    for (const double value :
-         {result.depth[d], result.force[d], result.reference_force[d], result.reference_error[d],
-          result.error[d], defect, number_at(summary, "wall_time")})
-      rows += "," + meshes::to_text(value);
-    rows += "," + csv_cell(status) + "\n";
+    row.indentation = result.depth[d];
+    row.normal_force = result.force[d];
+    row.reference_force = result.reference_force[d];
+    row.reference_error = result.reference_error[d];
+    row.relative_error = result.error[d];
+    rows.push_back(row);
   }
   return rows;
 }
 
-ordered_json list_of(const std::vector<double>& values) {
-  ordered_json list = ordered_json::array();
-  for (const double value : values) list.push_back(number_or_null(value));
-  return list;
-}
-
-ordered_json VariantsPlan::series_entries() const {
-  ordered_json list = ordered_json::array();
+std::vector<SeriesEntry> VariantsPlan::series_entries() const {
+  std::vector<SeriesEntry> list;
   for (const std::string& name : series_names(case_)) {
     const SeriesMeasures measures = measure_series(case_, name, results_);
-    list.push_back({{"name", name},
-                    {"worst_error", number_or_null(measures.worst_error)},
-                    {"finest_error", number_or_null(measures.finest_error)},
-                    {"spread", number_or_null(measures.spread)},
-                    {"order", number_or_null(measures.order)}});
+    list.push_back(
+        {name, measures.worst_error, measures.finest_error, measures.spread, measures.order});
   }
   return list;
 }
 
-ordered_json VariantsPlan::continuum_entries() const {
-  ordered_json list = ordered_json::array();
+std::vector<ContinuumEntry> VariantsPlan::continuum_entries() const {
+  std::vector<ContinuumEntry> list;
   for (const Continuum& continuum : continua_) {
     const meshes::Rubber& rubber = continuum.order.rubber;
-    list.push_back({{"folder", continuum.folder},
-                    {"strain", fem_reference::name(continuum.order.strain)},
-                    {"contact", meshes::name(continuum.order.contact)},
-                    {"youngs_modulus", rubber.youngs_modulus},
-                    {"shear_modulus", rubber.shear_modulus},
-                    {"poissons_ratio", rubber.poissons_ratio()}});
+    list.push_back({continuum.folder, std::string(fem_reference::name(continuum.order.strain)),
+                    std::string(meshes::name(continuum.order.contact)), rubber.youngs_modulus,
+                    rubber.shear_modulus, rubber.poissons_ratio()});
   }
   return list;
 }
 
-ordered_json VariantsPlan::budget_entries() const {
-  ordered_json list = ordered_json::array();
+std::vector<BudgetEntry> VariantsPlan::budget_entries() const {
+  std::vector<BudgetEntry> list;
   for (const CaseBudget& budget : case_.budgets) {
     const Budget taken = take_budget(case_, budget, results_);
-    ordered_json parts = ordered_json::array();
+    BudgetEntry entry{budget.name, taken.depth, taken.total, {}, taken.rest};
     for (std::size_t i = 0; i < budget.parts.size(); ++i)
-      parts.push_back({{"series", budget.parts[i]}, {"share", list_of(taken.parts[i])}});
-    list.push_back({{"name", budget.name},
-                    {"depths", list_of(taken.depth)},
-                    {"total", list_of(taken.total)},
-                    {"parts", parts},
-                    {"rest", list_of(taken.rest)}});
+      entry.parts.push_back({budget.parts[i], taken.parts[i]});
+    list.push_back(std::move(entry));
   }
   return list;
 }
 
 ordered_json VariantsPlan::conclude(const fs::path& folder, const std::vector<JobResult>& results) {
-  std::string rows;
+  std::vector<VariantRow> rows;
   for (std::size_t i = 0; i < presses_.size(); ++i) {
     results_.push_back(result_of(presses_[i], folder));
     const auto job = std::ranges::find(results, presses_[i].folder, &JobResult::name);
     if (!job->ok()) ++not_converged_;
-    rows += rows_of(i, folder, job->status);
+    for (VariantRow& row : rows_of(i, folder, job->status)) rows.push_back(std::move(row));
   }
-  meshes::write_atomically(folder / "variants.csv",
-                           [&](std::ostream& out) { out << table_head << rows; });
-  return {{"variants",
-           {{"x_label", case_.abscissa},
-            {"count", presses_.size()},
-            {"not_converged", not_converged_},
-            {"series", series_entries()},
-            {"continua", continuum_entries()},
-            {"budgets", budget_entries()}}}};
+  meshes::write_rows(rows, folder / "variants.csv");
+  const StudyEntry study{case_.abscissa,   presses_.size(),     not_converged_,
+                         series_entries(), continuum_entries(), budget_entries()};
+  return {{"variants", meshes::json_of(study)}};
 }
 
 std::map<std::string, double> VariantsPlan::measures(const fs::path&, const ordered_json&) const {

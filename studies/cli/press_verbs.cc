@@ -5,12 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "meshes/csv_table.h"
+#include "fem_reference/run_tables.h"
 #include "meshes/press_response.h"
+#include "meshes/table_rows.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
-#include "studies/files/json_entry.h"
+#include "studies/files/json_fields.h"
 #include "studies/files/mode_table.h"
+#include "studies/files/press_summary.h"
 #include "studies/files/shown_units.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -103,19 +105,14 @@ std::string heading(const fem_reference::ReferenceJob& order) {
 /// Frequencies and kinds of motion: the lattice tells these with the share of mass that moves along
 /// an axis, the continuum by symmetry about x = 0 and y = 0.
 void print_frequencies(const std::filesystem::path& folder) {
-  const meshes::CsvTable modes = meshes::read_csv(folder / "modes.csv");
-  const std::vector<std::string> names = modes.texts("mode");
-  const std::vector<double> frequencies = modes.numbers("frequency [Hz]");
-  const bool lattice = modes.has("motion");
-  const std::vector<std::string> motions = mode_motions(modes);
-  const auto sideways = modes.numbers_if_any("mass_x"), other = modes.numbers_if_any("mass_y"),
-             along = modes.numbers_if_any("mass_z");
+  const auto modes = vibration_modes(meshes::read_csv(folder / "modes.csv"));
+  const bool lattice = !modes.empty() && modes.front().of_lattice;
   fmt::print("{:>6}{:>18}  {:<32}{}\n", "mode", "frequency [Hz]", "motion",
              lattice ? "mass that answers across, along the axis" : "");
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    fmt::print("{:>6}{:18.4f}  {:<32}{}\n", names[i], frequencies[i], motions[i],
-               lattice ? fmt::format("{:.1f} %, {:.1f} %", 100.0 * (sideways[i] + other[i]),
-                                     100.0 * along[i])
+  for (const VibrationMode& mode : modes) {
+    fmt::print("{:>6}{:18.4f}  {:<32}{}\n", mode.number, mode.frequency, mode.motion,
+               lattice ? fmt::format("{:.1f} %, {:.1f} %", 100.0 * (mode.mass.x() + mode.mass.y()),
+                                     100.0 * mode.mass.z())
                        : "");
   }
 }
@@ -144,28 +141,26 @@ void print_accuracy(const std::filesystem::path& folder, const fem_reference::Re
              100.0 * worst.relative, 100.0 * order.tolerance,
              reached ? "" : ", NOT REACHED at " + shown_units().length.text(worst.indentation));
   if (std::filesystem::exists(folder / "convergence.csv")) {
-    const meshes::CsvTable meshes = meshes::read_csv(folder / "convergence.csv");
-    const std::vector<double> unknowns = meshes.numbers("unknowns");
-    if (!unknowns.empty()) {
-      fmt::print("; finest mesh: {:.0f} unknowns", *std::ranges::max_element(unknowns));
-    }
+    std::size_t unknowns = 0;
+    for (const auto& row :
+         meshes::read_rows<fem_reference::ConvergenceRow>(folder / "convergence.csv"))
+      unknowns = std::max(unknowns, row.unknowns);
+    if (unknowns > 0) fmt::print("; finest mesh: {} unknowns", unknowns);
   }
   fmt::print("\n");
 }
 
 /// What the controller held: the force, or else the speed, or where one of people's own ended.
-void print_control(const JsonEntry& summary) {
-  const JsonEntry tracking = object_at(summary, "tracking"), end = object_at(summary, "end");
-  const double held = number_at(tracking, "held_force"),
-               deviation = number_at(tracking, "force_deviation"),
-               speed = number_at(tracking, "speed_deviation"),
-               tilt = number_at(tracking, "tilt_deg");
-  const bool follows = tracking.at("follows_path").flag();
+void print_control(const PressSummary& summary) {
+  const TrackingEntry& tracking = summary.tracking;
+  const double held = tracking.held_force, deviation = tracking.force_deviation,
+               speed = tracking.speed_deviation, tilt = tracking.tilt_deg;
+  const bool follows = tracking.follows_path;
   const ShownUnit& force = shown_units().force;
   std::string text = "controller:";
   if (!std::isnan(held)) {
     text += fmt::format(" contact force {} held ({} wanted", force.text(held),
-                        force.text(number_at(tracking, "wanted_force")));
+                        force.text(tracking.wanted_force));
     if (!std::isnan(deviation))
       text += fmt::format(", within {:.2g} % in the last {:.0f} ms", 100.0 * deviation,
                           1e3 * held_time);
@@ -173,10 +168,9 @@ void print_control(const JsonEntry& summary) {
   } else if (follows && !std::isnan(speed)) {
     text += fmt::format(" speed within {:.2f} %,", 100.0 * speed);
   }
-  if (!follows && !std::isnan(number_at(end, "time"))) {
-    text += fmt::format(
-        " {} at {} at the end ({:.3g} s),", force.text(number_at(end, "normal_force")),
-        shown_units().length.text(number_at(end, "indentation")), number_at(end, "time"));
+  if (const auto& end = summary.end; end && !follows) {
+    text += fmt::format(" {} at {} at the end ({:.3g} s),", force.text(end->normal_force),
+                        shown_units().length.text(end->indentation), end->time);
   }
   // What is no more than round-off is not told by its digits.
   if (!std::isnan(tilt))
@@ -186,21 +180,19 @@ void print_control(const JsonEntry& summary) {
 }
 
 void print_press_facts(const std::filesystem::path& folder, bool reused) {
-  const JsonEntry summary = read_entry(folder / "summary.json");
-  if (summary.contains("effort")) {
-    const JsonEntry census = object_at(summary, "census");
-    const double sectors = number_at(census, "sectors");
-    fmt::print("{} particles ({} of the tip), {} Newton iterations\n", text_at(census, "particles"),
-               sectors == 1.0 ? "all" : fmt::format("1/{:.0f}", sectors),
-               text_at(object_at(summary, "effort"), "newton_iterations"));
+  const auto summary = struct_of<PressSummary>(read_entry(folder / "summary.json"));
+  if (summary.rests()) {
+    const StaticCensusEntry& census = summary.static_census;
+    fmt::print("{} particles ({} of the tip), {} Newton iterations\n", census.particles,
+               census.sectors == 1 ? "all" : fmt::format("1/{}", census.sectors),
+               summary.effort.newton_iterations);
     return;
   }
-  const JsonEntry step = object_at(summary, "step");
-  fmt::print("time step {:.3g} s: {}\n", number_at(step, "step"), text_at(step, "explanation"));
+  fmt::print("time step {:.3g} s: {}\n", summary.step.step, summary.step.explanation);
   fmt::print("real-time factor {:.2f} (simulated over wall time, threads: {}{})\n",
-             number_at(summary, "real_time_factor"), text_at(summary, "threads"),
+             summary.real_time_factor, summary.threads,
              reused ? "; of the run that computed it" : "");
-  if (summary.contains("tracking")) print_control(summary);
+  if (summary.controlled()) print_control(summary);
 }
 
 /// The files that a press takes something from.

@@ -64,7 +64,7 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
   const auto end = [&](const std::string& status, int code, const std::exception& why) {
     progress.clear();
     try {
-      folder.finish(status, code, {{"error", why.what()}});
+      folder.finish(status, code, why.what());
     } catch (const meshes::CannotWrite&) {
       // The reason why the run ended is what counts.
     }
@@ -73,7 +73,7 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
   const auto refuse = [&](const std::exception& why) {
     progress.clear();
     if (folder.resumed() || holds_results(folder.path())) {
-      folder.finish("bad input", 2, {{"error", why.what()}});
+      folder.finish("bad input", 2, why.what());
     } else {
       folder.discard();
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "meshes/press_columns.h"
 #include "meshes/text_file.h"
 
 namespace fingertip::studies {
@@ -30,7 +31,11 @@ JsonEntry FolderReader::json(const fs::path& file) {
 
 meshes::PressResponse FolderReader::response(const fs::path& file) {
   if (!is_there(file)) return {};
-  return attempt([&] { return meshes::PressResponse::read_csv(file); });
+  return attempt([&] {
+    const auto missing = meshes::missing_columns<meshes::PressSample>(meshes::read_csv(file));
+    if (!missing.empty()) note(meshes::InvalidInput(missing));
+    return meshes::PressResponse::read_csv(file);
+  });
 }
 
 std::string FolderReader::text(const fs::path& file) {
@@ -40,7 +45,8 @@ std::string FolderReader::text(const fs::path& file) {
 
 void FolderReader::note_missing(const fs::path& folder) {
   const JsonEntry marker = json(folder / "finished.json");
-  for (const auto& [name, digest] : attempt([&] { return object_at(marker, "files").members(); }))
+  for (const auto& [name, digest] :
+       attempt([&] { return object_if_any(marker, "files").members(); }))
     if (!is_there(folder / name))
       note(meshes::InvalidInput({(folder / name).string(), "", "is missing: the run had written it",
                                  "run again with --resume auto, which computes it anew"}));

@@ -9,7 +9,8 @@
 #include "meshes/csv_table.h"
 #include "meshes/errors.h"
 #include "meshes/press_response.h"
-#include "studies/files/json_entry.h"
+#include "meshes/table_rows.h"
+#include "studies/files/json_fields.h"
 
 namespace fingertip::studies {
 
@@ -19,6 +20,21 @@ class FolderReader {
  public:
   meshes::CsvTable csv(const std::filesystem::path& file);
   JsonEntry json(const std::filesystem::path& file);
+  /// The rows of a table, none where one of its columns is missing or damaged.
+  template <typename Row>
+  std::vector<Row> rows(const std::filesystem::path& file) {
+    return attempt([&] { return meshes::rows_of<Row>(csv(file)); });
+  }
+  /// The struct in a JSON object, as far as it is whole; each fault is noted.
+  template <typename Struct>
+  Struct take(const JsonEntry& entry) {
+    Struct result;
+    std::vector<meshes::Violation> wrong;
+    if (!entry.empty()) read_value(entry, result, wrong);
+    for (const meshes::Violation& one : wrong) note(meshes::InvalidInput(one));
+    return result;
+  }
+  /// A press's or continuum's response.csv. Missing columns are noted, the others read.
   meshes::PressResponse response(const std::filesystem::path& file);
   std::string text(const std::filesystem::path& file);
 

@@ -101,7 +101,18 @@ JsonEntry JsonEntry::at(const std::string& key) const {
   if (!value_->is_object() && !value_->is_null()) refuse("must be an object");
   const std::string path = path_.empty() ? key : path_ + "." + key;
   const auto found = value_->find(key);
-  return {document_, found == value_->end() ? nothing : *found, path};
+  const bool there = found != value_->end();
+  JsonEntry entry(document_, there ? *found : nothing, path);
+  entry.there_ = there;
+  return entry;
+}
+
+JsonEntry JsonEntry::need(const std::string& key) const {
+  JsonEntry entry = at(key);
+  if (!entry.there_)
+    throw meshes::InvalidInput({document_->file.string() + ", " + entry.path_, "", "is missing",
+                                "run again what writes the file"});
+  return entry;
 }
 
 std::vector<std::pair<std::string, JsonEntry>> JsonEntry::members() const {
@@ -126,6 +137,12 @@ double JsonEntry::number() const {
   const double value = value_->get<double>();
   if (!(std::abs(value) <= meshes::largest_plausible)) refuse("must be a number of sensible size");
   return value;
+}
+
+long long JsonEntry::whole_number() const {
+  const double value = number();
+  if (!(value == std::floor(value) && std::abs(value) < 1e15)) refuse("must be a whole number");
+  return static_cast<long long>(value);
 }
 
 std::vector<double> JsonEntry::numbers() const {
@@ -153,22 +170,42 @@ JsonEntry JsonEntry::object() const {
 }
 
 double number_at(const JsonEntry& entry, const std::string& key) {
-  return entry.at(key).number();
+  return entry.need(key).number();
 }
 
 std::vector<double> numbers_at(const JsonEntry& entry, const std::string& key) {
-  return entry.at(key).numbers();
+  return entry.need(key).numbers();
 }
 
 std::string text_at(const JsonEntry& entry, const std::string& key) {
-  return entry.at(key).text();
+  return entry.need(key).text();
 }
 
 JsonEntry object_at(const JsonEntry& entry, const std::string& key) {
-  return entry.at(key).object();
+  return entry.need(key).object();
 }
 
 JsonList array_at(const JsonEntry& entry, const std::string& key) {
+  return entry.need(key).elements();
+}
+
+double number_if_any(const JsonEntry& entry, const std::string& key) {
+  return entry.at(key).number();
+}
+
+std::vector<double> numbers_if_any(const JsonEntry& entry, const std::string& key) {
+  return entry.at(key).numbers();
+}
+
+std::string text_if_any(const JsonEntry& entry, const std::string& key) {
+  return entry.at(key).text();
+}
+
+JsonEntry object_if_any(const JsonEntry& entry, const std::string& key) {
+  return entry.at(key).object();
+}
+
+JsonList array_if_any(const JsonEntry& entry, const std::string& key) {
   return entry.at(key).elements();
 }
 

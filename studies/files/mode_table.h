@@ -1,18 +1,32 @@
-/// What a table of natural vibrations tells about their shapes.
+/// Natural vibrations, of a lattice or of the continuum.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "meshes/csv_table.h"
+#include "meshes/geometry.h"
+#include "meshes/press_response.h"
 
 namespace fingertip::studies {
 
-/// The kind of motion per row of a modes.csv in words, of the lattice's own (`motion`) or from the
-/// continuum's `symmetry` and `multiplicity`: shapes that are alike around the axis (multiplicity
-/// 1) twist when antisymmetric about both planes; pairs have an odd number of waves around the axis
-/// when the two planes differ, sideways being one wave, and an even number otherwise. "" where the
-/// table tells neither. Throws InvalidInput for damaged cells.
-std::vector<std::string> mode_motions(const meshes::CsvTable& modes);
+/// A row of modes.csv, of whichever model.
+struct VibrationMode {
+  int number = 0;
+  double frequency = meshes::unknown;  ///< [Hz]
+  double error = meshes::unknown;      ///< of the continuum's frequency [Hz]
+  /// The kind of motion in words, of the lattice's own or from the continuum's symmetry and
+  /// multiplicity: shapes that are alike around the axis (multiplicity 1) twist when antisymmetric
+  /// about both planes; pairs have an odd number of waves around the axis when the two planes
+  /// differ, sideways being one wave, and an even number otherwise.
+  std::string motion;
+  bool of_lattice = false;
+  /// Shares of mass and of inertia about the axis that answer when the rod moves; of a lattice.
+  meshes::Vector3 mass = meshes::Vector3::Constant(meshes::unknown);
+  double inertia = meshes::unknown;
+};
+
+/// Throws InvalidInput naming the file and what is missing or damaged.
+std::vector<VibrationMode> vibration_modes(const meshes::CsvTable& table);
 
 }  // namespace fingertip::studies

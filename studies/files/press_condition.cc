@@ -58,24 +58,26 @@ std::string moved(double speed) {
 
 PressCondition condition_of(const JsonEntry& inputs) {
   PressCondition condition;
-  const JsonEntry geometry = object_at(inputs, "geometry"), rubber = object_at(inputs, "rubber");
-  condition.tip_radius = number_at(geometry, "tip_radius");
-  condition.rod_radius = number_at(geometry, "rod_radius");
-  condition.sleeve_length = number_at(geometry, "sleeve_length");
-  condition.rod_length = number_at(geometry, "rod_length");
-  condition.youngs_modulus = number_at(rubber, "youngs_modulus");
-  condition.shear_modulus = number_at(rubber, "shear_modulus");
+  const JsonEntry geometry = object_if_any(inputs, "geometry"),
+                  rubber = object_if_any(inputs, "rubber");
+  condition.tip_radius = number_if_any(geometry, "tip_radius");
+  condition.rod_radius = number_if_any(geometry, "rod_radius");
+  condition.sleeve_length = number_if_any(geometry, "sleeve_length");
+  condition.rod_length = number_if_any(geometry, "rod_length");
+  condition.youngs_modulus = number_if_any(rubber, "youngs_modulus");
+  condition.shear_modulus = number_if_any(rubber, "shear_modulus");
   // A lattice keeps its press apart, the continuum does not.
   const bool lattice = inputs.contains("lattice");
-  const JsonEntry press = lattice ? object_at(inputs, "protocol") : inputs;
-  const std::string strain =
-      lattice ? text_at(object_at(inputs, "lattice"), "kinematics") : text_at(inputs, "strain");
+  const JsonEntry press = lattice ? object_if_any(inputs, "protocol") : inputs;
+  const std::string strain = lattice ? text_if_any(object_if_any(inputs, "lattice"), "kinematics")
+                                     : text_if_any(inputs, "strain");
   condition.strain = strain == "linear" ? "small" : strain;
-  condition.contact = text_at(press, "contact");
-  condition.friction = number_at(press, "friction");
-  condition.tilt = number_at(press, "tilt");
-  condition.lateral = text_at(press, "lateral_path") == "after" ? 0.0 : number_at(press, "lateral");
-  const double speed = number_at(press, "speed");
+  condition.contact = text_if_any(press, "contact");
+  condition.friction = number_if_any(press, "friction");
+  condition.tilt = number_if_any(press, "tilt");
+  condition.lateral =
+      text_if_any(press, "lateral_path") == "after" ? 0.0 : number_if_any(press, "lateral");
+  const double speed = number_if_any(press, "speed");
   condition.speed = std::isnan(speed) ? 0.0 : speed;
   return condition;
 }
@@ -84,8 +86,9 @@ std::optional<PressCondition> read_condition(const fs::path& folder, FolderReade
   for (const char* name : {"finished.json", "unfinished.json"}) {
     const JsonEntry note = reader.json(folder / name);
     if (!note.contains("inputs")) continue;
-    return reader.attempt(
-        [&]() -> std::optional<PressCondition> { return condition_of(object_at(note, "inputs")); });
+    return reader.attempt([&]() -> std::optional<PressCondition> {
+      return condition_of(object_if_any(note, "inputs"));
+    });
   }
   return {};
 }

@@ -18,8 +18,8 @@ constexpr const char* usual_integrator = "symplectic-euler";
 
 /// What one core of its own would give, where that was measured.
 double pace_of(const JsonEntry& press) {
-  const double processor = number_at(press, "real_time_factor_processor");
-  return std::isfinite(processor) ? processor : number_at(press, "real_time_factor");
+  const double processor = number_if_any(press, "real_time_factor_processor");
+  return std::isfinite(processor) ? processor : number_if_any(press, "real_time_factor");
 }
 
 /// Colour tells the model, the marker the integrator: circles for plain steps, triangles for scaled
@@ -32,7 +32,7 @@ struct Family {
 };
 
 std::string integrator_of(const JsonEntry& press) {
-  const std::string integrator = text_at(press, "integrator");
+  const std::string integrator = text_if_any(press, "integrator");
   return integrator.empty() ? usual_integrator : integrator;
 }
 
@@ -55,17 +55,18 @@ void add_family(Panel& panel, const JsonEntry& bench, const Family& family) {
     series.style.dash = "(2,4)";
     series.style.width = 1.4;
   }
-  for (const JsonEntry& press : array_at(bench, "press")) {
-    if (text_at(press, "model") != family.model || integrator_of(press) != family.integrator ||
-        number_at(press, "threads") != family.threads)
+  for (const JsonEntry& press : array_if_any(bench, "press")) {
+    if (text_if_any(press, "model") != family.model || integrator_of(press) != family.integrator ||
+        number_if_any(press, "threads") != family.threads)
       continue;
-    const double error = 100.0 * number_at(press, family.error_key), pace = pace_of(press);
+    const double error = 100.0 * number_if_any(press, family.error_key), pace = pace_of(press);
     if (!std::isfinite(error) || !std::isfinite(pace)) continue;
     series.x.push_back(pace);
     series.y.push_back(error);
     if (family.label_height > 0.0)
-      panel.texts.push_back({pace, family.label_height * error,
-                             fmt::format("R/{:.0f}", 1.0 / number_at(press, "spacing_over_R"))});
+      panel.texts.push_back(
+          {pace, family.label_height * error,
+           fmt::format("R/{:.0f}", 1.0 / number_if_any(press, "spacing_over_R"))});
   }
   if (!series.x.empty()) panel.series.push_back(std::move(series));
 }
@@ -88,11 +89,11 @@ void add_lattices(Panel& panel, const JsonEntry& bench) {
 /// Each point with its number of unknowns.
 void add_continua(Panel& panel, const JsonEntry& bench) {
   std::map<int, Series> by_degree;
-  for (const JsonEntry& one : array_at(bench, "continua")) {
-    const double error = 100.0 * number_at(one, "worst_force_error");
-    const double pace = number_at(one, "real_time_factor");
+  for (const JsonEntry& one : array_if_any(bench, "continua")) {
+    const double error = 100.0 * number_if_any(one, "worst_force_error");
+    const double pace = number_if_any(one, "real_time_factor");
     if (!std::isfinite(error) || !std::isfinite(pace)) continue;
-    const int degree = int(number_at(one, "degree"));
+    const int degree = int(number_if_any(one, "degree"));
     Series& series = by_degree[degree];
     series.label = fmt::format("quasi-static FEM, Q{}, unknowns", degree);
     series.style = model_style("reference");
@@ -101,7 +102,7 @@ void add_continua(Panel& panel, const JsonEntry& bench) {
     if (degree == 1) series.style.dash = "(6,3)";
     series.x.push_back(pace);
     series.y.push_back(error);
-    panel.texts.push_back({pace, 1.22 * error, count(number_at(one, "unknowns"))});
+    panel.texts.push_back({pace, 1.22 * error, count(number_if_any(one, "unknowns"))});
   }
   for (auto& [degree, series] : by_degree) panel.series.push_back(std::move(series));
 }
@@ -154,7 +155,7 @@ Figure pace_figure(const JsonEntry& bench) {
 double dram_cost(const JsonEntry& bench) {
   // Position and velocity of a mass read and written, shared by its 12.4 springs at 48³.
   constexpr double bytes = 7.7;
-  return 1e9 * bytes / number_at(object_at(bench, "probes"), "bandwidth_DRAM");
+  return 1e9 * bytes / number_if_any(object_if_any(bench, "probes"), "bandwidth_DRAM");
 }
 
 Figure growth_figure(const JsonEntry& bench) {
@@ -166,12 +167,12 @@ Figure growth_figure(const JsonEntry& bench) {
   const auto curve = [&](const std::string& label, const std::string& name, double threads,
                          std::size_t style) {
     std::map<double, double> points;
-    for (const JsonEntry& kernel : array_at(bench, "kernels")) {
-      if (text_at(kernel, "name") != name || text_at(kernel, "precision") != "float64" ||
-          number_at(kernel, "threads") != threads)
+    for (const JsonEntry& kernel : array_if_any(bench, "kernels")) {
+      if (text_if_any(kernel, "name") != name || text_if_any(kernel, "precision") != "float64" ||
+          number_if_any(kernel, "threads") != threads)
         continue;
-      const double cost = number_at(kernel, "ns_per_spring_step");
-      const auto [at, fresh] = points.try_emplace(number_at(kernel, "masses"), cost);
+      const double cost = number_if_any(kernel, "ns_per_spring_step");
+      const auto [at, fresh] = points.try_emplace(number_if_any(kernel, "masses"), cost);
       if (!fresh) at->second = std::fmin(at->second, cost);  // the widest registers
     }
     Series series;
@@ -197,16 +198,16 @@ Figure growth_figure(const JsonEntry& bench) {
     series.style = {"#777777", dash, 1.4, 0, true};
     panel.series.push_back(std::move(series));
   };
-  const JsonEntry probes = object_at(bench, "probes");
+  const JsonEntry probes = object_if_any(bench, "probes");
   double rate = 0.0;
-  const JsonEntry rates = object_at(probes, "multiply_adds_per_second");
+  const JsonEntry rates = object_if_any(probes, "multiply_adds_per_second");
   for (const auto& [isa, value] : rates.members()) rate = std::fmax(rate, value.number());
   bound("17 multiply-adds, 1 core", 1e9 * 17.0 / rate, "(6,3)");
   bound("DRAM, 7.7 bytes", dram_cost(bench), "(2,3)");
   panel.x_range = span;
   panel.y_range = roomy(panel.series, true, panel.series.front().y.front());
   for (const char* cache : {"cache_L2", "cache_L3"})
-    if (const double masses = number_at(probes, cache) / 48.0;
+    if (const double masses = number_if_any(probes, cache) / 48.0;
         masses > span.from && masses < span.to)
       panel.markers.push_back({masses, "#777777"});
   return {"growth", 860, 430, 1, {panel}};
@@ -224,12 +225,12 @@ Figure press_growth_figure(const JsonEntry& bench) {
       Series series;
       series.label = std::string(model) + (usual ? "" : ", scaled masses");
       series.style = family_style(model, usual);
-      for (const JsonEntry& press : array_at(bench, "press")) {
-        if (text_at(press, "model") != model || integrator_of(press) != integrator ||
-            number_at(press, "threads") != 1.0)
+      for (const JsonEntry& press : array_if_any(bench, "press")) {
+        if (text_if_any(press, "model") != model || integrator_of(press) != integrator ||
+            number_if_any(press, "threads") != 1.0)
           continue;
-        series.x.push_back(number_at(press, "particles"));
-        series.y.push_back(number_at(press, "ns_per_mass_step"));
+        series.x.push_back(number_if_any(press, "particles"));
+        series.y.push_back(number_if_any(press, "ns_per_mass_step"));
       }
       if (!series.x.empty()) panel.series.push_back(std::move(series));
     }
@@ -253,7 +254,7 @@ Figure history_figure(const JsonList& history) {
     series.label = name;
     series.style = numbered_style(style++);
     for (std::size_t i = 0; i < history.size(); ++i) {
-      const double value = number_at(object_at(history[i], "ratios"), name);
+      const double value = number_if_any(object_if_any(history[i], "ratios"), name);
       if (!(value > 0.0)) continue;
       series.x.push_back(double(i + 1));
       series.y.push_back(value);

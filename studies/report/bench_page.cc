@@ -13,11 +13,11 @@ namespace fingertip::studies::reporting {
 namespace {
 
 std::string spacing_text(const JsonEntry& press) {
-  return fmt::format("R/{:.3g}", 1.0 / number_at(press, "spacing_over_R"));
+  return fmt::format("R/{:.3g}", 1.0 / number_if_any(press, "spacing_over_R"));
 }
 
 bool is_scaled(const JsonEntry& press) {
-  return text_at(press, "integrator") == "mass-scaled";
+  return text_if_any(press, "integrator") == "mass-scaled";
 }
 
 Table press_table(const JsonEntry& bench) {
@@ -44,20 +44,23 @@ Table press_table(const JsonEntry& bench) {
   const auto error_cell = [](double error) {
     return Cell{std::isfinite(error) ? percent_magnitude(error) : "–", "", grade(error)};
   };
-  for (const JsonEntry& press : array_at(bench, "press")) {
-    const double processor = number_at(press, "real_time_factor_processor");
-    const double step = number_at(press, "time_step"), cost = number_at(press, "ns_per_mass_step");
-    const double small = number_at(press, "worst_force_error_small_strain");
+  for (const JsonEntry& press : array_if_any(bench, "press")) {
+    const double processor = number_if_any(press, "real_time_factor_processor");
+    const double step = number_if_any(press, "time_step"),
+                 cost = number_if_any(press, "ns_per_mass_step");
+    const double small = number_if_any(press, "worst_force_error_small_strain");
     table.rows.push_back(
-        {plain(text_at(press, "model"), text_at(press, "kinematics") + " strain" +
-                                            (is_scaled(press) ? ", scaled masses" : "")),
-         plain(spacing_text(press), count(number_at(press, "particles"))),
-         plain(count(number_at(press, "threads"))),
-         plain(number(number_at(press, "real_time_factor"), 3),
+        {plain(text_if_any(press, "model"), text_if_any(press, "kinematics") + " strain" +
+                                                (is_scaled(press) ? ", scaled masses" : "")),
+         plain(spacing_text(press), count(number_if_any(press, "particles"))),
+         plain(count(number_if_any(press, "threads"))),
+         plain(number(number_if_any(press, "real_time_factor"), 3),
                std::isfinite(processor) ? number(processor, 3) : ""),
-         error_cell(number_at(press, "worst_force_error")),
-         plain(error_cell(number_at(press, "static_error")).text), plain(error_cell(small).text),
-         plain(count(number_at(press, "steps")), std::isfinite(step) ? with_prefix(step, "s") : ""),
+         error_cell(number_if_any(press, "worst_force_error")),
+         plain(error_cell(number_if_any(press, "static_error")).text),
+         plain(error_cell(small).text),
+         plain(count(number_if_any(press, "steps")),
+               std::isfinite(step) ? with_prefix(step, "s") : ""),
          plain(std::isfinite(cost) ? with_prefix(1e-9 * cost, "s") : "–")});
   }
   table.graded = true;
@@ -72,12 +75,12 @@ Table continuum_table(const JsonEntry& bench) {
       "before.";
   table.header = {plain("Elements"), plain("Unknowns"), plain("Solves per second"),
                   plain("Real-time factor"), plain("Force error")};
-  for (const JsonEntry& one : array_at(bench, "continua")) {
-    const double error = number_at(one, "worst_force_error");
-    table.rows.push_back({plain(fmt::format("Q{}", number_at(one, "degree"))),
-                          plain(count(number_at(one, "unknowns"))),
-                          plain(number(number_at(one, "solves_per_second"), 3)),
-                          plain(number(number_at(one, "real_time_factor"), 3)),
+  for (const JsonEntry& one : array_if_any(bench, "continua")) {
+    const double error = number_if_any(one, "worst_force_error");
+    table.rows.push_back({plain(fmt::format("Q{}", number_if_any(one, "degree"))),
+                          plain(count(number_if_any(one, "unknowns"))),
+                          plain(number(number_if_any(one, "solves_per_second"), 3)),
+                          plain(number(number_if_any(one, "real_time_factor"), 3)),
                           {percent_magnitude(error), "", grade(error)}});
   }
   return table;
@@ -95,8 +98,8 @@ Chapter pace_chapter(const JsonEntry& bench) {
         "hollow ones of hookean against that of small strain, which it computes, at the same "
         "spacings. "
         "Squares: finite elements, with their number of unknowns."});
-  if (!array_at(bench, "press").empty()) chapter.blocks.push_back(press_table(bench));
-  if (!array_at(bench, "continua").empty()) chapter.blocks.push_back(continuum_table(bench));
+  if (!array_if_any(bench, "press").empty()) chapter.blocks.push_back(press_table(bench));
+  if (!array_if_any(bench, "continua").empty()) chapter.blocks.push_back(continuum_table(bench));
   return chapter;
 }
 
@@ -111,16 +114,16 @@ Table kernel_table(const JsonEntry& bench, const char* list, const std::string& 
                   plain("ns per spring and step"),
                   plain("Operations per spring"),
                   plain("Roofline")};
-  for (const JsonEntry& kernel : array_at(bench, list)) {
-    const double fraction = number_at(kernel, "roofline_fraction");
-    table.rows.push_back({plain(text_at(kernel, "name")), plain(text_at(kernel, "isa")),
-                          plain(text_at(kernel, "precision")),
-                          plain(count(number_at(kernel, "threads"))),
-                          plain(count(number_at(kernel, "masses"))),
-                          plain(number(number_at(kernel, "ns_per_spring_step"), 3)),
-                          plain(number(number_at(kernel, "operations_per_spring"), 3)),
+  for (const JsonEntry& kernel : array_if_any(bench, list)) {
+    const double fraction = number_if_any(kernel, "roofline_fraction");
+    table.rows.push_back({plain(text_if_any(kernel, "name")), plain(text_if_any(kernel, "isa")),
+                          plain(text_if_any(kernel, "precision")),
+                          plain(count(number_if_any(kernel, "threads"))),
+                          plain(count(number_if_any(kernel, "masses"))),
+                          plain(number(number_if_any(kernel, "ns_per_spring_step"), 3)),
+                          plain(number(number_if_any(kernel, "operations_per_spring"), 3)),
                           plain(std::isfinite(fraction) ? percent_magnitude(fraction) : "–",
-                                text_at(kernel, "remark"))});
+                                text_if_any(kernel, "remark"))});
   }
   return table;
 }
@@ -158,16 +161,16 @@ Table ratio_table(const JsonEntry& bench) {
       "does justice.";
   table.header = {plain("Ratio"),  plain("Median"),  plain("Aim"),
                   plain("Lowest"), plain("Highest"), plain("Remark")};
-  const JsonEntry values = object_at(bench, "ratios");
-  const JsonEntry rounds = object_at(bench, "ratio_rounds");
-  const JsonEntry missing = object_at(bench, "missing_ratios");
+  const JsonEntry values = object_if_any(bench, "ratios");
+  const JsonEntry rounds = object_if_any(bench, "ratio_rounds");
+  const JsonEntry missing = object_if_any(bench, "missing_ratios");
   for (const auto& [name, value] : values.members()) {
     double low = meshes::unknown, high = meshes::unknown;
-    for (const double one : numbers_at(rounds, name)) {
+    for (const double one : numbers_if_any(rounds, name)) {
       low = std::fmin(low, one);
       high = std::fmax(high, one);
     }
-    Cell remark = plain(text_at(missing, name));
+    Cell remark = plain(text_if_any(missing, name));
     remark.words = true;
     table.rows.push_back({plain(name), plain(number(value.number(), 3)), plain(aim_of(name)),
                           plain(number(low, 3)), plain(number(high, 3)), remark});
@@ -187,7 +190,7 @@ Chapter kernel_chapter(const JsonEntry& bench) {
       "share of what the cores do at best, multiply-adds for the engine, additions and "
       "multiplications in turns for the others, which are compiled without fusing them. Springs of "
       "hookean and network are fibres, of which there are few: most of the work is in cells."));
-  if (!array_at(bench, "peers").empty())
+  if (!array_if_any(bench, "peers").empty())
     chapter.blocks.push_back(kernel_table(
         bench, "peers",
         "Peers on the same cubes, in the same rounds: LAMMPS' harmonic bonds (undamped, "
@@ -199,13 +202,14 @@ Chapter kernel_chapter(const JsonEntry& bench) {
 /// for lattices of `from` to `to` masses; NaN where there are none.
 std::pair<double, double> costs_between(const JsonEntry& bench, double from, double to) {
   std::pair<double, double> costs{meshes::unknown, meshes::unknown};
-  for (const JsonEntry& kernel : array_at(bench, "kernels")) {
-    const double masses = number_at(kernel, "masses");
-    if (text_at(kernel, "name") != "springs" || text_at(kernel, "precision") != "float64" ||
-        text_at(kernel, "isa") != text_at(object_at(bench, "machine"), "isa_measured") ||
-        number_at(kernel, "threads") != 1.0 || !(masses >= from && masses <= to))
+  for (const JsonEntry& kernel : array_if_any(bench, "kernels")) {
+    const double masses = number_if_any(kernel, "masses");
+    if (text_if_any(kernel, "name") != "springs" || text_if_any(kernel, "precision") != "float64" ||
+        text_if_any(kernel, "isa") !=
+            text_if_any(object_if_any(bench, "machine"), "isa_measured") ||
+        number_if_any(kernel, "threads") != 1.0 || !(masses >= from && masses <= to))
       continue;
-    const double cost = number_at(kernel, "ns_per_spring_step");
+    const double cost = number_if_any(kernel, "ns_per_spring_step");
     costs = {std::fmin(costs.first, cost), std::fmax(costs.second, cost)};
   }
   return costs;
@@ -217,8 +221,8 @@ std::string growth_text(const JsonEntry& bench) {
       "Level means that cost grows linearly with the lattice. Grey: what arithmetic and DRAM alone "
       "would take; a mass is 48 bytes of position and velocity, read and written once per step. "
       "Vertical lines: lattices that fill the second and the third cache.";
-  const JsonEntry probes = object_at(bench, "probes");
-  const double held = number_at(probes, "cache_L3") / 48.0;
+  const JsonEntry probes = object_if_any(bench, "probes");
+  const double held = number_if_any(probes, "cache_L3") / 48.0;
   const auto inside = costs_between(bench, 1e4, held);
   const auto beyond = costs_between(bench, held, 1e9);
   if (inside.second > inside.first)
@@ -254,9 +258,9 @@ Chapter time_chapter(const JsonEntry& bench) {
   Table table;
   table.caption = "What else a user waits for.";
   table.header = {plain("What"), plain("Time"), plain("Remark")};
-  for (const JsonEntry& one : array_at(bench, "times"))
-    table.rows.push_back({plain(text_at(one, "what")),
-                          plain(with_prefix(number_at(one, "seconds"), "s")),
+  for (const JsonEntry& one : array_if_any(bench, "times"))
+    table.rows.push_back({plain(text_if_any(one, "what")),
+                          plain(with_prefix(number_if_any(one, "seconds"), "s")),
                           plain(one.at("from_cache").flag() ? "from an earlier run" : "")});
   if (!table.rows.empty()) chapter.blocks.push_back(table);
   return chapter;
@@ -264,8 +268,8 @@ Chapter time_chapter(const JsonEntry& bench) {
 
 Chapter machine_chapter(const JsonEntry& bench, const JsonList& history) {
   Chapter chapter{"machine", "Machine", {}};
-  const JsonEntry facts = object_at(bench, "machine");
-  const JsonEntry probes = object_at(bench, "probes");
+  const JsonEntry facts = object_if_any(bench, "machine");
+  const JsonEntry probes = object_if_any(bench, "probes");
   Table table;
   table.header = {plain("Fact"), plain("Value")};
   for (const auto& [name, value] : facts.members()) {
@@ -277,21 +281,21 @@ Chapter machine_chapter(const JsonEntry& bench, const JsonList& history) {
                                 : fraction ? number(value.number(), 3)
                                            : text)});
   }
-  const JsonEntry rates = object_at(probes, "multiply_adds_per_second");
+  const JsonEntry rates = object_if_any(probes, "multiply_adds_per_second");
   for (const auto& [isa, rate] : rates.members())
     if (!rate.is_null())
       table.rows.push_back(
           {plain("multiply-adds, " + isa), plain(with_prefix(rate.number(), "/s"))});
-  const JsonEntry mixed = object_at(probes, "operations_per_second");
+  const JsonEntry mixed = object_if_any(probes, "operations_per_second");
   for (const auto& [isa, rate] : mixed.members())
     if (!rate.is_null())
       table.rows.push_back({plain("additions and multiplications, " + isa),
                             plain(with_prefix(rate.number(), "/s"))});
   for (const char* name : {"bandwidth_L2", "bandwidth_DRAM"})
-    if (const double rate = number_at(probes, name); std::isfinite(rate))
+    if (const double rate = number_if_any(probes, name); std::isfinite(rate))
       table.rows.push_back({plain(name), plain(with_prefix(rate, "B/s"))});
   chapter.blocks.push_back(table);
-  const JsonEntry missing = object_at(bench, "missing_programs");
+  const JsonEntry missing = object_if_any(bench, "missing_programs");
   for (const auto& [program, why] : missing.members())
     chapter.blocks.push_back(Paragraph{program, why.text(), true});
   const Figure figure = history_figure(history);
@@ -306,13 +310,13 @@ std::string answer_text(const JsonEntry& bench) {
   if (bench.contains("missing_reference"))
     return "No force errors: the continuum they are measured against is not in the cache, and a "
            "quick run does not compute it.";
-  const JsonList presses = array_at(bench, "press");
+  const JsonList presses = array_if_any(bench, "press");
   const JsonEntry* best = nullptr;
   for (const JsonEntry& press : presses) {
-    const double error = number_at(press, "worst_force_error");
+    const double error = number_if_any(press, "worst_force_error");
     if (!(error <= 0.02)) continue;
     if (best == nullptr ||
-        number_at(press, "real_time_factor") > number_at(*best, "real_time_factor"))
+        number_if_any(press, "real_time_factor") > number_if_any(*best, "real_time_factor"))
       best = &press;
   }
   if (best == nullptr)
@@ -320,12 +324,12 @@ std::string answer_text(const JsonEntry& bench) {
   return fmt::format(
       "The fastest lattice within 2 % of the continuum is {} at {} on {}: error {}, real-time "
       "factor {} in its slowest 10 ms.",
-      text_at(*best, "model") + (is_scaled(*best) ? " with scaled masses" : ""),
+      text_if_any(*best, "model") + (is_scaled(*best) ? " with scaled masses" : ""),
       spacing_text(*best),
-      number_at(*best, "threads") == 1.0 ? "one thread"
-                                         : count(number_at(*best, "threads")) + " threads",
-      percent_magnitude(number_at(*best, "worst_force_error")),
-      number(number_at(*best, "real_time_factor"), 3));
+      number_if_any(*best, "threads") == 1.0 ? "one thread"
+                                             : count(number_if_any(*best, "threads")) + " threads",
+      percent_magnitude(number_if_any(*best, "worst_force_error")),
+      number(number_if_any(*best, "real_time_factor"), 3));
 }
 
 }  // namespace
@@ -333,11 +337,11 @@ std::string answer_text(const JsonEntry& bench) {
 Page bench_page(const std::filesystem::path& run_folder, FolderReader& reader) {
   const JsonEntry bench = reader.json(run_folder / "bench.json");
   const JsonEntry log = reader.json(run_folder / "history.json");
-  const JsonList history = reader.attempt([&] { return array_at(log, "runs"); });
+  const JsonList history = reader.attempt([&] { return array_if_any(log, "runs"); });
   Page page;
   page.title = "Soft fingertip: speed";
   page.subtitle = "What kernels, presses and peers cost on this machine, " +
-                  reader.attempt([&] { return text_at(bench, "date"); });
+                  reader.attempt([&] { return text_if_any(bench, "date"); });
   if (reader.attempt([&] { return bench.at("quick").flag(); }))
     page.status = "Quick run: coarse lattices, few repeats.";
   page.answer = reader.attempt([&] { return answer_text(bench); });

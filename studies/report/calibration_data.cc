@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 #include "studies/report/format.h"
@@ -29,12 +30,18 @@ std::string without_one(const std::string& unit) {
   return unit == "1" || unit == "-" ? "" : unit;
 }
 
-FitParameter read_parameter(const JsonEntry& entry, const JsonEntry& truth) {
+using calibration::CurveEntry;
+using calibration::FitDataRow;
+using calibration::FitFile;
+using calibration::ParameterEntry;
+using Truth = std::map<std::string, double>;
+
+FitParameter read_parameter(const ParameterEntry& entry, const Truth& truth) {
   FitParameter parameter;
-  parameter.name = parameter.symbol = text_at(entry, "name");
+  parameter.name = parameter.symbol = entry.name;
   for (const ParameterName& known : known_parameters)
     if (known.name == parameter.name) parameter.symbol = known.symbol;
-  parameter.si_unit = parameter.unit = without_one(text_at(entry, "unit"));
+  parameter.si_unit = parameter.unit = without_one(entry.unit);
   if (const ShownUnit* known = shown_units().of(parameter.si_unit)) {
     parameter.unit = known->name;
     parameter.factor = known->factor;
@@ -42,74 +49,86 @@ FitParameter read_parameter(const JsonEntry& entry, const JsonEntry& truth) {
     parameter.unit = "ms";
     parameter.factor = 1e3;
   }
-  const JsonEntry prior = object_at(entry, "prior");
-  parameter.estimate = number_at(entry, "estimate");
-  parameter.standard_error = number_at(entry, "standard_error");
-  parameter.lower = number_at(entry, "lower");
-  parameter.upper = number_at(entry, "upper");
-  parameter.start = number_at(entry, "start");
-  parameter.bias = number_at(entry, "bias");
-  parameter.prior_mean = number_at(prior, "mean");
-  parameter.prior_deviation = number_at(prior, "deviation");
-  parameter.truth = number_at(truth, parameter.name);
-  parameter.at_bound = entry.at("at_bound").flag();
-  parameter.bounded = text_at(entry, "bound_of") == "poissons_ratio" ? "ν" : parameter.symbol;
+  parameter.estimate = entry.estimate;
+  parameter.standard_error = entry.standard_error;
+  parameter.lower = entry.lower;
+  parameter.upper = entry.upper;
+  parameter.start = entry.start;
+  parameter.bias = entry.bias;
+  if (entry.prior) {
+    parameter.prior_mean = entry.prior->mean;
+    parameter.prior_deviation = entry.prior->deviation;
+  }
+  if (const auto known = truth.find(entry.name); known != truth.end())
+    parameter.truth = known->second;
+  parameter.at_bound = entry.at_bound;
+  parameter.bounded = entry.bound_of == "poissons_ratio" ? "ν" : parameter.symbol;
   return parameter;
 }
 
 /// A curve may name its own quantities where those of the fit differ.
-FitCurve read_curve(const JsonEntry& entry, const JsonEntry& file) {
-  const auto own = [&](const char* key) {
-    const std::string text = text_at(entry, key);
-    return quantity(text.empty() ? text_at(file, key) : text);
-  };
+FitCurve read_curve(const CurveEntry& entry, const FitFile& file) {
   FitCurve curve;
-  curve.name = text_at(entry, "name");
-  curve.condition = text_at(entry, "condition");
-  curve.x_quantity = own("x_quantity");
-  curve.y_quantity = own("y_quantity");
-  curve.points = number_at(entry, "points");
-  curve.worst = number_at(entry, "worst_relative_residual");
-  curve.rms = number_at(entry, "rms_relative_residual");
-  const JsonEntry structure = object_at(entry, "structure");
-  curve.structure = text_at(structure, "statement");
-  curve.structure_probability = number_at(structure, "probability");
-  curve.left_out_error = number_at(object_at(entry, "left_out"), "worst_relative_error");
+  curve.name = entry.name;
+  curve.condition = entry.condition;
+  curve.x_quantity = quantity(entry.x_quantity.empty() ? file.x_quantity : entry.x_quantity);
+  curve.y_quantity = quantity(entry.y_quantity.empty() ? file.y_quantity : entry.y_quantity);
+  if (entry.points > 0) curve.points = double(entry.points);
+  curve.worst = entry.worst_relative_residual;
+  curve.rms = entry.rms_relative_residual;
+  curve.structure = entry.structure.statement;
+  curve.structure_probability = entry.structure.probability;
+  if (entry.left_out) curve.left_out_error = entry.left_out->worst_relative_error;
   return curve;
 }
 
 /// Appends the rows of fit_data.csv to the curves they belong to; unknown names become curves.
-void add_points(Fit& fit, const CsvTable& table) {
-  const auto name = table.texts("curve");
-  const auto x = table.numbers("x"), measured = table.numbers("measured"),
-             sigma = table.numbers_if_any("sigma"), fitted = table.numbers("fitted"),
-             left_out = table.numbers_if_any("left_out");
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    auto curve = std::ranges::find(fit.curves, name[i], &FitCurve::name);
+void add_points(Fit& fit, const std::vector<FitDataRow>& rows) {
+  for (const FitDataRow& row : rows) {
+    auto curve = std::ranges::find(fit.curves, row.curve, &FitCurve::name);
     if (curve == fit.curves.end()) {
-      fit.curves.push_back(read_curve(nlohmann::json{{"name", name[i]}}, fit.file));
+      CurveEntry entry;
+      entry.name = row.curve;
+      fit.curves.push_back(read_curve(entry, fit.file));
       curve = fit.curves.end() - 1;
     }
-    curve->x.push_back(x[i]);
-    curve->measured.push_back(measured[i]);
-    curve->sigma.push_back(sigma[i]);
-    curve->fitted.push_back(fitted[i]);
-    curve->left_out.push_back(left_out[i]);
+    curve->x.push_back(row.x);
+    curve->measured.push_back(row.measured);
+    curve->sigma.push_back(row.sigma);
+    curve->fitted.push_back(row.fitted);
+    curve->left_out.push_back(row.left_out);
   }
 }
 
-Fit read_fit(const fs::path& folder, const JsonEntry& truth, FolderReader& reader) {
+/// What a fit to moduli, which has no curves, has in common with others.
+FitFile as_fit(const calibration::ModuliFile& moduli) {
+  FitFile fit;
+  fit.problem = "moduli";
+  fit.model = moduli.model;
+  fit.spacing = moduli.spacing;
+  fit.constants = moduli.constants;
+  fit.target = moduli.target;
+  fit.achieved = moduli.achieved;
+  fit.statement = moduli.statement;
+  return fit;
+}
+
+Fit read_fit(const fs::path& folder, const Truth& truth, FolderReader& reader) {
   Fit fit;
-  fit.file = reader.json(folder / "calibration.json");
-  fit.model = text_at(fit.file, "model");
-  fit.problem = text_at(fit.file, "problem");
-  for (const JsonEntry& entry : array_at(fit.file, "parameters"))
+  const JsonEntry file = reader.json(folder / "calibration.json");
+  if (file.contains("problem"))
+    fit.file = reader.take<FitFile>(file);
+  else if (!file.empty())
+    fit.file = as_fit(reader.take<calibration::ModuliFile>(file));
+  fit.model = fit.file.model;
+  fit.problem = fit.file.problem;
+  for (const ParameterEntry& entry : fit.file.parameters)
     fit.parameters.push_back(read_parameter(entry, truth));
-  for (const JsonEntry& entry : array_at(fit.file, "curves"))
-    fit.curves.push_back(read_curve(entry, fit.file));
-  add_points(fit, reader.csv(folder / "fit_data.csv"));
-  fit.surrogate = reader.csv(folder / "surrogate.csv");
-  fit.surrogate_notes = reader.json(folder / "surrogate.json");
+  for (const CurveEntry& entry : fit.file.curves) fit.curves.push_back(read_curve(entry, fit.file));
+  add_points(fit, reader.rows<FitDataRow>(folder / "fit_data.csv"));
+  fit.surrogate = reader.rows<calibration::SurrogateRow>(folder / "surrogate.csv");
+  fit.surrogate_notes =
+      reader.take<calibration::SurrogateFile>(reader.json(folder / "surrogate.json"));
   return fit;
 }
 
@@ -124,42 +143,29 @@ std::vector<std::string> sub_folders(const fs::path& folder) {
 }
 
 void read_fits(CalibrationData& data, const RunData& run, FolderReader& reader) {
-  const JsonEntry truth = object_at(object_at(run.calibration, "truth"), "parameters");
+  const TransferEntry study = run.summary.calibration.value_or(TransferEntry());
+  const Truth& truth = study.truth.parameters;
   const auto add = [&](const std::string& name, const std::string& folder) {
     data.fits.push_back(
         reader.attempt([&] { return read_fit(run.folder / folder, truth, reader); }));
     data.fits.back().name = name;
     data.fits.back().folder = folder;
   };
-  for (const JsonEntry& entry : array_at(run.calibration, "fits")) {
-    const std::string name = text_at(entry, "name"), folder = text_at(entry, "folder");
+  for (const FitEntry& entry : study.fits) {
+    const std::string &name = entry.name, &folder = entry.folder;
     if (name.empty()) continue;
     add(name, folder.empty() ? "fits/" + name : folder);
     Fit& fit = data.fits.back();
-    if (fit.model.empty()) fit.model = text_at(entry, "model");
-    if (fit.problem.empty()) fit.problem = text_at(entry, "problem");
+    if (fit.model.empty()) fit.model = entry.model;
+    if (fit.problem.empty()) fit.problem = entry.problem;
   }
   if (data.fits.empty())
     for (const std::string& name : sub_folders(run.folder / "fits")) add(name, "fits/" + name);
-  if (data.fits.empty() && !text_at(run.own_calibration, "problem").empty()) add("", "");
-}
-
-std::vector<PredictedForce> read_transfer(const CsvTable& table) {
-  const auto fit = table.texts("fit"), prediction = table.texts("prediction"),
-             model = table.texts("model"), status = table.texts("status");
-  const auto depth = table.numbers("indentation [m]"), force = table.numbers("normal_force [N]"),
-             reference = table.numbers("reference_force [N]"),
-             reference_error = table.numbers("reference_error"),
-             error = table.numbers("relative_error");
-  std::vector<PredictedForce> rows;
-  for (std::size_t i = 0; i < fit.size(); ++i)
-    rows.push_back({fit[i], prediction[i], model[i], status[i], depth[i], force[i], reference[i],
-                    reference_error[i], error[i]});
-  return rows;
+  if (data.fits.empty() && run.fitted_curves) add("", "");
 }
 
 void name_predictions(CalibrationData& data) {
-  for (const PredictedForce& row : data.transfer) {
+  for (const TransferRow& row : data.transfer) {
     if (std::ranges::find(data.predictions, row.prediction) == data.predictions.end())
       data.predictions.push_back(row.prediction);
     // A fit whose folder is gone still has its predictions.
@@ -174,15 +180,13 @@ void name_predictions(CalibrationData& data) {
 double worst_of(const CalibrationData& data, const std::string& fit,
                 const std::string& prediction) {
   std::vector<double> errors;
-  for (const PredictedForce& row : data.transfer)
-    if (row.fit == fit && row.prediction == prediction) errors.push_back(row.error);
+  for (const TransferRow& row : data.transfer)
+    if (row.fit == fit && row.prediction == prediction) errors.push_back(row.relative_error);
   return largest_magnitude(errors);
 }
 
 /// summary.json counts where transfer.csv has nothing.
-void find_worst_errors(CalibrationData& data, const JsonEntry& summary) {
-  std::vector<std::vector<double>> told;
-  for (const JsonEntry& row : array_at(summary, "worst_error")) told.push_back(row.numbers());
+void find_worst_errors(CalibrationData& data, const std::vector<std::vector<double>>& told) {
   for (std::size_t i = 0; i < data.fits.size(); ++i) {
     std::vector<double> worst;
     for (std::size_t j = 0; j < data.predictions.size(); ++j) {
@@ -213,9 +217,7 @@ bool FitCurve::has_sigma() const {
   return std::ranges::any_of(sigma, [](double value) { return value > 0.0; });
 }
 
-std::vector<std::vector<double>> Fit::matrix(const std::string& key) const {
-  std::vector<std::vector<double>> rows;
-  for (const JsonEntry& row : array_at(file, key)) rows.push_back(row.numbers());
+std::vector<std::vector<double>> Fit::square(const std::vector<std::vector<double>>& rows) const {
   const bool square =
       rows.size() == parameters.size() &&
       std::ranges::all_of(rows, [&](const auto& row) { return row.size() == parameters.size(); });
@@ -229,15 +231,14 @@ std::size_t Fit::index(const std::string& parameter) const {
 
 CalibrationData read_calibration(const RunData& run, FolderReader& reader) {
   CalibrationData data;
-  data.study = !run.calibration.empty();
+  const TransferEntry study = run.summary.calibration.value_or(TransferEntry());
+  data.study = run.summary.calibration.has_value();
   read_fits(data, run, reader);
-  for (const JsonEntry& entry : array_at(run.calibration, "predictions"))
-    if (const std::string name = text_at(entry, "name"); !name.empty())
-      data.predictions.push_back(name);
-  data.transfer =
-      reader.attempt([&] { return read_transfer(reader.csv(run.folder / "transfer.csv")); });
+  for (const PredictionEntry& entry : study.predictions)
+    if (!entry.name.empty()) data.predictions.push_back(entry.name);
+  data.transfer = reader.rows<TransferRow>(run.folder / "transfer.csv");
   name_predictions(data);
-  find_worst_errors(data, run.calibration);
+  find_worst_errors(data, study.worst_error);
   return data;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/fit_tables.h"
 #include "studies/report/run_data.h"
 
 namespace fingertip::studies::reporting {
@@ -55,29 +56,22 @@ struct FitCurve {
 struct Fit {
   std::string name;  ///< "" when it is the run's only one
   std::string folder, model, problem;
-  JsonEntry file;  ///< calibration.json
+  calibration::FitFile file;  ///< calibration.json
   std::vector<FitParameter> parameters;
   std::vector<FitCurve> curves;
-  CsvTable surrogate;
-  JsonEntry surrogate_notes;
+  std::vector<calibration::SurrogateRow> surrogate;
+  calibration::SurrogateFile surrogate_notes;
 
-  /// The entry, a square matrix over the parameters; empty when it is absent or of another size.
-  std::vector<std::vector<double>> matrix(const std::string& key) const;
+  /// An entry that is a square matrix over the parameters; empty when it has another size.
+  std::vector<std::vector<double>> square(const std::vector<std::vector<double>>& rows) const;
   /// The index of a parameter; the number of parameters when there is none of that name.
   std::size_t index(const std::string& parameter) const;
-};
-
-/// A fit's prediction of a press, one row of transfer.csv.
-struct PredictedForce {
-  std::string fit, prediction, model, status;
-  double depth = meshes::unknown, force = meshes::unknown, reference = meshes::unknown;
-  double reference_error = meshes::unknown, error = meshes::unknown;  ///< relative
 };
 
 struct CalibrationData {
   std::vector<Fit> fits;
   std::vector<std::string> predictions;  ///< in the order of the case
-  std::vector<PredictedForce> transfer;
+  std::vector<TransferRow> transfer;
   /// Largest |error|, fits × predictions, NaN where absent: of transfer.csv, else of summary.json.
   std::vector<std::vector<double>> worst_error;
   bool study = false;  ///< summary.json has an entry "calibration"

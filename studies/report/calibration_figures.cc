@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "calibration/moduli.h"
 #include "lattice/model/constants.h"
@@ -12,6 +13,8 @@
 
 namespace fingertip::studies::reporting {
 namespace {
+
+using calibration::SurrogateRow;
 
 constexpr int legend_room = 205;
 /// More curves than this are told apart by their shade alone.
@@ -135,68 +138,62 @@ Figure curve_figure(const std::vector<const FitCurve*>& curves, const std::strin
   return figure;
 }
 
-Panel surrogate_panel(const Fit& fit, const std::string& column, const std::string& knots_key,
-                      const std::string& y_label, double factor) {
+Panel surrogate_panel(const Fit& fit, double SurrogateRow::*quantity, const std::string& name,
+                      const std::vector<double>& at_knots, const std::string& y_label,
+                      double factor) {
   Panel panel;
   panel.x_label = shown_units().length.label("indentation");
   panel.y_label = y_label;
   panel.series.push_back(
-      {knots_key,
-       knots_key,
-       scaled(fit.surrogate.numbers("indentation [m]"), shown_units().length.factor),
-       scaled(fit.surrogate.numbers(column), factor),
+      {name,
+       name,
+       scaled(column(fit.surrogate, &SurrogateRow::indentation), shown_units().length.factor),
+       scaled(column(fit.surrogate, quantity), factor),
        {},
        {"#0072B2", "", 2.0, 0, true}});
   Series knots{"knots",
-               knots_key + " at knots",
-               scaled(numbers_at(fit.surrogate_notes, "knots"), shown_units().length.factor),
-               scaled(numbers_at(fit.surrogate_notes, knots_key), factor),
+               name + " at knots",
+               scaled(fit.surrogate_notes.knots, shown_units().length.factor),
+               scaled(at_knots, factor),
                {},
                {"#D55E00", "", 1.0, 7, false}};
   if (knots.x.size() == knots.y.size()) panel.series.push_back(std::move(knots));
-  panel.series.front().label = knots_key == "force" ? "force" : "stiffness dF/dδ";
+  panel.series.front().label = name == "force" ? "force" : "stiffness dF/dδ";
   return panel;
 }
 
 /// The area between the limits of the force; none where the file has no limits.
 Series surrogate_band(const Fit& fit) {
-  const auto x = fit.surrogate.numbers("indentation [m]"),
-             lower = fit.surrogate.numbers("force_lower [N]"),
-             upper = fit.surrogate.numbers("force_upper [N]");
   Series band{"band", "band", {}, {}, {}, {"#0072B2", "", 1.0, 0, true}};
   band.filled = true;
-  const auto add = [&](std::size_t i, double force) {
-    if (std::isfinite(lower[i] + upper[i]))
-      band.x.push_back(shown_units().length(x[i])), band.y.push_back(shown_units().force(force));
+  const auto add = [&](const SurrogateRow& row, double force) {
+    if (!std::isfinite(row.force_lower + row.force_upper)) return;
+    band.x.push_back(shown_units().length(row.indentation));
+    band.y.push_back(shown_units().force(force));
   };
-  for (std::size_t i = 0; i < x.size(); ++i) add(i, upper[i]);
-  for (std::size_t i = x.size(); i-- > 0;) add(i, lower[i]);
+  for (const SurrogateRow& row : fit.surrogate) add(row, row.force_upper);
+  for (const SurrogateRow& row : std::views::reverse(fit.surrogate)) add(row, row.force_lower);
   return band;
 }
 
 /// The homogenised constants that calibration.json gives: of the spring constants, else of what
 /// was achieved.
 calibration::ElasticModuli fitted_moduli(const Fit& fit) {
-  const JsonEntry constants = object_at(fit.file, "constants"),
-                  achieved = object_at(fit.file, "achieved");
-  const double spacing = number_at(fit.file, "spacing");
-  const double along = number_at(achieved, "youngs_modulus_100");
-  if (std::isfinite(along))
-    return cubic_material(along, number_at(achieved, "poissons_ratio_100"),
-                          number_at(achieved, "shear_modulus"));
-  return calibration::homogenised_moduli(
-      {number_at(constants, "k1"), number_at(constants, "k2"), number_at(constants, "k3"),
-       number_at(constants, "kappa")},
-      spacing);
+  if (const auto& achieved = fit.file.achieved;
+      achieved && std::isfinite(achieved->youngs_modulus_100))
+    return cubic_material(achieved->youngs_modulus_100, achieved->poissons_ratio_100,
+                          achieved->shear_modulus);
+  const calibration::FitConstants& found = fit.file.constants;
+  return calibration::homogenised_moduli({found.k1, found.k2, found.k3, found.kappa},
+                                         fit.file.spacing);
 }
 
 /// E of the rubber that the published rule would have been given.
 double rule_modulus(const Fit& fit) {
-  const double target = number_at(object_at(fit.file, "target"), "youngs_modulus");
-  if (std::isfinite(target)) return target;
+  if (fit.file.target) return fit.file.target->youngs_modulus;
   const std::size_t fitted = fit.index("youngs_modulus");
   if (fitted < fit.parameters.size()) return fit.parameters[fitted].estimate;
-  return number_at(object_at(fit.file, "achieved"), "youngs_modulus_100");
+  return fit.file.achieved ? fit.file.achieved->youngs_modulus_100 : meshes::unknown;
 }
 
 }  // namespace
@@ -223,7 +220,7 @@ std::vector<Figure> curve_figures(const Fit& fit, const std::string& prefix) {
 
 Figure singular_value_figure(const Fit& fit, const std::string& prefix) {
   Figure figure{prefix + "_singular_values", 760, 330, 1, {}};
-  const std::vector<double> values = numbers_at(fit.file, "singular_values");
+  const std::vector<double>& values = fit.file.singular_values;
   const double largest = largest_magnitude(values);
   if (values.size() < 2 || !(largest > 0.0)) return figure;
   double least = open_share * largest;
@@ -264,11 +261,11 @@ Figure surrogate_figure(const Fit& fit, const std::string& prefix) {
   Figure figure{prefix + "_surrogate", 760, 560, 1, {}};
   if (fit.surrogate.empty()) return figure;
   Panel force =
-      surrogate_panel(fit, "force [N]", "force", shown_units().force.label("normal force F"),
-                      shown_units().force.factor);
+      surrogate_panel(fit, &SurrogateRow::force, "force", fit.surrogate_notes.force,
+                      shown_units().force.label("normal force F"), shown_units().force.factor);
   Panel stiffness =
-      surrogate_panel(fit, "stiffness [N/m]", "stiffness", shown_units().stiffness.label("dF/dδ"),
-                      shown_units().stiffness.factor);
+      surrogate_panel(fit, &SurrogateRow::stiffness, "stiffness", fit.surrogate_notes.stiffness,
+                      shown_units().stiffness.label("dF/dδ"), shown_units().stiffness.factor);
   if (Series band = surrogate_band(fit); !band.x.empty())
     force.series.insert(force.series.begin(), std::move(band));
   figure.panels = {force, stiffness};
@@ -301,10 +298,10 @@ Figure transfer_figure(const CalibrationData& data) {
     for (std::size_t i = 0; i < data.fits.size(); ++i) {
       Series curve{shortened(data.fits[i].name), data.fits[i].name, {}, {}, {}, {}};
       curve.style = curve_style(i, data.fits.size());
-      for (const PredictedForce& row : data.transfer) {
+      for (const TransferRow& row : data.transfer) {
         if (row.fit != data.fits[i].name || row.prediction != prediction) continue;
-        curve.x.push_back(shown_units().length(row.depth));
-        curve.y.push_back(100.0 * row.error);
+        curve.x.push_back(shown_units().length(row.indentation));
+        curve.y.push_back(100.0 * row.relative_error);
         unsure = std::fmax(unsure, 100.0 * std::abs(row.reference_error));
       }
       panel.series.push_back(std::move(curve));

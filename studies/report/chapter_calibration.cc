@@ -28,12 +28,11 @@ void add_figure(Blocks& blocks, Figure figure, const std::string& title,
 }
 
 std::string chi_square_words(const Fit& fit) {
-  const double chi_square = number_at(fit.file, "chi_square"),
-               probability = number_at(fit.file, "chi_square_probability"),
-               freedom = number_at(fit.file, "degrees_of_freedom");
+  const double chi_square = fit.file.chi_square, probability = fit.file.chi_square_probability,
+               freedom = double(fit.file.degrees_of_freedom);
   if (!std::isfinite(chi_square)) {
     const bool sigma = std::ranges::any_of(fit.curves, &FitCurve::has_sigma);
-    const double deviation = number_at(fit.file, "residual_deviation");
+    const double deviation = fit.file.residual_deviation;
     const std::string unit = fit.curves.empty() ? "" : fit.curves.front().y_quantity.si_unit;
     std::string text =
         sigma ? "Chi-square is not given: the loss was not quadratic."
@@ -116,34 +115,31 @@ void add_moduli(Blocks& blocks, const Fit& fit, const std::string& prefix) {
 }
 
 void add_surrogate(Blocks& blocks, const Fit& fit, const std::string& prefix) {
-  std::string condition = text_at(fit.surrogate_notes, "condition");
-  std::string caption = text_at(fit.surrogate_notes, "statement");
+  const std::string& condition = fit.surrogate_notes.condition;
+  std::string caption = fit.surrogate_notes.statement;
   if (!condition.empty()) caption = "Condition: " + condition + ". " + caption;
-  const auto force = fit.surrogate.numbers("force [N]"),
-             upper = fit.surrogate.numbers("force_upper [N]");
   double widest = meshes::unknown;
-  for (std::size_t i = 0; i < force.size(); ++i)
-    if (force[i] > 0.0) widest = std::fmax(widest, upper[i] / force[i] - 1.0);
+  for (const calibration::SurrogateRow& row : fit.surrogate)
+    if (row.force > 0.0) widest = std::fmax(widest, row.force_upper / row.force - 1.0);
   if (std::isfinite(widest))
     caption += fmt::format(" The band is at most {} of the force.", percent_magnitude(widest));
   add_figure(blocks, surrogate_figure(fit, prefix), "The fast stand-in for the press", caption);
 }
 
 void add_validity(Blocks& blocks, const Fit& fit) {
-  const JsonEntry validity = object_at(fit.file, "validity");
+  const calibration::ValidityEntry& validity = fit.file.validity;
   std::vector<std::string> parts;
   const auto add = [&](const char* name, const std::string& value) {
     if (!value.empty() && value != "–") parts.push_back(name + value);
   };
   add("indentation up to ",
-      std::isfinite(number_at(validity, "largest_strain_measure"))
-          ? percent_magnitude(number_at(validity, "largest_strain_measure")) + " of the thickness"
+      std::isfinite(validity.largest_strain_measure)
+          ? percent_magnitude(validity.largest_strain_measure) + " of the thickness"
           : "");
-  add("model ", text_at(validity, "model"));
-  add("kinematics ", text_at(validity, "kinematics"));
-  if (std::isfinite(number_at(validity, "spacing")))
-    add("spacing ", length(number_at(validity, "spacing")));
-  add("Poisson's ratio ", number(number_at(validity, "poissons_ratio")));
+  add("model ", validity.model);
+  add("kinematics ", validity.kinematics);
+  if (std::isfinite(validity.spacing)) add("spacing ", length(validity.spacing));
+  add("Poisson's ratio ", number(validity.poissons_ratio));
   if (!parts.empty())
     blocks.push_back(Paragraph{"Where it holds.", "Fitted and checked for " + enumerate(parts) +
                                                       "; outside of that it is a guess."});
@@ -152,13 +148,11 @@ void add_validity(Blocks& blocks, const Fit& fit) {
 std::string introduction(const Fit& fit) {
   std::vector<std::string> parts;
   if (!fit.model.empty()) parts.push_back("model " + fit.model);
-  if (const std::string forward = text_at(fit.file, "forward"); !forward.empty())
-    parts.push_back("computed by " + forward);
-  if (const double n = number_at(fit.file, "evaluations"); std::isfinite(n))
-    parts.push_back(count(n) + " evaluations");
-  if (const double n = number_at(fit.file, "iterations"); std::isfinite(n))
-    parts.push_back(count(n) + " iterations");
-  if (const double time = number_at(fit.file, "wall_time"); std::isfinite(time))
+  if (!fit.file.forward.empty()) parts.push_back("computed by " + fit.file.forward);
+  if (const long n = fit.file.evaluations; n > 0)
+    parts.push_back(count(double(n)) + " evaluations");
+  if (const long n = fit.file.iterations; n > 0) parts.push_back(count(double(n)) + " iterations");
+  if (const double time = fit.file.wall_time; std::isfinite(time))
     parts.push_back(number(time, 3) + gap + "s");
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
@@ -184,7 +178,7 @@ std::vector<Chapter> fit_chapters(const CalibrationData& data) {
     if (fit.file.empty()) continue;
     std::vector<Chapter> parts(4);
     parts[0] = {prefix, fit.name.empty() ? problem_title(fit) : "Fit " + fit.name, {}};
-    const std::string statement = text_at(fit.file, "statement");
+    const std::string& statement = fit.file.statement;
     if (!introduction(fit).empty())
       parts[0].blocks.push_back(Paragraph{"How it was made.", introduction(fit)});
     if (!statement.empty()) parts[0].blocks.push_back(Paragraph{"Result.", statement});
@@ -223,7 +217,7 @@ std::string fit_answer(const Fit& fit) {
   if (std::isfinite(left_out))
     text += fmt::format("; of a curve that was left out, {}", percent_magnitude(left_out));
   if (std::isfinite(worst)) text += ".";
-  if (!array_at(fit.file, "unidentifiable").empty())
+  if (!fit.file.unidentifiable.empty())
     text += " The data do not determine the answer: some change of the parameters is hardly seen.";
   return text;
 }
@@ -243,10 +237,9 @@ std::vector<NotRun> missing_fit_parts(const CalibrationData& data) {
     need(measured, "Measured and fitted curves", "fit_data.csv");
     need(!fit.parameters.empty(), "Parameters", "calibration.json: parameters");
     if (fit.parameters.size() > 1) {
-      need(!numbers_at(fit.file, "singular_values").empty(), "Singular values",
+      need(!fit.file.singular_values.empty(), "Singular values",
            "calibration.json: singular_values");
-      need(!object_at(fit.file, "profile").empty(), "Profile likelihood",
-           "calibration.json: profile");
+      need(fit.file.profile.has_value(), "Profile likelihood", "calibration.json: profile");
     }
     if (fit.curves.size() > 1)
       need(std::ranges::any_of(

@@ -14,12 +14,12 @@ namespace {
 
 /// One depth of the press on all meshes that computed it, coarse to fine.
 struct Sample {
-  double depth = meshes::unknown;        ///< [m]
-  std::vector<double> unknowns, forces;  ///< of each mesh: number, [N]
-  std::vector<int> meshes;               ///< their numbers, from 1
-  double force = meshes::unknown;        ///< of the finest [N]
-  double error = meshes::unknown;        ///< estimated, of the finest [N]
-  JsonEntry details;                     ///< the entry of summary.json
+  double depth = meshes::unknown;                     ///< [m]
+  std::vector<double> unknowns, forces;               ///< of each mesh: number, [N]
+  std::vector<int> meshes;                            ///< their numbers, from 1
+  double force = meshes::unknown;                     ///< of the finest [N]
+  double error = meshes::unknown;                     ///< estimated, of the finest [N]
+  std::optional<fem_reference::SampleEntry> details;  ///< the entry of summary.json
 
   double relative_error() const { return error / force; }
 };
@@ -31,23 +31,20 @@ std::vector<Sample> read_samples(const RunData& run) {
     sample.depth = from.indentation;
     sample.force = from.normal_force;
     sample.error = from.force_error;
-    for (const JsonEntry& entry : array_at(run.reference_summary, "samples"))
-      if (sample.details.empty() && same_depth(number_at(entry, "indentation"), sample.depth))
-        sample.details = entry;
+    for (const fem_reference::SampleEntry& entry : run.continuum.samples)
+      if (!sample.details && same_depth(entry.indentation, sample.depth)) sample.details = entry;
+    for (const fem_reference::SampleEntry& entry : run.continuum.transient_samples)
+      if (!sample.details && same_depth(entry.indentation, sample.depth)) sample.details = entry;
     samples.push_back(std::move(sample));
   }
-  const std::vector<double> depth = run.convergence.numbers("indentation [m]");
-  const std::vector<double> mesh = run.convergence.numbers("mesh");
-  const std::vector<double> unknowns = run.convergence.numbers("unknowns");
-  const std::vector<double> force = run.convergence.numbers("normal_force [N]");
-  for (std::size_t i = 0; i < depth.size(); ++i) {
+  for (const fem_reference::ConvergenceRow& row : run.convergence) {
     for (Sample& sample : samples) {
-      if (!same_depth(sample.depth, depth[i]) || !std::isfinite(mesh[i])) continue;
+      if (!same_depth(sample.depth, row.indentation)) continue;
       // Later rows of a mesh at one depth belong to a lateral motion that followed.
-      if (!sample.meshes.empty() && sample.meshes.back() == int(mesh[i])) continue;
-      sample.meshes.push_back(int(mesh[i]));
-      sample.unknowns.push_back(unknowns[i]);
-      sample.forces.push_back(force[i]);
+      if (!sample.meshes.empty() && sample.meshes.back() == row.mesh) continue;
+      sample.meshes.push_back(row.mesh);
+      sample.unknowns.push_back(double(row.unknowns));
+      sample.forces.push_back(row.normal_force);
     }
   }
   return samples;
@@ -94,7 +91,7 @@ std::string certainty(const RunData& run, const std::vector<Sample>& samples) {
     text += fmt::format(", the largest of all, {}, to {}", force(absolute->error),
                         length(absolute->depth));
   text += ".";
-  const double tolerance = number_at(run.reference_summary, "tolerance");
+  const double tolerance = run.continuum.tolerance;
   if (std::isfinite(tolerance)) {
     text += fmt::format(" Asked for was {}: {}.", percent_magnitude(tolerance),
                         share <= tolerance ? "reached" : "not reached");
@@ -211,8 +208,9 @@ FigureBlock convergence_figure(const RunData& run, const std::vector<Sample>& sa
           "fall evenly."};
 }
 
-std::string whole(const JsonEntry& object, const char* key) {
-  return count(number_at(object, key));
+/// A count of a sample; "–" where summary.json does not have the sample.
+std::string whole(const Sample& sample, long fem_reference::SampleEntry::*number) {
+  return sample.details ? count(double((*sample.details).*number)) : "–";
 }
 
 /// A quantity of one sample in the table.
@@ -222,18 +220,20 @@ struct SampleColumn {
 };
 
 Cell contact_nodes(const Sample& sample, double radius, bool slides) {
-  const double spacing = number_at(sample.details, "node_spacing");
+  const double spacing = sample.details ? sample.details->node_spacing : meshes::unknown;
   std::string note;
   if (spacing > 0.0 && std::isfinite(radius))
     note = fmt::format("{} along a", number(radius / spacing, 2));
-  if (slides) note += fmt::format(", {} slide", whole(sample.details, "sliding_nodes"));
-  return plain(whole(sample.details, "active_nodes"), note);
+  if (slides)
+    note += fmt::format(", {} slide", whole(sample, &fem_reference::SampleEntry::sliding_nodes));
+  return plain(whole(sample, &fem_reference::SampleEntry::active_nodes), note);
 }
 
 Cell iterations(const Sample& sample, bool finite) {
-  std::string note = "contact " + whole(sample.details, "active_set_iterations");
-  if (finite) note = "Newton " + whole(sample.details, "newton_iterations") + ", " + note;
-  return plain(whole(sample.details, "steps"), note);
+  std::string note = "contact " + whole(sample, &fem_reference::SampleEntry::active_set_iterations);
+  if (finite)
+    note = "Newton " + whole(sample, &fem_reference::SampleEntry::newton_iterations) + ", " + note;
+  return plain(whole(sample, &fem_reference::SampleEntry::steps), note);
 }
 
 std::vector<SampleColumn> force_columns(const RunData& run) {
@@ -247,9 +247,9 @@ std::vector<SampleColumn> force_columns(const RunData& run) {
                                     with_unit(s.error, shown_units().force, 2));
                      }});
   columns.push_back({plain("Convergence", "order"), [](const Sample& s) {
-                       const std::string kind = text_at(s.details, "convergence");
-                       const double order = number_at(s.details, "order");
-                       return plain(kind.empty() ? "–" : kind,
+                       const auto details = s.details.value_or(fem_reference::SampleEntry());
+                       const double order = details.order;
+                       return plain(details.convergence.empty() ? "–" : details.convergence,
                                     std::isfinite(order) ? number(order, 2) : "");
                      }});
   if (const auto hertz = hertz_contact(run))
@@ -260,8 +260,8 @@ std::vector<SampleColumn> force_columns(const RunData& run) {
 }
 
 std::vector<SampleColumn> contact_columns(const RunData& run) {
-  const bool finite = text_at(run.reference_summary, "strain") == "finite";
-  const bool slides = text_at(run.reference_summary, "contact") == "coulomb";
+  const bool finite = run.continuum.strain == "finite";
+  const bool slides = run.continuum.contact == "coulomb";
   std::map<double, meshes::PressSample> response;
   for (const meshes::PressSample& sample : run.reference.pressing())
     response[sample.indentation] = sample;
@@ -282,7 +282,8 @@ std::vector<SampleColumn> contact_columns(const RunData& run) {
       {plain("Steps", "iterations"), [=](const Sample& s) { return iterations(s, finite); }});
   if (finite)
     columns.push_back({plain("Smallest J", "1 undeformed"), [](const Sample& s) {
-                         return plain(number(number_at(s.details, "min_jacobian"), 3));
+                         return plain(
+                             number(s.details ? s.details->min_jacobian : meshes::unknown, 3));
                        }});
   return columns;
 }
@@ -326,11 +327,11 @@ Table sequence_table(const RunData& run, const std::vector<Sample>& samples) {
   table.header = {plain("Mesh"),   plain("Cells"),     plain("Unknowns"),
                   plain("Depths"), plain("Wall time"), plain("Force off the finest", "largest")};
   int number = 0;
-  for (const JsonEntry& mesh : array_at(run.reference_summary, "meshes")) {
+  for (const fem_reference::PressMeshEntry& mesh : run.continuum.meshes) {
     ++number;
-    table.rows.push_back({plain(std::to_string(number)), plain(whole(mesh, "cells")),
-                          plain(whole(mesh, "dofs")), plain(whole(mesh, "samples")),
-                          plain(with_prefix(number_at(mesh, "wall_time"), "s")),
+    table.rows.push_back({plain(std::to_string(number)), plain(count(double(mesh.cells))),
+                          plain(count(double(mesh.dofs))), plain(count(double(mesh.samples))),
+                          plain(with_prefix(mesh.wall_time, "s")),
                           plain(percent_magnitude(largest_change(samples, number)))});
   }
   return table;
@@ -358,9 +359,9 @@ std::string hertz_text(const RunData& run, const std::vector<Sample>& samples) {
         "cannot give way there. Even a solid hemisphere leaves Hertz once it is pressed by more "
         "than 2×10⁻⁴ of its radius.";
   }
-  if (text_at(run.reference_summary, "contact") != "frictionless")
+  if (run.continuum.contact != "frictionless")
     text += " Here the surface also sticks or rubs, which Hertz's does not.";
-  if (text_at(run.reference_summary, "strain") == "finite") text += " Here strain is finite, too.";
+  if (run.continuum.strain == "finite") text += " Here strain is finite, too.";
   return text;
 }
 
@@ -369,10 +370,9 @@ std::string hertz_text(const RunData& run, const std::vector<Sample>& samples) {
 Chapter continuum_chapter(const RunData& run) {
   Chapter chapter{"continuum", "How sure is the continuum?", {}};
   const std::vector<Sample> samples = read_samples(run);
-  const std::string status = text_at(run.reference_summary, "status");
+  const std::string status = run.continuum.status;
   if (!status.empty() && status != "ok") {
-    chapter.blocks.push_back(
-        Paragraph{"Status: " + status + ".", text_at(run.reference_summary, "message")});
+    chapter.blocks.push_back(Paragraph{"Status: " + status + ".", run.continuum.message});
   }
   if (samples.empty()) return chapter;
   chapter.blocks.push_back(Paragraph{"", certainty(run, samples)});
@@ -382,8 +382,7 @@ Chapter continuum_chapter(const RunData& run) {
                   [](const Sample& s) { return s.forces.size() > 1; }))
     chapter.blocks.push_back(convergence_figure(run, samples));
   chapter.blocks.push_back(sample_table(run, samples));
-  if (!array_at(run.reference_summary, "meshes").empty())
-    chapter.blocks.push_back(sequence_table(run, samples));
+  if (!run.continuum.meshes.empty()) chapter.blocks.push_back(sequence_table(run, samples));
   if (!run.section.empty() && run.reference.samples().back().contact_radius > 0.0)
     chapter.blocks.push_back(mesh_figure(run));
   if (!run.pressure.empty()) chapter.blocks.push_back(pressure_figure(run));

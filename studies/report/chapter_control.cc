@@ -18,8 +18,10 @@ constexpr double force_limit = 5.0;      ///< tolerated overshoot of a force [%]
 constexpr double settling = 0.050;       ///< the speed is judged from then on [s] ...
 constexpr double first_contact = 0.020;  ///< ... but not for so long after first touch [s]
 
+using lattice::TraceRow;
+
 double touch_time(const MovingPress& press) {
-  return number_at(press.summary, "first_touch_time");
+  return press.summary.first_touch_time;
 }
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
@@ -29,14 +31,12 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 
 /// Deviation from the commanded speed in percent; NaN while nothing is commanded.
 std::vector<double> speed_deviation(const MovingPress& press) {
-  std::vector<double> speed = press.trace.numbers("speed [m/s]");
-  const std::vector<double> command = press.trace.numbers("commanded_speed [m/s]");
-  const std::vector<double> force = press.trace.numbers_if_any("force_mode");
-  for (std::size_t i = 0; i < speed.size(); ++i) {
-    const bool judged = command[i] > 0.0 && !(force[i] > 0.0);
-    speed[i] = judged ? 100.0 * (speed[i] / command[i] - 1.0) : meshes::unknown;
-  }
-  return speed;
+  std::vector<double> deviation;
+  for (const TraceRow& row : press.trace)
+    deviation.push_back(row.commanded_speed > 0.0 && !row.force_mode
+                            ? 100.0 * (row.speed / row.commanded_speed - 1.0)
+                            : meshes::unknown);
+  return deviation;
 }
 
 /// One group of presses: they share a column of panels and thereby the axis of time.
@@ -63,7 +63,7 @@ Panel trace_panel(const Group& group, const std::string& label,
   panel.key = "";
   double end = 0.0;
   for (const MovingPress* press : group) {
-    const std::vector<double> time = press->trace.numbers("time [s]");
+    const std::vector<double> time = column(press->trace, &TraceRow::time);
     end = std::fmax(end, time.back());
     Style style = press->style;
     if (group.size() == 1) style.dash.clear();
@@ -73,9 +73,9 @@ Panel trace_panel(const Group& group, const std::string& label,
   return panel;
 }
 
-auto column(const char* name, double factor) {
-  return [name, factor](const MovingPress& press) {
-    return scaled(press.trace.numbers(name), factor);
+auto scaled_column(double TraceRow::*member, double factor) {
+  return [member, factor](const MovingPress& press) {
+    return scaled(column(press.trace, member), factor);
   };
 }
 
@@ -105,7 +105,7 @@ void name_phases(const Group& group, double height, Panel& panel) {
 
 Panel speed_panel(const Group& group) {
   Panel panel = trace_panel(group, shown_units().speed.label("approach speed"),
-                            column("speed [m/s]", shown_units().speed.factor));
+                            scaled_column(&TraceRow::speed, shown_units().speed.factor));
   const double speed = shown_units().speed(group.front()->approach_speed());
   panel.title = shown_units().speed.text(group.front()->approach_speed());
   panel.y_range = Range{0.0, 1.3 * speed};
@@ -122,7 +122,8 @@ Panel deviation_panel(const Group& group) {
 }
 
 Panel tilt_panel(const Group& group) {
-  Panel panel = trace_panel(group, "tilt [degrees]", column("tilt [rad]", degree_per_radian));
+  Panel panel =
+      trace_panel(group, "tilt [degrees]", scaled_column(&TraceRow::tilt, degree_per_radian));
   double most = tilt_limit;
   for (const Series& series : panel.series)
     for (const double tilt : series.y) most = std::fmax(most, tilt);
@@ -133,20 +134,20 @@ Panel tilt_panel(const Group& group) {
 
 Panel command_panel(const Group& group) {
   return trace_panel(group, shown_units().force.label("commanded force"),
-                     column("command_force [N]", shown_units().force.factor));
+                     scaled_column(&TraceRow::command_force, shown_units().force.factor));
 }
 
 Panel force_panel(const Group& group) {
   Panel panel = trace_panel(group, shown_units().force.label("force of the tip"),
-                            column("normal_force [N]", shown_units().force.factor));
+                            scaled_column(&TraceRow::normal_force, shown_units().force.factor));
   for (const MovingPress* press : group) {
     std::vector<double> wanted =
-        scaled(press->trace.numbers_if_any("wanted_force [N]"), shown_units().force.factor);
+        scaled(column(press->trace, &TraceRow::wanted_force), shown_units().force.factor);
     if (std::isnan(largest_magnitude(wanted))) continue;
     const double last = wanted.back();
     panel.series.push_back({"wanted",
                             press->label + " wanted",
-                            press->trace.numbers("time [s]"),
+                            column(press->trace, &TraceRow::time),
                             std::move(wanted),
                             {},
                             {"#000000", "(4,4)", 1.2, 0, true}});
@@ -211,18 +212,17 @@ Table tracking_table(const std::vector<MovingPress>& presses) {
   }
   for (const MovingPress& press : presses) {
     if (press.trace.empty()) continue;
-    const JsonEntry tracking = object_at(press.summary, "tracking");
+    const TrackingEntry& tracking = press.summary.tracking;
     const bool force = press.controls_force();
-    const auto deviation = [&](const char* key) {
-      const double value = number_at(tracking, key);
+    const auto deviation = [&](double value) {
       return plain(force || std::isnan(value) ? "–" : percent_magnitude(value));
     };
-    const double peak = largest_magnitude(press.trace.numbers("normal_force [N]"));
+    const double peak = largest_magnitude(column(press.trace, &TraceRow::normal_force));
     table.rows.push_back(
         {plain(press.label, press.status == "finished" || press.status == "ok" ? "" : press.status),
          plain(number(shown_units().speed(press.approach_speed()))),
-         plain(shown(touch_time(press), "", 4)), deviation("speed_deviation"),
-         deviation("speed_deviation_at_touch"), plain(degrees(number_at(tracking, "tilt_deg"))),
+         plain(shown(touch_time(press), "", 4)), deviation(tracking.speed_deviation),
+         deviation(tracking.speed_deviation_at_touch), plain(degrees(tracking.tilt_deg)),
          plain(number(shown_units().force(peak)), si_note(peak, "N"))});
     if (!forces) continue;
     const double overshoot = force_overshoot(press.trace);
@@ -233,23 +233,22 @@ Table tracking_table(const std::vector<MovingPress>& presses) {
 }
 
 /// The largest of a measure over presses that follow a way; NaN when none has it.
-double worst_of(const std::vector<MovingPress>& presses, const char* measure) {
+double worst_of(const std::vector<MovingPress>& presses, double TrackingEntry::*measure) {
   double worst = meshes::unknown;
   for (const MovingPress& press : presses)
-    if (!press.controls_force())
-      worst = std::fmax(worst, number_at(object_at(press.summary, "tracking"), measure));
+    if (!press.controls_force()) worst = std::fmax(worst, press.summary.tracking.*measure);
   return worst;
 }
 
 }  // namespace
 
 std::string control_answer(const std::vector<MovingPress>& presses) {
-  const double speed = worst_of(presses, "speed_deviation");
+  const double speed = worst_of(presses, &TrackingEntry::speed_deviation);
   if (std::isnan(speed)) return "No press got far enough to be judged.";
   std::string text = fmt::format(
       "Through contact the approach speed stays within {} of its set point and the rod "
       "within {} of its orientation",
-      percent_magnitude(speed), degrees(worst_of(presses, "tilt_deg")));
+      percent_magnitude(speed), degrees(worst_of(presses, &TrackingEntry::tilt_deg)));
   double force = meshes::unknown;
   for (const MovingPress& press : presses) force = std::fmax(force, press.force_error);
   if (std::isfinite(force))
@@ -266,12 +265,11 @@ std::string control_text(const std::vector<MovingPress>& presses) {
                                    : fmt::format("{:>12}", "-");
   };
   for (const MovingPress& press : presses) {
-    const JsonEntry tracking = object_at(press.summary, "tracking");
+    const TrackingEntry& tracking = press.summary.tracking;
     const double none = press.controls_force() ? meshes::unknown : 1.0;
-    const double tilt = number_at(tracking, "tilt_deg");
+    const double tilt = tracking.tilt_deg;
     text += fmt::format("{:<44}", press.label.substr(0, 43)) +
-            cell(none * number_at(tracking, "speed_deviation")) +
-            cell(none * number_at(tracking, "speed_deviation_at_touch")) +
+            cell(none * tracking.speed_deviation) + cell(none * tracking.speed_deviation_at_touch) +
             (std::isfinite(tilt) ? fmt::format("{:>12.2g}", tilt) : fmt::format("{:>12}", "-")) +
             cell(press.force_error) + "\n";
   }

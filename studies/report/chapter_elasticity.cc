@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
-#include <set>
 
 #include "calibration/moduli.h"
 #include "studies/report/chapters.h"
@@ -177,15 +177,12 @@ std::string cauchy_text(const RunData& run) {
 }
 
 /// "(0.62, −0.62, 0.47, 0)" for each direction the tests leave open, "–" when there is none.
-std::string null_directions(const JsonEntry& calibration) {
-  if (!calibration.contains("unidentifiable")) return "–";
+std::string null_directions(const calibration::ModuliFile& calibration) {
   std::vector<std::string> directions;
-  for (const JsonEntry& direction : array_at(calibration, "unidentifiable")) {
+  for (const calibration::OpenConstants& one : calibration.unidentifiable) {
     std::vector<std::string> parts;
-    for (const char* key : {"k1", "k2", "k3", "kappa"}) {
-      const double value = number_at(direction, key);
+    for (const double value : {one.k1, one.k2, one.k3, one.kappa})
       parts.push_back(std::abs(value) < 5e-4 ? "0" : number(value, 2));
-    }
     directions.push_back(fmt::format("({})", fmt::join(parts, ", ")));
   }
   return directions.empty() ? "–" : enumerate(directions);
@@ -205,38 +202,38 @@ void add_calibrations(const RunData& run, Chapter& chapter) {
                   {"κ", "volume", Grade::none},
                   {"Null direction", "(k1, k2, k3, κ)", Grade::none}};
   for (const ModelData& model : run.models) {
-    const JsonEntry& source = model.calibration.empty() ? model.summary : model.calibration;
-    const JsonEntry constants = object_at(source, "constants");
-    if (constants.empty()) continue;
+    const bool fitted = !model.calibration.empty();
+    if (!fitted && model.summary.empty()) continue;
+    const calibration::FitConstants& found = model.calibration.constants;
+    const ConstantsEntry constants = fitted
+                                         ? ConstantsEntry{found.k1, found.k2, found.k3, found.kappa}
+                                         : model.summary.constants;
+    const double spacing = fitted ? model.calibration.spacing : model.summary.spacing;
     std::vector<Cell> row{
-        {model_label(model.name), model.calibration.empty() ? "rule k = E a²/l₀" : "fitted",
-         Grade::none},
-        {number(shown_units().length(number_at(source, "spacing"))), "", Grade::none}};
-    for (const char* key : {"k1", "k2", "k3"}) {
-      row.push_back(
-          {with_unit(number_at(constants, key), shown_units().stiffness), "", Grade::none});
-    }
-    row.push_back(
-        {with_unit(number_at(constants, "kappa"), shown_units().stress), "", Grade::none});
+        {model_label(model.name), fitted ? "fitted" : "rule k = E a²/l₀", Grade::none},
+        {number(shown_units().length(spacing)), "", Grade::none}};
+    for (const double value : {constants.k1, constants.k2, constants.k3})
+      row.push_back({with_unit(value, shown_units().stiffness), "", Grade::none});
+    row.push_back({with_unit(constants.kappa, shown_units().stress), "", Grade::none});
     row.push_back({null_directions(model.calibration), "", Grade::none});
     table.rows.push_back(std::move(row));
   }
   if (!table.rows.empty()) chapter.blocks.push_back(std::move(table));
   for (const ModelData& model : run.models) {
     if (model.calibration.empty()) continue;
-    chapter.blocks.push_back(Paragraph{fmt::format("Calibration of {}.", model.name),
-                                       text_at(model.calibration, "statement")});
+    chapter.blocks.push_back(
+        Paragraph{fmt::format("Calibration of {}.", model.name), model.calibration.statement});
   }
 }
 
 struct CubeColumn {
-  const char* column;
+  double CubeRow::*value;
   const char* label;
 };
 constexpr CubeColumn cube_columns[] = {
-    {"youngs_modulus_100 [Pa]", "E₁₀₀"}, {"youngs_modulus_110 [Pa]", "E₁₁₀"},
-    {"youngs_modulus_111 [Pa]", "E₁₁₁"}, {"shear_modulus [Pa]", "G"},
-    {"poissons_ratio_100", "ν₁₀₀"},      {"bulk_modulus [Pa]", "K"}};
+    {&CubeRow::youngs_modulus_100, "E₁₀₀"}, {&CubeRow::youngs_modulus_110, "E₁₁₀"},
+    {&CubeRow::youngs_modulus_111, "E₁₁₁"}, {&CubeRow::shear_modulus, "G"},
+    {&CubeRow::poissons_ratio_100, "ν₁₀₀"}, {&CubeRow::bulk_modulus, "K"}};
 
 Table cubes_table(const RunData& run) {
   Table table;
@@ -245,18 +242,17 @@ Table cubes_table(const RunData& run) {
                   "; deviation from the infinite lattice "
                   "of the same model below).";
   table.header = {{"Model", "", Grade::none}, {"Cells across", "", Grade::none}};
-  const std::vector<std::string> models = run.cubes.texts("model");
-  const std::vector<double> across = run.cubes.numbers("cells_across");
   for (const CubeColumn& column : cube_columns)
     table.header.push_back({column.label, "", Grade::none});
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    std::vector<Cell> row{{models[i], "", Grade::none}, {count(across[i]), "", Grade::none}};
-    const ModelData* model = run.model(models[i]);
+  for (const CubeRow& cube : run.cubes) {
+    std::vector<Cell> row{{cube.model, "", Grade::none},
+                          {count(double(cube.cells_across)), "", Grade::none}};
+    const ModelData* model = run.model(cube.model);
     const Moduli known = model ? model->moduli : Moduli();
     const double infinite[] = {known.E_100, known.E_110,  known.E_111,
                                known.G,     known.nu_100, known.K};
     for (std::size_t c = 0; c < std::size(cube_columns); ++c) {
-      const double value = run.cubes.numbers(cube_columns[c].column)[i];
+      const double value = cube.*cube_columns[c].value;
       const bool ratio = c == 4;
       row.push_back({number(ratio ? value : shown_units().stress(value)),
                      percent(value / infinite[c] - 1.0), Grade::none});
@@ -272,21 +268,18 @@ FigureBlock cubes_figure(const RunData& run) {
   panel.y_label = shown_units().stress.label("E along [100]");
   panel.log_x = 2;
   panel.key = "top right";
-  const std::vector<std::string> models = run.cubes.texts("model");
-  const std::vector<double> across = run.cubes.numbers("cells_across");
-  const std::vector<double> E = run.cubes.numbers("youngs_modulus_100 [Pa]");
-  for (const std::string& name : std::set<std::string>(models.begin(), models.end())) {
-    Series series{model_label(name), name, {}, {}, {}, model_style(name)};
-    series.style.point = name == "published" ? 5 : name == "central" ? 9 : 7;
-    for (std::size_t i = 0; i < models.size(); ++i) {
-      if (models[i] != name) continue;
-      series.x.push_back(across[i]);
-      series.y.push_back(shown_units().stress(E[i]));
-    }
-    panel.series.push_back(std::move(series));
-  }
   double least = 1e9, most = 1.0;
-  for (double cells : across) least = std::fmin(least, cells), most = std::fmax(most, cells);
+  std::map<std::string, Series> curves;
+  for (const CubeRow& cube : run.cubes) {
+    const std::string& name = cube.model;
+    auto [curve, fresh] =
+        curves.try_emplace(name, Series{model_label(name), name, {}, {}, {}, model_style(name)});
+    curve->second.style.point = name == "published" ? 5 : name == "central" ? 9 : 7;
+    curve->second.x.push_back(cube.cells_across);
+    curve->second.y.push_back(shown_units().stress(cube.youngs_modulus_100));
+    least = std::fmin(least, cube.cells_across), most = std::fmax(most, cube.cells_across);
+  }
+  for (auto& [name, curve] : curves) panel.series.push_back(std::move(curve));
   panel.x_range = Range{0.8 * least, 1.25 * most};
   panel.y_range = Range{0.0, meshes::unknown};
   return {{"cubes", 760, 340, 1, {panel}},

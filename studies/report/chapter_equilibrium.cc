@@ -25,20 +25,15 @@ struct StaticLattice {
 };
 
 /// By model, coarse to fine.
-std::vector<StaticLattice> read_lattices(const CsvTable& study) {
-  const std::vector<std::string> model = study.texts("model");
-  const std::vector<double> spacing = study.numbers("spacing [m]"),
-                            depth = study.numbers("indentation [m]"),
-                            force = study.numbers("normal_force [N]"),
-                            error = study.numbers("relative_error");
+std::vector<StaticLattice> read_lattices(const std::vector<EquilibriumStudyRow>& study) {
   std::vector<StaticLattice> lattices;
-  for (std::size_t i = 0; i < model.size(); ++i) {
-    const bool next = lattices.empty() || lattices.back().model != model[i] ||
-                      lattices.back().spacing != spacing[i];
-    if (next) lattices.push_back({model[i], spacing[i], {}, {}, {}});
-    lattices.back().depth.push_back(depth[i]);
-    lattices.back().force.push_back(force[i]);
-    lattices.back().error.push_back(error[i]);
+  for (const EquilibriumStudyRow& row : study) {
+    const bool next = lattices.empty() || lattices.back().model != row.model ||
+                      lattices.back().spacing != row.spacing;
+    if (next) lattices.push_back({row.model, row.spacing, {}, {}, {}});
+    lattices.back().depth.push_back(row.indentation);
+    lattices.back().force.push_back(row.normal_force);
+    lattices.back().error.push_back(row.relative_error);
   }
   std::ranges::stable_sort(lattices, [](const StaticLattice& a, const StaticLattice& b) {
     return a.model != b.model ? a.model < b.model : a.spacing > b.spacing;

@@ -9,16 +9,17 @@
 namespace fingertip::studies::reporting {
 namespace {
 
+using lattice::GraspRow, lattice::GripPhase;
+
 /// Rows of a phase.
 struct Span {
   std::size_t begin = 0, end = 0;
 };
-Span phase_span(const GraspRun& grasp, const std::string& phase) {
-  const std::vector<std::string> phases = grasp.rows.texts("phase");
-  const auto first = std::ranges::find(phases, phase);
-  const auto last =
-      std::find_if(first, phases.end(), [&](const std::string& other) { return other != phase; });
-  return {std::size_t(first - phases.begin()), std::size_t(last - phases.begin())};
+Span phase_span(const GraspRun& grasp, GripPhase phase) {
+  const auto first = std::ranges::find(grasp.rows, phase, &GraspRow::phase);
+  const auto last = std::find_if(first, grasp.rows.end(),
+                                 [&](const GraspRow& row) { return row.phase != phase; });
+  return {std::size_t(first - grasp.rows.begin()), std::size_t(last - grasp.rows.begin())};
 }
 
 std::vector<double> part(const std::vector<double>& values, const Span& span, double factor = 1.0) {
@@ -63,12 +64,12 @@ Figure fate_figure(const std::vector<GraspRun>& grasps) {
     for (const GraspRun& grasp : grasps) {
       if (grasp.series != name || grasp.rows.empty() || !(grasp.limit() > 0.0)) continue;
       if (grasp.released()) continue;
-      const Span hold = phase_span(grasp, "hold");
-      const std::vector<double> height = grasp.rows.numbers("height [m]");
+      const Span hold = phase_span(grasp, GripPhase::hold);
+      const std::vector<double> height = column(grasp.rows, &GraspRow::height);
       Series& series = grasp.held() ? held : lost;
       series.x.push_back(100.0 * (grasp.grip() / grasp.limit() - 1.0));
       const double reached = hold.end > hold.begin ? height[hold.end - 1] : height.back();
-      series.y.push_back(reached / number_at(grasp.summary, "lift_height"));
+      series.y.push_back(reached / grasp.summary.lift_height);
     }
     for (const Series& series : {held, lost})
       if (!series.x.empty()) panel.series.push_back(series);
@@ -87,16 +88,16 @@ Figure release_figure(const std::vector<GraspRun>& released) {
   double far = 0.0, highest = 0.0, lowest = shown_units().force(released.front().rest_limit());
   for (std::size_t i = 0; i < released.size(); ++i) {
     const GraspRun& grasp = released[i];
-    const Span span = phase_span(grasp, "release");
+    const Span span = phase_span(grasp, GripPhase::release);
     Style style = numbered_style(i);
     style.point = 0;
     Series curve{grasp.label,
                  "",
-                 part(grasp.rows.numbers("slip [m]"), span, shown_units().length.factor),
+                 part(column(grasp.rows, &GraspRow::slip), span, shown_units().length.factor),
                  part(grasp.normal(), span, shown_units().force.factor),
                  {},
                  style};
-    const double slip_force = shown_units().force(number_at(grasp.summary, "slip_force"));
+    const double slip_force = shown_units().force(grasp.summary.slip_force);
     Series onset{i + 1 == released.size() ? "all points slide" : "",
                  "all points slide",
                  {},
@@ -131,7 +132,7 @@ Panel friction_panel(const GraspRun& grasp, const std::string& title, const std:
   panel.x_label = x_label;
   panel.y_label = "over mu n [1]";
   panel.key = "center right";
-  const double per_mu = 1.0 / number_at(grasp.summary, "friction");
+  const double per_mu = 1.0 / grasp.summary.friction;
   const std::vector<double> normal = grasp.normal();
   const auto curve = [&](const char* label, const std::vector<double>& force, std::size_t style) {
     Style look = numbered_style(style);
@@ -151,21 +152,22 @@ Panel friction_panel(const GraspRun& grasp, const std::string& title, const std:
 Figure friction_figure(const std::vector<GraspRun>& grasps) {
   Figure figure{"grasp_friction", 980, 400, 0, {}};
   const auto slid = std::find_if(grasps.rbegin(), grasps.rend(), [](const GraspRun& grasp) {
-    return grasp.fate() == "not lifted" && std::isfinite(number_at(grasp.summary, "slip_ratio"));
+    return grasp.fate() == "not lifted" && std::isfinite(grasp.summary.slip_ratio);
   });
   if (slid != grasps.rend()) {
-    const Span span = phase_span(*slid, "load");
+    const Span span = phase_span(*slid, GripPhase::load);
     figure.panels.push_back(friction_panel(
         *slid, "the load grows: " + slid->label, shown_units().length.label("rise of the fingers"),
-        part(slid->rows.numbers("finger_height [m]"), span, shown_units().length.factor), span));
+        part(column(slid->rows, &GraspRow::finger_height), span, shown_units().length.factor),
+        span));
   }
   const auto fell = std::find_if(grasps.rbegin(), grasps.rend(),
                                  [](const GraspRun& grasp) { return grasp.released(); });
   if (fell != grasps.rend()) {
-    const Span span = phase_span(*fell, "release");
+    const Span span = phase_span(*fell, GripPhase::release);
     figure.panels.push_back(friction_panel(
         *fell, "the grip falls: " + fell->label, shown_units().length.label("slip of the block"),
-        part(fell->rows.numbers("slip [m]"), span, shown_units().length.factor), span));
+        part(column(fell->rows, &GraspRow::slip), span, shown_units().length.factor), span));
     figure.panels.back().x_range = Range{0.0, 0.5};
     if (figure.panels.size() > 1) figure.panels.front().key.clear();  // they share a legend
   }
@@ -175,7 +177,7 @@ Figure friction_figure(const std::vector<GraspRun>& grasps) {
 
 /// Forces and ways of one grasp.
 Figure time_figure(const GraspRun& grasp) {
-  const std::vector<double> time = grasp.rows.numbers("time [s]");
+  const std::vector<double> time = column(grasp.rows, &GraspRow::time);
   const auto curve = [&](const char* label, const std::vector<double>& values, double factor,
                          std::size_t i) {
     Style style = numbered_style(i);
@@ -200,11 +202,12 @@ Figure time_figure(const GraspRun& grasp) {
                              {limit, limit},
                              {},
                              {"#000000", "(4,4)", 1.2, 0, true}});
-  ways.series = {
-      curve("rise of the fingers", grasp.rows.numbers("finger_height [m]"),
-            shown_units().length.factor, 0),
-      curve("rise of the block", grasp.rows.numbers("height [m]"), shown_units().length.factor, 1),
-      curve("indentation", grasp.rows.numbers("indentation [m]"), shown_units().length.factor, 2)};
+  ways.series = {curve("rise of the fingers", column(grasp.rows, &GraspRow::finger_height),
+                       shown_units().length.factor, 0),
+                 curve("rise of the block", column(grasp.rows, &GraspRow::height),
+                       shown_units().length.factor, 1),
+                 curve("indentation", column(grasp.rows, &GraspRow::indentation),
+                       shown_units().length.factor, 2)};
   return {"grasp_in_time", 860, 620, 1, {forces, ways}};
 }
 
@@ -230,18 +233,17 @@ Table grasp_table(const std::vector<GraspRun>& grasps) {
                   plain("at the end", "less 1"),
                   plain("Momentum balance")};
   for (const GraspRun& grasp : grasps) {
-    const JsonEntry& s = grasp.summary;
-    const double mu = number_at(s, "friction"), slip = number_at(s, "slip_force");
+    const GraspSummary& s = grasp.summary;
+    const double mu = s.friction, slip = s.slip_force;
     const bool fell = grasp.released() && std::isfinite(slip);
     table.rows.push_back(
         {plain(grasp.label, grasp.status == "finished" || grasp.status == "ok" ? "" : grasp.status),
          plain(number(shown_units().force(grasp.grip())), si_note(grasp.grip(), "N")),
-         plain(off(grasp.grip(), grasp.limit())), plain(grasp.fate()),
-         plain(off(number_at(s, "held_load"), 1.0)),
+         plain(off(grasp.grip(), grasp.limit())), plain(grasp.fate()), plain(off(s.held_load, 1.0)),
          fell ? plain(number(shown_units().force(slip)), off(slip, grasp.rest_limit()))
               : plain("–"),
-         plain(off(number_at(s, "slip_ratio"), mu)), plain(off(number_at(s, "sliding_ratio"), mu)),
-         plain(number(number_at(s, "momentum_defect"), 2))});
+         plain(off(s.slip_ratio, mu)), plain(off(s.sliding_ratio, mu)),
+         plain(number(s.momentum_defect, 2))});
   }
   return table;
 }
@@ -279,7 +281,7 @@ std::string grasp_answer(const std::vector<GraspRun>& grasps) {
   if (!released.empty()) {
     const GraspRun& last = released.back();
     text += fmt::format(" Where the grip falls, the block begins to slip at m g/(2 mu) {} ({}).",
-                        off(number_at(last.summary, "slip_force"), last.rest_limit()), last.label);
+                        off(last.summary.slip_force, last.rest_limit()), last.label);
   }
   return text;
 }
@@ -289,9 +291,8 @@ std::string grasp_text(const std::vector<GraspRun>& grasps) {
                                  shown_units().force.label("grip"), "over limit", "fate",
                                  shown_units().force.label("slips at"), "t/(mu n) there");
   for (const GraspRun& grasp : grasps) {
-    const double slip = shown_units().force(number_at(grasp.summary, "slip_force"));
-    const double share =
-        number_at(grasp.summary, "slip_ratio") / number_at(grasp.summary, "friction");
+    const double slip = shown_units().force(grasp.summary.slip_force);
+    const double share = grasp.summary.slip_ratio / grasp.summary.friction;
     text +=
         fmt::format("{:<36}{:>12.4f}{:>10.2f} %{:>14}{:>14}{:>14}\n", grasp.label.substr(0, 35),
                     shown_units().force(grasp.grip()), 100.0 * (grasp.grip() / grasp.limit() - 1.0),

@@ -10,10 +10,6 @@
 namespace fingertip::studies::reporting {
 namespace {
 
-double steps_of(const MovingPress& press, const char* what) {
-  return number_at(object_at(press.summary, "steps"), what);
-}
-
 /// What stands before the comma of "symplectic-euler, 1 us", and after it.
 std::string integrator_of(const MovingPress& press) {
   return press.label.substr(0, press.label.find(", "));
@@ -34,7 +30,7 @@ std::vector<Series> cost_series(const std::vector<MovingPress>& presses) {
   for (const MovingPress& press : presses)
     if (is_compared(press)) sorted.push_back(&press);
   std::ranges::stable_sort(
-      sorted, {}, [](const MovingPress* press) { return steps_of(*press, "force_evaluations"); });
+      sorted, {}, [](const MovingPress* press) { return press->summary.steps.force_evaluations; });
   for (const MovingPress* press : sorted) {
     const std::string name = integrator_of(*press);
     auto found = std::ranges::find(all, name, &Series::label);
@@ -44,7 +40,7 @@ std::vector<Series> cost_series(const std::vector<MovingPress>& presses) {
       style.point_size = 0.9;
       found = all.insert(all.end(), Series{name, "", {}, {}, {}, style});
     }
-    found->x.push_back(steps_of(*press, "force_evaluations"));
+    found->x.push_back(press->summary.steps.force_evaluations);
     found->y.push_back(100.0 * press->change);
   }
   return all;
@@ -62,8 +58,7 @@ Figure cost_figure(const std::vector<MovingPress>& presses) {
 
 Table cost_table(const std::vector<MovingPress>& presses) {
   double cheapest = meshes::unknown;
-  for (const MovingPress& press : presses)
-    cheapest = std::fmin(cheapest, number_at(press.summary, "wall_time"));
+  for (const MovingPress& press : presses) cheapest = std::fmin(cheapest, press.summary.wall_time);
   Table table;
   table.caption =
       "Steps and force evaluations of each press, its wall time as a multiple of the quickest "
@@ -78,12 +73,12 @@ Table cost_table(const std::vector<MovingPress>& presses) {
                   plain("Momentum balance"),
                   plain("Difference of the force")};
   for (const MovingPress& press : presses) {
-    const double wall = number_at(press.summary, "wall_time");
+    const double wall = press.summary.wall_time;
     table.rows.push_back(
         {plain(integrator_of(press)), plain(setting_of(press)),
-         plain(count(steps_of(press, "accepted"))), plain(count(steps_of(press, "rejected"))),
-         plain(count(steps_of(press, "force_evaluations"))), plain(number(wall / cheapest, 3)),
-         plain(number(number_at(press.summary, "momentum_defect"), 2)),
+         plain(count(press.summary.steps.accepted)), plain(count(press.summary.steps.rejected)),
+         plain(count(press.summary.steps.force_evaluations)), plain(number(wall / cheapest, 3)),
+         plain(number(press.summary.momentum_defect, 2)),
          plain(is_compared(press) ? percent_magnitude(press.change) : "–",
                press.beside.empty() ? "the measure" : "")});
   }
@@ -94,7 +89,7 @@ Table cost_table(const std::vector<MovingPress>& presses) {
 
 bool compares_integrators(const std::vector<MovingPress>& presses) {
   return !presses.empty() && std::ranges::all_of(presses, [](const MovingPress& press) {
-    return text_at(press.summary, "mode") == "quasi-static" && press.summary.contains("steps");
+    return press.summary.mode == "quasi-static";
   });
 }
 
@@ -106,16 +101,16 @@ std::string integrators_answer(const std::vector<MovingPress>& presses) {
   return fmt::format(
       "Beside {}, the force of {} comes closest, within {}, for {} force evaluations.",
       best->beside, best->label, percent_magnitude(best->change),
-      count(steps_of(*best, "force_evaluations")));
+      count(best->summary.steps.force_evaluations));
 }
 
 std::string integrators_text(const std::vector<MovingPress>& presses) {
   std::string text = fmt::format("{:<36}{:>12}{:>12}{:>16}{:>14}\n", "press", "steps", "rejected",
                                  "evaluations", "difference");
   for (const MovingPress& press : presses)
-    text += fmt::format("{:<36}{:>12.0f}{:>12.0f}{:>16.0f}{:>14}\n", press.label.substr(0, 35),
-                        steps_of(press, "accepted"), steps_of(press, "rejected"),
-                        steps_of(press, "force_evaluations"),
+    text += fmt::format("{:<36}{:>12}{:>12}{:>16}{:>14}\n", press.label.substr(0, 35),
+                        press.summary.steps.accepted, press.summary.steps.rejected,
+                        press.summary.steps.force_evaluations,
                         is_compared(press) ? fmt::format("{:.4f} %", 100.0 * press.change) : "-");
   return text + "largest difference of the normal force from the press compared with\n";
 }

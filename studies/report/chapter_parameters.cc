@@ -12,6 +12,8 @@
 namespace fingertip::studies::reporting {
 namespace {
 
+using calibration::DirectionEntry, calibration::MinimumEntry;
+
 using Blocks = std::vector<Block>;
 
 /// "40.1 kPa"; in the paper's units SI is the note.
@@ -142,16 +144,13 @@ bool same_place(const std::vector<double>& one, const std::vector<double>& other
 }
 
 void add_minima(Blocks& blocks, const Fit& fit) {
-  const JsonList minima = array_at(fit.file, "minima");
+  const std::vector<MinimumEntry>& minima = fit.file.minima;
   if (minima.size() < 2) return;
-  const JsonEntry& least = *std::ranges::min_element(minima, {}, [](const JsonEntry& one) {
-    const double loss = number_at(one, "loss");
-    return std::isfinite(loss) ? loss : std::numeric_limits<double>::infinity();
+  const MinimumEntry& least = *std::ranges::min_element(minima, {}, [](const MinimumEntry& one) {
+    return std::isfinite(one.loss) ? one.loss : std::numeric_limits<double>::infinity();
   });
-  const auto found = numbers_at(least, "estimates");
-  const auto same = std::ranges::count_if(minima, [&](const JsonEntry& one) {
-    return same_place(numbers_at(one, "estimates"), found);
-  });
+  const auto same = std::ranges::count_if(
+      minima, [&](const MinimumEntry& one) { return same_place(one.estimates, least.estimates); });
   if (same == std::ptrdiff_t(minima.size())) {
     blocks.push_back(Paragraph{
         "Other minima.", fmt::format("All {} starts ended at the same place.", minima.size())});
@@ -166,41 +165,38 @@ void add_minima(Blocks& blocks, const Fit& fit) {
   for (const FitParameter& one : fit.parameters)
     table.header.push_back(plain(one.symbol, one.unit));
   table.header.insert(table.header.end(), {plain("Loss"), plain("Iterations")});
-  for (const JsonEntry& one : minima) {
-    const auto estimates = numbers_at(one, "estimates");
+  for (const MinimumEntry& one : minima) {
+    const std::vector<double>& estimates = one.estimates;
     std::vector<Cell> row{
         plain(std::to_string(table.rows.size() + 1), &one == &least ? "reported" : "")};
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
       row.push_back(plain(number(i < estimates.size() ? fit.parameters[i].factor * estimates[i]
                                                       : meshes::unknown)));
-    row.push_back(plain(number(number_at(one, "loss"))));
-    row.push_back(plain(count(number_at(one, "iterations"))));
+    row.push_back(plain(number(one.loss)));
+    row.push_back(plain(count(double(one.iterations))));
     table.rows.push_back(std::move(row));
   }
   blocks.push_back(std::move(table));
 }
 
 /// A direction in words: its statement, else its components.
-std::string direction_words(const Fit& fit, const JsonEntry& entry) {
-  const std::string statement = text_at(entry, "statement");
-  if (!statement.empty()) return statement;
+std::string direction_words(const Fit& fit, const DirectionEntry& entry) {
+  if (!entry.statement.empty()) return entry.statement;
   std::vector<std::string> parts;
-  const JsonEntry direction = object_at(entry, "direction");
   for (const FitParameter& one : fit.parameters) {
-    const double change = number_at(direction, one.name);
-    if (std::isfinite(change) && std::abs(change) > 5e-4)
-      parts.push_back(one.symbol + " × " + number(change, 2));
+    const auto change = entry.direction.find(one.name);
+    if (change != entry.direction.end() && std::abs(change->second) > 5e-4)
+      parts.push_back(one.symbol + " × " + number(change->second, 2));
   }
   return "A change along " + (parts.empty() ? "an unnamed direction" : enumerate(parts)) +
          " is hardly seen.";
 }
 
-void add_directions(Blocks& blocks, const Fit& fit, const std::string& key,
+void add_directions(Blocks& blocks, const Fit& fit, const std::vector<DirectionEntry>& directions,
                     const std::string& lead) {
-  for (const JsonEntry& entry : array_at(fit.file, key)) {
+  for (const DirectionEntry& entry : directions) {
     std::string text = direction_words(fit, entry);
-    const double share = number_at(entry, "relative_singular_value"),
-                 width = number_at(entry, "interval");
+    const double share = entry.relative_singular_value, width = entry.interval;
     if (std::isfinite(share))
       text += fmt::format(" Singular value: {} of the largest.", percent_magnitude(share));
     if (std::isfinite(width))
@@ -218,8 +214,8 @@ std::string profile_caption(const Fit& fit) {
       "5.99 and 9.21, the regions of 68, 95 and 99 %. Dashed: the 95 % region as the linearised "
       "fit has it; where the two part, the intervals of the table are not to be trusted. ";
   double least = 0.0;
-  for (const JsonEntry& row : array_at(object_at(fit.file, "profile"), "increase"))
-    for (const double value : row.numbers()) least = std::fmin(least, value);
+  for (const std::vector<double>& row : fit.file.profile->increase)
+    for (const double value : row) least = std::fmin(least, value);
   if (least < -0.1)
     text += fmt::format(
         "Chi-square falls by {} below the fit's somewhere on this grid: the fit is not at the "
@@ -237,7 +233,7 @@ std::vector<Block> parameter_blocks(const Fit& fit) {
   std::vector<Block> blocks;
   if (fit.parameters.empty()) return blocks;
   blocks.push_back(parameter_table(fit));
-  const auto correlation = fit.matrix("correlation");
+  const auto correlation = fit.square(fit.file.correlation);
   if (correlation.size() > 1) blocks.push_back(correlation_table(fit, correlation));
   add_minima(blocks, fit);
   return blocks;
@@ -246,8 +242,8 @@ std::vector<Block> parameter_blocks(const Fit& fit) {
 std::vector<Block> identifiability_blocks(const Fit& fit, const std::string& prefix) {
   std::vector<Block> blocks;
   if (fit.parameters.empty()) return blocks;
-  add_directions(blocks, fit, "unidentifiable", "The data do not determine the answer.");
-  add_directions(blocks, fit, "only_from_priors", "Only priors determine this.");
+  add_directions(blocks, fit, fit.file.unidentifiable, "The data do not determine the answer.");
+  add_directions(blocks, fit, fit.file.only_from_priors, "Only priors determine this.");
   std::vector<std::string> bounded;
   for (const FitParameter& one : fit.parameters)
     if (one.at_bound) bounded.push_back(one.bounded);
@@ -257,8 +253,7 @@ std::vector<Block> identifiability_blocks(const Fit& fit, const std::string& pre
         enumerate(bounded) + " ended at the limit set for the search; the data would go further, "
                              "and what is given as the interval is none.",
         true});
-  if (array_at(fit.file, "unidentifiable").empty() &&
-      array_at(fit.file, "only_from_priors").empty() && fit.file.contains("unidentifiable"))
+  if (fit.file.unidentifiable.empty() && fit.file.only_from_priors.empty())
     blocks.push_back(Paragraph{"", fit.parameters.size() == 1
                                        ? "The data determine the parameter."
                                        : "The data determine every direction of the parameters."});
@@ -269,7 +264,8 @@ std::vector<Block> identifiability_blocks(const Fit& fit, const std::string& pre
       "How strongly the curves respond, in units of sigma, to a change of all parameters by "
       "their own size along one direction. A value below the dashed line is a direction "
       "along which a model error of two per cent moves the parameters by their own size.");
-  add(profile_figure(fit, prefix), "Profile likelihood", profile_caption(fit));
+  if (fit.file.profile)
+    add(profile_figure(fit, prefix), "Profile likelihood", profile_caption(fit));
   return blocks;
 }
 

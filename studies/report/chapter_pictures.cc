@@ -25,11 +25,18 @@ Frame common_frame(const RunData& run) {
       top = std::fmax(top, shown_units().length(value)),
       bottom = std::fmin(bottom, shown_units().length(value));
   };
-  if (!run.section.empty()) include(run.section.numbers("x1 [m]"), run.section.numbers("z1 [m]"));
+  const auto along = [](const auto& rows, auto member, int axis) {
+    std::vector<double> values;
+    for (const auto& row : rows) values.push_back((row.*member)[std::size_t(axis)]);
+    return values;
+  };
+  constexpr auto corners = &fem_reference::SectionRow::undeformed;
+  include(along(run.section, corners, 0), along(run.section, corners, 1));
   for (const ModelData& model : run.models) {
     depth = std::max(depth, model.response.depth());
     if (run.section.empty() && !model.boundary.empty()) {
-      include(model.boundary.numbers("x [m]"), model.boundary.numbers("z [m]"));
+      include(along(model.boundary, &BoundaryRow::rest, 0),
+              along(model.boundary, &BoundaryRow::rest, 2));
     }
   }
   Frame frame;
@@ -60,39 +67,32 @@ void add_plane(Panel& panel, const Frame& frame, double z) {
 
 /// How far the rod has travelled from rest to the end of the trace [m].
 double rod_travel(const ModelData& model) {
-  const std::vector<double> indentation = model.trace.numbers("indentation [m]");
-  return indentation.empty() ? 0.0 : indentation.back() - indentation.front();
+  if (model.trace.empty()) return 0.0;
+  return model.trace.back().indentation - model.trace.front().indentation;
 }
 
 /// The boundary springs on the viewer's side (y <= 0), projected on the plane y = 0.
 Series boundary_series(const ModelData& model, bool deformed, const Style& style) {
   Series series{"", model.name + (deformed ? " deformed" : " undeformed"), {}, {}, {}, style};
-  const std::string prefix = deformed ? "deformed_" : "";
-  const std::vector<double> x = model.boundary.numbers(prefix + "x [m]");
-  const std::vector<double> z = model.boundary.numbers(prefix + "z [m]");
-  const std::vector<double> y = model.boundary.numbers("y [m]");
   const double travel = deformed ? rod_travel(model) : 0.0;
-  const std::vector<std::size_t> first = model.boundary_springs.indices("i", x.size());
-  const std::vector<std::size_t> second = model.boundary_springs.indices("j", x.size());
-  for (std::size_t s = 0; s < first.size(); ++s) {
-    const std::size_t i = first[s], j = second[s];
-    if (y[i] > 1e-9 || y[j] > 1e-9) continue;
-    add_segment(series, shown_units().length(x[i]), shown_units().length(z[i] - travel),
-                shown_units().length(x[j]), shown_units().length(z[j] - travel));
+  for (const BoundarySpringRow& spring : model.boundary_springs) {
+    const BoundaryRow &first = model.boundary[spring.i], &second = model.boundary[spring.j];
+    if (first.rest.y() > 1e-9 || second.rest.y() > 1e-9) continue;
+    const meshes::Vector3& from = deformed ? first.deformed : first.rest;
+    const meshes::Vector3& to = deformed ? second.deformed : second.rest;
+    add_segment(series, shown_units().length(from.x()), shown_units().length(from.z() - travel),
+                shown_units().length(to.x()), shown_units().length(to.z() - travel));
   }
   return series;
 }
 
 Series anchored_series(const ModelData& model) {
   Series series{"", model.name + " anchored", {}, {}, {}, {"#CC79A7", "", 1.0, 7, false, 0.35}};
-  const std::vector<double> x = model.boundary.numbers("deformed_x [m]");
-  const std::vector<double> z = model.boundary.numbers("deformed_z [m]");
-  const std::vector<double> anchored = model.boundary.numbers("anchored");
   const double travel = rod_travel(model);
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (anchored[i] == 0.0) continue;
-    series.x.push_back(shown_units().length(x[i]));
-    series.y.push_back(shown_units().length(z[i] - travel));
+  for (const BoundaryRow& row : model.boundary) {
+    if (!row.anchored) continue;
+    series.x.push_back(shown_units().length(row.deformed.x()));
+    series.y.push_back(shown_units().length(row.deformed.z() - travel));
   }
   return series;
 }
@@ -143,6 +143,9 @@ FigureBlock shapes_figure(const RunData& run) {
 
 Chapter pictures_chapter(const RunData& run) {
   Chapter chapter{"pictures", "Shapes", {}};
+  // Without its trace a press cannot be drawn in the rod's frame.
+  for (const ModelData& model : run.models)
+    if (!model.boundary.empty() && model.trace.empty()) return chapter;
   FigureBlock shapes = shapes_figure(run);
   if (!shapes.figure.panels.empty()) chapter.blocks.push_back(std::move(shapes));
   return chapter;

@@ -27,21 +27,22 @@ struct Variant {
   }
 };
 
-std::vector<Variant> read_variants(const CsvTable& study) {
-  const std::vector<std::string> varied = study.texts("varied");
-  const auto column = [&](const char* name) { return study.numbers(name); };
-  const std::vector<double> spacing = column("spacing [m]"),
-                            ligament = column("ligament_stiffness");
-  const std::vector<double> x = column("offset_x"), y = column("offset_y"), z = column("offset_z");
-  const std::vector<double> depth = column("indentation [m]"), force = column("normal_force [N]");
-  const std::vector<double> error = column("relative_error");
+std::vector<Variant> read_variants(const std::vector<PublishedStudyRow>& study) {
   std::vector<Variant> variants;
-  for (std::size_t i = 0; i < varied.size(); ++i) {
-    const Variant row{varied[i], spacing[i], x[i], y[i], z[i], ligament[i], {}, {}, {}};
-    if (variants.empty() || !variants.back().same_lattice(row)) variants.push_back(row);
-    variants.back().depth.push_back(depth[i]);
-    variants.back().force.push_back(force[i]);
-    variants.back().error.push_back(error[i]);
+  for (const PublishedStudyRow& row : study) {
+    const Variant variant{row.varied,
+                          row.spacing,
+                          row.offset.x(),
+                          row.offset.y(),
+                          row.offset.z(),
+                          row.ligament_stiffness,
+                          {},
+                          {},
+                          {}};
+    if (variants.empty() || !variants.back().same_lattice(variant)) variants.push_back(variant);
+    variants.back().depth.push_back(row.indentation);
+    variants.back().force.push_back(row.normal_force);
+    variants.back().error.push_back(row.relative_error);
   }
   return variants;
 }

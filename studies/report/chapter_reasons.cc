@@ -25,7 +25,7 @@ double confined_ratio(const RunData& run, const ModelData& model) {
 
 /// The caveat that a model of finite kinematics needs beside a linear continuum; else empty.
 std::string kinematics_caveat(const ModelData& model) {
-  if (text_at(model.summary, "kinematics") != "finite") return "";
+  if (model.summary.kinematics != "finite") return "";
   return " It measures finite deformation while the continuum here is linear, so part of the "
          "difference at large depth is geometry.";
 }
@@ -101,7 +101,7 @@ std::string hookean_reason(const RunData& run, const ModelData& model) {
   text +=
       " Surface, bond and contact are the tip's own: cells are cut by sphere and cylinder. What "
       "remains is the size of the cells";
-  const double spacing = number_at(model.summary, "spacing");
+  const double spacing = model.summary.spacing;
   if (std::isfinite(spacing))
     text += fmt::format(" ({})", with_unit(spacing, shown_units().length, 3));
   text +=
@@ -123,9 +123,8 @@ std::string hookean_reason(const RunData& run, const ModelData& model) {
 std::string dynamics_reason(const RunData& run) {
   for (const ModelData& model : run.models) {
     if (model.trace.empty()) continue;
-    const std::vector<double> command = model.trace.numbers("commanded_speed [m/s]");
     double speed = meshes::unknown;
-    for (double value : command) speed = std::fmax(speed, value);
+    for (const lattice::TraceRow& row : model.trace) speed = std::fmax(speed, row.commanded_speed);
     return fmt::format(
         "The continuum is static, the lattices move: at {} inertia and damping add their "
         "share to the force. It grows "

@@ -113,30 +113,30 @@ Table sample_table(SampleRange samples, const SampleAxis& axis) {
 }
 
 /// Pressure of the points on the plane against their distance from the contact's centre.
-FigureBlock pressure_figure(const CsvTable& contact) {
-  const std::vector<double> x = contact.numbers("deformed_x [m]"),
-                            y = contact.numbers("deformed_y [m]"),
-                            pressure = contact.numbers("pressure [Pa]");
-  double weight = 0.0, centre_x = 0.0, centre_y = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double force = std::max(pressure[i], 0.0);
-    weight += force, centre_x += force * x[i], centre_y += force * y[i];
+FigureBlock pressure_figure(const std::vector<ContactRow>& contact) {
+  double weight = 0.0;
+  meshes::Vector3 sum = meshes::Vector3::Zero();
+  for (const ContactRow& point : contact) {
+    const double force = std::max(point.pressure, 0.0);
+    weight += force, sum += force * point.deformed;
   }
   // A quarter or half of a contact has its centre on the mirror planes.
-  const auto centre = [&](const std::vector<double>& along, double sum) {
-    const bool cut = std::ranges::all_of(along, [](double value) { return value >= 0.0; });
-    return cut || !(weight > 0.0) ? 0.0 : sum / weight;
+  const auto centre = [&](int axis) {
+    const bool cut = std::ranges::all_of(
+        contact, [&](const ContactRow& point) { return point.deformed[axis] >= 0.0; });
+    return cut || !(weight > 0.0) ? 0.0 : sum[axis] / weight;
   };
-  const double cx = centre(x, centre_x), cy = centre(y, centre_y);
+  const double cx = centre(0), cy = centre(1);
   Panel panel;
   panel.x_label = shown_units().length.label("distance from the contact's centre");
   panel.y_label = shown_units().stress.label("pressure");
   panel.key = "";
   Series series{"", "points", {}, {}, {}, {"#0072B2", "", 1.0, 7, false, 0.45}};
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!(pressure[i] > 0.0)) continue;
-    series.x.push_back(shown_units().length(std::hypot(x[i] - cx, y[i] - cy)));
-    series.y.push_back(shown_units().stress(pressure[i]));
+  for (const ContactRow& point : contact) {
+    if (!(point.pressure > 0.0)) continue;
+    series.x.push_back(
+        shown_units().length(std::hypot(point.deformed.x() - cx, point.deformed.y() - cy)));
+    series.y.push_back(shown_units().stress(point.pressure));
   }
   panel.series.push_back(std::move(series));
   panel.x_range = Range{0.0, meshes::unknown};
@@ -149,7 +149,8 @@ FigureBlock pressure_figure(const CsvTable& contact) {
 
 }  // namespace
 
-Chapter press_chapter(const meshes::PressResponse& response, const CsvTable& contact) {
+Chapter press_chapter(const meshes::PressResponse& response,
+                      const std::vector<ContactRow>& contact) {
   Chapter chapter{"press", "Force against indentation", {}};
   if (response.empty()) return chapter;
   const SampleRange samples = response.pressing();
@@ -221,48 +222,43 @@ std::string press_answer(const meshes::PressResponse& response) {
                     force(end.normal_force));
 }
 
-Chapter modes_chapter(const CsvTable& modes) {
+Chapter modes_chapter(const std::vector<VibrationMode>& modes) {
   Chapter chapter{"modes", "Natural vibrations", {}};
   if (modes.empty()) return chapter;
-  const std::vector<std::string> names = modes.texts("mode"), motions = mode_motions(modes);
-  const std::vector<double> frequency = modes.numbers("frequency [Hz]"),
-                            error = modes.numbers_if_any("frequency_error [Hz]"),
-                            x = modes.numbers_if_any("mass_x"), y = modes.numbers_if_any("mass_y"),
-                            z = modes.numbers_if_any("mass_z"),
-                            turn = modes.numbers_if_any("inertia_z");
-  const bool lattice = modes.has("motion");
+  const bool lattice = modes.front().of_lattice;
+  const bool errors = std::ranges::any_of(
+      modes, [](const VibrationMode& mode) { return std::isfinite(mode.error); });
   Panel panel;
   panel.x_label = "mode";
   panel.y_label = "frequency [Hz]";
   panel.key = "outside top center horizontal";
-  panel.x_range = Range{0.5, double(names.size()) + 0.5};
+  panel.x_range = Range{0.5, double(modes.size()) + 0.5};
   panel.y_range = Range{0.0, meshes::unknown};
   std::map<std::string, Series> kinds;
   Table table;
   table.header = {plain("Mode"), plain("Frequency", "Hz")};
-  if (!lattice && modes.has("frequency_error [Hz]"))
-    table.header.push_back(plain("Estimated error", "Hz"));
+  if (errors) table.header.push_back(plain("Estimated error", "Hz"));
   table.header.push_back({"Motion", "", Grade::none, true});
   if (lattice)
     for (const auto& [what, note] : {std::pair{"Mass", "across"}, std::pair{"Mass", "along"},
                                      std::pair{"Inertia", "about the axis"}})
       table.header.push_back(plain(what, note));
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    auto [kind, fresh] = kinds.try_emplace(motions[i]);
+  for (const VibrationMode& mode : modes) {
+    auto [kind, fresh] = kinds.try_emplace(mode.motion);
     if (fresh) {
-      kind->second.label = motions[i];
+      kind->second.label = mode.motion;
       kind->second.style = numbered_style(kinds.size() - 1);
       kind->second.style.line = false;
     }
-    kind->second.x.push_back(double(i + 1));
-    kind->second.y.push_back(frequency[i]);
-    std::vector<Cell> row{plain(names[i]), plain(number(frequency[i], 5))};
-    if (!lattice && modes.has("frequency_error [Hz]")) row.push_back(plain(number(error[i], 2)));
-    row.push_back({motions[i], "", Grade::none, true});
+    kind->second.x.push_back(mode.number);
+    kind->second.y.push_back(mode.frequency);
+    std::vector<Cell> row{plain(std::to_string(mode.number)), plain(number(mode.frequency, 5))};
+    if (errors) row.push_back(plain(number(mode.error, 2)));
+    row.push_back({mode.motion, "", Grade::none, true});
     if (lattice) {
-      row.push_back(plain(percent_magnitude(x[i] + y[i])));
-      row.push_back(plain(percent_magnitude(z[i])));
-      row.push_back(plain(percent_magnitude(turn[i])));
+      row.push_back(plain(percent_magnitude(mode.mass.x() + mode.mass.y())));
+      row.push_back(plain(percent_magnitude(mode.mass.z())));
+      row.push_back(plain(percent_magnitude(mode.inertia)));
     }
     table.rows.push_back(std::move(row));
   }
@@ -282,14 +278,13 @@ Chapter modes_chapter(const CsvTable& modes) {
   return chapter;
 }
 
-std::string modes_answer(const CsvTable& modes) {
+std::string modes_answer(const std::vector<VibrationMode>& modes) {
   if (modes.empty()) return "";
-  const std::vector<std::string> motions = mode_motions(modes);
-  const std::vector<double> frequency = modes.numbers("frequency [Hz]");
+  const VibrationMode& first = modes.front();
   return fmt::format("The lowest natural frequency is {} Hz{}; {} modes lie up to {} Hz.",
-                     number(frequency.front(), 4),
-                     motions.front().empty() ? "" : " (" + motions.front() + ")", frequency.size(),
-                     number(frequency.back(), 4));
+                     number(first.frequency, 4),
+                     first.motion.empty() ? "" : " (" + first.motion + ")", modes.size(),
+                     number(modes.back().frequency, 4));
 }
 
 }  // namespace fingertip::studies::reporting

@@ -44,66 +44,26 @@ class Camera {
   Vector3 right_, above_, toward_;
 };
 
-/// Rows of three columns as vectors: NAME_x UNIT and so on.
-std::vector<Vector3> vectors(const CsvTable& table, const std::string& name,
-                             const std::string& unit) {
-  std::vector<std::vector<double>> parts;
-  for (const char* axis : {"x", "y", "z"}) parts.push_back(table.numbers(name + axis + unit));
-  std::vector<Vector3> result;
-  for (std::size_t i = 0; i < parts[0].size(); ++i)
-    result.emplace_back(parts[0][i], parts[1][i], parts[2][i]);
-  return result;
-}
-
 /// A snapshot as the files tell it.
-struct Snapshot {
-  std::string moment;
-  double time, indentation;
-  Vector3 endpoint, force, torque, plane, normal;
-  Eigen::AngleAxisd turn;
+struct Snapshot : SnapshotRow {
+  Eigen::AngleAxisd turned;
   std::vector<Vector3> points;
-  std::vector<double> held;
+  std::vector<bool> held;
 };
 
 std::vector<Snapshot> snapshots_of(const MovingPress& press) {
-  const CsvTable& table = press.snapshots;
-  const auto moments = table.texts("moment");
-  const auto time = table.numbers("time [s]"), indentation = table.numbers("indentation [m]");
-  const auto endpoint = vectors(table, "endpoint_", " [m]"),
-             turn = vectors(table, "turn_", " [rad]");
-  const auto force = vectors(table, "force_", " [N]"), torque = vectors(table, "torque_", " [N m]");
-  const auto plane = vectors(table, "plane_", " [m]"), normal = vectors(table, "normal_", "");
   std::vector<Snapshot> result;
-  for (std::size_t s = 0; s < moments.size(); ++s) {
-    const double angle = turn[s].norm();
-    const Eigen::AngleAxisd turned(angle,
-                                   angle > 0.0 ? Vector3(turn[s] / angle) : Vector3::UnitZ());
-    result.push_back({moments[s],
-                      time[s],
-                      indentation[s],
-                      endpoint[s],
-                      force[s],
-                      torque[s],
-                      plane[s],
-                      normal[s],
-                      turned,
-                      {},
-                      {}});
+  for (const SnapshotRow& row : press.snapshots) {
+    const double angle = row.turn.norm();
+    const Vector3 axis = angle > 0.0 ? Vector3(row.turn / angle) : Vector3::UnitZ();
+    result.push_back({row, Eigen::AngleAxisd(angle, axis), {}, {}});
   }
-  const auto number = press.snapshot_points.indices("snapshot", result.size());
-  const auto points = vectors(press.snapshot_points, "", " [m]");
-  const auto held = press.snapshot_points.numbers("held");
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    result[number[i]].points.push_back(points[i]);
-    result[number[i]].held.push_back(held[i]);
+  for (const SnapshotPointRow& point : press.snapshot_points) {
+    result[point.snapshot].points.push_back(point.place);
+    result[point.snapshot].held.push_back(point.held);
   }
   return result;
 }
-
-/// Radius and lengths of the specimen [m].
-struct Shape {
-  double tip_radius, rod_radius, rod_length, sleeve_length;
-};
 
 /// Where the outer surface faces, of a place at rest on it.
 Vector3 outer_normal(const Vector3& rest) {
@@ -114,13 +74,12 @@ class Drawing {
  public:
   Drawing(const MovingPress& press, const Snapshot& first, double largest_force,
           double largest_torque)
-      : camera_(first.normal), largest_force_(largest_force), largest_torque_(largest_torque) {
-    const JsonEntry geometry = object_at(press.summary, "geometry");
-    shape_ = {number_at(geometry, "tip_radius"), number_at(geometry, "rod_radius"),
-              number_at(geometry, "rod_length"), number_at(geometry, "sleeve_length")};
-    rest_ = vectors(press.boundary, "", " [m]");
-    first_ = press.boundary_springs.indices("i", rest_.size());
-    second_ = press.boundary_springs.indices("j", rest_.size());
+      : camera_(first.normal),
+        shape_(press.summary.geometry),
+        largest_force_(largest_force),
+        largest_torque_(largest_torque),
+        springs_(press.boundary_springs) {
+    for (const BoundaryRow& row : press.boundary) rest_.push_back(row.rest);
   }
 
   Panel panel(const Snapshot& snapshot) const {
@@ -168,13 +127,13 @@ class Drawing {
         return Vector3(shape_.rod_radius * std::cos(angle), shape_.rod_radius * std::sin(angle), 0);
       };
       const Vector3 from = at(k), to = at(k + 1), up(0.0, 0.0, height);
-      if (front_only && !camera_.faces(snapshot.turn * (from + to))) continue;
+      if (front_only && !camera_.faces(snapshot.turned * (from + to))) continue;
       join(series, placed(snapshot, from + up), placed(snapshot, to + up));
     }
   }
 
   Vector3 placed(const Snapshot& snapshot, const Vector3& in_rod) const {
-    return snapshot.endpoint + snapshot.turn * (in_rod + Vector3(0.0, 0.0, shape_.rod_length));
+    return snapshot.endpoint + snapshot.turned * (in_rod + Vector3(0.0, 0.0, shape_.rod_length));
   }
 
   /// Outside of the sleeve the rod's outline is solid, inside it is dashed.
@@ -182,8 +141,8 @@ class Drawing {
     Series seen{"", "rod", {}, {}, {}, {"#222222", "", 1.6, 0, true}};
     Series hidden{"", "rod inside the tip", {}, {}, {}, {"#222222", "(5,4)", 1.0, 0, true}};
     const double top = -shape_.rod_length, rim = -shape_.sleeve_length;
-    const Vector3 axis = snapshot.turn * Vector3::UnitZ();
-    const Vector3 side = snapshot.turn.inverse() *
+    const Vector3 axis = snapshot.turned * Vector3::UnitZ();
+    const Vector3 side = snapshot.turned.inverse() *
                          Vector3(shape_.rod_radius * axis.cross(camera_.toward()).normalized());
     add_ring(seen, snapshot, top, false);
     add_ring(seen, snapshot, rim, true);
@@ -199,7 +158,7 @@ class Drawing {
 
   /// The outline of the rod's hemisphere: half of the circle that faces the viewer.
   void add_dome(Series& series, const Snapshot& snapshot) const {
-    const Vector3 axis = snapshot.turn * Vector3::UnitZ();
+    const Vector3 axis = snapshot.turned * Vector3::UnitZ();
     const Vector3 side = axis.cross(camera_.toward()).normalized();
     const Vector3 below = camera_.toward().cross(side).normalized();
     const double sign = below.dot(axis) > 0.0 ? 1.0 : -1.0;
@@ -215,17 +174,16 @@ class Drawing {
   void add_tip(Panel& panel, const Snapshot& snapshot) const {
     Series springs{"", "springs", {}, {}, {}, thin("#3f7f6f", 0.6)};
     const auto visible = [&](std::size_t i) {
-      return camera_.faces(snapshot.turn * outer_normal(rest_[i]));
+      return camera_.faces(snapshot.turned * outer_normal(rest_[i]));
     };
     const std::size_t count = std::min(rest_.size(), snapshot.points.size());
-    for (std::size_t s = 0; s < first_.size(); ++s) {
-      const std::size_t i = first_[s], j = second_[s];
+    for (const auto& [i, j] : springs_) {
       if (i >= count || j >= count || !visible(i) || !visible(j)) continue;
       join(springs, snapshot.points[i], snapshot.points[j]);
     }
     Series held{"", "held by the plane", {}, {}, {}, {held_colour, "", 1.0, 7, false, 0.3}};
     for (std::size_t i = 0; i < count; ++i)
-      if (snapshot.held[i] > 0.0) add(held, snapshot.points[i]);
+      if (snapshot.held[i]) add(held, snapshot.points[i]);
     panel.series.push_back(std::move(springs));
     panel.series.push_back(std::move(held));
   }
@@ -245,10 +203,10 @@ class Drawing {
   }
 
   Camera camera_;
-  Shape shape_{};
+  GeometryEntry shape_;
   double largest_force_, largest_torque_;
   std::vector<Vector3> rest_;
-  std::vector<std::size_t> first_, second_;
+  std::vector<BoundarySpringRow> springs_;
 };
 
 /// The values at the endpoint, below the picture.
@@ -312,7 +270,7 @@ Chapter snapshots_chapter(const std::vector<MovingPress>& presses) {
   for (const MovingPress& press : presses) {
     const bool complete = !press.snapshots.empty() && !press.snapshot_points.empty() &&
                           !press.boundary.empty() &&
-                          object_at(press.summary, "geometry").contains("rod_length");
+                          std::isfinite(press.summary.geometry.rod_length);
     if (press.pictured && complete)
       chapter.blocks.push_back(figure_of(press, chapter.blocks.size() + 1));
   }

@@ -13,7 +13,7 @@ namespace {
 /// What kept a prediction from its deepest samples; empty when nothing did.
 std::string trouble(const CalibrationData& data, const std::string& fit,
                     const std::string& prediction) {
-  for (const PredictedForce& row : data.transfer) {
+  for (const TransferRow& row : data.transfer) {
     const bool fine = row.status.empty() || row.status == "finished" || row.status == "ok";
     if (row.fit == fit && row.prediction == prediction && !fine) return row.status;
   }
@@ -23,12 +23,14 @@ std::string trouble(const CalibrationData& data, const std::string& fit,
 /// Where the error is largest: "at 2 mm".
 std::string place(const CalibrationData& data, const std::string& fit,
                   const std::string& prediction) {
-  const PredictedForce* worst = nullptr;
-  for (const PredictedForce& row : data.transfer) {
-    if (row.fit != fit || row.prediction != prediction || !std::isfinite(row.error)) continue;
-    if (worst == nullptr || std::abs(row.error) > std::abs(worst->error)) worst = &row;
+  const TransferRow* worst = nullptr;
+  for (const TransferRow& row : data.transfer) {
+    if (row.fit != fit || row.prediction != prediction || !std::isfinite(row.relative_error))
+      continue;
+    if (worst == nullptr || std::abs(row.relative_error) > std::abs(worst->relative_error))
+      worst = &row;
   }
-  return worst == nullptr ? "" : "at " + shown_units().length.text(worst->depth);
+  return worst == nullptr ? "" : "at " + shown_units().length.text(worst->indentation);
 }
 
 Table transfer_table(const CalibrationData& data) {

@@ -44,10 +44,9 @@ Table press_table(const std::vector<VariantPress>& presses) {
   return table;
 }
 
-Table series_table(const JsonEntry& study, const std::vector<VariantPress>& presses) {
-  const JsonList list = array_at(study, "series");
+Table series_table(const StudyEntry& study, const std::vector<VariantPress>& presses) {
   const bool refined = std::ranges::any_of(
-      list, [](const JsonEntry& entry) { return std::isfinite(number_at(entry, "order")); });
+      study.series, [](const SeriesEntry& entry) { return std::isfinite(entry.order); });
   Table table;
   table.caption =
       "Series by series: the largest force error of all its presses, and how far errors at one "
@@ -59,15 +58,15 @@ Table series_table(const JsonEntry& study, const std::vector<VariantPress>& pres
         "order, the slope of the largest error against the spacing in logarithms.";
     table.header.insert(table.header.end(), {plain("Finest lattice"), plain("Order")});
   }
-  for (const JsonEntry& entry : list) {
-    const std::string name = text_at(entry, "name");
+  for (const SeriesEntry& entry : study.series) {
+    const std::string name = entry.name;
     const auto count = std::ranges::count(presses, name, &VariantPress::series);
     std::vector<Cell> row{plain(name), plain(std::to_string(count)),
-                          plain(percent_magnitude(number_at(entry, "worst_error"))),
-                          plain(percent_magnitude(number_at(entry, "spread")))};
+                          plain(percent_magnitude(entry.worst_error)),
+                          plain(percent_magnitude(entry.spread))};
     if (refined) {
-      row.push_back(plain(percent_magnitude(number_at(entry, "finest_error"))));
-      row.push_back(plain(number(number_at(entry, "order"), 2)));
+      row.push_back(plain(percent_magnitude(entry.finest_error)));
+      row.push_back(plain(number(entry.order, 2)));
     }
     table.rows.push_back(std::move(row));
   }
@@ -75,13 +74,11 @@ Table series_table(const JsonEntry& study, const std::vector<VariantPress>& pres
 }
 
 /// Estimated errors of the continua, the largest over the depths.
-std::map<std::string, double> continuum_errors(const CsvTable& table) {
+std::map<std::string, double> continuum_errors(const std::vector<VariantRow>& table) {
   std::map<std::string, double> worst;
-  const auto folder = table.texts("continuum");
-  const auto error = table.numbers("reference_error");
-  for (std::size_t i = 0; i < folder.size(); ++i) {
-    const auto [entry, added] = worst.insert({folder[i], error[i]});
-    entry->second = std::fmax(entry->second, error[i]);
+  for (const VariantRow& row : table) {
+    const auto [entry, added] = worst.insert({row.continuum, row.reference_error});
+    entry->second = std::fmax(entry->second, row.reference_error);
   }
   return worst;
 }
@@ -99,28 +96,27 @@ Table continuum_table(const RunData& run, const std::vector<VariantPress>& press
                   plain("Presses"),
                   plain("Estimated error")};
   const std::map<std::string, double> errors = continuum_errors(run.variants);
-  for (const JsonEntry& entry : array_at(run.study, "continua")) {
-    const std::string folder = text_at(entry, "folder");
+  for (const ContinuumEntry& entry : run.study.continua) {
+    const std::string folder = entry.folder;
     const auto count = std::ranges::count(presses, folder, &VariantPress::continuum);
     const auto error = errors.find(folder);
-    table.rows.push_back(
-        {plain(text_at(entry, "strain") + " strain", folder), plain(text_at(entry, "contact")),
-         plain(number(shown_units().stress(number_at(entry, "youngs_modulus")))),
-         plain(number(shown_units().stress(number_at(entry, "shear_modulus")))),
-         plain(number(number_at(entry, "poissons_ratio"), 3)), plain(std::to_string(count)),
-         plain(error == errors.end() ? "–" : percent_magnitude(error->second))});
+    table.rows.push_back({plain(entry.strain + " strain", folder), plain(entry.contact),
+                          plain(number(shown_units().stress(entry.youngs_modulus))),
+                          plain(number(shown_units().stress(entry.shear_modulus))),
+                          plain(number(entry.poissons_ratio, 3)), plain(std::to_string(count)),
+                          plain(error == errors.end() ? "–" : percent_magnitude(error->second))});
   }
   return table;
 }
 
-Table budget_table(const JsonList& budgets) {
+Table budget_table(const std::vector<BudgetEntry>& budgets) {
   Table table;
   table.caption =
       "Where the force error comes from. A tie's share is the error with the tie as it is minus "
       "the error continued to a rigid tie from softer ones; the rest is the interior and what "
       "stiff ties lock.";
   table.header = {plain("Press and part")};
-  const std::vector<double> depths = numbers_at(budgets.front(), "depths");
+  const std::vector<double> depths = budgets.front().depths;
   for (const double depth : depths)
     table.header.push_back(plain("share", shown_units().length.text(depth)));
   const auto add = [&](const std::string& what, const std::string& of,
@@ -130,12 +126,11 @@ Table budget_table(const JsonList& budgets) {
     row.resize(table.header.size(), plain(""));
     table.rows.push_back(std::move(row));
   };
-  for (const JsonEntry& budget : budgets) {
-    const std::string name = text_at(budget, "name");
-    for (const JsonEntry& part : array_at(budget, "parts"))
-      add(text_at(part, "series"), name, numbers_at(part, "share"));
-    add("rest", name, numbers_at(budget, "rest"));
-    add("total", name, numbers_at(budget, "total"));
+  for (const BudgetEntry& budget : budgets) {
+    const std::string name = budget.name;
+    for (const PartEntry& part : budget.parts) add(part.series, name, part.share);
+    add("rest", name, budget.rest);
+    add("total", name, budget.total);
   }
   return table;
 }
@@ -152,9 +147,9 @@ const VariantPress* extreme(const std::vector<VariantPress>& presses, double sig
 
 /// What refining a series does, in words; empty without an order. One slope would hide a floor that
 /// the error has reached: the last refinement is told apart.
-std::string refinement(const JsonEntry& entry, const std::vector<VariantPress>& presses) {
-  const std::string name = text_at(entry, "name");
-  const double order = number_at(entry, "order");
+std::string refinement(const SeriesEntry& entry, const std::vector<VariantPress>& presses) {
+  const std::string name = entry.name;
+  const double order = entry.order;
   if (!std::isfinite(order)) return "";
   std::vector<const VariantPress*> own;
   for (const VariantPress& press : presses)
@@ -177,11 +172,11 @@ Paragraph method(const RunData& run, const std::vector<VariantPress>& presses) {
                       "specimen, contact and kinematics ({} in all, listed below). Spacing, "
                       "offset, rotation and model of the lattice do not matter to the continuum, "
                       "so presses that differ in these alone share one.",
-                      presses.size(), array_at(run.study, "continua").size())};
+                      presses.size(), run.study.continua.size())};
 }
 
 void add_figures(Chapter& chapter, const RunData& run, const std::vector<VariantPress>& presses) {
-  const std::string label = text_at(run.study, "x_label");
+  const std::string label = run.study.x_label;
   const auto add = [&](Figure figure, const std::string& title, const std::string& caption) {
     if (!figure.panels.empty()) chapter.blocks.push_back(FigureBlock{figure, title, caption});
   };
@@ -223,13 +218,12 @@ Chapter variants_chapter(const RunData& run) {
   if (presses.empty()) return chapter;
   chapter.blocks.push_back(method(run, presses));
   std::string orders;
-  for (const JsonEntry& entry : array_at(run.study, "series")) orders += refinement(entry, presses);
+  for (const SeriesEntry& entry : run.study.series) orders += refinement(entry, presses);
   if (!orders.empty()) chapter.blocks.push_back(Paragraph{"Convergence.", orders.substr(1)});
   add_figures(chapter, run, presses);
-  const JsonList budgets = array_at(run.study, "budgets");
+  const std::vector<BudgetEntry>& budgets = run.study.budgets;
   if (!budgets.empty()) chapter.blocks.push_back(budget_table(budgets));
-  if (!array_at(run.study, "series").empty())
-    chapter.blocks.push_back(series_table(run.study, presses));
+  if (!run.study.series.empty()) chapter.blocks.push_back(series_table(run.study, presses));
   chapter.blocks.push_back(press_table(presses));
   chapter.blocks.push_back(continuum_table(run, presses));
   return chapter;

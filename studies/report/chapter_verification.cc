@@ -20,8 +20,12 @@ Cell words(const std::string& text) {
   return {text, "", Grade::none, true};
 }
 
-std::string element_of(const JsonEntry& study) {
-  return fmt::format("Q{} {}", count(number_at(study, "degree")), text_at(study, "volumetric"));
+using fem_reference::Check;
+using fem_reference::ConvergenceStudy;
+using fem_reference::LockingPoint;
+
+std::string element_of(const ConvergenceStudy& study) {
+  return fmt::format("Q{} {}", study.degree, fem_reference::name(study.volumetric));
 }
 
 /// Colour by degree; dashed and hollow for the plain displacement element.
@@ -46,42 +50,47 @@ std::vector<Series> element_legend(const std::set<std::string>& elements) {
   return legend;
 }
 
-/// The different values of `key` in the order of their first appearance.
-std::vector<std::string> distinct(const JsonList& entries, const char* key) {
+/// The different values of a member in the order of their first appearance.
+template <typename Entry>
+std::vector<std::string> distinct(const std::vector<Entry>& entries, std::string Entry::*member) {
   std::vector<std::string> values;
-  for (const JsonEntry& entry : entries) {
-    const std::string value = text_at(entry, key);
-    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
-  }
+  for (const Entry& entry : entries)
+    if (std::ranges::find(values, entry.*member) == values.end()) values.push_back(entry.*member);
   return values;
 }
 
 /// The entries with those of one problem side by side.
-JsonList by_problem(const JsonList& entries) {
-  JsonList sorted;
-  for (const std::string& problem : distinct(entries, "problem"))
-    for (const JsonEntry& entry : entries)
-      if (text_at(entry, "problem") == problem) sorted.push_back(entry);
+template <typename Entry>
+std::vector<Entry> by_problem(const std::vector<Entry>& entries) {
+  std::vector<Entry> sorted;
+  for (const std::string& problem : distinct(entries, &Entry::problem))
+    for (const Entry& entry : entries)
+      if (entry.problem == problem) sorted.push_back(entry);
   return sorted;
 }
 
 /// An error norm of the convergence studies.
 struct Norm {
-  const char *label, *error, *order, *expected;
+  const char* label;
+  double ConvergenceStudy::Mesh::*error;
+  double ConvergenceStudy::*order;
+  double ConvergenceStudy::*expected;
 };
 constexpr Norm norms[] = {
-    {"error of u", "error_l2", "order_l2", "expected_l2"},
-    {"error of grad u", "error_h1", "order_h1", "expected_h1"},
+    {"error of u", &ConvergenceStudy::Mesh::error_l2, &ConvergenceStudy::order_l2,
+     &ConvergenceStudy::expected_l2},
+    {"error of grad u", &ConvergenceStudy::Mesh::error_h1, &ConvergenceStudy::order_h1,
+     &ConvergenceStudy::expected_h1},
 };
 
-bool order_holds(const JsonEntry& study) {
+bool order_holds(const ConvergenceStudy& study) {
   return std::all_of(std::begin(norms), std::end(norms), [&](const Norm& norm) {
-    return number_at(study, norm.order) >= number_at(study, norm.expected) - order_slack;
+    return study.*norm.order >= study.*norm.expected - order_slack;
   });
 }
 
-Cell order_cell(const JsonEntry& study, const Norm& norm) {
-  const double order = number_at(study, norm.order), expected = number_at(study, norm.expected);
+Cell order_cell(const ConvergenceStudy& study, const Norm& norm) {
+  const double order = study.*norm.order, expected = study.*norm.expected;
   Cell cell = plain(number(order, 3), "theory " + number(expected, 1));
   const double missing = expected - order;
   if (std::isfinite(missing))
@@ -91,7 +100,7 @@ Cell order_cell(const JsonEntry& study, const Norm& norm) {
   return cell;
 }
 
-Table order_table(const JsonList& studies) {
+Table order_table(const std::vector<ConvergenceStudy>& studies) {
   Table table;
   table.caption = fmt::format(
       "Orders of convergence between the two finest meshes, and the relative errors on the "
@@ -105,15 +114,14 @@ Table order_table(const JsonList& studies) {
                   plain("Order"),
                   plain("Error of grad u", "L2"),
                   plain("Order")};
-  for (const JsonEntry& study : studies) {
-    const JsonList meshes = array_at(study, "meshes");
-    const JsonEntry finest = meshes.empty() ? JsonEntry() : meshes.back();
-    std::vector<Cell> row{
-        plain(text_at(study, "problem")), plain(element_of(study)),
-        plain(number(number_at(study, "poissons_ratio"), 4)),
-        plain(std::to_string(meshes.size()), "to " + count(number_at(finest, "unknowns")))};
+  for (const ConvergenceStudy& study : studies) {
+    const std::vector<ConvergenceStudy::Mesh>& meshes = study.meshes;
+    const ConvergenceStudy::Mesh finest = meshes.empty() ? ConvergenceStudy::Mesh{} : meshes.back();
+    std::vector<Cell> row{plain(study.problem), plain(element_of(study)),
+                          plain(number(study.poissons_ratio, 4)),
+                          plain(std::to_string(meshes.size()), "to " + count(finest.unknowns))};
     for (const Norm& norm : norms) {
-      row.push_back(plain(number(number_at(finest, norm.error), 2)));
+      row.push_back(plain(number(finest.*norm.error, 2)));
       row.push_back(order_cell(study, norm));
     }
     table.rows.push_back(std::move(row));
@@ -135,7 +143,8 @@ Series slope_guide(const std::vector<Series>& curves, double order) {
   return guide;
 }
 
-Panel study_panel(const JsonList& studies, const std::string& problem, const Norm& norm) {
+Panel study_panel(const std::vector<ConvergenceStudy>& studies, const std::string& problem,
+                  const Norm& norm) {
   Panel panel;
   panel.title = problem;
   panel.x_label = shown_units().length.label("element size h");
@@ -143,17 +152,17 @@ Panel study_panel(const JsonList& studies, const std::string& problem, const Nor
   panel.log_x = panel.log_y = 10;
   panel.key = "";
   std::map<double, std::vector<Series>> by_order;
-  for (const JsonEntry& study : studies) {
-    if (text_at(study, "problem") != problem) continue;
+  for (const ConvergenceStudy& study : studies) {
+    if (study.problem != problem) continue;
     Series series{"", element_of(study), {}, {}, {}, element_style(element_of(study))};
-    for (const JsonEntry& mesh : array_at(study, "meshes")) {
-      const double h = number_at(mesh, "h"), error = number_at(mesh, norm.error);
+    for (const ConvergenceStudy::Mesh& mesh : study.meshes) {
+      const double h = mesh.h, error = mesh.*norm.error;
       if (!(h > 0.0 && error > 0.0)) continue;
       series.x.push_back(shown_units().length(h));
       series.y.push_back(error);
     }
     if (series.x.empty()) continue;
-    const double order = number_at(study, norm.expected);
+    const double order = study.*norm.expected;
     if (std::isfinite(order)) by_order[order].push_back(series);
     panel.series.push_back(std::move(series));
   }
@@ -161,12 +170,12 @@ Panel study_panel(const JsonList& studies, const std::string& problem, const Nor
   return panel;
 }
 
-FigureBlock orders_figure(const JsonList& studies) {
+FigureBlock orders_figure(const std::vector<ConvergenceStudy>& studies) {
   Figure figure{"verification_orders", 960, 0, 2, {}, 150};
-  const std::vector<std::string> problems = distinct(studies, "problem");
+  const std::vector<std::string> problems = distinct(studies, &ConvergenceStudy::problem);
   figure.height = 90 + 290 * int(problems.size());
   std::set<std::string> elements;
-  for (const JsonEntry& study : studies) elements.insert(element_of(study));
+  for (const ConvergenceStudy& study : studies) elements.insert(element_of(study));
   for (const std::string& problem : problems)
     for (const Norm& norm : norms) figure.panels.push_back(study_panel(studies, problem, norm));
   Panel& first = figure.panels.front();
@@ -199,31 +208,26 @@ std::string without_unit(const std::string& quantity) {
                                                                  : quantity;
 }
 
-bool passed(const JsonEntry& check) {
-  return check.at("passed").flag();
-}
-
 /// How much of its tolerance a check uses; beyond 1 it fails.
-double share_of_tolerance(const JsonEntry& check) {
-  const double deviation = number_at(check, "relative_error");
-  return deviation == 0.0 ? 0.0 : deviation / number_at(check, "tolerance");
+double share_of_tolerance(const Check& check) {
+  const double deviation = check.relative_error;
+  return deviation == 0.0 ? 0.0 : deviation / check.tolerance;
 }
 
 /// Passed checks of one kind: of the same quantity and source, their names alike up to a comma.
 struct CheckGroup {
   std::string kind, quantity, source;
-  JsonEntry worst;  ///< the check nearest to its tolerance
+  Check worst;  ///< the check nearest to its tolerance
   int count = 0;
 };
 
 /// The failed checks each by itself, then the passed ones by kind.
-std::vector<CheckGroup> check_groups(const JsonList& checks) {
+std::vector<CheckGroup> check_groups(const std::vector<Check>& checks) {
   std::vector<CheckGroup> failed, groups;
-  for (const JsonEntry& check : checks) {
-    const std::string name = text_at(check, "name");
-    CheckGroup group{name.substr(0, name.find(',')), text_at(check, "quantity"),
-                     text_at(check, "source"), check, 1};
-    if (!passed(check)) {
+  for (const Check& check : checks) {
+    const std::string name = check.name;
+    CheckGroup group{name.substr(0, name.find(',')), check.quantity, check.source, check, 1};
+    if (!check.passed) {
       failed.push_back(std::move(group));
       continue;
     }
@@ -242,7 +246,7 @@ std::vector<CheckGroup> check_groups(const JsonList& checks) {
   return failed;
 }
 
-Table check_table(const JsonList& checks) {
+Table check_table(const std::vector<Check>& checks) {
   Table table;
   table.caption =
       "Single figures against what is known otherwise, failed ones first. Of several checks of "
@@ -252,23 +256,22 @@ Table check_table(const JsonList& checks) {
   table.header = {plain("Check"),     plain("Passed"),    plain("Value"), plain("Expected"),
                   plain("Deviation"), plain("Tolerance"), plain("Source")};
   for (const CheckGroup& group : check_groups(checks)) {
-    const bool good = passed(group.worst);
-    Cell deviation = plain(number(number_at(group.worst, "relative_error"), 2));
+    const bool good = group.worst.passed;
+    Cell deviation = plain(number(group.worst.relative_error, 2));
     deviation.grade = good ? Grade::close : Grade::wrong;
-    table.rows.push_back({plain(text_at(group.worst, "name"), without_unit(group.quantity)),
+    table.rows.push_back({plain(group.worst.name, without_unit(group.quantity)),
                           plain(!good              ? "failed"
                                 : group.count == 1 ? "passed"
                                                    : fmt::format("all {}", group.count)),
-                          value_cell(number_at(group.worst, "value"), group.quantity),
-                          value_cell(number_at(group.worst, "expected"), group.quantity), deviation,
-                          plain(number(number_at(group.worst, "tolerance"), 2)),
-                          words(group.source)});
+                          value_cell(group.worst.value, group.quantity),
+                          value_cell(group.worst.expected, group.quantity), deviation,
+                          plain(number(group.worst.tolerance, 2)), words(group.source)});
   }
   return table;
 }
 
 /// |relative error| against 0.5 - nu for one problem; NaN where the error is exactly zero.
-Panel locking_panel(const JsonList& locking, const std::string& problem) {
+Panel locking_panel(const std::vector<LockingPoint>& locking, const std::string& problem) {
   Panel panel;
   panel.x_label = "0.5 − ν   (incompressible to the right)";
   panel.y_label = problem + ": off by [%]";
@@ -276,11 +279,11 @@ Panel locking_panel(const JsonList& locking, const std::string& problem) {
   panel.key = "";
   std::map<std::string, Series> curves;
   double least = 0.5, most = 0.0;
-  for (const JsonEntry& point : locking) {
-    if (text_at(point, "problem") != problem) continue;
-    const std::string element = text_at(point, "element");
-    const double compressible = 0.5 - number_at(point, "poissons_ratio");
-    const double error = std::abs(number_at(point, "relative_error"));
+  for (const LockingPoint& point : locking) {
+    if (point.problem != problem) continue;
+    const std::string element = point.element;
+    const double compressible = 0.5 - point.poissons_ratio;
+    const double error = std::abs(point.relative_error);
     if (!(compressible > 0.0)) continue;
     Series& series = curves.try_emplace(element, Series{"", element, {}, {}, {}, {}}).first->second;
     series.x.push_back(compressible);
@@ -300,13 +303,13 @@ Panel locking_panel(const JsonList& locking, const std::string& problem) {
   return panel;
 }
 
-FigureBlock locking_figure(const JsonList& locking) {
+FigureBlock locking_figure(const std::vector<LockingPoint>& locking) {
   Figure figure{"locking", 860, 0, 1, {}, 150};
-  const std::vector<std::string> problems = distinct(locking, "problem");
+  const std::vector<std::string> problems = distinct(locking, &LockingPoint::problem);
   figure.height = 80 + 230 * int(problems.size());
   for (const std::string& problem : problems)
     figure.panels.push_back(locking_panel(locking, problem));
-  const std::vector<std::string> elements = distinct(locking, "element");
+  const std::vector<std::string> elements = distinct(locking, &LockingPoint::element);
   Panel& first = figure.panels.front();
   first.key = figure.beside_panels();
   for (Series& entry : element_legend({elements.begin(), elements.end()}))
@@ -318,26 +321,26 @@ FigureBlock locking_figure(const JsonList& locking) {
           "is drawn."};
 }
 
-Table locking_table(const JsonList& locking) {
+Table locking_table(const std::vector<LockingPoint>& locking) {
   Table table;
   table.caption =
       "The same numbers with their sign: positive is too stiff. Columns: Poisson's ratio.";
   table.graded = true;
   table.header = {plain("Problem, element")};
   std::set<double> ratios;
-  for (const JsonEntry& point : locking) {
-    const double nu = number_at(point, "poissons_ratio");
+  for (const LockingPoint& point : locking) {
+    const double nu = point.poissons_ratio;
     if (std::isfinite(nu)) ratios.insert(nu);
   }
   for (double nu : ratios) table.header.push_back(plain(number(nu, 4)));
   std::vector<std::pair<std::string, std::string>> names;
   std::map<std::pair<std::string, std::string>, std::map<double, double>> errors;
-  for (const JsonEntry& point : locking) {
-    const std::pair name{text_at(point, "problem"), text_at(point, "element")};
+  for (const LockingPoint& point : locking) {
+    const std::pair name{point.problem, point.element};
     if (errors.try_emplace(name).second) names.push_back(name);
     // A NaN has no place in the order of a map.
-    const double nu = number_at(point, "poissons_ratio");
-    if (std::isfinite(nu)) errors[name][nu] = number_at(point, "relative_error");
+    const double nu = point.poissons_ratio;
+    if (std::isfinite(nu)) errors[name][nu] = point.relative_error;
   }
   for (const auto& name : names) {
     std::vector<Cell> row{plain(name.first, name.second)};
@@ -351,9 +354,10 @@ Table locking_table(const JsonList& locking) {
   return table;
 }
 
-std::string answer_of(const JsonList& studies, const JsonList& checks) {
+std::string answer_of(const std::vector<ConvergenceStudy>& studies,
+                      const std::vector<Check>& checks) {
   const auto kept = std::count_if(studies.begin(), studies.end(), order_holds);
-  const auto right = std::count_if(checks.begin(), checks.end(), passed);
+  const auto right = std::ranges::count(checks, true, &Check::passed);
   std::string text;
   if (!checks.empty())
     text += fmt::format("{} of {} checks against known solutions passed. ", right, checks.size());
@@ -362,28 +366,26 @@ std::string answer_of(const JsonList& studies, const JsonList& checks) {
         "In {} of {} convergence studies the errors of displacement and gradient fall as fast as "
         "theory asks of the element. ",
         kept, studies.size());
-  for (const std::string& problem : distinct(studies, "problem")) {
+  for (const std::string& problem : distinct(studies, &ConvergenceStudy::problem)) {
     std::set<std::string> slow;
-    for (const JsonEntry& study : studies)
-      if (text_at(study, "problem") == problem && !order_holds(study))
-        slow.insert(element_of(study));
+    for (const ConvergenceStudy& study : studies)
+      if (study.problem == problem && !order_holds(study)) slow.insert(element_of(study));
     if (!slow.empty())
       text += fmt::format("Slower in \u201c{}\u201d: {}. ", problem, enumerate(slow));
   }
   std::vector<std::string> failed;
-  for (const JsonEntry& check : checks)
-    if (!passed(check)) failed.push_back(text_at(check, "name"));
+  for (const Check& check : checks)
+    if (!check.passed) failed.push_back(check.name);
   if (!failed.empty()) text += fmt::format("Failed: {}. ", enumerate(failed));
   return text;
 }
 
 /// How the element of this run's press did.
-std::string used_element(const RunData& run, const JsonList& studies) {
-  if (!run.reference_summary.contains("volumetric")) return "";
-  // summary.json names degree and volumetric part like a study does.
-  const std::string used = element_of(run.reference_summary);
+std::string used_element(const RunData& run, const std::vector<ConvergenceStudy>& studies) {
+  if (run.continuum.empty()) return "";
+  const std::string used = fmt::format("Q{} {}", run.continuum.degree, run.continuum.volumetric);
   std::size_t count = 0, kept = 0;
-  for (const JsonEntry& study : studies) {
+  for (const ConvergenceStudy& study : studies) {
     if (element_of(study) != used) continue;
     ++count;
     if (order_holds(study)) ++kept;
@@ -397,9 +399,9 @@ std::string used_element(const RunData& run, const JsonList& studies) {
 
 Chapter verification_chapter(const RunData& run) {
   Chapter chapter{"verification", "Does the code solve its equations?", {}};
-  const JsonList studies = by_problem(array_at(run.verification, "studies"));
-  const JsonList checks = array_at(run.verification, "checks");
-  const JsonList locking = by_problem(array_at(run.verification, "locking"));
+  const std::vector<ConvergenceStudy> studies = by_problem(run.verification.studies);
+  const std::vector<Check>& checks = run.verification.checks;
+  const std::vector<LockingPoint> locking = by_problem(run.verification.locking);
   if (studies.empty() && checks.empty() && locking.empty()) return chapter;
   const std::string text = answer_of(studies, checks);
   if (!text.empty()) chapter.blocks.push_back(Paragraph{"", text});

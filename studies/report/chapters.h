@@ -37,14 +37,15 @@ std::string variants_answer(const RunData& run);
 std::string variants_text(const RunData& run);
 /// Force, contact radius and, from contact.csv, pressure of one press; without blocks when it has
 /// no sample.
-Chapter press_chapter(const meshes::PressResponse& response, const CsvTable& contact);
+Chapter press_chapter(const meshes::PressResponse& response,
+                      const std::vector<ContactRow>& contact);
 /// The lateral motion that followed the press; without blocks when none did.
 Chapter sliding_chapter(const meshes::PressResponse& response);
 /// Its force at full depth in a sentence, and that at the end of a lateral motion in another.
 std::string press_answer(const meshes::PressResponse& response);
 /// Frequencies and kinds of motion from modes.csv; without blocks when it is empty.
-Chapter modes_chapter(const CsvTable& modes);
-std::string modes_answer(const CsvTable& modes);
+Chapter modes_chapter(const std::vector<VibrationMode>& modes);
+std::string modes_answer(const std::vector<VibrationMode>& modes);
 /// Why the models differ, in words.
 Chapter reasons_chapter(const RunData& run);
 /// The continuum's discretisation error, its meshes, and its contact beside Hertz's.

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/table_rows.h"
 #include "studies/files/press_condition.h"
 #include "studies/report/chapters.h"
 #include "studies/report/document.h"
@@ -193,10 +193,10 @@ void write_csv(const Comparison& comparison, const fs::path& file) {
   meshes::write_atomically(file, [&](std::ostream& out) {
     out << "indentation [m]";
     for (std::size_t i = 0; i < curves.size(); ++i) {
-      out << ',' << csv_cell(curves[i].label + " normal_force [N]");
+      out << ',' << meshes::csv_cell(curves[i].label + " normal_force [N]");
       if (i > 0)
-        out << ',' << csv_cell(curves[i].label + " relative_difference") << ','
-            << csv_cell(curves[i].label + " interpolated");
+        out << ',' << meshes::csv_cell(curves[i].label + " relative_difference") << ','
+            << meshes::csv_cell(curves[i].label + " interpolated");
     }
     out << '\n';
     for (std::size_t d = 0; d < comparison.depths.size(); ++d) {

@@ -23,21 +23,19 @@ struct Edge {
   double x1, z1, x2, z2;
 };
 
-std::vector<Edge> section_edges(const CsvTable& section, bool deformed) {
-  const std::string prefix = deformed ? "deformed_" : "";
-  const auto column = [&](const char* name) { return section.numbers(prefix + name); };
-  const auto x1 = column("x1 [m]"), z1 = column("z1 [m]");
-  const auto x2 = column("x2 [m]"), z2 = column("z2 [m]");
+std::vector<Edge> section_edges(const std::vector<fem_reference::SectionRow>& section,
+                                bool deformed) {
   std::vector<Edge> edges;
   // Neighbouring elements both report the edge between them.
   std::set<std::array<long, 4>> seen;
-  for (std::size_t i = 0; i < x1.size(); ++i) {
-    std::array<long, 2> first{std::lround(1e9 * x1[i]), std::lround(1e9 * z1[i])};
-    std::array<long, 2> second{std::lround(1e9 * x2[i]), std::lround(1e9 * z2[i])};
+  for (const fem_reference::SectionRow& row : section) {
+    const auto& [x1, z1, x2, z2] = deformed ? row.deformed : row.undeformed;
+    std::array<long, 2> first{std::lround(1e9 * x1), std::lround(1e9 * z1)};
+    std::array<long, 2> second{std::lround(1e9 * x2), std::lround(1e9 * z2)};
     if (second < first) std::swap(first, second);
     if (!seen.insert({first[0], first[1], second[0], second[1]}).second) continue;
-    edges.push_back({shown_units().length(x1[i]), shown_units().length(z1[i]),
-                     shown_units().length(x2[i]), shown_units().length(z2[i])});
+    edges.push_back({shown_units().length(x1), shown_units().length(z1), shown_units().length(x2),
+                     shown_units().length(z2)});
   }
   return edges;
 }
@@ -54,21 +52,17 @@ struct PressureProfile {
 };
 
 std::vector<PressureProfile> pressure_profiles(const RunData& run) {
-  const std::vector<double> depth = run.pressure.numbers("indentation [m]");
-  const std::vector<double> radius = run.pressure.numbers("radius [m]");
-  const std::vector<double> pressure = run.pressure.numbers("pressure [Pa]");
   std::vector<PressureProfile> profiles;
-  const std::vector<double> lateral = run.pressure.numbers_if_any("lateral_displacement [m]");
-  std::size_t first = 0;  // of the profile
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    if (profiles.empty() || !same_depth(profiles.back().depth, depth[i])) {
-      profiles.push_back({depth[i], {}, {}});
-      first = i;
+  const fem_reference::PressureRow* first = nullptr;  // of the profile
+  for (const fem_reference::PressureRow& row : run.pressure) {
+    if (profiles.empty() || !same_depth(profiles.back().depth, row.indentation)) {
+      profiles.push_back({row.indentation, {}, {}});
+      first = &row;
     }
     // At full depth others may follow, of a lateral motion.
-    if (std::abs(lateral[i] - lateral[first]) > 0.0) continue;
-    profiles.back().radius.push_back(radius[i]);
-    profiles.back().pressure.push_back(pressure[i]);
+    if (std::abs(row.lateral_displacement - first->lateral_displacement) > 0.0) continue;
+    profiles.back().radius.push_back(row.radius);
+    profiles.back().pressure.push_back(row.pressure);
   }
   return profiles;
 }
@@ -172,8 +166,9 @@ Style thin(const std::string& colour, double width) {
 }
 
 bool is_half_section(const RunData& run) {
-  const std::vector<double> x = run.section.numbers("x1 [m]");
-  return std::none_of(x.begin(), x.end(), [](double value) { return value < -1e-8; });
+  return std::ranges::none_of(run.section, [](const fem_reference::SectionRow& row) {
+    return row.undeformed.front() < -1e-8;
+  });
 }
 
 Series section_series(const RunData& run, bool deformed, const Style& style, const Window& window) {
@@ -225,17 +220,17 @@ std::vector<double> shown_depths(const RunData& run, const std::vector<double>& 
 double tip_radius(const RunData& run) {
   if (run.reference_job.empty()) return meshes::unknown;
   // What a job leaves out has its default.
-  const double radius = number_at(object_at(run.reference_job, "geometry"), "tip_radius");
+  const double radius = number_if_any(object_if_any(run.reference_job, "geometry"), "tip_radius");
   return std::isfinite(radius) ? radius : meshes::Geometry{}.tip_radius;
 }
 
 std::optional<fem_reference::analytic::Hertz> hertz_contact(const RunData& run) {
   const double radius = tip_radius(run);
   meshes::Rubber rubber;
-  const JsonEntry given = object_at(run.reference_job, "rubber");
+  const JsonEntry given = object_if_any(run.reference_job, "rubber");
   for (const auto& [key, value] : {std::pair{"youngs_modulus", &rubber.youngs_modulus},
                                    std::pair{"shear_modulus", &rubber.shear_modulus}}) {
-    if (std::isfinite(number_at(given, key))) *value = number_at(given, key);
+    if (std::isfinite(number_if_any(given, key))) *value = number_if_any(given, key);
   }
   if (!(radius > 0.0) || !rubber.violations().empty()) return std::nullopt;
   return fem_reference::analytic::Hertz(rubber, radius);

@@ -126,7 +126,4 @@ std::string gnuplot_string(const std::string& text);
 /// The part of a gnuplot script that draws the surfaces of the figure's panels.
 std::string surface_script(const Figure& figure);
 
-/// A CSV cell: quoted when it holds a comma, a quote or a line break.
-std::string csv_cell(const std::string& text);
-
 }  // namespace fingertip::studies::reporting

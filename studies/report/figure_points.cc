@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "meshes/files.h"
+#include "meshes/table_rows.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -95,14 +95,14 @@ void write_points(const Figure& figure, const fs::path& file) {
   }
   meshes::write_atomically(file, [&](std::ostream& out) {
     out << "panel,series";
-    for (const std::string& label : labels) out << ',' << csv_cell(label);
+    for (const std::string& label : labels) out << ',' << meshes::csv_cell(label);
     out << '\n';
     using Value = std::pair<std::string, double>;
     const auto write = [&](const Panel& panel, const std::string& series,
                            std::initializer_list<Value> values) {
       std::vector<std::string> cells(labels.size());
       for (const auto& [label, value] : values) cells[column(label)] = meshes::to_text(value);
-      out << csv_cell(panel.title) << ',' << csv_cell(series);
+      out << meshes::csv_cell(panel.title) << ',' << meshes::csv_cell(series);
       for (const std::string& cell : cells) out << ',' << cell;
       out << '\n';
     };
@@ -146,13 +146,6 @@ std::string page_points(const Figure& figure, const std::string& log) {
   for (const char c : panels.dump(-1, ' ', false, ordered_json::error_handler_t::replace))
     text += c == '<' ? std::string("\\u003c") : std::string(1, c);
   return text;
-}
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
 }
 
 }  // namespace fingertip::studies::reporting

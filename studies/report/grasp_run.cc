@@ -7,35 +7,36 @@ namespace fingertip::studies::reporting {
 
 namespace {
 
-std::vector<double> mean_of(const CsvTable& rows, const std::string& quantity) {
-  std::vector<double> mean = rows.numbers(quantity + "_1 [N]");
-  const std::vector<double> second = rows.numbers(quantity + "_2 [N]");
-  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = 0.5 * (mean[i] + second[i]);
+using lattice::GraspRow;
+
+std::vector<double> mean_of(const std::vector<GraspRow>& rows,
+                            std::array<double, 2> GraspRow::*quantity) {
+  std::vector<double> mean;
+  for (const GraspRow& row : rows) mean.push_back(0.5 * ((row.*quantity)[0] + (row.*quantity)[1]));
   return mean;
 }
 
 }  // namespace
 
 bool GraspRun::released() const {
-  const std::vector<std::string> phases = rows.texts("phase");
-  return !phases.empty() && phases.back() == "release" &&
-         std::isfinite(number_at(summary, "slip_force"));
+  return !rows.empty() && rows.back().phase == lattice::GripPhase::release &&
+         std::isfinite(summary.slip_force);
 }
 
 std::vector<double> GraspRun::normal() const {
-  return mean_of(rows, "normal_force");
+  return mean_of(rows, &GraspRow::normal);
 }
 
 std::vector<double> GraspRun::tangential() const {
-  return mean_of(rows, "tangential_force");
+  return mean_of(rows, &GraspRow::tangential);
 }
 
 std::vector<double> GraspRun::point_friction() const {
-  return mean_of(rows, "point_friction");
+  return mean_of(rows, &GraspRow::point_friction);
 }
 
 std::vector<double> GraspRun::inward_friction() const {
-  return mean_of(rows, "inward_friction");
+  return mean_of(rows, &GraspRow::inward_friction);
 }
 
 GraspRun read_grasp(const std::filesystem::path& folder, const std::string& series,
@@ -44,18 +45,17 @@ GraspRun read_grasp(const std::filesystem::path& folder, const std::string& seri
   grasp.series = series;
   grasp.name = name;
   grasp.label = (series.empty() ? "" : series + ", ") + name;
-  grasp.rows = reader.csv(folder / "grasp.csv");
-  grasp.summary = reader.json(folder / "summary.json");
-  grasp.status = reader.attempt([&] { return text_at(grasp.summary, "status"); });
+  grasp.rows = reader.rows<GraspRow>(folder / "grasp.csv");
+  grasp.summary = reader.take<GraspSummary>(reader.json(folder / "summary.json"));
+  grasp.status = grasp.summary.status;
   return grasp;
 }
 
 std::vector<GraspRun> read_grasps(const RunData& run, FolderReader& reader) {
   std::vector<GraspRun> grasps;
-  for (const JsonEntry& entry : run.grasps) {
-    grasps.push_back(read_grasp(run.folder / text_at(entry, "folder"), text_at(entry, "series"),
-                                text_at(entry, "name"), reader));
-    grasps.back().status = text_at(entry, "status");
+  for (const GraspEntry& entry : run.summary.grasps) {
+    grasps.push_back(read_grasp(run.folder / entry.folder, entry.series, entry.name, reader));
+    grasps.back().status = entry.status;
   }
   return grasps;
 }

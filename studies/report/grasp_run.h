@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "lattice/grasp/grasp_table.h"
+#include "studies/files/grasp_summary.h"
 #include "studies/report/document.h"
 #include "studies/report/run_data.h"
 
@@ -14,13 +16,13 @@ struct GraspRun {
   std::string series, name;
   std::string label;   ///< "series, name"
   std::string status;  ///< "finished", or why not
-  CsvTable rows;       ///< grasp.csv
-  JsonEntry summary;   ///< an empty object when absent
+  std::vector<lattice::GraspRow> rows;
+  GraspSummary summary;
 
-  double grip() const { return number_at(summary, "wanted_force"); }  ///< [N]
-  double limit() const { return number_at(summary, "least_force"); }  ///< m (g + a)/(2 mu)
-  double rest_limit() const { return number_at(summary, "least_force_at_rest"); }  ///< m g/(2 mu)
-  std::string fate() const { return text_at(summary, "fate"); }
+  double grip() const { return summary.wanted_force; }               ///< [N]
+  double limit() const { return summary.least_force; }               ///< m (g + a)/(2 mu)
+  double rest_limit() const { return summary.least_force_at_rest; }  ///< m g/(2 mu)
+  const std::string& fate() const { return summary.fate; }
   bool held() const { return fate() == "held"; }
   /// Whether the grip force fell after the hold until the block slipped.
   bool released() const;

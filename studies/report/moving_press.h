@@ -10,12 +10,10 @@
 namespace fingertip::studies::reporting {
 
 /// One press; what its folder does not hold is empty.
-struct MovingPress {
+struct MovingPress : PressFiles {
   std::string label;   ///< names it in figures and tables
   std::string status;  ///< "finished", or why not
   Style style;
-  CsvTable trace, boundary, boundary_springs, snapshots, snapshot_points;
-  JsonEntry summary;                     ///< an empty object when absent
   meshes::PressResponse response;        ///< of the lattice ...
   meshes::PressResponse reference;       ///< ... and of the continuum beside it
   std::string beside;                    ///< the press it is compared with; may be empty
@@ -41,9 +39,9 @@ std::vector<MovingPress> presses_of_models(const RunData& run);
 
 /// By how much the normal force exceeds the wanted one at most, relative to it, while the trace
 /// says force mode; NaN without such rows.
-double force_overshoot(const CsvTable& trace);
-/// How often the trace changes between speed and force; NaN when it does not tell.
-double mode_switches(const CsvTable& trace);
+double force_overshoot(const std::vector<lattice::TraceRow>& trace);
+/// How often the trace changes between speed and force; NaN without rows.
+double mode_switches(const std::vector<lattice::TraceRow>& trace);
 
 /// The result in one paragraph, and as a table in plain text.
 std::string control_answer(const std::vector<MovingPress>& presses);

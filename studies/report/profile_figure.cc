@@ -38,7 +38,7 @@ struct Linearised {
 Linearised linearised(const Fit& fit, std::size_t i, std::size_t j) {
   const FitParameter &one = fit.parameters[i], &other = fit.parameters[j];
   Linearised result{one.factor * one.estimate, other.factor * other.estimate};
-  const auto covariance = fit.matrix("covariance");
+  const auto covariance = fit.square(fit.file.covariance);
   if (covariance.empty()) return result;
   result.first = covariance[i][i] * one.factor * one.factor;
   result.mixed = covariance[i][j] * one.factor * other.factor;
@@ -64,12 +64,11 @@ Series mark_at(const std::string& label, double x, double y, const std::string& 
   return {label, label, {x}, {y}, {}, {colour, "", 1.0, point, false, 1.1}};
 }
 
-GridFunction profile_grid(const Fit& fit, const FitParameter& first, const FitParameter& second) {
-  const JsonEntry profile = object_at(fit.file, "profile");
-  GridFunction grid{numbers_at(profile, "first_values"), numbers_at(profile, "second_values"), {}};
+GridFunction profile_grid(const calibration::ProfileEntry& profile, const FitParameter& first,
+                          const FitParameter& second) {
+  GridFunction grid{profile.first_values, profile.second_values, profile.increase};
   for (double& value : grid.x) value *= first.factor;
   for (double& value : grid.y) value *= second.factor;
-  for (const JsonEntry& row : array_at(profile, "increase")) grid.values.push_back(row.numbers());
   return grid;
 }
 
@@ -156,12 +155,11 @@ std::string axis_label(const FitParameter& one) {
 
 Figure profile_figure(const Fit& fit, const std::string& prefix) {
   Figure figure{prefix + "_profile", 760, 500, 1, {}};
-  const JsonEntry profile = object_at(fit.file, "profile");
-  const std::size_t i = fit.index(text_at(profile, "first")),
-                    j = fit.index(text_at(profile, "second"));
+  const calibration::ProfileEntry& profile = *fit.file.profile;
+  const std::size_t i = fit.index(profile.first), j = fit.index(profile.second);
   if (i == j || i >= fit.parameters.size() || j >= fit.parameters.size()) return figure;
   const FitParameter &first = fit.parameters[i], &second = fit.parameters[j];
-  const GridFunction grid = profile_grid(fit, first, second);
+  const GridFunction grid = profile_grid(profile, first, second);
   if (!grid.valid()) return figure;
   Panel panel;
   panel.x_label = axis_label(first);

@@ -56,18 +56,20 @@ namespace {
 
 /// What a page is about, with the run's case and time.
 std::string with_case(const RunData& run, const std::string& subject) {
-  const std::string started = text_at(run.manifest, "started");
-  return subject + (run.case_name.empty() ? "" : ", case " + run.case_name) +
-         (started.empty() ? "" : ", " + started);
+  const std::string& started = run.manifest.started;
+  const std::string& name = run.summary.case_name;
+  return subject + (name.empty() ? "" : ", case " + name) + (started.empty() ? "" : ", " + started);
 }
 
 /// "k1 = 12.30 N/m, ...: " of a calibration.json.
-std::string constants_words(const JsonEntry& calibration) {
-  const JsonEntry constants = object_at(calibration, "constants");
+std::string constants_words(const calibration::FitConstants& constants) {
   std::string text;
-  for (const std::string name : {"k1", "k2", "k3", "kappa"}) {
-    const double value = number_at(constants, name);
-    const ShownUnit& unit = name == "kappa" ? shown_units().stress : shown_units().stiffness;
+  for (const auto& [name, value] : {std::pair{"k1", constants.k1},
+                                    {"k2", constants.k2},
+                                    {"k3", constants.k3},
+                                    {"kappa", constants.kappa}}) {
+    const bool stress = std::string_view(name) == "kappa";
+    const ShownUnit& unit = stress ? shown_units().stress : shown_units().stiffness;
     if (std::isfinite(value))
       text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, with_unit(value, unit));
   }
@@ -86,15 +88,15 @@ class PageMaker {
       return grasp_page({read_grasp(run_.folder, "", "grasp", reader_)});
     if (!run_.modes.empty()) return modes_page();
     if (is_continuum(run_.folder)) return reference_page();
-    if (is_moduli_fit(run_)) return moduli_page();
+    if (!run_.moduli_fit.empty()) return moduli_page();
     if (run_.models.empty() && !run_.response.empty()) return static_page();
     const CalibrationData calibration = read_calibration(run_, reader_);
     const bool fits_alone = !calibration.empty() && run_.models.empty() && run_.variants.empty();
-    Page page = fits_alone              ? calibration_page()
-                : !run_.presses.empty() ? control_page()
-                : !run_.grasps.empty()  ? grasp_page(case_grasps())
-                : run_.variants.empty() ? core_page()
-                                        : study_page();
+    Page page = fits_alone                      ? calibration_page()
+                : !run_.summary.presses.empty() ? control_page()
+                : !run_.summary.grasps.empty()  ? grasp_page(case_grasps())
+                : run_.variants.empty()         ? core_page()
+                                                : study_page();
     if (!run_.status.empty() && run_.status != "ok")
       page.status = "Status of the run: " + run_.status;
     page.answer =
@@ -118,7 +120,7 @@ class PageMaker {
 
   Page headed(const std::string& title, const std::string& subtitle) {
     Page page;
-    page.title = run_.title.empty() ? title : run_.title;
+    page.title = run_.summary.title.empty() ? title : run_.summary.title;
     page.subtitle = words([&] { return with_case(run_, subtitle); });
     add(page, [&] { return verdict_chapter(run_); });
     return page;
@@ -256,8 +258,8 @@ class PageMaker {
     page.title = "Soft fingertip: spring constants for a rubber";
     page.subtitle = words(
         [&] { return with_case(run_, "The lattice whose elastic constants are the rubber's"); });
-    page.answer = words([&] { return constants_words(run_.own_calibration); }) +
-                  words([&] { return text_at(run_.own_calibration, "statement"); });
+    page.answer = words([&] { return constants_words(run_.moduli_fit.constants); }) +
+                  words([&] { return run_.moduli_fit.statement; });
     add(page, [&] { return elasticity_chapter(run_); });
     end(page);
     return page;
@@ -291,7 +293,7 @@ Damages write_report(const std::filesystem::path& run_folder, std::optional<Unit
   using namespace reporting;
   FolderReader reader;
   const auto own = [&] {
-    return unit_system(text_at(reader.json(run_folder / "manifest.json"), "units"));
+    return unit_system(text_if_any(reader.json(run_folder / "manifest.json"), "units"));
   };
   const ShowIn shown(units ? *units : reader.attempt(own));
   Page page;

@@ -10,69 +10,53 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first finite one of several spellings.
-double first_of(const JsonEntry& object, std::initializer_list<const char*> keys) {
-  for (const char* key : keys) {
-    const double value = number_at(object, key);
-    if (std::isfinite(value)) return value;
-  }
-  return meshes::unknown;
-}
-
-Target read_target(const JsonEntry& object) {
+/// What follows from E and G need not be in the file.
+Target target_of(double E, double G) {
   Target target;
-  target.youngs_modulus = first_of(object, {"youngs_modulus", "E"});
-  target.shear_modulus = first_of(object, {"shear_modulus", "G"});
-  if (!(target.youngs_modulus > 0.0 && target.shear_modulus > 0.0)) return target;
-  // What follows from E and G need not be in the file.
-  const double E = target.youngs_modulus, G = target.shear_modulus;
+  target.youngs_modulus = E;
+  target.shear_modulus = G;
+  if (!(E > 0.0 && G > 0.0)) return target;
   target.poissons_ratio = E / (2.0 * G) - 1.0;
   target.bulk_modulus = E * G / (3.0 * (3.0 * G - E));
   return target;
 }
 
-Moduli moduli_of(const JsonEntry& entry) {
-  return {number_at(entry, "E_100"), number_at(entry, "E_110"),  number_at(entry, "E_111"),
-          number_at(entry, "G"),     number_at(entry, "nu_100"), number_at(entry, "K")};
-}
-
-ModelData read_model(const fs::path& folder, const std::string& name, const JsonEntry& entry,
+ModelData read_model(const fs::path& folder, const std::string& name, const ModelEntry& entry,
                      FolderReader& reader) {
   ModelData model;
+  static_cast<PressFiles&>(model) = read_press_files(folder / name, reader);
   model.name = name;
-  model.status = text_at(entry, "status");
-  model.moduli = moduli_of(entry);
-  model.force_error = numbers_at(entry, "force_error");
-  model.l2_error = number_at(entry, "relative_l2_force_error");
-  model.real_time_factor = number_at(entry, "real_time_factor");
-  reader.note_missing(folder / name);
-  model.summary = reader.json(folder / name / "summary.json");
-  model.calibration = reader.json(folder / ("calibration_" + name) / "calibration.json");
+  model.status = entry.status;
+  model.moduli = {entry.E_100, entry.E_110, entry.E_111, entry.G, entry.nu_100, entry.K};
+  model.force_error = entry.force_error;
+  model.l2_error = entry.relative_l2_force_error;
+  model.real_time_factor = entry.real_time_factor;
+  model.calibration = reader.take<calibration::ModuliFile>(
+      reader.json(folder / ("calibration_" + name) / "calibration.json"));
   model.response = reader.response(folder / name / "response.csv");
-  model.trace = reader.csv(folder / name / "trace.csv");
-  model.boundary = reader.csv(folder / name / "boundary.csv");
-  model.boundary_springs = reader.csv(folder / name / "boundary_springs.csv");
-  model.snapshots = reader.csv(folder / name / "snapshots.csv");
-  model.snapshot_points = reader.csv(folder / name / "snapshot_points.csv");
   return model;
 }
 
+/// A number of a row in another table must be one of its `count` rows.
+template <typename Row>
+void check_places(std::vector<Row>& rows, std::size_t Row::*place, std::size_t count,
+                  const fs::path& file, FolderReader& reader) {
+  if (std::ranges::all_of(rows, [&](const Row& row) { return row.*place < count; })) return;
+  rows.clear();
+  reader.attempt([&] {
+    throw meshes::InvalidInput({file.string(), "", "names a row that is not there",
+                                "the file is damaged: run again what writes it"});
+  });
+}
+
 /// The order of the story: as printed, as fitted, as it should be; then whatever else was run.
-std::vector<std::string> ordered_models(const JsonEntry& models) {
+std::vector<std::string> ordered_models(const std::map<std::string, ModelEntry>& models) {
   std::vector<std::string> names{"published", "central", "hookean"};
   std::erase_if(names, [&](const std::string& name) { return !models.contains(name); });
-  for (const auto& [name, entry] : models.members()) {
+  for (const auto& [name, entry] : models) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return names;
-}
-
-std::vector<Criterion> read_criteria(const JsonEntry& summary) {
-  std::vector<Criterion> criteria;
-  for (const JsonEntry& entry : array_at(summary, "criteria"))
-    criteria.push_back({text_at(entry, "name"), number_at(entry, "value"),
-                        number_at(entry, "limit"), entry.at("passed").flag()});
-  return criteria;
 }
 
 }  // namespace
@@ -103,55 +87,88 @@ const ModelData* RunData::model(const std::string& name) const {
   return nullptr;
 }
 
+PressFiles read_press_files(const fs::path& folder, FolderReader& reader) {
+  reader.note_missing(folder);
+  PressFiles press{
+      .summary = reader.take<PressSummary>(reader.json(folder / "summary.json")),
+      .trace = reader.rows<lattice::TraceRow>(folder / "trace.csv"),
+      .boundary = reader.rows<BoundaryRow>(folder / "boundary.csv"),
+      .boundary_springs = reader.rows<BoundarySpringRow>(folder / "boundary_springs.csv"),
+      .snapshots = reader.rows<SnapshotRow>(folder / "snapshots.csv"),
+      .snapshot_points = reader.rows<SnapshotPointRow>(folder / "snapshot_points.csv")};
+  if (!press.boundary.empty())
+    for (const auto place : {&BoundarySpringRow::i, &BoundarySpringRow::j})
+      check_places(press.boundary_springs, place, press.boundary.size(),
+                   folder / "boundary_springs.csv", reader);
+  if (!press.snapshots.empty())
+    check_places(press.snapshot_points, &SnapshotPointRow::snapshot, press.snapshots.size(),
+                 folder / "snapshot_points.csv", reader);
+  return press;
+}
+
 namespace {
 
-/// What summary.json itself tells.
+/// The summary of a case; of another verb only the status.
 void take_summary(RunData& run, FolderReader& reader) {
-  const JsonEntry& summary = run.summary;
-  const auto attempt = [&](auto& target, const auto& read) {
-    target = reader.attempt([&] { return read(); });
-  };
-  attempt(run.case_name, [&] { return text_at(summary, "case"); });
-  attempt(run.title, [&] { return text_at(summary, "title"); });
-  attempt(run.description, [&] { return text_at(summary, "description"); });
-  attempt(run.status, [&] { return text_at(summary, "status"); });
-  attempt(run.depths, [&] { return numbers_at(summary, "depths"); });
-  attempt(run.criteria, [&] { return read_criteria(summary); });
-  attempt(run.study, [&] { return object_at(summary, "variants"); });
-  attempt(run.calibration, [&] { return object_at(summary, "calibration"); });
-  attempt(run.presses, [&] { return array_at(summary, "presses"); });
-  attempt(run.grasps, [&] { return array_at(summary, "grasps"); });
+  const JsonEntry file = reader.json(run.folder / "summary.json");
+  if (file.empty()) return;
+  run.status = reader.attempt([&] { return text_at(file, "status"); });
+  if (run.verb != "validate" ||
+      (run.manifest.empty() && !file.contains("case") && !file.contains("criteria")))
+    return;
+  run.summary = reader.take<CaseSummary>(file);
+  reader.attempt([&] {
+    if (!run.summary.has_kind())
+      throw meshes::InvalidInput({(run.folder / "summary.json").string(), "",
+                                  "tells neither models, variants, calibration, presses nor grasps",
+                                  "validate again"});
+  });
+  run.depths = run.summary.depths;
+  run.study = run.summary.variants.value_or(StudyEntry());
 }
 
 /// The lattice that a fit to moduli found.
-ModelData fitted_model(const RunData& run) {
-  const JsonEntry moduli = object_at(run.summary, "moduli");
+ModelData fitted_model(const RunData& run, FolderReader& reader) {
+  const auto summary = reader.take<ModuliSummary>(reader.json(run.folder / "summary.json"));
+  const ModuliEntry& moduli = summary.moduli;
   ModelData model;
-  model.name = text_at(run.own_calibration, "model");
+  model.name = run.moduli_fit.model;
   model.status = "ok";
-  model.calibration = run.own_calibration;
-  model.moduli = moduli_of(moduli);
+  model.calibration = run.moduli_fit;
+  model.moduli = {moduli.E_100, moduli.E_110, moduli.E_111, moduli.G, moduli.nu_100, moduli.K};
   return model;
 }
 
 /// The rubber, wherever a file tells it first.
 Target find_target(const RunData& run) {
-  Target target = read_target(object_at(run.summary, "target"));
-  // Presses of the continuum name their reference otherwise.
-  if (std::isnan(target.bulk_modulus) && !run.summary.at("reference").is_text())
-    target = read_target(object_at(run.summary, "reference"));
+  Target target;
+  if (const auto& told = run.summary.target)
+    target = target_of(told->youngs_modulus, told->shear_modulus);
   for (const ModelData& model : run.models) {
     if (std::isfinite(target.bulk_modulus)) break;
-    target = read_target(object_at(model.calibration, "target"));
+    const calibration::RubberEntry& rubber = model.calibration.target;
+    target = target_of(rubber.youngs_modulus, rubber.shear_modulus);
   }
   return target;
 }
 
-}  // namespace
-
-bool is_moduli_fit(const RunData& run) {
-  return run.own_calibration.contains("constants") && !run.own_calibration.contains("problem");
+/// calibration.json at the top, of a fit to moduli or to curves; whether there is one.
+bool take_calibration(RunData& run, FolderReader& reader) {
+  const JsonEntry file = reader.json(run.folder / "calibration.json");
+  if (file.empty()) return false;
+  reader.attempt([&] {
+    if (!file.contains("constants") && !file.contains("problem"))
+      throw meshes::InvalidInput({(run.folder / "calibration.json").string(), "",
+                                  "tells neither what was fitted (problem) nor constants",
+                                  "calibrate again"});
+  });
+  run.fitted_curves = file.contains("problem");
+  if (file.contains("constants") && !run.fitted_curves)
+    run.moduli_fit = reader.take<calibration::ModuliFile>(file);
+  return true;
 }
+
+}  // namespace
 
 bool is_continuum(const fs::path& folder) {
   return fs::exists(folder / "job.json");
@@ -168,45 +185,39 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
                                            : "name the folder of a run, or run it to its end"});
   }
   reader.note_missing(folder);
-  run.own_calibration = reader.json(folder / "calibration.json");
-  if (!run.own_calibration.empty())
-    reader.attempt([&] {
-      if (!run.own_calibration.contains("constants") && !run.own_calibration.contains("problem"))
-        throw meshes::InvalidInput({(folder / "calibration.json").string(), "",
-                                    "tells neither what was fitted (problem) nor constants",
-                                    "calibrate again"});
-    });
-  run.summary = reader.json(folder / "summary.json");
-  run.manifest = reader.json(folder / "manifest.json");
-  run.verb = reader.attempt([&] { return text_at(run.manifest, "verb"); });
-  if (run.verb.empty()) run.verb = run.own_calibration.empty() ? "validate" : "calibrate";
+  const bool fitted = take_calibration(run, reader);
+  run.manifest = reader.take<Manifest>(reader.json(folder / "manifest.json"));
+  run.verb = run.manifest.verb;
+  if (run.verb.empty()) run.verb = fitted ? "calibrate" : "validate";
   take_summary(run, reader);
   run.parameters = reader.text(folder / "parameters.toml");
   run.response = reader.response(folder / "response.csv");
-  run.contact = reader.csv(folder / "contact.csv");
-  run.modes = reader.csv(folder / "modes.csv");
+  run.contact = reader.rows<ContactRow>(folder / "contact.csv");
+  run.modes = reader.attempt([&] { return vibration_modes(reader.csv(folder / "modes.csv")); });
   const fs::path continuum = is_continuum(folder) ? folder : folder / "reference";
   if (continuum != folder) reader.note_missing(continuum);
-  run.reference_summary = reader.json(continuum / "summary.json");
+  run.continuum = reader.take<fem_reference::RunSummary>(reader.json(continuum / "summary.json"));
   run.reference = reader.response(continuum / "response.csv");
   run.reference_job = reader.json(continuum / "job.json");
-  run.verification = reader.json(folder / "verification" / "verification.json");
-  run.convergence = reader.csv(continuum / "convergence.csv");
-  run.section = reader.csv(continuum / "section.csv");
-  run.pressure = reader.csv(continuum / "pressure.csv");
-  run.cubes = reader.csv(folder / "cubes.csv");
-  run.published_study = reader.csv(folder / "published_study.csv");
-  run.equilibrium_study = reader.csv(folder / "equilibrium_study.csv");
-  run.variants = reader.csv(folder / "variants.csv");
-  const JsonEntry models = reader.attempt([&] { return object_at(run.summary, "models"); });
+  run.verification = reader.take<fem_reference::VerificationFile>(
+      reader.json(folder / "verification" / "verification.json"));
+  run.convergence = reader.rows<fem_reference::ConvergenceRow>(continuum / "convergence.csv");
+  run.section = reader.rows<fem_reference::SectionRow>(continuum / "section.csv");
+  run.pressure = reader.rows<fem_reference::PressureRow>(continuum / "pressure.csv");
+  run.cubes = reader.rows<CubeRow>(folder / "cubes.csv");
+  run.published_study = reader.rows<PublishedStudyRow>(folder / "published_study.csv");
+  run.equilibrium_study = reader.rows<EquilibriumStudyRow>(folder / "equilibrium_study.csv");
+  run.variants = reader.rows<VariantRow>(folder / "variants.csv");
+  const auto& models = run.summary.models;
   for (const std::string& name : ordered_models(models)) {
     run.models.push_back(
         reader.attempt([&] { return read_model(folder, name, models.at(name), reader); }));
     run.models.back().name = name;
     run.models.back().force_error.resize(run.depths.size(), meshes::unknown);
   }
-  if (is_moduli_fit(run)) run.models.push_back(reader.attempt([&] { return fitted_model(run); }));
-  run.target = reader.attempt([&] { return find_target(run); });
+  if (!run.moduli_fit.empty())
+    run.models.push_back(reader.attempt([&] { return fitted_model(run, reader); }));
+  run.target = find_target(run);
   if (run.depths.empty() && is_continuum(folder))
     for (const meshes::PressSample& sample : run.reference.pressing())
       run.depths.push_back(sample.indentation);

@@ -6,15 +6,25 @@
 #include <string>
 #include <vector>
 
+#include "calibration/fit_file.h"
+#include "fem_reference/run_summary.h"
+#include "fem_reference/run_tables.h"
+#include "fem_reference/verification/verification_file.h"
+#include "lattice/press/trace.h"
 #include "meshes/press_response.h"
+#include "studies/files/case_summary.h"
 #include "studies/files/folder_reader.h"
+#include "studies/files/manifest.h"
+#include "studies/files/mode_table.h"
+#include "studies/files/press_summary.h"
+#include "studies/files/run_tables.h"
 
 namespace fingertip::studies::reporting {
 
 /// NaN when there is none; NaN among others does not count.
 double largest_magnitude(const std::vector<double>& values);
 
-using meshes::CsvTable;
+using meshes::column;
 
 /// The rubber's constants the models are measured against [Pa]; NaN where no file tells them.
 struct Target {
@@ -30,55 +40,59 @@ struct Moduli {
   double G = meshes::unknown, nu_100 = meshes::unknown, K = meshes::unknown;
 };
 
+/// What a press in time leaves in its folder; empty where it does not.
+struct PressFiles {
+  PressSummary summary;
+  std::vector<lattice::TraceRow> trace;
+  std::vector<BoundaryRow> boundary;
+  std::vector<BoundarySpringRow> boundary_springs;
+  std::vector<SnapshotRow> snapshots;
+  std::vector<SnapshotPointRow> snapshot_points;
+};
+PressFiles read_press_files(const std::filesystem::path& folder, FolderReader& reader);
+
 /// One lattice model of a validate run.
-struct ModelData {
+struct ModelData : PressFiles {
   std::string name;    ///< "published", "central", "hookean", ...
   std::string status;  ///< of its press, e.g. "ok"
   Moduli moduli;
   std::vector<double> force_error;    ///< relative, at RunData::depths; NaN where not reached
   double l2_error = meshes::unknown;  ///< relative L2 error of the force curve
   double real_time_factor = meshes::unknown;  ///< simulated over wall time
-  JsonEntry summary;                          ///< NAME/summary.json; an empty object when absent
-  JsonEntry calibration;                      ///< calibration_NAME/calibration.json, likewise
+  calibration::ModuliFile calibration;        ///< calibration_NAME/calibration.json, or empty
   meshes::PressResponse response;             ///< empty when absent
-  CsvTable trace, boundary, boundary_springs, snapshots, snapshot_points;
 
   /// Relative force error at the last depth reached; NaN when there is none.
   double last_force_error() const;
-};
-
-struct Criterion {
-  std::string name;
-  double value = meshes::unknown;
-  double limit = meshes::unknown;
-  bool passed = false;
 };
 
 /// A run folder; what it does not hold is empty. Most entries are those of `validate`.
 struct RunData {
   std::filesystem::path folder;
   std::string verb;  ///< what made it, as its manifest tells
-  std::string case_name, title, description, status;
+  std::string status;
   std::vector<double> depths;  ///< where force errors are given [m]
   Target target;
-  std::vector<Criterion> criteria;
-  JsonEntry manifest;               ///< an empty object when absent
-  JsonEntry summary;                ///< summary.json, likewise
-  JsonEntry own_calibration;        ///< calibration.json, likewise
-  std::string parameters;           ///< parameters.toml as text
-  JsonEntry reference_summary;      ///< reference/summary.json, likewise; its own of `reference`
-  JsonEntry reference_job;          ///< reference/job.json, likewise
-  JsonEntry verification;           ///< verification/verification.json, likewise
+  CaseSummary summary;  ///< of `validate`
+  StudyEntry study;     ///< its study, or empty
+  Manifest manifest;
+  calibration::ModuliFile moduli_fit;   ///< of `calibrate` to moduli
+  bool fitted_curves = false;           ///< of `calibrate` to curves, see calibration_data.h
+  std::string parameters;               ///< parameters.toml as text
+  fem_reference::RunSummary continuum;  ///< reference/summary.json; its own of `reference`
+  JsonEntry reference_job;              ///< reference/job.json, what the continuum was asked
+  fem_reference::VerificationFile verification;
   meshes::PressResponse response;   ///< of a press itself
-  CsvTable contact, modes;          ///< of a static press; of `modes` or the continuum's
+  std::vector<ContactRow> contact;  ///< of a static press
+  std::vector<VibrationMode> modes;
   meshes::PressResponse reference;  ///< empty when the continuum was not run
-  CsvTable convergence, section, pressure;  ///< of the continuum
-  CsvTable cubes, published_study, equilibrium_study;
-  CsvTable variants;              ///< of a study
-  JsonEntry study;                ///< "variants" of its summary.json; an empty object otherwise
-  JsonEntry calibration;          ///< "calibration" of its summary.json, likewise
-  JsonList presses;               ///< "presses" of a case on virtual control; else empty
-  JsonList grasps;                ///< "grasps" of a case on grasps; else empty
+  std::vector<fem_reference::ConvergenceRow> convergence;
+  std::vector<fem_reference::SectionRow> section;
+  std::vector<fem_reference::PressureRow> pressure;
+  std::vector<CubeRow> cubes;
+  std::vector<PublishedStudyRow> published_study;
+  std::vector<EquilibriumStudyRow> equilibrium_study;
+  std::vector<VariantRow> variants;
   std::vector<ModelData> models;  ///< published, central, hookean, then any others
 
   const ModelData* model(const std::string& name) const;
@@ -90,8 +104,6 @@ RunData read_run(const std::filesystem::path& folder, FolderReader& reader);
 
 /// Whether `folder` is the run of `reference`, which keeps its job.json at the top.
 bool is_continuum(const std::filesystem::path& folder);
-/// Whether `run` is a `calibrate` that fitted moduli.
-bool is_moduli_fit(const RunData& run);
 
 /// Normal force [N] at `depth` [m]; NaN when the press did not get there. A controller may stop a
 /// rounding error short of the last depth.

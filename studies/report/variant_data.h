@@ -21,7 +21,7 @@ struct VariantPress {
 };
 
 /// In the order of the case.
-std::vector<VariantPress> read_variants(const CsvTable& table);
+std::vector<VariantPress> read_variants(const std::vector<VariantRow>& table);
 
 /// Series in the order of their first presses; the empty name, too.
 std::vector<std::string> series_of(const std::vector<VariantPress>& presses);
@@ -32,7 +32,7 @@ Figure variant_error_figure(const std::vector<VariantPress>& presses, const std:
 
 /// Largest force error against spacing, both logarithmic, of the series for which `study`, the
 /// entry "variants" of summary.json, has an order. No panel when there is none.
-Figure convergence_figure(const std::vector<VariantPress>& presses, const JsonEntry& study);
+Figure convergence_figure(const std::vector<VariantPress>& presses, const StudyEntry& study);
 
 /// Force against indentation, a panel per series, the continua black.
 Figure variant_force_figure(const std::vector<VariantPress>& presses);

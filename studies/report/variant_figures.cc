@@ -8,37 +8,29 @@
 
 namespace fingertip::studies::reporting {
 
-std::vector<VariantPress> read_variants(const CsvTable& table) {
-  const auto series = table.texts("series"), name = table.texts("name"),
-             model = table.texts("model"), continuum = table.texts("continuum"),
-             status = table.texts("status");
-  const auto x = table.numbers("x"), spacing = table.numbers("spacing [m]"),
-             depth = table.numbers("indentation [m]"), force = table.numbers("normal_force [N]"),
-             reference = table.numbers("reference_force [N]"),
-             error = table.numbers("relative_error"), volume = table.numbers("volume_defect"),
-             time = table.numbers("wall_time [s]");
+std::vector<VariantPress> read_variants(const std::vector<VariantRow>& table) {
   std::vector<VariantPress> presses;
-  for (std::size_t i = 0; i < series.size(); ++i) {
+  for (const VariantRow& row : table) {
     const bool next =
-        presses.empty() || presses.back().series != series[i] || presses.back().name != name[i];
+        presses.empty() || presses.back().series != row.series || presses.back().name != row.name;
     if (next)
-      presses.push_back({series[i],
-                         name[i],
-                         model[i],
-                         continuum[i],
-                         status[i],
-                         x[i],
-                         spacing[i],
-                         volume[i],
-                         time[i],
+      presses.push_back({row.series,
+                         row.name,
+                         row.model,
+                         row.continuum,
+                         row.status,
+                         row.x,
+                         row.spacing,
+                         row.volume_defect,
+                         row.wall_time,
                          {},
                          {},
                          {},
                          {}});
-    presses.back().depth.push_back(depth[i]);
-    presses.back().force.push_back(force[i]);
-    presses.back().reference.push_back(reference[i]);
-    presses.back().error.push_back(error[i]);
+    presses.back().depth.push_back(row.indentation);
+    presses.back().force.push_back(row.normal_force);
+    presses.back().reference.push_back(row.reference_force);
+    presses.back().error.push_back(row.relative_error);
   }
   return presses;
 }
@@ -178,7 +170,7 @@ Figure variant_error_figure(const std::vector<VariantPress>& presses, const std:
   return figure;
 }
 
-Figure convergence_figure(const std::vector<VariantPress>& presses, const JsonEntry& study) {
+Figure convergence_figure(const std::vector<VariantPress>& presses, const StudyEntry& study) {
   Figure figure{"variants_convergence", 760, 440, 1, {}};
   Panel panel;
   panel.x_label = shown_units().length.label("spacing a");
@@ -186,9 +178,9 @@ Figure convergence_figure(const std::vector<VariantPress>& presses, const JsonEn
   panel.log_x = panel.log_y = 10;
   panel.key = "outside right top";
   std::size_t index = 0;
-  for (const JsonEntry& entry : array_at(study, "series")) {
-    const double order = number_at(entry, "order");
-    const std::string name = text_at(entry, "name");
+  for (const SeriesEntry& entry : study.series) {
+    const double order = entry.order;
+    const std::string name = entry.name;
     if (!std::isfinite(order)) continue;
     Series curve;
     curve.label = fmt::format("{}: order {}", name, number(order, 2));

@@ -51,15 +51,16 @@ std::string describe(const RunData& run, const ModelData& model) {
 
 std::string criteria_sentence(const RunData& run) {
   std::vector<std::string> failed;
-  for (const Criterion& criterion : run.criteria) {
+  for (const CriterionEntry& criterion : run.summary.criteria) {
     if (!criterion.passed) failed.push_back(criterion.name);
   }
-  if (run.criteria.empty()) return "";
-  if (failed.empty() && run.criteria.size() == 1) return " The criterion of the case is met.";
+  if (run.summary.criteria.empty()) return "";
+  if (failed.empty() && run.summary.criteria.size() == 1)
+    return " The criterion of the case is met.";
   if (failed.empty())
-    return fmt::format(" All {} criteria of the case are met.", run.criteria.size());
-  return fmt::format(" Of {} criteria {} {} not met: {}.", run.criteria.size(), failed.size(),
-                     failed.size() == 1 ? "is" : "are", enumerate(failed));
+    return fmt::format(" All {} criteria of the case are met.", run.summary.criteria.size());
+  return fmt::format(" Of {} criteria {} {} not met: {}.", run.summary.criteria.size(),
+                     failed.size(), failed.size() == 1 ? "is" : "are", enumerate(failed));
 }
 
 struct Constant {
@@ -164,7 +165,7 @@ Table criteria_table(const RunData& run) {
                   {"Value", "", Grade::none},
                   {"Limit", "", Grade::none},
                   {"Result", "", Grade::none}};
-  for (const Criterion& criterion : run.criteria) {
+  for (const CriterionEntry& criterion : run.summary.criteria) {
     table.rows.push_back({{criterion.name, "", Grade::none},
                           {number(criterion.value, 3), "", Grade::none},
                           {number(criterion.limit, 3), "", Grade::none},
@@ -218,12 +219,13 @@ std::string text_table(const RunData& run) {
 
 std::string answer(const RunData& run, FolderReader& reader) {
   if (!run.variants.empty()) return variants_answer(run) + criteria_sentence(run);
-  if (!run.presses.empty()) {
+  if (!run.summary.presses.empty()) {
     const std::vector<MovingPress> presses = read_moving_presses(run, reader);
     return (compares_integrators(presses) ? integrators_answer(presses) : control_answer(presses)) +
            criteria_sentence(run);
   }
-  if (!run.grasps.empty()) return grasp_answer(read_grasps(run, reader)) + criteria_sentence(run);
+  if (!run.summary.grasps.empty())
+    return grasp_answer(read_grasps(run, reader)) + criteria_sentence(run);
   std::string text;
   if (!run.reference.empty()) {
     const double depth = run.reference.depth();
@@ -249,12 +251,13 @@ std::string answer(const RunData& run, FolderReader& reader) {
 
 Chapter verdict_chapter(const RunData& run) {
   Chapter chapter{"verdict", "Verdict", {}};
-  if (!run.description.empty()) chapter.blocks.push_back(Paragraph{"", run.description});
+  if (!run.summary.description.empty())
+    chapter.blocks.push_back(Paragraph{"", run.summary.description});
   if (!run.models.empty()) {
     chapter.blocks.push_back(force_table(run));
     chapter.blocks.push_back(constants_table(run));
   }
-  if (!run.criteria.empty()) chapter.blocks.push_back(criteria_table(run));
+  if (!run.summary.criteria.empty()) chapter.blocks.push_back(criteria_table(run));
   return chapter;
 }
 
@@ -277,12 +280,12 @@ std::string verdict_text(const std::filesystem::path& run_folder) {
   const RunData run = read_run(run_folder, reader);
   const CalibrationData calibration = read_calibration(run, reader);
   const bool fits_alone = !calibration.empty() && run.models.empty();
-  std::string text = !run.variants.empty()  ? variants_text(run)
-                     : !run.presses.empty() ? moving_text(read_moving_presses(run, reader))
-                     : !run.grasps.empty()  ? grasp_text(read_grasps(run, reader))
-                     : fits_alone           ? calibration_text(calibration)
-                                            : text_table(run);
-  for (const Criterion& criterion : run.criteria) {
+  std::string text = !run.variants.empty()          ? variants_text(run)
+                     : !run.summary.presses.empty() ? moving_text(read_moving_presses(run, reader))
+                     : !run.summary.grasps.empty()  ? grasp_text(read_grasps(run, reader))
+                     : fits_alone                   ? calibration_text(calibration)
+                                                    : text_table(run);
+  for (const CriterionEntry& criterion : run.summary.criteria) {
     text += fmt::format("{} {}: {} (limit {})\n", criterion.passed ? "met    " : "NOT MET",
                         criterion.name, plain_number(criterion.value, "{:.3g}"),
                         plain_number(criterion.limit, "{:.3g}"));

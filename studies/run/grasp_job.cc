@@ -3,9 +3,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "meshes/json_fields.h"
 #include "source_hash.h"
+#include "studies/files/grasp_summary.h"
 #include "studies/run/jobs.h"
-#include "studies/run/json_file.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/static_press_job.h"
 
@@ -17,32 +18,32 @@ using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-ordered_json summary_of(const lattice::GraspSetup& setup, const lattice::GraspOutcome& outcome,
+GraspSummary summary_of(const lattice::GraspSetup& setup, const lattice::GraspOutcome& outcome,
                         const std::string& status) {
   const lattice::FingerSetup& finger = setup.hand.finger;
-  return {{"model", lattice::name(finger.lattice.model)},
-          {"contact", meshes::name(finger.contact.mode)},
-          {"status", status},
-          {"fate", lattice::name(outcome.fate)},
-          {"spacing", finger.lattice.spacing},
-          {"wanted_force", setup.grip.force},
-          {"least_force", number_or_null(outcome.least_force)},
-          {"least_force_at_rest", number_or_null(setup.least_force(0.0))},
-          {"friction", finger.contact.friction},
-          {"lift_height", setup.grip.lift_height},
-          {"slip_force", number_or_null(outcome.slip_force)},
-          {"slip_ratio", number_or_null(outcome.slip_ratio)},
-          {"sliding_ratio", number_or_null(outcome.sliding_ratio)},
-          {"momentum_defect", outcome.momentum_defect},
-          {"lift_off_time", number_or_null(outcome.lift_off_time)},
-          {"held_force", number_or_null(outcome.held_force)},
-          {"held_load", number_or_null(outcome.held_load)},
-          {"held_ratio", number_or_null(outcome.held_ratio)},
-          {"held_slip", number_or_null(outcome.held_slip)},
-          {"coupling", outcome.coupling},
-          {"step", outcome.step},
-          {"simulated_time", outcome.simulated_time},
-          {"wall_time", outcome.wall_time}};
+  return {.model = std::string(lattice::name(finger.lattice.model)),
+          .contact = std::string(meshes::name(finger.contact.mode)),
+          .status = status,
+          .fate = std::string(lattice::name(outcome.fate)),
+          .spacing = finger.lattice.spacing,
+          .wanted_force = setup.grip.force,
+          .least_force = outcome.least_force,
+          .least_force_at_rest = setup.least_force(0.0),
+          .friction = finger.contact.friction,
+          .lift_height = setup.grip.lift_height,
+          .slip_force = outcome.slip_force,
+          .slip_ratio = outcome.slip_ratio,
+          .sliding_ratio = outcome.sliding_ratio,
+          .momentum_defect = outcome.momentum_defect,
+          .lift_off_time = outcome.lift_off_time,
+          .held_force = outcome.held_force,
+          .held_load = outcome.held_load,
+          .held_ratio = outcome.held_ratio,
+          .held_slip = outcome.held_slip,
+          .coupling = outcome.coupling,
+          .step = outcome.step,
+          .simulated_time = outcome.simulated_time,
+          .wall_time = outcome.wall_time};
 }
 
 /// Keeps the folder up to date while the grasp runs.
@@ -62,7 +63,7 @@ class GraspJournal {
 
   void write(const lattice::GraspOutcome& outcome, const std::string& status) {
     lattice::write_grasp_csv(outcome.rows, folder_ / "grasp.csv");
-    write_json(summary_of(setup_, outcome, status), folder_ / "summary.json");
+    meshes::write_json_file(summary_of(setup_, outcome, status), folder_ / "summary.json");
     written_ = Clock::now();
   }
 

@@ -1,14 +1,15 @@
 #include "studies/run/jobs.h"
 
-#include <ostream>
-
 #include "calibration/cube_test.h"
 #include "calibration/result_io.h"
-#include "meshes/files.h"
+#include "meshes/json_fields.h"
+#include "meshes/table_rows.h"
 #include "source_hash.h"
+#include "studies/files/run_tables.h"
 #include "studies/run/fem_process.h"
 #include "studies/run/json_file.h"
 #include "studies/run/provenance.h"
+#include "studies/run/static_press_job.h"
 
 namespace fingertip::studies {
 
@@ -27,14 +28,14 @@ void run_moduli(const meshes::Rubber& rubber, const calibration::ModuliFitOption
   material.program = "fingertip " + program_version();
   material.date = utc_now();
   calibration::write_material_toml(material, folder / "material.toml");
-  write_json({{"model", lattice::name(fit.model)},
-              {"status", "finished"},
-              {"spacing", fit.spacing},
-              {"constants", to_json(fit.constants)},
-              {"moduli", to_json(fit.achieved)},
-              {"iterations", fit.iterations},
-              {"statement", fit.statement}},
-             folder / "summary.json");
+  const ModuliSummary summary{std::string(lattice::name(fit.model)),
+                              "finished",
+                              fit.spacing,
+                              constants_entry(fit.constants),
+                              moduli_entry(fit.achieved),
+                              fit.iterations,
+                              fit.statement};
+  meshes::write_json_file(summary, folder / "summary.json");
   context.log(fit.statement);
 }
 
@@ -45,7 +46,7 @@ void run_cubes(const meshes::Rubber& rubber, const lattice::SpringConstants& cen
       {ModelKind::published, lattice::published_constants(rubber, spacing)},
       {ModelKind::central, central},
       {ModelKind::hookean, hookean}};
-  std::string rows;
+  std::vector<CubeRow> rows;
   double done = 0.0;
   for (const auto& [model, constants] : models) {
     for (const int cells : {2, 4, 8}) {
@@ -54,21 +55,13 @@ void run_cubes(const meshes::Rubber& rubber, const lattice::SpringConstants& cen
       if (!context.report(done / 9.0, stage)) throw meshes::Interrupted("cube tests stopped");
       const calibration::CubeModuli cube =
           calibration::measure_cube(lattice::cube_lattice(model, constants, spacing, cells));
-      rows += std::string(lattice::name(model)) + "," + std::to_string(cells);
-      for (const double value :
-           {cube.youngs_modulus_100, cube.youngs_modulus_110, cube.youngs_modulus_111,
-            cube.shear_modulus, cube.poissons_ratio_100, cube.bulk_modulus}) {
-        rows += "," + meshes::to_text(value);
-      }
-      rows += "\n";
+      rows.push_back({std::string(lattice::name(model)), cells, cube.youngs_modulus_100,
+                      cube.youngs_modulus_110, cube.youngs_modulus_111, cube.shear_modulus,
+                      cube.poissons_ratio_100, cube.bulk_modulus});
       done += 1.0;
     }
   }
-  meshes::write_atomically(folder / "cubes.csv", [&](std::ostream& out) {
-    out << "model,cells_across,youngs_modulus_100 [Pa],youngs_modulus_110 [Pa],"
-           "youngs_modulus_111 [Pa],shear_modulus [Pa],poissons_ratio_100,bulk_modulus [Pa]\n"
-        << rows;
-  });
+  meshes::write_rows(rows, folder / "cubes.csv");
 }
 
 /// Of a lateral motion that follows the press; nothing where none does.
@@ -174,13 +167,6 @@ ordered_json to_json(const lattice::LatticeSettings& settings) {
 ordered_json to_json(const lattice::SpringConstants& constants) {
   return {
       {"k1", constants.k1}, {"k2", constants.k2}, {"k3", constants.k3}, {"kappa", constants.kappa}};
-}
-
-ordered_json to_json(const calibration::ElasticModuli& moduli) {
-  return {{"E_100", moduli.youngs_modulus_100},  {"E_110", moduli.youngs_modulus_110},
-          {"E_111", moduli.youngs_modulus_111},  {"G", moduli.shear_modulus},
-          {"nu_100", moduli.poissons_ratio_100}, {"K", moduli.bulk_modulus},
-          {"anisotropy", moduli.anisotropy}};
 }
 
 Job reference_job(const fem_reference::ReferenceJob& order) {

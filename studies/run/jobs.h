@@ -45,6 +45,5 @@ nlohmann::ordered_json to_json(const lattice::LatticeSettings& settings);
 /// What an equilibrium depends on: specimen, protocol and lattice.
 nlohmann::ordered_json to_json(const lattice::PressSetup& setup);
 nlohmann::ordered_json to_json(const lattice::SpringConstants& constants);
-nlohmann::ordered_json to_json(const calibration::ElasticModuli& moduli);
 
 }  // namespace fingertip::studies

@@ -1,11 +1,11 @@
 #include <cmath>
-#include <ostream>
 
 #include "lattice/press/static_press.h"
 #include "lattice/statics/mode_motion.h"
 #include "lattice/statics/vibration_modes.h"
-#include "meshes/files.h"
+#include "meshes/table_rows.h"
 #include "source_hash.h"
+#include "studies/files/run_tables.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 
@@ -21,17 +21,13 @@ void run_modes_job(const lattice::PressSetup& setup, int count, const fs::path& 
   const lattice::LatticeBody body = lattice::static_body(setup, 1);
   const auto modes = lattice::vibration_modes(
       body, count, [&] { return !context.report(0.0, "natural frequencies"); });
-  meshes::write_atomically(folder / "modes.csv", [&](std::ostream& out) {
-    out << "mode,frequency [Hz],motion,mass_x,mass_y,mass_z,inertia_z,waves\n";
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-      const lattice::ModeMotion motion =
-          lattice::motion_of(body, modes[i].shape, setup.lattice.spacing);
-      out << i + 1 << ',' << meshes::to_text(modes[i].frequency) << ','
-          << lattice::description(motion);
-      for (const double share : motion.effective_mass) out << ',' << meshes::to_text(share);
-      out << ',' << meshes::to_text(motion.effective_inertia) << ',' << motion.waves << '\n';
-    }
-  });
+  std::vector<LatticeModeRow> rows;
+  for (const auto& mode : modes) {
+    const lattice::ModeMotion motion = lattice::motion_of(body, mode.shape, setup.lattice.spacing);
+    rows.push_back({int(rows.size()) + 1, mode.frequency, lattice::description(motion),
+                    motion.effective_mass, motion.effective_inertia, motion.waves});
+  }
+  meshes::write_rows(rows, folder / "modes.csv");
   write_json({{"model", lattice::name(setup.lattice.model)},
               {"status", "finished"},
               {"spacing", setup.lattice.spacing},

@@ -6,11 +6,10 @@
 #include "calibration/moduli.h"
 #include "lattice/press/press.h"
 #include "lattice/press/press_deviation.h"
-#include "meshes/files.h"
+#include "meshes/json_fields.h"
 #include "source_hash.h"
 #include "studies/run/controller_choice.h"
 #include "studies/run/jobs.h"
-#include "studies/run/json_file.h"
 #include "studies/run/movie.h"
 #include "studies/run/press_notes.h"
 #include "studies/run/snapshot_files.h"
@@ -25,74 +24,63 @@ using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-ordered_json step_of(const lattice::StepReport& step) {
-  return {{"step", step.step},
-          {"smallest", step.smallest},
-          {"omega0", step.omega0},
-          {"paper_bound", step.paper_bound},
-          {"spectral_bound", number_or_null(step.spectral_bound)},
-          {"explanation", step.explanation}};
-}
-
-ordered_json census_of(const lattice::LatticeCensus& census) {
-  return {{"particles", census.particles},
-          {"expected_particles", census.expected_particles},
-          {"springs", census.springs},
-          {"cells", census.cells},
-          {"boundary_particles", census.boundary_particles},
-          {"ligaments", census.ligaments},
-          {"mass", census.mass},
-          {"added_mass", census.added_mass},
-          {"exact_mass", census.exact_mass}};
+CensusEntry census_of(const lattice::LatticeCensus& census) {
+  return {.particles = long(census.particles),
+          .expected_particles = census.expected_particles,
+          .springs = long(census.springs),
+          .cells = long(census.cells),
+          .boundary_particles = long(census.boundary_particles),
+          .ligaments = long(census.ligaments),
+          .mass = census.mass,
+          .added_mass = census.added_mass,
+          .exact_mass = census.exact_mass};
 }
 
 /// What scaled masses are expected to change of the force, beside plain ones.
-ordered_json scaling_of(const lattice::PressSetup& setup) {
+ScalingEntry scaling_of(const lattice::PressSetup& setup) {
   const lattice::ScalingChoice choice = lattice::choose_scaling(setup);
-  ordered_json deviations = ordered_json::array();
+  ScalingEntry entry{choice.scaled, {}};
   for (const lattice::ForceDeviation& one : choice.deviations)
-    deviations.push_back({{"indentation", one.indentation}, {"relative", one.relative}});
-  return {{"scaled", choice.scaled}, {"estimated_force_deviation", deviations}};
+    entry.estimated_force_deviation.push_back({one.indentation, one.relative});
+  return entry;
 }
 
-/// Where a press ended.
-ordered_json end_of(const lattice::PressOutcome& outcome) {
-  if (outcome.trace.empty()) return nullptr;
-  const lattice::TraceRow& row = outcome.trace.back();
-  return {{"time", row.time}, {"indentation", row.indentation}, {"normal_force", row.normal_force}};
+TrackingEntry tracking_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome) {
+  const Tracking tracking = measure_tracking(outcome.trace, outcome.first_touch_time);
+  return {.speed_deviation = tracking.speed_deviation,
+          .speed_deviation_at_touch = tracking.speed_deviation_at_touch,
+          .tilt_deg = tracking.tilt * 180.0 / std::numbers::pi,
+          .wanted_force = tracking.wanted_force,
+          .held_force = tracking.held_force,
+          .force_deviation = tracking.force_deviation,
+          .follows_path = setup.follows_path};
 }
 
-ordered_json summary_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome,
+PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome,
                         const std::string& status) {
-  ordered_json summary = press_summary_head(setup, status);
-  summary["geometry"] = to_json(setup.geometry);
-  summary["moduli"] =
-      to_json(calibration::homogenised_moduli(setup.lattice.constants, setup.lattice.spacing));
-  summary["step"] = step_of(outcome.step);
-  summary["census"] = census_of(outcome.census);
-  summary["steps"] = {{"accepted", outcome.steps.accepted},
-                      {"rejected", outcome.steps.rejected},
-                      {"forced", outcome.steps.forced},
-                      {"force_evaluations", outcome.force_evaluations}};
-  summary["simulated_time"] = outcome.simulated_time;
-  summary["wall_time"] = outcome.wall_time;
-  summary["real_time_factor"] = outcome.real_time_factor();
-  summary["threads"] = setup.threads;
-  summary["first_touch_time"] = number_or_null(outcome.first_touch_time);
-  summary["momentum_defect"] = number_or_null(outcome.momentum_defect);
-  if (setup.integrator == lattice::Integrator::mass_scaled) summary["scaling"] = scaling_of(setup);
-  if (const auto notes = scaling_notes(setup); !notes.empty()) summary["warnings"] = notes;
-  if (setup.protocol.mode == meshes::DriveMode::pid) {
-    const Tracking tracking = measure_tracking(outcome.trace, outcome.first_touch_time);
-    summary["tracking"] = {
-        {"speed_deviation", number_or_null(tracking.speed_deviation)},
-        {"speed_deviation_at_touch", number_or_null(tracking.speed_deviation_at_touch)},
-        {"tilt_deg", number_or_null(tracking.tilt * 180.0 / std::numbers::pi)},
-        {"wanted_force", number_or_null(tracking.wanted_force)},
-        {"held_force", number_or_null(tracking.held_force)},
-        {"force_deviation", number_or_null(tracking.force_deviation)},
-        {"follows_path", setup.follows_path}};
-    summary["end"] = end_of(outcome);
+  const lattice::StepReport& step = outcome.step;
+  PressSummary summary = press_summary_head(setup, status);
+  summary.geometry = geometry_entry(setup.geometry);
+  summary.moduli =
+      moduli_entry(calibration::homogenised_moduli(setup.lattice.constants, setup.lattice.spacing));
+  summary.step = {step.step,        step.smallest,       step.omega0,
+                  step.paper_bound, step.spectral_bound, step.explanation};
+  summary.census = census_of(outcome.census);
+  summary.steps = {outcome.steps.accepted, outcome.steps.rejected, outcome.steps.forced,
+                   outcome.force_evaluations};
+  summary.simulated_time = outcome.simulated_time;
+  summary.wall_time = outcome.wall_time;
+  summary.real_time_factor = outcome.real_time_factor();
+  summary.threads = setup.threads;
+  summary.first_touch_time = outcome.first_touch_time;
+  summary.momentum_defect = outcome.momentum_defect;
+  if (setup.integrator == lattice::Integrator::mass_scaled) summary.scaling = scaling_of(setup);
+  summary.warnings = scaling_notes(setup);
+  if (!summary.controlled()) return summary;
+  summary.tracking = tracking_of(setup, outcome);
+  if (!outcome.trace.empty()) {
+    const lattice::TraceRow& last = outcome.trace.back();
+    summary.end = EndEntry{last.time, last.indentation, last.normal_force};
   }
   return summary;
 }
@@ -116,7 +104,7 @@ class PressJournal {
   void write(const lattice::PressOutcome& outcome, const std::string& status) {
     outcome.response.write_csv(folder_ / "response.csv");
     lattice::write_trace_csv(outcome.trace, folder_ / "trace.csv");
-    write_json(summary_of(setup_, outcome, status), folder_ / "summary.json");
+    meshes::write_json_file(summary_of(setup_, outcome, status), folder_ / "summary.json");
     written_ = Clock::now();
   }
 

@@ -9,13 +9,12 @@
 #include <ctime>
 #include <filesystem>
 
-#include "meshes/files.h"
+#include "meshes/json_fields.h"
 #include "source_hash.h"
 #include "studies/config/documents.h"
 #include "studies/run/asked_units.h"
 #include "studies/run/digest.h"
 #include "studies/run/fresh_folder.h"
-#include "studies/run/json_file.h"
 #include "studies/run/provenance.h"
 
 namespace fingertip::studies {
@@ -131,21 +130,20 @@ RunFolder::RunFolder(const RunFolderOptions& options, const LoadedConfig& loaded
       " --config",
       program_version(), options.verb);
   const std::string parameters = parameters_toml(loaded, head) + case_text;
-  manifest_ = {{"program", "fingertip"},
-               {"version", program_version()},
-               {"verb", options.verb},
-               {"units", name(asked_units(loaded))},
-               {"status", "running"},
-               {"command_line", options.command_line},
-               {"started", utc_now()},
-               {"finished", nullptr},
-               {"source_hash", source_hash::everything},
-               {"input_hash", sha256(parameters)},
-               {"packages", package_versions()},
-               {"host", host_description()}};
+  manifest_.program = "fingertip";
+  manifest_.version = program_version();
+  manifest_.verb = options.verb;
+  manifest_.units = name(asked_units(loaded));
+  manifest_.status = "running";
+  manifest_.command_line = options.command_line;
+  manifest_.started = utc_now();
+  manifest_.source_hash = source_hash::everything;
+  manifest_.input_hash = sha256(parameters);
+  manifest_.packages = package_versions();
+  manifest_.host = host_description();
   try {
     claim(options);
-    write_json(manifest_, path_ / manifest_name);
+    meshes::write_json_file(manifest_, path_ / manifest_name);
     meshes::write_atomically(path_ / "parameters.toml",
                              [&](std::ostream& out) { out << parameters; });
     log_ = std::make_unique<Log>(path_ / "log.txt");
@@ -207,15 +205,14 @@ void RunFolder::log(const std::string& line) {
   log_->write(line);
 }
 
-void RunFolder::finish(const std::string& status, int exit_code,
-                       const nlohmann::ordered_json& further) {
-  manifest_["status"] = status;
-  manifest_["exit_code"] = exit_code;
-  manifest_["finished"] = utc_now();
-  manifest_.update(further);
+void RunFolder::finish(const std::string& status, int exit_code, const std::string& error) {
+  manifest_.status = status;
+  manifest_.exit_code = exit_code;
+  manifest_.finished = utc_now();
+  manifest_.error = error;
   finished_ = true;
   log(fmt::format("{} (exit code {})", status, exit_code));
-  write_json(manifest_, path_ / manifest_name);
+  meshes::write_json_file(manifest_, path_ / manifest_name);
   fs::remove_all(path_ / replaced_name);
 }
 

@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "studies/config/loader.h"
+#include "studies/files/manifest.h"
 #include "studies/run/file_lock.h"
 
 namespace fingertip::studies {
@@ -44,9 +43,8 @@ class RunFolder {
   void discard();
 
   /// Completes the manifest: "finished", "not converged", "criteria failed", "interrupted",
-  /// "failed", with the exit code and further entries.
-  void finish(const std::string& status, int exit_code,
-              const nlohmann::ordered_json& further = nlohmann::ordered_json::object());
+  /// "failed", with the exit code and what went wrong, if anything.
+  void finish(const std::string& status, int exit_code, const std::string& error = {});
 
  private:
   class Log;
@@ -56,7 +54,7 @@ class RunFolder {
   bool made_ = false;  ///< by this one: it was not there
   bool resumed_ = false;
   bool finished_ = false;
-  nlohmann::ordered_json manifest_;
+  Manifest manifest_;
   std::unique_ptr<Log> log_;
   std::unique_ptr<FileLock> lock_;  ///< keeps others out as long as this lives
 };

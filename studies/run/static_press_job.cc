@@ -1,11 +1,12 @@
 #include "studies/run/static_press_job.h"
 
 #include <cmath>
-#include <ostream>
 
 #include "lattice/press/static_press.h"
-#include "meshes/files.h"
+#include "meshes/json_fields.h"
+#include "meshes/table_rows.h"
 #include "source_hash.h"
+#include "studies/files/run_tables.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 
@@ -16,37 +17,30 @@ namespace {
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-ordered_json summary_of(const lattice::PressSetup& setup, const lattice::StaticOutcome& outcome,
+PressSummary summary_of(const lattice::PressSetup& setup, const lattice::StaticOutcome& outcome,
                         const std::string& status) {
-  ordered_json summary = press_summary_head(setup, status);
-  summary["census"] = {{"sectors", outcome.sectors},          {"particles", outcome.particles},
-                       {"springs", outcome.springs},          {"cells", outcome.cells},
-                       {"unknowns", outcome.unknowns},        {"volume", outcome.volume},
-                       {"exact_volume", outcome.exact_volume}};
-  summary["effort"] = {{"steps", outcome.steps},
-                       {"newton_iterations", outcome.newton_iterations},
-                       {"factorisations", outcome.factorisations}};
-  summary["smallest_jacobian"] = outcome.smallest_jacobian;
-  summary["wall_time"] = outcome.wall_time;
+  PressSummary summary = press_summary_head(setup, status);
+  summary.static_census = {long(outcome.sectors), long(outcome.particles), long(outcome.springs),
+                           long(outcome.cells),   long(outcome.unknowns),  outcome.volume,
+                           outcome.exact_volume};
+  summary.effort = {outcome.steps, outcome.newton_iterations, outcome.factorisations};
+  summary.smallest_jacobian = outcome.smallest_jacobian;
+  summary.wall_time = outcome.wall_time;
   return summary;
 }
 
 void write_contact(const lattice::StaticOutcome& outcome, const fs::path& folder) {
-  meshes::write_atomically(folder / "contact.csv", [&](std::ostream& out) {
-    out << "x [m],y [m],z [m],deformed_x [m],deformed_y [m],deformed_z [m],pressure [Pa]\n";
-    for (const lattice::StaticContactPoint& point : outcome.contact) {
-      for (const meshes::Vector3& place : {point.rest, point.deformed})
-        for (int axis = 0; axis < 3; ++axis) out << meshes::to_text(place[axis]) << ',';
-      out << meshes::to_text(point.pressure) << '\n';
-    }
-  });
+  std::vector<ContactRow> rows;
+  for (const lattice::StaticContactPoint& point : outcome.contact)
+    rows.push_back({point.rest, point.deformed, point.pressure});
+  meshes::write_rows(rows, folder / "contact.csv");
 }
 
 void run_static_job(const lattice::PressSetup& setup, const fs::path& folder,
                     const JobContext& context) {
   const auto write = [&](const lattice::StaticOutcome& outcome, const std::string& status) {
     outcome.response.write_csv(folder / "response.csv");
-    write_json(summary_of(setup, outcome, status), folder / "summary.json");
+    meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
   };
   try {
     const lattice::StaticOutcome outcome =
@@ -68,14 +62,30 @@ void run_static_job(const lattice::PressSetup& setup, const fs::path& folder,
 
 }  // namespace
 
-ordered_json press_summary_head(const lattice::PressSetup& setup, const std::string& status) {
-  return {{"model", lattice::name(setup.lattice.model)},
-          {"kinematics", lattice::name(setup.lattice.kinematics)},
-          {"mode", meshes::name(setup.protocol.mode)},
-          {"contact", meshes::name(setup.protocol.contact)},
-          {"status", status},
-          {"spacing", setup.lattice.spacing},
-          {"constants", to_json(setup.lattice.constants)}};
+GeometryEntry geometry_entry(const meshes::Geometry& geometry) {
+  return {geometry.tip_radius, geometry.rod_radius, geometry.sleeve_length, geometry.rod_length};
+}
+
+ConstantsEntry constants_entry(const lattice::SpringConstants& constants) {
+  return {constants.k1, constants.k2, constants.k3, constants.kappa};
+}
+
+ModuliEntry moduli_entry(const calibration::ElasticModuli& moduli) {
+  return {moduli.youngs_modulus_100, moduli.youngs_modulus_110, moduli.youngs_modulus_111,
+          moduli.shear_modulus,      moduli.poissons_ratio_100, moduli.bulk_modulus,
+          moduli.anisotropy};
+}
+
+PressSummary press_summary_head(const lattice::PressSetup& setup, const std::string& status) {
+  PressSummary summary;
+  summary.model = lattice::name(setup.lattice.model);
+  summary.kinematics = lattice::name(setup.lattice.kinematics);
+  summary.mode = meshes::name(setup.protocol.mode);
+  summary.contact = meshes::name(setup.protocol.contact);
+  summary.status = status;
+  summary.spacing = setup.lattice.spacing;
+  summary.constants = constants_entry(setup.lattice.constants);
+  return summary;
 }
 
 void set_press_status(const fs::path& folder, const std::string& status) {

@@ -58,7 +58,7 @@ PointResult compute(const SweepOrder& order, const PlannedPoint& planned, const 
   RunFolder run({order.verb, folder, false, true, command_line}, config_of(order, point));
   Session session(run, progress, Cache(Cache::default_folder()), 1);
   const auto failed = [&](const char* status, const std::exception& error) {
-    run.finish(status, 3, {{"error", error.what()}});
+    run.finish(status, 3, error.what());
     return PointResult{point.id, std::string("failed: ") + error.what(), false};
   };
   try {
@@ -66,7 +66,7 @@ PointResult compute(const SweepOrder& order, const PlannedPoint& planned, const 
     run.finish(result.ok() ? "finished" : "not converged", result.ok() ? 0 : 3);
     return {point.id, result.status, result.reused};
   } catch (const meshes::Interrupted& error) {
-    run.finish("interrupted", 130, {{"error", error.what()}});
+    run.finish("interrupted", 130, error.what());
     throw;
   } catch (const ProcessLost& error) {
     return failed("process lost", error);

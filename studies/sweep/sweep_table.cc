@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "meshes/csv_table.h"
-#include "meshes/files.h"
+#include "meshes/table_rows.h"
 #include "studies/config/loader.h"
 #include "studies/files/folder_reader.h"
+#include "studies/files/mode_table.h"
 #include "studies/run/cache.h"
 #include "studies/sweep/sweep_run.h"
 
@@ -47,14 +48,6 @@ std::vector<std::string> answer_columns(const std::vector<Row>& rows) {
   for (const char* name : aside_columns) add_if_any(name);
   add_if_any(lowest_frequency);
   return columns;
-}
-
-/// Quoted where a comma, a quote or a line break needs it (RFC 4180).
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
 }
 
 void flatten(const JsonEntry& node, const std::string& prefix, Row& row) {
@@ -91,7 +84,7 @@ void read_answer(const fs::path& folder, Row& row, FolderReader& reader) {
       for (const char* name : aside_columns) take(name);
   }
   const meshes::CsvTable modes = reader.csv(folder / "modes.csv");
-  if (!modes.empty()) row.answers[lowest_frequency] = modes.numbers("frequency [Hz]").front();
+  if (!modes.empty()) row.answers[lowest_frequency] = vibration_modes(modes).front().frequency;
   std::erase_if(row.answers, [](const auto& entry) { return std::isnan(entry.second); });
 }
 
@@ -104,7 +97,7 @@ Row read_row(const JsonEntry& point, const std::vector<std::string>& axes, const
   for (const std::string& axis : axes) row.settings.push_back(bare(text_at(settings, axis)));
   const std::size_t damage = reader.damage().size();
   const JsonEntry marker = reader.json(folder / row.id / marker_name);
-  row.status = reader.attempt([&] { return text_at(marker, "status"); });
+  row.status = reader.attempt([&] { return text_if_any(marker, "status"); });
   if (row.status == finished) {
     const JsonEntry summary = reader.json(folder / row.id / "summary.json");
     reader.attempt([&] { flatten(summary, "", row); });
@@ -119,7 +112,7 @@ Row read_row(const JsonEntry& point, const std::vector<std::string>& axes, const
 }
 
 void write_cells(const std::vector<std::string>& texts, std::ostream& out) {
-  for (const std::string& text : texts) out << ',' << cell(text);
+  for (const std::string& text : texts) out << ',' << meshes::csv_cell(text);
 }
 
 std::string text_in(const std::map<std::string, double>& values, const std::string& name) {
@@ -138,10 +131,10 @@ void write_table(const std::vector<Row>& rows, const std::vector<std::string>& a
     out << "point,status";
     write_cells(axes, out);
     write_cells(answers, out);
-    for (const std::string& name : columns) out << ',' << cell(name);
+    for (const std::string& name : columns) out << ',' << meshes::csv_cell(name);
     out << '\n';
     for (const Row& row : rows) {
-      out << row.id << ',' << cell(row.status);
+      out << row.id << ',' << meshes::csv_cell(row.status);
       write_cells(row.settings, out);
       for (const std::string& name : answers) out << ',' << text_in(row.answers, name);
       for (const std::string& name : columns) out << ',' << text_in(row.values, name);
@@ -169,7 +162,7 @@ void write_curves(const std::vector<Row>& rows, const std::vector<std::string>& 
       for (std::size_t i = 0; i < row.curve.rows.size(); ++i) {
         out << row.id;
         write_cells(row.settings, out);
-        for (const auto& column : cells) out << ',' << cell(column[i]);
+        for (const auto& column : cells) out << ',' << meshes::csv_cell(column[i]);
         out << '\n';
       }
     }

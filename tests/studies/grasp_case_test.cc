@@ -87,11 +87,16 @@ TEST(GraspCase, TheLimitLiesBetweenWhatHoldsAndWhatDoesNot) {
 }
 
 TEST(GraspCase, MeasuresComeFromTheSummary) {
-  nlohmann::json summary = {{"fate", "held"},        {"friction", 0.4},
-                            {"wanted_force", 0.055}, {"least_force", 0.05},
-                            {"slip_ratio", 0.396},   {"sliding_ratio", 0.4},
-                            {"slip_force", 0.0505},  {"least_force_at_rest", 0.05},
-                            {"held_load", 0.999},    {"momentum_defect", 1e-13}};
+  GraspSummary summary;
+  summary.fate = "held";
+  summary.friction = 0.4;
+  summary.wanted_force = 0.055;
+  summary.least_force = summary.least_force_at_rest = 0.05;
+  summary.slip_ratio = 0.396;
+  summary.sliding_ratio = 0.4;
+  summary.slip_force = 0.0505;
+  summary.held_load = 0.999;
+  summary.momentum_defect = 1e-13;
   const RunMeasures held = measure_grasp(summary);
   EXPECT_EQ(held.at("lost"), 0.0);
   EXPECT_NEAR(held.at("surplus"), 0.1, 1e-12);
@@ -99,8 +104,8 @@ TEST(GraspCase, MeasuresComeFromTheSummary) {
   EXPECT_NEAR(held.at("sliding_error"), 0.0, 1e-12);
   EXPECT_NEAR(held.at("slip_force_error"), 0.01, 1e-12);
   EXPECT_NEAR(held.at("load_error"), 0.001, 1e-12);
-  summary["fate"] = "not lifted";
-  summary["slip_ratio"] = nullptr;
+  summary.fate = "not lifted";
+  summary.slip_ratio = std::nan("");
   const RunMeasures lost = measure_grasp(summary);
   EXPECT_EQ(lost.at("lost"), 1.0);
   EXPECT_FALSE(lost.contains("slip_error"));

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/csv_table.h"
+#include "meshes/json_fields.h"
+#include "meshes/table_rows.h"
 #include "page_check.h"
 #include "studies/report/moving_press.h"
 #include "studies/report/report.h"
@@ -23,8 +26,12 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-CsvTable table(std::vector<std::string> names, std::vector<std::vector<std::string>> rows) {
-  return {std::move(names), std::move(rows)};
+lattice::TraceRow row(double force, double wanted, bool force_mode) {
+  lattice::TraceRow row;
+  row.normal_force = force;
+  row.wanted_force = wanted;
+  row.force_mode = force_mode;
+  return row;
 }
 
 /// A sphere of points round the origin of radius 1 cm, 40 around and 20 up, joined along circles.
@@ -54,28 +61,28 @@ void write_sphere(const fs::path& folder) {
 }
 
 void write_press(const fs::path& folder, double speed, bool force_control) {
-  std::string trace =
-      "time [s],indentation [m],commanded_speed [m/s],speed [m/s],tilt [rad],normal_force [N],"
-      "lateral_force [N],torque [N m],command_force [N],plane_force [N],anchored";
-  trace += force_control ? ",wanted_force [N],force_mode\n" : "\n";
+  std::vector<lattice::TraceRow> trace;
   for (int i = 0; i <= 100; ++i) {
     const double force = 0.002 * i;
-    trace += fmt::format("{},{},{},{},0,{},0,0,{},{},0", 0.003 * i, 1e-5 * i, speed, 1.004 * speed,
-                         force, force, force);
-    trace += force_control ? fmt::format(",0.19,{}\n", i > 30 ? 1 : 0) : "\n";
+    trace.push_back(row(force, force_control ? 0.19 : meshes::unknown, force_control && i > 30));
+    trace.back().time = 0.003 * i;
+    trace.back().indentation = 1e-5 * i;
+    trace.back().commanded_speed = speed;
+    trace.back().speed = 1.004 * speed;
+    trace.back().command_force = trace.back().plane_force = force;
   }
-  write_file(folder / "trace.csv", trace);
-  const json summary = {
-      {"status", "finished"},
-      {"geometry",
-       {{"tip_radius", 0.01},
-        {"rod_radius", 0.005},
-        {"sleeve_length", 0.015},
-        {"rod_length", 0.03}}},
-      {"first_touch_time", 0.1},
-      {"tracking",
-       {{"speed_deviation", 0.004}, {"speed_deviation_at_touch", 0.021}, {"tilt_deg", 0.003}}}};
-  write_file(folder / "summary.json", summary.dump());
+  fs::create_directories(folder);
+  meshes::write_rows(trace, folder / "trace.csv");
+  studies::PressSummary summary;
+  summary.model = "hookean";
+  summary.mode = "pid";
+  summary.status = "finished";
+  summary.geometry = {0.01, 0.005, 0.015, 0.03};
+  summary.first_touch_time = 0.1;
+  summary.tracking.speed_deviation = 0.004;
+  summary.tracking.speed_deviation_at_touch = 0.021;
+  summary.tracking.tilt_deg = 0.003;
+  meshes::write_json_file(summary, folder / "summary.json");
 }
 
 fs::path write_run(const TemporaryFolder& folder) {
@@ -101,27 +108,27 @@ fs::path write_run(const TemporaryFolder& folder) {
                      {"change", 0.0012},
                      {"pictured", false},
                      {"status", "finished"}});
-  write_file(run / "summary.json",
-             json{{"case", "11"}, {"title", "Control <1>"}, {"status", "ok"}, {"presses", presses}}
-                 .dump());
+  write_file(run / "summary.json", json{{"case", "11"},
+                                        {"title", "Control <1>"},
+                                        {"description", ""},
+                                        {"status", "ok"},
+                                        {"criteria", json::array()},
+                                        {"presses", presses}}
+                                       .dump());
   return run;
 }
 
 }  // namespace
 
 TEST(ControlReport, OvershootAndChangesOfModeAreThoseOfTheTrace) {
-  const CsvTable trace = table({"normal_force [N]", "wanted_force [N]", "force_mode"},
-                               {{"0.5", "0.1", "0"},  // approaching: no matter
-                                {"0.05", "0.1", "1"},
-                                {"0.104", "0.1", "1"},
-                                {"0.09", "0.1", "1"},
-                                {"0.0", "", "0"},
-                                {"0.1", "0.1", "1"}});
+  const std::vector<lattice::TraceRow> trace{row(0.5, 0.1, false),  // approaching: no matter
+                                             row(0.05, 0.1, true), row(0.104, 0.1, true),
+                                             row(0.09, 0.1, true), row(0.0, meshes::unknown, false),
+                                             row(0.1, 0.1, true)};
   EXPECT_NEAR(force_overshoot(trace), 0.04, 1e-12);
   EXPECT_EQ(mode_switches(trace), 3.0);
-  const CsvTable plain = table({"normal_force [N]"}, {{"0.5"}});
-  EXPECT_TRUE(std::isnan(force_overshoot(plain)));
-  EXPECT_TRUE(std::isnan(mode_switches(plain)));
+  EXPECT_TRUE(std::isnan(force_overshoot({row(0.5, meshes::unknown, false)})));
+  EXPECT_TRUE(std::isnan(mode_switches({})));
 }
 
 TEST(ControlReport, ShowsSpeedsSideBySideSnapshotsAndForceControl) {
@@ -149,7 +156,7 @@ TEST(ControlReport, SnapshotsHideTheBackOfTheTip) {
   const TemporaryFolder folder;
   const fs::path run = write_run(folder);
   studies::write_report(run);
-  const CsvTable points = fingertip::meshes::read_csv(run / "figures/snapshots_1.csv");
+  const meshes::CsvTable points = fingertip::meshes::read_csv(run / "figures/snapshots_1.csv");
   const auto series = points.texts("series");
   const auto drawn = std::ranges::count(series, "springs") / 3;
   // A normal at polar angle p, measured from the pole below, and azimuth f faces a viewer 14
@@ -207,8 +214,10 @@ TEST(IntegratorReport, ShowsCostAgainstErrorAndNoControl) {
     json summary = json::parse(read_text(press / "summary.json"));
     summary["mode"] = "quasi-static";
     summary["wall_time"] = 1e-4 * evaluations;
-    summary["steps"] = {
-        {"accepted", evaluations}, {"rejected", 3}, {"force_evaluations", evaluations}};
+    summary["steps"] = {{"accepted", evaluations},
+                        {"rejected", 3},
+                        {"forced", 0},
+                        {"force_evaluations", evaluations}};
     write_file(press / "summary.json", summary.dump());
     presses.push_back({{"series", change > 0.0 ? "symplectic-euler" : "runge-kutta"},
                        {"name", name},
@@ -219,14 +228,20 @@ TEST(IntegratorReport, ShowsCostAgainstErrorAndNoControl) {
                        {"status", "finished"}});
     if (change > 0.0) presses.back()["change"] = change;
   }
-  write_file(run / "summary.json",
-             json{{"case", "10"}, {"title", "I"}, {"status", "ok"}, {"presses", presses}}.dump());
+  write_file(run / "summary.json", json{{"case", "10"},
+                                        {"title", "I"},
+                                        {"description", ""},
+                                        {"status", "ok"},
+                                        {"criteria", json::array()},
+                                        {"presses", presses}}
+                                       .dump());
   studies::write_report(run);
   const std::string html = read_text(run / "report.html");
   EXPECT_EQ(report_testing::structure_faults(html), std::vector<std::string>());
   EXPECT_TRUE(has(html, "<section id=\"integrators\">"));
   EXPECT_FALSE(has(html, "<section id=\"control\">"));
-  const CsvTable figure = fingertip::meshes::read_csv(run / "figures/cost_of_integrators.csv");
+  const meshes::CsvTable figure =
+      fingertip::meshes::read_csv(run / "figures/cost_of_integrators.csv");
   EXPECT_EQ(figure.numbers("force evaluations of the press [1]"),
             (std::vector<double>{500.0, 1000.0}));
   EXPECT_TRUE(has(report_testing::visible_text(html),

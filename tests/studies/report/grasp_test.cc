@@ -5,7 +5,10 @@
 
 #include <cmath>
 
+#include "meshes/csv_table.h"
+#include "meshes/json_fields.h"
 #include "page_check.h"
+#include "studies/files/grasp_summary.h"
 #include "studies/report/grasp_run.h"
 #include "studies/report/report.h"
 #include "synthetic_run.h"
@@ -45,16 +48,21 @@ void write_grasp(const fs::path& folder, double force, const std::string& fate, 
     for (int i = 30; i < 60; ++i)
       table += row(0.01 * i, "release", force * (1.0 - 0.01 * (i - 30)), 0.05, 1e-5 * (i - 29));
   write_file(folder / "grasp.csv", table);
-  json summary = {
-      {"status", "finished"},         {"fate", fate},          {"friction", 0.5},
-      {"lift_height", 3e-3},          {"wanted_force", force}, {"least_force", 0.051},
-      {"least_force_at_rest", limit}, {"slip_force", nullptr}, {"momentum_defect", 1e-13}};
+  studies::GraspSummary summary;
+  summary.status = "finished";
+  summary.fate = fate;
+  summary.friction = 0.5;
+  summary.lift_height = 3e-3;
+  summary.wanted_force = force;
+  summary.least_force = 0.051;
+  summary.least_force_at_rest = limit;
+  summary.momentum_defect = 1e-13;
   if (released || fate != "held") {
-    summary["slip_force"] = released ? 0.0506 : force;
-    summary["slip_ratio"] = 0.494;
-    summary["sliding_ratio"] = 0.5;
+    summary.slip_force = released ? 0.0506 : force;
+    summary.slip_ratio = 0.494;
+    summary.sliding_ratio = 0.5;
   }
-  write_file(folder / "summary.json", summary.dump());
+  meshes::write_json_file(summary, folder / "summary.json");
 }
 
 fs::path write_run(const TemporaryFolder& folder) {
@@ -69,9 +77,13 @@ fs::path write_run(const TemporaryFolder& folder) {
                       {"folder", std::string("grasps/") + name},
                       {"status", "finished"}});
   }
-  write_file(
-      run / "summary.json",
-      json{{"case", "12"}, {"title", "Grasp <1>"}, {"status", "ok"}, {"grasps", grasps}}.dump());
+  write_file(run / "summary.json", json{{"case", "12"},
+                                        {"title", "Grasp <1>"},
+                                        {"description", ""},
+                                        {"status", "ok"},
+                                        {"criteria", json::array()},
+                                        {"grasps", grasps}}
+                                       .dump());
   return run;
 }
 
@@ -102,7 +114,7 @@ TEST(GraspReport, FigureOfReleaseIsGripAgainstSlip) {
   const TemporaryFolder folder;
   const fs::path run = write_run(folder);
   studies::write_report(run);
-  const CsvTable figure = fingertip::meshes::read_csv(run / "figures/grasp_release.csv");
+  const meshes::CsvTable figure = fingertip::meshes::read_csv(run / "figures/grasp_release.csv");
   const auto slip = figure.numbers("slip of the block along the fingers [mm]");
   const auto force = figure.numbers("grip force per finger [mN]");
   ASSERT_GE(slip.size(), 30u);

@@ -71,11 +71,13 @@ fs::path write_study(const TemporaryFolder& folder, const std::string& title = "
       {{{"name", "small"}, {"measure", "m"}, {"value", 0.4}, {"limit", 0.1}, {"passed", false}}});
   const json summary = {{"case", "09_study"},
                         {"title", title},
+                        {"description", ""},
                         {"status", "criteria failed"},
                         {"criteria", criteria},
                         {"variants",
                          {{"x_label", "R/a"},
                           {"count", 4},
+                          {"not_converged", 0},
                           {"series", series},
                           {"continua", continua},
                           {"budgets", budgets}}}};

@@ -73,6 +73,7 @@ json fit_result() {
           {"spacing", 0.001},
           {"forward", "lattice"},
           {"constants", {{"k1", 1.4}, {"k2", 1.4}, {"k3", 0.0}, {"kappa", 7700.0}}},
+          {"damping", {{"retardation_time", 3e-4}}},
           {"target", nullptr},
           {"achieved", nullptr},
           {"parameters", {youngs, parameter("shear_modulus", G, sd_G, 1350.0)}},
@@ -88,7 +89,10 @@ json fit_result() {
           {"degrees_of_freedom", 8},
           {"chi_square", 40.0},
           {"chi_square_probability", 3.2e-6},
+          {"birge_ratio", 1.0},
           {"residual_deviation", 0.002},
+          {"residuals", {{0.01}, {0.02}}},
+          {"influence", {{1.0}, {1.0}}},
           {"minima",
            {{{"estimates", {2500.0, 1500.0}}, {"loss", 333.0}, {"iterations", 9}},
             {{"estimates", {E, G}}, {"loss", 20.0}, {"iterations", 5}}}},
@@ -99,7 +103,12 @@ json fit_result() {
           {"iterations", 5},
           {"evaluations", 21},
           {"wall_time", 12.0},
-          {"validity", {{"largest_strain_measure", 0.2}, {"model", "hookean"}}},
+          {"validity",
+           {{"largest_strain_measure", 0.2},
+            {"spacing", nullptr},
+            {"poissons_ratio", nullptr},
+            {"model", "hookean"},
+            {"kinematics", nullptr}}},
           {"statement", "Two presses were fitted."}};
 }
 
@@ -123,9 +132,13 @@ void write_surrogate(const fs::path& folder) {
     rows += fmt::format("{},{},100,{},{}\n", x, 100.0 * x, 96.0 * x, 104.0 * x);
   }
   write_file(folder / "surrogate.csv", rows);
-  const json notes = {{"knots", {0.0, 0.001, 0.002}},       {"force", {0.0, 0.1, 0.2}},
-                      {"stiffness", {100.0, 100.0, 100.0}}, {"band", {0.0, 0.004, 0.008}},
-                      {"statement", "Three knots."},        {"condition", "frictionless"}};
+  const json notes = {{"knots", {0.0, 0.001, 0.002}},
+                      {"force", {0.0, 0.1, 0.2}},
+                      {"stiffness", {100.0, 100.0, 100.0}},
+                      {"band", {0.0, 0.004, 0.008}},
+                      {"statement", "Three knots."},
+                      {"condition", "frictionless"},
+                      {"units", json::object()}};
   write_file(folder / "surrogate.json", notes.dump());
 }
 
@@ -158,6 +171,7 @@ void write_transfer_study(const fs::path& folder) {
   const json summary = {
       {"case", "07_transfer"},
       {"title", "Transfer"},
+      {"description", ""},
       {"status", "ok"},
       {"criteria", {{{"name", "carries"}, {"value", 0.04}, {"limit", 0.1}, {"passed", true}}}},
       {"calibration",

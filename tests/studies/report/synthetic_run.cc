@@ -9,6 +9,14 @@
 #include <map>
 #include <vector>
 
+#include "calibration/fit_file.h"
+#include "fem_reference/run_tables.h"
+#include "lattice/press/trace.h"
+#include "meshes/json_fields.h"
+#include "meshes/table_rows.h"
+#include "studies/files/manifest.h"
+#include "studies/files/press_summary.h"
+
 namespace fingertip::report_testing {
 namespace {
 
@@ -50,19 +58,23 @@ void write_response(const fs::path& file, double factor, bool reference) {
 
 /// A bump 5 ms after first touch, a 1.5 % error at 0.2 s, 50 % at the start.
 void write_trace(const fs::path& file, double factor) {
-  std::string text =
-      "time [s],indentation [m],commanded_speed [m/s],speed [m/s],tilt [rad],normal_force [N],"
-      "command_force [N]\n";
+  std::vector<lattice::TraceRow> rows;
   for (int i = 0; i <= 350; ++i) {
     const double t = 0.001 * i, d = 0.01 * t - clearance;
     double error = -std::exp(-t / 0.008);
     error -= 0.12 * std::exp(-std::pow((t - 0.055) / 0.004, 2));
     error += 0.015 * factor * std::exp(-std::pow((t - 0.2) / 0.01, 2));
-    const double force = d > 0.0 ? factor * continuum_force(d) : 0.0;
-    text += fmt::format("{},{},0.01,{},{},{},{}\n", t, d, 0.01 * (1.0 + error), 1e-4 * factor * t,
-                        force, force);
+    lattice::TraceRow row;
+    row.time = t;
+    row.indentation = d;
+    row.commanded_speed = 0.01;
+    row.speed = 0.01 * (1.0 + error);
+    row.tilt = 1e-4 * factor * t;
+    row.normal_force = row.command_force = d > 0.0 ? factor * continuum_force(d) : 0.0;
+    rows.push_back(row);
   }
-  write_file(file, text);
+  fs::create_directories(file.parent_path());
+  meshes::write_rows(rows, file);
 }
 
 /// Squeezes what lies above the pressed plane into the thickness of the rubber.
@@ -100,19 +112,17 @@ void write_section(const fs::path& folder) {
 
 /// Forces 2 % above, 0.6 % below and on that of the finest mesh.
 void write_convergence(const fs::path& folder) {
-  std::string text =
-      "mesh,cells,unknowns,indentation [m],normal_force [N],contact_radius [m],max_pressure "
-      "[Pa]\n";
-  const double factors[] = {1.02, 0.994, 1.0}, unknowns[] = {10000, 30000, 90000};
+  std::vector<fem_reference::ConvergenceRow> rows;
+  const double factors[] = {1.02, 0.994, 1.0};
+  const std::size_t unknowns[] = {10000, 30000, 90000};
   for (int mesh = 0; mesh < 3; ++mesh) {
     for (int i = 1; i <= 30; ++i) {
       const double d = depth * i / 30.0;
-      text +=
-          fmt::format("{},{},{},{},{},{},{}\n", mesh + 1, unknowns[mesh] / 28, unknowns[mesh], d,
-                      factors[mesh] * continuum_force(d), std::sqrt(1.1 * d * radius), 1.5e6 * d);
+      rows.push_back({mesh + 1, unknowns[mesh] / 28, unknowns[mesh], d,
+                      factors[mesh] * continuum_force(d), std::sqrt(1.1 * d * radius), 1.5e6 * d});
     }
   }
-  write_file(folder / "convergence.csv", text);
+  meshes::write_rows(rows, folder / "convergence.csv");
 }
 
 /// summary.json and job.json of the continuum.
@@ -121,6 +131,12 @@ void write_reference_summary(const fs::path& folder) {
   for (int i = 1; i <= 30; ++i) {
     const double d = depth * i / 30.0;
     samples.push_back({{"indentation", d},
+                       {"normal_force", continuum_force(d)},
+                       {"contact_radius", std::sqrt(1.1 * d * radius)},
+                       {"max_pressure", 1.5e6 * d},
+                       {"force_error", 0.003 * continuum_force(d)},
+                       {"cg_iterations", 40},
+                       {"wall_time", 0.5},
                        {"convergence", i == 30 ? "monotone" : "oscillatory"},
                        {"order", i == 30 ? json(2.34) : json()},
                        {"min_jacobian", 0.731},
@@ -131,7 +147,12 @@ void write_reference_summary(const fs::path& folder) {
                        {"sliding_nodes", 0},
                        {"node_spacing", std::sqrt(1.1 * d * radius) / 20.0}});
   }
-  const json summary{{"status", "ok"},
+  const json summary{{"program", "fingertip-fem"},
+                     {"status", "ok"},
+                     {"analysis", "static"},
+                     {"refinement", 0.5},
+                     {"worst_relative_error", 0.0045},
+                     {"contact_node_spacing", 1e-4},
                      {"contact", "stick"},
                      {"strain", "linear"},
                      {"degree", 2},
@@ -273,55 +294,66 @@ void write_boundary(const fs::path& folder) {
   write_file(folder / "boundary_springs.csv", springs);
 }
 
-json lattice_summary(const std::string& name) {
-  return {{"model", name},
-          {"kinematics", name == "published" ? "finite" : "small"},
-          {"spacing", spacing},
-          {"constants",
-           {{"k1", 1.14}, {"k2", 1.14}, {"k3", 0.0}, {"kappa", name == "hookean" ? 6864.0 : 0.0}}},
-          {"moduli", model_moduli(name)},
-          {"step",
-           {{"step", 4.3e-5},
-            {"omega0", 2230.0},
-            {"paper_bound", 4.5e-4},
-            {"spectral_bound", 4.9e-5},
-            {"explanation", "The spectral bound rules: 0.9 of it is used."}}},
-          {"census",
-           {{"particles", 9300},
-            {"springs", 98000},
-            {"cells", 8600},
-            {"boundary_particles", 1900},
-            {"ligaments", 1100},
-            {"expected_particles", 9274.0},
-            {"mass", 2.69e-3},
-            {"exact_mass", 2.683e-3}}},
-          {"real_time_factor", 0.31},
-          {"wall_time", 1.13},
-          {"simulated_time", 0.35},
-          {"first_touch_time", 0.05},
-          {"momentum_defect", 3.2e-13},
-          {"status", "ok"},
-          {"tracking",
-           {{"speed_deviation", 0.0153}, {"speed_deviation_at_touch", 0.123}, {"tilt_deg", 2e-3}}}};
+studies::PressSummary lattice_summary(const std::string& name) {
+  const json moduli = model_moduli(name);
+  studies::PressSummary summary;
+  summary.model = name;
+  summary.kinematics = name == "published" ? "finite" : "small";
+  summary.mode = "pid";
+  summary.contact = "stick";
+  summary.status = "ok";
+  summary.spacing = spacing;
+  summary.constants = {1.14, 1.14, 0.0, name == "hookean" ? 6864.0 : 0.0};
+  summary.moduli = {moduli["E_100"],
+                    moduli["E_110"],
+                    moduli["E_111"],
+                    moduli["G"],
+                    moduli["nu_100"],
+                    moduli["K"],
+                    1.0};
+  summary.step = {.step = 4.3e-5,
+                  .smallest = 4.3e-5,
+                  .omega0 = 2230.0,
+                  .paper_bound = 4.5e-4,
+                  .spectral_bound = 4.9e-5,
+                  .explanation = "The spectral bound rules: 0.9 of it is used."};
+  summary.census = {.particles = 9300,
+                    .expected_particles = 9274.0,
+                    .springs = 98000,
+                    .cells = 8600,
+                    .boundary_particles = 1900,
+                    .ligaments = 1100,
+                    .mass = 2.69e-3,
+                    .exact_mass = 2.683e-3};
+  summary.real_time_factor = 0.31;
+  summary.wall_time = 1.13;
+  summary.simulated_time = 0.35;
+  summary.first_touch_time = 0.05;
+  summary.momentum_defect = 3.2e-13;
+  summary.tracking.speed_deviation = 0.0153;
+  summary.tracking.speed_deviation_at_touch = 0.123;
+  summary.tracking.tilt_deg = 2e-3;
+  return summary;
 }
 
-json calibration(const std::string& name) {
+calibration::ModuliFile calibration_of(const std::string& name) {
   const json moduli = model_moduli(name);
-  return {
-      {"model", name},
-      {"spacing", spacing},
-      {"constants",
-       {{"k1", 1.14}, {"k2", 1.14}, {"k3", 0.0}, {"kappa", name == "hookean" ? 6864.0 : 0.0}}},
-      {"target",
-       {{"youngs_modulus", 40.0 * gf_per_cm2},
-        {"shear_modulus", 14.0 * gf_per_cm2},
-        {"poissons_ratio", 3.0 / 7.0},
-        {"bulk_modulus", 280.0 / 3.0 * gf_per_cm2}}},
-      {"achieved", moduli},
-      {"covariance", nullptr},
-      {"unidentifiable", json::array({{{"k1", 0.5}, {"k2", -0.5}, {"k3", 0.375}, {"kappa", 0.0}}})},
-      {"residuals", {{"E_100", 0.0}}},
-      {"statement", "Statement about " + name + "."}};
+  calibration::ModuliFile file;
+  file.model = name;
+  file.spacing = spacing;
+  file.constants = {1.14, 1.14, 0.0, name == "hookean" ? 6864.0 : 0.0};
+  file.target = {40.0 * gf_per_cm2, 14.0 * gf_per_cm2, 3.0 / 7.0, 280.0 / 3.0 * gf_per_cm2};
+  file.achieved = {moduli["E_100"],
+                   moduli["E_110"],
+                   moduli["E_111"],
+                   moduli["G"],
+                   moduli["nu_100"],
+                   moduli["K"],
+                   1.0};
+  file.unidentifiable = {{0.5, -0.5, 0.375, 0.0, "k1 against k2"}};
+  file.residuals = {{"E_100", 0.0}};
+  file.statement = "Statement about " + name + ".";
+  return file;
 }
 
 void write_tables(const fs::path& folder) {
@@ -414,15 +446,19 @@ void write_synthetic_run(const fs::path& folder) {
   write_file(folder / "summary.json", run_summary().dump(2));
   write_file(folder / "parameters.toml",
              "[rubber]\nyoungs_modulus = \"40 gf/cm^2\"\nshear_modulus = \"14 gf/cm^2\"\n");
-  const json manifest{{"version", "0.1.0"},
-                      {"source_hash", "abc123"},
-                      {"input_hash", "def456"},
-                      {"command_line", {"fingertip", "validate"}},
-                      {"started", "2026-01-01T10:00:00Z"},
-                      {"finished", "2026-01-01T10:02:00Z"},
-                      {"packages", {{"Eigen", "3.4.0"}}},
-                      {"host", {{"cpu", "a processor"}, {"cores", 2}}}};
-  write_file(folder / "manifest.json", manifest.dump(2));
+  studies::Manifest manifest;
+  manifest.program = "fingertip";
+  manifest.version = "0.1.0";
+  manifest.verb = "validate";
+  manifest.status = "finished";
+  manifest.source_hash = "abc123";
+  manifest.input_hash = "def456";
+  manifest.command_line = {"fingertip", "validate"};
+  manifest.started = "2026-01-01T10:00:00Z";
+  manifest.finished = "2026-01-01T10:02:00Z";
+  manifest.packages = {{"Eigen", "3.4.0"}};
+  manifest.host = {{"cpu", "a processor"}, {"cores", 2}};
+  meshes::write_json_file(manifest, folder / "manifest.json");
   write_response(folder / "reference" / "response.csv", 1.0, true);
   write_reference_summary(folder / "reference");
   write_convergence(folder / "reference");
@@ -432,10 +468,12 @@ void write_synthetic_run(const fs::path& folder) {
   for (const auto& [name, factor] : force_factor) {
     write_response(folder / name / "response.csv", factor, false);
     write_trace(folder / name / "trace.csv", factor);
-    write_file(folder / name / "summary.json", lattice_summary(name).dump(2));
+    meshes::write_json_file(lattice_summary(name), folder / name / "summary.json");
     write_boundary(folder / name);
     if (name != "published") {
-      write_file(folder / ("calibration_" + name) / "calibration.json", calibration(name).dump(2));
+      const fs::path fitted = folder / ("calibration_" + name);
+      fs::create_directories(fitted);
+      meshes::write_json_file(calibration_of(name), fitted / "calibration.json");
     }
   }
   write_tables(folder);

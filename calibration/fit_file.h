@@ -1,0 +1,307 @@
+/// calibration.json, of a fit to moduli, which has no `problem`, and of one to curves;
+/// surrogate.json. SI.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshes/fields.h"
+#include "meshes/press_response.h"
+
+namespace fingertip::calibration {
+
+/// A rubber [Pa].
+struct RubberEntry {
+  double youngs_modulus = meshes::unknown, shear_modulus = meshes::unknown,
+         poissons_ratio = meshes::unknown, bulk_modulus = meshes::unknown;
+};
+constexpr auto fields_of(const RubberEntry*) {
+  using meshes::named;
+  using Whole = RubberEntry;
+  return named("youngs_modulus shear_modulus poissons_ratio bulk_modulus", &Whole::youngs_modulus,
+               &Whole::shear_modulus, &Whole::poissons_ratio, &Whole::bulk_modulus);
+}
+
+/// Spring constants [N/m], volume constant [Pa]; of the network lambda and G besides [Pa].
+struct FitConstants {
+  double k1 = meshes::unknown, k2 = meshes::unknown, k3 = meshes::unknown, kappa = meshes::unknown,
+         lambda = meshes::unknown, G = meshes::unknown;
+};
+constexpr auto fields_of(const FitConstants*) {
+  using meshes::if_known, meshes::named;
+  using Whole = FitConstants;
+  return std::tuple_cat(named("k1 k2 k3 kappa", &Whole::k1, &Whole::k2, &Whole::k3, &Whole::kappa),
+                        if_known(named("lambda G", &Whole::lambda, &Whole::G)));
+}
+
+/// Elastic constants of the infinite lattice [Pa].
+struct AchievedEntry {
+  double youngs_modulus_100 = meshes::unknown, youngs_modulus_110 = meshes::unknown,
+         youngs_modulus_111 = meshes::unknown, shear_modulus = meshes::unknown,
+         poissons_ratio_100 = meshes::unknown, bulk_modulus = meshes::unknown,
+         anisotropy = meshes::unknown;
+};
+constexpr auto fields_of(const AchievedEntry*) {
+  using meshes::named;
+  using Whole = AchievedEntry;
+  return named(
+      "youngs_modulus_100 youngs_modulus_110 youngs_modulus_111 shear_modulus poissons_ratio_100 "
+      "bulk_modulus anisotropy",
+      &Whole::youngs_modulus_100, &Whole::youngs_modulus_110, &Whole::youngs_modulus_111,
+      &Whole::shear_modulus, &Whole::poissons_ratio_100, &Whole::bulk_modulus, &Whole::anisotropy);
+}
+
+/// [s].
+struct DampingEntry {
+  double retardation_time = meshes::unknown;
+};
+constexpr auto fields_of(const DampingEntry*) {
+  using meshes::named;
+  using Whole = DampingEntry;
+  return named("retardation_time", &Whole::retardation_time);
+}
+
+/// A move of the constants that no test of moduli notices.
+struct OpenConstants {
+  double k1 = meshes::unknown, k2 = meshes::unknown, k3 = meshes::unknown, kappa = meshes::unknown;
+  std::string meaning;
+};
+constexpr auto fields_of(const OpenConstants*) {
+  using meshes::named;
+  using Whole = OpenConstants;
+  return named("k1 k2 k3 kappa meaning", &Whole::k1, &Whole::k2, &Whole::k3, &Whole::kappa,
+               &Whole::meaning);
+}
+
+/// calibration.json of a fit to moduli.
+struct ModuliFile {
+  std::string model;
+  double spacing = meshes::unknown;
+  FitConstants constants;
+  DampingEntry damping;
+  RubberEntry target;
+  AchievedEntry achieved;
+  std::optional<std::vector<std::vector<double>>> covariance;
+  std::vector<OpenConstants> unidentifiable;
+  std::map<std::string, double> residuals;
+  std::string statement;
+
+  bool empty() const { return model.empty(); }
+};
+constexpr auto fields_of(const ModuliFile*) {
+  using meshes::named;
+  using Whole = ModuliFile;
+  return named(
+      "model spacing constants damping target achieved covariance unidentifiable residuals "
+      "statement",
+      &Whole::model, &Whole::spacing, &Whole::constants, &Whole::damping, &Whole::target,
+      &Whole::achieved, &Whole::covariance, &Whole::unidentifiable, &Whole::residuals,
+      &Whole::statement);
+}
+
+/// What was known before.
+struct PriorEntry {
+  double mean = meshes::unknown, deviation = meshes::unknown;
+};
+constexpr auto fields_of(const PriorEntry*) {
+  using meshes::named;
+  using Whole = PriorEntry;
+  return named("mean deviation", &Whole::mean, &Whole::deviation);
+}
+
+/// A free parameter, in `unit`.
+struct ParameterEntry {
+  std::string name, unit;
+  double estimate = meshes::unknown, standard_error = meshes::unknown, lower = meshes::unknown,
+         upper = meshes::unknown;
+  bool at_bound = false;
+  std::optional<std::string> bound_of;
+  double start = meshes::unknown;
+  std::optional<PriorEntry> prior;
+  double bias = meshes::unknown;
+};
+constexpr auto fields_of(const ParameterEntry*) {
+  using meshes::named, meshes::newer;
+  using Whole = ParameterEntry;
+  return std::tuple_cat(named("name unit estimate standard_error lower upper at_bound",
+                              &Whole::name, &Whole::unit, &Whole::estimate, &Whole::standard_error,
+                              &Whole::lower, &Whole::upper, &Whole::at_bound),
+                        newer(named("bound_of", &Whole::bound_of)),
+                        named("start prior bias", &Whole::start, &Whole::prior, &Whole::bias));
+}
+
+/// What the runs test says of a curve's residuals.
+struct StructureEntry {
+  long runs = 0;
+  double probability = meshes::unknown;
+  std::string statement;
+};
+constexpr auto fields_of(const StructureEntry*) {
+  using meshes::named;
+  using Whole = StructureEntry;
+  return named("runs probability statement", &Whole::runs, &Whole::probability, &Whole::statement);
+}
+
+/// The fit without a curve, asked for it.
+struct LeftOutEntry {
+  std::vector<double> estimates;
+  double worst_relative_error = meshes::unknown;
+  std::string failure;
+};
+constexpr auto fields_of(const LeftOutEntry*) {
+  using meshes::named, meshes::newer;
+  using Whole = LeftOutEntry;
+  return std::tuple_cat(
+      named("estimates worst_relative_error", &Whole::estimates, &Whole::worst_relative_error),
+      newer(named("failure", &Whole::failure)));
+}
+
+/// A curve of a fit.
+struct CurveEntry {
+  std::string name, condition, x_quantity, y_quantity;
+  std::size_t points = 0;
+  double worst_relative_residual = meshes::unknown, rms_relative_residual = meshes::unknown;
+  StructureEntry structure;
+  std::optional<LeftOutEntry> left_out;
+};
+constexpr auto fields_of(const CurveEntry*) {
+  using meshes::named, meshes::newer;
+  using Whole = CurveEntry;
+  return std::tuple_cat(
+      named("name condition", &Whole::name, &Whole::condition),
+      newer(named("x_quantity y_quantity", &Whole::x_quantity, &Whole::y_quantity)),
+      named("points worst_relative_residual rms_relative_residual structure left_out",
+            &Whole::points, &Whole::worst_relative_residual, &Whole::rms_relative_residual,
+            &Whole::structure, &Whole::left_out));
+}
+
+/// A combination of parameters that data do not determine.
+struct DirectionEntry {
+  std::map<std::string, double> direction;
+  double relative_singular_value = meshes::unknown, interval = meshes::unknown;
+  std::string statement;
+};
+constexpr auto fields_of(const DirectionEntry*) {
+  using meshes::named;
+  using Whole = DirectionEntry;
+  return named("direction relative_singular_value interval statement", &Whole::direction,
+               &Whole::relative_singular_value, &Whole::interval, &Whole::statement);
+}
+
+/// Where a search ended.
+struct MinimumEntry {
+  std::vector<double> estimates;
+  double loss = meshes::unknown;
+  long iterations = 0;
+  bool converged = false;
+};
+constexpr auto fields_of(const MinimumEntry*) {
+  using meshes::named, meshes::newer;
+  using Whole = MinimumEntry;
+  return std::tuple_cat(
+      named("estimates loss iterations", &Whole::estimates, &Whole::loss, &Whole::iterations),
+      newer(named("converged", &Whole::converged)));
+}
+
+/// Rise of chi-square over two parameters.
+struct ProfileEntry {
+  std::string first, second;
+  std::vector<double> first_values, second_values;
+  std::vector<std::vector<double>> increase;
+};
+constexpr auto fields_of(const ProfileEntry*) {
+  using meshes::named;
+  using Whole = ProfileEntry;
+  return named("first second first_values second_values increase", &Whole::first, &Whole::second,
+               &Whole::first_values, &Whole::second_values, &Whole::increase);
+}
+
+/// Where the result may be used.
+struct ValidityEntry {
+  double largest_strain_measure = meshes::unknown, spacing = meshes::unknown,
+         poissons_ratio = meshes::unknown;
+  std::string model, kinematics;
+};
+constexpr auto fields_of(const ValidityEntry*) {
+  using meshes::named;
+  using Whole = ValidityEntry;
+  return named("largest_strain_measure spacing poissons_ratio model kinematics",
+               &Whole::largest_strain_measure, &Whole::spacing, &Whole::poissons_ratio,
+               &Whole::model, &Whole::kinematics);
+}
+
+/// surrogate.json: force and stiffness at the knots of a spline.
+struct SurrogateFile {
+  std::vector<double> knots, force, stiffness, band;
+  std::string statement, condition;
+  std::map<std::string, std::string> units;
+
+  bool empty() const { return knots.empty(); }
+};
+constexpr auto fields_of(const SurrogateFile*) {
+  using meshes::named;
+  using Whole = SurrogateFile;
+  return named("knots force stiffness band statement condition units", &Whole::knots, &Whole::force,
+               &Whole::stiffness, &Whole::band, &Whole::statement, &Whole::condition,
+               &Whole::units);
+}
+
+/// calibration.json of a fit to curves.
+struct FitFile {
+  std::string problem, model;
+  double spacing = meshes::unknown;
+  FitConstants constants;
+  DampingEntry damping;
+  std::optional<RubberEntry> target;
+  RubberEntry rubber;
+  std::optional<AchievedEntry> achieved;
+  std::string forward;
+  std::vector<ParameterEntry> parameters;
+  std::vector<std::vector<double>> covariance, correlation;
+  std::vector<double> singular_values;
+  std::vector<DirectionEntry> unidentifiable, only_from_priors;
+  long degrees_of_freedom = 0;
+  double chi_square = meshes::unknown, chi_square_probability = meshes::unknown,
+         birge_ratio = meshes::unknown;
+  std::optional<std::string> model_error;
+  bool converged = false;
+  double poissons_ratio_bound = meshes::unknown, residual_deviation = meshes::unknown;
+  std::vector<MinimumEntry> minima;
+  std::string x_quantity, y_quantity;
+  std::vector<CurveEntry> curves;
+  std::vector<std::vector<double>> residuals, influence;
+  std::optional<ProfileEntry> profile;
+  long iterations = 0, evaluations = 0;
+  double wall_time = meshes::unknown;
+  ValidityEntry validity;
+  std::vector<std::string> failed;
+  std::string statement;
+
+  bool empty() const { return problem.empty(); }
+};
+constexpr auto fields_of(const FitFile*) {
+  using meshes::named, meshes::newer;
+  using Whole = FitFile;
+  return std::tuple_cat(
+      named("problem model spacing constants damping target", &Whole::problem, &Whole::model,
+            &Whole::spacing, &Whole::constants, &Whole::damping, &Whole::target),
+      newer(named("rubber", &Whole::rubber)),
+      named("achieved forward parameters covariance correlation singular_values unidentifiable "
+            "only_from_priors degrees_of_freedom chi_square chi_square_probability birge_ratio",
+            &Whole::achieved, &Whole::forward, &Whole::parameters, &Whole::covariance,
+            &Whole::correlation, &Whole::singular_values, &Whole::unidentifiable,
+            &Whole::only_from_priors, &Whole::degrees_of_freedom, &Whole::chi_square,
+            &Whole::chi_square_probability, &Whole::birge_ratio),
+      newer(named("model_error converged poissons_ratio_bound", &Whole::model_error,
+                  &Whole::converged, &Whole::poissons_ratio_bound)),
+      named("residual_deviation minima x_quantity y_quantity curves residuals influence profile "
+            "iterations evaluations wall_time validity",
+            &Whole::residual_deviation, &Whole::minima, &Whole::x_quantity, &Whole::y_quantity,
+            &Whole::curves, &Whole::residuals, &Whole::influence, &Whole::profile,
+            &Whole::iterations, &Whole::evaluations, &Whole::wall_time, &Whole::validity),
+      newer(named("failed", &Whole::failed)), named("statement", &Whole::statement));
+}
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,92 @@
+/// verification.json: what checks the continuum's code. SI. Free of deal.II.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "fem_reference/job.h"
+#include "meshes/fields.h"
+
+namespace fingertip::fem_reference {
+
+/// Errors of one element on meshes of one body, coarse to fine, and how fast they fall.
+struct ConvergenceStudy {
+  std::string problem;
+  int degree = 0;
+  Volumetric volumetric = Volumetric::projected;
+  double poissons_ratio = 0.0;
+  struct Mesh {
+    double h = 0.0;         ///< edge of an element: along block or height, or through the wall [m]
+    double unknowns = 0.0;  ///< their number
+    /// FieldError: relative, of the displacement and of its gradient
+    double error_l2 = 0.0, error_h1 = 0.0;
+  };
+  std::vector<Mesh> meshes;
+  /// -d log error / d log(1/h) between the two finest meshes, and the theory's degree + 1 and
+  /// degree
+  double order_l2 = 0.0, order_h1 = 0.0, expected_l2 = 0.0, expected_h1 = 0.0;
+};
+
+/// A number that is known otherwise.
+struct Check {
+  std::string name, quantity, source;
+  double value = 0.0, expected = 0.0;
+  /// |value - expected| / |expected|; where zero is expected |value|, which then is a ratio itself
+  double relative_error = 0.0;
+  double tolerance = 0.0;
+  bool passed = false;
+};
+
+/// One stiffness-like figure of one element at one Poisson's ratio.
+struct LockingPoint {
+  std::string problem;
+  std::string element;  ///< "Q2 projected" and so on
+  double poissons_ratio = 0.0;
+  double value = 0.0, reference = 0.0;
+  double relative_error = 0.0;  ///< value / reference - 1; positive is too stiff
+};
+
+struct VerificationFile {
+  std::vector<ConvergenceStudy> studies;
+  std::vector<Check> checks;
+  std::vector<LockingPoint> locking;
+
+  bool empty() const { return studies.empty() && checks.empty() && locking.empty(); }
+};
+
+inline constexpr std::array volumetrics{Volumetric::pointwise, Volumetric::projected};
+constexpr const auto& values_of(Volumetric) {
+  return volumetrics;
+}
+
+constexpr auto fields_of(const ConvergenceStudy::Mesh*) {
+  using Whole = ConvergenceStudy::Mesh;
+  return meshes::named("h unknowns error_l2 error_h1", &Whole::h, &Whole::unknowns,
+                       &Whole::error_l2, &Whole::error_h1);
+}
+constexpr auto fields_of(const ConvergenceStudy*) {
+  using Whole = ConvergenceStudy;
+  return meshes::named(
+      "problem degree volumetric poissons_ratio meshes order_l2 order_h1 expected_l2 expected_h1",
+      &Whole::problem, &Whole::degree, &Whole::volumetric, &Whole::poissons_ratio, &Whole::meshes,
+      &Whole::order_l2, &Whole::order_h1, &Whole::expected_l2, &Whole::expected_h1);
+}
+constexpr auto fields_of(const Check*) {
+  using Whole = Check;
+  return meshes::named("name quantity source value expected relative_error tolerance passed",
+                       &Whole::name, &Whole::quantity, &Whole::source, &Whole::value,
+                       &Whole::expected, &Whole::relative_error, &Whole::tolerance, &Whole::passed);
+}
+constexpr auto fields_of(const LockingPoint*) {
+  using Whole = LockingPoint;
+  return meshes::named("problem element poissons_ratio value reference relative_error",
+                       &Whole::problem, &Whole::element, &Whole::poissons_ratio, &Whole::value,
+                       &Whole::reference, &Whole::relative_error);
+}
+constexpr auto fields_of(const VerificationFile*) {
+  using Whole = VerificationFile;
+  return meshes::named("studies checks locking", &Whole::studies, &Whole::checks, &Whole::locking);
+}
+
+}  // namespace fingertip::fem_reference
