@@ -27,6 +27,7 @@ constexpr std::array analyses{Analysis::static_press, Analysis::transient, Analy
                               Analysis::verification};
 constexpr std::array volumetrics{Volumetric::pointwise, Volumetric::projected};
 constexpr std::array laws{StrainEnergy::law_a, StrainEnergy::law_b, StrainEnergy::law_c};
+constexpr std::array symmetries{Symmetry::automatic, Symmetry::axisymmetric, Symmetry::none};
 constexpr std::array solvers{LinearSolver::automatic, LinearSolver::condensed,
                              LinearSolver::multigrid};
 
@@ -122,6 +123,7 @@ void read_entries(const Json& json, const std::string& file, ReferenceJob& job,
   top.read("analysis", [&](const Json& j) { get_name(j, analyses, job.analysis); });
   top.read("strain", [&](const Json& j) { get_name(j, strains, job.strain); });
   top.read("law", [&](const Json& j) { get_name(j, laws, job.law); });
+  top.read("symmetry", [&](const Json& j) { get_name(j, symmetries, job.symmetry); });
   top.read("volumetric", [&](const Json& j) { get_name(j, volumetrics, job.volumetric); });
   top.read("contact", [&](const Json& j) { get_name(j, contact_modes, job.contact); });
   top.read("solver", [&](const Json& j) { get_name(j, solvers, job.solver); });
@@ -180,6 +182,20 @@ std::string_view name(StrainEnergy law) {
   return "";
 }
 
+std::string_view name(Symmetry symmetry) {
+  switch (symmetry) {
+    case Symmetry::automatic: return "automatic";
+    case Symmetry::axisymmetric: return "axisymmetric";
+    case Symmetry::none: return "none";
+  }
+  return "";
+}
+
+bool ReferenceJob::axisymmetric() const {
+  const bool press = analysis == Analysis::static_press || analysis == Analysis::transient;
+  return symmetry != Symmetry::none && press && tilt == 0.0 && lateral == 0.0;
+}
+
 meshes::PressProtocol ReferenceJob::protocol() const {
   meshes::PressProtocol protocol;
   protocol.depth = samples.empty() ? 0.0 : samples.back();
@@ -222,6 +238,14 @@ std::vector<Violation> ReferenceJob::violations() const {
             "finite strain needs nu >= 0: with a negative Lame constant lambda the energy falls "
             "without bound as the volume goes to zero",
             "choose G <= E/2, or reference.strain = \"linear\"");
+  if (symmetry == Symmetry::axisymmetric && !axisymmetric())
+    broken.push_back(
+        {"reference.symmetry", "axisymmetric",
+         analysis == Analysis::modes
+             ? "natural vibrations leave the meridian: they need the solid"
+             : "a tilt or a lateral motion of the plane breaks the symmetry about the axis",
+         "choose reference.symmetry = \"automatic\", or press.tilt = \"0 deg\" and "
+         "press.lateral = \"0 m\""});
   if (analysis == Analysis::transient)
     require(strain == Strain::linear && tilt == 0.0 && lateral == 0.0 &&
                 contact != ContactMode::coulomb,
@@ -235,6 +259,7 @@ void write_job(const ReferenceJob& job, const std::filesystem::path& file) {
   const Json json{{"analysis", name(job.analysis)},
                   {"strain", name(job.strain)},
                   {"law", name(job.law)},
+                  {"symmetry", name(job.symmetry)},
                   {"volumetric", name(job.volumetric)},
                   {"friction", job.friction},
                   {"tilt", job.tilt},

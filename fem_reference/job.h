@@ -39,6 +39,13 @@ enum class Volumetric {
   projected,  ///< its dilatation projected, element by element, on polynomials one degree lower
 };
 
+/// Whether a press along the axis is computed on the meridian of the body of revolution.
+enum class Symmetry {
+  automatic,     ///< wherever nothing breaks the symmetry
+  axisymmetric,  ///< as automatic; a job that breaks it is refused
+  none,          ///< as a solid
+};
+
 /// Strain energies of large strain; see material/strain_energy.h.
 enum class StrainEnergy { law_a, law_b, law_c };
 
@@ -47,6 +54,7 @@ std::string_view name(Strain strain);
 std::string_view name(Analysis analysis);
 std::string_view name(Volumetric volumetric);
 std::string_view name(StrainEnergy law);
+std::string_view name(Symmetry symmetry);
 
 /// One order to the continuum, SI.
 struct ReferenceJob {
@@ -63,8 +71,9 @@ struct ReferenceJob {
   double speed = 0.01;          ///< of the rod, transient only [m/s], > 0
   Strain strain = Strain::linear;
   StrainEnergy law = StrainEnergy::law_a;  ///< finite strain only
-  int modes = 10;                          ///< how many, lowest first
-  int degree = 2;                          ///< polynomial degree of the elements, 1, 2 or 3
+  Symmetry symmetry = Symmetry::automatic;
+  int modes = 10;  ///< how many, lowest first
+  int degree = 2;  ///< polynomial degree of the elements, 1, 2 or 3
   Volumetric volumetric = Volumetric::projected;
   double refinement = 0.5;     ///< factor on the element counts of the first mesh, 0.25 ... 4
   double tolerance = 5e-3;     ///< wanted force_error over normal_force, at every sample
@@ -76,6 +85,8 @@ struct ReferenceJob {
 
   /// What is done to the specimen.
   meshes::PressProtocol protocol() const;
+  /// Whether the meridian is meshed, not the solid: a press without tilt and lateral motion.
+  bool axisymmetric() const;
   std::vector<meshes::Violation> violations() const;
 };
 

@@ -141,7 +141,7 @@ class PressRun {
 
   void make_mesh() {
     meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(job_.refinement);
-    options.sector = has_two_symmetry_planes(job_) ? meshes::Sector::quarter : meshes::Sector::half;
+    options.sector = sector(job_);
     mesh_quality_ = write_mesh_once(job_.geometry, options, folder_ / "tip.msh");
   }
 

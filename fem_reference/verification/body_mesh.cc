@@ -23,34 +23,34 @@ using Face = dealii::TriaIterator<dealii::TriaAccessor<2, 3, 3>>;
 constexpr dealii::types::manifold_id curved = 1;
 
 /// Three shears, one after the other: smooth, invertible in closed form, and no plane stays one.
-class Bend : public dealii::ChartManifold<dim, dim, dim> {
+class Bend : public dealii::ChartManifold<3, 3, 3> {
  public:
   explicit Bend(const meshes::Vector3& size) : size_(size) {}
-  std::unique_ptr<dealii::Manifold<dim>> clone() const override {
+  std::unique_ptr<dealii::Manifold<3>> clone() const override {
     return std::make_unique<Bend>(size_);
   }
-  Point<dim> push_forward(const Point<dim>& chart) const override {
-    Point<dim> p = chart;
-    for (unsigned i = 0; i < dim; ++i) p[i] += shear(i, p);
+  Point<3> push_forward(const Point<3>& chart) const override {
+    Point<3> p = chart;
+    for (unsigned i = 0; i < 3; ++i) p[i] += shear(i, p);
     return p;
   }
-  Point<dim> pull_back(const Point<dim>& point) const override {
-    Point<dim> p = point;
-    for (unsigned i = dim; i-- > 0;) p[i] -= shear(i, p);
+  Point<3> pull_back(const Point<3>& point) const override {
+    Point<3> p = point;
+    for (unsigned i = 3; i-- > 0;) p[i] -= shear(i, p);
     return p;
   }
 
  private:
   /// Motion along axis i; depends on the other two coordinates only.
-  double shear(unsigned i, const Point<dim>& p) const {
-    const unsigned j = (i + 1) % dim, k = (i + 2) % dim;
+  double shear(unsigned i, const Point<3>& p) const {
+    const unsigned j = (i + 1) % 3, k = (i + 2) % 3;
     return 0.12 * size_[i] * std::sin(2.0 * p[j] / size_[j] + 1.5 * p[k] / size_[k] + 0.7 * i);
   }
   meshes::Vector3 size_;
 };
 
 template <class Belongs>
-void name_boundary(Triangulation& mesh, int id, Belongs belongs) {
+void name_boundary(Triangulation<3>& mesh, int id, Belongs belongs) {
   for (const auto& cell : mesh.active_cell_iterators())
     for (const auto& face : cell->face_iterators()) {
       bool all = face->at_boundary();
@@ -60,16 +60,16 @@ void name_boundary(Triangulation& mesh, int id, Belongs belongs) {
 }
 
 /// Names the plane faces through the coordinate planes and w_z = `top`.
-void name_planes(Triangulation& mesh, double top) {
+void name_planes(Triangulation<3>& mesh, double top) {
   constexpr double tiny = 1e-9;
-  for (unsigned i = 0; i < dim; ++i)
-    name_boundary(mesh, 2 * int(i), [&](const Point<dim>& p) { return std::abs(p[i]) < tiny; });
+  for (unsigned i = 0; i < 3; ++i)
+    name_boundary(mesh, 2 * int(i), [&](const Point<3>& p) { return std::abs(p[i]) < tiny; });
   name_boundary(mesh, boundary::high_z,
-                [&](const Point<dim>& p) { return std::abs(p[2] - top) < tiny; });
+                [&](const Point<3>& p) { return std::abs(p[2] - top) < tiny; });
 }
 
-void make_block(const BodyMesh& body, const Point<dim>& low, const Point<dim>& high,
-                Triangulation& mesh) {
+void make_block(const BodyMesh& body, const Point<3>& low, const Point<3>& high,
+                Triangulation<3>& mesh) {
   std::vector<unsigned> counts;
   for (const int n : body.divisions) {
     if (n < 1) throw std::invalid_argument("a block needs at least one division each way");
@@ -79,10 +79,10 @@ void make_block(const BodyMesh& body, const Point<dim>& low, const Point<dim>& h
   if (body.distortion > 0.0) dealii::GridTools::distort_random(body.distortion, mesh, true);
 }
 
-void make_cylinder(const BodyMesh& body, Triangulation& mesh) {
+void make_cylinder(const BodyMesh& body, Triangulation<3>& mesh) {
   // The box is radius, angle and height; its faces become those of the cylinder.
-  make_block(body, Point<dim>(body.size[0], 0.0, 0.0),
-             Point<dim>(body.size[1], std::numbers::pi / 2, body.size[2]), mesh);
+  make_block(body, Point<3>(body.size[0], 0.0, 0.0),
+             Point<3>(body.size[1], std::numbers::pi / 2, body.size[2]), mesh);
   constexpr std::array<int, 6> names{boundary::inner, boundary::outer, boundary::low_y,
                                      boundary::low_x, boundary::low_z, boundary::high_z};
   for (const auto& cell : mesh.active_cell_iterators())
@@ -90,12 +90,12 @@ void make_cylinder(const BodyMesh& body, Triangulation& mesh) {
       if (face->at_boundary())
         face->set_boundary_id(dealii::types::boundary_id(names[face->boundary_id()]));
   dealii::GridTools::transform(
-      [](const Point<dim>& p) {
-        return Point<dim>(p[0] * std::cos(p[1]), p[0] * std::sin(p[1]), p[2]);
+      [](const Point<3>& p) {
+        return Point<3>(p[0] * std::cos(p[1]), p[0] * std::sin(p[1]), p[2]);
       },
       mesh);
   mesh.set_all_manifold_ids(curved);
-  mesh.set_manifold(curved, dealii::CylindricalManifold<dim>(2));
+  mesh.set_manifold(curved, dealii::CylindricalManifold<3>(2));
 }
 
 unsigned levels(const BodyMesh& body) {
@@ -105,22 +105,22 @@ unsigned levels(const BodyMesh& body) {
   return unsigned(std::countr_zero(unsigned(n)));
 }
 
-void make_sphere(const BodyMesh& body, Triangulation& mesh) {
-  dealii::GridGenerator::quarter_hyper_shell(mesh, Point<dim>(), body.size[0], body.size[1], 3,
+void make_sphere(const BodyMesh& body, Triangulation<3>& mesh) {
+  dealii::GridGenerator::quarter_hyper_shell(mesh, Point<3>(), body.size[0], body.size[1], 3,
                                              false);
   const double middle = 0.5 * (body.size[0] + body.size[1]);
-  name_boundary(mesh, boundary::inner, [&](const Point<dim>& p) { return p.norm() < middle; });
-  name_boundary(mesh, boundary::outer, [&](const Point<dim>& p) { return p.norm() > middle; });
+  name_boundary(mesh, boundary::inner, [&](const Point<3>& p) { return p.norm() < middle; });
+  name_boundary(mesh, boundary::outer, [&](const Point<3>& p) { return p.norm() > middle; });
   name_planes(mesh, 2.0 * body.size[1]);
   mesh.refine_global(levels(body));
 }
 
-void make_disc(const BodyMesh& body, Triangulation& mesh) {
+void make_disc(const BodyMesh& body, Triangulation<3>& mesh) {
   dealii::Triangulation<2> section;
   dealii::GridGenerator::quarter_hyper_ball(section, Point<2>(), body.size[0]);
   dealii::GridGenerator::extrude_triangulation(section, 2, body.size[2], mesh);
   mesh.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
-  const auto on_side = [&](const Point<dim>& p) {
+  const auto on_side = [&](const Point<3>& p) {
     return std::abs(std::hypot(p[0], p[1]) - body.size[0]) < 1e-9;
   };
   name_boundary(mesh, boundary::outer, on_side);
@@ -129,12 +129,12 @@ void make_disc(const BodyMesh& body, Triangulation& mesh) {
     for (const auto& face : cell->face_iterators())
       if (face->at_boundary() && face->boundary_id() == boundary::outer)
         face->set_all_manifold_ids(curved);
-  mesh.set_manifold(curved, dealii::CylindricalManifold<dim>(2));
+  mesh.set_manifold(curved, dealii::CylindricalManifold<3>(2));
   mesh.refine_global(levels(body));
 }
 
 /// Halves the elements that have a vertex where `belongs` says so.
-void refine_at(Triangulation& mesh, const std::function<bool(const Point<dim>&)>& belongs) {
+void refine_at(Triangulation<3>& mesh, const std::function<bool(const Point<3>&)>& belongs) {
   for (const auto& cell : mesh.active_cell_iterators())
     for (const unsigned v : cell->vertex_indices())
       if (belongs(cell->vertex(v))) {
@@ -146,14 +146,14 @@ void refine_at(Triangulation& mesh, const std::function<bool(const Point<dim>&)>
 
 }  // namespace
 
-void make_mesh(const BodyMesh& description, Body& body) {
-  Triangulation& mesh = body.triangulation;
+void make_mesh(const BodyMesh& description, Body<3>& body) {
+  Triangulation<3>& mesh = body.triangulation;
   const meshes::Vector3& size = description.size;
-  Point<dim> corner(description.origin[0], description.origin[1], description.origin[2]);
+  Point<3> corner(description.origin[0], description.origin[1], description.origin[2]);
   switch (description.shape) {
     case Shape::block:
     case Shape::curved_block:
-      make_block(description, corner, corner + dealii::Tensor<1, dim>({size[0], size[1], size[2]}),
+      make_block(description, corner, corner + dealii::Tensor<1, 3>({size[0], size[1], size[2]}),
                  mesh);
       break;
     case Shape::sphere_octant: make_sphere(description, mesh); break;
@@ -162,13 +162,13 @@ void make_mesh(const BodyMesh& description, Body& body) {
   }
   if (description.shape == Shape::curved_block) {
     const Bend bend(size);
-    dealii::GridTools::transform([&](const Point<dim>& p) { return bend.push_forward(p); }, mesh);
+    dealii::GridTools::transform([&](const Point<3>& p) { return bend.push_forward(p); }, mesh);
     mesh.set_all_manifold_ids(curved);
     mesh.set_manifold(curved, bend);
     corner = bend.push_forward(corner);
   }
   for (int i = 0; i < description.local_refinements; ++i)
-    refine_at(mesh, [&](const Point<dim>& p) {
+    refine_at(mesh, [&](const Point<3>& p) {
       if (description.shape == Shape::disc_octant)
         return std::abs(std::hypot(p[0], p[1]) - size[0]) < 1e-9 && std::abs(p[2] - size[2]) < 1e-9;
       return p.distance(corner) < 1e-9;

@@ -7,6 +7,7 @@
 
 namespace fingertip::fem_reference {
 
+template <int dim>
 class Body;
 
 /// What the body is; x, y, z are the entries of BodyMesh::size.
@@ -43,6 +44,6 @@ struct BodyMesh {
 
 /// Meshes `description` into the empty body and leaves its unknowns unnumbered. Throws
 /// std::invalid_argument for divisions that the shape does not allow.
-void make_mesh(const BodyMesh& description, Body& body);
+void make_mesh(const BodyMesh& description, Body<3>& body);
 
 }  // namespace fingertip::fem_reference

@@ -20,14 +20,14 @@ using dealii::types::boundary_id;
 using dealii::types::global_dof_index;
 using meshes::Vector3;
 
-Vector3 to_eigen(const dealii::Tensor<1, dim>& t) {
+Vector3 to_eigen(const dealii::Tensor<1, 3>& t) {
   return {t[0], t[1], t[2]};
 }
 
-class AsFunction : public dealii::Function<dim> {
+class AsFunction : public dealii::Function<3> {
  public:
-  explicit AsFunction(const Loading::Field& field) : dealii::Function<dim>(dim), field_(field) {}
-  double value(const dealii::Point<dim>& p, unsigned component) const override {
+  explicit AsFunction(const Loading::Field& field) : dealii::Function<3>(3), field_(field) {}
+  double value(const dealii::Point<3>& p, unsigned component) const override {
     return field_ ? field_(to_eigen(p))[component] : 0.0;
   }
 
@@ -36,14 +36,14 @@ class AsFunction : public dealii::Function<dim> {
 };
 
 /// Hanging nodes alone, and with supports: the constraints of one loading.
-void constrain(Body& body, const Loading& loading) {
-  Space& space = body.fine;
+void constrain(Body<3>& body, const Loading& loading) {
+  Space<3>& space = body.fine;
   space.constraints.clear();
   space.constraints.reinit(space.relevant);
   dealii::DoFTools::make_hanging_node_constraints(space.dofs, space.constraints);
   const AsFunction displacement(loading.displacement);
   for (const Prescribed& entry : loading.prescribed) {
-    dealii::ComponentMask mask(dim, false);
+    dealii::ComponentMask mask(3, false);
     mask.set(unsigned(entry.component), true);
     dealii::VectorTools::interpolate_boundary_values(body.mapping, space.dofs,
                                                      boundary_id(entry.boundary), displacement,
@@ -62,15 +62,15 @@ void add_load(const Values& values, unsigned q, const Vector3& density,
 }
 
 /// Consistent nodal forces of body force and traction, passed on by `constraints` [N].
-Vector external_load(const Body& body, const Loading& loading,
+Vector external_load(const Body<3>& body, const Loading& loading,
                      const dealii::AffineConstraints<double>& constraints) {
-  const Space& space = body.fine;
+  const Space<3>& space = body.fine;
   const unsigned points = unsigned(body.degree()) + 2;
   const auto flags =
       dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values;
-  dealii::FEValues<dim> inside(body.mapping, space.element, dealii::QGauss<dim>(points), flags);
-  dealii::FEFaceValues<dim> surface(body.mapping, space.element, dealii::QGauss<dim - 1>(points),
-                                    flags | dealii::update_normal_vectors);
+  dealii::FEValues<3> inside(body.mapping, space.element, dealii::QGauss<3>(points), flags);
+  dealii::FEFaceValues<3> surface(body.mapping, space.element, dealii::QGauss<3 - 1>(points),
+                                  flags | dealii::update_normal_vectors);
   Vector load = space.vector();
   dealii::Vector<double> local(space.element.n_dofs_per_cell());
   std::vector<global_dof_index> indices(local.size());
@@ -102,7 +102,7 @@ Vector external_load(const Body& body, const Loading& loading,
 std::vector<Prescribed> whole(const std::vector<int>& boundaries) {
   std::vector<Prescribed> result;
   for (const int b : boundaries)
-    for (int component = 0; component < dim; ++component) result.push_back({b, component});
+    for (int component = 0; component < 3; ++component) result.push_back({b, component});
   return result;
 }
 
@@ -126,10 +126,10 @@ struct PointState {
 };
 
 struct ElasticProblem::Implementation {
-  Body body;
+  Body<3> body;
   Volumetric volumetric;
   meshes::Rubber rubber;
-  mutable HookeKernel kernel;
+  mutable HookeKernel<3> kernel;
   Vector displacement;
   Vector load;  ///< of the last solution, as if nothing were supported [N]
 
@@ -148,14 +148,14 @@ struct ElasticProblem::Implementation {
   /// Calls `take(PointState)` at points enough for errors of the elements' order.
   template <class Take>
   void for_each_point(Take take) const {
-    const Space& space = body.fine;
-    dealii::FEValues<dim> values(body.mapping, space.element,
-                                 dealii::QGauss<dim>(unsigned(body.degree()) + 2),
-                                 dealii::update_values | dealii::update_gradients |
-                                     dealii::update_quadrature_points | dealii::update_JxW_values);
+    const Space<3>& space = body.fine;
+    dealii::FEValues<3> values(body.mapping, space.element,
+                               dealii::QGauss<3>(unsigned(body.degree()) + 2),
+                               dealii::update_values | dealii::update_gradients |
+                                   dealii::update_quadrature_points | dealii::update_JxW_values);
     const dealii::FEValuesExtractors::Vector all(0);
-    std::vector<dealii::Tensor<1, dim>> u(values.n_quadrature_points);
-    std::vector<dealii::Tensor<2, dim>> gradients(values.n_quadrature_points);
+    std::vector<dealii::Tensor<1, 3>> u(values.n_quadrature_points);
+    std::vector<dealii::Tensor<2, 3>> gradients(values.n_quadrature_points);
     const auto points = Eigen::Index(values.n_quadrature_points);
     Eigen::VectorXd dilatation(points), weights(points);
     for (const auto& cell : space.dofs.active_cell_iterators()) {
@@ -168,7 +168,7 @@ struct ElasticProblem::Implementation {
       }
       if (volumetric == Volumetric::projected) {
         const Eigen::MatrixXd basis =
-            ElementPolynomials(values, body.degree() - 1).at(values.get_quadrature_points());
+            ElementPolynomials<3>(values, body.degree() - 1).at(values.get_quadrature_points());
         dilatation = basis * (basis.transpose() * weights.cwiseProduct(dilatation));
       }
       for (Eigen::Index q = 0; q < points; ++q) {
@@ -177,8 +177,8 @@ struct ElasticProblem::Implementation {
                          {},
                          dilatation[q],
                          weights[q]};
-        for (unsigned i = 0; i < dim; ++i)
-          for (unsigned j = 0; j < dim; ++j) state.gradient(i, j) = gradients[std::size_t(q)][i][j];
+        for (unsigned i = 0; i < 3; ++i)
+          for (unsigned j = 0; j < 3; ++j) state.gradient(i, j) = gradients[std::size_t(q)][i][j];
         take(state);
       }
     }
@@ -187,14 +187,14 @@ struct ElasticProblem::Implementation {
   /// Calls `take(unknowns of the three components, place)` once per node.
   template <class Take>
   void for_each_node(Take take) const {
-    const Space& space = body.fine;
+    const Space<3>& space = body.fine;
     std::vector<char> seen(space.dofs.n_dofs(), 0);
     std::vector<global_dof_index> indices(space.element.n_dofs_per_cell());
     for (const auto& cell : space.dofs.active_cell_iterators()) {
       cell->get_dof_indices(indices);
-      for (unsigned node = 0; node < indices.size() / dim; ++node) {
-        std::array<global_dof_index, dim> unknowns{};
-        for (unsigned c = 0; c < dim; ++c)
+      for (unsigned node = 0; node < indices.size() / 3; ++node) {
+        std::array<global_dof_index, 3> unknowns{};
+        for (unsigned c = 0; c < 3; ++c)
           unknowns[c] = indices[space.element.component_to_system_index(c, node)];
         if (seen[unknowns[0]]++) continue;
         take(unknowns, to_eigen(body.mapping.transform_unit_to_real_cell(
@@ -221,7 +221,7 @@ double ElasticProblem::volume() const {
 
 void ElasticProblem::solve(const Loading& loading) {
   Implementation& self = *implementation_;
-  Body& body = self.body;
+  Body<3>& body = self.body;
   constrain(body, loading);
   LinearSystem system(body, false);
   assemble(body, self.kernel, body.fine.vector(), system);
@@ -273,10 +273,10 @@ double ElasticProblem::stress_error(const analytic::ElasticField& exact) const {
 double ElasticProblem::nodal_error(const Loading::Field& exact) const {
   const Implementation& self = *implementation_;
   double error = 0.0, size = 0.0;
-  self.for_each_node([&](const std::array<global_dof_index, dim>& unknowns, const Vector3& x) {
+  self.for_each_node([&](const std::array<global_dof_index, 3>& unknowns, const Vector3& x) {
     const Vector3 wanted = exact(x);
     Vector3 found;
-    for (unsigned c = 0; c < dim; ++c) found[c] = self.displacement[unknowns[c]];
+    for (unsigned c = 0; c < 3; ++c) found[c] = self.displacement[unknowns[c]];
     error = std::max(error, (found - wanted).norm());
     size = std::max(size, wanted.norm());
   });
@@ -285,12 +285,12 @@ double ElasticProblem::nodal_error(const Loading::Field& exact) const {
 
 Vector3 ElasticProblem::mean_displacement(int boundary) const {
   const Implementation& self = *implementation_;
-  const Space& space = self.body.fine;
-  dealii::FEFaceValues<dim> values(self.body.mapping, space.element,
-                                   dealii::QGauss<dim - 1>(unsigned(self.body.degree()) + 2),
-                                   dealii::update_values | dealii::update_JxW_values);
+  const Space<3>& space = self.body.fine;
+  dealii::FEFaceValues<3> values(self.body.mapping, space.element,
+                                 dealii::QGauss<3 - 1>(unsigned(self.body.degree()) + 2),
+                                 dealii::update_values | dealii::update_JxW_values);
   const dealii::FEValuesExtractors::Vector all(0);
-  std::vector<dealii::Tensor<1, dim>> u(values.n_quadrature_points);
+  std::vector<dealii::Tensor<1, 3>> u(values.n_quadrature_points);
   Vector3 sum = Vector3::Zero();
   double area = 0.0;
   for (const auto& cell : space.dofs.active_cell_iterators())
@@ -318,26 +318,26 @@ double ElasticProblem::energy() const {
   double sum = 0.0;
   for_each_element(
       self.body, self.kernel, self.displacement,
-      [&](const CellIterator&, const dealii::FullMatrix<double>&, const dealii::Vector<double>&,
+      [&](const CellIterator<3>&, const dealii::FullMatrix<double>&, const dealii::Vector<double>&,
           const ElementSystem& element) { sum += element.energy; });
   return sum;
 }
 
 Eigen::MatrixXd ElasticProblem::stiffness() const {
   const Implementation& self = *implementation_;
-  const Space& space = self.body.fine;
+  const Space<3>& space = self.body.fine;
   const auto constraints = space.hanging_nodes();
   const auto count = unsigned(space.dofs.n_dofs());
   dealii::FullMatrix<double> matrix(count, count);
   std::vector<global_dof_index> indices(space.element.n_dofs_per_cell());
   for_each_element(self.body, self.kernel, space.vector(),
-                   [&](const CellIterator& cell, const dealii::FullMatrix<double>& local,
+                   [&](const CellIterator<3>& cell, const dealii::FullMatrix<double>& local,
                        const dealii::Vector<double>&, const ElementSystem&) {
                      cell->get_dof_indices(indices);
                      constraints.distribute_local_to_global(local, indices, matrix);
                    });
   std::vector<global_dof_index> order;
-  self.for_each_node([&](const std::array<global_dof_index, dim>& unknowns, const Vector3&) {
+  self.for_each_node([&](const std::array<global_dof_index, 3>& unknowns, const Vector3&) {
     if (!constraints.is_constrained(unknowns[0]))
       order.insert(order.end(), unknowns.begin(), unknowns.end());
   });
@@ -352,7 +352,7 @@ std::vector<Vector3> ElasticProblem::nodes() const {
   const Implementation& self = *implementation_;
   const auto constraints = self.body.fine.hanging_nodes();
   std::vector<Vector3> places;
-  self.for_each_node([&](const std::array<global_dof_index, dim>& unknowns, const Vector3& x) {
+  self.for_each_node([&](const std::array<global_dof_index, 3>& unknowns, const Vector3& x) {
     if (!constraints.is_constrained(unknowns[0])) places.push_back(x);
   });
   return places;

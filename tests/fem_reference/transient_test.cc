@@ -31,11 +31,11 @@ namespace {
 /// Free vibration of one mode of a small tip.
 struct FreeVibration {
   explicit FreeVibration(double retardation_time)
-      : body(read_tip(MPI_COMM_WORLD, mesh.file(), 2, 0.0)),
+      : body(read_tip<3>(MPI_COMM_WORLD, mesh.file(), 2, 0.0)),
         stiffness(rubber, Volumetric::projected),
         mass(rubber.density),
         tau(retardation_time) {
-    body->number(tip_supports());
+    body->number(tip_supports<3>());
     const auto pair = lowest_eigenpairs(*body, stiffness, mass, 1).front();
     shape = pair.shape;
     omega = std::sqrt(pair.eigenvalue);
@@ -44,7 +44,7 @@ struct FreeVibration {
   /// Amplitude of the mode after `time` from amplitude 1, in `steps` steps.
   double amplitude_after(double time, int steps) {
     auto solver = make_condensed_solver(*body, {});
-    GeneralisedAlpha motion(*body, stiffness, mass, tau, false);
+    GeneralisedAlpha<3> motion(*body, stiffness, mass, tau, false);
     Vector acceleration = shape, zero = body->fine.vector();
     acceleration *= -omega * omega;
     motion.set_state(shape, zero, acceleration);
@@ -67,9 +67,9 @@ struct FreeVibration {
 
   SharedMesh mesh{0.25};
   meshes::Rubber rubber;
-  std::unique_ptr<Body> body;
-  HookeKernel stiffness;
-  MassKernel mass;
+  std::unique_ptr<Body<3>> body;
+  HookeKernel<3> stiffness;
+  MassKernel<3> mass;
   double tau;
   Vector shape;
   double omega = 0.0;
@@ -93,13 +93,13 @@ TEST(GeneralisedAlpha, FollowsAModeAtSecondOrder) {
 TEST(GeneralisedAlpha, KeepsWhatMovesUniformlyAndKnowsItsMass) {
   // A box that slides freely along x between smooth walls: no force, momentum m v for ever.
   const meshes::Rubber rubber;
-  Body body(MPI_COMM_WORLD, 2);
+  Body<3> body(MPI_COMM_WORLD, 2);
   dealii::GridGenerator::subdivided_hyper_rectangle(
       body.triangulation, {2, 1, 1}, dealii::Point<3>(), dealii::Point<3>(0.02, 0.01, 0.005), true);
   body.number({{2, 1}, {3, 1}, {4, 2}, {5, 2}});
-  HookeKernel stiffness(rubber, Volumetric::pointwise);
-  MassKernel mass(rubber.density);
-  GeneralisedAlpha motion(body, stiffness, mass, 1e-3, false);
+  HookeKernel<3> stiffness(rubber, Volumetric::pointwise);
+  MassKernel<3> mass(rubber.density);
+  GeneralisedAlpha<3> motion(body, stiffness, mass, 1e-3, false);
   Vector u = body.fine.vector(), v = u, zero = u;
   for (const auto& cell : body.fine.dofs.active_cell_iterators()) {
     std::vector<dealii::types::global_dof_index> indices(body.fine.element.n_dofs_per_cell());
@@ -128,19 +128,19 @@ TEST(GeneralisedAlpha, KeepsWhatMovesUniformlyAndKnowsItsMass) {
 TEST(GeneralisedAlpha, CarriesAPressureWaveAtItsSpeed) {
   constexpr double length = 0.02, width = 1e-3, speed = 0.01;
   const meshes::Rubber rubber;
-  Body body(MPI_COMM_WORLD, 2);
+  Body<3> body(MPI_COMM_WORLD, 2);
   dealii::GridGenerator::subdivided_hyper_rectangle(body.triangulation, {80, 1, 1},
                                                     dealii::Point<3>(),
                                                     dealii::Point<3>(length, width, width), true);
   body.number({{0, 0}, {0, 1}, {0, 2}, {2, 1}, {3, 1}, {4, 2}, {5, 2}});
-  HookeKernel stiffness(rubber, Volumetric::pointwise);
-  MassKernel mass(rubber.density);
+  HookeKernel<3> stiffness(rubber, Volumetric::pointwise);
+  MassKernel<3> mass(rubber.density);
   std::vector<long> face;  // x unknowns of the free end
   const dealii::IndexSet end = dealii::DoFTools::extract_boundary_dofs(
       body.fine.dofs, dealii::ComponentMask({true, false, false}), {1});
   for (const auto i : end) face.push_back(long(i));
   auto solver = make_condensed_solver(body, face);
-  GeneralisedAlpha motion(body, stiffness, mass, 0.0, false);
+  GeneralisedAlpha<3> motion(body, stiffness, mass, 0.0, false);
   const double transit = length / rubber.longitudinal_wave_speed();
   constexpr int steps = 400;  // a transit
   motion.set_step(transit / steps, *solver);
