@@ -104,12 +104,17 @@ bool ContinuumPress::refine(double share, const std::vector<char>& wanted) {
   return implementation_->model->refine(share, wanted);
 }
 
-void ContinuumPress::write_fields(const std::filesystem::path& file) const {
-  implementation_->model->write_fields(file);
+std::shared_ptr<const PressSnapshot> ContinuumPress::snapshot() const {
+  return implementation_->model->snapshot();
 }
 
-std::vector<SectionEdge> ContinuumPress::section() const {
-  return implementation_->model->section();
+void ContinuumPress::write_fields(const PressSnapshot& state,
+                                  const std::filesystem::path& file) const {
+  implementation_->model->write_fields(state, file);
+}
+
+std::vector<SectionEdge> ContinuumPress::section(const PressSnapshot& state) const {
+  return implementation_->model->section(state);
 }
 
 meshes::Vector3 ContinuumPress::bond_reaction() const {

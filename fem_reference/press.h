@@ -62,6 +62,8 @@ struct SectionEdge {
 double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing,
                     int nodes_per_ring);
 
+struct PressSnapshot;
+
 /// A tip under a plane that comes nearer: its meridian when the job is axisymmetric, a quarter of
 /// it when nothing else breaks the symmetry, a half (y >= 0) when it is tilted or moved laterally.
 /// All processes of MPI_COMM_WORLD take part in every call.
@@ -94,11 +96,13 @@ class ContinuumPress {
   /// False, and the press cannot go on, when the mesh would exceed the job's `max_unknowns`.
   bool refine(double share, const std::vector<char>& wanted = {});
 
-  /// VTU of the last sample: displacement [m], stress, von Mises stress [Pa], and on the contact
-  /// surface pressure and shear of the plane [Pa] and status (0 open, 1 stick, 2 slide).
-  void write_fields(const std::filesystem::path& file) const;
-  /// The mesh's edges in the plane y = 0 at the last sample, complete on the first process.
-  std::vector<SectionEdge> section() const;
+  /// The last sample, to be written later but before the mesh is refined.
+  std::shared_ptr<const PressSnapshot> snapshot() const;
+  /// VTU of a sample: displacement [m], stress, von Mises stress [Pa], and on the contact surface
+  /// pressure and shear of the plane [Pa] and status (0 open, 1 stick, 2 slide).
+  void write_fields(const PressSnapshot& state, const std::filesystem::path& file) const;
+  /// The mesh's edges in the plane y = 0 at a sample, complete on the first process.
+  std::vector<SectionEdge> section(const PressSnapshot& state) const;
 
   /// Force with which the rod holds the sector's bond surface at the last sample, from the residual
   /// there, in plane axes [N].

@@ -15,6 +15,12 @@
 
 namespace fingertip::fem_reference {
 
+/// A sample's state, to be written while the mesh is the same.
+struct PressSnapshot {
+  Vector displacement;
+  PlaneContact::State contact;
+};
+
 /// What ContinuumPress asks of a model, whatever its dimension.
 class PressModel {
  public:
@@ -33,8 +39,10 @@ class PressModel {
   virtual PressState evaluate() = 0;
   virtual bool refine(double share, const std::vector<char>& wanted) = 0;
 
-  virtual void write_fields(const std::filesystem::path& file) const = 0;
-  virtual std::vector<SectionEdge> section() const = 0;
+  virtual std::shared_ptr<const PressSnapshot> snapshot() const = 0;
+  virtual void write_fields(const PressSnapshot& state,
+                            const std::filesystem::path& file) const = 0;
+  virtual std::vector<SectionEdge> section(const PressSnapshot& state) const = 0;
   virtual meshes::Vector3 bond_reaction() const = 0;
   virtual void save(const std::filesystem::path& folder) const = 0;
   virtual void load(const std::filesystem::path& folder) = 0;
@@ -57,8 +65,9 @@ class TipPress final : public PressModel {
   void abandon() override;
   PressState evaluate() override;
   bool refine(double share, const std::vector<char>& wanted) override;
-  void write_fields(const std::filesystem::path& file) const override;
-  std::vector<SectionEdge> section() const override;
+  std::shared_ptr<const PressSnapshot> snapshot() const override;
+  void write_fields(const PressSnapshot& state, const std::filesystem::path& file) const override;
+  std::vector<SectionEdge> section(const PressSnapshot& state) const override;
   meshes::Vector3 bond_reaction() const override;
   void save(const std::filesystem::path& folder) const override;
   void load(const std::filesystem::path& folder) override;

@@ -76,12 +76,20 @@ Eigen::VectorXd vector_from(const Json& json) {
 }  // namespace
 
 template <int dim>
-void TipPress<dim>::write_fields(const std::filesystem::path& file) const {
-  const Vector u = body_->fine.ghosted(displacement_);
+std::shared_ptr<const PressSnapshot> TipPress<dim>::snapshot() const {
+  return std::make_shared<PressSnapshot>(PressSnapshot{displacement_, contact_->committed()});
+}
+
+template <int dim>
+void TipPress<dim>::write_fields(const PressSnapshot& state,
+                                 const std::filesystem::path& file) const {
+  const Vector u = body_->fine.ghosted(state.displacement);
   const bool finite = job_.strain == Strain::finite;  // then pressure is per deformed area
-  const ContactField<dim> contact(*body_, *contact_,
-                                  outer_area(*body_, finite ? &displacement_ : nullptr));
-  const StressField<dim> stress(*body_, job_, displacement_);
+  PlaneContact then = *contact_;
+  then.restore(state.contact);
+  const ContactField<dim> contact(*body_, then,
+                                  outer_area(*body_, finite ? &state.displacement : nullptr));
+  const StressField<dim> stress(*body_, job_, state.displacement);
   FieldOutput<dim> out;
   out.add_data_vector(body_->fine.dofs, u, std::vector<std::string>(dim, "displacement"),
                       std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
@@ -93,8 +101,8 @@ void TipPress<dim>::write_fields(const std::filesystem::path& file) const {
 }
 
 template <int dim>
-std::vector<SectionEdge> TipPress<dim>::section() const {
-  const Vector u = body_->fine.ghosted(displacement_);
+std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot& state) const {
+  const Vector u = body_->fine.ghosted(state.displacement);
   std::vector<std::array<double, 8>> own;
   const auto take = [&](const auto& line) {
     std::array<double, 8> edge{};
@@ -204,10 +212,12 @@ void TipPress<dim>::load(const std::filesystem::path& folder) {
   contact_->restore(std::move(state));
 }
 
-#define FINGERTIP_INSTANTIATE(dim)                                               \
-  template void TipPress<dim>::write_fields(const std::filesystem::path&) const; \
-  template std::vector<SectionEdge> TipPress<dim>::section() const;              \
-  template void TipPress<dim>::save(const std::filesystem::path&) const;         \
+#define FINGERTIP_INSTANTIATE(dim)                                                              \
+  template std::shared_ptr<const PressSnapshot> TipPress<dim>::snapshot() const;                \
+  template void TipPress<dim>::write_fields(const PressSnapshot&, const std::filesystem::path&) \
+      const;                                                                                    \
+  template std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot&) const;         \
+  template void TipPress<dim>::save(const std::filesystem::path&) const;                        \
   template void TipPress<dim>::load(const std::filesystem::path&);
 FINGERTIP_INSTANTIATE(2)
 FINGERTIP_INSTANTIATE(3)

@@ -18,7 +18,6 @@ namespace fingertip::fem_reference {
 namespace {
 
 using dealii::Point;
-using Face = dealii::TriaIterator<dealii::TriaAccessor<2, 3, 3>>;
 
 constexpr dealii::types::manifold_id curved = 1;
 
@@ -49,8 +48,8 @@ class Bend : public dealii::ChartManifold<3, 3, 3> {
   meshes::Vector3 size_;
 };
 
-template <class Belongs>
-void name_boundary(Triangulation<3>& mesh, int id, Belongs belongs) {
+template <int dim, class Belongs>
+void name_boundary(Triangulation<dim>& mesh, int id, Belongs belongs) {
   for (const auto& cell : mesh.active_cell_iterators())
     for (const auto& face : cell->face_iterators()) {
       bool all = face->at_boundary();
@@ -98,6 +97,51 @@ void make_cylinder(const BodyMesh& body, Triangulation<3>& mesh) {
   mesh.set_manifold(curved, dealii::CylindricalManifold<3>(2));
 }
 
+/// The bend of a section: radii by a factor, so that the axis stays, and heights.
+class MeridianBend : public dealii::ChartManifold<2, 2, 2> {
+ public:
+  MeridianBend(double radius, double height) : radius_(radius), height_(height) {}
+  std::unique_ptr<dealii::Manifold<2>> clone() const override {
+    return std::make_unique<MeridianBend>(radius_, height_);
+  }
+  Point<2> push_forward(const Point<2>& chart) const override {
+    Point<2> p = chart;
+    p[0] *= factor(p[1]);
+    p[1] += rise(p[0]);
+    return p;
+  }
+  Point<2> pull_back(const Point<2>& point) const override {
+    Point<2> p = point;
+    p[1] -= rise(p[0]);
+    p[0] /= factor(p[1]);
+    return p;
+  }
+
+ private:
+  double factor(double z) const { return 1.0 + 0.12 * std::sin(2.0 * z / height_ + 0.7); }
+  double rise(double r) const { return 0.12 * height_ * std::cos(2.0 * r / radius_); }
+  double radius_, height_;
+};
+
+/// The section of a ring, a disc or a cylinder's wall.
+void make_rectangle(const BodyMesh& body, Triangulation<2>& mesh) {
+  const bool wall = body.shape == Shape::cylinder_meridian;
+  const Point<2> low(wall ? body.size[0] : body.origin[0], body.origin[2]);
+  const Point<2> high(wall ? body.size[1] : low[0] + body.size[0], low[1] + body.size[2]);
+  if (body.divisions[0] < 1 || body.divisions[2] < 1)
+    throw std::invalid_argument("a ring needs at least one division each way");
+  dealii::GridGenerator::subdivided_hyper_rectangle(
+      mesh, {unsigned(body.divisions[0]), unsigned(body.divisions[2])}, low, high, true);
+  const std::array<int, 4> names{wall ? boundary::inner : boundary::low_x,
+                                 wall ? boundary::outer : boundary::high_x, boundary::low_z,
+                                 boundary::high_z};
+  for (const auto& cell : mesh.active_cell_iterators())
+    for (const auto& face : cell->face_iterators())
+      if (face->at_boundary())
+        face->set_boundary_id(dealii::types::boundary_id(names[face->boundary_id()]));
+  if (body.distortion > 0.0) dealii::GridTools::distort_random(body.distortion, mesh, true);
+}
+
 unsigned levels(const BodyMesh& body) {
   const int n = body.divisions[0];
   if (n < 1 || !std::has_single_bit(unsigned(n)))
@@ -134,7 +178,8 @@ void make_disc(const BodyMesh& body, Triangulation<3>& mesh) {
 }
 
 /// Halves the elements that have a vertex where `belongs` says so.
-void refine_at(Triangulation<3>& mesh, const std::function<bool(const Point<3>&)>& belongs) {
+template <int dim, class Belongs>
+void refine_at(Triangulation<dim>& mesh, Belongs belongs) {
   for (const auto& cell : mesh.active_cell_iterators())
     for (const unsigned v : cell->vertex_indices())
       if (belongs(cell->vertex(v))) {
@@ -159,6 +204,7 @@ void make_mesh(const BodyMesh& description, Body<3>& body) {
     case Shape::sphere_octant: make_sphere(description, mesh); break;
     case Shape::cylinder_quarter: make_cylinder(description, mesh); break;
     case Shape::disc_octant: make_disc(description, mesh); break;
+    default: throw std::invalid_argument("a meridian is no solid");
   }
   if (description.shape == Shape::curved_block) {
     const Bend bend(size);
@@ -173,6 +219,33 @@ void make_mesh(const BodyMesh& description, Body<3>& body) {
         return std::abs(std::hypot(p[0], p[1]) - size[0]) < 1e-9 && std::abs(p[2] - size[2]) < 1e-9;
       return p.distance(corner) < 1e-9;
     });
+}
+
+void make_mesh(const BodyMesh& description, Body<2>& body) {
+  Triangulation<2>& mesh = body.triangulation;
+  const meshes::Vector3& size = description.size;
+  Point<2> corner(description.origin[0], description.origin[2]);
+  if (description.shape == Shape::sphere_meridian) {
+    dealii::GridGenerator::quarter_hyper_shell(mesh, Point<2>(), size[0], size[1], 1, false);
+    const double middle = 0.5 * (size[0] + size[1]);
+    name_boundary(mesh, boundary::inner, [&](const Point<2>& p) { return p.norm() < middle; });
+    name_boundary(mesh, boundary::outer, [&](const Point<2>& p) { return p.norm() > middle; });
+    name_boundary(mesh, boundary::low_x, [](const Point<2>& p) { return std::abs(p[0]) < 1e-9; });
+    name_boundary(mesh, boundary::low_z, [](const Point<2>& p) { return std::abs(p[1]) < 1e-9; });
+    mesh.refine_global(levels(description));
+  } else {
+    make_rectangle(description, mesh);
+  }
+  if (description.shape == Shape::curved_ring) {
+    const MeridianBend bend(size[0], size[2]);
+    dealii::GridTools::transform([&](const Point<2>& p) { return bend.push_forward(p); }, mesh);
+    mesh.set_all_manifold_ids(curved);
+    mesh.set_manifold(curved, bend);
+    corner = bend.push_forward(corner);
+  }
+  if (description.shape == Shape::disc_meridian) corner = Point<2>(size[0], size[2]);
+  for (int i = 0; i < description.local_refinements; ++i)
+    refine_at(mesh, [&](const Point<2>& p) { return p.distance(corner) < 1e-9; });
 }
 
 }  // namespace fingertip::fem_reference

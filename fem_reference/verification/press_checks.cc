@@ -14,6 +14,7 @@ namespace {
 
 ReferenceJob frictionless(const meshes::Geometry& geometry, std::vector<double> samples) {
   ReferenceJob job;
+  job.symmetry = Symmetry::none;
   job.geometry = geometry;
   job.contact = meshes::ContactMode::frictionless;
   job.samples = std::move(samples);

@@ -4,10 +4,11 @@
 #include "fem_reference/press.h"
 #include "tests/fem_reference/shared_mesh.h"
 
-/// A press to 1 mm on one coarse mesh; change what the test is about.
+/// A press of the solid to 1 mm on one coarse mesh; change what the test is about.
 inline fingertip::fem_reference::ReferenceJob small_press() {
   fingertip::fem_reference::ReferenceJob job;
   job.contact = fingertip::meshes::ContactMode::frictionless;
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
   job.samples = {1e-3};
   job.refinement = 0.3;
   job.estimate_error = false;
@@ -20,10 +21,7 @@ class Pressing {
  public:
   explicit Pressing(const fingertip::fem_reference::ReferenceJob& job,
                     std::function<bool()> stop_requested = {})
-      : mesh_(job.refinement,
-              has_two_symmetry_planes(job) ? fingertip::meshes::Sector::quarter
-                                           : fingertip::meshes::Sector::half,
-              job.geometry),
+      : mesh_(job.refinement, sector(job), job.geometry),
         press(job, mesh_.file(), std::move(stop_requested)) {}
 
   const SharedFolder& folder() const { return mesh_.folder(); }

@@ -24,6 +24,7 @@ namespace {
 /// Three coarse meshes, two samples.
 ReferenceJob small_job() {
   ReferenceJob job;
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
   job.samples = {5e-4, 1e-3};
   job.refinement = 0.3;
   job.tolerance = 0.5;
@@ -65,6 +66,7 @@ TEST(ReferenceRun, AgreesWithTheReferenceTable) {
   ASSERT_EQ(table.size(), 10u);
   const TemporaryFolder parent;
   ReferenceJob job;
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
   job.contact = ContactMode::frictionless;
   job.write_fields = false;
   for (const TableRow& row : table) job.samples.push_back(row.indentation * centimetre);

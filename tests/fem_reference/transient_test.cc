@@ -189,6 +189,7 @@ struct Press {
   }
   SharedMesh mesh{0.35};
   ReferenceJob job;
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
 };
 
 TEST(TransientPress, IsTheStaticPressWhenSlow) {
@@ -288,6 +289,7 @@ TEST(TransientPress, ViscousForceIsTheTangentStiffnessTimesTauTimesSpeed) {
 TEST(TransientRun, WritesWhatTheContractSays) {
   const SharedFolder folder;
   ReferenceJob job;
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
   job.analysis = Analysis::transient;
   job.contact = ContactMode::frictionless;
   job.samples = {5e-4, 1e-3};
@@ -316,6 +318,7 @@ TEST(TransientRun, WritesWhatTheContractSays) {
 TEST(TransientRun, KeepsFinishedSamplesWhenStopped) {
   const SharedFolder folder;
   ReferenceJob job;
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
   job.analysis = Analysis::transient;
   job.contact = ContactMode::frictionless;
   job.samples = {2e-4, 1e-3};
