@@ -38,8 +38,8 @@ std::unique_ptr<ElementKernel> make_kernel(const ReferenceJob& job) {
 
 PressModel::PressModel(const ReferenceJob& job, const std::filesystem::path& mesh_file)
     : job_(job),
-      path_(job.protocol()),
-      body_(read_tip(MPI_COMM_WORLD, mesh_file, job.degree, job.tilt)),
+      path_(job.protocol),
+      body_(read_tip(MPI_COMM_WORLD, mesh_file, job.degree, job.protocol.tilt)),
       kernel_(make_kernel(job)) {
   body_->number(tip_supports());
   prepare();
@@ -50,16 +50,16 @@ void PressModel::prepare() {
   outer_nodes_ = outer_nodes(*body_);
   const double bulge = job_.strain == Strain::finite ? finite_bulge : linear_bulge;
   ContactUnknowns candidates =
-      contact_unknowns(outer_nodes_, job_.contact != ContactMode::frictionless,
-                       job_.geometry.tip_radius - bulge * job_.samples.back());
+      contact_unknowns(outer_nodes_, job_.protocol.contact != ContactMode::frictionless,
+                       job_.geometry.tip_radius - bulge * job_.protocol.depth);
   if (solver_kind_ == LinearSolver::multigrid)
     solver_ = make_multigrid_solver(*body_, candidates.unknowns, job_.solver_tolerance);
   else if (job_.strain == Strain::finite)
     solver_ = make_eliminating_solver(*body_, candidates.unknowns);
   else
     solver_ = make_condensed_solver(*body_, candidates.unknowns);
-  contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.contact, pose(0.0),
-                                            job_.friction, job_.rubber.shear_modulus);
+  contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.protocol.contact, pose(0.0),
+                                            job_.protocol.friction, job_.rubber.shear_modulus);
   place_ = 0.0;
   displacement_.reinit(body_->fine.vector());
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);

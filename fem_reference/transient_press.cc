@@ -69,14 +69,14 @@ struct TransientPress::Implementation {
         solver_kind(choose_solver(job.solver, double(body->unknowns()))),
         motion(*body, stiffness, mass, job.rubber.retardation_time,
                solver_kind == LinearSolver::multigrid) {
-    ContactUnknowns candidates =
-        contact_unknowns(outer_nodes(*body), job.contact != meshes::ContactMode::frictionless,
-                         job.geometry.tip_radius - bulge * job.samples.back());
+    ContactUnknowns candidates = contact_unknowns(
+        outer_nodes(*body), job.protocol.contact != meshes::ContactMode::frictionless,
+        job.geometry.tip_radius - bulge * job.protocol.depth);
     solver = solver_kind == LinearSolver::condensed
                  ? make_condensed_solver(*body, candidates.unknowns)
                  : make_multigrid_solver(*body, candidates.unknowns, job.solver_tolerance);
-    contact = std::make_unique<PlaneContact>(std::move(candidates), job.contact, pose(0.0),
-                                             job.friction, job.rubber.shear_modulus);
+    contact = std::make_unique<PlaneContact>(std::move(candidates), job.protocol.contact, pose(0.0),
+                                             job.protocol.friction, job.rubber.shear_modulus);
     steps.push_back({});
   }
 
@@ -109,7 +109,7 @@ struct TransientPress::Implementation {
     const MechanicalEnergy energy = motion.energy();
     const TransientStep& last = steps.back();
     TransientStep next;
-    next.time = indentation / job.speed;
+    next.time = indentation / job.protocol.speed;
     next.indentation = indentation;
     next.contact_force = sectors * push;
     next.normal_force = next.contact_force + sectors * motion.momentum_rate().z();
@@ -177,7 +177,7 @@ PressState TransientPress::advance(double indentation) {
   const double longest = self.step_factor * std::min(longest_step * self.job.geometry.thickness(),
                                                      longest_step_to_sample * indentation);
   const int count = std::max(1, int(std::ceil(way / longest - 1e-9)));
-  const double duration = way / count / self.job.speed;
+  const double duration = way / count / self.job.protocol.speed;
   PressState effort;
   for (int i = 1; i <= count; ++i) {
     stop_if_asked(self.stop_requested);

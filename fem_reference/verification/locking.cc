@@ -25,8 +25,8 @@ double press_force(const ElementType& element, double poissons_ratio,
                    const std::filesystem::path& mesh) {
   ReferenceJob job;
   job.rubber = rubber_with(poissons_ratio);
-  job.contact = meshes::ContactMode::frictionless;
-  job.samples = {1e-3};
+  job.protocol.contact = meshes::ContactMode::frictionless;
+  job.press_to({1e-3});
   job.degree = element.degree;
   job.volumetric = element.volumetric;
   return ContinuumPress(job, mesh).advance(1e-3).sample.normal_force;

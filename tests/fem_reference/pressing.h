@@ -7,8 +7,8 @@
 /// A press to 1 mm on one coarse mesh; change what the test is about.
 inline fingertip::fem_reference::ReferenceJob small_press() {
   fingertip::fem_reference::ReferenceJob job;
-  job.contact = fingertip::meshes::ContactMode::frictionless;
-  job.samples = {1e-3};
+  job.protocol.contact = fingertip::meshes::ContactMode::frictionless;
+  job.press_to({1e-3});
   job.refinement = 0.3;
   job.estimate_error = false;
   job.write_fields = false;
@@ -40,5 +40,5 @@ inline fingertip::fem_reference::PressState pressed(
     const fingertip::fem_reference::ReferenceJob& job, double longest_step = 0.01) {
   Pressing pressing(job);
   pressing.press.set_longest_step(longest_step);
-  return pressing.press.advance(job.samples.back());
+  return pressing.press.advance(job.protocol.depth);
 }

@@ -13,7 +13,7 @@ namespace {
 /// Three meshes at large strain, some 20 s or more.
 ReferenceJob long_job() {
   ReferenceJob job;
-  for (int i = 1; i <= 8; ++i) job.samples.push_back(1e-4 * i);
+  job.press_to({1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4, 7e-4, 8e-4});
   job.refinement = 0.3;
   job.strain = fingertip::fem_reference::Strain::finite;
   job.tolerance = 0.5;
