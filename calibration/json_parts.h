@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "calibration/moduli.h"
-#include "lattice/model/constants.h"
-#include "meshes/rubber.h"
+#include "lattice/press/setup_fields.h"
+#include "meshes/fields_json.h"
 
 namespace fingertip::calibration {
 
@@ -20,8 +20,7 @@ inline nlohmann::ordered_json rubber_json(const meshes::Rubber& rubber) {
 inline nlohmann::ordered_json constants_json(lattice::ModelKind model,
                                              const lattice::SpringConstants& constants,
                                              const meshes::Rubber& rubber) {
-  nlohmann::ordered_json json = {
-      {"k1", constants.k1}, {"k2", constants.k2}, {"k3", constants.k3}, {"kappa", constants.kappa}};
+  nlohmann::ordered_json json = meshes::json_of(constants);
   if (model == lattice::ModelKind::network) {
     json["lambda"] = rubber.lame_lambda();
     json["G"] = rubber.shear_modulus;

@@ -6,6 +6,7 @@
 
 #include "calibration/fit_statement.h"
 #include "calibration/json_parts.h"
+#include "calibration/words.h"
 #include "meshes/files.h"
 
 namespace fingertip::calibration {
@@ -30,8 +31,9 @@ Material material_from(const ModuliFit& fit) {
   material.constants = fit.constants;
   material.rubber = fit.target;
   material.kinematics = lattice::Kinematics::small;
+  // What rounding adds to E/(2G) - 1 says nothing: 0.45, not 0.44999999999999996.
   material.validity.smallest_poissons_ratio = material.validity.largest_poissons_ratio =
-      fit.target.poissons_ratio();
+      std::stod(rounded(fit.target.poissons_ratio(), 15));
   material.provenance =
       "moduli: least-squares fit of the homogenised lattice to E and G of the "
       "rubber, " +

@@ -29,7 +29,7 @@ std::unique_ptr<PressModel> make_model(const ReferenceJob& job,
 }  // namespace
 
 bool has_two_symmetry_planes(const ReferenceJob& job) {
-  return job.tilt == 0.0 && job.lateral == 0.0;
+  return job.protocol.tilt == 0.0 && job.protocol.lateral == 0.0;
 }
 
 meshes::Sector sector(const ReferenceJob& job) {
@@ -44,7 +44,7 @@ struct ContinuumPress::Implementation {
 
   /// A frictionless small-strain press does not depend on its path.
   bool path_matters() const {
-    return model->job().contact != meshes::ContactMode::frictionless ||
+    return model->job().protocol.contact != meshes::ContactMode::frictionless ||
            model->job().strain == Strain::finite;
   }
 

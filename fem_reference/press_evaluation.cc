@@ -94,7 +94,7 @@ PressState TipPress<dim>::evaluate() {
   state.sample.indentation = pose.indentation;
   state.sample.lateral_displacement = pose.lateral;
   state.active_nodes = contact_->active_nodes();
-  state.sliding_nodes = job_.contact == meshes::ContactMode::coulomb
+  state.sliding_nodes = job_.protocol.contact == meshes::ContactMode::coulomb
                             ? int(std::ranges::count(contact_->status(), NodeStatus::slide))
                             : 0;
   if (job_.strain == Strain::finite) {
@@ -131,7 +131,8 @@ void TipPress<dim>::add_resultant(PressState& state) const {
   }
   if (Kinematics<dim>::revolved)
     for (auto& node : now) node[1] = 0.0;  // it has no unknown
-  const double s = std::sin(job_.tilt), c = std::cos(job_.tilt), l = job_.geometry.rod_length;
+  const double s = std::sin(job_.protocol.tilt), c = std::cos(job_.protocol.tilt),
+               l = job_.geometry.rod_length;
   const meshes::Vector3 endpoint(s * l, 0.0, -c * l);  // (0, 0, -l) in plane axes
   meshes::Vector3 force = meshes::Vector3::Zero(), torque = force;
   double touched = 0.0, edge = 0.0;

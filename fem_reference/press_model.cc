@@ -41,8 +41,8 @@ std::unique_ptr<ElementKernel<dim>> make_kernel(const ReferenceJob& job) {
 template <int dim>
 TipPress<dim>::TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file)
     : PressModel(job),
-      path_(job.protocol()),
-      body_(read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, job.tilt)),
+      path_(job.protocol),
+      body_(read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, job.protocol.tilt)),
       kernel_(make_kernel<dim>(job)) {
   body_->number(tip_supports<dim>());
   prepare();
@@ -63,11 +63,11 @@ void TipPress<dim>::prepare() {
   outer_nodes_ = outer_nodes(*body_);
   const double bulge = job_.strain == Strain::finite ? finite_bulge : linear_bulge;
   ContactUnknowns candidates =
-      contact_unknowns(outer_nodes_, job_.contact != ContactMode::frictionless,
-                       job_.geometry.tip_radius - bulge * job_.samples.back());
+      contact_unknowns(outer_nodes_, job_.protocol.contact != ContactMode::frictionless,
+                       job_.geometry.tip_radius - bulge * job_.protocol.samples.back());
   solver_ = make_solver(candidates.unknowns);
-  contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.contact, pose(0.0),
-                                            job_.friction, job_.rubber.shear_modulus);
+  contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.protocol.contact, pose(0.0),
+                                            job_.protocol.friction, job_.rubber.shear_modulus);
   place_ = 0.0;
   displacement_.reinit(body_->fine.vector());
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);

@@ -87,7 +87,7 @@ class PressRun {
            const std::function<bool()>& stop_requested)
       : folder_(folder),
         job_(job),
-        places_(meshes::PressPath(job.protocol()).samples()),
+        places_(meshes::PressPath(job.protocol).samples()),
         progress_(progress),
         stop_requested_(stop_requested) {}
 
@@ -274,7 +274,7 @@ class PressRun {
 
   ordered_json summarise(const std::vector<PressState>& best, const RunOutcome& outcome) const {
     ordered_json summary = summary_head(outcome, job_);
-    summary["contact"] = meshes::name(job_.contact);
+    summary["contact"] = meshes::name(job_.protocol.contact);
     summary["strain"] = fem_reference::name(job_.strain);
     if (job_.strain == Strain::finite) summary["law"] = fem_reference::name(job_.law);
     summary["worst_relative_error"] = known(history_.worst_relative_error());

@@ -84,12 +84,12 @@ class TipInMotion final : public TransientModel {
         solver_kind(choose_solver(job, double(body->unknowns()))),
         motion(*body, stiffness, mass, job.rubber.retardation_time,
                solver_kind == LinearSolver::multigrid) {
-    ContactUnknowns candidates =
-        contact_unknowns(outer_nodes(*body), job.contact != meshes::ContactMode::frictionless,
-                         job.geometry.tip_radius - bulge * job.samples.back());
+    ContactUnknowns candidates = contact_unknowns(
+        outer_nodes(*body), job.protocol.contact != meshes::ContactMode::frictionless,
+        job.geometry.tip_radius - bulge * job.protocol.samples.back());
     solver = make_solver(candidates.unknowns);
-    contact = std::make_unique<PlaneContact>(std::move(candidates), job.contact, pose(0.0),
-                                             job.friction, job.rubber.shear_modulus);
+    contact = std::make_unique<PlaneContact>(std::move(candidates), job.protocol.contact, pose(0.0),
+                                             job.protocol.friction, job.rubber.shear_modulus);
   }
 
   MeshSummary mesh() const override {
@@ -191,7 +191,7 @@ class TipInMotion final : public TransientModel {
     const MechanicalEnergy energy = motion.energy();
     const TransientStep& last = steps.back();
     TransientStep next;
-    next.time = indentation / job.speed;
+    next.time = indentation / job.protocol.speed;
     next.indentation = indentation;
     next.contact_force = copies<dim> * push;
     next.normal_force = next.contact_force + copies<dim> * motion.momentum_rate().z();
@@ -247,7 +247,7 @@ PressState TransientPress::advance(double indentation) {
   const double longest = self.step_factor * std::min(longest_step * self.job.geometry.thickness(),
                                                      longest_step_to_sample * indentation);
   const int count = std::max(1, int(std::ceil(way / longest - 1e-9)));
-  const double duration = way / count / self.job.speed;
+  const double duration = way / count / self.job.protocol.speed;
   PressState effort;
   for (int i = 1; i <= count; ++i) {
     stop_if_asked(self.stop_requested);

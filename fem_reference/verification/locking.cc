@@ -26,8 +26,8 @@ double press_force(const ElementType& element, double poissons_ratio,
   ReferenceJob job;
   job.symmetry = Symmetry::none;
   job.rubber = rubber_with(poissons_ratio);
-  job.contact = meshes::ContactMode::frictionless;
-  job.samples = {1e-3};
+  job.protocol.contact = meshes::ContactMode::frictionless;
+  job.press_to({1e-3});
   job.degree = element.degree;
   job.volumetric = element.volumetric;
   return ContinuumPress(job, mesh).advance(1e-3).sample.normal_force;

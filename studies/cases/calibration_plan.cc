@@ -47,6 +47,7 @@ class CalibrationPlan : public Plan {
 
   std::vector<PlannedJob> jobs() override;
   std::vector<PlannedJob> further_jobs(const fs::path& folder) override;
+  double later_weight() const override;
   ordered_json conclude(const fs::path& folder, const std::vector<JobResult>& results) override;
   std::map<std::string, double> measures(const fs::path& folder,
                                          const ordered_json& summary) const override;
@@ -110,6 +111,16 @@ std::vector<PlannedJob> CalibrationPlan::jobs() {
     for (PlannedJob& job : fits_.back().plan.next({})) jobs.push_back(std::move(job));
   }
   return jobs;
+}
+
+double CalibrationPlan::later_weight() const {
+  double weight = 0.0;
+  for (const Fit& fit : fits_) weight += fit.plan.later_weight();
+  if (pressed_) return weight;
+  for (const Transfer& transfer : transfers_)
+    weight += press_weight(
+        combined(case_.fits[transfer.fit], case_.predictions[transfer.prediction]).config.press);
+  return weight;
 }
 
 /// Fits stage by stage, all side by side; when none has anything left, the presses.

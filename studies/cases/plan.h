@@ -29,6 +29,9 @@ class Plan {
     return {};
   }
 
+  /// What the jobs that further_jobs will return weigh, as far as that is known.
+  virtual double later_weight() const { return 0.0; }
+
   /// Reads what the jobs left in `folder`, writes the tables that need several of them, and returns
   /// the plan's part of summary.json.
   virtual nlohmann::ordered_json conclude(const std::filesystem::path& folder,

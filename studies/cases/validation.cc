@@ -48,8 +48,9 @@ void check_case(const Case& one) {
 Verdict validate(Session& session, const Case& one) {
   const std::filesystem::path& folder = session.folder().path();
   const std::unique_ptr<Plan> plan = plan_for(one);
-  std::vector<JobResult> results = session.run_all(plan->jobs());
-  for (auto jobs = plan->further_jobs(folder); !jobs.empty(); jobs = plan->further_jobs(folder)) {
+  std::vector<JobResult> results;
+  for (auto jobs = plan->jobs(); !jobs.empty(); jobs = plan->further_jobs(folder)) {
+    session.expect_later(plan->later_weight());
     const std::vector<JobResult> more = session.run_all(jobs);
     results.insert(results.end(), more.begin(), more.end());
   }

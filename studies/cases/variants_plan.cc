@@ -202,7 +202,7 @@ ordered_json VariantsPlan::continuum_entries() const {
     const meshes::Rubber& rubber = continuum.order.rubber;
     list.push_back({{"folder", continuum.folder},
                     {"strain", fem_reference::name(continuum.order.strain)},
-                    {"contact", meshes::name(continuum.order.contact)},
+                    {"contact", meshes::name(continuum.order.protocol.contact)},
                     {"youngs_modulus", rubber.youngs_modulus},
                     {"shear_modulus", rubber.shear_modulus},
                     {"poissons_ratio", rubber.poissons_ratio()}});

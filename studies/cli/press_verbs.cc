@@ -96,7 +96,7 @@ std::string heading(const fem_reference::ReferenceJob& order) {
   std::string text = finite ? fmt::format("continuum, finite strain (law {})", name(order.law))
                             : std::string("continuum, small strain");
   if (order.analysis == fem_reference::Analysis::modes) return text + ", natural frequencies";
-  return fmt::format("{}, {} contact, {}", text, meshes::name(order.contact),
+  return fmt::format("{}, {} contact, {}", text, meshes::name(order.protocol.contact),
                      fem_reference::name(order.analysis));
 }
 
@@ -284,7 +284,7 @@ int run_reference(const CommandLine& line) {
     if (!line.quiet) {
       fmt::print("{}\n", heading(order));
       if (press) {
-        print_response(folder, order.protocol());
+        print_response(folder, order.protocol);
         if (order.estimate_error) print_accuracy(folder, order);
       } else {
         print_frequencies(folder);

@@ -65,9 +65,10 @@ PressCondition condition_of(const JsonEntry& inputs) {
   condition.rod_length = number_at(geometry, "rod_length");
   condition.youngs_modulus = number_at(rubber, "youngs_modulus");
   condition.shear_modulus = number_at(rubber, "shear_modulus");
-  // A lattice keeps its press apart, the continuum does not.
   const bool lattice = inputs.contains("lattice");
-  const JsonEntry press = lattice ? object_at(inputs, "protocol") : inputs;
+  // Older runs of the continuum do not keep the press apart.
+  const bool apart = lattice || inputs.contains("protocol");
+  const JsonEntry press = apart ? object_at(inputs, "protocol") : inputs;
   const std::string strain =
       lattice ? text_at(object_at(inputs, "lattice"), "kinematics") : text_at(inputs, "strain");
   condition.strain = strain == "linear" ? "small" : strain;

@@ -29,7 +29,7 @@ ReferenceJob meridian_press(ContactMode contact = ContactMode::frictionless,
                             Strain strain = Strain::linear) {
   ReferenceJob job = small_press();
   job.symmetry = Symmetry::axisymmetric;
-  job.contact = contact;
+  job.protocol.contact = contact;
   job.strain = strain;
   return job;
 }
@@ -41,7 +41,7 @@ std::vector<PressState> converged(const ReferenceJob& job) {
   for (int mesh = 0; mesh < 20; ++mesh) {
     if (mesh > 0 && !pressing.press.refine(0.5)) break;
     history.start_mesh(pressing.press.mesh());
-    for (const double sample : job.samples) history.add(pressing.press.advance(sample));
+    for (const double sample : job.protocol.samples) history.add(pressing.press.advance(sample));
     if (mesh >= 2 && history.worst_relative_error() <= job.tolerance) return history.best();
   }
   ADD_FAILURE() << "no mesh was good enough";
@@ -80,8 +80,9 @@ TEST(Meridian, GivesTheForcesOfAnotherProgram) {
   job.rubber.youngs_modulus = 40 * gf / (cm * cm);
   job.rubber.shear_modulus = 14 * gf / (cm * cm);
   job.tolerance = 3e-4;
-  job.samples.clear();
-  for (const auto& [depth, force] : known) job.samples.push_back(depth * cm);
+  std::vector<double> depths;
+  for (const auto& [depth, force] : known) depths.push_back(depth * cm);
+  job.press_to(depths);
   const std::vector<PressState> states = converged(job);
   for (std::size_t i = 0; i < known.size(); ++i) {
     const auto& sample = states[i].sample;
@@ -103,7 +104,7 @@ TEST_P(MeridianAndSolid, AgreeWithinTheSolidsBar) {
   ReferenceJob job = meridian_press(GetParam().contact, GetParam().strain);
   job.law = GetParam().law;
   const bool finite = job.strain == Strain::finite;
-  job.samples = finite ? std::vector{1e-3} : std::vector{5e-4, 1e-3};
+  job.press_to(finite ? std::vector{1e-3} : std::vector{5e-4, 1e-3});
   ReferenceJob solid = job;
   solid.symmetry = Symmetry::none;
   solid.tolerance = finite ? 0.06 : 0.02;
@@ -138,8 +139,8 @@ TEST(Meridian, CoulombsLawLiesBetweenItsLimits) {
   const auto force = [](ContactMode contact, double friction) {
     ReferenceJob job = meridian_press(contact);
     job.refinement = 1.0;
-    job.friction = friction;
-    job.samples = {2e-3};
+    job.protocol.friction = friction;
+    job.press_to({2e-3});
     return pressed(job).sample.normal_force;
   };
   const double free = force(ContactMode::frictionless, 0.5), stuck = force(ContactMode::stick, 0.5);
@@ -158,7 +159,7 @@ TEST(Meridian, CoulombsLawLiesBetweenItsLimits) {
 TEST(Meridian, OfStickHardlyDependsOnTheStep) {
   ReferenceJob job = meridian_press(ContactMode::stick);
   job.refinement = 1.0;
-  job.samples = {2e-3};
+  job.press_to({2e-3});
   const double coarse = pressed(job, 0.02).sample.normal_force;
   const double usual = pressed(job, 0.01).sample.normal_force;
   const double fine = pressed(job, 0.0025).sample.normal_force;
@@ -172,10 +173,11 @@ TEST(Meridian, ForceIsTheSlopeOfTheEnergy) {
     ReferenceJob job = meridian_press(ContactMode::frictionless, strain);
     job.refinement = 1.0;
     constexpr double step = 2e-5;
-    job.samples = {1.5e-3 - step, 1.5e-3, 1.5e-3 + step};
+    job.press_to({1.5e-3 - step, 1.5e-3, 1.5e-3 + step});
     Pressing pressing(job);
     std::vector<PressState> states;
-    for (const double sample : job.samples) states.push_back(pressing.press.advance(sample));
+    for (const double sample : job.protocol.samples)
+      states.push_back(pressing.press.advance(sample));
     EXPECT_NEAR((states[2].energy - states[0].energy) / (2 * step), states[1].sample.normal_force,
                 2e-3 * states[1].sample.normal_force);
   }
@@ -197,7 +199,7 @@ TEST(Meridian, DoesNotLock) {
   for (const double nu : {3.0 / 7.0, 0.49, 0.499, 0.4999}) {
     ReferenceJob job = meridian_press();
     job.rubber.shear_modulus = job.rubber.youngs_modulus / (2 * (1 + nu));
-    job.samples = {1e-3};
+    job.press_to({1e-3});
     job.refinement = 0.7;
     const double coarse = pressed(job).sample.normal_force;
     job.tolerance = 2e-3;
@@ -210,7 +212,7 @@ TEST(Meridian, DoesNotLock) {
 TEST(Meridian, GoesDeepNearIncompressibility) {
   ReferenceJob job = meridian_press(ContactMode::stick, Strain::finite);
   job.rubber.shear_modulus = job.rubber.youngs_modulus / (2 * 1.49);
-  job.samples = {2.5e-3};
+  job.press_to({2.5e-3});
   const PressState state = pressed(job);
   EXPECT_GT(state.min_jacobian, 0.5);
   EXPECT_GT(state.sample.normal_force, 0.0);
@@ -218,7 +220,7 @@ TEST(Meridian, GoesDeepNearIncompressibility) {
 
 TEST(Meridian, ResumesWhereItWasSaved) {
   ReferenceJob job = meridian_press(ContactMode::stick, Strain::finite);
-  job.samples = {5e-4, 1e-3};
+  job.press_to({5e-4, 1e-3});
   Pressing straight(job), first(job), second(job);
   for (Pressing* p : {&straight, &first}) {
     p->press.advance(5e-4);
@@ -252,7 +254,7 @@ TEST(Meridian, FieldsAreInSpace) {
 TEST(Meridian, PressAtSpeedGivesTheForceOfTheSolid) {
   ReferenceJob job = meridian_press();
   job.analysis = fem_reference::Analysis::transient;
-  job.speed = 0.1;
+  job.protocol.speed = 0.1;
   job.refinement = 0.4;
   ReferenceJob solid = job;
   solid.symmetry = Symmetry::none;
@@ -273,17 +275,17 @@ TEST(Meridian, PressAtSpeedGivesTheForceOfTheSolid) {
 TEST(Meridian, IsRefusedWhereTheSymmetryIsBroken) {
   ReferenceJob job = meridian_press();
   EXPECT_TRUE(job.violations().empty());
-  job.tilt = 0.1;
+  job.protocol.tilt = 0.1;
   ASSERT_EQ(job.violations().size(), 1u);
   EXPECT_EQ(job.violations().front().key, "reference.symmetry");
   job.symmetry = Symmetry::automatic;
   EXPECT_TRUE(job.violations().empty());
   EXPECT_FALSE(job.axisymmetric());
-  job.tilt = 0.0;
+  job.protocol.tilt = 0.0;
   EXPECT_TRUE(job.axisymmetric());
-  job.lateral = 1e-3;
+  job.protocol.lateral = 1e-3;
   EXPECT_FALSE(job.axisymmetric());
-  job.lateral = 0.0;
+  job.protocol.lateral = 0.0;
   job.analysis = fem_reference::Analysis::modes;
   EXPECT_FALSE(job.axisymmetric());
 }

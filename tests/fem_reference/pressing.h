@@ -7,9 +7,9 @@
 /// A press of the solid to 1 mm on one coarse mesh; change what the test is about.
 inline fingertip::fem_reference::ReferenceJob small_press() {
   fingertip::fem_reference::ReferenceJob job;
-  job.contact = fingertip::meshes::ContactMode::frictionless;
+  job.protocol.contact = fingertip::meshes::ContactMode::frictionless;
   job.symmetry = fingertip::fem_reference::Symmetry::none;
-  job.samples = {1e-3};
+  job.press_to({1e-3});
   job.refinement = 0.3;
   job.estimate_error = false;
   job.write_fields = false;
@@ -38,5 +38,5 @@ inline fingertip::fem_reference::PressState pressed(
     const fingertip::fem_reference::ReferenceJob& job, double longest_step = 0.01) {
   Pressing pressing(job);
   pressing.press.set_longest_step(longest_step);
-  return pressing.press.advance(job.samples.back());
+  return pressing.press.advance(job.protocol.samples.back());
 }

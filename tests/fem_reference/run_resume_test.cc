@@ -12,7 +12,7 @@ namespace {
 ReferenceJob small_job() {
   ReferenceJob job;
   job.symmetry = fingertip::fem_reference::Symmetry::none;
-  for (int i = 1; i <= 6; ++i) job.samples.push_back(2e-4 * i);
+  for (int i = 1; i <= 6; ++i) job.protocol.samples.push_back(2e-4 * i);
   job.refinement = 0.3;
   job.tolerance = 0.5;
   job.write_fields = false;
@@ -47,7 +47,7 @@ TEST(Resume, PassesOverAForeignCheckpoint) {
     fs::create_directories(folder / "checkpoint");
     write_text(folder / "checkpoint/run.json", text);
     EXPECT_EQ(carry_out(folder), 0) << text;
-    EXPECT_EQ(samples_of(folder).size(), job.samples.size());
+    EXPECT_EQ(samples_of(folder).size(), job.protocol.samples.size());
   }
 }
 

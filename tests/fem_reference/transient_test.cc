@@ -176,9 +176,9 @@ TEST(GeneralisedAlpha, CarriesAPressureWaveAtItsSpeed) {
 struct Press {
   explicit Press(double speed, ContactMode contact = ContactMode::frictionless) {
     job.analysis = Analysis::transient;
-    job.contact = contact;
-    job.speed = speed;
-    job.samples = {5e-4, 1e-3, 2e-3};
+    job.protocol.contact = contact;
+    job.protocol.speed = speed;
+    job.press_to({5e-4, 1e-3, 2e-3});
   }
   std::unique_ptr<TransientPress> transient() const {
     return std::make_unique<TransientPress>(job, mesh.file());
@@ -196,7 +196,7 @@ TEST(TransientPress, IsTheStaticPressWhenSlow) {
   for (const ContactMode contact : {ContactMode::frictionless, ContactMode::stick}) {
     Press press(1e-5, contact);
     const auto transient = press.transient();
-    for (const double indentation : press.job.samples)
+    for (const double indentation : press.job.protocol.samples)
       EXPECT_NEAR(
           transient->advance(indentation).sample.normal_force / press.static_force(indentation),
           1.0, contact == ContactMode::frictionless ? 2e-5 : 1e-3)
@@ -212,10 +212,10 @@ TEST(TransientPress, ForceConvergesWithTheStep) {
       const auto transient = press.transient();
       transient->set_step_factor(factor);
       forces.emplace_back();
-      for (const double indentation : press.job.samples)
+      for (const double indentation : press.job.protocol.samples)
         forces.back().push_back(transient->advance(indentation).sample.normal_force);
     }
-    for (std::size_t i = 0; i < press.job.samples.size(); ++i) {
+    for (std::size_t i = 0; i < press.job.protocol.samples.size(); ++i) {
       const double coarse = std::abs(forces[0][i] / forces[2][i] - 1);
       const double fine = std::abs(forces[1][i] / forces[2][i] - 1);
       EXPECT_LT(fine, 1.5e-3) << speed << " " << i;
@@ -228,7 +228,7 @@ TEST(TransientPress, BalancesEnergyAndMomentum) {
   for (const ContactMode contact : {ContactMode::frictionless, ContactMode::stick}) {
     Press press(0.2, contact);
     const auto transient = press.transient();
-    for (const double indentation : press.job.samples) transient->advance(indentation);
+    for (const double indentation : press.job.protocol.samples) transient->advance(indentation);
     const TransientStep& end = transient->steps().back();
     const double spent = end.kinetic_energy + end.elastic_energy + end.dissipated_energy;
     EXPECT_GT(end.dissipated_energy, 0.02 * end.work);
@@ -291,9 +291,9 @@ TEST(TransientRun, WritesWhatTheContractSays) {
   ReferenceJob job;
   job.symmetry = fingertip::fem_reference::Symmetry::none;
   job.analysis = Analysis::transient;
-  job.contact = ContactMode::frictionless;
-  job.samples = {5e-4, 1e-3};
-  job.speed = 0.05;
+  job.protocol.contact = ContactMode::frictionless;
+  job.press_to({5e-4, 1e-3});
+  job.protocol.speed = 0.05;
   job.refinement = 0.25;
   job.tolerance = 0.05;
   std::ostringstream progress;
@@ -320,8 +320,8 @@ TEST(TransientRun, KeepsFinishedSamplesWhenStopped) {
   ReferenceJob job;
   job.symmetry = fingertip::fem_reference::Symmetry::none;
   job.analysis = Analysis::transient;
-  job.contact = ContactMode::frictionless;
-  job.samples = {2e-4, 1e-3};
+  job.protocol.contact = ContactMode::frictionless;
+  job.press_to({2e-4, 1e-3});
   job.refinement = 0.25;
   job.estimate_error = false;
   job.write_fields = false;

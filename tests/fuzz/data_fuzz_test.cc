@@ -242,7 +242,7 @@ TEST(FuzzData, OrdersForTheContinuum) {
   const std::filesystem::path file = folder / "job.json";
   std::vector<std::string> seeds;
   fem_reference::ReferenceJob job;
-  job.samples = {1e-3, 2e-3};
+  job.press_to({1e-3, 2e-3});
   write_job(job, file);
   seeds.push_back(read_text(file));
   job.analysis = fem_reference::Analysis::modes;

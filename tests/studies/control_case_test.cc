@@ -32,7 +32,7 @@ TEST(ControlCase, PlansPressesAndTheContinuaAtTheirSpeeds) {
   ASSERT_EQ(jobs.size(), 3u);
   EXPECT_EQ(jobs[0].job.kind, "reference");
   EXPECT_EQ(jobs[0].job.inputs["analysis"], "transient");
-  EXPECT_NEAR(jobs[0].job.inputs["speed"].get<double>(), 0.05, 1e-12);
+  EXPECT_NEAR(jobs[0].job.inputs["protocol"]["speed"].get<double>(), 0.05, 1e-12);
   for (std::size_t i : {1, 2}) EXPECT_EQ(jobs[i].job.kind, "press");
   // What is written into parameters.toml is the same case again.
   const TemporaryFolder other;

@@ -1,0 +1,66 @@
+/// The members of settings by name and unit, for whoever writes them, reads them or compares them.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <type_traits>
+
+#include "meshes/geometry.h"
+#include "meshes/press_protocol.h"
+#include "meshes/rubber.h"
+
+namespace fingertip::meshes {
+
+/// `T` is `Settings`, to be read or to be changed.
+template <typename T, typename Settings>
+concept Fields = std::same_as<std::remove_const_t<T>, Settings>;
+
+/// Calls visit(name, member, SI unit) for every member; the unit is empty where there is none.
+/// The bindings name every member, so that a new one that is not visited does not compile.
+template <Fields<Geometry> T>
+void visit_fields(T& geometry, auto&& visit) {
+  auto& [tip_radius, rod_radius, sleeve_length, rod_length] = geometry;
+  visit("tip_radius", tip_radius, "m");
+  visit("rod_radius", rod_radius, "m");
+  visit("sleeve_length", sleeve_length, "m");
+  visit("rod_length", rod_length, "m");
+}
+
+template <Fields<Rubber> T>
+void visit_fields(T& rubber, auto&& visit) {
+  auto& [youngs_modulus, shear_modulus, density, retardation_time] = rubber;
+  visit("youngs_modulus", youngs_modulus, "Pa");
+  visit("shear_modulus", shear_modulus, "Pa");
+  visit("density", density, "kg/m^3");
+  visit("retardation_time", retardation_time, "s");
+}
+
+template <Fields<PressProtocol> T>
+void visit_fields(T& protocol, auto&& visit) {
+  auto& [mode, contact, friction, tilt, lateral, lateral_path, lateral_samples, depth, speed,
+         clearance, samples] = protocol;
+  visit("mode", mode, "");
+  visit("contact", contact, "");
+  visit("friction", friction, "");
+  visit("tilt", tilt, "rad");
+  visit("lateral", lateral, "m");
+  visit("lateral_path", lateral_path, "");
+  visit("lateral_samples", lateral_samples, "");
+  visit("depth", depth, "m");
+  visit("speed", speed, "m/s");
+  visit("clearance", clearance, "m");
+  visit("samples", samples, "m");
+}
+
+/// All values of an enumeration; name() tells how each is written.
+constexpr auto values(ContactMode) {
+  return std::array{ContactMode::stick, ContactMode::frictionless, ContactMode::coulomb};
+}
+constexpr auto values(DriveMode) {
+  return std::array{DriveMode::pid, DriveMode::quasi_static, DriveMode::equilibrium};
+}
+constexpr auto values(LateralPath) {
+  return std::array{LateralPath::diagonal, LateralPath::after};
+}
+
+}  // namespace fingertip::meshes
