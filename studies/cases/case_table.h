@@ -9,8 +9,9 @@
 
 namespace fingertip::studies {
 
-/// Fills title, description, criteria, variants and budgets of `target` from the table [case] of
-/// `file`; without one they stay as they are. Returns every problem with its line.
+/// Fills title, description, runs, tables, budgets and criteria of `target` from the table [case]
+/// of `file`, runs and tables from the core case's where it names no run. Returns every problem
+/// with its line.
 std::vector<Problem> read_case_table(const std::filesystem::path& file, Case& target);
 
 /// The same as TOML text, which read_case_table understands.
