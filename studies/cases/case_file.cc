@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include "studies/cases/case_table.h"
-
 namespace fingertip::studies {
 
 namespace {

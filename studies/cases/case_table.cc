@@ -1,4 +1,4 @@
-#include "studies/cases/case_table.h"
+#include "studies/cases/case_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@
 
 #include "calibration/toml_depth.h"
 #include "studies/cases/measures.h"
+#include "studies/cases/outputs.h"
 #include "studies/cases/planner.h"
-#include "studies/cases/tables.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
 #include "studies/config/value_reader.h"

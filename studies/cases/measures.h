@@ -58,9 +58,6 @@ struct Budget {
 /// A series' variants with x >= 1, increasing; empty when none has x = 1.
 Members soft_variants(const RunResults& results, const std::string& series);
 
-/// Errors at x = 0 of the polynomial through those at `x`, all different, by Lagrange.
-double continued_to_zero(const std::vector<double>& x, const std::vector<double>& error);
-
 /// Parts from the softer side, x >= 1: stiffer ties than the press has may lock the lattice, which
 /// is no longer the compliance's doing. The total is the press at x = 1 of the first part.
 Budget take_budget(const CaseBudget& budget, const RunResults& results);

@@ -27,11 +27,6 @@ bool is_wanted(const CaseRun& run, const LoadedConfig& loaded, const LoadedConfi
   return allowed && (run.when == "coarser" ? ratio > 1.0 + 1e-9 : std::abs(ratio - 1.0) >= 1e-9);
 }
 
-/// The core case's press of the published lattice, which can do least.
-bool is_published(const CaseRun& run) {
-  return run.is_verdict() && full_name(run) == "published";
-}
-
 /// The continuum pressed as `loaded` says, in time.
 fem_reference::ReferenceJob continuum_at_speed(LoadedConfig loaded) {
   fem_reference::ReferenceJob& order = loaded.config.reference;
@@ -89,7 +84,9 @@ Planner::Planner(const Case& one) : case_(one) {
   // What runs below a run would be cleared away with it.
   for (const CaseRun& run : one.runs)
     if (run.is("run") && !run.series.empty()) folders_.insert(as_folder(run.series));
-  if (std::ranges::any_of(one.runs, is_published)) check_validation(one.loaded);
+  // The core case's models: the published one can do least.
+  const auto core = std::ranges::find(one.runs, "published", full_name);
+  if (core != one.runs.end() && core->is_verdict()) check_validation(one.loaded);
   std::vector<Problem> problems;
   for (const CaseRun& run : one.runs) {
     try {

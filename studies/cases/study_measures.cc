@@ -14,15 +14,14 @@ double spacing_of(const RunResult& result) {
 /// Largest range, over the depths, of the errors of several presses.
 double spread_of(const Members& series) {
   double widest = 0.0;
-  const std::size_t depths = series.front()->forces.error.size();
-  for (std::size_t d = 0; d < depths; ++d) {
-    double least = meshes::unknown, most = meshes::unknown;
+  for (std::size_t d = 0; d < series.front()->forces.error.size(); ++d) {
+    std::vector<double> errors;
     for (const RunResult* press : series) {
       const std::vector<double>& error = press->forces.error;
-      if (error.size() != depths || std::isnan(error[d])) return meshes::unknown;
-      least = std::fmin(least, error[d]);
-      most = std::fmax(most, error[d]);
+      errors.push_back(d < error.size() ? error[d] : meshes::unknown);
     }
+    if (std::isnan(largest(errors))) return meshes::unknown;
+    const auto [least, most] = std::ranges::minmax(errors);
     widest = std::max(widest, most - least);
   }
   return widest;
@@ -51,6 +50,18 @@ double slope_of(const Members& series) {
     below += (x[i] - mean_x) * (x[i] - mean_x);
   }
   return above / below;
+}
+
+/// Errors at x = 0 of the polynomial through those at `x`, all different, by Lagrange.
+double continued_to_zero(const std::vector<double>& x, const std::vector<double>& error) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    double weight = 1.0;
+    for (std::size_t j = 0; j < x.size(); ++j)
+      if (j != i) weight *= x[j] / (x[j] - x[i]);
+    sum += weight * error[i];
+  }
+  return sum;
 }
 
 }  // namespace
@@ -112,17 +123,6 @@ Members soft_variants(const RunResults& results, const std::string& series) {
   std::ranges::sort(found, {}, [](const RunResult* result) { return result->run->x; });
   const bool whole = !found.empty() && found.front()->run->x == 1.0;
   return whole ? found : Members();
-}
-
-double continued_to_zero(const std::vector<double>& x, const std::vector<double>& error) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    double weight = 1.0;
-    for (std::size_t j = 0; j < x.size(); ++j)
-      if (j != i) weight *= x[j] / (x[j] - x[i]);
-    sum += weight * error[i];
-  }
-  return sum;
 }
 
 Budget take_budget(const CaseBudget& budget, const RunResults& results) {

@@ -1,4 +1,4 @@
-#include "studies/cases/tables.h"
+#include "studies/cases/outputs.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "meshes/files.h"
+#include "studies/cases/measures.h"
 #include "studies/report/figure.h"
 
 namespace fingertip::studies {

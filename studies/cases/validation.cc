@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "studies/cases/measures.h"
-#include "studies/cases/summary.h"
-#include "studies/cases/tables.h"
+#include "studies/cases/outputs.h"
 #include "studies/report/report.h"
 #include "studies/run/json_file.h"
 

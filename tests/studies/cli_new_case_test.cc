@@ -25,7 +25,7 @@ title = "Two spacings"
 run = [
   { verb = "press", series = "spacings", name = "fine", set = { "lattice.spacing" = "tip_radius/6" } },
   { verb = "press", series = "spacings", name = "coarse", beside = "spacings, fine", set = { "lattice.spacing" = "tip_radius/5" } },
-  { verb = "press", name = "too coarse", when = "coarser", set = { "lattice.spacing" = "tip_radius" } },
+  { verb = "press", name = "too coarse", when = "coarser", set = { "lattice.spacing" = "0.4 cm" } },
   { verb = "press", name = "as fine", set = { "lattice.spacing" = "tip_radius/6" } },
   { verb = "moduli", name = "fit", set = { "lattice.model" = "central" } },
   { verb = "cubes", name = "cubes" },

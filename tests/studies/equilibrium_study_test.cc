@@ -7,7 +7,7 @@
 
 #include "case_tables.h"
 #include "straight_response.h"
-#include "studies/cases/tables.h"
+#include "studies/cases/outputs.h"
 
 using namespace fingertip::studies;
 
