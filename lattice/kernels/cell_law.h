@@ -27,22 +27,9 @@ struct Law : PackAlgebra<Number> {
             {zx, yz, excess * H.z.z + trace}};
   }
 
-  /// A deformed cell. `volume` has dW/dF = pressure T with T = cof F, `network` G F + pressure T
-  /// with T = F⁻ᵀ.
-  struct Deformed {
-    Rows F, T;
-    Number J;
-
-    [[gnu::always_inline]] static Deformed by_cofactor(const Rows& F) {
-      const Rows T = Algebra::cofactor(F);
-      return {F, T, dot(F.x, T.x)};
-    }
-    [[gnu::always_inline]] static Deformed by_inverse(const Rows& F) {
-      Deformed d = by_cofactor(F);
-      d.T = Algebra::multiple(Number(1.0) / d.J, d.T);
-      return d;
-    }
-  };
+  /// `volume` has dW/dF = pressure T with T = cof F, `network` G F + pressure T with T = F⁻ᵀ = cof
+  /// F / J.
+  ///
   /// `excess`: J - 1, and tau dJ/dt where that counts.
   [[gnu::always_inline]] static Number volume_pressure(const CellMaterial& m, const Number& size,
                                                        const Number& excess) {
@@ -60,17 +47,15 @@ struct Law : PackAlgebra<Number> {
   }
 
   /// How dW/dF changes with F; `p`: the pressure.
-  static Rows volume_tangent(const CellMaterial& m, const Deformed& d, const Number& p,
+  static Rows volume_tangent(const CellMaterial& m, const Rows& F, const Rows& T, const Number& p,
                              const Rows& dF) {
-    const Rows &F = d.F, &T = d.T;
     const Number rate = Number(m.kappa) * contract(T, dF);
     return {rate * T.x + p * (cross(dF.y, F.z) + cross(F.y, dF.z)),
             rate * T.y + p * (cross(dF.z, F.x) + cross(F.z, dF.x)),
             rate * T.z + p * (cross(dF.x, F.y) + cross(F.x, dF.y))};
   }
-  static Rows network_tangent(const CellMaterial& m, const Deformed& d, const Number& p,
+  static Rows network_tangent(const CellMaterial& m, const Rows& T, const Number& p,
                               const Rows& dF) {
-    const Rows& T = d.T;
     const Number shear = m.shear, rate = Number(m.lambda) * contract(T, dF);
     const auto row = [&](const Vector& t, const Vector& df) {  // dT = -T dFᵀ T
       return shear * df + rate * t - p * (transposed_times(T, times(dF, t)));

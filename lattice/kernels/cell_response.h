@@ -20,7 +20,6 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   using Packs<Pack>::load;
   using typename Algebra::Rows;
   using Vector = PackVector<Pack>;
-  using typename Law::Deformed;
 
   static constexpr std::ptrdiff_t block = std::ptrdiff_t(lanes);
 
@@ -125,22 +124,22 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   [[gnu::always_inline]] static void answer_volume(const CellMaterial& m, const Pack& area,
                                                    const Field& u, const Velocity& velocity,
                                                    Extremes& extremes, const Take& take) {
-    const Deformed d = Deformed::by_cofactor(Algebra::plus_one(gradient(u)));
-    const Pack inverse = Pack(1.0) / abs(d.J);
-    const Pack square = Algebra::gershgorin(d.T);  // J² g
-    Pack excess = d.J - Pack(1.0);
-    extend(extremes, d.J, square * (Pack(1.0) + abs(excess) * inverse), square);
+    const Rows F = Algebra::plus_one(gradient(u)), cofactor = Algebra::cofactor(F);
+    const Pack J = dot(F.x, cofactor.x), inverse = Pack(1.0) / abs(J);
+    const Pack square = Algebra::gershgorin(cofactor);  // J² g
+    Pack excess = J - Pack(1.0);
+    extend(extremes, J, square * (Pack(1.0) + abs(excess) * inverse), square);
     if constexpr (Rates) {
       Pack rate = 0.0;
       for_components([&](auto c) __attribute__((always_inline)) {
-        rate += dot(entry<c()>(d.T), velocity(c).H);
+        rate += dot(entry<c()>(cofactor), velocity(c).H);
       });
       extremes.rate = max(extremes.rate, abs(rate) * inverse);
       excess += rate;
     }
     const Pack pressure = Law::volume_pressure(m, area, excess);
     for_components([&](auto c) __attribute__((always_inline)) {
-      take(c, Row{pressure * entry<c()>(d.T), {}});
+      take(c, Row{pressure * entry<c()>(cofactor), {}});
     });
   }
 
@@ -148,8 +147,10 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   [[gnu::always_inline]] static void answer_network(const CellMaterial& m, const Pack& area,
                                                     const Field& u, const Velocity& velocity,
                                                     Extremes& extremes, const Take& take) {
-    const auto [F, T, J] = Deformed::by_inverse(Algebra::plus_one(gradient(u)));
-    const Pack lambda = m.lambda, G = area * Pack(m.shear);
+    const Rows F = Algebra::plus_one(gradient(u));
+    Rows T = Algebra::cofactor(F);
+    const Pack J = dot(F.x, T.x), lambda = m.lambda, G = area * Pack(m.shear);
+    T = Algebra::multiple(Pack(1.0) / J, T);  // F⁻ᵀ
     const Pack pressure = Law::network_pressure(m, J), g = Algebra::gershgorin(T);
     extend(extremes, J, (abs(pressure) + lambda) * g, g);
     if constexpr (Rates) {

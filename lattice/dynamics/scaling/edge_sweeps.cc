@@ -2,13 +2,13 @@
 #include "lattice/dynamics/scaling/edge_sweeps.h"
 
 #include "lattice/dynamics/scaling/eight.h"
-#include "lattice/kernels/cell_law.h"
+#include "lattice/kernels/pack_algebra.h"
 
 namespace fingertip::lattice::sweeps {
 
 namespace {
 
-using Law = kernel::Law<Eight>;
+using Algebra = kernel::PackAlgebra<Eight>;
 
 /// From a cell's lowest corner to the start of edge `e` of 4 along d.
 std::ptrdiff_t to_edge(const EdgeArrays& arrays, std::size_t d, std::size_t e) {
@@ -54,15 +54,16 @@ void find_moduli(const EdgeArrays& arrays, const EdgeFactors& f, EdgePack* packs
   for (std::size_t p = 0; p < count; ++p) {
     EdgePack& pack = packs[p];
     const auto row = [&](std::size_t r) __attribute__((always_inline)) {
-      return Law::Vector{gradient(arrays, pack, r, 0), gradient(arrays, pack, r, 1),
-                         gradient(arrays, pack, r, 2)};
+      return Algebra::Vector{gradient(arrays, pack, r, 0), gradient(arrays, pack, r, 1),
+                             gradient(arrays, pack, r, 2)};
     };
-    const auto cell = Law::Deformed::by_cofactor({row(0), row(1), row(2)});
+    const Algebra::Rows F{row(0), row(1), row(2)}, cofactor = Algebra::cofactor(F);
+    const Eight J = dot(F.x, cofactor.x);
     // A press with cells turned inside out ends with CrushedCells; till then S stays finite.
     Eight sound = 1.0F;
-    where(cell.J > 1e-3F, sound) = cell.J;
+    where(J > 1e-3F, sound) = J;
     const Eight inverse = 1.0F / sound, excess = max(sound, inverse) - 1.0F;
-    const auto [x, y, z] = Law::multiple(inverse, cell.T);
+    const auto [x, y, z] = Algebra::multiple(inverse, cofactor);
     const Eight T[3][3] = {{x.x, x.y, x.z}, {y.x, y.y, y.z}, {z.x, z.y, z.z}};  // F⁻ᵀ
     RowSums sums;
     add_up(T, sums);

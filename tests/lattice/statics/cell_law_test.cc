@@ -1,4 +1,4 @@
-#include "lattice/statics/cell_law.h"
+#include "lattice/model/cell_law.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 /// Laws of the statics' cells by the constants that make them.
 #pragma once
 
+#include "lattice/model/cell_law.h"
 #include "lattice/model/formulation.h"
-#include "lattice/statics/cell_law.h"
 
 namespace laws {
 

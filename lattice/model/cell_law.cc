@@ -1,4 +1,4 @@
-#include "lattice/statics/cell_law.h"
+#include "lattice/model/cell_law.h"
 
 #include <limits>
 #include <stdexcept>
@@ -41,20 +41,19 @@ Vector9 cubic_stress(const CellLaw& law, const Matrix3d& H) {
 
 /// Cells that know F only.
 CellResponse deformed_response(const CellMaterial& m, const Law::Rows& F) {
+  const bool network = m.kind == CellLawKind::network;
+  Law::Rows T = Law::cofactor(F);
+  const double J = dot(F.x, T.x), shear = network ? m.shear : 0.0;
+  if (network && !(J > 0.0)) throw std::domain_error("a cell is turned inside out");
+  if (network) T = Law::multiple(1.0 / J, T);
+  const double pressure =
+      network ? Law::network_pressure(m, J) : Law::volume_pressure(m, 1.0, J - 1.0);
   CellResponse response;
-  const auto fill = [&](const Law::Deformed& d, double shear, double pressure, auto tangent) {
-    response.stress = (shear - m.bending) * flat(F) + pressure * flat(d.T);
-    for (Eigen::Index n = 0; n < 9; ++n)
-      response.tangent.col(n) = flat(tangent(m, d, pressure, unit(n)));
-  };
-  if (m.kind == CellLawKind::volume) {
-    const auto d = Law::Deformed::by_cofactor(F);
-    fill(d, 0.0, Law::volume_pressure(m, 1.0, d.J - 1.0), Law::volume_tangent);
-    return response;
+  response.stress = (shear - m.bending) * flat(F) + pressure * flat(T);
+  for (Eigen::Index n = 0; n < 9; ++n) {
+    response.tangent.col(n) = flat(network ? Law::network_tangent(m, T, pressure, unit(n))
+                                           : Law::volume_tangent(m, F, T, pressure, unit(n)));
   }
-  const auto d = Law::Deformed::by_inverse(F);
-  if (!(d.J > 0.0)) throw std::domain_error("a cell is turned inside out");
-  fill(d, m.shear, Law::network_pressure(m, d.J), Law::network_tangent);
   return response;
 }
 
