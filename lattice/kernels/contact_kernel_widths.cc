@@ -1,13 +1,14 @@
-// The kernels of the contact for every x86-64 (SSE2).
+// The kernels of the contact, compiled once per instruction set (lattice/CMakeLists.txt).
 #include "lattice/kernels/contact_kernel_body.h"
 
 namespace fingertip::lattice::kernel {
 
 using Pack = std::experimental::native_simd<double>;
-static_assert(Pack::size() == 2, "wrong compiler flags");
 
-const ContactKernels& contact_width2() {
+template <int width>
+const ContactKernels& contact_at() {
   return ContactBody<Pack>::kernels;
 }
+template const ContactKernels& contact_at<int(Pack::size())>();
 
 }  // namespace fingertip::lattice::kernel
