@@ -134,11 +134,16 @@ Job reference_job(const fem_reference::ReferenceJob& order) {
   job.kind = "reference";
   job.inputs = inputs_of(order);
   job.source_hash = source_hash::reference;
-  job.weight = reference_weight;
+  job.weight = order.axisymmetric() ? meridian_weight : reference_weight;
   job.resumable = true;
   job.run = [order](const fs::path& folder, const JobContext& context) {
     fem_reference::write_job(order, folder / "job.json");
-    run_fem_process(reference_program(), folder, context);
+    JobContext own = context;
+    if (order.axisymmetric() && own.ranks > 1) {
+      own.log("a meridian is solved on one process: --ranks is not used");
+      own.ranks = 1;
+    }
+    run_fem_process(reference_program(), folder, own);
     fs::remove_all(folder / "checkpoint");  // of use to an unfinished job alone
   };
   return job;
