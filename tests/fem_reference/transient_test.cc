@@ -177,6 +177,7 @@ struct Press {
   explicit Press(double speed, ContactMode contact = ContactMode::frictionless) {
     job.analysis = Analysis::transient;
     job.protocol.contact = contact;
+    job.symmetry = fingertip::fem_reference::Symmetry::none;
     job.protocol.speed = speed;
     job.press_to({5e-4, 1e-3, 2e-3});
   }
@@ -189,7 +190,6 @@ struct Press {
   }
   SharedMesh mesh{0.35};
   ReferenceJob job;
-  job.symmetry = fingertip::fem_reference::Symmetry::none;
 };
 
 TEST(TransientPress, IsTheStaticPressWhenSlow) {
