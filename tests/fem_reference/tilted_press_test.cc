@@ -171,7 +171,7 @@ TEST(PressAndSlide, StuckItIsALinearSpringThatStoresTheWork) {
   EXPECT_NEAR((states[3].energy - states[1].energy) / work, 1.0, 0.01);
 
   ReferenceJob diagonal = job;
-  diagonal.lateral_path = meshes::LateralPath::diagonal;
+  diagonal.protocol.lateral_path = meshes::LateralPath::diagonal;
   EXPECT_LT(states_along(diagonal).back().sample.lateral_force_x, 0.9 * force);
 }
 
