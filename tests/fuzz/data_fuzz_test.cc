@@ -255,7 +255,7 @@ TEST(FuzzData, OrdersForTheContinuum) {
                  write_text(file, input);
                  const fem_reference::ReferenceJob one = fem_reference::read_job(file);
                  EXPECT_TRUE(one.violations().empty());
-                 EXPECT_TRUE(all_finite(one.samples));
+                 EXPECT_TRUE(all_finite(one.protocol.samples));
                  write_job(one, file);
                  const std::string text = read_text(file);
                  write_job(fem_reference::read_job(file), file);
