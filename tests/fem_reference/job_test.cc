@@ -51,6 +51,7 @@ TEST(ReferenceJob, SurvivesTheFile) {
   job.analysis = Analysis::verification;
   job.strain = Strain::finite;
   job.law = StrainEnergy::law_c;
+  job.symmetry = fem_reference::Symmetry::none;
   job.modes = 17;
   job.degree = 3;
   job.volumetric = Volumetric::pointwise;
@@ -86,6 +87,7 @@ TEST(ReferenceJob, EveryNameSurvivesTheFile) {
   survives(&ReferenceJob::analysis);
   survives(&ReferenceJob::strain);
   survives(&ReferenceJob::law);
+  survives(&ReferenceJob::symmetry);
   survives(&ReferenceJob::solver);
   survives(&ReferenceJob::volumetric);
   for (const auto contact : values(meshes::ContactMode())) {
