@@ -125,9 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{ContactMode::frictionless, Strain::linear, StrainEnergy::law_a},
                     Case{ContactMode::stick, Strain::linear, StrainEnergy::law_a},
                     Case{ContactMode::coulomb, Strain::linear, StrainEnergy::law_a},
-                    Case{ContactMode::stick, Strain::finite, StrainEnergy::law_a},
-                    Case{ContactMode::frictionless, Strain::finite, StrainEnergy::law_b},
-                    Case{ContactMode::frictionless, Strain::finite, StrainEnergy::law_c}),
+                    Case{ContactMode::stick, Strain::finite, StrainEnergy::law_a}),
     [](const auto& instance) {
       const Case& c = instance.param;
       return std::string(meshes::name(c.contact)) + "_" +
@@ -169,17 +167,26 @@ TEST(Meridian, OfStickHardlyDependsOnTheStep) {
 
 /// The plane's work is what the rubber stores: dE/d(delta) = F, by central differences.
 TEST(Meridian, ForceIsTheSlopeOfTheEnergy) {
-  for (const Strain strain : {Strain::linear, Strain::finite}) {
-    ReferenceJob job = meridian_press(ContactMode::frictionless, strain);
-    job.refinement = 1.0;
-    constexpr double step = 2e-5;
-    job.press_to({1.5e-3 - step, 1.5e-3, 1.5e-3 + step});
+  const auto check = [](const ReferenceJob& job) {
     Pressing pressing(job);
     std::vector<PressState> states;
     for (const double sample : job.protocol.samples)
       states.push_back(pressing.press.advance(sample));
-    EXPECT_NEAR((states[2].energy - states[0].energy) / (2 * step), states[1].sample.normal_force,
+    const double way = job.protocol.samples[2] - job.protocol.samples[0];
+    EXPECT_NEAR((states[2].energy - states[0].energy) / way, states[1].sample.normal_force,
                 2e-3 * states[1].sample.normal_force);
+    return states[1].sample.normal_force;
+  };
+  ReferenceJob job = meridian_press();
+  job.refinement = 1.0;
+  job.press_to({1.48e-3, 1.5e-3, 1.52e-3});
+  double last = check(job);
+  job.strain = Strain::finite;
+  for (const StrainEnergy law : values(StrainEnergy())) {
+    job.law = law;
+    const double next = check(job);
+    EXPECT_GT(std::abs(next - last), 1e-3 * last);  // laws differ
+    last = next;
   }
 }
 
