@@ -154,6 +154,9 @@ std::vector<Violation> ReferenceJob::violations() const {
           "must lie between 1e3 and 1e9", "choose what your memory holds: 4e5 needs about 8 GB");
   require(solver_tolerance >= 1e-14 && solver_tolerance <= 1e-4, "reference.solver_tolerance",
           solver_tolerance, "must lie between 1e-14 and 1e-4", "choose 1e-10");
+  require(field_sectors == 0 || (field_sectors >= 3 && field_sectors <= 360),
+          "reference.field_sectors", field_sectors, "must be 0 or lie between 3 and 360",
+          "choose 16 for a smooth body, 0 for the meridian alone");
   require(modes >= 1 && modes <= 1000, "reference.modes", modes, "must lie between 1 and 1000",
           "choose 10");
   if (strain == Strain::finite && law != StrainEnergy::law_c)  // C needs a bulk modulus > 0 only

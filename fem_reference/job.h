@@ -75,6 +75,7 @@ struct ReferenceJob {
   LinearSolver solver = LinearSolver::automatic;
   double solver_tolerance = 1e-10;  ///< relative residual of the multigrid solver
   bool write_fields = true;         ///< VTU per sample and a PVD over them
+  int field_sectors = 0;  ///< of the solid into which a meridian's fields are turned; 0: none
 
   /// Whether the meridian is meshed, not the solid: a press without tilt and lateral motion.
   bool axisymmetric() const;
@@ -87,7 +88,7 @@ template <meshes::Fields<ReferenceJob> T>
 void visit_fields(T& job, auto&& visit) {
   auto& [analysis, geometry, rubber, protocol, strain, law, symmetry, modes, degree, volumetric,
          refinement, tolerance, max_unknowns, estimate_error, solver, solver_tolerance,
-         write_fields] = job;
+         write_fields, field_sectors] = job;
   visit("analysis", analysis, "");
   visit("geometry", geometry, "");
   visit("rubber", rubber, "");
@@ -105,6 +106,7 @@ void visit_fields(T& job, auto&& visit) {
   visit("solver", solver, "");
   visit("solver_tolerance", solver_tolerance, "");
   visit("write_fields", write_fields, "");
+  visit("field_sectors", field_sectors, "");
 }
 
 constexpr auto values(LinearSolver) {

@@ -97,7 +97,7 @@ void TipPress<dim>::write_fields(const PressSnapshot& state,
   contact.add_to(out);
   out.build_patches(body_->mapping, unsigned(job_.degree),
                     dealii::DataOut<dim>::curved_inner_cells);
-  out.write(file);
+  out.write(file, job_.field_sectors);
 }
 
 template <int dim>

@@ -35,7 +35,7 @@ constexpr double most_growth = 8.0;
 /// A checkpoint is written when the last one is older than this [s].
 constexpr double checkpoint_interval = 10.0;
 /// So are the tables [s].
-constexpr double table_interval = 1.0;
+constexpr double table_interval = 0.2;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();

@@ -171,7 +171,7 @@ class TipInMotion final : public TransientModel {
     touch.add_to(out);
     out.build_patches(body->mapping, unsigned(job.degree),
                       dealii::DataOut<dim>::curved_inner_cells);
-    out.write(file);
+    out.write(file, job.field_sectors);
   }
 
  private:

@@ -93,7 +93,9 @@ BodyMesh disc_body(double thickness, int divisions, int local_refinements, Meshe
   BodyMesh body;
   body.shape = meshed == Meshed::solid ? Shape::disc_octant : Shape::disc_meridian;
   body.size = {disc_radius, 0.0, thickness / 2};
-  body.divisions[0] = body.divisions[2] = divisions;
+  // The octant's mesh has twice the divisions along its radius.
+  body.divisions[0] = meshed == Meshed::solid ? divisions : 2 * divisions;
+  body.divisions[2] = divisions;
   body.local_refinements = local_refinements;
   return body;
 }

@@ -327,6 +327,11 @@ std::vector<Key> continuum_solver_keys() {
             job(&Job::estimate_error)),
       plain("reference", "fields", any, "write displacement, stress and pressure for ParaView",
             job(&Job::write_fields)),
+      with_rule(plain("reference", "field_sectors", {0, 360, true},
+                      "turn the fields of a meridian into a solid of so many sectors for ParaView; "
+                      "0: the meridian alone",
+                      job(&Job::field_sectors)),
+                "0, or 3 and more", {"reference.symmetry"}),
   };
 }
 

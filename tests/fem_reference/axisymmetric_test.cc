@@ -258,6 +258,23 @@ TEST(Meridian, FieldsAreInSpace) {
   EXPECT_EQ(text.find("none"), std::string::npos);
 }
 
+TEST(Meridian, IsTurnedIntoTheBodyOnWish) {
+  ReferenceJob job = meridian_press();
+  const auto cells = [&](int sectors) {
+    job.field_sectors = sectors;
+    Pressing pressing(job);
+    pressing.press.advance(1e-3);
+    const auto file = pressing.folder() / "fields.vtu";
+    pressing.press.write_fields(*pressing.press.snapshot(), file);
+    std::ifstream in(file);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string key = "NumberOfCells=\"";
+    return std::stoi(text.substr(text.find(key) + key.size()));
+  };
+  // Each element of degree 2 is drawn as 2 x 2 quadrilaterals, or 2 x 2 x 2 hexahedra a sector.
+  EXPECT_EQ(cells(8), 8 * 2 * cells(0));
+}
+
 TEST(Meridian, PressAtSpeedGivesTheForceOfTheSolid) {
   ReferenceJob job = meridian_press();
   job.analysis = fem_reference::Analysis::transient;

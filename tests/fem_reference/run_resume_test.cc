@@ -12,7 +12,7 @@ namespace {
 ReferenceJob small_job() {
   ReferenceJob job;
   job.symmetry = fingertip::fem_reference::Symmetry::none;
-  for (int i = 1; i <= 6; ++i) job.protocol.samples.push_back(2e-4 * i);
+  job.press_to({2e-4, 4e-4, 6e-4, 8e-4, 1e-3, 1.2e-3});
   job.refinement = 0.3;
   job.tolerance = 0.5;
   job.write_fields = false;

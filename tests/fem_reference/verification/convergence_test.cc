@@ -62,9 +62,10 @@ TEST_P(Orders, UnderPressureOnCurvedWalls) {
 TEST_P(Orders, OnTheMeridianOfAManufacturedSolution) {
   const bool slow = element.degree == 2 && element.volumetric == projected;
   const std::array<std::vector<int>, 4> rings{{{}, {16, 32}, {8, 16}, {4, 8}}};
+  // Distorted meshes are not nested: their distortions differ from one to the next.
   for (const bool curved : {true, false})
     expect_orders(study_manufactured_meridian(curved, element, rings[std::size_t(element.degree)]),
-                  0.1, slow ? 0.25 : 0.1);
+                  curved ? 0.1 : 0.15, slow ? 0.25 : 0.1);
 }
 
 TEST_P(Orders, UnderPressureOnMeridians) {
