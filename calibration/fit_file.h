@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::calibration {
@@ -85,7 +85,7 @@ struct ModuliFile {
   AchievedEntry achieved;
   std::optional<std::vector<std::vector<double>>> covariance;
   std::vector<OpenConstants> unidentifiable;
-  std::map<std::string, double> residuals;
+  meshes::Entries<double> residuals;
   std::string statement;
 
   bool empty() const { return model.empty(); }
@@ -179,7 +179,7 @@ constexpr auto fields_of(const CurveEntry*) {
 
 /// A combination of parameters that data do not determine.
 struct DirectionEntry {
-  std::map<std::string, double> direction;
+  meshes::Entries<double> direction;
   double relative_singular_value = meshes::unknown, interval = meshes::unknown;
   std::string statement;
 };
@@ -266,7 +266,7 @@ struct FitFile {
   double chi_square = meshes::unknown, chi_square_probability = meshes::unknown,
          birge_ratio = meshes::unknown;
   std::optional<std::string> model_error;
-  bool converged = false;
+  bool converged = true;
   double poissons_ratio_bound = meshes::unknown, residual_deviation = meshes::unknown;
   std::vector<MinimumEntry> minima;
   std::string x_quantity, y_quantity;
@@ -302,6 +302,19 @@ constexpr auto fields_of(const FitFile*) {
             &Whole::curves, &Whole::residuals, &Whole::influence, &Whole::profile,
             &Whole::iterations, &Whole::evaluations, &Whole::wall_time, &Whole::validity),
       newer(named("failed", &Whole::failed)), named("statement", &Whole::statement));
+}
+
+/// What a fit to moduli, which has no curves, has in common with others.
+inline FitFile as_fit(const ModuliFile& moduli) {
+  FitFile fit;
+  fit.problem = "moduli";
+  fit.model = moduli.model;
+  fit.spacing = moduli.spacing;
+  fit.constants = moduli.constants;
+  fit.target = moduli.target;
+  fit.achieved = moduli.achieved;
+  fit.statement = moduli.statement;
+  return fit;
 }
 
 }  // namespace fingertip::calibration

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::calibration {

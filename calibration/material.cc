@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "calibration/moduli.h"
+#include "calibration/words.h"
 #include "meshes/files.h"
 
 namespace fingertip::calibration {
@@ -81,12 +82,17 @@ bool same(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
 }
 
+/// For people, who tell values apart by six digits.
+std::string shown(double value) {
+  return rounded(value, 6);
+}
+
 std::string tenths_of_percent(double share) {
-  return to_text(std::round(1e3 * share) / 10.0) + " %";
+  return shown(std::round(1e3 * share) / 10.0) + " %";
 }
 
 std::string between(double least, double most, const char* unit) {
-  return same(least, most) ? to_text(least) + unit : to_text(least) + " to " + to_text(most) + unit;
+  return same(least, most) ? shown(least) + unit : shown(least) + " to " + shown(most) + unit;
 }
 
 void warn_of_spacing(Sentences& found, const Validity& v, const PressSetup& setup) {
@@ -97,7 +103,7 @@ void warn_of_spacing(Sentences& found, const Validity& v, const PressSetup& setu
   const double a = setup.lattice.spacing;
   if (a >= least * (1.0 - 1e-9) && a <= most * (1.0 + 1e-9)) return;
   found.push_back(
-      "the spacing " + to_text(a) + " m is not that of the fit (" + between(least, most, " m") +
+      "the spacing " + shown(a) + " m is not that of the fit (" + between(least, most, " m") +
       " on this finger): k1, k2, k3 are scaled with it, which keeps the moduli, but a fit to "
       "curves also makes good the error of its own grid, 1 to 3 % of the force at R/6 and R/8, 0.3 "
       "% at R/12, which does not scale; expect errors of that size, or calibrate at this spacing");
@@ -106,8 +112,8 @@ void warn_of_spacing(Sentences& found, const Validity& v, const PressSetup& setu
 void warn_of_geometry(Sentences& found, const Validity& v, const PressSetup& setup) {
   const double ratio = setup.geometry.rod_radius / setup.geometry.tip_radius;
   if (v.rod_ratio && std::abs(ratio - *v.rod_ratio) > 0.01)
-    found.push_back("the finger's r/R is " + to_text(ratio) + " and the fit's " +
-                    to_text(*v.rod_ratio) +
+    found.push_back("the finger's r/R is " + shown(ratio) + " and the fit's " +
+                    shown(*v.rod_ratio) +
                     ": its rubber is of another relative thickness, where these constants have "
                     "not been compared with anything");
 }
@@ -117,15 +123,15 @@ void warn_of_moduli(Sentences& found, const Material& material, const PressSetup
   const meshes::Rubber &ours = material.rubber, &theirs = setup.rubber;
   if (!same(ours.youngs_modulus, theirs.youngs_modulus) ||
       !same(ours.shear_modulus, theirs.shear_modulus))
-    found.push_back("the stiffness is the material's, E = " + to_text(ours.youngs_modulus) +
-                    " Pa and G = " + to_text(ours.shear_modulus) +
-                    " Pa; the press's own E = " + to_text(theirs.youngs_modulus) +
-                    " Pa and G = " + to_text(theirs.shear_modulus) + " Pa have no effect");
+    found.push_back("the stiffness is the material's, E = " + shown(ours.youngs_modulus) +
+                    " Pa and G = " + shown(ours.shear_modulus) +
+                    " Pa; the press's own E = " + shown(theirs.youngs_modulus) +
+                    " Pa and G = " + shown(theirs.shear_modulus) + " Pa have no effect");
   const Validity& v = material.validity;
   if (!v.smallest_poissons_ratio || !v.largest_poissons_ratio) return;
   const double nu = theirs.poissons_ratio();
   if (nu < *v.smallest_poissons_ratio - 1e-6 || nu > *v.largest_poissons_ratio + 1e-6)
-    found.push_back("the press's Poisson's ratio " + to_text(nu) +
+    found.push_back("the press's Poisson's ratio " + shown(nu) +
                     " is not among those of the fit (" +
                     between(*v.smallest_poissons_ratio, *v.largest_poissons_ratio, "") +
                     "): the lattice keeps the material's");
@@ -134,8 +140,8 @@ void warn_of_moduli(Sentences& found, const Material& material, const PressSetup
 void warn_of_differences(Sentences& found, const Material& material, const PressSetup& setup) {
   const auto compare = [&](const char* what, double ours, double theirs, const char* unit) {
     if (!same(ours, theirs))
-      found.push_back(std::string(what) + " is " + to_text(theirs) + unit +
-                      " as configured, not the material's " + to_text(ours) + unit);
+      found.push_back(std::string(what) + " is " + shown(theirs) + unit +
+                      " as configured, not the material's " + shown(ours) + unit);
   };
   if (material.density_known)
     compare("the rubber's density", material.rubber.density, setup.rubber.density, " kg/m^3");

@@ -12,6 +12,7 @@
 
 #include "calibration/material.h"
 #include "calibration/toml_depth.h"
+#include "lattice/press/setup_fields.h"
 #include "meshes/files.h"
 
 namespace fingertip::calibration {
@@ -40,21 +41,16 @@ std::vector<Quantity> quantities(Material& m) {
   };
   factor("ligament_stiffness", m.ligament_stiffness, "factor on the bond to the rod");
   factor("contact_stiffness", m.contact_stiffness, "factor on the ties to the plane");
-  if (m.model != ModelKind::network)
-    all.insert(all.end(), {{"constants", "k1", "N/m", &m.constants.k1},
-                           {"constants", "k2", "N/m", &m.constants.k2},
-                           {"constants", "k3", "N/m", &m.constants.k3},
-                           {"constants", "kappa", "Pa", &m.constants.kappa}});
-  all.insert(all.end(),
-             {{"rubber", "youngs_modulus", "Pa", &m.rubber.youngs_modulus},
-              {"rubber", "shear_modulus", "Pa", &m.rubber.shear_modulus},
-              {"rubber", "density", "kg/m^3", &m.rubber.density, nullptr, false},
-              {"rubber", "retardation_time", "s", &m.rubber.retardation_time, nullptr, false}});
-  if (m.geometry)
-    all.insert(all.end(), {{"geometry", "tip_radius", "m", &m.geometry->tip_radius},
-                           {"geometry", "rod_radius", "m", &m.geometry->rod_radius},
-                           {"geometry", "sleeve_length", "m", &m.geometry->sleeve_length},
-                           {"geometry", "rod_length", "m", &m.geometry->rod_length}});
+  const auto members = [&](std::string_view section, auto& settings) {
+    visit_fields(settings, [&](std::string_view key, double& value, std::string_view unit) {
+      const bool may_be_unknown =
+          &value == &m.rubber.density || &value == &m.rubber.retardation_time;
+      all.push_back({section, key, unit, &value, nullptr, !may_be_unknown});
+    });
+  };
+  if (m.model != ModelKind::network) members("constants", m.constants);
+  members("rubber", m.rubber);
+  if (m.geometry) members("geometry", *m.geometry);
   const auto bound = [&](std::string_view key, std::string_view unit, std::optional<double>& value,
                          std::string_view note) {
     all.push_back({"validity", key, unit, nullptr, &value, false, note});
@@ -116,8 +112,7 @@ class MaterialReader {
     material.model = word("lattice", "model",
                           std::array{ModelKind::central, ModelKind::hookean, ModelKind::network});
     if (find("lattice", "kinematics"))
-      material.kinematics =
-          word("lattice", "kinematics", std::array{Kinematics::small, Kinematics::finite});
+      material.kinematics = word("lattice", "kinematics", values(Kinematics()));
     if (table_.contains("geometry")) material.geometry.emplace();
     const std::vector<Quantity> known = quantities(material);
     for (const Quantity& quantity : known) read(quantity);
@@ -227,8 +222,6 @@ class MaterialReader {
   }
 
   std::vector<ContactMode> contacts() const {
-    constexpr std::array all = {ContactMode::stick, ContactMode::frictionless,
-                                ContactMode::coulomb};
     const toml::array* list = node("validity", "contacts").as_array();
     std::vector<ContactMode> found;
     const auto refuse = [&] {
@@ -239,7 +232,7 @@ class MaterialReader {
     for (const toml::node& item : *list) {
       const std::optional<std::string> written = item.value_exact<std::string>();
       if (!written) refuse();
-      found.push_back(chosen(*written, "validity", "contacts", all));
+      found.push_back(chosen(*written, "validity", "contacts", values(ContactMode())));
     }
     return found;
   }

@@ -4,7 +4,8 @@
 
 #include "calibration/file_parts.h"
 #include "calibration/fit_statement.h"
-#include "meshes/json_fields.h"
+#include "calibration/words.h"
+#include "meshes/fields_json.h"
 
 namespace fingertip::calibration {
 
@@ -15,8 +16,9 @@ Material material_from(const ModuliFit& fit) {
   material.constants = fit.constants;
   material.rubber = fit.target;
   material.kinematics = lattice::Kinematics::small;
+  // What rounding adds to E/(2G) - 1 says nothing: 0.45, not 0.44999999999999996.
   material.validity.smallest_poissons_ratio = material.validity.largest_poissons_ratio =
-      fit.target.poissons_ratio();
+      std::stod(rounded(fit.target.poissons_ratio(), 15));
   material.provenance =
       "moduli: least-squares fit of the homogenised lattice to E and G of the "
       "rubber, " +

@@ -13,7 +13,8 @@ namespace {
 
 using dealii::types::global_dof_index;
 
-/// Position of every local unknown in the element's order 3 a + i.
+/// Position of every local unknown in the element's order dim a + i.
+template <int dim>
 std::vector<Eigen::Index> element_order(const dealii::FESystem<dim>& element) {
   std::vector<Eigen::Index> order(element.n_dofs_per_cell());
   for (unsigned i = 0; i < order.size(); ++i) {
@@ -32,15 +33,15 @@ void agree(const std::string& failure, MPI_Comm communicator) {
 
 }  // namespace
 
-LinearSystem::LinearSystem(const Body& body, bool with_coarse_matrix)
+template <int dim>
+LinearSystem::LinearSystem(const Body<dim>& body, bool with_coarse_matrix)
     : matrix(body.fine.matrix()), force(body.fine.vector()) {
   if (with_coarse_matrix) coarse_matrix.reinit(body.coarse.matrix());
 }
 
-void for_each_element(
-    const Body& body, ElementKernel& kernel, const Vector& displacement,
-    const std::function<void(const CellIterator&, const dealii::FullMatrix<double>&,
-                             const dealii::Vector<double>&, const ElementSystem&)>& take) {
+template <int dim>
+void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
+                      const ElementAction<dim>& take) {
   const dealii::FiniteElement<dim>& scalar = body.fine.element.base_element(0);
   dealii::FEValues<dim> values(body.mapping, scalar, dealii::QGauss<dim>(scalar.degree + 1),
                                dealii::update_values | dealii::update_gradients |
@@ -55,7 +56,7 @@ void for_each_element(
   std::string failure;
   for (const auto& cell : body.fine.dofs.active_cell_iterators()) {
     if (!cell->is_locally_owned() || !failure.empty()) continue;
-    values.reinit(static_cast<dealii::Triangulation<dim>::cell_iterator>(cell));
+    values.reinit(static_cast<typename dealii::Triangulation<dim>::cell_iterator>(cell));
     cell->get_dof_indices(indices);
     for (unsigned i = 0; i < order.size(); ++i) local[order[i]] = u[indices[i]];
     try {
@@ -76,7 +77,8 @@ void for_each_element(
   agree(failure, body.fine.communicator);
 }
 
-void assemble(const Body& body, ElementKernel& kernel, const Vector& displacement,
+template <int dim>
+void assemble(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
               LinearSystem& system) {
   system.matrix = 0.0;
   system.force.compress(dealii::VectorOperation::add);  // what a failed assembly left behind
@@ -91,7 +93,7 @@ void assemble(const Body& body, ElementKernel& kernel, const Vector& displacemen
   system.min_jacobian = 1.0;
   system.energy = 0.0;
   for_each_element(body, kernel, displacement,
-                   [&](const CellIterator& cell, const dealii::FullMatrix<double>& matrix,
+                   [&](const CellIterator<dim>& cell, const dealii::FullMatrix<double>& matrix,
                        const dealii::Vector<double>& force, const ElementSystem& element) {
                      system.min_jacobian = std::min(system.min_jacobian, element.min_jacobian);
                      system.energy += element.energy;
@@ -100,8 +102,8 @@ void assemble(const Body& body, ElementKernel& kernel, const Vector& displacemen
                                                                       system.matrix, system.force);
                      if (!with_coarse) return;
                      restricted.triple_product(matrix, embedding, embedding, true, false);
-                     const CellIterator other(&body.triangulation, cell->level(), cell->index(),
-                                              &body.coarse.dofs);
+                     const CellIterator<dim> other(&body.triangulation, cell->level(),
+                                                   cell->index(), &body.coarse.dofs);
                      other->get_dof_indices(coarse);
                      body.coarse.constraints.distribute_local_to_global(restricted, coarse,
                                                                         system.coarse_matrix);
@@ -114,12 +116,14 @@ void assemble(const Body& body, ElementKernel& kernel, const Vector& displacemen
   system.energy = dealii::Utilities::MPI::sum(system.energy, body.fine.communicator);
 }
 
-Vector condensed_force(const Body& body, ElementKernel& kernel, const Vector& displacement,
+template <int dim>
+Vector condensed_force(const Body<dim>& body, ElementKernel<dim>& kernel,
+                       const Vector& displacement,
                        const dealii::AffineConstraints<double>& constraints) {
   Vector result = body.fine.vector();
   std::vector<global_dof_index> indices(body.fine.element.n_dofs_per_cell());
   for_each_element(body, kernel, displacement,
-                   [&](const CellIterator& cell, const dealii::FullMatrix<double>&,
+                   [&](const CellIterator<dim>& cell, const dealii::FullMatrix<double>&,
                        const dealii::Vector<double>& force, const ElementSystem&) {
                      cell->get_dof_indices(indices);
                      constraints.distribute_local_to_global(force, indices, result);
@@ -128,8 +132,22 @@ Vector condensed_force(const Body& body, ElementKernel& kernel, const Vector& di
   return result;
 }
 
-Vector unconstrained_force(const Body& body, ElementKernel& kernel, const Vector& displacement) {
+template <int dim>
+Vector unconstrained_force(const Body<dim>& body, ElementKernel<dim>& kernel,
+                           const Vector& displacement) {
   return condensed_force(body, kernel, displacement, body.fine.hanging_nodes());
 }
+
+#define FINGERTIP_INSTANTIATE(dim)                                                             \
+  template LinearSystem::LinearSystem(const Body<dim>&, bool);                                 \
+  template void for_each_element(const Body<dim>&, ElementKernel<dim>&, const Vector&,         \
+                                 const ElementAction<dim>&);                                   \
+  template void assemble(const Body<dim>&, ElementKernel<dim>&, const Vector&, LinearSystem&); \
+  template Vector condensed_force(const Body<dim>&, ElementKernel<dim>&, const Vector&,        \
+                                  const dealii::AffineConstraints<double>&);                   \
+  template Vector unconstrained_force(const Body<dim>&, ElementKernel<dim>&, const Vector&);
+FINGERTIP_INSTANTIATE(2)
+FINGERTIP_INSTANTIATE(3)
+#undef FINGERTIP_INSTANTIATE
 
 }  // namespace fingertip::fem_reference

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <type_traits>
 
 #include "fem_reference/body.h"
 #include "fem_reference/element.h"
@@ -16,26 +17,36 @@ struct LinearSystem {
   double min_jacobian = 1.0;
   double energy = 0.0;  ///< [J]
 
-  explicit LinearSystem(const Body& body, bool with_coarse_matrix);
+  template <int dim>
+  LinearSystem(const Body<dim>& body, bool with_coarse_matrix);
 };
 
 /// Fills the system at the displacement given (owned entries; constrained ones are implied).
-void assemble(const Body& body, ElementKernel& kernel, const Vector& displacement,
+template <int dim>
+void assemble(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
               LinearSystem& system);
 
 /// Internal force of the elements at `displacement`, passed through `constraints` [N].
-Vector condensed_force(const Body& body, ElementKernel& kernel, const Vector& displacement,
+template <int dim>
+Vector condensed_force(const Body<dim>& body, ElementKernel<dim>& kernel,
+                       const Vector& displacement,
                        const dealii::AffineConstraints<double>& constraints);
 
 /// Internal force of all unknowns, fixed ones included: what boundaries exert [N]. Hanging nodes
 /// hand their share on.
-Vector unconstrained_force(const Body& body, ElementKernel& kernel, const Vector& displacement);
+template <int dim>
+Vector unconstrained_force(const Body<dim>& body, ElementKernel<dim>& kernel,
+                           const Vector& displacement);
 
-/// Calls `take` with cell and element system of every locally owned cell. The matrix is ordered
-/// like the cell's unknowns.
-void for_each_element(
-    const Body& body, ElementKernel& kernel, const Vector& displacement,
-    const std::function<void(const CellIterator&, const dealii::FullMatrix<double>&,
-                             const dealii::Vector<double>&, const ElementSystem&)>& take);
+/// What to do with a cell and its element system, matrix and force ordered like its unknowns.
+template <int dim>
+using ElementAction = std::type_identity_t<
+    std::function<void(const CellIterator<dim>&, const dealii::FullMatrix<double>&,
+                       const dealii::Vector<double>&, const ElementSystem&)>>;
+
+/// Calls `take` for every locally owned cell.
+template <int dim>
+void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
+                      const ElementAction<dim>& take);
 
 }  // namespace fingertip::fem_reference

@@ -1,5 +1,8 @@
 /// deal.II's side of the continuum: an elastic body on a distributed mesh. Included by the sources
 /// that use deal.II and by nobody else.
+///
+/// `dim` is 3 for a solid, 2 for a body of revolution that deforms without leaving its symmetry: a
+/// mesh of its meridian in (r, z), displacements (u_r, u_z); see kinematics.h.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -19,22 +22,24 @@
 
 namespace fingertip::fem_reference {
 
-inline constexpr int dim = 3;
+template <int dim>
 using Triangulation = dealii::parallel::distributed::Triangulation<dim>;
+template <int dim>
+using CellIterator = typename dealii::DoFHandler<dim>::active_cell_iterator;
 using Vector = dealii::TrilinosWrappers::MPI::Vector;
 using SparseMatrix = dealii::TrilinosWrappers::SparseMatrix;
-using CellIterator = dealii::DoFHandler<dim>::active_cell_iterator;
 
-/// A displacement component (0, 1, 2) that a boundary holds at zero.
+/// A displacement component (0, ..., dim - 1) that a boundary holds at zero.
 struct FixedComponent {
   dealii::types::boundary_id boundary = 0;
   int component = 0;
 };
 
-/// The displacement unknowns of one polynomial degree on a mesh: Lagrange hexahedra with nodes at
-/// Gauss-Lobatto points, three unknowns a node.
+/// The displacement unknowns of one polynomial degree on a mesh: Lagrange elements with nodes at
+/// Gauss-Lobatto points, `dim` unknowns a node.
+template <int dim>
 struct Space {
-  Space(const Triangulation& triangulation, int degree);
+  Space(const Triangulation<dim>& triangulation, int degree);
 
   /// Numbers the unknowns of the present mesh and collects what is not free: hanging nodes and
   /// fixed components.
@@ -61,6 +66,7 @@ struct Space {
 
 /// A mesh with two spaces: `fine`, in which the solution is sought, and `coarse`, linear elements
 /// on the same mesh, from which multigrid starts.
+template <int dim>
 class Body {
  public:
   /// An empty mesh; fill `triangulation`, then call `number`. `degree` is 1, 2 or 3.
@@ -71,19 +77,23 @@ class Body {
   int degree() const { return int(fine.element.degree); }
   dealii::types::global_dof_index unknowns() const { return fine.dofs.n_dofs(); }
 
-  Triangulation triangulation;
+  Triangulation<dim> triangulation;
   /// Of the element's degree, so that linear displacements are reproduced exactly on curved
   /// elements, and with the manifolds the surface's error falls as fast as the displacement's.
   dealii::MappingQ<dim> mapping;
-  Space fine, coarse;
+  Space<dim> fine, coarse;
 };
 
 /// Volume of the body [m³] and area of one boundary [m²], of the curved mesh by Gauss quadrature.
-double volume(const Body& body);
-double area(const Body& body, dealii::types::boundary_id boundary);
+template <int dim>
+double volume(const Body<dim>& body);
+template <int dim>
+double area(const Body<dim>& body, dealii::types::boundary_id boundary);
 
-/// Sum of nodal forces (owned entries) over the nodes of one boundary [N], on every process.
-meshes::Vector3 resultant(const Body& body, const Vector& forces,
+/// Sum of nodal forces (owned entries) over the nodes of one boundary [N], on every process. Of a
+/// body of revolution only the part along the axis means anything; the others are zero.
+template <int dim>
+meshes::Vector3 resultant(const Body<dim>& body, const Vector& forces,
                           dealii::types::boundary_id boundary);
 
 }  // namespace fingertip::fem_reference

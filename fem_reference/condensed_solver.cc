@@ -10,7 +10,9 @@ namespace {
 
 class CondensedSolver : public FieldSolver {
  public:
-  CondensedSolver(const Body& body, const std::vector<long>& contact_unknowns) : free_(body.fine) {
+  template <int dim>
+  CondensedSolver(const Body<dim>& body, const std::vector<long>& contact_unknowns)
+      : free_(body.fine) {
     for (const long unknown : contact_unknowns)
       contact_.push_back(free_.number(std::size_t(unknown)));
   }
@@ -67,9 +69,15 @@ class CondensedSolver : public FieldSolver {
 
 }  // namespace
 
-std::unique_ptr<FieldSolver> make_condensed_solver(const Body& body,
+template <int dim>
+std::unique_ptr<FieldSolver> make_condensed_solver(const Body<dim>& body,
                                                    const std::vector<long>& contact_unknowns) {
   return std::make_unique<CondensedSolver>(body, contact_unknowns);
 }
+
+template std::unique_ptr<FieldSolver> make_condensed_solver(const Body<2>&,
+                                                            const std::vector<long>&);
+template std::unique_ptr<FieldSolver> make_condensed_solver(const Body<3>&,
+                                                            const std::vector<long>&);
 
 }  // namespace fingertip::fem_reference

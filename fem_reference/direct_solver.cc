@@ -9,7 +9,9 @@
 
 namespace fingertip::fem_reference {
 
-FreeUnknowns::FreeUnknowns(const Space& space) : space_(space), number_(space.dofs.n_dofs(), -1) {
+template <int dim>
+FreeUnknowns::FreeUnknowns(const Space<dim>& space)
+    : zero_(space.vector()), number_(space.dofs.n_dofs(), -1) {
   long next = 0;
   for (std::size_t i = 0; i < number_.size(); ++i)
     if (!space.constraints.is_constrained(unsigned(i))) number_[i] = next++;
@@ -26,6 +28,9 @@ FreeUnknowns::FreeUnknowns(const Space& space) : space_(space), number_(space.do
     }
   }
 }
+
+template FreeUnknowns::FreeUnknowns(const Space<2>&);
+template FreeUnknowns::FreeUnknowns(const Space<3>&);
 
 UpperTriangle FreeUnknowns::upper_triangle(const SparseMatrix& matrix) const {
   const Epetra_CrsMatrix& rows = matrix.trilinos_matrix();
@@ -62,7 +67,7 @@ Eigen::VectorXd FreeUnknowns::restrict(const Vector& v) const {
 }
 
 Vector FreeUnknowns::extend(const Eigen::VectorXd& v) const {
-  Vector result = space_.vector();
+  Vector result = zero_;
   for (std::size_t i = 0; i < number_.size(); ++i)
     if (number_[i] >= 0) result[unsigned(i)] = v[number_[i]];
   result.compress(dealii::VectorOperation::insert);
@@ -86,7 +91,8 @@ Eigen::VectorXd multiply(const UpperTriangle& matrix, const Eigen::VectorXd& x) 
 
 class EliminatingSolver : public FieldSolver {
  public:
-  EliminatingSolver(const Body& body, const std::vector<long>& contact_unknowns)
+  template <int dim>
+  EliminatingSolver(const Body<dim>& body, const std::vector<long>& contact_unknowns)
       : free_(body.fine) {
     for (const long unknown : contact_unknowns)
       contact_.push_back(free_.number(std::size_t(unknown)));
@@ -153,9 +159,15 @@ class EliminatingSolver : public FieldSolver {
 
 }  // namespace
 
-std::unique_ptr<FieldSolver> make_eliminating_solver(const Body& body,
+template <int dim>
+std::unique_ptr<FieldSolver> make_eliminating_solver(const Body<dim>& body,
                                                      const std::vector<long>& contact_unknowns) {
   return std::make_unique<EliminatingSolver>(body, contact_unknowns);
 }
+
+template std::unique_ptr<FieldSolver> make_eliminating_solver(const Body<2>&,
+                                                              const std::vector<long>&);
+template std::unique_ptr<FieldSolver> make_eliminating_solver(const Body<3>&,
+                                                              const std::vector<long>&);
 
 }  // namespace fingertip::fem_reference

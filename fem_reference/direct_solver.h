@@ -11,7 +11,8 @@ namespace fingertip::fem_reference {
 /// Numbers the unknowns of a space that no constraint takes away. One process only.
 class FreeUnknowns {
  public:
-  explicit FreeUnknowns(const Space& space);
+  template <int dim>
+  explicit FreeUnknowns(const Space<dim>& space);
 
   long size() const { return long(node_.size()); }
   /// Free number of an unknown, -1 when it is constrained.
@@ -24,7 +25,7 @@ class FreeUnknowns {
   Vector extend(const Eigen::VectorXd& v) const;
 
  private:
-  const Space& space_;
+  Vector zero_;  ///< of the whole space
   std::vector<long> number_, node_;
 };
 

@@ -33,7 +33,7 @@ struct DestroySolver {
 };
 using Solver = std::unique_ptr<std::remove_pointer_t<EPS>, DestroySolver>;
 
-dealii::DynamicSparsityPattern pattern_of(const Space& space) {
+dealii::DynamicSparsityPattern pattern_of(const Space<3>& space) {
   dealii::DynamicSparsityPattern pattern(space.relevant);
   dealii::DoFTools::make_sparsity_pattern(space.dofs, pattern, space.constraints, false);
   dealii::SparsityTools::distribute_sparsity_pattern(pattern, space.owned, space.communicator,
@@ -41,10 +41,10 @@ dealii::DynamicSparsityPattern pattern_of(const Space& space) {
   return pattern;
 }
 
-void fill(const Body& body, ElementKernel& kernel, PetscMatrix& matrix) {
+void fill(const Body<3>& body, ElementKernel<3>& kernel, PetscMatrix& matrix) {
   std::vector<dealii::types::global_dof_index> indices(body.fine.element.n_dofs_per_cell());
   for_each_element(body, kernel, body.fine.vector(),
-                   [&](const CellIterator& cell, const dealii::FullMatrix<double>& element,
+                   [&](const CellIterator<3>& cell, const dealii::FullMatrix<double>& element,
                        const dealii::Vector<double>&, const ElementSystem&) {
                      cell->get_dof_indices(indices);
                      body.fine.constraints.distribute_local_to_global(element, indices, matrix);
@@ -52,7 +52,7 @@ void fill(const Body& body, ElementKernel& kernel, PetscMatrix& matrix) {
   matrix.compress(dealii::VectorOperation::add);
 }
 
-void drop_constrained_mass(const Space& space, PetscMatrix& mass) {
+void drop_constrained_mass(const Space<3>& space, PetscMatrix& mass) {
   for (const auto i : space.owned)
     if (space.constraints.is_constrained(i)) mass.set(i, i, 0.0);
   mass.compress(dealii::VectorOperation::insert);
@@ -91,7 +91,7 @@ Solver solve(MPI_Comm communicator, const PetscMatrix& stiffness, const PetscMat
 }
 
 /// Copies the owned entries of a PETSc vector.
-Vector copy(Vec source, const Space& space) {
+Vector copy(Vec source, const Space<3>& space) {
   Vector result = space.vector();
   const PetscScalar* values = nullptr;
   check(VecGetArrayRead(source, &values));
@@ -105,9 +105,9 @@ Vector copy(Vec source, const Space& space) {
 
 }  // namespace
 
-std::vector<Eigenpair> lowest_eigenpairs(const Body& body, ElementKernel& stiffness_kernel,
-                                         ElementKernel& mass_kernel, int count) {
-  const Space& space = body.fine;
+std::vector<Eigenpair> lowest_eigenpairs(const Body<3>& body, ElementKernel<3>& stiffness_kernel,
+                                         ElementKernel<3>& mass_kernel, int count) {
+  const Space<3>& space = body.fine;
   const dealii::DynamicSparsityPattern pattern = pattern_of(space);
   PetscMatrix stiffness, mass;
   stiffness.reinit(space.owned, space.owned, pattern, space.communicator);

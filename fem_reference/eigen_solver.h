@@ -19,7 +19,7 @@ struct Eigenpair {
 ///
 /// Krylov-Schur with the inverse of K, factored by MUMPS (SLEPc). Constrained unknowns keep a
 /// diagonal in K and have no mass, so that their eigenvalues are infinite and none is spurious.
-std::vector<Eigenpair> lowest_eigenpairs(const Body& body, ElementKernel& stiffness,
-                                         ElementKernel& mass, int count);
+std::vector<Eigenpair> lowest_eigenpairs(const Body<3>& body, ElementKernel<3>& stiffness,
+                                         ElementKernel<3>& mass, int count);
 
 }  // namespace fingertip::fem_reference

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "fem_reference/kinematics.h"
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {
@@ -13,30 +14,60 @@ namespace {
 using Eigen::Index;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
-Index node_count(const dealii::FEValues<3>& values) {
+template <int dim>
+Index node_count(const dealii::FEValues<dim>& values) {
   return Index(values.get_fe().n_dofs_per_cell());
 }
 
 /// Values of the polynomials that carry the projected volumetric part, at the quadrature points.
-Eigen::MatrixXd volumetric_basis(const dealii::FEValues<3>& values) {
-  return ElementPolynomials(values, int(values.get_fe().degree) - 1)
+template <int dim>
+Eigen::MatrixXd volumetric_basis(const dealii::FEValues<dim>& values) {
+  return ElementPolynomials<dim>(values, int(values.get_fe().degree) - 1)
       .at(values.get_quadrature_points());
 }
 
-Index point_count(const dealii::FEValues<3>& values) {
+template <int dim>
+Index point_count(const dealii::FEValues<dim>& values) {
   return Index(values.n_quadrature_points);
 }
 
-/// F = I + grad u at a quadrature point.
-Eigen::Matrix3d deformation_gradient(const dealii::FEValues<3>& values, unsigned q,
-                                     const Eigen::VectorXd& displacement) {
-  Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();
-  for (Index a = 0; a < node_count(values); ++a) {
-    const auto& g = values.shape_grad(unsigned(a), q);
-    for (Index i = 0; i < 3; ++i)
-      for (Index j = 0; j < 3; ++j) gradient(i, j) += displacement[3 * a + i] * g[unsigned(j)];
+template <int dim>
+Eigen::VectorXd weights_of(const dealii::FEValues<dim>& values) {
+  Eigen::VectorXd weights(point_count(values));
+  for (Index q = 0; q < weights.size(); ++q) weights[q] = weight(values, unsigned(q));
+  return weights;
+}
+
+/// The entries of F that an element can change.
+template <int dim>
+constexpr Index entry_count = Index(Kinematics<dim>::entries.size());
+
+/// The matrix B with B u = those entries of grad u, at all quadrature points.
+template <int dim>
+void fill_strain_operator(const dealii::FEValues<dim>& values, Eigen::MatrixXd& strain_operator) {
+  constexpr Index size = entry_count<dim>;
+  strain_operator.setZero(size * point_count(values), dim * node_count(values));
+  for (Index q = 0; q < point_count(values); ++q)
+    for (Index a = 0; a < node_count(values); ++a) {
+      const auto& gradient = values.shape_grad(unsigned(a), unsigned(q));
+      for (Index i = 0; i < dim; ++i)
+        for (Index j = 0; j < dim; ++j)
+          strain_operator(size * q + dim * i + j, dim * a + i) = gradient[unsigned(j)];
+      if constexpr (Kinematics<dim>::revolved)
+        strain_operator(size * q + dim * dim, dim * a) =
+            values.shape_value(unsigned(a), unsigned(q)) / values.quadrature_point(unsigned(q))[0];
+    }
+}
+
+/// I + grad u.
+template <int dim>
+Eigen::Matrix3d deformation_gradient(const Eigen::Ref<const Eigen::VectorXd>& entries) {
+  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
+  for (Index e = 0; e < entries.size(); ++e) {
+    const Index place = Kinematics<dim>::entries[std::size_t(e)];
+    result(place / 3, place % 3) += entries[e];
   }
-  return gradient;
+  return result;
 }
 
 /// First and second derivative of h(J) with respect to F, index 3 i + J:
@@ -65,92 +96,115 @@ VolumeDerivatives differentiate(const VolumetricMeasure& h, double jacobian,
 
 }  // namespace
 
-ElementPolynomials::ElementPolynomials(const dealii::FEValues<3>& values, int degree)
+template <int dim>
+ElementPolynomials<dim>::ElementPolynomials(const dealii::FEValues<dim>& values, int degree)
     : degree_(degree) {
-  double measure = 0.0;
+  const Eigen::VectorXd weights = weights_of(values);
+  double extent = 0.0;
   for (unsigned q = 0; q < values.n_quadrature_points; ++q) {
-    centre_ += values.JxW(q) * values.quadrature_point(q);
-    measure += values.JxW(q);
+    centre_ += weights[Index(q)] * values.quadrature_point(q);
+    extent += values.JxW(q);
   }
-  centre_ /= measure;
-  size_ = std::cbrt(measure);
+  centre_ /= weights.sum();
+  size_ = std::pow(extent, 1.0 / dim);
   const Eigen::MatrixXd basis = monomials(values.get_quadrature_points());
-  const Eigen::Map<const Eigen::VectorXd> weights(values.get_JxW_values().data(), basis.rows());
   mass_.compute(basis.transpose() * weights.asDiagonal() * basis);
 }
 
-Eigen::MatrixXd ElementPolynomials::at(const std::vector<dealii::Point<3>>& points) const {
+template <int dim>
+Eigen::MatrixXd ElementPolynomials<dim>::at(const std::vector<dealii::Point<dim>>& points) const {
   // With mass = L L^T the columns of monomials L^-T are orthonormal.
   return mass_.matrixL().solve(monomials(points).transpose()).transpose();
 }
 
-Eigen::MatrixXd ElementPolynomials::monomials(const std::vector<dealii::Point<3>>& points) const {
-  Eigen::MatrixXd values(Index(points.size()), (degree_ + 1) * (degree_ + 2) * (degree_ + 3) / 6);
+template <int dim>
+Eigen::MatrixXd ElementPolynomials<dim>::monomials(
+    const std::vector<dealii::Point<dim>>& points) const {
+  const int solid = dim == 3 ? degree_ : 0;  // the third coordinate's highest power
+  const Index count = dim == 3 ? (degree_ + 1) * (degree_ + 2) * (degree_ + 3) / 6
+                               : (degree_ + 1) * (degree_ + 2) / 2;
+  Eigen::MatrixXd values(Index(points.size()), count);
   for (Index row = 0; row < values.rows(); ++row) {
-    const dealii::Tensor<1, 3> x = (points[std::size_t(row)] - centre_) / size_;
+    const dealii::Tensor<1, dim> x = (points[std::size_t(row)] - centre_) / size_;
     Index column = 0;
     for (int i = 0; i <= degree_; ++i)
       for (int j = 0; i + j <= degree_; ++j)
-        for (int k = 0; i + j + k <= degree_; ++k)
-          values(row, column++) = std::pow(x[0], i) * std::pow(x[1], j) * std::pow(x[2], k);
+        for (int k = 0; k <= std::min(solid, degree_ - i - j); ++k)
+          values(row, column++) = std::pow(x[0], i) * std::pow(x[1], j) * std::pow(x[dim - 1], k);
   }
   return values;
 }
 
-HookeKernel::HookeKernel(const meshes::Rubber& rubber, Volumetric volumetric)
+template <int dim>
+HookeKernel<dim>::HookeKernel(const meshes::Rubber& rubber, Volumetric volumetric)
     : lambda_(rubber.lame_lambda()), shear_(rubber.shear_modulus), volumetric_(volumetric) {}
 
-void HookeKernel::integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd& displacement,
-                            ElementSystem& result) {
+template <int dim>
+void HookeKernel<dim>::integrate(const dealii::FEValues<dim>& values,
+                                 const Eigen::VectorXd& displacement, ElementSystem& result) {
+  constexpr bool revolved = Kinematics<dim>::revolved;
   const Index nodes = node_count(values), points = point_count(values);
-  gradients_.resize(3 * nodes, points);
-  for (Index q = 0; q < points; ++q) {
-    const double root = std::sqrt(values.JxW(unsigned(q)));
+  const Eigen::VectorXd roots = weights_of(values).cwiseSqrt();
+  gradients_.resize(dim * nodes, points);
+  for (Index q = 0; q < points; ++q)
     for (Index a = 0; a < nodes; ++a)
-      for (Index i = 0; i < 3; ++i)
-        gradients_(3 * a + i, q) = root * values.shape_grad(unsigned(a), unsigned(q))[unsigned(i)];
+      for (Index i = 0; i < dim; ++i)
+        gradients_(dim * a + i, q) =
+            roots[q] * values.shape_grad(unsigned(a), unsigned(q))[unsigned(i)];
+  if constexpr (revolved) {
+    hoops_.resize(nodes, points);
+    divergences_ = gradients_;
+    for (Index q = 0; q < points; ++q)
+      for (Index a = 0; a < nodes; ++a) {
+        hoops_(a, q) = roots[q] * values.shape_value(unsigned(a), unsigned(q)) /
+                       values.quadrature_point(unsigned(q))[0];
+        divergences_(dim * a, q) += hoops_(a, q);
+      }
   }
+  const Eigen::MatrixXd& divergences = revolved ? divergences_ : gradients_;
   products_.noalias() = gradients_ * gradients_.transpose();
   Eigen::MatrixXd& k = result.matrix;
-  if (volumetric_ == Volumetric::pointwise) {
-    k = lambda_ * products_;
-  } else {
-    Eigen::MatrixXd basis = volumetric_basis(values);
-    for (Index q = 0; q < points; ++q) basis.row(q) *= std::sqrt(values.JxW(unsigned(q)));
-    const Eigen::MatrixXd projected = gradients_ * basis;
+  if (volumetric_ == Volumetric::projected) {
+    const Eigen::MatrixXd projected = divergences * roots.asDiagonal() * volumetric_basis(values);
     k.noalias() = lambda_ * (projected * projected.transpose());
+  } else if (revolved) {
+    k.noalias() = lambda_ * (divergences * divergences.transpose());
+  } else {
+    k = lambda_ * products_;
   }
+  using Block = Eigen::Matrix<double, dim, dim>;
   for (Index b = 0; b < nodes; ++b)
     for (Index a = 0; a < nodes; ++a) {
-      const Eigen::Matrix3d block = products_.block<3, 3>(3 * a, 3 * b);
-      k.block<3, 3>(3 * a, 3 * b) +=
-          shear_ * (block.transpose() + block.trace() * Eigen::Matrix3d::Identity());
+      const Block block = products_.block<dim, dim>(dim * a, dim * b);
+      k.block<dim, dim>(dim * a, dim * b) +=
+          shear_ * (block.transpose() + block.trace() * Block::Identity());
+      if constexpr (revolved) k(dim * a, dim * b) += 2 * shear_ * hoops_.row(a).dot(hoops_.row(b));
     }
   result.force.noalias() = k * displacement;
   result.energy = 0.5 * displacement.dot(result.force);
   result.min_jacobian = 1.0;
 }
 
-HyperelasticKernel::HyperelasticKernel(const HyperelasticLaw& law, Volumetric volumetric)
+template <int dim>
+HyperelasticKernel<dim>::HyperelasticKernel(const HyperelasticLaw& law, Volumetric volumetric)
     : law_(law), volumetric_(volumetric) {}
 
-void HyperelasticKernel::integrate(const dealii::FEValues<3>& values,
-                                   const Eigen::VectorXd& displacement, ElementSystem& result) {
+template <int dim>
+void HyperelasticKernel<dim>::integrate(const dealii::FEValues<dim>& values,
+                                        const Eigen::VectorXd& displacement,
+                                        ElementSystem& result) {
+  constexpr Index size = entry_count<dim>;
+  constexpr auto entries = Kinematics<dim>::entries;
   const Index nodes = node_count(values), points = point_count(values);
-  strain_operator_.setZero(9 * points, 3 * nodes);
-  stressed_operator_.resize(9 * points, 3 * nodes);
-  for (Index q = 0; q < points; ++q)
-    for (Index a = 0; a < nodes; ++a)
-      for (Index i = 0; i < 3; ++i)
-        for (Index j = 0; j < 3; ++j)
-          strain_operator_(9 * q + 3 * i + j, 3 * a + i) =
-              values.shape_grad(unsigned(a), unsigned(q))[unsigned(j)];
+  fill_strain_operator(values, strain_operator_);
+  stressed_operator_.resize(size * points, dim * nodes);
+  const Eigen::VectorXd changes = strain_operator_ * displacement;
 
-  std::vector<Eigen::Matrix3d> gradient(std::size_t(points), Eigen::Matrix3d::Identity());
-  Eigen::VectorXd measure(points), weights(points), jacobians(points);
+  std::vector<Eigen::Matrix3d> gradient(static_cast<std::size_t>(points));
+  Eigen::VectorXd measure(points), jacobians(points);
+  const Eigen::VectorXd weights = weights_of(values);
   for (Index q = 0; q < points; ++q) {
-    gradient[std::size_t(q)] = deformation_gradient(values, unsigned(q), displacement);
-    weights[q] = values.JxW(unsigned(q));
+    gradient[std::size_t(q)] = deformation_gradient<dim>(changes.segment(size * q, size));
     jacobians[q] = gradient[std::size_t(q)].determinant();
     if (!(jacobians[q] > 0.0))
       throw meshes::NotConverged("an element of the rubber is turned inside out (J = " +
@@ -167,22 +221,24 @@ void HyperelasticKernel::integrate(const dealii::FEValues<3>& values,
   result.energy = 0.5 * modulus * weights.dot(effective.cwiseProduct(effective));
   result.min_jacobian = jacobians.minCoeff();
 
-  Eigen::MatrixXd volume_rows(points, 3 * nodes);  // dh/du at every point
-  Eigen::VectorXd stresses(9 * points);
+  Eigen::MatrixXd volume_rows(points, dim * nodes);  // dh/du at every point
+  Eigen::VectorXd stresses(size * points);
   for (Index q = 0; q < points; ++q) {
     const Eigen::Matrix3d& f = gradient[std::size_t(q)];
     const auto response = law_.pointwise(f);
     const auto volume = differentiate(law_.volumetric(jacobians[q]), jacobians[q], f.inverse());
-    const auto rows = strain_operator_.middleRows(9 * q, 9);
-    volume_rows.row(q).noalias() = volume.first.transpose() * rows;
+    const auto rows = strain_operator_.middleRows(size * q, size);
+    volume_rows.row(q).noalias() = volume.first(entries).transpose() * rows;
     Matrix9 tangent = response.tangent + modulus * effective[q] * volume.second;
     if (volumetric_ == Volumetric::pointwise)
       tangent += modulus * volume.first * volume.first.transpose();
-    stressed_operator_.middleRows(9 * q, 9).noalias() = weights[q] * tangent * rows;
-    for (Index i = 0; i < 3; ++i)
-      for (Index j = 0; j < 3; ++j)
-        stresses[9 * q + 3 * i + j] =
-            weights[q] * (response.stress(i, j) + modulus * effective[q] * volume.first[3 * i + j]);
+    const Eigen::Matrix<double, size, size> reduced = tangent(entries, entries);
+    stressed_operator_.middleRows(size * q, size).noalias() = weights[q] * reduced * rows;
+    for (Index e = 0; e < size; ++e) {
+      const Index place = entries[std::size_t(e)];
+      stresses[size * q + e] = weights[q] * (response.stress(place / 3, place % 3) +
+                                             modulus * effective[q] * volume.first[place]);
+    }
     result.energy += weights[q] * response.energy;
   }
   result.force.noalias() = strain_operator_.transpose() * stresses;
@@ -193,20 +249,30 @@ void HyperelasticKernel::integrate(const dealii::FEValues<3>& values,
   }
 }
 
-void MassKernel::integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd&,
-                           ElementSystem& result) {
+template <int dim>
+void MassKernel<dim>::integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd&,
+                                ElementSystem& result) {
   const Index nodes = node_count(values);
-  result.matrix.setZero(3 * nodes, 3 * nodes);
-  result.force.setZero(3 * nodes);
+  result.matrix.setZero(dim * nodes, dim * nodes);
+  result.force.setZero(dim * nodes);
   result.min_jacobian = 1.0;
   for (Index a = 0; a < nodes; ++a)
     for (Index b = 0; b < nodes; ++b) {
       double entry = 0.0;
       for (unsigned q = 0; q < values.n_quadrature_points; ++q)
-        entry +=
-            values.shape_value(unsigned(a), q) * values.shape_value(unsigned(b), q) * values.JxW(q);
-      for (Index i = 0; i < 3; ++i) result.matrix(3 * a + i, 3 * b + i) = density_ * entry;
+        entry += values.shape_value(unsigned(a), q) * values.shape_value(unsigned(b), q) *
+                 weight(values, q);
+      for (Index i = 0; i < dim; ++i) result.matrix(dim * a + i, dim * b + i) = density_ * entry;
     }
 }
+
+template class HookeKernel<2>;
+template class HookeKernel<3>;
+template class HyperelasticKernel<2>;
+template class HyperelasticKernel<3>;
+template class MassKernel<2>;
+template class MassKernel<3>;
+template class ElementPolynomials<2>;
+template class ElementPolynomials<3>;
 
 }  // namespace fingertip::fem_reference

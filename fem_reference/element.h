@@ -1,5 +1,6 @@
-/// Element matrices: what one element of a given material contributes. Rows and columns are
-/// ordered node by node, 3 a + i for component i of node a.
+/// Element matrices: what one element of a given material contributes, of a solid (dim = 3) or a
+/// body of revolution (dim = 2). Rows and columns are ordered node by node, dim a + i for component
+/// i of node a.
 #pragma once
 
 #include <deal.II/fe/fe_values.h>
@@ -16,45 +17,49 @@ namespace fingertip::fem_reference {
 
 /// Stiffness (or mass) and internal force of an element.
 struct ElementSystem {
-  Eigen::MatrixXd matrix;     ///< (3 n, 3 n)
-  Eigen::VectorXd force;      ///< (3 n), zero where a kernel has none
+  Eigen::MatrixXd matrix;     ///< (dim n, dim n)
+  Eigen::VectorXd force;      ///< (dim n), zero where a kernel has none
   double min_jacobian = 1.0;  ///< smallest J = det F at the quadrature points
   double energy = 0.0;        ///< [J]
 };
 
 /// Integrates one element. `values` is of the scalar element, with gradients, values, points and
-/// JxW; `displacement` holds the element's 3 n nodal displacements [m].
+/// JxW; `displacement` holds the element's dim n nodal displacements [m].
+template <int dim>
 class ElementKernel {
  public:
   virtual ~ElementKernel() = default;
-  virtual void integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd& displacement,
+  virtual void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                          ElementSystem& result) = 0;
 };
 
-/// Hooke's law at small strain: K_ai,bj = ∫ lambda da_i db_j + G (da_j db_i + delta_ij da·db).
-/// With the projected volumetric term the first part is lambda ∫ P(da_i) P(db_j), P the L2
-/// projection on the element onto polynomials of one degree less in the coordinates; quadratic
+/// Hooke's law at small strain: K_ai,bj = ∫ lambda da_i db_j + G (da_j db_i + delta_ij da·db), with
+/// phi_a/r added to da_r in the first part and 2 G phi_a phi_b/r² to K_ar,br in a body of
+/// revolution. With the projected volumetric term the first part is lambda ∫ P(da_i) P(db_j), P the
+/// L2 projection on the element onto polynomials of one degree less in the coordinates; quadratic
 /// elements with it are the Q2/P1 pair, free of locking as nu -> 1/2 (Boffi, Brezzi & Fortin,
 /// Mixed Finite Element Methods and Applications, section 8.6).
-class HookeKernel : public ElementKernel {
+template <int dim>
+class HookeKernel : public ElementKernel<dim> {
  public:
   HookeKernel(const meshes::Rubber& rubber, Volumetric volumetric);
-  void integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd& displacement,
+  void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  ElementSystem& result) override;
 
  private:
   double lambda_, shear_;
   Volumetric volumetric_;
-  Eigen::MatrixXd gradients_, products_;
+  Eigen::MatrixXd gradients_, hoops_, divergences_, products_;
 };
 
 /// Large strain, total Lagrangian, exact tangent. The volumetric term m/2 h(J)² becomes
 /// m/2 (P h(J))² when projected; energy, force and tangent stay derivatives of one another.
 /// Throws NotConverged for an inverted element.
-class HyperelasticKernel : public ElementKernel {
+template <int dim>
+class HyperelasticKernel : public ElementKernel<dim> {
  public:
   HyperelasticKernel(const HyperelasticLaw& law, Volumetric volumetric);
-  void integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd& displacement,
+  void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  ElementSystem& result) override;
 
  private:
@@ -64,29 +69,32 @@ class HyperelasticKernel : public ElementKernel {
 };
 
 /// Consistent mass, rho ∫ phi_a phi_b delta_ij.
-class MassKernel : public ElementKernel {
+template <int dim>
+class MassKernel : public ElementKernel<dim> {
  public:
   explicit MassKernel(double density) : density_(density) {}
-  void integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd& displacement,
+  void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  ElementSystem& result) override;
 
  private:
   double density_;
 };
 
-/// Polynomials of total degree `degree` in the coordinates, orthonormal in L2 of one element.
+/// Polynomials of total degree `degree` in the coordinates, orthonormal in L2 of one element (of
+/// the ring that it stands for, in a body of revolution).
+template <int dim>
 class ElementPolynomials {
  public:
   /// The inner product is the quadrature of `values`.
-  ElementPolynomials(const dealii::FEValues<3>& values, int degree);
+  ElementPolynomials(const dealii::FEValues<dim>& values, int degree);
   /// Their values: (points, polynomials).
-  Eigen::MatrixXd at(const std::vector<dealii::Point<3>>& points) const;
+  Eigen::MatrixXd at(const std::vector<dealii::Point<dim>>& points) const;
 
  private:
-  Eigen::MatrixXd monomials(const std::vector<dealii::Point<3>>& points) const;
+  Eigen::MatrixXd monomials(const std::vector<dealii::Point<dim>>& points) const;
 
   int degree_;
-  dealii::Tensor<1, 3> centre_;
+  dealii::Tensor<1, dim> centre_;
   double size_;
   Eigen::LLT<Eigen::MatrixXd> mass_;  ///< of the monomials
 };

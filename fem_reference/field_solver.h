@@ -23,22 +23,25 @@ class FieldSolver : public ContactSolver {
 /// Condenses the stiffness to the contact unknowns once, by a sparse Cholesky factorisation in
 /// which they come last; every `hold` is then a small dense problem. Memory grows like n^(4/3).
 /// One process only.
-std::unique_ptr<FieldSolver> make_condensed_solver(const Body& body,
+template <int dim>
+std::unique_ptr<FieldSolver> make_condensed_solver(const Body<dim>& body,
                                                    const std::vector<long>& contact_unknowns);
 
 /// Factorises the matrix anew, without the held unknowns, whenever these change. At large strain,
 /// where the matrix changes in every iteration anyway, this costs little more than condensation,
 /// and it needs no stable tip without contact: under the dead load of the plane's forces alone a
 /// strongly compressed tip is not. One process only.
-std::unique_ptr<FieldSolver> make_eliminating_solver(const Body& body,
+template <int dim>
+std::unique_ptr<FieldSolver> make_eliminating_solver(const Body<dim>& body,
                                                      const std::vector<long>& contact_unknowns);
 
 /// Conjugate gradients to the relative residual `tolerance`, preconditioned by two levels: the
 /// unknowns themselves, smoothed by a Chebyshev polynomial, and linear elements on the same mesh,
 /// where Trilinos ML (smoothed aggregation with the six rigid-body modes as near-null space) does
 /// one V-cycle. Held unknowns are projected out of both; ML's hierarchy is built anew only when
-/// contact has changed. Starts from the previous solution.
-std::unique_ptr<FieldSolver> make_multigrid_solver(const Body& body,
+/// contact has changed. Starts from the previous solution. Solids only: a meridian is soon
+/// factored.
+std::unique_ptr<FieldSolver> make_multigrid_solver(const Body<3>& body,
                                                    const std::vector<long>& contact_unknowns,
                                                    double tolerance);
 

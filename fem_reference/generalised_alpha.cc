@@ -4,20 +4,23 @@
 #include <memory>
 #include <vector>
 
+#include "fem_reference/kinematics.h"
+
 namespace fingertip::fem_reference {
 namespace {
 
 /// stiffness_factor K + mass_factor M of an element.
-class EffectiveKernel : public ElementKernel {
+template <int dim>
+class EffectiveKernel : public ElementKernel<dim> {
  public:
-  EffectiveKernel(ElementKernel& stiffness, double stiffness_factor, ElementKernel& mass,
+  EffectiveKernel(ElementKernel<dim>& stiffness, double stiffness_factor, ElementKernel<dim>& mass,
                   double mass_factor)
       : stiffness_(stiffness),
         mass_(mass),
         stiffness_factor_(stiffness_factor),
         mass_factor_(mass_factor) {}
 
-  void integrate(const dealii::FEValues<3>& values, const Eigen::VectorXd& displacement,
+  void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  ElementSystem& result) override {
     stiffness_.integrate(values, displacement, result);
     mass_.integrate(values, displacement, mass_part_);
@@ -27,27 +30,30 @@ class EffectiveKernel : public ElementKernel {
   }
 
  private:
-  ElementKernel& stiffness_;
-  ElementKernel& mass_;
+  ElementKernel<dim>& stiffness_;
+  ElementKernel<dim>& mass_;
   double stiffness_factor_, mass_factor_;
   ElementSystem mass_part_;
 };
 
-SparseMatrix assembled(const Body& body, ElementKernel& kernel) {
+template <int dim>
+SparseMatrix assembled(const Body<dim>& body, ElementKernel<dim>& kernel) {
   LinearSystem system(body, false);
   assemble(body, kernel, body.fine.vector(), system);
   return std::move(system.matrix);
 }
 
-/// M times the unit translation along each axis. Unlike the products of the assembled matrix it
+/// M times the unit displacement of each component. Unlike the products of the assembled matrix it
 /// includes what the nodes of the supports carry along: summed, it is the body's mass.
-std::array<Vector, 3> mass_of_translations(const Body& body, ElementKernel& mass) {
-  const Space& space = body.fine;
-  std::array<Vector, 3> result{space.vector(), space.vector(), space.vector()};
+template <int dim>
+std::array<Vector, dim> mass_of_translations(const Body<dim>& body, ElementKernel<dim>& mass) {
+  const Space<dim>& space = body.fine;
+  std::array<Vector, dim> result;
+  result.fill(space.vector());
   std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
   dealii::Vector<double> translation(unsigned(indices.size())), force(translation);
   for_each_element(body, mass, space.vector(),
-                   [&](const CellIterator& cell, const dealii::FullMatrix<double>& matrix,
+                   [&](const CellIterator<dim>& cell, const dealii::FullMatrix<double>& matrix,
                        const dealii::Vector<double>&, const ElementSystem&) {
                      cell->get_dof_indices(indices);
                      for (unsigned c = 0; c < dim; ++c) {
@@ -64,8 +70,10 @@ std::array<Vector, 3> mass_of_translations(const Body& body, ElementKernel& mass
 
 }  // namespace
 
-GeneralisedAlpha::GeneralisedAlpha(const Body& body, ElementKernel& stiffness, ElementKernel& mass,
-                                   double retardation_time, bool with_coarse_matrix)
+template <int dim>
+GeneralisedAlpha<dim>::GeneralisedAlpha(const Body<dim>& body, ElementKernel<dim>& stiffness,
+                                        ElementKernel<dim>& mass, double retardation_time,
+                                        bool with_coarse_matrix)
     : body_(body),
       stiffness_kernel_(stiffness),
       mass_kernel_(mass),
@@ -79,25 +87,28 @@ GeneralisedAlpha::GeneralisedAlpha(const Body& body, ElementKernel& stiffness, E
       a_(u_),
       end_acceleration_(u_) {}
 
-void GeneralisedAlpha::set_state(const Vector& displacement, const Vector& velocity,
-                                 const Vector& acceleration) {
+template <int dim>
+void GeneralisedAlpha<dim>::set_state(const Vector& displacement, const Vector& velocity,
+                                      const Vector& acceleration) {
   u_ = displacement;
   v_ = velocity;
   a_ = acceleration;
   end_acceleration_ = acceleration;
 }
 
-void GeneralisedAlpha::set_step(double step, FieldSolver& solver) {
+template <int dim>
+void GeneralisedAlpha<dim>::set_step(double step, FieldSolver& solver) {
   constexpr double round_off = 1e-9;  // of a length divided into equal steps
   if (std::abs(step - step_) <= round_off * step) return;
   step_ = step;
-  EffectiveKernel kernel(stiffness_kernel_, 1.0 + 1.5 * retardation_time_ / step, mass_kernel_,
-                         2.0 / (step * step));
+  EffectiveKernel<dim> kernel(stiffness_kernel_, 1.0 + 1.5 * retardation_time_ / step, mass_kernel_,
+                              2.0 / (step * step));
   assemble(body_, kernel, body_.fine.vector(), *effective_);
   solver.set_matrix(*effective_);
 }
 
-Vector GeneralisedAlpha::load() const {
+template <int dim>
+Vector GeneralisedAlpha<dim>::load() const {
   Vector inertial = u_, viscous = u_, result = u_, part = u_;
   inertial.sadd(2.0 / (step_ * step_), 2.0 / step_, v_);
   // v' = 3 u'/(2 dt) - w with w = 3 u/(2 dt) + v/2 - dt a/4: C w moves to the right.
@@ -110,7 +121,8 @@ Vector GeneralisedAlpha::load() const {
   return result;
 }
 
-void GeneralisedAlpha::advance(const Vector& displacement) {
+template <int dim>
+void GeneralisedAlpha<dim>::advance(const Vector& displacement) {
   Vector travel = displacement;
   travel -= u_;
   end_acceleration_ = travel;  // 2 (u' - u - dt v)/dt²
@@ -122,7 +134,8 @@ void GeneralisedAlpha::advance(const Vector& displacement) {
   u_ = displacement;
 }
 
-MechanicalEnergy GeneralisedAlpha::energy() const {
+template <int dim>
+MechanicalEnergy GeneralisedAlpha<dim>::energy() const {
   Vector force = u_;
   stiffness_.vmult(force, u_);
   const double elastic = 0.5 * (force * u_);
@@ -130,23 +143,27 @@ MechanicalEnergy GeneralisedAlpha::energy() const {
   return {0.5 * (force * v_), elastic};
 }
 
-double GeneralisedAlpha::dissipation_rate() const {
+template <int dim>
+double GeneralisedAlpha<dim>::dissipation_rate() const {
   Vector force = u_;
   stiffness_.vmult(force, v_);
   return retardation_time_ * (force * v_);
 }
 
-meshes::Vector3 GeneralisedAlpha::momentum_rate() const {
+template <int dim>
+meshes::Vector3 GeneralisedAlpha<dim>::momentum_rate() const {
   return sums(end_acceleration_);
 }
 
-meshes::Vector3 GeneralisedAlpha::momentum() const {
+template <int dim>
+meshes::Vector3 GeneralisedAlpha<dim>::momentum() const {
   return sums(v_);
 }
 
-Vector GeneralisedAlpha::residual() const {
-  EffectiveKernel elastic(stiffness_kernel_, 1.0, mass_kernel_, 0.0);
-  EffectiveKernel inertial(stiffness_kernel_, 0.0, mass_kernel_, 1.0);
+template <int dim>
+Vector GeneralisedAlpha<dim>::residual() const {
+  EffectiveKernel<dim> elastic(stiffness_kernel_, 1.0, mass_kernel_, 0.0);
+  EffectiveKernel<dim> inertial(stiffness_kernel_, 0.0, mass_kernel_, 1.0);
   Vector retarded = u_;
   retarded.add(retardation_time_, v_);
   Vector result = unconstrained_force(body_, elastic, retarded);
@@ -154,8 +171,15 @@ Vector GeneralisedAlpha::residual() const {
   return result;
 }
 
-meshes::Vector3 GeneralisedAlpha::sums(const Vector& field) const {
-  return {mass_of_[0] * field, mass_of_[1] * field, mass_of_[2] * field};
+template <int dim>
+meshes::Vector3 GeneralisedAlpha<dim>::sums(const Vector& field) const {
+  meshes::Vector3 result = meshes::Vector3::Zero();
+  for (unsigned c = Kinematics<dim>::revolved ? 1 : 0; c < dim; ++c)
+    result[Kinematics<dim>::axis[c]] = mass_of_[c] * field;
+  return result;
 }
+
+template class GeneralisedAlpha<2>;
+template class GeneralisedAlpha<3>;
 
 }  // namespace fingertip::fem_reference

@@ -30,11 +30,12 @@ struct MechanicalEnergy {
 /// a = 2 (u' - u - dt v)/dt²; a' alone is of first order.
 ///
 /// Eliminating a' and v' leaves one system a step, (2 M/dt² + (1 + 3 tau/(2 dt)) K) u' = load.
+template <int dim>
 class GeneralisedAlpha {
  public:
   /// At rest. The kernels must be linear; `set_step` uses them again, so they must stay alive.
   /// `retardation_time` is tau [s], >= 0; the multigrid solver needs a coarse matrix.
-  GeneralisedAlpha(const Body& body, ElementKernel& stiffness, ElementKernel& mass,
+  GeneralisedAlpha(const Body<dim>& body, ElementKernel<dim>& stiffness, ElementKernel<dim>& mass,
                    double retardation_time, bool with_coarse_matrix);
 
   /// Start from a displacement [m] and velocity [m/s]; `acceleration` [m/s²] must balance them for
@@ -54,7 +55,8 @@ class GeneralisedAlpha {
   MechanicalEnergy energy() const;
   /// Power that damping takes, v · C v [W].
   double dissipation_rate() const;
-  /// Rate of the body's momentum at the end of the last step [N].
+  /// Rate of the body's momentum at the end of the last step [N]; of a body of revolution along its
+  /// axis alone, so is momentum().
   meshes::Vector3 momentum_rate() const;
   /// [kg m/s]
   meshes::Vector3 momentum() const;
@@ -65,12 +67,12 @@ class GeneralisedAlpha {
  private:
   meshes::Vector3 sums(const Vector& field) const;
 
-  const Body& body_;
-  ElementKernel& stiffness_kernel_;
-  ElementKernel& mass_kernel_;
+  const Body<dim>& body_;
+  ElementKernel<dim>& stiffness_kernel_;
+  ElementKernel<dim>& mass_kernel_;
   double retardation_time_;
   SparseMatrix stiffness_, mass_;
-  std::array<Vector, 3> mass_of_;  ///< M times the rigid translation along x, y, z
+  std::array<Vector, dim> mass_of_;  ///< M times a displacement by 1 of one component
   std::unique_ptr<LinearSystem> effective_;
   double step_ = 0.0;
   Vector u_, v_, a_;         ///< a_ is the method's, see above

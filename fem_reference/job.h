@@ -6,9 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "meshes/geometry.h"
-#include "meshes/press_protocol.h"
-#include "meshes/rubber.h"
+#include "meshes/fields.h"
 
 namespace fingertip::fem_reference {
 
@@ -39,6 +37,13 @@ enum class Volumetric {
   projected,  ///< its dilatation projected, element by element, on polynomials one degree lower
 };
 
+/// Whether a press along the axis is computed on the meridian of the body of revolution.
+enum class Symmetry {
+  automatic,     ///< wherever nothing breaks the symmetry
+  axisymmetric,  ///< as automatic; a job that breaks it is refused
+  none,          ///< as a solid
+};
+
 /// Strain energies of large strain; see material/strain_energy.h.
 enum class StrainEnergy { law_a, law_b, law_c };
 
@@ -47,24 +52,21 @@ std::string_view name(Strain strain);
 std::string_view name(Analysis analysis);
 std::string_view name(Volumetric volumetric);
 std::string_view name(StrainEnergy law);
+std::string_view name(Symmetry symmetry);
 
 /// One order to the continuum, SI.
 struct ReferenceJob {
   Analysis analysis = Analysis::static_press;
   meshes::Geometry geometry;
   meshes::Rubber rubber;
-  meshes::ContactMode contact = meshes::ContactMode::stick;
-  double friction = 0.5;  ///< Coulomb's coefficient, for contact coulomb alone, > 0
-  double tilt = 0.0;      ///< of the rod against the plane's normal, about y [rad], |.| < pi/4
-  double lateral = 0.0;   ///< displacement of the plane along t1 at the end [m]
-  meshes::LateralPath lateral_path = meshes::LateralPath::diagonal;
-  int lateral_samples = 10;     ///< of a lateral motion that follows the press, > 0
-  std::vector<double> samples;  ///< indentations to solve for [m], increasing
-  double speed = 0.01;          ///< of the rod, transient only [m/s], > 0
+  /// Its samples are the indentations to solve for; its speed matters to a transient press alone,
+  /// its mode and clearance never.
+  meshes::PressProtocol protocol;
   Strain strain = Strain::linear;
   StrainEnergy law = StrainEnergy::law_a;  ///< finite strain only
-  int modes = 10;                          ///< how many, lowest first
-  int degree = 2;                          ///< polynomial degree of the elements, 1, 2 or 3
+  Symmetry symmetry = Symmetry::automatic;
+  int modes = 10;  ///< how many, lowest first
+  int degree = 2;  ///< polynomial degree of the elements, 1, 2 or 3
   Volumetric volumetric = Volumetric::projected;
   double refinement = 0.5;     ///< factor on the element counts of the first mesh, 0.25 ... 4
   double tolerance = 5e-3;     ///< wanted force_error over normal_force, at every sample
@@ -73,11 +75,59 @@ struct ReferenceJob {
   LinearSolver solver = LinearSolver::automatic;
   double solver_tolerance = 1e-10;  ///< relative residual of the multigrid solver
   bool write_fields = true;         ///< VTU per sample and a PVD over them
+  int field_sectors = 0;  ///< of the solid into which a meridian's fields are turned; 0: none
 
-  /// What is done to the specimen.
-  meshes::PressProtocol protocol() const;
+  /// Whether the meridian is meshed, not the solid: a press without tilt and lateral motion.
+  bool axisymmetric() const;
+  /// Solves for these indentations [m], increasing; the press ends at the last.
+  void press_to(std::vector<double> samples);
   std::vector<meshes::Violation> violations() const;
 };
+
+template <meshes::Fields<ReferenceJob> T>
+void visit_fields(T& job, auto&& visit) {
+  auto& [analysis, geometry, rubber, protocol, strain, law, symmetry, modes, degree, volumetric,
+         refinement, tolerance, max_unknowns, estimate_error, solver, solver_tolerance,
+         write_fields, field_sectors] = job;
+  visit("analysis", analysis, "");
+  visit("geometry", geometry, "");
+  visit("rubber", rubber, "");
+  visit("protocol", protocol, "");
+  visit("strain", strain, "");
+  visit("law", law, "");
+  visit("symmetry", symmetry, "");
+  visit("modes", modes, "");
+  visit("degree", degree, "");
+  visit("volumetric", volumetric, "");
+  visit("refinement", refinement, "");
+  visit("tolerance", tolerance, "");
+  visit("max_unknowns", max_unknowns, "");
+  visit("estimate_error", estimate_error, "");
+  visit("solver", solver, "");
+  visit("solver_tolerance", solver_tolerance, "");
+  visit("write_fields", write_fields, "");
+  visit("field_sectors", field_sectors, "");
+}
+
+constexpr auto values(LinearSolver) {
+  return std::array{LinearSolver::automatic, LinearSolver::condensed, LinearSolver::multigrid};
+}
+constexpr auto values(Strain) {
+  return std::array{Strain::linear, Strain::finite};
+}
+constexpr auto values(Analysis) {
+  return std::array{Analysis::static_press, Analysis::transient, Analysis::modes,
+                    Analysis::verification};
+}
+constexpr auto values(Volumetric) {
+  return std::array{Volumetric::pointwise, Volumetric::projected};
+}
+constexpr auto values(Symmetry) {
+  return std::array{Symmetry::automatic, Symmetry::axisymmetric, Symmetry::none};
+}
+constexpr auto values(StrainEnergy) {
+  return std::array{StrainEnergy::law_a, StrainEnergy::law_b, StrainEnergy::law_c};
+}
 
 /// JSON in and out (file `job.json` in the run folder). Reading throws InvalidInput with the
 /// file and the offending entry; entries that are absent keep their defaults.

@@ -17,7 +17,7 @@ constexpr double worth_rebuilding = 0.02;
 
 class MultigridSolver : public FieldSolver {
  public:
-  MultigridSolver(const Body& body, const std::vector<long>& contact_unknowns, double tolerance)
+  MultigridSolver(const Body<3>& body, const std::vector<long>& contact_unknowns, double tolerance)
       : body_(body),
         contact_unknowns_(contact_unknowns),
         tolerance_(tolerance),
@@ -117,7 +117,7 @@ class MultigridSolver : public FieldSolver {
     return Eigen::Map<const Eigen::VectorXd>(all.data(), Eigen::Index(all.size()));
   }
 
-  const Body& body_;
+  const Body<3>& body_;
   std::vector<long> contact_unknowns_;
   std::vector<long> contact_local_;  ///< index among the owned unknowns, -1 for other processes'
   std::vector<char> constrained_, held_, built_for_;
@@ -129,7 +129,7 @@ class MultigridSolver : public FieldSolver {
 
 }  // namespace
 
-std::unique_ptr<FieldSolver> make_multigrid_solver(const Body& body,
+std::unique_ptr<FieldSolver> make_multigrid_solver(const Body<3>& body,
                                                    const std::vector<long>& contact_unknowns,
                                                    double tolerance) {
   return std::make_unique<MultigridSolver>(body, contact_unknowns, tolerance);

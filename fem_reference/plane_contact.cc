@@ -161,7 +161,7 @@ double PlaneContact::update_friction(const ConstrainedSolution& solution, double
     const double push = std::max(0.0, -solution.reaction[of_node[2]]);
     largest_push = std::max(largest_push, push);
     const bool sliding = trial_.status[node] == NodeStatus::slide;
-    const double rho = shear_modulus_ * std::sqrt(unknowns_.nodes[node].area);
+    const double rho = shear_modulus_ * unknowns_.nodes[node].extent;
     Eigen::Vector2d force = Eigen::Vector2d::Zero(), wanted = force;
     for (std::size_t c = 0; c < 2; ++c) {
       if (of_node[c] < 0) continue;

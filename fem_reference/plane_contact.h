@@ -49,8 +49,8 @@ struct ContactEffort {
 ///
 /// Coulomb: a node sticks while |t| <= mu p; beyond, it slides under t = mu p d. In each round the
 /// force of a sliding node is projected anew, t <- mu p (t - rho s)/|t - rho s| with its slip s
-/// since the start of the step and rho = G sqrt(area), and it sticks again when |t - rho s| <= mu p
-/// (Alart & Curnier 1991): a fixed point satisfies Coulomb's law whatever rho.
+/// since the start of the step and rho = G SurfaceNode::extent, and it sticks again when |t - rho
+/// s| <= mu p (Alart & Curnier 1991): a fixed point satisfies Coulomb's law whatever rho.
 class PlaneContact {
  public:
   /// The first step starts from the tip at rest under the plane at `start`. `friction` is mu

@@ -10,6 +10,7 @@
 
 #include "fem_reference/job.h"
 #include "meshes/press_response.h"
+#include "meshes/volume_mesh.h"
 
 namespace fingertip::fem_reference {
 
@@ -56,12 +57,16 @@ struct SectionEdge {
 /// Radius of the contact edge [m]. Pressure vanishes there like the square root of the distance, as
 /// in Hertz's p² ∝ a² - r²: the zero of a parabola in r² fitted to p² over the outer third of the
 /// contact (the outer half where that has few nodes), kept within one node spacing of the outermost
-/// node that is pushed. `contact` is sorted by radius.
-double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing);
+/// node that is pushed. `contact` is sorted by radius; about `nodes_per_ring` of its points share
+/// one.
+double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing,
+                    int nodes_per_ring);
 
-/// A tip under a plane that comes nearer. A quarter of it when nothing breaks the symmetry, a half
-/// (y >= 0) when it is tilted or moved laterally. All processes of MPI_COMM_WORLD take part in
-/// every call.
+struct PressSnapshot;
+
+/// A tip under a plane that comes nearer: its meridian when the job is axisymmetric, a quarter of
+/// it when nothing else breaks the symmetry, a half (y >= 0) when it is tilted or moved laterally.
+/// All processes of MPI_COMM_WORLD take part in every call.
 class ContinuumPress {
  public:
   /// Reads the first mesh, which must be of the sector that `sector(job)` names. Throws
@@ -91,11 +96,13 @@ class ContinuumPress {
   /// False, and the press cannot go on, when the mesh would exceed the job's `max_unknowns`.
   bool refine(double share, const std::vector<char>& wanted = {});
 
-  /// VTU of the last sample: displacement [m], stress, von Mises stress [Pa], and on the contact
-  /// surface pressure and shear of the plane [Pa] and status (0 open, 1 stick, 2 slide).
-  void write_fields(const std::filesystem::path& file) const;
-  /// The mesh's edges in the plane y = 0 at the last sample, complete on the first process.
-  std::vector<SectionEdge> section() const;
+  /// The last sample, to be written later but before the mesh is refined.
+  std::shared_ptr<const PressSnapshot> snapshot() const;
+  /// VTU of a sample: displacement [m], stress, von Mises stress [Pa], and on the contact surface
+  /// pressure and shear of the plane [Pa] and status (0 open, 1 stick, 2 slide).
+  void write_fields(const PressSnapshot& state, const std::filesystem::path& file) const;
+  /// The mesh's edges in the plane y = 0 at a sample, complete on the first process.
+  std::vector<SectionEdge> section(const PressSnapshot& state) const;
 
   /// Force with which the rod holds the sector's bond surface at the last sample, from the residual
   /// there, in plane axes [N].
@@ -110,7 +117,9 @@ class ContinuumPress {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Whether a quarter of the tip tells everything; otherwise a half does.
+/// Whether a quarter of the tip tells everything, if not less; otherwise a half does.
 bool has_two_symmetry_planes(const ReferenceJob& job);
+/// What has to be meshed for a press.
+meshes::Sector sector(const ReferenceJob& job);
 
 }  // namespace fingertip::fem_reference

@@ -1,4 +1,5 @@
 /// What is read off a converged state: forces, contact, error indicators, refinement.
+#include <deal.II/base/function.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/grid_refinement.h>
@@ -13,6 +14,7 @@
 #include <map>
 #include <numbers>
 
+#include "fem_reference/kinematics.h"
 #include "fem_reference/press_model.h"
 #include "meshes/volume_mesh.h"
 
@@ -29,9 +31,9 @@ constexpr double nodes_per_edge_radius = 10.0;
 /// 0.3 cm of law A without friction, 14 % with stick.
 struct EdgeShare {
   double inner;
-  int fewest_points;
+  int fewest_rings;
 };
-constexpr std::array<EdgeShare, 2> edge_shares = {{{0.7, 20}, {0.5, 12}}};
+constexpr std::array<EdgeShare, 2> edge_shares = {{{0.7, 5}, {0.5, 3}}};
 
 double radius(const meshes::Vector3& position) {
   return std::hypot(position.x(), position.y());
@@ -56,10 +58,11 @@ double spacing_around(const std::vector<SurfaceNode>& nodes, double edge) {
 
 }  // namespace
 
-double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing) {
+double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing,
+                    int nodes_per_ring) {
   if (contact.empty()) return 0.0;
   const double outermost = contact.back().radius;
-  for (const auto& [inner, fewest_points] : edge_shares) {
+  for (const auto& [inner, fewest_rings] : edge_shares) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     int count = 0;
@@ -71,7 +74,7 @@ double contact_edge(const std::vector<ContactPoint>& contact, double node_spacin
       right += point.pressure * point.pressure * basis;
       ++count;
     }
-    if (count < fewest_points) continue;
+    if (count < fewest_rings * nodes_per_ring) continue;
     const Eigen::Vector3d c = normal.ldlt().solve(right);
     const double discriminant = c[1] * c[1] - 4 * c[2] * c[0];
     if (!(discriminant >= 0.0)) return outermost;
@@ -84,13 +87,14 @@ double contact_edge(const std::vector<ContactPoint>& contact, double node_spacin
   return outermost;
 }
 
-PressState PressModel::evaluate() {
+template <int dim>
+PressState TipPress<dim>::evaluate() {
   PressState state;
   const meshes::PressPose pose = path_.at(place_);
   state.sample.indentation = pose.indentation;
   state.sample.lateral_displacement = pose.lateral;
   state.active_nodes = contact_->active_nodes();
-  state.sliding_nodes = job_.contact == meshes::ContactMode::coulomb
+  state.sliding_nodes = job_.protocol.contact == meshes::ContactMode::coulomb
                             ? int(std::ranges::count(contact_->status(), NodeStatus::slide))
                             : 0;
   if (job_.strain == Strain::finite) {
@@ -106,9 +110,10 @@ PressState PressModel::evaluate() {
   return state;
 }
 
-void PressModel::add_resultant(PressState& state) const {
-  const bool quarter = has_two_symmetry_planes(job_);
-  const double sectors = quarter ? 4.0 : 2.0;
+template <int dim>
+void TipPress<dim>::add_resultant(PressState& state) const {
+  const bool straight = has_two_symmetry_planes(job_);
+  const double sectors = copies();
   state.energy *= sectors;
   const std::vector<SurfaceNode>& nodes = contact_->unknowns().nodes;
   const bool finite = job_.strain == Strain::finite;
@@ -124,7 +129,10 @@ void PressModel::add_resultant(PressState& state) const {
       for (std::size_t i = 0; i < nodes.size(); ++i) now[i][c] = values[i];
     }
   }
-  const double s = std::sin(job_.tilt), c = std::cos(job_.tilt), l = job_.geometry.rod_length;
+  if (Kinematics<dim>::revolved)
+    for (auto& node : now) node[1] = 0.0;  // it has no unknown
+  const double s = std::sin(job_.protocol.tilt), c = std::cos(job_.protocol.tilt),
+               l = job_.geometry.rod_length;
   const meshes::Vector3 endpoint(s * l, 0.0, -c * l);  // (0, 0, -l) in plane axes
   meshes::Vector3 force = meshes::Vector3::Zero(), torque = force;
   double touched = 0.0, edge = 0.0;
@@ -145,33 +153,37 @@ void PressModel::add_resultant(PressState& state) const {
   meshes::PressSample& sample = state.sample;
   sample.normal_force = -sectors * force.z();
   // What breaks no symmetry vanishes.
-  sample.lateral_force_x = quarter ? 0.0 : sectors * force.x();
-  sample.torque_y = quarter ? 0.0 : sectors * torque.y();
+  sample.lateral_force_x = straight ? 0.0 : sectors * force.x();
+  sample.torque_y = straight ? 0.0 : sectors * torque.y();
   sample.lateral_force_y = sample.torque_x = sample.torque_z = 0.0;
   if (state.contact.empty()) return;
   sample.max_pressure = std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
   state.node_spacing = spacing_around(outer_nodes_, edge);
-  if (quarter) {
-    sample.contact_radius = contact_edge(state.contact, state.node_spacing);
+  if (straight) {
+    sample.contact_radius = contact_edge(state.contact, state.node_spacing, dim == 2 ? 1 : 4);
   } else {
     sample.contact_radius = std::sqrt(sectors * touched / std::numbers::pi);
   }
 }
 
-void PressModel::note_indicators(PressState& state) {
+template <int dim>
+void TipPress<dim>::note_indicators(PressState& state) {
   Marks marks;
   dealii::Vector<float>& now = marks.indicators;
   now.reinit(body_->triangulation.n_active_cells());
   marks.edge.reinit(now.size());
+  // The estimator squares this factor: a face of the meridian counts all around.
+  const dealii::ScalarFunctionFromFunctionObject<dim> around(
+      [](const dealii::Point<dim>& p) { return std::sqrt(circumference(p)); });
   dealii::KellyErrorEstimator<dim>::estimate(
       body_->mapping, body_->fine.dofs, dealii::QGauss<dim - 1>(unsigned(job_.degree) + 1), {},
-      body_->fine.ghosted(displacement_), now, dealii::ComponentMask(), nullptr, 1,
+      body_->fine.ghosted(displacement_), now, dealii::ComponentMask(), &around, 1,
       body_->triangulation.locally_owned_subdomain());
   double sum = 0.0;
   for (float& value : now) sum += double(value *= value);
   sum = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
   if (sum > 0.0) now *= float(1.0 / sum);
-  state.indicator = (has_two_symmetry_planes(job_) ? 4.0 : 2.0) * job_.rubber.shear_modulus * sum;
+  state.indicator = copies() * job_.rubber.shear_modulus * sum;
 
   std::map<long, bool> touches;
   double edge = 0.0;
@@ -195,14 +207,15 @@ void PressModel::note_indicators(PressState& state) {
       if (!face->at_boundary() ||
           face->boundary_id() != dealii::types::boundary_id(meshes::PhysicalTag::outer))
         continue;
-      const double spacing = face->diameter() / std::numbers::sqrt2 / job_.degree;
+      const double spacing = face->diameter() / std::sqrt(dim - 1.0) / job_.degree;
       marks.edge[cell->active_cell_index()] = spacing > edge / nodes_per_edge_radius ? 1.0F : 0.5F;
     }
   }
   marks_.push_back(std::move(marks));
 }
 
-bool PressModel::refine(double share, const std::vector<char>& wanted) {
+template <int dim>
+bool TipPress<dim>::refine(double share, const std::vector<char>& wanted) {
   const bool all = wanted.empty();
   dealii::Vector<float> indicators(body_->triangulation.n_active_cells());
   std::vector<char> at_edge(indicators.size(), 0);
@@ -219,10 +232,15 @@ bool PressModel::refine(double share, const std::vector<char>& wanted) {
   for (const auto& cell : body_->triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && at_edge[cell->active_cell_index()]) cell->set_refine_flag();
   body_->triangulation.execute_coarsening_and_refinement();
-  body_->number(tip_supports());
+  body_->number(tip_supports<dim>());
   if (double(body_->unknowns()) > job_.max_unknowns) return false;
   prepare();
   return true;
 }
+
+template PressState TipPress<2>::evaluate();
+template PressState TipPress<3>::evaluate();
+template bool TipPress<2>::refine(double, const std::vector<char>&);
+template bool TipPress<3>::refine(double, const std::vector<char>&);
 
 }  // namespace fingertip::fem_reference

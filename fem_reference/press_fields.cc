@@ -4,28 +4,36 @@
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <ostream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "fem_reference/element.h"
+#include "fem_reference/kinematics.h"
+#include "fem_reference/vtu_output.h"
+#include "meshes/files.h"
 
 namespace fingertip::fem_reference {
 namespace {
 
 using dealii::types::global_dof_index;
 
-/// Nine components of the stress, row by row, and the equivalent stress.
-constexpr unsigned fields = 10;
+constexpr const char* no_field = "none";
+constexpr std::array contact_fields{"contact_pressure", "contact_shear", "contact_status"};
 
-Eigen::Matrix3d to_eigen(const dealii::Tensor<2, dim>& tensor) {
-  Eigen::Matrix3d result;
-  for (unsigned i = 0; i < dim; ++i)
-    for (unsigned j = 0; j < dim; ++j) result(i, j) = tensor[i][j];
-  return result;
-}
+/// Components of the stress, row by row: all of space, or those of the meridian and the hoop's.
+template <int dim>
+constexpr auto stress_places = Kinematics<dim>::entries;
+/// With the equivalent stress.
+template <int dim>
+constexpr unsigned field_count = unsigned(stress_places<dim>.size()) + 1;
 
 double von_mises(const Eigen::Matrix3d& stress) {
   const double mean = stress.trace() / 3;
@@ -65,20 +73,22 @@ class Law {
 };
 
 /// Stress at the nodes of one element after another.
+template <int dim>
 class NodalStress {
  public:
-  NodalStress(const Body& body, const ReferenceJob& job)
+  NodalStress(const Body<dim>& body, const ReferenceJob& job)
       : law_(job),
         projected_(job.volumetric == Volumetric::projected),
         inside_(body.mapping, body.fine.element, dealii::QGauss<dim>(unsigned(body.degree()) + 1),
-                dealii::update_gradients | dealii::update_quadrature_points |
-                    dealii::update_JxW_values),
-        nodes_(body.mapping, body.fine.element,
-               dealii::Quadrature<dim>(
-                   dealii::FE_DGQ<dim>(unsigned(body.degree())).get_unit_support_points()),
-               dealii::update_gradients | dealii::update_quadrature_points) {}
+                dealii::update_values | dealii::update_gradients |
+                    dealii::update_quadrature_points | dealii::update_JxW_values),
+        nodes_(
+            body.mapping, body.fine.element,
+            dealii::Quadrature<dim>(
+                dealii::FE_DGQ<dim>(unsigned(body.degree())).get_unit_support_points()),
+            dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points) {}
 
-  std::vector<Eigen::Matrix3d> on(const CellIterator& cell, const Vector& displacement) {
+  std::vector<Eigen::Matrix3d> on(const CellIterator<dim>& cell, const Vector& displacement) {
     nodes_.reinit(cell);
     const auto gradients = gradients_of(nodes_, displacement);
     Eigen::VectorXd volumetric(Eigen::Index(gradients.size()));
@@ -97,21 +107,26 @@ class NodalStress {
  private:
   static std::vector<Eigen::Matrix3d> gradients_of(const dealii::FEValues<dim>& values,
                                                    const Vector& displacement) {
+    const dealii::FEValuesExtractors::Vector whole(0);
     std::vector<dealii::Tensor<2, dim>> tensors(values.n_quadrature_points);
-    values[dealii::FEValuesExtractors::Vector(0)].get_function_gradients(displacement, tensors);
+    std::vector<dealii::Tensor<1, dim>> displacements(values.n_quadrature_points);
+    values[whole].get_function_gradients(displacement, tensors);
+    values[whole].get_function_values(displacement, displacements);
     std::vector<Eigen::Matrix3d> gradients;
-    for (const auto& tensor : tensors) gradients.push_back(to_eigen(tensor));
+    for (const unsigned q : values.quadrature_point_indices())
+      gradients.push_back(
+          gradient_in_space(tensors[q], displacements[q], values.quadrature_point(q)));
     return gradients;
   }
 
   /// At the nodes, of the measure projected as `ElementKernel`s do it.
-  Eigen::VectorXd projection(const CellIterator& cell, const Vector& displacement) {
+  Eigen::VectorXd projection(const CellIterator<dim>& cell, const Vector& displacement) {
     inside_.reinit(cell);
     const auto gradients = gradients_of(inside_, displacement);
-    const ElementPolynomials polynomials(inside_, int(inside_.get_fe().degree) - 1);
+    const ElementPolynomials<dim> polynomials(inside_, int(inside_.get_fe().degree) - 1);
     Eigen::VectorXd weighted(Eigen::Index(gradients.size()));
     for (std::size_t q = 0; q < gradients.size(); ++q)
-      weighted[Eigen::Index(q)] = inside_.JxW(unsigned(q)) * law_.volumetric(gradients[q]);
+      weighted[Eigen::Index(q)] = weight(inside_, unsigned(q)) * law_.volumetric(gradients[q]);
     const Eigen::VectorXd coefficients =
         polynomials.at(inside_.get_quadrature_points()).transpose() * weighted;
     return polynomials.at(nodes_.get_quadrature_points()) * coefficients;
@@ -122,24 +137,144 @@ class NodalStress {
   dealii::FEValues<dim> inside_, nodes_;
 };
 
+Eigen::Matrix3d turn(double angle) {
+  return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+/// One field of an output: where its rows start in the meridian's data, and how many.
+struct OutputField {
+  std::string name;
+  unsigned first = 0, rows = 1;
+};
+
+/// In space a vector has 3 rows, a tensor 9.
+unsigned rows_in_space(unsigned rows) {
+  return rows == 1 ? 1 : rows == 2 ? 3 : 9;
+}
+
+/// A point of the meridian, with its data, in space at an angle around the axis. The last two rows
+/// of the meridian's data are its place.
+template <class From, class To>
+void turn_point(const std::vector<OutputField>& fields, double angle, const From& from,
+                unsigned source, To& to, unsigned target) {
+  const Eigen::Matrix3d rotation = turn(angle);
+  unsigned row = 0;
+  const auto put_vector = [&](unsigned first) {
+    const Eigen::Vector3d v =
+        rotation * Eigen::Vector3d(from(first, source), 0.0, from(first + 1, source));
+    for (Eigen::Index i = 0; i < 3; ++i) to(row++, target) = float(v[i]);
+  };
+  for (const OutputField& field : fields) {
+    if (field.rows == 1) {
+      to(row++, target) = from(field.first, source);
+    } else if (field.rows == 2) {
+      put_vector(field.first);
+    } else {
+      Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
+      for (unsigned e = 0; e < field.rows; ++e) {
+        const Eigen::Index place = Kinematics<2>::entries[e];
+        tensor(place / 3, place % 3) = from(field.first + e, source);
+      }
+      tensor = rotation * tensor * rotation.transpose();
+      for (Eigen::Index i = 0; i < 9; ++i) to(row++, target) = float(tensor(i / 3, i % 3));
+    }
+  }
+  put_vector(from.n_rows() - 2);
+}
+
+/// The patches of a meridian as patches in space: surfaces, or the solid of `around` sectors.
+template <int solid>
+std::vector<dealii::DataOutBase::Patch<solid, 3>> turned(
+    const std::vector<dealii::DataOutBase::Patch<2, 2>>& meridian,
+    const std::vector<OutputField>& fields, unsigned rows, int around) {
+  std::vector<dealii::DataOutBase::Patch<solid, 3>> result;
+  // Against the sense of the angle, or the elements would be inside out.
+  const double sector = solid == 3 ? -2.0 * std::numbers::pi / around : 0.0;
+  for (const auto& patch : meridian) {
+    const unsigned points = patch.n_subdivisions + 1, layers = solid == 3 ? points : 1;
+    for (int k = 0; k < (solid == 3 ? around : 1); ++k) {
+      auto& next = result.emplace_back();
+      next.n_subdivisions = patch.n_subdivisions;
+      next.patch_index = unsigned(result.size() - 1);
+      next.points_are_available = true;
+      next.reference_cell = dealii::ReferenceCells::get_hypercube<solid>();
+      next.data.reinit(rows + 3, points * points * layers);
+      for (unsigned layer = 0; layer < layers; ++layer)
+        for (unsigned p = 0; p < points * points; ++p)
+          turn_point(fields, sector * (k + double(layer) / patch.n_subdivisions), patch.data, p,
+                     next.data, layer * points * points + p);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
-StressField::StressField(const Body& body, const ReferenceJob& job, const Vector& displacement)
-    : element_(dealii::FE_DGQ<dim>(unsigned(body.degree())), fields), dofs_(body.triangulation) {
+template <>
+void FieldOutput<3>::write(const std::filesystem::path& file, int) {
+  fem_reference::write_vtu(*this, file);
+}
+
+template <>
+void FieldOutput<2>::write(const std::filesystem::path& file, int around) {
+  using Range = std::tuple<unsigned, unsigned, std::string,
+                           dealii::DataComponentInterpretation::DataComponentInterpretation>;
+  const std::vector<std::string> names = get_dataset_names();
+  std::vector<OutputField> fields;
+  for (unsigned row = 0; row < names.size(); ++row) fields.push_back({names[row], row, 1});
+  for (const auto& [first, last, name, kind] : get_nonscalar_data_ranges()) {
+    fields[first] = {name, first, last - first + 1};
+    if (fields[first].rows == 4) fields[first].rows = 5;  // the hoop's stress comes next
+    for (unsigned row = 1; row < fields[first].rows; ++row) fields[first + row].rows = 0;
+  }
+  std::erase_if(fields,
+                [](const OutputField& field) { return field.rows == 0 || field.name == no_field; });
+  std::vector<std::string> names_in_space;
+  std::vector<Range> ranges;
+  for (const OutputField& field : fields) {
+    using namespace dealii::DataComponentInterpretation;
+    const unsigned first = unsigned(names_in_space.size()), rows = rows_in_space(field.rows);
+    names_in_space.insert(names_in_space.end(), rows, field.name);
+    if (rows > 1)
+      ranges.emplace_back(first, first + rows - 1, field.name,
+                          rows == 3 ? component_is_part_of_vector : component_is_part_of_tensor);
+  }
+  const unsigned rows = unsigned(names_in_space.size());
+  dealii::DataOutBase::VtkFlags flags;
+  flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+  meshes::write_atomically(file, [&](std::ostream& out) {
+    if (around > 0)
+      dealii::DataOutBase::write_vtu(turned<3>(get_patches(), fields, rows, around), names_in_space,
+                                     ranges, flags, out);
+    else
+      dealii::DataOutBase::write_vtu(turned<2>(get_patches(), fields, rows, 0), names_in_space,
+                                     ranges, flags, out);
+  });
+}
+
+template <int dim>
+StressField<dim>::StressField(const Body<dim>& body, const ReferenceJob& job,
+                              const Vector& displacement)
+    : element_(dealii::FE_DGQ<dim>(unsigned(body.degree())), field_count<dim>),
+      dofs_(body.triangulation) {
   dofs_.distribute_dofs(element_);
   Vector own(dofs_.locally_owned_dofs(), body.fine.communicator);
   const Vector u = body.fine.ghosted(displacement);
-  NodalStress nodal(body, job);
+  NodalStress<dim> nodal(body, job);
   std::vector<global_dof_index> unknowns(element_.n_dofs_per_cell());
   for (const auto& cell : dofs_.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
-    const CellIterator elastic(&body.triangulation, cell->level(), cell->index(), &body.fine.dofs);
+    const CellIterator<dim> elastic(&body.triangulation, cell->level(), cell->index(),
+                                    &body.fine.dofs);
     const auto stresses = nodal.on(elastic, u);
     cell->get_dof_indices(unknowns);
     for (unsigned a = 0; a < stresses.size(); ++a) {
-      for (unsigned c = 0; c < 9; ++c)
-        own[unknowns[element_.component_to_system_index(c, a)]] = stresses[a](c / 3, c % 3);
-      own[unknowns[element_.component_to_system_index(9, a)]] = von_mises(stresses[a]);
+      for (unsigned c = 0; c + 1 < field_count<dim>; ++c) {
+        const Eigen::Index place = stress_places<dim>[c];
+        own[unknowns[element_.component_to_system_index(c, a)]] = stresses[a](place / 3, place % 3);
+      }
+      own[unknowns[element_.component_to_system_index(field_count<dim> - 1, a)]] =
+          von_mises(stresses[a]);
     }
   }
   own.compress(dealii::VectorOperation::insert);
@@ -149,29 +284,43 @@ StressField::StressField(const Body& body, const ReferenceJob& job, const Vector
   values_ = own;
 }
 
-void StressField::add_to(dealii::DataOut<3>& out) const {
+template <int dim>
+void StressField<dim>::add_to(dealii::DataOut<dim>& out) const {
   using namespace dealii::DataComponentInterpretation;
-  std::vector<std::string> names(9, "stress");
-  names.emplace_back("von_mises_stress");
-  std::vector<DataComponentInterpretation> kinds(9, component_is_part_of_tensor);
-  kinds.push_back(component_is_scalar);
+  std::vector<std::string> names(field_count<dim>, "stress");
+  std::vector<DataComponentInterpretation> kinds(field_count<dim>, component_is_part_of_tensor);
+  if (Kinematics<dim>::revolved) {
+    names[4] = "hoop_stress";
+    kinds[4] = component_is_scalar;
+  }
+  names.back() = "von_mises_stress";
+  kinds.back() = component_is_scalar;
   out.add_data_vector(dofs_, values_, names, kinds);
 }
 
-std::vector<Eigen::Matrix3d> StressField::on(const CellIterator& cell) const {
+template <int dim>
+std::vector<Eigen::Matrix3d> StressField<dim>::on(const CellIterator<dim>& cell) const {
   std::vector<global_dof_index> unknowns(element_.n_dofs_per_cell());
-  CellIterator(&dofs_.get_triangulation(), cell->level(), cell->index(), &dofs_)
+  CellIterator<dim>(&dofs_.get_triangulation(), cell->level(), cell->index(), &dofs_)
       ->get_dof_indices(unknowns);
-  std::vector<Eigen::Matrix3d> stresses(unknowns.size() / fields);
+  std::vector<Eigen::Matrix3d> stresses(unknowns.size() / field_count<dim>,
+                                        Eigen::Matrix3d::Zero());
   for (unsigned a = 0; a < stresses.size(); ++a)
-    for (unsigned c = 0; c < 9; ++c)
-      stresses[a](c / 3, c % 3) = values_[unknowns[element_.component_to_system_index(c, a)]];
+    for (unsigned c = 0; c + 1 < field_count<dim>; ++c) {
+      const Eigen::Index place = stress_places<dim>[c];
+      stresses[a](place / 3, place % 3) =
+          values_[unknowns[element_.component_to_system_index(c, a)]];
+    }
   return stresses;
 }
 
-ContactField::ContactField(const Body& body, const PlaneContact& contact, const Vector& area)
-    : body_(body), values_(body.fine.owned, body.fine.relevant, body.fine.communicator) {
-  Vector own = body.fine.vector();
+template <int dim>
+ContactField<dim>::ContactField(const Body<dim>& body, const PlaneContact& contact,
+                                const Vector& area)
+    : body_(body),
+      values_((contact_fields.size() + dim - 1) / dim,
+              Vector(body.fine.owned, body.fine.relevant, body.fine.communicator)) {
+  std::vector<Vector> own(values_.size(), body.fine.vector());
   const std::vector<SurfaceNode>& nodes = contact.unknowns().nodes;
   std::vector<long> unknowns;
   for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[2]);
@@ -179,20 +328,33 @@ ContactField::ContactField(const Body& body, const PlaneContact& contact, const 
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const meshes::Vector3 traction = contact.reaction(i) / areas[i];
     const double values[] = {-traction.z(), traction.head<2>().norm(), double(contact.status()[i])};
-    for (std::size_t c = 0; c < 3; ++c)
-      if (body.fine.owned.is_element(unsigned(nodes[i].unknown[c])))
-        own[unsigned(nodes[i].unknown[c])] = values[c];
+    for (std::size_t f = 0; f < contact_fields.size(); ++f) {
+      const auto unknown = unsigned(nodes[i].unknown[Kinematics<dim>::axis[f % dim]]);
+      if (body.fine.owned.is_element(unknown)) own[f / dim][unknown] = values[f];
+    }
   }
-  own.compress(dealii::VectorOperation::insert);
-  body.fine.hanging_nodes().distribute(own);
-  values_ = own;
+  for (std::size_t v = 0; v < own.size(); ++v) {
+    own[v].compress(dealii::VectorOperation::insert);
+    body.fine.hanging_nodes().distribute(own[v]);
+    values_[v] = own[v];
+  }
 }
 
-void ContactField::add_to(dealii::DataOut<3>& out) const {
+template <int dim>
+void ContactField<dim>::add_to(dealii::DataOut<dim>& out) const {
   using namespace dealii::DataComponentInterpretation;
-  out.add_data_vector(body_.fine.dofs, values_,
-                      {"contact_pressure", "contact_shear", "contact_status"},
-                      std::vector<DataComponentInterpretation>(dim, component_is_scalar));
+  for (std::size_t v = 0; v < values_.size(); ++v) {
+    std::vector<std::string> names;
+    for (std::size_t f = v * dim; f < (v + 1) * dim; ++f)
+      names.emplace_back(f < contact_fields.size() ? contact_fields[f] : no_field);
+    out.add_data_vector(body_.fine.dofs, values_[v], names,
+                        std::vector<DataComponentInterpretation>(dim, component_is_scalar));
+  }
 }
+
+template class StressField<2>;
+template class StressField<3>;
+template class ContactField<2>;
+template class ContactField<3>;
 
 }  // namespace fingertip::fem_reference

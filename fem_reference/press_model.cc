@@ -28,38 +28,46 @@ constexpr double balanced = 1e-9;
 /// Contact forces below this many G R² are not resolved to the full tolerance.
 constexpr double least_force = 1e-4;
 
-std::unique_ptr<ElementKernel> make_kernel(const ReferenceJob& job) {
+template <int dim>
+std::unique_ptr<ElementKernel<dim>> make_kernel(const ReferenceJob& job) {
   if (job.strain == Strain::linear)
-    return std::make_unique<HookeKernel>(job.rubber, job.volumetric);
-  return std::make_unique<HyperelasticKernel>(HyperelasticLaw(job.law, job.rubber), job.volumetric);
+    return std::make_unique<HookeKernel<dim>>(job.rubber, job.volumetric);
+  return std::make_unique<HyperelasticKernel<dim>>(HyperelasticLaw(job.law, job.rubber),
+                                                   job.volumetric);
 }
 
 }  // namespace
 
-PressModel::PressModel(const ReferenceJob& job, const std::filesystem::path& mesh_file)
-    : job_(job),
-      path_(job.protocol()),
-      body_(read_tip(MPI_COMM_WORLD, mesh_file, job.degree, job.tilt)),
-      kernel_(make_kernel(job)) {
-  body_->number(tip_supports());
+template <int dim>
+TipPress<dim>::TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file)
+    : PressModel(job),
+      path_(job.protocol),
+      body_(read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, job.protocol.tilt)),
+      kernel_(make_kernel<dim>(job)) {
+  body_->number(tip_supports<dim>());
   prepare();
 }
 
-void PressModel::prepare() {
-  solver_kind_ = choose_solver(job_.solver, double(body_->unknowns()));
+template <int dim>
+std::unique_ptr<FieldSolver> TipPress<dim>::make_solver(const std::vector<long>& unknowns) const {
+  if constexpr (dim == 3)
+    if (solver_kind_ == LinearSolver::multigrid)
+      return make_multigrid_solver(*body_, unknowns, job_.solver_tolerance);
+  return job_.strain == Strain::finite ? make_eliminating_solver(*body_, unknowns)
+                                       : make_condensed_solver(*body_, unknowns);
+}
+
+template <int dim>
+void TipPress<dim>::prepare() {
+  solver_kind_ = choose_solver(job_, double(body_->unknowns()));
   outer_nodes_ = outer_nodes(*body_);
   const double bulge = job_.strain == Strain::finite ? finite_bulge : linear_bulge;
   ContactUnknowns candidates =
-      contact_unknowns(outer_nodes_, job_.contact != ContactMode::frictionless,
-                       job_.geometry.tip_radius - bulge * job_.samples.back());
-  if (solver_kind_ == LinearSolver::multigrid)
-    solver_ = make_multigrid_solver(*body_, candidates.unknowns, job_.solver_tolerance);
-  else if (job_.strain == Strain::finite)
-    solver_ = make_eliminating_solver(*body_, candidates.unknowns);
-  else
-    solver_ = make_condensed_solver(*body_, candidates.unknowns);
-  contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.contact, pose(0.0),
-                                            job_.friction, job_.rubber.shear_modulus);
+      contact_unknowns(outer_nodes_, job_.protocol.contact != ContactMode::frictionless,
+                       job_.geometry.tip_radius - bulge * job_.protocol.samples.back());
+  solver_ = make_solver(candidates.unknowns);
+  contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.protocol.contact, pose(0.0),
+                                            job_.protocol.friction, job_.rubber.shear_modulus);
   place_ = 0.0;
   displacement_.reinit(body_->fine.vector());
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);
@@ -68,21 +76,25 @@ void PressModel::prepare() {
   marks_.clear();
 }
 
-MeshSummary PressModel::mesh() const {
+template <int dim>
+MeshSummary TipPress<dim>::mesh() const {
   return {std::size_t(body_->triangulation.n_global_active_cells()), std::size_t(body_->unknowns()),
           contact_->unknowns().unknowns.size(), solver_kind_};
 }
 
-PlanePose PressModel::pose(double place) const {
+template <int dim>
+PlanePose TipPress<dim>::pose(double place) const {
   const meshes::PressPose pose = path_.at(place);
   return {job_.geometry.tip_radius - pose.indentation, pose.lateral};
 }
 
-void PressModel::abandon() {
+template <int dim>
+void TipPress<dim>::abandon() {
   contact_->abandon();
 }
 
-void PressModel::step(double place, PressState& effort) {
+template <int dim>
+void TipPress<dim>::step(double place, PressState& effort) {
   const PlanePose target = pose(place);
   const Vector before = displacement_;
   if (job_.strain == Strain::linear)
@@ -99,14 +111,16 @@ void PressModel::step(double place, PressState& effort) {
   place_ = place;
 }
 
-void PressModel::linear_step(const PlanePose& target, PressState& effort) {
+template <int dim>
+void TipPress<dim>::linear_step(const PlanePose& target, PressState& effort) {
   const ContactEffort spent = contact_->solve(*solver_, target);
   effort.active_set_iterations += spent.rounds;
   effort.cg_iterations += spent.cg_iterations;
   displacement_ = solver_->field();
 }
 
-double PressModel::residual(const Vector& displacement) {
+template <int dim>
+double TipPress<dim>::residual(const Vector& displacement) {
   assemble(*body_, *kernel_, displacement, *system_);
   Vector out_of_balance = system_->force;
   const std::vector<char> held = contact_->held();
@@ -123,7 +137,8 @@ double PressModel::residual(const Vector& displacement) {
   return out_of_balance.l2_norm() / std::max(contact_->reactions().norm(), floor);
 }
 
-void PressModel::newton_step(const PlanePose& target, PressState& effort) {
+template <int dim>
+void TipPress<dim>::newton_step(const PlanePose& target, PressState& effort) {
   // An iterative solver leaves out-of-balance forces of its own.
   const double enough = solver_kind_ == LinearSolver::multigrid
                             ? std::max(balanced, 10.0 * job_.solver_tolerance)
@@ -172,7 +187,8 @@ void PressModel::newton_step(const PlanePose& target, PressState& effort) {
                              std::to_string(most_newton_iterations) + " iterations");
 }
 
-void PressModel::check_other_nodes(double place) const {
+template <int dim>
+void TipPress<dim>::check_other_nodes(double place) const {
   std::vector<long> unknowns;
   for (const SurfaceNode& node : outer_nodes_) unknowns.push_back(node.unknown[2]);
   const std::vector<double> lift = body_->fine.gather(displacement_, unknowns);
@@ -186,9 +202,13 @@ void PressModel::check_other_nodes(double place) const {
           meshes::to_text(at.lateral) + " m; press less deep or move less far");
 }
 
-meshes::Vector3 PressModel::bond_reaction() const {
+template <int dim>
+meshes::Vector3 TipPress<dim>::bond_reaction() const {
   return resultant(*body_, unconstrained_force(*body_, *kernel_, displacement_),
                    dealii::types::boundary_id(meshes::PhysicalTag::bond));
 }
+
+template class TipPress<2>;
+template class TipPress<3>;
 
 }  // namespace fingertip::fem_reference

@@ -15,33 +15,67 @@
 
 namespace fingertip::fem_reference {
 
+/// A sample's state, to be written while the mesh is the same.
+struct PressSnapshot {
+  Vector displacement;
+  PlaneContact::State contact;
+};
+
+/// What ContinuumPress asks of a model, whatever its dimension.
 class PressModel {
  public:
-  PressModel(const ReferenceJob& job, const std::filesystem::path& mesh_file);
-
+  virtual ~PressModel() = default;
   const ReferenceJob& job() const { return job_; }
   /// On the job's path [m].
   double place() const { return place_; }
-  MeshSummary mesh() const;
+  virtual MeshSummary mesh() const = 0;
 
   /// One step to `place` [m]; adds what it cost to `effort`. Throws NotConverged.
-  void step(double place, PressState& effort);
+  virtual void step(double place, PressState& effort) = 0;
   /// Back to the last step that converged.
-  void abandon();
+  virtual void abandon() = 0;
 
   /// Reads the sample off the present state and remembers where its error is large.
-  PressState evaluate();
-  bool refine(double share, const std::vector<char>& wanted);
+  virtual PressState evaluate() = 0;
+  virtual bool refine(double share, const std::vector<char>& wanted) = 0;
 
-  void write_fields(const std::filesystem::path& file) const;
-  std::vector<SectionEdge> section() const;
-  meshes::Vector3 bond_reaction() const;
-  void save(const std::filesystem::path& folder) const;
-  void load(const std::filesystem::path& folder);
+  virtual std::shared_ptr<const PressSnapshot> snapshot() const = 0;
+  virtual void write_fields(const PressSnapshot& state,
+                            const std::filesystem::path& file) const = 0;
+  virtual std::vector<SectionEdge> section(const PressSnapshot& state) const = 0;
+  virtual meshes::Vector3 bond_reaction() const = 0;
+  virtual void save(const std::filesystem::path& folder) const = 0;
+  virtual void load(const std::filesystem::path& folder) = 0;
+
+ protected:
+  explicit PressModel(const ReferenceJob& job) : job_(job) {}
+
+  ReferenceJob job_;
+  double place_ = 0.0;
+};
+
+/// A solid, or a body of revolution on its meridian.
+template <int dim>
+class TipPress final : public PressModel {
+ public:
+  TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file);
+
+  MeshSummary mesh() const override;
+  void step(double place, PressState& effort) override;
+  void abandon() override;
+  PressState evaluate() override;
+  bool refine(double share, const std::vector<char>& wanted) override;
+  std::shared_ptr<const PressSnapshot> snapshot() const override;
+  void write_fields(const PressSnapshot& state, const std::filesystem::path& file) const override;
+  std::vector<SectionEdge> section(const PressSnapshot& state) const override;
+  meshes::Vector3 bond_reaction() const override;
+  void save(const std::filesystem::path& folder) const override;
+  void load(const std::filesystem::path& folder) override;
 
  private:
   /// Chooses the solver of the numbered mesh, and puts the tip at rest under the plane.
   void prepare();
+  std::unique_ptr<FieldSolver> make_solver(const std::vector<long>& contact_unknowns) const;
   PlanePose pose(double place) const;
   void linear_step(const PlanePose& target, PressState& effort);
   void newton_step(const PlanePose& target, PressState& effort);
@@ -49,20 +83,20 @@ class PressModel {
   /// held, over the largest nodal force.
   double residual(const Vector& displacement);
   void check_other_nodes(double place) const;
+  /// How many of the mesh make the tip.
+  double copies() const { return dim == 2 ? 1.0 : has_two_symmetry_planes(job_) ? 4.0 : 2.0; }
   void add_resultant(PressState& state) const;
   void note_indicators(PressState& state);
   void load_marks(std::size_t samples);
 
-  ReferenceJob job_;
   meshes::PressPath path_;
-  std::unique_ptr<Body> body_;
-  std::unique_ptr<ElementKernel> kernel_;
+  std::unique_ptr<Body<dim>> body_;
+  std::unique_ptr<ElementKernel<dim>> kernel_;
   std::unique_ptr<LinearSystem> system_;
   std::unique_ptr<FieldSolver> solver_;
   std::unique_ptr<PlaneContact> contact_;
   std::vector<SurfaceNode> outer_nodes_;
   LinearSolver solver_kind_ = LinearSolver::automatic;
-  double place_ = 0.0;
   Vector displacement_;  ///< of the last converged step
   /// Where a sample asks for smaller elements, per local cell.
   struct Marks {

@@ -15,7 +15,6 @@
 #include "fem_reference/press_fields.h"
 #include "fem_reference/press_model.h"
 #include "fem_reference/run_progress.h"
-#include "fem_reference/vtu_output.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 
@@ -26,9 +25,10 @@ using Json = nlohmann::json;
 using namespace dealii::DataComponentInterpretation;
 
 /// The error indicators as fields with one value per cell, so that they travel with the mesh.
+template <int dim>
 class CellFields {
  public:
-  explicit CellFields(const Triangulation& triangulation) : element_(0), dofs_(triangulation) {
+  explicit CellFields(const Triangulation<dim>& triangulation) : element_(0), dofs_(triangulation) {
     dofs_.distribute_dofs(element_);
   }
   Vector from(const dealii::Vector<float>& values) const {
@@ -75,42 +75,57 @@ Eigen::VectorXd vector_from(const Json& json) {
 
 }  // namespace
 
-void PressModel::write_fields(const std::filesystem::path& file) const {
-  const Vector u = body_->fine.ghosted(displacement_);
+template <int dim>
+std::shared_ptr<const PressSnapshot> TipPress<dim>::snapshot() const {
+  return std::make_shared<PressSnapshot>(PressSnapshot{displacement_, contact_->committed()});
+}
+
+template <int dim>
+void TipPress<dim>::write_fields(const PressSnapshot& state,
+                                 const std::filesystem::path& file) const {
+  const Vector u = body_->fine.ghosted(state.displacement);
   const bool finite = job_.strain == Strain::finite;  // then pressure is per deformed area
-  const ContactField contact(*body_, *contact_,
-                             outer_area(*body_, finite ? &displacement_ : nullptr));
-  const StressField stress(*body_, job_, displacement_);
-  dealii::DataOut<dim> out;
+  PlaneContact then = *contact_;
+  then.restore(state.contact);
+  const ContactField<dim> contact(*body_, then,
+                                  outer_area(*body_, finite ? &state.displacement : nullptr));
+  const StressField<dim> stress(*body_, job_, state.displacement);
+  FieldOutput<dim> out;
   out.add_data_vector(body_->fine.dofs, u, std::vector<std::string>(dim, "displacement"),
                       std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
   stress.add_to(out);
   contact.add_to(out);
   out.build_patches(body_->mapping, unsigned(job_.degree),
                     dealii::DataOut<dim>::curved_inner_cells);
-  write_vtu(out, file);
+  out.write(file, job_.field_sectors);
 }
 
-std::vector<SectionEdge> PressModel::section() const {
-  const Vector u = body_->fine.ghosted(displacement_);
+template <int dim>
+std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot& state) const {
+  const Vector u = body_->fine.ghosted(state.displacement);
   std::vector<std::array<double, 8>> own;
+  const auto take = [&](const auto& line) {
+    std::array<double, 8> edge{};
+    for (unsigned end = 0; end < 2; ++end)
+      for (unsigned k = 0; k < 2; ++k) {
+        const unsigned component = k * (dim - 1);  // across and along the axis
+        edge[2 * end + k] = line->vertex(end)[component];
+        edge[4 + 2 * end + k] =
+            line->vertex(end)[component] + u[line->vertex_dof_index(end, component)];
+      }
+    own.push_back(edge);
+  };
+  const auto in_section = [](const auto& face) {
+    return face->at_boundary() &&
+           face->boundary_id() == dealii::types::boundary_id(meshes::PhysicalTag::symmetry_y);
+  };
   for (const auto& cell : body_->fine.dofs.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
     for (const auto& face : cell->face_iterators()) {
-      if (!face->at_boundary() ||
-          face->boundary_id() != dealii::types::boundary_id(meshes::PhysicalTag::symmetry_y))
-        continue;
-      for (unsigned l = 0; l < 4; ++l) {
-        const auto line = face->line(l);
-        std::array<double, 8> edge{};
-        for (unsigned end = 0; end < 2; ++end)
-          for (unsigned k = 0; k < 2; ++k) {
-            const unsigned component = 2 * k;  // x and z
-            edge[2 * end + k] = line->vertex(end)[component];
-            edge[4 + 2 * end + k] =
-                line->vertex(end)[component] + u[line->vertex_dof_index(end, component)];
-          }
-        own.push_back(edge);
+      if constexpr (dim == 2) {
+        take(face);
+      } else if (in_section(face)) {
+        for (unsigned l = 0; l < 4; ++l) take(face->line(l));
       }
     }
   }
@@ -121,8 +136,9 @@ std::vector<SectionEdge> PressModel::section() const {
   return edges;
 }
 
-void PressModel::save(const std::filesystem::path& folder) const {
-  const CellFields cells(body_->triangulation);
+template <int dim>
+void TipPress<dim>::save(const std::filesystem::path& folder) const {
+  const CellFields<dim> cells(body_->triangulation);
   const Vector u = body_->fine.ghosted(displacement_);
   std::vector<Vector> marks;
   for (const Marks& sample : marks_) {
@@ -150,10 +166,11 @@ void PressModel::save(const std::filesystem::path& folder) const {
   meshes::write_atomically(folder / "contact.json", [&](std::ostream& out) { out << json; });
 }
 
-void PressModel::load_marks(std::size_t samples) {
+template <int dim>
+void TipPress<dim>::load_marks(std::size_t samples) {
   marks_.assign(samples, {});
   if (samples == 0) return;
-  const CellFields cells(body_->triangulation);
+  const CellFields<dim> cells(body_->triangulation);
   dealii::Vector<float> empty(body_->triangulation.n_active_cells());
   std::vector<Vector> fields(2 * samples, cells.from(empty));
   std::vector<Vector*> list;
@@ -167,9 +184,10 @@ void PressModel::load_marks(std::size_t samples) {
   }
 }
 
-void PressModel::load(const std::filesystem::path& folder) {
+template <int dim>
+void TipPress<dim>::load(const std::filesystem::path& folder) {
   body_->triangulation.load((folder / "mesh").string());
-  body_->number(tip_supports());
+  body_->number(tip_supports<dim>());
   prepare();
   std::ostringstream text;
   if (first_process()) text << std::ifstream(folder / "contact.json").rdbuf();
@@ -193,5 +211,16 @@ void PressModel::load(const std::filesystem::path& folder) {
                                 "delete it and start the run anew"});
   contact_->restore(std::move(state));
 }
+
+#define FINGERTIP_INSTANTIATE(dim)                                                              \
+  template std::shared_ptr<const PressSnapshot> TipPress<dim>::snapshot() const;                \
+  template void TipPress<dim>::write_fields(const PressSnapshot&, const std::filesystem::path&) \
+      const;                                                                                    \
+  template std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot&) const;         \
+  template void TipPress<dim>::save(const std::filesystem::path&) const;                        \
+  template void TipPress<dim>::load(const std::filesystem::path&);
+FINGERTIP_INSTANTIATE(2)
+FINGERTIP_INSTANTIATE(3)
+#undef FINGERTIP_INSTANTIATE
 
 }  // namespace fingertip::fem_reference

@@ -30,8 +30,12 @@ namespace fs = std::filesystem;
 constexpr std::size_t fewest_meshes = 3;
 /// The cells that carry this share of the squared error indicators are refined.
 constexpr double refined_share = 0.5;
+/// Refining every element multiplies the unknowns by at most this.
+constexpr double most_growth = 8.0;
 /// A checkpoint is written when the last one is older than this [s].
 constexpr double checkpoint_interval = 10.0;
+/// So are the tables [s].
+constexpr double table_interval = 0.2;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -83,7 +87,7 @@ class PressRun {
            const std::function<bool()>& stop_requested)
       : folder_(folder),
         job_(job),
-        places_(meshes::PressPath(job.protocol()).samples()),
+        places_(meshes::PressPath(job.protocol).samples()),
         progress_(progress),
         stop_requested_(stop_requested) {}
 
@@ -111,15 +115,21 @@ class PressRun {
       } catch (const meshes::Interrupted&) {
         save(press, true);
         throw;
+      } catch (const meshes::NotConverged&) {
+        write_pictures(press);
+        throw;
       }
-      if (!job_.estimate_error) return;
       const double worst = history_.worst_relative_error();
-      if (history_.meshes().size() >= fewest_meshes && worst <= job_.tolerance) return;
+      if (!job_.estimate_error ||
+          (history_.meshes().size() >= fewest_meshes && worst <= job_.tolerance))
+        return write_pictures(press);
       progress_.report("refine", history_.meshes().size(), history_.meshes().size() + 1,
                        std::isnan(worst)
                            ? "refining the mesh"
                            : "refining the mesh: the force may be off by " + percent(worst));
       const std::size_t cells = press.mesh().cells;
+      if (most_growth * double(press.mesh().unknowns) > job_.max_unknowns) write_pictures(press);
+      unwritten_.clear();
       if (!press.refine(refined_share, samples_to_improve())) give_up(worst);
       if (press.mesh().cells == cells)
         throw meshes::NotConverged(
@@ -141,7 +151,7 @@ class PressRun {
 
   void make_mesh() {
     meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(job_.refinement);
-    options.sector = has_two_symmetry_planes(job_) ? meshes::Sector::quarter : meshes::Sector::half;
+    options.sector = sector(job_);
     mesh_quality_ = write_mesh_once(job_.geometry, options, folder_ / "tip.msh");
   }
 
@@ -158,7 +168,7 @@ class PressRun {
     const std::size_t total = places_.size();
     for (std::size_t i = history_.finest().states.size(); i < total; ++i) {
       history_.add(press.advance(places_[i]));
-      write_sample(press, i);
+      keep_sample(press, i);
       progress_.report("press", i + 1, total,
                        "mesh " + std::to_string(history_.meshes().size()) + ": " +
                            sample_text(history_.finest().states[i].sample));
@@ -176,22 +186,32 @@ class PressRun {
                                "; allow more unknowns or a larger reference.tolerance");
   }
 
-  void write_sample(const ContinuumPress& press, std::size_t index) {
+  /// Most meshes are refined at once; only what may stay is written, and not more often than it
+  /// would be missed.
+  void keep_sample(const ContinuumPress& press, std::size_t index) {
+    unwritten_.emplace_back(index, press.snapshot());
+    int due = seconds_since(last_tables_) > table_interval;
+    MPI_Bcast(&due, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    if (due) write_tables({RunOutcome::Status::interrupted, ""});
+    save(press);
+  }
+
+  void write_pictures(const ContinuumPress& press) {
+    if (unwritten_.empty()) return;
     const bool may_be_last = !job_.estimate_error || history_.meshes().size() >= fewest_meshes;
     if (job_.write_fields && may_be_last) {
       if (first_process()) fs::create_directories(folder_ / "fields");
       MPI_Barrier(MPI_COMM_WORLD);
-      press.write_fields(folder_ / "fields" / field_name(index));
-      progress_.report("fields", index + 1, places_.size(), field_name(index));
+      for (const auto& [index, state] : unwritten_) {
+        press.write_fields(*state, folder_ / "fields" / field_name(index));
+        progress_.report("fields", index + 1, places_.size(), field_name(index));
+      }
+      const auto last = std::ptrdiff_t(unwritten_.back().first) + 1;
+      if (first_process()) write_field_series({places_.begin(), places_.begin() + last}, folder_);
     }
-    const std::vector<SectionEdge> section = press.section();
-    if (first_process()) {
-      write_section(section, folder_);
-      if (job_.write_fields && may_be_last)
-        write_field_series({places_.begin(), places_.begin() + std::ptrdiff_t(index) + 1}, folder_);
-      write_tables({RunOutcome::Status::interrupted, ""});
-    }
-    save(press);
+    const std::vector<SectionEdge> section = press.section(*unwritten_.back().second);
+    if (first_process()) write_section(section, folder_);
+    unwritten_.clear();
   }
 
   /// The folder is complete at any time: a new checkpoint replaces the old one by renaming.
@@ -199,6 +219,7 @@ class PressRun {
     int due = always || seconds_since(last_checkpoint_) > checkpoint_interval;
     MPI_Bcast(&due, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (!due) return;
+    write_pictures(press);
     const fs::path next = folder_ / "checkpoint.next", place = folder_ / "checkpoint";
     if (first_process()) {
       fs::remove_all(next);
@@ -244,6 +265,7 @@ class PressRun {
 
   void write_tables(const RunOutcome& outcome) {
     if (!first_process()) return;
+    last_tables_ = Clock::now();
     const std::vector<PressState> best = history_.best();
     write_samples(best, folder_);
     write_convergence(history_, folder_);
@@ -252,7 +274,7 @@ class PressRun {
 
   RunSummary summarise(const std::vector<PressState>& best, const RunOutcome& outcome) const {
     RunSummary summary = summary_head(outcome, job_);
-    summary.contact = meshes::name(job_.contact);
+    summary.contact = meshes::name(job_.protocol.contact);
     summary.strain = fem_reference::name(job_.strain);
     if (job_.strain == Strain::finite) summary.law = fem_reference::name(job_.law);
     summary.worst_relative_error = history_.worst_relative_error();
@@ -293,7 +315,8 @@ class PressRun {
   const std::vector<double> places_;  ///< of the samples on the job's path [m]
   RunProgress progress_;
   const std::function<bool()>& stop_requested_;
-  Clock::time_point last_checkpoint_ = Clock::now();
+  Clock::time_point last_checkpoint_ = Clock::now(), last_tables_;
+  std::vector<std::pair<std::size_t, std::shared_ptr<const PressSnapshot>>> unwritten_;
   meshes::MeshQuality mesh_quality_;
   MeshHistory history_;
 };

@@ -12,7 +12,7 @@ namespace fingertip::fem_reference {
 RunOutcome run_job(const std::filesystem::path& folder, std::ostream& progress,
                    const std::function<bool()>& stop_requested) {
   const ReferenceJob job = read_job(folder / "job.json");
-  choose_solver(job.solver, 0.0);  // refuses before anything is written
+  choose_solver(job, 0.0);  // refuses before anything is written
   if (job.analysis == Analysis::modes) return run_modes(folder, job, progress, stop_requested);
   if (job.analysis == Analysis::transient)
     return run_transient(folder, job, progress, stop_requested);

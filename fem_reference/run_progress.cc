@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "meshes/errors.h"
-#include "meshes/json_fields.h"
+#include "meshes/fields_json.h"
 
 namespace fingertip::fem_reference {
 namespace {

@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::fem_reference {
 
-/// The mesh before refinement: Jacobians, of a cube 1 when scaled, and volume [m³].
+/// The mesh before refinement, of a meridian its quadrilaterals: Jacobians, of a cube or square 1
+/// when scaled, and volume [m³].
 struct FirstMeshEntry {
   std::size_t hexahedra = 0, nodes = 0;
   double min_jacobian = meshes::unknown, min_scaled_jacobian = meshes::unknown,

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::fem_reference {

@@ -2,6 +2,8 @@
 
 #include <mpi.h>
 
+#include <string>
+
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {
@@ -13,9 +15,17 @@ constexpr double largest_condensed = 300000;
 
 }  // namespace
 
-LinearSolver choose_solver(LinearSolver wanted, double unknowns) {
+LinearSolver choose_solver(const ReferenceJob& job, double unknowns) {
+  const LinearSolver wanted = job.solver;
   int processes = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &processes);
+  if (job.axisymmetric()) {
+    if (processes > 1)
+      throw meshes::InvalidInput({"reference.symmetry", std::string(name(job.symmetry)),
+                                  "a meridian is solved on one process",
+                                  "start one process, or choose reference.symmetry = \"none\""});
+    return LinearSolver::condensed;
+  }
   if (wanted == LinearSolver::condensed && processes > 1)
     throw meshes::InvalidInput({"reference.solver", "condensed",
                                 "the condensed solver runs on one process",

@@ -25,14 +25,14 @@ constexpr double negligible_share = 0.01;
 
 void support_plane(PhysicalTag plane, int normal, Parity parity,
                    std::vector<FixedComponent>& fixed) {
-  for (int component = 0; component < dim; ++component)
+  for (int component = 0; component < 3; ++component)
     if ((component == normal) == (parity == Parity::symmetric))
       fixed.push_back({dealii::types::boundary_id(plane), component});
 }
 
 std::vector<FixedComponent> supports(SymmetryClass symmetry) {
   std::vector<FixedComponent> fixed;
-  for (int component = 0; component < dim; ++component)
+  for (int component = 0; component < 3; ++component)
     fixed.push_back({dealii::types::boundary_id(PhysicalTag::bond), component});
   support_plane(PhysicalTag::symmetry_x, 0, symmetry.x, fixed);
   support_plane(PhysicalTag::symmetry_y, 1, symmetry.y, fixed);
@@ -40,13 +40,13 @@ std::vector<FixedComponent> supports(SymmetryClass symmetry) {
 }
 
 /// ∫ u_phi² over ∫ |u|²: the share of the motion that goes around the axis.
-double circumferential_share(const Body& body, const Vector& shape) {
-  dealii::FEValues<dim> values(
-      body.mapping, body.fine.element, dealii::QGauss<dim>(unsigned(body.degree()) + 1),
+double circumferential_share(const Body<3>& body, const Vector& shape) {
+  dealii::FEValues<3> values(
+      body.mapping, body.fine.element, dealii::QGauss<3>(unsigned(body.degree()) + 1),
       dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
   const Vector u = body.fine.ghosted(shape);
   std::vector<dealii::Vector<double>> at_points(values.n_quadrature_points,
-                                                dealii::Vector<double>(dim));
+                                                dealii::Vector<double>(3));
   double around = 0.0, all = 0.0;
   for (const auto& cell : body.fine.dofs.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
@@ -64,7 +64,7 @@ double circumferential_share(const Body& body, const Vector& shape) {
          dealii::Utilities::MPI::sum(all, communicator);
 }
 
-int multiplicity(const Body& body, const Vector& shape, SymmetryClass symmetry) {
+int multiplicity(const Body<3>& body, const Vector& shape, SymmetryClass symmetry) {
   if (symmetry.x != symmetry.y) return 2;  // odd around the axis
   const double around = circumferential_share(body, shape);
   const double beside = symmetry.x == Parity::symmetric ? around : 1.0 - around;
@@ -85,20 +85,20 @@ void normalise(Vector& shape) {
 }
 
 /// Output of the whole tip: a quarter and its mirror images.
-class WholeTipOutput : public dealii::DataOut<dim> {
+class WholeTipOutput : public dealii::DataOut<3> {
  public:
   /// Call after build_patches with curved cells.
   void complete(SymmetryClass symmetry) {
-    whole_ = dealii::DataOut<dim>::get_patches();
+    whole_ = dealii::DataOut<3>::get_patches();
     mirror(0, symmetry.x);
     mirror(1, symmetry.y);
   }
   const std::vector<Patch>& get_patches() const override {
-    return whole_.empty() ? dealii::DataOut<dim>::get_patches() : whole_;
+    return whole_.empty() ? dealii::DataOut<3>::get_patches() : whole_;
   }
 
  private:
-  using Patch = dealii::DataOut<dim>::Patch;
+  using Patch = dealii::DataOut<3>::Patch;
 
   void mirror(unsigned axis, Parity parity) {
     const std::size_t count = whole_.size();
@@ -117,10 +117,10 @@ class WholeTipOutput : public dealii::DataOut<dim> {
     }
     const unsigned points = patch.n_subdivisions + 1;
     const float sign = parity == Parity::symmetric ? 1.0F : -1.0F;
-    for (unsigned row = 0; row < 2 * dim; ++row)
+    for (unsigned row = 0; row < 2 * 3; ++row)
       for (unsigned p = 0; p < patch.data.n_cols(); ++p) {
         const unsigned first = p % points, source = p - first + (points - 1 - first);
-        const float factor = (row < dim ? sign : 1.0F) * (row % dim == axis ? -1.0F : 1.0F);
+        const float factor = (row < 3 ? sign : 1.0F) * (row % 3 == axis ? -1.0F : 1.0F);
         result.data(row, p) = factor * patch.data(row, source);
       }
     return result;
@@ -136,17 +136,17 @@ std::size_t class_index(SymmetryClass symmetry) {
 }  // namespace
 
 struct TipModes::Implementation {
-  std::unique_ptr<Body> body;
-  HookeKernel stiffness;
-  MassKernel mass;
+  std::unique_ptr<Body<3>> body;
+  HookeKernel<3> stiffness;
+  MassKernel<3> mass;
   /// Of every class, with the unknowns numbered as `body` does for all classes alike.
   std::array<std::vector<Vector>, 4> shapes;
 };
 
 TipModes::TipModes(const ReferenceJob& job, const std::filesystem::path& mesh_file)
-    : implementation_(new Implementation{read_tip(MPI_COMM_WORLD, mesh_file, job.degree, 0.0),
-                                         HookeKernel(job.rubber, job.volumetric),
-                                         MassKernel(job.rubber.density),
+    : implementation_(new Implementation{read_tip<3>(MPI_COMM_WORLD, mesh_file, job.degree, 0.0),
+                                         HookeKernel<3>(job.rubber, job.volumetric),
+                                         MassKernel<3>(job.rubber.density),
                                          {}}) {
   implementation_->body->number(supports({}));
 }
@@ -154,7 +154,7 @@ TipModes::TipModes(const ReferenceJob& job, const std::filesystem::path& mesh_fi
 TipModes::~TipModes() = default;
 
 MeshSummary TipModes::mesh() const {
-  const Body& body = *implementation_->body;
+  const Body<3>& body = *implementation_->body;
   return {std::size_t(body.triangulation.n_global_active_cells()), std::size_t(body.unknowns()), 0,
           LinearSolver::automatic};
 }
@@ -176,15 +176,14 @@ std::vector<NaturalMode> TipModes::solve(SymmetryClass symmetry, int count) {
 
 void TipModes::write_fields(const NaturalMode& mode, const std::filesystem::path& file) const {
   using namespace dealii::DataComponentInterpretation;
-  const Body& body = *implementation_->body;
+  const Body<3>& body = *implementation_->body;
   const Vector& shape = implementation_->shapes[class_index(mode.symmetry)].at(mode.number);
   Vector u(body.fine.owned, body.fine.relevant, body.fine.communicator);
   u = shape;
   WholeTipOutput out;
-  out.add_data_vector(body.fine.dofs, u, std::vector<std::string>(dim, "displacement"),
-                      std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
-  out.build_patches(body.mapping, unsigned(body.degree()),
-                    dealii::DataOut<dim>::curved_inner_cells);
+  out.add_data_vector(body.fine.dofs, u, std::vector<std::string>(3, "displacement"),
+                      std::vector<DataComponentInterpretation>(3, component_is_part_of_vector));
+  out.build_patches(body.mapping, unsigned(body.degree()), dealii::DataOut<3>::curved_inner_cells);
   out.complete(mode.symmetry);
   write_vtu(out, file);
 }

@@ -37,8 +37,9 @@ class TransientRun {
   RunOutcome carry_out() {
     const RunOutcome outcome = outcome_of([&] {
       progress_.report("mesh", 0, 1, "meshing the tip");
-      quality_ = write_mesh_once(job_.geometry, meshes::TipMeshOptions{}.refined(job_.refinement),
-                                 folder_ / "tip.msh");
+      meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(job_.refinement);
+      options.sector = sector(job_);
+      quality_ = write_mesh_once(job_.geometry, options, folder_ / "tip.msh");
       if (job_.estimate_error) adapt();
       press();
       if (job_.estimate_error) repeat_with_doubled_steps();
@@ -58,14 +59,14 @@ class TransientRun {
   void adapt() {
     ReferenceJob still = job_;
     still.analysis = Analysis::static_press;
-    still.contact = meshes::ContactMode::frictionless;
+    still.protocol.contact = meshes::ContactMode::frictionless;
     ContinuumPress press(still, folder_ / "tip.msh", stop_requested_);
     for (;;) {
       static_presses_.start_mesh(press.mesh());
       progress_.report("refine", static_presses_.meshes().size(), fewest_meshes,
                        "static press on mesh " + std::to_string(static_presses_.meshes().size()) +
                            ": " + std::to_string(press.mesh().unknowns) + " unknowns");
-      for (const double sample : job_.samples) static_presses_.add(press.advance(sample));
+      for (const double sample : job_.protocol.samples) static_presses_.add(press.advance(sample));
       keep_mesh(press);
       const bool estimable = static_presses_.meshes().size() >= fewest_meshes;
       if (estimable && static_presses_.worst_relative_error() <= job_.tolerance) break;
@@ -92,7 +93,7 @@ class TransientRun {
     const std::size_t meshes = static_presses_.meshes().size();
     for (chosen_ = 1; chosen_ < meshes; ++chosen_) {
       double worst = 0.0;
-      for (std::size_t i = 0; i < job_.samples.size(); ++i)
+      for (std::size_t i = 0; i < job_.protocol.samples.size(); ++i)
         worst = std::max(worst, difference_to_finest(i));
       if (worst <= allowed_tolerances * job_.tolerance) return;
     }
@@ -127,9 +128,9 @@ class TransientRun {
     progress_.report("assemble", 1, 1,
                      std::to_string(mesh_.unknowns) + " unknowns, " +
                          std::string(fem_reference::name(mesh_.solver)) + " solver");
-    for (std::size_t i = 0; i < job_.samples.size(); ++i) {
+    for (std::size_t i = 0; i < job_.protocol.samples.size(); ++i) {
       try {
-        states_.push_back(press->advance(job_.samples[i]));
+        states_.push_back(press->advance(job_.protocol.samples[i]));
       } catch (...) {
         steps_ = press->steps();
         throw;
@@ -152,7 +153,7 @@ class TransientRun {
       }
     }
     write_tables({RunOutcome::Status::interrupted, ""});
-    progress_.report("press", index + 1, job_.samples.size(),
+    progress_.report("press", index + 1, job_.protocol.samples.size(),
                      "F = " + to_text(states_.back().sample.normal_force) + " N at " +
                          to_text(states_.back().sample.indentation) + " m, " +
                          to_text(states_.back().sample.time) + " s");
@@ -161,12 +162,12 @@ class TransientRun {
   void repeat_with_doubled_steps() {
     const auto press = make_press();
     press->set_step_factor(2.0);
-    for (std::size_t i = 0; i < job_.samples.size(); ++i) {
-      const double force = press->advance(job_.samples[i]).sample.normal_force;
+    for (std::size_t i = 0; i < job_.protocol.samples.size(); ++i) {
+      const double force = press->advance(job_.protocol.samples[i]).sample.normal_force;
       meshes::PressSample& sample = states_[i].sample;
       sample.force_error =
           std::abs(sample.normal_force - force) + mesh_error(i) * std::abs(sample.normal_force);
-      progress_.report("error", i + 1, job_.samples.size(),
+      progress_.report("error", i + 1, job_.protocol.samples.size(),
                        "doubled steps: F = " + to_text(force) + " N");
     }
   }
@@ -177,9 +178,9 @@ class TransientRun {
     write_convergence(static_presses_, folder_);
     write_steps();
     RunSummary summary = summary_head(outcome, job_);
-    summary.contact = meshes::name(job_.contact);
+    summary.contact = meshes::name(job_.protocol.contact);
     summary.strain = fem_reference::name(job_.strain);
-    summary.speed = job_.speed;
+    summary.speed = job_.protocol.speed;
     add_finest(mesh_, summary);
     summary.time_steps = steps_.empty() ? 0 : steps_.size() - 1;
     summary.transient_wall_time = press_time_;

@@ -26,6 +26,8 @@ struct TransientStep {
   double dissipated_energy = 0.0;  ///< by the rubber's damping so far [J]
 };
 
+class TransientModel;
+
 /// The press of ContinuumPress at the job's speed: small strain, frictionless or stick, along the
 /// axis, Kelvin-Voigt damping C = tau K, consistent mass M. In the rod's frame, which is inertial
 /// because the rod's speed is constant, the tip starts at rest and the plane comes at that speed,
@@ -40,8 +42,8 @@ struct TransientStep {
 /// time. All processes of MPI_COMM_WORLD take part in every call.
 class TransientPress {
  public:
-  /// On the mesh of a quarter, or on one that `ContinuumPress::save` left in `adapted` for the same
-  /// `mesh_file` (empty: none). Throws InvalidInput.
+  /// On the mesh of a quarter or meridian (`sector(job)`), or on one that `ContinuumPress::save`
+  /// left in `adapted` for the same `mesh_file` (empty: none). Throws InvalidInput.
   TransientPress(const ReferenceJob& job, const std::filesystem::path& mesh_file,
                  const std::filesystem::path& adapted = {},
                  std::function<bool()> stop_requested = {});
@@ -69,8 +71,7 @@ class TransientPress {
   void write_fields(const std::filesystem::path& file) const;
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  std::unique_ptr<TransientModel> model_;
 };
 
 /// Carries out a job with Analysis::transient; the contract is that of `run_job`. Writes

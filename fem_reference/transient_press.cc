@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "fem_reference/generalised_alpha.h"
+#include "fem_reference/kinematics.h"
 #include "fem_reference/plane_contact.h"
 #include "fem_reference/press_fields.h"
 #include "fem_reference/run_progress.h"
 #include "fem_reference/solver_choice.h"
 #include "fem_reference/tip_body.h"
 #include "fem_reference/transient.h"
-#include "fem_reference/vtu_output.h"
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {
@@ -29,14 +29,17 @@ constexpr double longest_step = 1.0 / 400.0, longest_step_to_sample = 1.0 / 32.0
 /// Candidates for contact reach this many depths below the pole, because thin rubber rises beside
 /// the contact.
 constexpr double bulge = 1.2;
-/// The quarter counts four times.
-constexpr double sectors = 4.0;
+/// What makes the whole tip: the meridian, or four quarters.
+template <int dim>
+constexpr double copies = dim == 2 ? 1.0 : 4.0;
 
-std::unique_ptr<Body> read_body(const ReferenceJob& job, const std::filesystem::path& mesh_file,
-                                const std::filesystem::path& adapted) {
-  auto body = read_tip(MPI_COMM_WORLD, mesh_file, job.degree, 0.0);
+template <int dim>
+std::unique_ptr<Body<dim>> read_body(const ReferenceJob& job,
+                                     const std::filesystem::path& mesh_file,
+                                     const std::filesystem::path& adapted) {
+  auto body = read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, 0.0);
   if (!adapted.empty()) body->triangulation.load((adapted / "mesh").string());
-  body->number(tip_supports());
+  body->number(tip_supports<dim>());
   return body;
 }
 
@@ -46,43 +49,55 @@ double radius(const SurfaceNode& node) {
 
 }  // namespace
 
-struct TransientPress::Implementation {
-  ReferenceJob job;
-  std::function<bool()> stop_requested;
-  std::unique_ptr<Body> body;
-  HookeKernel stiffness;
-  MassKernel mass;
-  LinearSolver solver_kind;
-  GeneralisedAlpha motion;
-  std::unique_ptr<PlaneContact> contact;
-  std::unique_ptr<FieldSolver> solver;
-  double step_factor = 1.0;
-  std::vector<TransientStep> steps{};
+/// What TransientPress asks of a model, whatever its dimension.
+class TransientModel {
+ public:
+  TransientModel(const ReferenceJob& the_job, std::function<bool()> stop)
+      : job(the_job), stop_requested(std::move(stop)) {
+    steps.push_back({});
+  }
+  virtual ~TransientModel() = default;
 
-  Implementation(const ReferenceJob& the_job, std::unique_ptr<Body> the_body,
-                 std::function<bool()> stop)
-      : job(the_job),
-        stop_requested(std::move(stop)),
+  virtual MeshSummary mesh() const = 0;
+  virtual void step_to(double indentation, double duration, PressState& effort) = 0;
+  virtual PressState evaluate() const = 0;
+  virtual double bond_force() const = 0;
+  virtual void write_fields(const std::filesystem::path& file) const = 0;
+
+  const ReferenceJob job;
+  const std::function<bool()> stop_requested;
+  double step_factor = 1.0;
+  std::vector<TransientStep> steps;
+};
+
+namespace {
+
+template <int dim>
+class TipInMotion final : public TransientModel {
+ public:
+  TipInMotion(const ReferenceJob& the_job, std::unique_ptr<Body<dim>> the_body,
+              std::function<bool()> stop)
+      : TransientModel(the_job, std::move(stop)),
         body(std::move(the_body)),
         stiffness(job.rubber, job.volumetric),
         mass(job.rubber.density),
-        solver_kind(choose_solver(job.solver, double(body->unknowns()))),
+        solver_kind(choose_solver(job, double(body->unknowns()))),
         motion(*body, stiffness, mass, job.rubber.retardation_time,
                solver_kind == LinearSolver::multigrid) {
-    ContactUnknowns candidates =
-        contact_unknowns(outer_nodes(*body), job.contact != meshes::ContactMode::frictionless,
-                         job.geometry.tip_radius - bulge * job.samples.back());
-    solver = solver_kind == LinearSolver::condensed
-                 ? make_condensed_solver(*body, candidates.unknowns)
-                 : make_multigrid_solver(*body, candidates.unknowns, job.solver_tolerance);
-    contact = std::make_unique<PlaneContact>(std::move(candidates), job.contact, pose(0.0),
-                                             job.friction, job.rubber.shear_modulus);
-    steps.push_back({});
+    ContactUnknowns candidates = contact_unknowns(
+        outer_nodes(*body), job.protocol.contact != meshes::ContactMode::frictionless,
+        job.geometry.tip_radius - bulge * job.protocol.samples.back());
+    solver = make_solver(candidates.unknowns);
+    contact = std::make_unique<PlaneContact>(std::move(candidates), job.protocol.contact, pose(0.0),
+                                             job.protocol.friction, job.rubber.shear_modulus);
   }
 
-  PlanePose pose(double indentation) const { return {job.geometry.tip_radius - indentation, 0.0}; }
+  MeshSummary mesh() const override {
+    return {std::size_t(body->triangulation.n_global_active_cells()), std::size_t(body->unknowns()),
+            contact->unknowns().unknowns.size(), solver_kind};
+  }
 
-  void step_to(double indentation, double duration, PressState& effort) {
+  void step_to(double indentation, double duration, PressState& effort) override {
     const Eigen::VectorXd reaction = contact->reactions();
     const Eigen::VectorXd displacement = contact->committed().displacement;
     const double dissipation = motion.dissipation_rate();
@@ -98,30 +113,17 @@ struct TransientPress::Implementation {
     const double work =
         0.5 *
         (reaction + contact->reactions()).dot(contact->committed().displacement - displacement);
-    record(indentation, sectors * work,
-           sectors * 0.5 * duration * (dissipation + motion.dissipation_rate()));
+    record(indentation, copies<dim> * work,
+           copies<dim> * 0.5 * duration * (dissipation + motion.dissipation_rate()));
   }
 
-  void record(double indentation, double work, double dissipated) {
-    double push = 0.0;
-    for (std::size_t i = 0; i < contact->unknowns().nodes.size(); ++i)
-      push -= contact->reaction(i).z();
-    const MechanicalEnergy energy = motion.energy();
-    const TransientStep& last = steps.back();
-    TransientStep next;
-    next.time = indentation / job.speed;
-    next.indentation = indentation;
-    next.contact_force = sectors * push;
-    next.normal_force = next.contact_force + sectors * motion.momentum_rate().z();
-    next.momentum = -sectors * motion.momentum().z();
-    next.kinetic_energy = sectors * energy.kinetic;
-    next.elastic_energy = sectors * energy.elastic;
-    next.work = last.work + work;
-    next.dissipated_energy = last.dissipated_energy + dissipated;
-    steps.push_back(next);
+  double bond_force() const override {
+    return copies<dim> * resultant(*body, motion.residual(),
+                                   dealii::types::boundary_id(meshes::PhysicalTag::bond))
+                             .z();
   }
 
-  PressState evaluate() const {
+  PressState evaluate() const override {
     PressState state;
     meshes::PressSample& sample = state.sample;
     sample.indentation = steps.back().indentation;
@@ -139,45 +141,113 @@ struct TransientPress::Implementation {
       state.contact.push_back({radius(node), -contact->reaction(i).z() / node.area});
       if (radius(node) < outermost) continue;
       outermost = radius(node);
-      state.node_spacing = std::sqrt(node.area);
+      state.node_spacing = dim == 2 ? node.area / circumference(dealii::Point<2>(radius(node), 0.0))
+                                    : std::sqrt(node.area);
     }
     std::ranges::sort(state.contact, {}, &ContactPoint::radius);
-    sample.contact_radius = contact_edge(state.contact, state.node_spacing);
+    sample.contact_radius = contact_edge(state.contact, state.node_spacing, dim == 2 ? 1 : 4);
     sample.max_pressure =
         state.contact.empty()
             ? 0.0
             : std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
     return state;
   }
+
+  void write_fields(const std::filesystem::path& file) const override {
+    using namespace dealii::DataComponentInterpretation;
+    const Space<dim>& space = body->fine;
+    const Vector u = space.ghosted(motion.displacement());
+    const Vector v = space.ghosted(motion.velocity());
+    const std::vector<DataComponentInterpretation> vector(dim, component_is_part_of_vector);
+    // With Kelvin-Voigt damping the stress is that of u + tau v.
+    Vector strained = motion.displacement();
+    strained.add(job.rubber.retardation_time, motion.velocity());
+    const StressField<dim> stress(*body, job, strained);
+    const ContactField<dim> touch(*body, *contact, outer_area(*body, nullptr));
+    FieldOutput<dim> out;
+    out.add_data_vector(space.dofs, u, std::vector<std::string>(dim, "displacement"), vector);
+    out.add_data_vector(space.dofs, v, std::vector<std::string>(dim, "velocity"), vector);
+    stress.add_to(out);
+    touch.add_to(out);
+    out.build_patches(body->mapping, unsigned(job.degree),
+                      dealii::DataOut<dim>::curved_inner_cells);
+    out.write(file, job.field_sectors);
+  }
+
+ private:
+  std::unique_ptr<FieldSolver> make_solver(const std::vector<long>& unknowns) const {
+    if constexpr (dim == 3)
+      if (solver_kind == LinearSolver::multigrid)
+        return make_multigrid_solver(*body, unknowns, job.solver_tolerance);
+    return make_condensed_solver(*body, unknowns);
+  }
+
+  PlanePose pose(double indentation) const { return {job.geometry.tip_radius - indentation, 0.0}; }
+
+  void record(double indentation, double work, double dissipated) {
+    double push = 0.0;
+    for (std::size_t i = 0; i < contact->unknowns().nodes.size(); ++i)
+      push -= contact->reaction(i).z();
+    const MechanicalEnergy energy = motion.energy();
+    const TransientStep& last = steps.back();
+    TransientStep next;
+    next.time = indentation / job.protocol.speed;
+    next.indentation = indentation;
+    next.contact_force = copies<dim> * push;
+    next.normal_force = next.contact_force + copies<dim> * motion.momentum_rate().z();
+    next.momentum = -copies<dim> * motion.momentum().z();
+    next.kinetic_energy = copies<dim> * energy.kinetic;
+    next.elastic_energy = copies<dim> * energy.elastic;
+    next.work = last.work + work;
+    next.dissipated_energy = last.dissipated_energy + dissipated;
+    steps.push_back(next);
+  }
+
+  std::unique_ptr<Body<dim>> body;
+  HookeKernel<dim> stiffness;
+  MassKernel<dim> mass;
+  LinearSolver solver_kind;
+  GeneralisedAlpha<dim> motion;
+  std::unique_ptr<PlaneContact> contact;
+  std::unique_ptr<FieldSolver> solver;
 };
+
+std::unique_ptr<TransientModel> make_model(const ReferenceJob& job,
+                                           const std::filesystem::path& mesh_file,
+                                           const std::filesystem::path& adapted,
+                                           std::function<bool()> stop) {
+  if (job.axisymmetric())
+    return std::make_unique<TipInMotion<2>>(job, read_body<2>(job, mesh_file, adapted),
+                                            std::move(stop));
+  return std::make_unique<TipInMotion<3>>(job, read_body<3>(job, mesh_file, adapted),
+                                          std::move(stop));
+}
+
+}  // namespace
 
 TransientPress::TransientPress(const ReferenceJob& job, const std::filesystem::path& mesh_file,
                                const std::filesystem::path& adapted,
                                std::function<bool()> stop_requested)
-    : implementation_(std::make_unique<Implementation>(job, read_body(job, mesh_file, adapted),
-                                                       std::move(stop_requested))) {}
+    : model_(make_model(job, mesh_file, adapted, std::move(stop_requested))) {}
 
 TransientPress::~TransientPress() = default;
 
 MeshSummary TransientPress::mesh() const {
-  const Implementation& self = *implementation_;
-  return {std::size_t(self.body->triangulation.n_global_active_cells()),
-          std::size_t(self.body->unknowns()), self.contact->unknowns().unknowns.size(),
-          self.solver_kind};
+  return model_->mesh();
 }
 
 void TransientPress::set_step_factor(double factor) {
-  implementation_->step_factor = factor;
+  model_->step_factor = factor;
 }
 
 PressState TransientPress::advance(double indentation) {
-  Implementation& self = *implementation_;
+  TransientModel& self = *model_;
   const auto start = std::chrono::steady_clock::now();
   const double first = self.steps.back().indentation, way = indentation - first;
   const double longest = self.step_factor * std::min(longest_step * self.job.geometry.thickness(),
                                                      longest_step_to_sample * indentation);
   const int count = std::max(1, int(std::ceil(way / longest - 1e-9)));
-  const double duration = way / count / self.job.speed;
+  const double duration = way / count / self.job.protocol.speed;
   PressState effort;
   for (int i = 1; i <= count; ++i) {
     stop_if_asked(self.stop_requested);
@@ -192,36 +262,15 @@ PressState TransientPress::advance(double indentation) {
 }
 
 double TransientPress::bond_force() const {
-  const Implementation& self = *implementation_;
-  return sectors * resultant(*self.body, self.motion.residual(),
-                             dealii::types::boundary_id(meshes::PhysicalTag::bond))
-                       .z();
+  return model_->bond_force();
 }
 
 const std::vector<TransientStep>& TransientPress::steps() const {
-  return implementation_->steps;
+  return model_->steps;
 }
 
 void TransientPress::write_fields(const std::filesystem::path& file) const {
-  using namespace dealii::DataComponentInterpretation;
-  const Implementation& self = *implementation_;
-  const Space& space = self.body->fine;
-  const Vector u = space.ghosted(self.motion.displacement());
-  const Vector v = space.ghosted(self.motion.velocity());
-  const std::vector<DataComponentInterpretation> vector(dim, component_is_part_of_vector);
-  // With Kelvin-Voigt damping the stress is that of u + tau v.
-  Vector strained = self.motion.displacement();
-  strained.add(self.job.rubber.retardation_time, self.motion.velocity());
-  const StressField stress(*self.body, self.job, strained);
-  const ContactField contact(*self.body, *self.contact, outer_area(*self.body, nullptr));
-  dealii::DataOut<dim> out;
-  out.add_data_vector(space.dofs, u, std::vector<std::string>(dim, "displacement"), vector);
-  out.add_data_vector(space.dofs, v, std::vector<std::string>(dim, "velocity"), vector);
-  stress.add_to(out);
-  contact.add_to(out);
-  out.build_patches(self.body->mapping, unsigned(self.job.degree),
-                    dealii::DataOut<dim>::curved_inner_cells);
-  write_vtu(out, file);
+  model_->write_fields(file);
 }
 
 }  // namespace fingertip::fem_reference

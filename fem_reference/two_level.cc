@@ -39,7 +39,7 @@ void add_resolved(const dealii::AffineConstraints<double>& constraints, global_d
 
 /// Calls `take(i, row)` for every owned fine unknown that is free, at least once.
 template <class Take>
-void for_each_row(const Body& body, Take take) {
+void for_each_row(const Body<3>& body, Take take) {
   dealii::FullMatrix<double> embedding(body.fine.element.n_dofs_per_cell(),
                                        body.coarse.element.n_dofs_per_cell());
   dealii::FETools::get_interpolation_matrix(body.coarse.element, body.fine.element, embedding);
@@ -48,7 +48,7 @@ void for_each_row(const Body& body, Take take) {
   for (const auto& cell : body.fine.dofs.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
     cell->get_dof_indices(fine);
-    CellIterator(&body.triangulation, cell->level(), cell->index(), &body.coarse.dofs)
+    CellIterator<3>(&body.triangulation, cell->level(), cell->index(), &body.coarse.dofs)
         ->get_dof_indices(coarse);
     for (unsigned i = 0; i < fine.size(); ++i) {
       if (!body.fine.owned.is_element(fine[i]) || body.fine.constraints.is_constrained(fine[i]))
@@ -98,7 +98,7 @@ void ProjectedMatrix::vmult(Vector& result, const Vector& v) const {
   project(result);
 }
 
-TwoLevelPreconditioner::TwoLevelPreconditioner(const Body& body, const LinearSystem& system)
+TwoLevelPreconditioner::TwoLevelPreconditioner(const Body<3>& body, const LinearSystem& system)
     : body_(body), system_(system) {
   build_prolongation();
   measure_spectrum();
@@ -107,23 +107,23 @@ TwoLevelPreconditioner::TwoLevelPreconditioner(const Body& body, const LinearSys
 }
 
 void TwoLevelPreconditioner::collect_rigid_modes() {
-  const Space& coarse = body_.coarse;
+  const Space<3>& coarse = body_.coarse;
   rigid_modes_.assign(6 * coarse.owned.n_elements(), 0.0);
   const std::size_t n = coarse.owned.n_elements();
   for (const auto& cell : coarse.dofs.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
-    const CellIterator fine_cell(&body_.triangulation, cell->level(), cell->index(),
-                                 &body_.fine.dofs);
+    const CellIterator<3> fine_cell(&body_.triangulation, cell->level(), cell->index(),
+                                    &body_.fine.dofs);
     for (const unsigned vertex : cell->vertex_indices()) {
-      const dealii::Point<dim> x = cell->vertex(vertex);
+      const dealii::Point<3> x = cell->vertex(vertex);
       const double size = 0.01;  // brings rotations to the translations' order of magnitude
-      for (unsigned c = 0; c < dim; ++c) {
+      for (unsigned c = 0; c < 3; ++c) {
         const global_dof_index unknown = cell->vertex_dof_index(vertex, c);
         if (!coarse.owned.is_element(unknown)) continue;
         const std::size_t row = coarse.owned.index_within_set(unknown);
         rigid_modes_[c * n + row] = 1.0;
         // Rotation about axis k moves component c by e_ckl-signed coordinates.
-        const unsigned next = (c + 1) % dim, last = (c + 2) % dim;
+        const unsigned next = (c + 1) % 3, last = (c + 2) % 3;
         rigid_modes_[(3 + next) * n + row] = x[last] / size;
         rigid_modes_[(3 + last) * n + row] = -x[next] / size;
         shared_vertices_.emplace_back(
@@ -135,7 +135,7 @@ void TwoLevelPreconditioner::collect_rigid_modes() {
 }
 
 void TwoLevelPreconditioner::build_prolongation() {
-  const Space &fine = body_.fine, &coarse = body_.coarse;
+  const Space<3>&fine = body_.fine, &coarse = body_.coarse;
   dealii::DynamicSparsityPattern pattern(fine.dofs.n_dofs(), coarse.dofs.n_dofs(), fine.owned);
   for_each_row(body_, [&](global_dof_index i, const Row& row) {
     for (const auto& [j, weight] : row) pattern.add(i, j);
@@ -202,7 +202,7 @@ void TwoLevelPreconditioner::build_hierarchy(const std::vector<char>& coarse_hel
   Teuchos::ParameterList parameters;
   ML_Epetra::SetDefaults("SA", parameters);
   parameters.set("ML output", 0);
-  parameters.set("PDE equations", dim);
+  parameters.set("PDE equations", 3);
   parameters.set("null space: type", "pre-computed");
   parameters.set("null space: dimension", 6);
   parameters.set("null space: vectors", rigid_modes_.data());

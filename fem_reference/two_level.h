@@ -31,7 +31,7 @@ class ProjectedMatrix : public dealii::Subscriptor {
 class TwoLevelPreconditioner {
  public:
   /// The system must outlive the preconditioner.
-  TwoLevelPreconditioner(const Body& body, const LinearSystem& system);
+  TwoLevelPreconditioner(const Body<3>& body, const LinearSystem& system);
 
   /// Chooses the held unknowns, one flag per owned unknown of the fine space, and builds the
   /// coarse hierarchy for them. They are kept by
@@ -47,7 +47,7 @@ class TwoLevelPreconditioner {
   void smooth(Vector& x, const Vector& b) const;
   void build_hierarchy(const std::vector<char>& coarse_held);
 
-  const Body& body_;
+  const Body<3>& body_;
   const LinearSystem& system_;
   SparseMatrix prolongation_;  ///< (fine unknowns, coarse unknowns)
   Vector inverse_diagonal_;

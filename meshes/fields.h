@@ -1,91 +1,66 @@
-/// How members of a struct are called in files: one table for those who write them, those who read
-/// them back, and tests.
-///
-///     struct Row { double time = unknown; bool held = false; };
-///     constexpr auto fields_of(const Row*) {
-///       return std::tuple{field("time [s]", &Row::time),
-///                         field("held", &Row::held, Presence::newer)};
-///     }
-///
-/// Tables of such rows: table_rows.h. JSON objects: json_fields.h. An enumeration stands there by
-/// the name(...) of its values, of which values_of(...) has the list.
+/// The members of settings by name and unit, for whoever writes them, reads them or compares them.
 #pragma once
 
-#include <string_view>
-#include <tuple>
+#include <array>
+#include <concepts>
+#include <type_traits>
+
+#include "meshes/geometry.h"
+#include "meshes/press_protocol.h"
+#include "meshes/rubber.h"
 
 namespace fingertip::meshes {
 
-enum class Presence {
-  always,    ///< a file without it is damaged
-  newer,     ///< always written; runs of earlier versions lack it
-  if_known,  ///< written where it has a value
-};
+/// `T` is `Settings`, to be read or to be changed.
+template <typename T, typename Settings>
+concept Fields = std::same_as<std::remove_const_t<T>, Settings>;
 
-/// For fields that every struct of their kind has.
-struct InEveryCase {
-  constexpr bool operator()(const auto& /*whole*/) const { return true; }
-};
-
-template <typename Member, typename When = InEveryCase>
-struct Field {
-  std::string_view name;  ///< with its unit in tables, "time [s]"
-  Member member;          ///< of the struct, or a function from the struct to a reference
-  Presence presence = Presence::always;
-  When when = {};  ///< the structs that have it; what stands above it in the table is known then
-};
-
-template <typename Member>
-constexpr auto field(std::string_view name, Member member, Presence presence = Presence::always) {
-  return Field<Member>{name, member, presence};
+/// Calls visit(name, member, SI unit) for every member; the unit is empty where there is none.
+/// The bindings name every member, so that a new one that is not visited does not compile.
+template <Fields<Geometry> T>
+void visit_fields(T& geometry, auto&& visit) {
+  auto& [tip_radius, rod_radius, sleeve_length, rod_length] = geometry;
+  visit("tip_radius", tip_radius, "m");
+  visit("rod_radius", rod_radius, "m");
+  visit("sleeve_length", sleeve_length, "m");
+  visit("rod_length", rod_length, "m");
 }
 
-/// Fields that are always there, their names in one text between blanks.
-template <typename... Member>
-constexpr auto named(std::string_view names, Member... members) {
-  const auto next = [&] {
-    const std::string_view word = names.substr(0, names.find(' '));
-    names.remove_prefix(word.size() < names.size() ? word.size() + 1 : names.size());
-    return word;
-  };
-  return std::tuple{Field<Member>{next(), members}...};
+template <Fields<Rubber> T>
+void visit_fields(T& rubber, auto&& visit) {
+  auto& [youngs_modulus, shear_modulus, density, retardation_time] = rubber;
+  visit("youngs_modulus", youngs_modulus, "Pa");
+  visit("shear_modulus", shear_modulus, "Pa");
+  visit("density", density, "kg/m^3");
+  visit("retardation_time", retardation_time, "s");
 }
 
-/// The same fields, all of them newer, or there if known.
-template <typename... Member>
-constexpr auto newer(std::tuple<Field<Member>...> fields) {
-  std::apply([](auto&... one) { ((one.presence = Presence::newer), ...); }, fields);
-  return fields;
-}
-template <typename... Member>
-constexpr auto if_known(std::tuple<Field<Member>...> fields) {
-  std::apply([](auto&... one) { ((one.presence = Presence::if_known), ...); }, fields);
-  return fields;
-}
-
-/// The same fields, always there when `when`, a member function, is true of the struct, and never
-/// otherwise.
-template <typename When, typename... Member>
-constexpr auto only(When when, std::tuple<Field<Member>...> fields) {
-  return std::apply(
-      [&](const auto&... one) {
-        return std::tuple{Field<Member, When>{one.name, one.member, one.presence, when}...};
-      },
-      fields);
+template <Fields<PressProtocol> T>
+void visit_fields(T& protocol, auto&& visit) {
+  auto& [mode, contact, friction, tilt, lateral, lateral_path, lateral_samples, depth, speed,
+         clearance, samples] = protocol;
+  visit("mode", mode, "");
+  visit("contact", contact, "");
+  visit("friction", friction, "");
+  visit("tilt", tilt, "rad");
+  visit("lateral", lateral, "m");
+  visit("lateral_path", lateral_path, "");
+  visit("lateral_samples", lateral_samples, "");
+  visit("depth", depth, "m");
+  visit("speed", speed, "m/s");
+  visit("clearance", clearance, "m");
+  visit("samples", samples, "m");
 }
 
-/// The table of a struct.
-template <typename Struct>
-constexpr auto fields() {
-  return fields_of(static_cast<const Struct*>(nullptr));
+/// All values of an enumeration; name() tells how each is written.
+constexpr auto values(ContactMode) {
+  return std::array{ContactMode::stick, ContactMode::frictionless, ContactMode::coulomb};
 }
-
-/// The enumerator whose name(...) is `text`, among its values_of(...); null when there is none.
-template <typename Enum>
-const Enum* enumerator(std::string_view text) {
-  for (const Enum& one : values_of(Enum{}))
-    if (name(one) == text) return &one;
-  return nullptr;
+constexpr auto values(DriveMode) {
+  return std::array{DriveMode::pid, DriveMode::quasi_static, DriveMode::equilibrium};
+}
+constexpr auto values(LateralPath) {
+  return std::array{LateralPath::diagonal, LateralPath::after};
 }
 
 }  // namespace fingertip::meshes

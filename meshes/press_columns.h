@@ -1,7 +1,7 @@
 /// The columns of response.csv.
 #pragma once
 
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::meshes {

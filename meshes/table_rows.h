@@ -1,4 +1,4 @@
-/// Tables of structs in CSV files, by the names that fields.h gives their members.
+/// Tables of structs in CSV files, by the names that file_fields.h gives their members.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 #include "meshes/csv_table.h"
 #include "meshes/errors.h"
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/files.h"
 
 namespace fingertip::meshes {
@@ -133,7 +133,7 @@ void read_column(const CsvTable& table, const std::string& column, const ValueOf
     const std::vector<std::string> texts = table.texts(column);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if constexpr (std::is_enum_v<Value>) {
-        const Value* found = enumerator<Value>(texts[i]);
+        const auto found = enumerator<Value>(texts[i]);
         if (!found) refuse(i, texts[i], "must be a word that the program writes");
         value_of(rows[i]) = *found;
       } else {

@@ -229,68 +229,78 @@ void snap(PhysicalTag surface, double radius) {
   }
 }
 
-struct Hexahedra {
+/// Elements of one type with the places of their nodes.
+struct Elements {
   std::map<std::size_t, Vector3> nodes;
-  std::vector<std::array<std::size_t, 8>> elements;
+  std::vector<std::vector<std::size_t>> corners;  ///< of each element
 };
 
-Hexahedra read_hexahedra() {
-  Hexahedra mesh;
+Elements read_elements(const char* type_name, std::size_t corners) {
+  Elements mesh;
   std::vector<std::size_t> tags, element_tags, nodes;
   std::vector<double> coordinates, parameters;
   gmsh::model::mesh::getNodes(tags, coordinates, parameters);
   std::map<std::size_t, Vector3> all;
   for (std::size_t i = 0; i < tags.size(); ++i)
     all[tags[i]] = {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
-  const int hexahedron = gmsh::model::mesh::getElementType("hexahedron", 1);
-  gmsh::model::mesh::getElementsByType(hexahedron, element_tags, nodes);
-  mesh.elements.resize(element_tags.size());
+  const int type = gmsh::model::mesh::getElementType(type_name, 1);
+  gmsh::model::mesh::getElementsByType(type, element_tags, nodes);
+  mesh.corners.resize(element_tags.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    mesh.elements[i / 8][i % 8] = nodes[i];
+    mesh.corners[i / corners].push_back(nodes[i]);
     mesh.nodes[nodes[i]] = all.at(nodes[i]);
   }
   return mesh;
 }
 
-/// Jacobian determinants of a straight-sided hexahedron at its corners, where the extremes of
-/// what one can check cheaply lie, plain and divided by the lengths of the three edges.
-std::array<std::pair<double, double>, 8> corner_jacobians(const std::array<Vector3, 8>& w) {
-  // gmsh numbers the bottom face 0-3 and the top face 4-7, both in the same sense.
-  std::array<std::pair<double, double>, 8> result;
-  for (std::size_t i = 0; i < 8; ++i) {
+struct CornerJacobian {
+  double plain, scaled;  ///< the latter divided by the lengths of the edges that meet there
+};
+
+/// At the corners of a straight-sided hexahedron, where the extremes of what one can check cheaply
+/// lie, or of a quadrilateral.
+std::vector<CornerJacobian> corner_jacobians(const std::vector<Vector3>& w) {
+  // gmsh numbers around a face; a hexahedron's bottom 0-3 and top 4-7, both in the same sense.
+  std::vector<CornerJacobian> result;
+  for (std::size_t i = 0; i < w.size(); ++i) {
     const std::size_t base = i / 4 * 4, k = i % 4;
     const Vector3 next = w[base + (k + 1) % 4] - w[i];
     const Vector3 previous = w[base + (k + 3) % 4] - w[i];
-    const Vector3 across = w[(i + 4) % 8] - w[i];
+    const Vector3 across = w.size() == 4 ? Vector3(Vector3::UnitZ()) : w[(i + 4) % 8] - w[i];
     const double sign = base == 0 ? 1.0 : -1.0;
     const double jacobian = sign * next.cross(previous).dot(across);
-    result[i] = {jacobian, jacobian / (next.norm() * previous.norm() * across.norm())};
+    result.push_back({jacobian, jacobian / (next.norm() * previous.norm() * across.norm())});
   }
   return result;
 }
 
-/// ∫ det J over the unit cube by the 2 x 2 x 2 Gauss rule, exact for trilinear maps.
-double hexahedra_volume() {
+/// ∫ det J over the unit element by the 2-point Gauss rule along each direction, exact for
+/// multilinear maps; times 2 pi r for quadrilaterals.
+double swept_volume(const char* type_name, bool meridian) {
   std::vector<double> points, weights, jacobians, determinants, coordinates;
-  const int hexahedron = gmsh::model::mesh::getElementType("hexahedron", 1);
-  gmsh::model::mesh::getIntegrationPoints(hexahedron, "Gauss2", points, weights);
-  gmsh::model::mesh::getJacobians(hexahedron, points, jacobians, determinants, coordinates);
+  const int type = gmsh::model::mesh::getElementType(type_name, 1);
+  gmsh::model::mesh::getIntegrationPoints(type, "Gauss2", points, weights);
+  gmsh::model::mesh::getJacobians(type, points, jacobians, determinants, coordinates);
   double volume = 0.0;
   for (std::size_t i = 0; i < determinants.size(); ++i)
-    volume += determinants[i] * weights[i % weights.size()];
+    volume += determinants[i] * weights[i % weights.size()] *
+              (meridian ? 2.0 * std::numbers::pi * coordinates[3 * i] : 1.0);
   return volume;
 }
 
 MeshQuality measure() {
-  const Hexahedra mesh = read_hexahedra();
+  Elements mesh = read_elements("hexahedron", 8);
+  const bool meridian = mesh.corners.empty();
+  const char* type = meridian ? "quadrangle" : "hexahedron";
+  if (meridian) mesh = read_elements(type, 4);
   MeshQuality quality;
-  quality.hexahedra = mesh.elements.size();
+  quality.hexahedra = mesh.corners.size();
   quality.nodes = mesh.nodes.size();
-  quality.volume = hexahedra_volume();
+  quality.volume = swept_volume(type, meridian);
   quality.min_jacobian = quality.min_scaled_jacobian = std::numeric_limits<double>::infinity();
-  for (const auto& element : mesh.elements) {
-    std::array<Vector3, 8> corners;
-    for (std::size_t i = 0; i < 8; ++i) corners[i] = mesh.nodes.at(element[i]);
+  for (const auto& element : mesh.corners) {
+    std::vector<Vector3> corners;
+    for (const std::size_t node : element) corners.push_back(mesh.nodes.at(node));
     for (const auto& [jacobian, scaled] : corner_jacobians(corners)) {
       quality.min_jacobian = std::min(quality.min_jacobian, jacobian);
       quality.min_scaled_jacobian = std::min(quality.min_scaled_jacobian, scaled);
@@ -299,18 +309,70 @@ MeshQuality measure() {
   return quality;
 }
 
+/// Two transfinite blocks, or one without a sleeve.
+void build_meridian(const Geometry& geometry, const TipMeshOptions& options) {
+  namespace geo = gmsh::model::geo;
+  const double r = geometry.rod_radius, R = geometry.tip_radius, end = -geometry.sleeve_length;
+  const int centre = geo::addPoint(0, 0, 0);
+  std::vector<std::array<int, 2>> points{{geo::addPoint(0, r, 0), geo::addPoint(0, R, 0)},
+                                         {geo::addPoint(r, 0, 0), geo::addPoint(R, 0, 0)}};
+  if (end < 0.0) points.push_back({geo::addPoint(r, end, 0), geo::addPoint(R, end, 0)});
+  std::vector<int> across, faces;
+  std::array<std::vector<int>, 2> along;
+  for (const auto& [inside, outside] : points) {
+    across.push_back(geo::addLine(inside, outside));
+    geo::mesh::setTransfiniteCurve(across.back(), options.radial_elements + 1, "Bump",
+                                   1.0 / options.radial_grading);
+  }
+  const int dome = options.cap_elements + options.ring_elements;
+  for (std::size_t layer = 0; layer < 2; ++layer) {
+    along[layer].push_back(geo::addCircleArc(points[0][layer], centre, points[1][layer]));
+    geo::mesh::setTransfiniteCurve(along[layer].back(), dome + 1, "Progression",
+                                   std::pow(options.cap_grading, 1.0 / (dome - 1)));
+    if (points.size() == 2) continue;
+    along[layer].push_back(geo::addLine(points[1][layer], points[2][layer]));
+    geo::mesh::setTransfiniteCurve(along[layer].back(), options.sleeve_elements + 1);
+  }
+  for (std::size_t block = 0; block + 1 < points.size(); ++block) {
+    // Counter-clockwise in (r, z), so that Jacobians are positive.
+    const int loop =
+        geo::addCurveLoop({-across[block], along[0][block], across[block + 1], -along[1][block]});
+    faces.push_back(geo::addPlaneSurface({loop}));
+    geo::mesh::setTransfiniteSurface(faces.back());
+    geo::mesh::setRecombine(2, faces.back());
+  }
+  geo::synchronize();
+  const auto group = [](int dimension, const std::vector<int>& tags, PhysicalTag tag,
+                        const char* group_name) {
+    gmsh::model::addPhysicalGroup(dimension, tags, int(tag));
+    gmsh::model::setPhysicalName(dimension, int(tag), group_name);
+  };
+  group(2, faces, PhysicalTag::tip, "tip");
+  group(1, along[1], PhysicalTag::outer, "outer");
+  group(1, along[0], PhysicalTag::bond, "bond");
+  group(1, {across.back()}, PhysicalTag::end, "end");
+  group(1, {across.front()}, PhysicalTag::symmetry_x, "symmetry_x");
+}
+
 MeshQuality mesh_tip(const Geometry& geometry, const TipMeshOptions& options,
                      const std::filesystem::path& file) {
   const GmshSession session;
-  const bool sleeve = geometry.sleeve_length > 0.0;
-  BlockStructure blocks(geometry, options);
-  const int azimuths = options.sector == Sector::full ? 8 : options.sector == Sector::half ? 4 : 2;
-  for (int azimuth = 0; azimuth < azimuths; azimuth += 2) add_quarter(blocks, azimuth, sleeve);
-  gmsh::model::geo::synchronize();
-  name_groups(blocks, sleeve, options.sector);
-  gmsh::model::mesh::generate(3);
-  snap(PhysicalTag::outer, geometry.tip_radius);
-  snap(PhysicalTag::bond, geometry.rod_radius);
+  if (options.sector == Sector::meridian) {
+    build_meridian(geometry, options);
+    gmsh::model::mesh::generate(2);
+  } else {
+    const bool sleeve = geometry.sleeve_length > 0.0;
+    BlockStructure blocks(geometry, options);
+    const int azimuths = options.sector == Sector::full   ? 8
+                         : options.sector == Sector::half ? 4
+                                                          : 2;
+    for (int azimuth = 0; azimuth < azimuths; azimuth += 2) add_quarter(blocks, azimuth, sleeve);
+    gmsh::model::geo::synchronize();
+    name_groups(blocks, sleeve, options.sector);
+    gmsh::model::mesh::generate(3);
+    snap(PhysicalTag::outer, geometry.tip_radius);
+    snap(PhysicalTag::bond, geometry.rod_radius);
+  }
 
   const MeshQuality quality = measure();
   if (!(quality.min_jacobian > 0.0))
@@ -339,7 +401,7 @@ MeshQuality inspect_tip_mesh(const std::filesystem::path& file) {
   } catch (const std::exception&) {
     refuse_mesh(file, "the elements of the mesh must refer to its nodes");
   }
-  if (quality.hexahedra == 0) refuse_mesh(file, "the mesh must have hexahedra");
+  if (quality.hexahedra == 0) refuse_mesh(file, "the mesh must have hexahedra or quadrilaterals");
   if (!(quality.min_jacobian > 0.0)) refuse_mesh(file, "no element of the mesh may be inverted");
   return quality;
 }

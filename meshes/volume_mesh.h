@@ -1,4 +1,5 @@
-/// The continuum's mesh of the tip: block-structured, all-hexahedral, made by gmsh.
+/// The continuum's mesh of the tip, made by gmsh: block-structured hexahedra, or quadrilaterals of
+/// its meridian.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +11,18 @@
 namespace fingertip::meshes {
 
 /// How much of the tip is meshed. A press along the axis has two symmetry planes, so its quarter
-/// x >= 0, y >= 0 tells everything; a tilt about y or a motion along x leaves one, y >= 0.
-enum class Sector { quarter, half, full };
+/// x >= 0, y >= 0 tells everything; a tilt about y or a motion along x leaves one, y >= 0. Without
+/// them the meridian y = 0, x >= 0 does, for an axisymmetric model.
+enum class Sector { quarter, half, full, meridian };
 
 /// Numbers of the physical groups in the mesh file, for readers that do not keep the names.
 enum class PhysicalTag { tip = 1, outer = 2, bond = 3, end = 4, symmetry_x = 5, symmetry_y = 6 };
 
 /// Element counts of the blocks. The quarter is five blocks, each spanning the rubber layer: a cap
 /// around the pole, two blocks from the cap to the equator, two blocks of the sleeve; the full tip
-/// is four quarters.
+/// is four quarters. The meridian is two, from the pole to the equator (cap and ring elements) and
+/// the sleeve, with x and y of the file for the distance from the axis and the place along it; its
+/// axis is `symmetry_x`.
 struct TipMeshOptions {
   Sector sector = Sector::quarter;
   double cap_angle = 0.72;   ///< polar angle of the cap's edge on the meridians x = 0, y = 0 [rad]
@@ -37,11 +41,11 @@ struct TipMeshOptions {
 };
 
 struct MeshQuality {
-  std::size_t hexahedra = 0;
+  std::size_t hexahedra = 0;  ///< quadrilaterals, of a meridian
   std::size_t nodes = 0;
-  double min_jacobian = 0.0;         ///< smallest Jacobian determinant at a corner [m³]
-  double min_scaled_jacobian = 0.0;  ///< smallest scaled Jacobian, 1 for a cube
-  double volume = 0.0;               ///< volume of the straight-sided elements [m³]
+  double min_jacobian = 0.0;  ///< smallest Jacobian determinant at a corner [m³, meridian m²]
+  double min_scaled_jacobian = 0.0;  ///< smallest scaled Jacobian, 1 for a cube or square
+  double volume = 0.0;  ///< of the straight-sided elements, or the body they sweep [m³]
 };
 
 /// Writes the mesh in MSH 4.1 format with the physical volume `tip` and the physical surfaces
@@ -52,7 +56,7 @@ MeshQuality write_tip_mesh(const Geometry& geometry, const TipMeshOptions& optio
                            const std::filesystem::path& file);
 
 /// Reads a mesh file and measures it. Throws InvalidInput when the file is missing or damaged,
-/// holds no hexahedra, or one with a non-positive Jacobian.
+/// holds neither hexahedra nor quadrilaterals of a meridian, or one with a non-positive Jacobian.
 MeshQuality inspect_tip_mesh(const std::filesystem::path& file);
 
 }  // namespace fingertip::meshes

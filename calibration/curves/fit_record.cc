@@ -7,7 +7,7 @@
 #include "calibration/file_parts.h"
 #include "calibration/fit_tables.h"
 #include "calibration/moduli.h"
-#include "meshes/json_fields.h"
+#include "meshes/fields_json.h"
 #include "meshes/table_rows.h"
 
 namespace fingertip::calibration {

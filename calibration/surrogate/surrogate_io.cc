@@ -6,7 +6,7 @@
 #include "calibration/fit_file.h"
 #include "calibration/fit_tables.h"
 #include "calibration/surrogate/surrogate.h"
-#include "meshes/json_fields.h"
+#include "meshes/fields_json.h"
 #include "meshes/table_rows.h"
 
 namespace fingertip::calibration {

@@ -111,4 +111,80 @@ Vector3 ManufacturedDisplacement::body_force(const Vector3& x) const {
   return result;
 }
 
+namespace {
+
+/// g and w of u = amplitude (x g, y g, w), lengths over the field's, with the derivatives needed:
+/// both are a sine of t times an exponential of s.
+struct Revolution {
+  explicit Revolution(const Vector3& scaled)
+      : s(scaled.head<2>().squaredNorm()),
+        g(value(across, scaled.z(), 0)),
+        g_t(value(across, scaled.z(), 1)),
+        g_tt(value(across, scaled.z(), 2)),
+        w(value(along, scaled.z(), 0)),
+        w_t(value(along, scaled.z(), 1)),
+        w_tt(value(along, scaled.z(), 2)) {}
+
+  struct Shape {
+    Factor height;
+    double decay;
+  };
+  static constexpr Shape across{{sine, 1.3, 0.4}, -0.6}, along{{sine, 1.7, 0.2}, 0.5};
+
+  double value(const Shape& shape, double t, int order) const {
+    return shape.height.derivative(order, t) * std::exp(shape.decay * s);
+  }
+
+  double s, g, g_t, g_tt, w, w_t, w_tt;
+};
+
+}  // namespace
+
+ManufacturedRevolution::ManufacturedRevolution(const meshes::Rubber& rubber, double length,
+                                               double amplitude)
+    : rubber_(checked(rubber)),
+      length_(checked_positive("length", length)),
+      amplitude_(checked_finite("amplitude", amplitude)) {}
+
+Vector3 ManufacturedRevolution::displacement(const Vector3& x) const {
+  const Vector3 p = x / length_;
+  const Revolution field(p);
+  return amplitude_ * Vector3(p.x() * field.g, p.y() * field.g, field.w);
+}
+
+Matrix3 ManufacturedRevolution::gradient(const Vector3& x) const {
+  const Vector3 p = x / length_;
+  const Revolution field(p);
+  const double g_s = Revolution::across.decay * field.g, w_s = Revolution::along.decay * field.w;
+  Matrix3 result = Matrix3::Zero();
+  for (int i = 0; i < 2; ++i) {
+    result(i, i) = field.g;
+    for (int j = 0; j < 2; ++j) result(i, j) += 2.0 * g_s * p[i] * p[j];
+    result(i, 2) = p[i] * field.g_t;
+    result(2, i) = 2.0 * w_s * p[i];
+  }
+  result(2, 2) = field.w_t;
+  return amplitude_ / length_ * result;
+}
+
+Matrix3 ManufacturedRevolution::stress(const Vector3& x) const {
+  return hooke_stress(rubber_, gradient(x));
+}
+
+Vector3 ManufacturedRevolution::body_force(const Vector3& x) const {
+  const Vector3 p = x / length_;
+  const Revolution field(p);
+  const double a = Revolution::across.decay, b = Revolution::along.decay, s = field.s;
+  // div u = amplitude/length (g (2 + 2 a s) + w_t), and its derivatives by s and t.
+  const double div_s = field.g * (4.0 * a + 2.0 * a * a * s) + b * field.w_t;
+  const double div_t = field.g_t * (2.0 + 2.0 * a * s) + field.w_tt;
+  // The Laplacian of x g is x (4 s g_ss + 8 g_s + g_tt), of w it is 4 s w_ss + 4 w_s + w_tt.
+  const double across = field.g * (4.0 * a * a * s + 8.0 * a) + field.g_tt;
+  const double along = field.w * (4.0 * b * b * s + 4.0 * b) + field.w_tt;
+  const double G = rubber_.shear_modulus, sum = rubber_.lame_lambda() + G;
+  return -amplitude_ / (length_ * length_) *
+         Vector3(p.x() * (G * across + 2.0 * sum * div_s), p.y() * (G * across + 2.0 * sum * div_s),
+                 G * along + sum * div_t);
+}
+
 }  // namespace fingertip::fem_reference::analytic

@@ -1,4 +1,5 @@
-/// A smooth displacement without any symmetry, and the body force under which it is in equilibrium.
+/// Smooth displacements, and the body forces under which they are in equilibrium: one without any
+/// symmetry, one of a body of revolution.
 #pragma once
 
 #include <array>
@@ -61,6 +62,25 @@ class ManufacturedDisplacement : public ElasticField {
   double length_, amplitude_;
   bool solenoidal_part_;      ///< curl Psi is present
   double compressible_part_;  ///< factor of v
+};
+
+/// A smooth displacement that leaves every meridian in its plane, and its body force. With
+/// s = (x² + y²)/length² and t = z/length,
+///   u_r = amplitude r/length sin(1.3 t + 0.4) exp(-0.6 s),
+///   u_z = amplitude sin(1.7 t + 0.2) exp(0.5 s).
+/// Arguments and use as above.
+class ManufacturedRevolution : public ElasticField {
+ public:
+  ManufacturedRevolution(const meshes::Rubber& rubber, double length, double amplitude);
+
+  Vector3 displacement(const Vector3& x) const override;
+  Matrix3 gradient(const Vector3& x) const override;
+  Matrix3 stress(const Vector3& x) const override;
+  Vector3 body_force(const Vector3& x) const override;
+
+ private:
+  meshes::Rubber rubber_;
+  double length_, amplitude_;
 };
 
 }  // namespace fingertip::fem_reference::analytic

@@ -7,6 +7,7 @@
 
 namespace fingertip::fem_reference {
 
+template <int dim>
 class Body;
 
 /// What the body is; x, y, z are the entries of BodyMesh::size.
@@ -16,9 +17,24 @@ enum class Shape {
   sphere_octant,     ///< x <= |w| <= y, all coordinates >= 0; size z unused
   cylinder_quarter,  ///< x <= sqrt(w_x² + w_y²) <= y, w_x, w_y >= 0, 0 <= w_z <= z
   disc_octant,       ///< sqrt(w_x² + w_y²) <= x, w_x, w_y >= 0, 0 <= w_z <= z; size y unused
+  // Bodies of revolution on their meridians, w_x the distance from the axis.
+  ring,               ///< the block's section, origin_x >= 0
+  curved_ring,        ///< bent as the block is, except where it meets the axis
+  sphere_meridian,    ///< the octant's section
+  cylinder_meridian,  ///< the quarter's section
+  disc_meridian,      ///< the octant's section
 };
 
-/// Boundary numbers. Blocks: 2 i and 2 i + 1 for the faces of low and high coordinate i.
+/// Whether the body is meshed by its meridian alone.
+inline bool revolved(Shape shape) {
+  return shape >= Shape::ring;
+}
+
+/// How a body of revolution is meshed.
+enum class Meshed { solid, meridian };
+
+/// Boundary numbers. Blocks: 2 i and 2 i + 1 for the faces of low and high coordinate i; rings: the
+/// same without y.
 namespace boundary {
 inline constexpr int low_x = 0, high_x = 1, low_y = 2, high_y = 3, low_z = 4, high_z = 5;
 inline constexpr int inner = 6, outer = 7;  ///< of sphere and cylinder; outer: the disc's side
@@ -43,6 +59,7 @@ struct BodyMesh {
 
 /// Meshes `description` into the empty body and leaves its unknowns unnumbered. Throws
 /// std::invalid_argument for divisions that the shape does not allow.
-void make_mesh(const BodyMesh& description, Body& body);
+void make_mesh(const BodyMesh& description, Body<3>& body);
+void make_mesh(const BodyMesh& description, Body<2>& body);
 
 }  // namespace fingertip::fem_reference

@@ -69,20 +69,42 @@ ConvergenceStudy study_manufactured(const ManufacturedCase& problem, const Eleme
                   exact);
 }
 
+ConvergenceStudy study_manufactured_meridian(bool curved, const ElementType& element,
+                                             const std::vector<int>& divisions) {
+  const meshes::Rubber rubber = rubber_with(3.0 / 7.0);
+  const analytic::ManufacturedRevolution exact(rubber, 2.0, 0.01);
+  const auto body_of = [&](int n) {
+    BodyMesh body;
+    body.shape = curved ? Shape::curved_ring : Shape::ring;
+    body.divisions = {n, n, n};
+    body.distortion = curved ? 0.0 : 0.15;
+    return body;
+  };
+  std::vector<Prescribed> prescribed = whole({boundary::high_x, boundary::low_z});
+  prescribed.push_back({boundary::low_x, 0});  // the axis
+  return converge(
+      std::string("manufactured, meridian of a ") + (curved ? "curved" : "distorted") + " cylinder",
+      rubber, element, 1.0, divisions, body_of, loading_of(exact, prescribed), exact);
+}
+
 ConvergenceStudy study_sphere(const ElementType& element, double poissons_ratio,
-                              const std::vector<int>& divisions) {
+                              const std::vector<int>& divisions, Meshed meshed) {
   const meshes::Rubber rubber = rubber_with(poissons_ratio);
   const double wall = sphere_body(1).size[1] - sphere_body(1).size[0];
-  return converge("thick sphere", rubber, element, wall, divisions, sphere_body, sphere_loading(),
-                  sphere(rubber));
+  return converge(
+      std::string("thick sphere") + (meshed == Meshed::meridian ? ", meridian" : ""), rubber,
+      element, wall, divisions, [meshed](int n) { return sphere_body(n, meshed); },
+      sphere_loading(), sphere(rubber));
 }
 
 ConvergenceStudy study_cylinder(const ElementType& element, double poissons_ratio,
-                                const std::vector<int>& divisions) {
+                                const std::vector<int>& divisions, Meshed meshed) {
   const meshes::Rubber rubber = rubber_with(poissons_ratio);
   const double wall = cylinder_body(1).size[1] - cylinder_body(1).size[0];
-  return converge("thick cylinder", rubber, element, wall, divisions, cylinder_body,
-                  cylinder_loading(), cylinder(rubber));
+  return converge(
+      std::string("thick cylinder") + (meshed == Meshed::meridian ? ", meridian" : ""), rubber,
+      element, wall, divisions, [meshed](int n) { return cylinder_body(n, meshed); },
+      cylinder_loading(), cylinder(rubber));
 }
 
 ConvergenceStudy study_cantilever(const ElementType& element, double poissons_ratio,

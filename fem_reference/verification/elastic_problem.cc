@@ -6,12 +6,14 @@
 #include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "fem_reference/field_solver.h"
+#include "fem_reference/kinematics.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -20,15 +22,12 @@ using dealii::types::boundary_id;
 using dealii::types::global_dof_index;
 using meshes::Vector3;
 
-Vector3 to_eigen(const dealii::Tensor<1, dim>& t) {
-  return {t[0], t[1], t[2]};
-}
-
+template <int dim>
 class AsFunction : public dealii::Function<dim> {
  public:
   explicit AsFunction(const Loading::Field& field) : dealii::Function<dim>(dim), field_(field) {}
   double value(const dealii::Point<dim>& p, unsigned component) const override {
-    return field_ ? field_(to_eigen(p))[component] : 0.0;
+    return field_ ? field_(in_space<dim>(p))[Kinematics<dim>::axis[component]] : 0.0;
   }
 
  private:
@@ -36,35 +35,39 @@ class AsFunction : public dealii::Function<dim> {
 };
 
 /// Hanging nodes alone, and with supports: the constraints of one loading.
-void constrain(Body& body, const Loading& loading) {
-  Space& space = body.fine;
+template <int dim>
+void constrain(Body<dim>& body, const Loading& loading) {
+  Space<dim>& space = body.fine;
   space.constraints.clear();
   space.constraints.reinit(space.relevant);
   dealii::DoFTools::make_hanging_node_constraints(space.dofs, space.constraints);
-  const AsFunction displacement(loading.displacement);
-  for (const Prescribed& entry : loading.prescribed) {
-    dealii::ComponentMask mask(dim, false);
-    mask.set(unsigned(entry.component), true);
-    dealii::VectorTools::interpolate_boundary_values(body.mapping, space.dofs,
-                                                     boundary_id(entry.boundary), displacement,
-                                                     space.constraints, mask);
-  }
+  const AsFunction<dim> displacement(loading.displacement);
+  for (const Prescribed& entry : loading.prescribed)
+    for (unsigned c = 0; c < dim; ++c) {
+      if (int(Kinematics<dim>::axis[c]) != entry.component) continue;
+      dealii::ComponentMask mask(dim, false);
+      mask.set(c, true);
+      dealii::VectorTools::interpolate_boundary_values(body.mapping, space.dofs,
+                                                       boundary_id(entry.boundary), displacement,
+                                                       space.constraints, mask);
+    }
   space.constraints.close();
 }
 
-template <class Values>
+template <int dim, class Values>
 void add_load(const Values& values, unsigned q, const Vector3& density,
               dealii::Vector<double>& local) {
   const auto& element = values.get_fe();
   for (unsigned i = 0; i < local.size(); ++i)
-    local[i] += values.shape_value(i, q) * values.JxW(q) *
-                density[element.system_to_component_index(i).first];
+    local[i] += values.shape_value(i, q) * weight<dim>(values, q) *
+                density[Kinematics<dim>::axis[element.system_to_component_index(i).first]];
 }
 
 /// Consistent nodal forces of body force and traction, passed on by `constraints` [N].
-Vector external_load(const Body& body, const Loading& loading,
+template <int dim>
+Vector external_load(const Body<dim>& body, const Loading& loading,
                      const dealii::AffineConstraints<double>& constraints) {
-  const Space& space = body.fine;
+  const Space<dim>& space = body.fine;
   const unsigned points = unsigned(body.degree()) + 2;
   const auto flags =
       dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values;
@@ -79,16 +82,18 @@ Vector external_load(const Body& body, const Loading& loading,
     if (loading.body_force) {
       inside.reinit(cell);
       for (const unsigned q : inside.quadrature_point_indices())
-        add_load(inside, q, loading.body_force(to_eigen(inside.quadrature_point(q))), local);
+        add_load<dim>(inside, q, loading.body_force(in_space<dim>(inside.quadrature_point(q))),
+                      local);
     }
     for (const auto& face : cell->face_iterators()) {
       if (!loading.traction || !face->at_boundary()) continue;
       surface.reinit(cell, face);
       for (const unsigned q : surface.quadrature_point_indices())
-        add_load(surface, q,
-                 loading.traction(int(face->boundary_id()), to_eigen(surface.quadrature_point(q)),
-                                  to_eigen(surface.normal_vector(q))),
-                 local);
+        add_load<dim>(
+            surface, q,
+            loading.traction(int(face->boundary_id()), in_space<dim>(surface.quadrature_point(q)),
+                             in_space<dim>(surface.normal_vector(q))),
+            local);
     }
     cell->get_dof_indices(indices);
     constraints.distribute_local_to_global(local, indices, load);
@@ -97,12 +102,222 @@ Vector external_load(const Body& body, const Loading& loading,
   return load;
 }
 
+/// The solution at a quadrature point.
+struct PointState {
+  Vector3 place, displacement;
+  analytic::Matrix3 gradient;
+  double dilatation = 0.0;  ///< as the element takes it, projected or not
+  double volume = 0.0;
+};
+
+}  // namespace
+
+/// What ElasticProblem asks, whatever the dimension.
+class ElasticModel {
+ public:
+  explicit ElasticModel(const meshes::Rubber& material) : rubber(material) {}
+  virtual ~ElasticModel() = default;
+  virtual std::size_t unknowns() const = 0;
+  virtual double volume() const = 0;
+  virtual void solve(const Loading& loading) = 0;
+  /// Points enough for errors of the elements' order.
+  virtual void for_each_point(const std::function<void(const PointState&)>& take) const = 0;
+  /// Place and displacement of every node, and whether it hangs.
+  virtual void for_each_node(
+      const std::function<void(const Vector3&, const Vector3&, bool)>& take) const = 0;
+  virtual Vector3 mean_displacement(int boundary) const = 0;
+  virtual Vector3 reaction(int boundary) const = 0;
+  virtual double energy() const = 0;
+  virtual Eigen::MatrixXd stiffness() const = 0;
+
+  const meshes::Rubber rubber;
+};
+
+namespace {
+
+template <int dim>
+class MeshedProblem final : public ElasticModel {
+ public:
+  MeshedProblem(const BodyMesh& description, const ElementType& element,
+                const meshes::Rubber& material)
+      : ElasticModel(material),
+        body_(MPI_COMM_SELF, element.degree),
+        volumetric_(element.volumetric),
+        kernel_(material, element.volumetric) {
+    make_mesh(description, body_);
+    body_.number({});
+    displacement_.reinit(body_.fine.vector());
+    load_.reinit(displacement_);
+  }
+
+  std::size_t unknowns() const override { return body_.unknowns(); }
+  double volume() const override { return fem_reference::volume(body_); }
+
+  void solve(const Loading& loading) override {
+    constrain(body_, loading);
+    LinearSystem system(body_, false);
+    assemble(body_, kernel_, body_.fine.vector(), system);
+    Vector load = external_load(body_, loading, body_.fine.constraints);
+    // At zero displacement only the prescribed unknowns move: their forces on the free ones.
+    load -= condensed_force(body_, kernel_, body_.fine.vector(), body_.fine.constraints);
+    // The solver is made for contact: one free unknown plays a contact that never closes.
+    std::vector<long> contact;
+    for (global_dof_index i = 0; contact.empty() && i < body_.unknowns(); ++i)
+      if (!body_.fine.constraints.is_constrained(i)) contact.push_back(long(i));
+    if (!contact.empty()) {
+      const auto solver = make_condensed_solver(body_, contact);
+      solver->set_matrix(system);
+      solver->set_load(load);
+      solver->solve_constrained({0}, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
+      displacement_ = solver->field();
+    }
+    body_.fine.constraints.distribute(displacement_);
+    load_ = external_load(body_, loading, body_.fine.hanging_nodes());
+  }
+
+  void for_each_point(const std::function<void(const PointState&)>& take) const override {
+    const Space<dim>& space = body_.fine;
+    dealii::FEValues<dim> values(body_.mapping, space.element,
+                                 dealii::QGauss<dim>(unsigned(body_.degree()) + 2),
+                                 dealii::update_values | dealii::update_gradients |
+                                     dealii::update_quadrature_points | dealii::update_JxW_values);
+    const dealii::FEValuesExtractors::Vector all(0);
+    const std::size_t points = values.n_quadrature_points;
+    std::vector<dealii::Tensor<1, dim>> u(points);
+    std::vector<dealii::Tensor<2, dim>> gradients(points);
+    std::vector<PointState> states(points);
+    Eigen::VectorXd dilatation(points), weights(points);
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+      values.reinit(cell);
+      values[all].get_function_values(displacement_, u);
+      values[all].get_function_gradients(displacement_, gradients);
+      for (std::size_t q = 0; q < points; ++q) {
+        const auto& place = values.quadrature_point(unsigned(q));
+        states[q] = {in_space<dim>(place), in_space<dim>(u[q]),
+                     gradient_in_space(gradients[q], u[q], place)};
+        dilatation[Eigen::Index(q)] = states[q].gradient.trace();
+        weights[Eigen::Index(q)] = weight<dim>(values, unsigned(q));
+      }
+      if (volumetric_ == Volumetric::projected) {
+        const Eigen::MatrixXd basis =
+            ElementPolynomials<dim>(values, body_.degree() - 1).at(values.get_quadrature_points());
+        dilatation = basis * (basis.transpose() * weights.cwiseProduct(dilatation));
+      }
+      for (std::size_t q = 0; q < points; ++q) {
+        states[q].dilatation = dilatation[Eigen::Index(q)];
+        states[q].volume = weights[Eigen::Index(q)];
+        take(states[q]);
+      }
+    }
+  }
+
+  void for_each_node(
+      const std::function<void(const Vector3&, const Vector3&, bool)>& take) const override {
+    const auto constraints = body_.fine.hanging_nodes();
+    visit([&](const Unknowns& unknowns, const Vector3& place) {
+      dealii::Tensor<1, dim> found;
+      for (unsigned c = 0; c < dim; ++c) found[c] = displacement_[unknowns[c]];
+      take(place, in_space<dim>(found), constraints.is_constrained(unknowns[0]));
+    });
+  }
+
+  Vector3 mean_displacement(int boundary) const override {
+    const Space<dim>& space = body_.fine;
+    dealii::FEFaceValues<dim> values(
+        body_.mapping, space.element, dealii::QGauss<dim - 1>(unsigned(body_.degree()) + 2),
+        dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+    const dealii::FEValuesExtractors::Vector all(0);
+    std::vector<dealii::Tensor<1, dim>> u(values.n_quadrature_points);
+    Vector3 sum = Vector3::Zero();
+    double area = 0.0;
+    for (const auto& cell : space.dofs.active_cell_iterators())
+      for (const auto& face : cell->face_iterators()) {
+        if (!face->at_boundary() || face->boundary_id() != boundary_id(boundary)) continue;
+        values.reinit(cell, face);
+        values[all].get_function_values(displacement_, u);
+        for (const unsigned q : values.quadrature_point_indices()) {
+          sum += weight<dim>(values, q) * in_space<dim>(u[q]);
+          area += weight<dim>(values, q);
+        }
+      }
+    return sum / area;
+  }
+
+  Vector3 reaction(int boundary) const override {
+    Vector force = unconstrained_force(body_, kernel_, displacement_);
+    force -= load_;
+    return resultant(body_, force, boundary_id(boundary));
+  }
+
+  double energy() const override {
+    double sum = 0.0;
+    for_each_element(body_, kernel_, displacement_,
+                     [&](const CellIterator<dim>&, const dealii::FullMatrix<double>&,
+                         const dealii::Vector<double>&,
+                         const ElementSystem& element) { sum += element.energy; });
+    return sum;
+  }
+
+  Eigen::MatrixXd stiffness() const override {
+    const Space<dim>& space = body_.fine;
+    const auto constraints = space.hanging_nodes();
+    const auto count = unsigned(space.dofs.n_dofs());
+    dealii::FullMatrix<double> matrix(count, count);
+    std::vector<global_dof_index> indices(space.element.n_dofs_per_cell());
+    for_each_element(body_, kernel_, space.vector(),
+                     [&](const CellIterator<dim>& cell, const dealii::FullMatrix<double>& local,
+                         const dealii::Vector<double>&, const ElementSystem&) {
+                       cell->get_dof_indices(indices);
+                       constraints.distribute_local_to_global(local, indices, matrix);
+                     });
+    std::vector<global_dof_index> order;
+    visit([&](const Unknowns& unknowns, const Vector3&) {
+      if (!constraints.is_constrained(unknowns[0]))
+        order.insert(order.end(), unknowns.begin(), unknowns.end());
+    });
+    Eigen::MatrixXd result(order.size(), order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (std::size_t j = 0; j < order.size(); ++j)
+        result(Eigen::Index(i), Eigen::Index(j)) = matrix(unsigned(order[i]), unsigned(order[j]));
+    return result;
+  }
+
+ private:
+  using Unknowns = std::array<global_dof_index, dim>;
+
+  /// Calls `take(unknowns, place)` once per node.
+  template <class Take>
+  void visit(Take take) const {
+    const Space<dim>& space = body_.fine;
+    std::vector<char> seen(space.dofs.n_dofs(), 0);
+    std::vector<global_dof_index> indices(space.element.n_dofs_per_cell());
+    for (const auto& cell : space.dofs.active_cell_iterators()) {
+      cell->get_dof_indices(indices);
+      for (unsigned node = 0; node < indices.size() / dim; ++node) {
+        Unknowns unknowns{};
+        for (unsigned c = 0; c < dim; ++c)
+          unknowns[c] = indices[space.element.component_to_system_index(c, node)];
+        if (seen[unknowns[0]]++) continue;
+        take(unknowns, in_space<dim>(body_.mapping.transform_unit_to_real_cell(
+                           cell, space.element.unit_support_point(
+                                     space.element.component_to_system_index(0, node)))));
+      }
+    }
+  }
+
+  Body<dim> body_;
+  Volumetric volumetric_;
+  mutable HookeKernel<dim> kernel_;
+  Vector displacement_;
+  Vector load_;  ///< of the last solution, as if nothing were supported [N]
+};
+
 }  // namespace
 
 std::vector<Prescribed> whole(const std::vector<int>& boundaries) {
   std::vector<Prescribed> result;
   for (const int b : boundaries)
-    for (int component = 0; component < dim; ++component) result.push_back({b, component});
+    for (int component = 0; component < 3; ++component) result.push_back({b, component});
   return result;
 }
 
@@ -117,135 +332,31 @@ Loading loading_of(const analytic::ElasticField& exact, std::vector<Prescribed> 
   return loading;
 }
 
-/// The solution at a quadrature point.
-struct PointState {
-  Vector3 place, displacement;
-  analytic::Matrix3 gradient;
-  double dilatation = 0.0;  ///< as the element takes it, projected or not
-  double volume = 0.0;
-};
-
-struct ElasticProblem::Implementation {
-  Body body;
-  Volumetric volumetric;
-  meshes::Rubber rubber;
-  mutable HookeKernel kernel;
-  Vector displacement;
-  Vector load;  ///< of the last solution, as if nothing were supported [N]
-
-  Implementation(const BodyMesh& description, const ElementType& element,
-                 const meshes::Rubber& material)
-      : body(MPI_COMM_SELF, element.degree),
-        volumetric(element.volumetric),
-        rubber(material),
-        kernel(material, element.volumetric) {
-    make_mesh(description, body);
-    body.number({});
-    displacement.reinit(body.fine.vector());
-    load.reinit(displacement);
-  }
-
-  /// Calls `take(PointState)` at points enough for errors of the elements' order.
-  template <class Take>
-  void for_each_point(Take take) const {
-    const Space& space = body.fine;
-    dealii::FEValues<dim> values(body.mapping, space.element,
-                                 dealii::QGauss<dim>(unsigned(body.degree()) + 2),
-                                 dealii::update_values | dealii::update_gradients |
-                                     dealii::update_quadrature_points | dealii::update_JxW_values);
-    const dealii::FEValuesExtractors::Vector all(0);
-    std::vector<dealii::Tensor<1, dim>> u(values.n_quadrature_points);
-    std::vector<dealii::Tensor<2, dim>> gradients(values.n_quadrature_points);
-    const auto points = Eigen::Index(values.n_quadrature_points);
-    Eigen::VectorXd dilatation(points), weights(points);
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-      values.reinit(cell);
-      values[all].get_function_values(displacement, u);
-      values[all].get_function_gradients(displacement, gradients);
-      for (Eigen::Index q = 0; q < points; ++q) {
-        dilatation[q] = trace(gradients[std::size_t(q)]);
-        weights[q] = values.JxW(unsigned(q));
-      }
-      if (volumetric == Volumetric::projected) {
-        const Eigen::MatrixXd basis =
-            ElementPolynomials(values, body.degree() - 1).at(values.get_quadrature_points());
-        dilatation = basis * (basis.transpose() * weights.cwiseProduct(dilatation));
-      }
-      for (Eigen::Index q = 0; q < points; ++q) {
-        PointState state{to_eigen(values.quadrature_point(unsigned(q))),
-                         to_eigen(u[std::size_t(q)]),
-                         {},
-                         dilatation[q],
-                         weights[q]};
-        for (unsigned i = 0; i < dim; ++i)
-          for (unsigned j = 0; j < dim; ++j) state.gradient(i, j) = gradients[std::size_t(q)][i][j];
-        take(state);
-      }
-    }
-  }
-
-  /// Calls `take(unknowns of the three components, place)` once per node.
-  template <class Take>
-  void for_each_node(Take take) const {
-    const Space& space = body.fine;
-    std::vector<char> seen(space.dofs.n_dofs(), 0);
-    std::vector<global_dof_index> indices(space.element.n_dofs_per_cell());
-    for (const auto& cell : space.dofs.active_cell_iterators()) {
-      cell->get_dof_indices(indices);
-      for (unsigned node = 0; node < indices.size() / dim; ++node) {
-        std::array<global_dof_index, dim> unknowns{};
-        for (unsigned c = 0; c < dim; ++c)
-          unknowns[c] = indices[space.element.component_to_system_index(c, node)];
-        if (seen[unknowns[0]]++) continue;
-        take(unknowns, to_eigen(body.mapping.transform_unit_to_real_cell(
-                           cell, space.element.unit_support_point(
-                                     space.element.component_to_system_index(0, node)))));
-      }
-    }
-  }
-};
-
 ElasticProblem::ElasticProblem(const BodyMesh& body, const ElementType& element,
-                               const meshes::Rubber& rubber)
-    : implementation_(std::make_unique<Implementation>(body, element, rubber)) {}
+                               const meshes::Rubber& rubber) {
+  if (revolved(body.shape))
+    model_ = std::make_unique<MeshedProblem<2>>(body, element, rubber);
+  else
+    model_ = std::make_unique<MeshedProblem<3>>(body, element, rubber);
+}
 
 ElasticProblem::~ElasticProblem() = default;
 
 std::size_t ElasticProblem::unknowns() const {
-  return implementation_->body.unknowns();
+  return model_->unknowns();
 }
 
 double ElasticProblem::volume() const {
-  return fem_reference::volume(implementation_->body);
+  return model_->volume();
 }
 
 void ElasticProblem::solve(const Loading& loading) {
-  Implementation& self = *implementation_;
-  Body& body = self.body;
-  constrain(body, loading);
-  LinearSystem system(body, false);
-  assemble(body, self.kernel, body.fine.vector(), system);
-  Vector load = external_load(body, loading, body.fine.constraints);
-  // At zero displacement only the prescribed unknowns move: their forces on the free ones.
-  load -= condensed_force(body, self.kernel, body.fine.vector(), body.fine.constraints);
-  // The solver is made for contact: one free unknown plays a contact that never closes.
-  std::vector<long> contact;
-  for (global_dof_index i = 0; contact.empty() && i < body.unknowns(); ++i)
-    if (!body.fine.constraints.is_constrained(i)) contact.push_back(long(i));
-  if (!contact.empty()) {
-    const auto solver = make_condensed_solver(body, contact);
-    solver->set_matrix(system);
-    solver->set_load(load);
-    solver->solve_constrained({0}, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
-    self.displacement = solver->field();
-  }
-  body.fine.constraints.distribute(self.displacement);
-  self.load = external_load(body, loading, body.fine.hanging_nodes());
+  model_->solve(loading);
 }
 
 FieldError ElasticProblem::error(const analytic::ElasticField& exact) const {
   FieldError error, size;
-  implementation_->for_each_point([&](const PointState& state) {
+  model_->for_each_point([&](const PointState& state) {
     const Vector3 u = exact.displacement(state.place);
     const analytic::Matrix3 g = exact.gradient(state.place);
     error.l2 += state.volume * (u - state.displacement).squaredNorm();
@@ -257,9 +368,9 @@ FieldError ElasticProblem::error(const analytic::ElasticField& exact) const {
 }
 
 double ElasticProblem::stress_error(const analytic::ElasticField& exact) const {
-  const meshes::Rubber& rubber = implementation_->rubber;
+  const meshes::Rubber& rubber = model_->rubber;
   double error = 0.0, size = 0.0;
-  implementation_->for_each_point([&](const PointState& state) {
+  model_->for_each_point([&](const PointState& state) {
     const analytic::Matrix3 wanted = exact.stress(state.place);
     const analytic::Matrix3 found =
         rubber.lame_lambda() * state.dilatation * analytic::Matrix3::Identity() +
@@ -271,12 +382,9 @@ double ElasticProblem::stress_error(const analytic::ElasticField& exact) const {
 }
 
 double ElasticProblem::nodal_error(const Loading::Field& exact) const {
-  const Implementation& self = *implementation_;
   double error = 0.0, size = 0.0;
-  self.for_each_node([&](const std::array<global_dof_index, dim>& unknowns, const Vector3& x) {
-    const Vector3 wanted = exact(x);
-    Vector3 found;
-    for (unsigned c = 0; c < dim; ++c) found[c] = self.displacement[unknowns[c]];
+  model_->for_each_node([&](const Vector3& place, const Vector3& found, bool) {
+    const Vector3 wanted = exact(place);
     error = std::max(error, (found - wanted).norm());
     size = std::max(size, wanted.norm());
   });
@@ -284,76 +392,25 @@ double ElasticProblem::nodal_error(const Loading::Field& exact) const {
 }
 
 Vector3 ElasticProblem::mean_displacement(int boundary) const {
-  const Implementation& self = *implementation_;
-  const Space& space = self.body.fine;
-  dealii::FEFaceValues<dim> values(self.body.mapping, space.element,
-                                   dealii::QGauss<dim - 1>(unsigned(self.body.degree()) + 2),
-                                   dealii::update_values | dealii::update_JxW_values);
-  const dealii::FEValuesExtractors::Vector all(0);
-  std::vector<dealii::Tensor<1, dim>> u(values.n_quadrature_points);
-  Vector3 sum = Vector3::Zero();
-  double area = 0.0;
-  for (const auto& cell : space.dofs.active_cell_iterators())
-    for (const auto& face : cell->face_iterators()) {
-      if (!face->at_boundary() || face->boundary_id() != boundary_id(boundary)) continue;
-      values.reinit(cell, face);
-      values[all].get_function_values(self.displacement, u);
-      for (const unsigned q : values.quadrature_point_indices()) {
-        sum += values.JxW(q) * to_eigen(u[q]);
-        area += values.JxW(q);
-      }
-    }
-  return sum / area;
+  return model_->mean_displacement(boundary);
 }
 
 Vector3 ElasticProblem::reaction(int boundary) const {
-  const Implementation& self = *implementation_;
-  Vector force = unconstrained_force(self.body, self.kernel, self.displacement);
-  force -= self.load;
-  return resultant(self.body, force, boundary_id(boundary));
+  return model_->reaction(boundary);
 }
 
 double ElasticProblem::energy() const {
-  const Implementation& self = *implementation_;
-  double sum = 0.0;
-  for_each_element(
-      self.body, self.kernel, self.displacement,
-      [&](const CellIterator&, const dealii::FullMatrix<double>&, const dealii::Vector<double>&,
-          const ElementSystem& element) { sum += element.energy; });
-  return sum;
+  return model_->energy();
 }
 
 Eigen::MatrixXd ElasticProblem::stiffness() const {
-  const Implementation& self = *implementation_;
-  const Space& space = self.body.fine;
-  const auto constraints = space.hanging_nodes();
-  const auto count = unsigned(space.dofs.n_dofs());
-  dealii::FullMatrix<double> matrix(count, count);
-  std::vector<global_dof_index> indices(space.element.n_dofs_per_cell());
-  for_each_element(self.body, self.kernel, space.vector(),
-                   [&](const CellIterator& cell, const dealii::FullMatrix<double>& local,
-                       const dealii::Vector<double>&, const ElementSystem&) {
-                     cell->get_dof_indices(indices);
-                     constraints.distribute_local_to_global(local, indices, matrix);
-                   });
-  std::vector<global_dof_index> order;
-  self.for_each_node([&](const std::array<global_dof_index, dim>& unknowns, const Vector3&) {
-    if (!constraints.is_constrained(unknowns[0]))
-      order.insert(order.end(), unknowns.begin(), unknowns.end());
-  });
-  Eigen::MatrixXd result(order.size(), order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    for (std::size_t j = 0; j < order.size(); ++j)
-      result(Eigen::Index(i), Eigen::Index(j)) = matrix(unsigned(order[i]), unsigned(order[j]));
-  return result;
+  return model_->stiffness();
 }
 
 std::vector<Vector3> ElasticProblem::nodes() const {
-  const Implementation& self = *implementation_;
-  const auto constraints = self.body.fine.hanging_nodes();
   std::vector<Vector3> places;
-  self.for_each_node([&](const std::array<global_dof_index, dim>& unknowns, const Vector3& x) {
-    if (!constraints.is_constrained(unknowns[0])) places.push_back(x);
+  model_->for_each_node([&](const Vector3& place, const Vector3&, bool hangs) {
+    if (!hangs) places.push_back(place);
   });
   return places;
 }

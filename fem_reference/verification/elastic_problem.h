@@ -21,7 +21,7 @@ struct ElementType {
   Volumetric volumetric = Volumetric::projected;
 };
 
-/// A displacement component (0, 1, 2) prescribed on a boundary.
+/// A displacement component (0, 1, 2) prescribed on a boundary. A meridian has no component 1.
 struct Prescribed {
   int boundary = 0;
   int component = 0;
@@ -52,7 +52,11 @@ struct FieldError {
   double l2 = 0.0, h1 = 0.0;
 };
 
-/// One process solves it by itself, whatever their number.
+class ElasticModel;
+
+/// A solid, or a body of revolution on its meridian (`revolved`): fields are then taken in the
+/// plane y = 0, and forces along x are zero. One process solves it by itself, whatever their
+/// number.
 class ElasticProblem {
  public:
   ElasticProblem(const BodyMesh& body, const ElementType& element, const meshes::Rubber& rubber);
@@ -79,14 +83,13 @@ class ElasticProblem {
   double energy() const;  ///< stored [J]
 
   /// Stiffness of all unknowns but hanging ones, without supports, dense; rows and columns in the
-  /// order of nodes(): 3 a + i [N/m].
+  /// order of nodes(): 3 a + i, of a meridian 2 a + i for r and z [N/m].
   Eigen::MatrixXd stiffness() const;
   /// Places of the nodes that do not hang [m].
   std::vector<meshes::Vector3> nodes() const;
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  std::unique_ptr<ElasticModel> model_;
 };
 
 }  // namespace fingertip::fem_reference

@@ -35,9 +35,9 @@ analytic::ThickSphere sphere(const meshes::Rubber& rubber) {
   return {rubber, {inner_radius, outer_radius, inner_pressure, outer_pressure}};
 }
 
-BodyMesh sphere_body(int divisions) {
+BodyMesh sphere_body(int divisions, Meshed meshed) {
   BodyMesh body;
-  body.shape = Shape::sphere_octant;
+  body.shape = meshed == Meshed::solid ? Shape::sphere_octant : Shape::sphere_meridian;
   body.size = {inner_radius, outer_radius, 0.0};
   body.divisions[0] = divisions;
   return body;
@@ -54,9 +54,9 @@ analytic::ThickCylinder cylinder(const meshes::Rubber& rubber) {
   return {rubber, {inner_radius, outer_radius, inner_pressure, outer_pressure}};
 }
 
-BodyMesh cylinder_body(int divisions) {
+BodyMesh cylinder_body(int divisions, Meshed meshed) {
   BodyMesh body;
-  body.shape = Shape::cylinder_quarter;
+  body.shape = meshed == Meshed::solid ? Shape::cylinder_quarter : Shape::cylinder_meridian;
   body.size = {inner_radius, outer_radius, 0.005};
   body.divisions = {divisions, 2 * divisions, 1};
   return body;
@@ -89,11 +89,13 @@ Loading cantilever_loading(const analytic::PlaneStrainCantilever& exact) {
   return loading_of(exact, prescribed);
 }
 
-BodyMesh disc_body(double thickness, int divisions, int local_refinements) {
+BodyMesh disc_body(double thickness, int divisions, int local_refinements, Meshed meshed) {
   BodyMesh body;
-  body.shape = Shape::disc_octant;
+  body.shape = meshed == Meshed::solid ? Shape::disc_octant : Shape::disc_meridian;
   body.size = {disc_radius, 0.0, thickness / 2};
-  body.divisions[0] = divisions;
+  // The octant's mesh has twice the divisions along its radius.
+  body.divisions[0] = meshed == Meshed::solid ? divisions : 2 * divisions;
+  body.divisions[2] = divisions;
   body.local_refinements = local_refinements;
   return body;
 }

@@ -24,9 +24,10 @@ LockingPoint point(const char* problem, const ElementType& element, double poiss
 double press_force(const ElementType& element, double poissons_ratio,
                    const std::filesystem::path& mesh) {
   ReferenceJob job;
+  job.symmetry = Symmetry::none;
   job.rubber = rubber_with(poissons_ratio);
-  job.contact = meshes::ContactMode::frictionless;
-  job.samples = {1e-3};
+  job.protocol.contact = meshes::ContactMode::frictionless;
+  job.press_to({1e-3});
   job.degree = element.degree;
   job.volumetric = element.volumetric;
   return ContinuumPress(job, mesh).advance(1e-3).sample.normal_force;

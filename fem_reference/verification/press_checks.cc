@@ -14,9 +14,10 @@ namespace {
 
 ReferenceJob frictionless(const meshes::Geometry& geometry, std::vector<double> samples) {
   ReferenceJob job;
+  job.symmetry = Symmetry::none;
   job.geometry = geometry;
-  job.contact = meshes::ContactMode::frictionless;
-  job.samples = std::move(samples);
+  job.protocol.contact = meshes::ContactMode::frictionless;
+  job.press_to(std::move(samples));
   return job;
 }
 
@@ -96,7 +97,7 @@ std::vector<Check> check_press(const std::filesystem::path& folder) {
   one.refine(0.5);
   force(one, "quarter, refined twice", 4.0);
   // A tilt that changes nothing but makes the press take the half.
-  job.tilt = 1e-12;
+  job.protocol.tilt = 1e-12;
   write_mesh_once(job.geometry, half, folder / verification_mesh);
   ContinuumPress two(job, folder / verification_mesh);
   const double of_half = force(two, "half", 2.0);

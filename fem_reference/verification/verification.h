@@ -34,12 +34,16 @@ struct ManufacturedCase {
 };
 ConvergenceStudy study_manufactured(const ManufacturedCase& problem, const ElementType& element,
                                     const std::vector<int>& divisions);
-/// Thick sphere (an octant) and cylinder (a quarter, plane strain) under pressure inside and
-/// outside; the load is the pressure on the meshed surface, all else slides.
+/// analytic::ManufacturedRevolution on the meridian of a unit cylinder, curved or distorted, held
+/// at its outside and one end.
+ConvergenceStudy study_manufactured_meridian(bool curved, const ElementType& element,
+                                             const std::vector<int>& divisions);
+/// Thick sphere (an octant, or its meridian) and cylinder (a quarter, plane strain) under pressure
+/// inside and outside; the load is the pressure on the meshed surface, all else slides.
 ConvergenceStudy study_sphere(const ElementType& element, double poissons_ratio,
-                              const std::vector<int>& divisions);
+                              const std::vector<int>& divisions, Meshed meshed = Meshed::solid);
 ConvergenceStudy study_cylinder(const ElementType& element, double poissons_ratio,
-                                const std::vector<int>& divisions);
+                                const std::vector<int>& divisions, Meshed meshed = Meshed::solid);
 /// Plate in plane strain under an end load, with the exact displacement at its root; `divisions`
 /// through its height, four times as many along it.
 ConvergenceStudy study_cantilever(const ElementType& element, double poissons_ratio,
@@ -47,16 +51,17 @@ ConvergenceStudy study_cantilever(const ElementType& element, double poissons_ra
 
 // Single figures.
 
-/// Linear displacements: to round-off on distorted, curved and hanging-node meshes.
+/// Linear displacements: to round-off on distorted, curved and hanging-node meshes, of solids and
+/// of meridians.
 std::vector<Check> check_patch(const ElementType& element);
-/// Six motions without energy, not five and not seven.
+/// Six motions without energy, not five and not seven; of a meridian one.
 std::vector<Check> check_rigid_modes(const ElementType& element);
 /// Displacement and stress of sphere, cylinder and cantilever, on meshes of `divisions`.
 std::vector<Check> check_fields(const ElementType& element, int divisions);
 /// Bonded disc of radius 1 cm and `thickness` [m]: energy on a mesh refined at its edge, against
 /// Ritz, and force of the plate against energy.
 std::vector<Check> check_disc(double thickness, double poissons_ratio, const ElementType& element,
-                              int local_refinements);
+                              int local_refinements, Meshed meshed = Meshed::solid);
 
 /// A hemispherical tip on a rod of radius `rod` R pressed by the indentations [m], meshes refined
 /// until nodes stand densely enough at the edge; the excess of the force over Hertz is fitted by

@@ -1,12 +1,11 @@
 /// verification.json: what checks the continuum's code. SI. Free of deal.II.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "fem_reference/job.h"
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 
 namespace fingertip::fem_reference {
 
@@ -54,11 +53,6 @@ struct VerificationFile {
 
   bool empty() const { return studies.empty() && checks.empty() && locking.empty(); }
 };
-
-inline constexpr std::array volumetrics{Volumetric::pointwise, Volumetric::projected};
-constexpr const auto& values_of(Volumetric) {
-  return volumetrics;
-}
 
 constexpr auto fields_of(const ConvergenceStudy::Mesh*) {
   using Whole = ConvergenceStudy::Mesh;

@@ -10,7 +10,7 @@
 #include "fem_reference/verification/check.h"
 #include "fem_reference/verification/verification.h"
 #include "meshes/errors.h"
-#include "meshes/json_fields.h"
+#include "meshes/fields_json.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -25,6 +25,7 @@ constexpr std::array element_types{ElementType{1, pointwise}, ElementType{1, pro
                                    ElementType{3, pointwise}, ElementType{3, projected}};
 /// Divisions that show the order and stay cheap, by degree.
 const std::array<std::vector<int>, 4> block_divisions{{{}, {4, 8, 16}, {2, 4, 8}, {1, 2, 4}}};
+const std::array<std::vector<int>, 4> ring_divisions{{{}, {8, 16, 32}, {4, 8, 16}, {4, 8, 16}}};
 const std::array<std::vector<int>, 4> sphere_divisions{{{}, {2, 4, 8}, {2, 4, 8}, {1, 2, 4}}};
 const std::array<std::vector<int>, 4> cylinder_divisions{{{}, {4, 8, 16}, {4, 8, 16}, {2, 4, 8}}};
 const std::array<std::vector<int>, 4> plate_divisions{{{}, {2, 4, 8}, {2, 4, 8}, {}}};
@@ -51,6 +52,9 @@ void add_convergence(std::vector<Part>& parts) {
                              ManufacturedCase{true, true, nearly_incompressible}})
                          t.studies.push_back(
                              study_manufactured(problem, element, block_divisions[degree]));
+                       for (const bool bent : {true, false})
+                         t.studies.push_back(
+                             study_manufactured_meridian(bent, element, ring_divisions[degree]));
                      }});
   }
   for (int degree = 1; degree <= 3; ++degree)
@@ -59,8 +63,11 @@ void add_convergence(std::vector<Part>& parts) {
          [=](Tables& t, const fs::path&) {
            const ElementType element{degree, projected};
            const auto d = std::size_t(degree);
-           t.studies.push_back(study_sphere(element, paper_ratio, sphere_divisions[d]));
-           t.studies.push_back(study_cylinder(element, paper_ratio, cylinder_divisions[d]));
+           for (const Meshed meshed : {Meshed::solid, Meshed::meridian}) {
+             t.studies.push_back(study_sphere(element, paper_ratio, sphere_divisions[d], meshed));
+             t.studies.push_back(
+                 study_cylinder(element, paper_ratio, cylinder_divisions[d], meshed));
+           }
            if (!plate_divisions[d].empty())
              t.studies.push_back(study_cantilever(element, paper_ratio, plate_divisions[d]));
            append(t.checks, check_fields(element, 4));
@@ -79,7 +86,8 @@ std::vector<Part> all_parts() {
   parts.push_back({"bonded disc", [](Tables& t, const fs::path&) {
                      for (const double thickness : {0.005, 0.01})
                        for (const double nu : {paper_ratio, 0.25})
-                         append(t.checks, check_disc(thickness, nu, {2, projected}, 2));
+                         for (const Meshed meshed : {Meshed::solid, Meshed::meridian})
+                           append(t.checks, check_disc(thickness, nu, {2, projected}, 2, meshed));
                    }});
   parts.push_back({"symmetry and balance of the press", [](Tables& t, const fs::path& folder) {
                      append(t.checks, check_press(folder));

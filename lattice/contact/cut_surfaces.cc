@@ -1,7 +1,5 @@
 #include "lattice/contact/cut_surfaces.h"
 
-#include <stdexcept>
-
 #include "lattice/contact/particle_surfaces.h"
 
 namespace fingertip::lattice {
@@ -19,8 +17,8 @@ Wrench CutSurfaces::apply(const State& state, const RodState& rod, const Plane& 
   return hold_with(contact_, state, rod, plane, step, force, on_tip_);
 }
 
-Surfaces::Trial CutSurfaces::attempt(const State& state, const RodState& rod, const Plane& plane,
-                                     VectorField& force) {
+CutSurfaces::Trial CutSurfaces::attempt(const State& state, const RodState& rod, const Plane& plane,
+                                        VectorField& force) {
   if (!trial_) trial_ = contact_;
   trial_->try_from(contact_);
   Trial trial;
@@ -55,10 +53,6 @@ PlaneHold CutSurfaces::plane_hold(double step) {
 
 double CutSurfaces::energy(const State& state, const RodState& rod) const {
   return bond_energy(state, rod) + contact_.energy();
-}
-
-Surfaces::Trial Surfaces::attempt(const State&, const RodState&, const Plane&, VectorField&) {
-  throw std::logic_error("these surfaces act between steps, not by forces alone");
 }
 
 std::unique_ptr<Surfaces> make_surfaces(const LatticeModel& model, const Plane& plane,

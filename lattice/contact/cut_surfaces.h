@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "lattice/contact/penalty_contact.h"
 #include "lattice/contact/surfaces.h"
+#include "lattice/contact/tie_inertia.h"
 #include "lattice/contact/tied_bond.h"
 
 namespace fingertip::lattice {
@@ -17,11 +19,6 @@ class CutSurfaces : public Surfaces {
   std::unique_ptr<Surfaces> clone() const override { return std::make_unique<CutSurfaces>(*this); }
   Wrench apply(const State& state, const RodState& rod, const Plane& plane, double step,
                VectorField& force) override;
-  std::span<const BondInertia> bond_inertia(double step) override;
-  PlaneHold plane_hold(double step) override;
-  void set_plane_wrench(const Wrench& on_tip) override { on_tip_ = on_tip; }
-  Trial attempt(const State& state, const RodState& rod, const Plane& plane,
-                VectorField& force) override;
   Wrench correct(State&, const VectorField&, const Plane&, double step) override {
     return {step * on_tip_.force, step * on_tip_.torque};
   }
@@ -36,6 +33,26 @@ class CutSurfaces : public Surfaces {
     return contact_.point_loads(state);
   }
   std::vector<std::uint8_t> held() const override { return contact_.held(); }
+  CutSurfaces* ties() override { return this; }
+
+  /// Inertia against the rod in steps of `step` [s], by increasing index.
+  std::span<const BondInertia> bond_inertia(double step);
+  /// How the plane held in the last apply() with that step [s].
+  PlaneHold plane_hold(double step);
+  /// To be told what the plane does to the tip in the end, if particles accelerate otherwise than
+  /// by the forces of the last apply(): [N] and [N m] about the world's origin. It enters
+  /// correct().
+  void set_plane_wrench(const Wrench& on_tip) { on_tip_ = on_tip; }
+
+  /// What rod and plane exert at one moment.
+  struct Trial {
+    Wrench bond;                  ///< on the rod about its endpoint
+    Wrench plane;                 ///< on the tip, about the world's origin
+    double contact_energy = 0.0;  ///< [J]
+  };
+  /// As apply() with step 0 would, but for a state that is only tried: what is remembered stays as
+  /// it is.
+  Trial attempt(const State& state, const RodState& rod, const Plane& plane, VectorField& force);
 
  private:
   Wrench hold_with(PenaltyContact& contact, const State& state, const RodState& rod,

@@ -17,9 +17,6 @@ class ParticleSurfaces : public Surfaces {
   }
   Wrench apply(const State& state, const RodState& rod, const Plane& plane, double step,
                VectorField& force) override;
-  std::span<const BondInertia> bond_inertia(double /*step*/) override { return {}; }
-  PlaneHold plane_hold(double /*step*/) override { return {}; }
-  void set_plane_wrench(const Wrench& /*on_tip*/) override {}
   Wrench correct(State& state, const VectorField& force, const Plane& plane, double step) override;
   double bond_energy(const State& state, const RodState& rod) const override;
   double energy(const State& state, const RodState& rod) const override {

@@ -3,12 +3,10 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "lattice/contact/contact_patch.h"
 #include "lattice/contact/point_load.h"
-#include "lattice/contact/tie_inertia.h"
 #include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/plane.h"
@@ -18,6 +16,8 @@
 #include "meshes/press_protocol.h"
 
 namespace fingertip::lattice {
+
+class CutSurfaces;
 
 /// One step of a Finger asks apply() with the forces at its start, moves the particles and asks
 /// correct(). Momentum is exchanged with rod and plane only: what apply() adds to the particles'
@@ -41,26 +41,9 @@ class Surfaces {
   virtual Wrench correct(State& state, const VectorField& force, const Plane& plane,
                          double step) = 0;
 
-  /// Inertia against the rod in steps of `step` [s], by increasing index; empty where there is
-  /// none.
-  virtual std::span<const BondInertia> bond_inertia(double step) = 0;
-  /// How the plane held in the last apply() with that step [s].
-  virtual PlaneHold plane_hold(double step) = 0;
-  /// To be told what the plane does to the tip in the end, if particles accelerate otherwise than
-  /// by the forces of the last apply(): [N] and [N m] about the world's origin. It enters
-  /// correct().
-  virtual void set_plane_wrench(const Wrench& on_tip) = 0;
-
-  /// What rod and plane exert at one moment.
-  struct Trial {
-    Wrench bond;                  ///< on the rod about its endpoint
-    Wrench plane;                 ///< on the tip, about the world's origin
-    double contact_energy = 0.0;  ///< where contact is elastic [J]
-  };
-  /// As apply() with step 0 would, but for a state that is only tried: what is remembered stays as
-  /// it is. Throws std::logic_error for surfaces that act between steps (published).
-  virtual Trial attempt(const State& state, const RodState& rod, const Plane& plane,
-                        VectorField& force);
+  /// Itself where it acts by forces alone and so knows states that are only tried, and its inertia;
+  /// null where it acts between steps (published).
+  virtual CutSurfaces* ties() { return nullptr; }
 
   virtual double bond_energy(const State& state, const RodState& rod) const = 0;  ///< [J]
   /// Of bond and, where it is elastic, contact [J].

@@ -42,8 +42,14 @@ void Finger::find_forces(double step) {
   now_.bond = surfaces_->apply(now_.state, now_.rod, now_.plane, step, force_);
 }
 
+CutSurfaces& Finger::ties() {
+  CutSurfaces* ties = surfaces_->ties();
+  if (ties == nullptr) throw std::logic_error("these surfaces act between steps, not by forces");
+  return *ties;
+}
+
 void Finger::scale_masses(std::shared_ptr<MassScaling> scaling) {
-  scaling->make(now_.state, surfaces_->bond_inertia(now_.step), now_.step, team_);
+  scaling->make(now_.state, ties().bond_inertia(now_.step), now_.step, team_);
   now_.scaling = std::move(scaling);
 }
 
@@ -89,7 +95,7 @@ Vector3 Finger::move_scaled(const Wrench* applied) {
     throw std::logic_error("masses are scaled for steps of another length");
   if (!accelerations_) accelerations_ = std::make_unique<AccelerationFields>(scaling.fields());
   OuterLoads outer;
-  outer.plane = surfaces_->plane_hold(now_.step);
+  outer.plane = ties().plane_hold(now_.step);
   outer.gravity = model_->grid.axes.transpose() * gravity_;
   if (applied != nullptr) {
     outer.rod = rod_load(*applied);
@@ -107,7 +113,7 @@ Vector3 Finger::move_scaled(const Wrench* applied) {
   const Eigen::Matrix3d& axes = model_->grid.axes;
   const Vector3 bond = axes * reactions.bond.head<3>();
   now_.bond = {bond, axes * reactions.bond.tail<3>() - now_.rod.endpoint().cross(bond)};
-  surfaces_->set_plane_wrench({axes * reactions.plane.head<3>(), axes * reactions.plane.tail<3>()});
+  ties().set_plane_wrench({axes * reactions.plane.head<3>(), axes * reactions.plane.tail<3>()});
   return axes * moved.momentum;
 }
 
@@ -121,7 +127,7 @@ Finger::Trial Finger::attempt(const State& state, const RodState& rod, const Pla
   Trial trial;
   trial.extremes = internal_forces(state, force);
   if (!gravity_.isZero(0.0)) weigh_particles(force);
-  trial.surfaces = surfaces_->attempt(state, rod, plane, force);
+  trial.surfaces = ties().attempt(state, rod, plane, force);
   return trial;
 }
 

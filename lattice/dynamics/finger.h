@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lattice/contact/surfaces.h"
+#include "lattice/contact/cut_surfaces.h"
 #include "lattice/dynamics/integrator.h"
 #include "lattice/dynamics/scaling/mass_scaling.h"
 #include "lattice/forces/forces.h"
@@ -78,9 +78,10 @@ class Finger {
   const MassScaling* mass_scaling() const { return now_.scaling.get(); }
 
   /// For integrators of their own: forces at a state that is only tried, nothing changes. `force`
-  /// receives all forces on the particles [N] (Surfaces::attempt).
+  /// receives all forces on the particles [N] (CutSurfaces::attempt). Throws
+  /// std::logic_error for the published model, whose surfaces act between steps.
   struct Trial {
-    Surfaces::Trial surfaces;
+    CutSurfaces::Trial surfaces;
     CellExtremes extremes;
   };
   Trial attempt(const State& state, const RodState& rod, const Plane& plane, VectorField& force);
@@ -146,6 +147,7 @@ class Finger {
 
  private:
   void find_forces(double step);
+  CutSurfaces& ties();
   Vector6 along_grid(const meshes::Vector3& force, const meshes::Vector3& torque) const;
   OuterLoads::Rod rod_load(const Wrench& applied) const;
   Vector6 expected_acceleration(const OuterLoads::Rod& rod) const;

@@ -6,8 +6,8 @@
 
 namespace fingertip::lattice {
 
-double fast_cell_energy(const CellLattice& cells, const VectorField& displacement, Team& team,
-                        int width) {
+double cell_energy(const CellLattice& cells, const VectorField& displacement, Team& team,
+                   int width) {
   const kernel::CellEnergy energy = kernel::select_cell_energy(cells.material.kind, width);
   const kernel::CellArrays arrays = cell_arrays(cells, displacement);
   return sum_in_portions<64>(team, cells.blocks.size(), [&](std::size_t begin, std::size_t end) {

@@ -7,10 +7,10 @@
 
 namespace fingertip::lattice {
 
-/// What cell_energy() adds up cell by cell [J], by the vectorised kernel; infinite where the law
-/// needs J > 0 and has not got it. `width`: doubles per register (2, 4, 8), 0 for the widest the
-/// processor has; the same bits for any, and for any number of threads.
-double fast_cell_energy(const CellLattice& cells, const VectorField& displacement, Team& team,
-                        int width = 0);
+/// Of all cells (CellMaterial) [J]; infinite where the law needs J > 0 and has not got it. `width`:
+/// doubles per register (2, 4, 8), 0 for the widest the processor has; the same bits for any, and
+/// for any number of threads.
+double cell_energy(const CellLattice& cells, const VectorField& displacement, Team& team,
+                   int width = 0);
 
 }  // namespace fingertip::lattice

@@ -44,12 +44,4 @@ class CellForces {
   kernel::CellSweep sweep_;
 };
 
-/// Energy of all cells [J], scalar and plain; infinite where the law needs J > 0 and has not got
-/// it.
-double cell_energy(const CellLattice& cells, const VectorField& displacement);
-
-/// What CellForces::add does, one cell at a time in plain code, for people to read and for tests.
-void reference_cell_forces(const CellLattice& cells, const VectorField& displacement,
-                           const VectorField& velocity, VectorField& force);
-
 }  // namespace fingertip::lattice

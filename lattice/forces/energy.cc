@@ -53,7 +53,7 @@ double elastic_energy(const LatticeModel& model, const State& state) {
 }
 
 double elastic_energy(const LatticeModel& model, const State& state, Team& team) {
-  double energy = fast_cell_energy(model.cell_lattice, state.displacement, team);
+  double energy = cell_energy(model.cell_lattice, state.displacement, team);
   if (!model.has_springs()) return energy;
   for (int s = 0; s < directions; ++s) energy += spring_energy(model, state, s);
   return energy;

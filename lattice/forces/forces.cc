@@ -17,7 +17,7 @@ InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
       rates_(model.kinematics == Kinematics::finite || !model.proportional_damping) {
   if (model.has_springs()) {
     const kernel::Variant variant{model.kinematics == Kinematics::finite, rates_};
-    springs_ = width == 0 ? kernel::select(variant) : kernel::select(variant, width);
+    springs_ = kernel::select(variant, width);
   }
   for (std::size_t s = 0; s < directions; ++s) {
     arrays_.weight[s] = model.weight[s].data();

@@ -36,11 +36,9 @@ enum class GripPhase {
   done,
 };
 std::string_view name(GripPhase phase);
-inline constexpr std::array grip_phases{GripPhase::squeeze, GripPhase::load,    GripPhase::lift,
-                                        GripPhase::hold,    GripPhase::release, GripPhase::done};
-/// What a column of phases may hold.
-constexpr const auto& values_of(GripPhase) {
-  return grip_phases;
+constexpr auto values(GripPhase) {
+  return std::array{GripPhase::squeeze, GripPhase::load,    GripPhase::lift,
+                    GripPhase::hold,    GripPhase::release, GripPhase::done};
 }
 
 /// What the robot feels once per period.

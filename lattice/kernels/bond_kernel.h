@@ -55,8 +55,8 @@ struct BondKernels {
 /// the widest that it has.
 const BondKernels& select_bond(int width);
 
-const BondKernels& bond_width2();
-const BondKernels& bond_width4();
-const BondKernels& bond_width8();
+/// That of one compilation (bond_kernel_widths.cc).
+template <int width>
+const BondKernels& bond_at();
 
 }  // namespace fingertip::lattice::kernel

@@ -14,8 +14,8 @@ using CellEnergy = double (*)(const CellArrays& arrays, const CellBlock* blocks,
 /// The kernel for a law and a number of doubles per register, as select_cells().
 CellEnergy select_cell_energy(CellLawKind law, int width);
 
-CellEnergy cell_energy_width2(CellLawKind law);
-CellEnergy cell_energy_width4(CellLawKind law);
-CellEnergy cell_energy_width8(CellLawKind law);
+/// That of one compilation (cell_kernel_widths.cc).
+template <int width>
+CellEnergy cell_energy_at(CellLawKind law);
 
 }  // namespace fingertip::lattice::kernel

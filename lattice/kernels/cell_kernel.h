@@ -42,9 +42,8 @@ using CellSweep = void (*)(const CellArrays& arrays, const CellBlock* blocks, st
 /// `rates`: whether velocities enter; never for `cubic`.
 CellSweep select_cells(CellLawKind law, bool rates, int width);
 
-/// What the file compiled for one register width offers; called through select_cells.
-CellSweep cells_width2(CellLawKind law, bool rates);
-CellSweep cells_width4(CellLawKind law, bool rates);
-CellSweep cells_width8(CellLawKind law, bool rates);
+/// That of one compilation (cell_kernel_widths.cc).
+template <int width>
+CellSweep cells_at(CellLawKind law, bool rates);
 
 }  // namespace fingertip::lattice::kernel

@@ -1,5 +1,5 @@
-/// The kernel of the cells itself, compiled once per instruction set (cell_kernel_width2/4/8.cc).
-/// Included by those files only. `Pack` is as wide as the instruction set's registers; its type
+/// The kernel of the cells itself, compiled once per instruction set (cell_kernel_widths.cc).
+/// Included by that file only. `Pack` is as wide as the instruction set's registers; its type
 /// differs between them, which keeps their instantiations apart. Formulas: README of this folder.
 #pragma once
 
@@ -17,14 +17,14 @@ namespace fingertip::lattice::kernel {
 template <typename Pack>
 struct CellBody : CellResponse<Pack> {
   using Response = CellResponse<Pack>;
-  using Response::block, Response::dot, Response::fold, Response::load, Response::store;
+  using Response::block, Response::fold, Response::load, Response::store;
   using typename Response::Cut;
   using typename Response::Extremes;
   using typename Response::Field;
   using typename Response::Modes;
   using typename Response::Row;
   using typename Response::Rows;
-  using typename Response::Vector;
+  using Vector = PackVector<Pack>;
 
   static constexpr std::ptrdiff_t width = std::ptrdiff_t(Pack::size());
   static constexpr int chunks = int(block / width);
@@ -176,11 +176,11 @@ struct CellBody : CellResponse<Pack> {
       Pack area = 0.25 * a.spacing * a.spacing;
       if constexpr (!Whole) area = area * cut.fraction();
       if constexpr (Law == CellLawKind::cubic) {
-        Response::template cubic<Whole>(m, area, u, take);
+        Response::template answer_cubic<Whole>(m, area, u, take);
       } else if constexpr (Law == CellLawKind::volume) {
-        Response::template volume<Rates>(m, area, u, velocity, extremes, take);
+        Response::template answer_volume<Rates>(m, area, u, velocity, extremes, take);
       } else {
-        Response::template network<Rates, Whole>(m, area, u, velocity, extremes, take);
+        Response::template answer_network<Rates, Whole>(m, area, u, velocity, extremes, take);
       }
     }
     close(a, std::ptrdiff_t(b.first) + block, carry);
@@ -236,40 +236,23 @@ struct CellBody : CellResponse<Pack> {
               hmax(extremes.rate), hmax(extremes.swiftness)};
   }
 
-  [[gnu::always_inline]] static Pack power(const Rows& A, const Rows& C) {
-    return dot(A.x, C.x) + dot(A.y, C.y) + dot(A.z, C.z);
-  }
-
-  /// Energy of the cells of a pack; the modes' is half of what is conjugate to them times
-  /// themselves. A stress in the units of `area` is 4 a times too small for an energy.
+  /// Energy of the cells of a pack. A stress in the units of `area` is 4 a times too small for one.
   template <CellLawKind Law, bool Whole>
   [[gnu::always_inline]] static Pack energy_of(const CellArrays& a, const Pack& area,
                                                const Field& u, Pack& smallest_jacobian) {
     const CellMaterial& m = a.material;
-    const Pack twice = 2.0 * a.spacing, four = 4.0 * a.spacing;
-    if constexpr (Law == CellLawKind::cubic) {
-      Pack product = 0.0;
-      Response::template cubic<Whole>(m, area, u, [&](auto c, const Row& r) {
-        product += dot(r.H, entry<c()>(u).H) + Response::contract(r.q, entry<c()>(u).q);
-      });
-      return twice * product;
-    }
+    const Pack volume = Pack(4.0 * a.spacing) * area;
     const Rows H = Response::gradient(u), F = Response::plus_one(H);
-    const Pack J = dot(F.x, Response::cross(F.y, F.z));
-    if constexpr (Law == CellLawKind::volume) {
-      const Pack excess = J - Pack(1.0);
-      return twice * area * Pack(m.kappa) * excess * excess;
-    }
+    const Pack J = dot(F.x, cross(F.y, F.z));
+    if constexpr (Law == CellLawKind::volume) return Response::volume_energy(m, volume, J);
+    const Pack modes = Pack(2.0 * a.spacing) *
+                       (modes_energy<Whole>(m, area, u.x.q) + modes_energy<Whole>(m, area, u.y.q) +
+                        modes_energy<Whole>(m, area, u.z.q));
+    if constexpr (Law == CellLawKind::cubic) return Response::cubic_energy(m, volume, H) + modes;
     smallest_jacobian = min(smallest_jacobian, J);
-    // |F|² - 3 written so that it does not cancel at small strain.
-    const Pack excess = Pack(2.0) * (H.x.x + H.y.y + H.z.z) + power(H, H);
-    const Pack log_J = Response::log(J);
-    const Pack law =
-        Pack(0.5 * m.shear) * excess + (Pack(0.5 * m.lambda) * log_J - Pack(m.shear)) * log_J;
-    return four * area * law +
-           twice * (modes_energy<Whole>(m, area, u.x.q) + modes_energy<Whole>(m, area, u.y.q) +
-                    modes_energy<Whole>(m, area, u.z.q));
+    return Response::network_energy(m, volume, H, J) + modes;
   }
+  /// Twice what they store, in the units of `area`.
   template <bool Whole>
   [[gnu::always_inline]] static Pack modes_energy(const CellMaterial& m, const Pack& area,
                                                   const Modes& q) {

@@ -27,6 +27,20 @@ struct CellMaterial {
   double shear = 0.0, lambda = 0.0;        ///< network: G > 0, lambda >= 0 [Pa]
   double bending = 0.0;  ///< modulus of the bilinear modes, the fibres' share of C44 or G [Pa]
   double retardation_time = 0.0;  ///< tau [s], not negative
+
+  struct Cubic {
+    double c11, c12, c44;
+  };
+  /// What W amounts to at small strain [Pa].
+  Cubic at_rest() const {
+    if (kind == CellLawKind::network) return {lambda + 2.0 * shear, lambda, shear};
+    return kind == CellLawKind::volume ? Cubic{kappa, kappa, 0.0} : Cubic{c11, c12, c44};
+  }
+  /// Whether nothing is stored, whatever the deformation.
+  bool none() const {
+    const auto [a, b, c] = at_rest();
+    return a == 0.0 && b == 0.0 && c == 0.0 && bending == 0.0;
+  }
 };
 
 /// `lanes` cells that follow one another along the grid's x; some of them may be absent.

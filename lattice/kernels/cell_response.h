@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "lattice/kernels/cell_kernel.h"
-#include "lattice/kernels/pack_algebra.h"
+#include "lattice/kernels/cell_law.h"
 #include "lattice/kernels/stencil.h"
 
 namespace fingertip::lattice::kernel {
@@ -13,12 +13,13 @@ namespace fingertip::lattice::kernel {
 /// Component by component, wherever components do not mix: few packs are alive at a time then.
 /// Every function is inlined by force: handing dozens of packs on would lead through memory.
 template <typename Pack>
-struct CellResponse : PackAlgebra<Pack> {
+struct CellResponse : Law<Pack>, Packs<Pack> {
+  using Law = kernel::Law<Pack>;
   using Algebra = PackAlgebra<Pack>;
-  using Algebra::dot, Algebra::load, Algebra::scaled;
-  using Algebra::transposed_times;
+  using Algebra::contract, Algebra::transposed_times;
+  using Packs<Pack>::load;
   using typename Algebra::Rows;
-  using typename Algebra::Vector;
+  using Vector = PackVector<Pack>;
 
   static constexpr std::ptrdiff_t block = std::ptrdiff_t(lanes);
 
@@ -97,15 +98,9 @@ struct CellResponse : PackAlgebra<Pack> {
 
   /// `area`, here and below: a²/4 times the rubber's fraction, which makes stresses forces.
   template <bool Whole, typename Take>
-  [[gnu::always_inline]] static void cubic(const CellMaterial& m, const Pack& area, const Field& u,
-                                           const Take& take) {
-    const Pack c12 = area * Pack(m.c12), c44 = area * Pack(m.c44);
-    const Pack trace = c12 * (u.x.H.x + u.y.H.y + u.z.H.z), excess = area * Pack(m.c11 - m.c12);
-    const Pack yz = c44 * (u.y.H.z + u.z.H.y), zx = c44 * (u.z.H.x + u.x.H.z),
-               xy = c44 * (u.x.H.y + u.y.H.x);
-    const Rows P{{excess * u.x.H.x + trace, xy, zx},
-                 {xy, excess * u.y.H.y + trace, yz},
-                 {zx, yz, excess * u.z.H.z + trace}};
+  [[gnu::always_inline]] static void answer_cubic(const CellMaterial& m, const Pack& area,
+                                                  const Field& u, const Take& take) {
+    const Rows P = Law::cubic(m, area, gradient(u));
     for_components([&](auto c) __attribute__((always_inline)) {
       take(c, Row{entry<c()>(P), bend<Whole>(m, area, entry<c()>(u).q)});
     });
@@ -126,9 +121,9 @@ struct CellResponse : PackAlgebra<Pack> {
 
   /// `velocity(c)`: velocities times tau, as everywhere below.
   template <bool Rates, typename Velocity, typename Take>
-  [[gnu::always_inline]] static void volume(const CellMaterial& m, const Pack& area, const Field& u,
-                                            const Velocity& velocity, Extremes& extremes,
-                                            const Take& take) {
+  [[gnu::always_inline]] static void answer_volume(const CellMaterial& m, const Pack& area,
+                                                   const Field& u, const Velocity& velocity,
+                                                   Extremes& extremes, const Take& take) {
     const Rows F = Algebra::plus_one(gradient(u)), cofactor = Algebra::cofactor(F);
     const Pack J = dot(F.x, cofactor.x), inverse = Pack(1.0) / abs(J);
     const Pack square = Algebra::gershgorin(cofactor);  // J² g
@@ -142,21 +137,21 @@ struct CellResponse : PackAlgebra<Pack> {
       extremes.rate = max(extremes.rate, abs(rate) * inverse);
       excess += rate;
     }
-    const Pack pressure = area * Pack(m.kappa) * excess;
+    const Pack pressure = Law::volume_pressure(m, area, excess);
     for_components([&](auto c) __attribute__((always_inline)) {
-      take(c, Row{scaled(pressure, entry<c()>(cofactor)), {}});
+      take(c, Row{pressure * entry<c()>(cofactor), {}});
     });
   }
 
   template <bool Rates, bool Whole, typename Velocity, typename Take>
-  [[gnu::always_inline]] static void network(const CellMaterial& m, const Pack& area,
-                                             const Field& u, const Velocity& velocity,
-                                             Extremes& extremes, const Take& take) {
+  [[gnu::always_inline]] static void answer_network(const CellMaterial& m, const Pack& area,
+                                                    const Field& u, const Velocity& velocity,
+                                                    Extremes& extremes, const Take& take) {
     const Rows F = Algebra::plus_one(gradient(u));
     Rows T = Algebra::cofactor(F);
     const Pack J = dot(F.x, T.x), lambda = m.lambda, G = area * Pack(m.shear);
     T = Algebra::multiple(Pack(1.0) / J, T);  // F⁻ᵀ
-    const Pack pressure = lambda * Algebra::log(J) - Pack(m.shear), g = Algebra::gershgorin(T);
+    const Pack pressure = Law::network_pressure(m, J), g = Algebra::gershgorin(T);
     extend(extremes, J, (abs(pressure) + lambda) * g, g);
     if constexpr (Rates) {
       read_later();
@@ -188,12 +183,12 @@ struct CellResponse : PackAlgebra<Pack> {
                    {xy - drag.y.x, G * (L.y.y + L.y.y) - drag.y.y + diagonal, yz - drag.y.z},
                    {zx - drag.z.x, yz - drag.z.y, G * (L.z.z + L.z.z) - drag.z.z + diagonal}};
       for_components([&](auto c) __attribute__((always_inline)) {
-        take(c, Row{scaled(G, entry<c()>(F)) + transposed_times(T, entry<c()>(A)), entry<c()>(h)});
+        take(c, Row{G * entry<c()>(F) + transposed_times(T, entry<c()>(A)), entry<c()>(h)});
       });
     } else {
       const Pack p = area * pressure;
       for_components([&](auto c) __attribute__((always_inline)) {
-        take(c, Row{scaled(G, entry<c()>(F)) + scaled(p, entry<c()>(T)),
+        take(c, Row{Law::network_stress(G, p, entry<c()>(F), entry<c()>(T)),
                     bend<Whole>(m, area, entry<c()>(u).q)});
       });
     }

@@ -110,8 +110,8 @@ struct ContactKernels {
 /// the widest that it has.
 const ContactKernels& select_contact(int width);
 
-const ContactKernels& contact_width2();
-const ContactKernels& contact_width4();
-const ContactKernels& contact_width8();
+/// That of one compilation (contact_kernel_widths.cc).
+template <int width>
+const ContactKernels& contact_at();
 
 }  // namespace fingertip::lattice::kernel

@@ -1,5 +1,5 @@
-/// The kernels of the contact, compiled once per instruction set (contact_kernel_width2/4/8.cc).
-/// Included by those files only.
+/// The kernels of the contact, compiled once per instruction set (contact_kernel_widths.cc).
+/// Included by that file only.
 #pragma once
 
 #include <array>

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lattice/kernels/by_width.h"
+
 namespace fingertip::lattice::kernel {
 
 /// Borrowed arrays of a LatticeModel and a state; sizes and units as in model.h.
@@ -47,26 +49,15 @@ struct Motion {
 using MoveParticles = void (*)(const Motion&, const std::uint32_t* blocks, std::size_t begin,
                                std::size_t end, double momentum[3]);
 
-/// The kernel for this variant and the widest instruction set of the running processor.
-GatherForces select(const Variant& variant);
+/// The kernel for this variant and a number of doubles per register: 2 (every x86-64), 4 (AVX2), 8
+/// (AVX-512), or 0 for the widest the processor has; the caller makes sure that it has the others.
+GatherForces select(const Variant& variant, int width = 0);
+MoveParticles select_move(int width = 0);
 
-/// The same for a given number of doubles per register: 2 (every x86-64), 4 (AVX2) or 8
-/// (AVX-512). The caller makes sure that the processor has it. For tests.
-GatherForces select(const Variant& variant, int width);
-
-MoveParticles select_move();
-MoveParticles select_move(int width);
-
-/// Widest of 2, 4, 8 that the running processor supports.
-int supported_width();
-
-/// What the file compiled for one register width offers; called through select.
-struct Offer {
-  GatherForces (*select)(const Variant& variant);
-  MoveParticles move;
-};
-Offer offer_width2();
-Offer offer_width4();
-Offer offer_width8();
+/// Those of one compilation (kernel_widths.cc).
+template <int width>
+GatherForces springs_at(const Variant& variant);
+template <int width>
+MoveParticles move_at();
 
 }  // namespace fingertip::lattice::kernel

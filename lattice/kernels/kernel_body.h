@@ -1,5 +1,5 @@
-/// The force kernel itself, compiled once per instruction set (kernel_width2/4/8.cc). Included by
-/// those files only. `Pack` is as wide as the instruction set's registers; its type differs
+/// The force kernel itself, compiled once per instruction set (kernel_widths.cc). Included by
+/// that file only. `Pack` is as wide as the instruction set's registers; its type differs
 /// between them, which keeps their instantiations apart.
 #pragma once
 
@@ -9,25 +9,21 @@
 #include <utility>
 
 #include "lattice/kernels/kernel.h"
+#include "lattice/kernels/packs.h"
 #include "lattice/kernels/stencil.h"
 
 namespace fingertip::lattice::kernel {
 
 template <typename Pack>
-struct Body {
-  static constexpr std::ptrdiff_t width = std::ptrdiff_t(Pack::size());
+struct Body : Packs<Pack> {
+  using Base = Packs<Pack>;
+  using Vector = PackVector<Pack>;
+  using Base::load, Base::store;
+  static constexpr std::ptrdiff_t width = std::ptrdiff_t(Base::width);
   static constexpr std::ptrdiff_t block = std::ptrdiff_t(lanes);
 
-  struct Vector {
-    Pack x, y, z;
-  };
-
-  static Pack load(const double* from) { return Pack(from, std::experimental::element_aligned); }
-  static void store(double* to, const Pack& value) {
-    value.copy_to(to, std::experimental::element_aligned);
-  }
   static Vector load(const double* const* field, std::ptrdiff_t i) {
-    return {load(field[0] + i), load(field[1] + i), load(field[2] + i)};
+    return Base::load(field, std::size_t(i));
   }
 
   /// sign * value with sign known at compile time; vanishes for 0.
@@ -52,10 +48,6 @@ struct Body {
     add_signed<d.dy>(force.y, magnitude);
     add_signed<d.dz>(force.z, magnitude);
   }
-  static Vector minus(const Vector& a, const Vector& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-  }
-
   /// Small kinematics: f = k d̂ (d̂·(u_j - u_i)) + mu d̂ (d̂·(v_j - v_i)), d̂ at rest. The law is
   /// even in d̂, so both ends of the line through i read alike.
   template <int S, bool Rates>
@@ -65,12 +57,12 @@ struct Body {
     const std::ptrdiff_t step = a.neighbour[S];
     const Pack ahead = load(a.weight[S] + i), behind = load(a.weight[S] + i - step);
     const double inverse_square = 1.0 / (double(family) + 1.0);
-    const Pack stretch = ahead * along<S>(minus(load(a.displacement, i + step), u)) +
-                         behind * along<S>(minus(load(a.displacement, i - step), u));
+    const Pack stretch = ahead * along<S>(load(a.displacement, i + step) - u) +
+                         behind * along<S>(load(a.displacement, i - step) - u);
     Pack magnitude = Pack(a.stiffness[family] * inverse_square) * stretch;
     if constexpr (Rates) {
-      const Pack rate = ahead * along<S>(minus(load(a.velocity, i + step), v)) +
-                        behind * along<S>(minus(load(a.velocity, i - step), v));
+      const Pack rate = ahead * along<S>(load(a.velocity, i + step) - v) +
+                        behind * along<S>(load(a.velocity, i - step) - v);
       magnitude += Pack(a.damping[family] * inverse_square) * rate;
     }
     add_along<S>(force, magnitude);
@@ -85,23 +77,21 @@ struct Body {
     const std::ptrdiff_t step = a.neighbour[S];
     const std::ptrdiff_t j = Sign > 0 ? i + step : i - step;
     const Pack weight = load(a.weight[S] + (Sign > 0 ? i : j));
-    Vector d = minus(load(a.displacement, j), u);
+    Vector d = load(a.displacement, j) - u;
     d.x += Pack(Sign * s.dx * a.spacing);
     d.y += Pack(Sign * s.dy * a.spacing);
     d.z += Pack(Sign * s.dz * a.spacing);
-    const Vector w = minus(load(a.velocity, j), v);
+    const Vector w = load(a.velocity, j) - v;
     const double rest = a.spacing * __builtin_sqrt(double(s.family) + 1.0);
     // Absent neighbours may coincide with the point: the floor keeps 0 * (1/0) out of the sum.
     const Pack floor = 1e-24 * a.spacing * a.spacing;
-    const Pack square = max(d.x * d.x + d.y * d.y + d.z * d.z, floor);
+    const Pack square = max(dot(d, d), floor);
     const Pack inverse_length = Pack(1.0) / sqrt(square);
-    const Pack rate = (d.x * w.x + d.y * w.y + d.z * w.z) * inverse_length;
+    const Pack rate = dot(d, w) * inverse_length;
     const Pack magnitude =
         weight * (Pack(a.stiffness[s.family]) * (Pack(1.0) - Pack(rest) * inverse_length) +
                   Pack(a.damping[s.family]) * rate * inverse_length);
-    force.x += magnitude * d.x;
-    force.y += magnitude * d.y;
-    force.z += magnitude * d.z;
+    force += magnitude * d;
   }
 
   template <bool Finite, bool Rates, std::size_t... S>
@@ -125,9 +115,7 @@ struct Body {
         if constexpr (Rates) v = load(a.velocity, i);
         Vector force{0.0, 0.0, 0.0};
         springs<Finite, Rates>(a, i, u, v, force, std::make_index_sequence<directions>());
-        store(a.force[0] + i, force.x);
-        store(a.force[1] + i, force.y);
-        store(a.force[2] + i, force.z);
+        store(a.force, std::size_t(i), force);
       }
     }
   }

@@ -1,10 +1,12 @@
-/// Vectors and matrices whose entries are packs of doubles, for the kernel of the cells; included
-/// by it only.
+/// Vectors and matrices whose entries are packs of doubles, or plain doubles.
 #pragma once
 
+#include <cmath>
 #include <experimental/simd>
 #include <type_traits>
 #include <utility>
+
+#include "lattice/kernels/packs.h"
 
 namespace fingertip::lattice::kernel {
 
@@ -29,27 +31,11 @@ template <int K, typename Three>
 
 template <typename Pack>
 struct PackAlgebra {
-  struct Vector {
-    Pack x, y, z;
-
-    [[gnu::always_inline]] friend Vector operator+(const Vector& a, const Vector& b) {
-      return {a.x + b.x, a.y + b.y, a.z + b.z};
-    }
-    [[gnu::always_inline]] friend Vector operator-(const Vector& a, const Vector& b) {
-      return {a.x - b.x, a.y - b.y, a.z - b.z};
-    }
-  };
+  using Vector = PackVector<Pack>;
   /// A matrix by rows.
   struct Rows {
     Vector x, y, z;
   };
-
-  [[gnu::always_inline]] static Pack load(const double* from) {
-    return Pack(from, std::experimental::element_aligned);
-  }
-  [[gnu::always_inline]] static void store(double* to, const Pack& value) {
-    value.copy_to(to, std::experimental::element_aligned);
-  }
 
   /// The last lane of `before`, then the lanes of `value` but for its last.
   [[gnu::always_inline]] static Pack shifted(const Pack& before, const Pack& value) {
@@ -64,17 +50,12 @@ struct PackAlgebra {
                                         (last + Lane)...));
   }
 
-  [[gnu::always_inline]] static Vector scaled(const Pack& s, const Vector& v) {
-    return {s * v.x, s * v.y, s * v.z};
-  }
   [[gnu::always_inline]] static Rows multiple(const Pack& s, const Rows& A) {
-    return {scaled(s, A.x), scaled(s, A.y), scaled(s, A.z)};
+    return {s * A.x, s * A.y, s * A.z};
   }
-  [[gnu::always_inline]] static Pack dot(const Vector& a, const Vector& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-  }
-  [[gnu::always_inline]] static Vector cross(const Vector& a, const Vector& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  /// A:C.
+  [[gnu::always_inline]] static Pack contract(const Rows& A, const Rows& C) {
+    return dot(A.x, C.x) + dot(A.y, C.y) + dot(A.z, C.z);
   }
   /// A v.
   [[gnu::always_inline]] static Vector times(const Rows& A, const Vector& v) {
@@ -82,7 +63,7 @@ struct PackAlgebra {
   }
   /// Aᵀ v.
   [[gnu::always_inline]] static Vector transposed_times(const Rows& A, const Vector& v) {
-    return scaled(v.x, A.x) + scaled(v.y, A.y) + scaled(v.z, A.z);
+    return v.x * A.x + v.y * A.y + v.z * A.z;
   }
   [[gnu::always_inline]] static Rows plus_one(Rows H) {
     H.x.x += Pack(1.0);
@@ -108,8 +89,16 @@ struct PackAlgebra {
     return max(max(s.x + (xy + zx), s.y + (xy + yz)), s.z + (yz + zx));
   }
 
-  /// Natural logarithm to 1 ulp (2e-16) for 2^-12 <= value <= 2^12; beyond, that of the nearer end.
+  /// Natural logarithm. Packs: to 1 ulp (2e-16) for 2^-12 <= value <= 2^12; beyond, that of the
+  /// nearer end.
   [[gnu::always_inline]] static Pack log(const Pack& value) {
+    if constexpr (std::is_floating_point_v<Pack>) {
+      return std::log(value);
+    } else {
+      return log_of_pack(value);
+    }
+  }
+  [[gnu::always_inline]] static Pack log_of_pack(const Pack& value) {
     constexpr double root = 1.4142135623730951;
     constexpr double ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
     // In cells near rest there is nothing to reduce.

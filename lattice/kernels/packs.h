@@ -1,6 +1,6 @@
-/// Vectors of packed doubles for the kernels of the surfaces. Included only by files that are
-/// compiled once per instruction set: `Pack` differs between them, which keeps their instantiations
-/// apart.
+/// Packs of doubles, the one way in which the lattice is vectorised: `Pack` is a
+/// std::experimental::simd as wide as the registers that the including file is compiled for, so its
+/// type differs between compilations, which keeps their instantiations apart.
 #pragma once
 
 #include <array>
@@ -12,29 +12,28 @@
 
 namespace fingertip::lattice::kernel {
 
+/// Of packs, or of plain numbers. Inlined by force: handing dozens of packs on would lead through
+/// memory.
 template <typename Pack>
 struct PackVector {
   Pack x, y, z;
 
-  PackVector& operator+=(const PackVector& other) {
-    x += other.x;
-    y += other.y;
-    z += other.z;
-    return *this;
+  [[gnu::always_inline]] PackVector& operator+=(const PackVector& other) {
+    return *this = *this + other;
   }
-  friend PackVector operator+(const PackVector& a, const PackVector& b) {
+  [[gnu::always_inline]] friend PackVector operator+(const PackVector& a, const PackVector& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
   }
-  friend PackVector operator-(const PackVector& a, const PackVector& b) {
+  [[gnu::always_inline]] friend PackVector operator-(const PackVector& a, const PackVector& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
-  friend PackVector operator*(const Pack& factor, const PackVector& a) {
+  [[gnu::always_inline]] friend PackVector operator*(const Pack& factor, const PackVector& a) {
     return {factor * a.x, factor * a.y, factor * a.z};
   }
-  friend Pack dot(const PackVector& a, const PackVector& b) {
+  [[gnu::always_inline]] friend Pack dot(const PackVector& a, const PackVector& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
   }
-  friend PackVector cross(const PackVector& a, const PackVector& b) {
+  [[gnu::always_inline]] friend PackVector cross(const PackVector& a, const PackVector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
 };
@@ -46,11 +45,13 @@ struct Packs {
   static constexpr std::size_t width = Pack::size();
   static constexpr std::size_t parts = lanes / width;
 
-  static Pack load(const double* from) { return Pack(from, std::experimental::element_aligned); }
-  static void store(double* to, const Pack& value) {
+  [[gnu::always_inline]] static Pack load(const double* from) {
+    return Pack(from, std::experimental::element_aligned);
+  }
+  [[gnu::always_inline]] static void store(double* to, const Pack& value) {
     value.copy_to(to, std::experimental::element_aligned);
   }
-  static Vector load(const double* const* field, std::size_t i) {
+  [[gnu::always_inline]] static Vector load(const double* const* field, std::size_t i) {
     return {load(field[0] + i), load(field[1] + i), load(field[2] + i)};
   }
   static void store(double* const* field, std::size_t i, const Vector& value) {

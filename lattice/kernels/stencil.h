@@ -51,6 +51,35 @@ inline std::size_t cell_corner(const std::array<int, 3>& size, std::size_t cell,
          std::size_t(c >> 2 & 1) * std::size_t(size[0]) * std::size_t(size[1]);
 }
 
+/// Directions of the half stencil along x, y and z.
+inline constexpr std::array<std::size_t, 3> along_axis{0, 2, 8};
+
+/// Of a cell's twelve edges, four along each axis: the corner where edge e of those along d starts.
+/// It is up along d + 1 if e is odd, and along d + 2 if e is 2 or 3.
+constexpr int edge_start(std::size_t d, std::size_t e) {
+  return int(((e & 1) << (d + 1) % 3) | ((e >> 1) << (d + 2) % 3));
+}
+
+/// A spring of a cell, between two of its corners, and which direction of the half stencil it has.
+struct CellSpring {
+  int start = 0, end = 0;
+  std::size_t direction = 0;
+};
+
+/// All of a cell: 12 edges, 12 face diagonals, 4 body diagonals; by direction.
+inline constexpr std::array<CellSpring, 28> cell_springs = [] {
+  std::array<CellSpring, 28> springs;
+  std::size_t next = 0;
+  for (std::size_t s = 0; s < half_stencil.size(); ++s) {
+    const Direction& d = half_stencil[s];
+    for (int c = 0; c < 8; ++c) {
+      const int x = (c & 1) + d.dx, y = (c >> 1 & 1) + d.dy, z = (c >> 2 & 1) + d.dz;
+      if (((x | y | z) & ~1) == 0) springs[next++] = {c, x | y << 1 | z << 2, s};
+    }
+  }
+  return springs;
+}();
+
 /// Share of a direction's spring that one cell owns: an edge belongs to four cells, a face
 /// diagonal to two, a body diagonal to one.
 inline constexpr std::array<double, 3> cell_share{0.25, 0.5, 1.0};

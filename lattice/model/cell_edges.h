@@ -7,8 +7,7 @@
 
 namespace fingertip::lattice {
 
-/// Values of the edges, four along x, four along y, four along z; edge e along direction d starts
-/// at the corner that is up along d + 1 if e is odd, and along d + 2 if e is 2 or 3.
+/// Values of the edges, four along x, four along y, four along z, as edge_start() numbers them.
 struct CellEdges {
   /// Shares of the rubber: the mean gradient along d is Σ_e mean_e (u_end - u_start)/a. Σ_e = 1.
   std::array<double, 12> mean{};

@@ -36,14 +36,14 @@ void put_edge_variance(const CornerMoments& moments, double fraction, int d,
   const int first = (d + 1) % 3, second = (d + 2) % 3;
   Eigen::Vector4d weight = Eigen::Vector4d::Zero();
   Eigen::Matrix4d slope = Eigen::Matrix4d::Zero();  // of an edge's (row's) gradient by each mode
-  for (int c = 0; c < 8; ++c) {
-    const int edge = (c >> first & 1) + 2 * (c >> second & 1);
+  for (int e = 0; e < 4; ++e) {
+    const int c = edge_start(std::size_t(d), std::size_t(e));
     const double s = coordinate(c, first), t = coordinate(c, second);
-    weight[edge] += moments[std::size_t(c)] / fraction;
+    weight[e] = moments[std::size_t(c)] / fraction + moments[std::size_t(c | 1 << d)] / fraction;
     // Mode m is the product of the coordinates other than m.
-    slope(edge, second) = s;
-    slope(edge, first) = t;
-    slope(edge, 3) = s * t;
+    slope(e, second) = s;
+    slope(e, first) = t;
+    slope(e, 3) = s * t;
   }
   int row = d * edge_pairs / 3;
   for (int e = 0; e < 4; ++e) {

@@ -26,13 +26,7 @@ std::array<Matrix3d, 8> law_stiffness(const CutCell& cell, const CellMaterial& m
   const CornerMoments moments = corner_moments(cell);
   const auto gradients = mean_gradients(moments, spacing, Matrix3d::Identity());
   const double volume = cell.fraction() * std::pow(spacing, 3);
-  double c11 = material.c11, c12 = material.c12, c44 = material.c44;
-  if (material.kind == CellLawKind::network) {
-    c44 = material.shear;
-    c12 = material.lambda;
-    c11 = c12 + 2.0 * c44;
-  }
-  if (material.kind == CellLawKind::volume) c11 = c12 = material.kappa;
+  const auto [c11, c12, c44] = material.at_rest();
   std::array<Matrix3d, 8> result;
   for (int c = 0; c < 8; ++c) {
     const Vector3 g = gradients.col(c);
@@ -42,9 +36,8 @@ std::array<Matrix3d, 8> law_stiffness(const CutCell& cell, const CellMaterial& m
     block.diagonal() += volume * (c11 - c12 - 2.0 * c44) * g.cwiseAbs2();
     // Fibres see the corner's own three edges where the law sees the mean.
     double edges = -volume * g.squaredNorm();
-    for (const Direction& d : half_stencil) {
-      if (d.family == axis) edges += spacing * spring_share(moments, c, d);
-    }
+    for (const std::size_t d : along_axis)
+      edges += spacing * spring_share(moments, c, half_stencil[d]);
     block.diagonal().array() += material.bending * edges;
   }
   return result;
@@ -56,17 +49,13 @@ std::array<Matrix3d, 8> spring_stiffness(const CutCell& cell, const SpringConsta
   const std::array<double, 3> k{constants.k1, constants.k2, constants.k3};
   std::array<Matrix3d, 8> result;
   result.fill(Matrix3d::Zero());
-  for (int c = 0; c < 8; ++c) {
-    for (int other = c + 1; other < 8; ++other) {
-      const Vector3 apart((other & 1) - (c & 1), (other >> 1 & 1) - (c >> 1 & 1),
-                          (other >> 2 & 1) - (c >> 2 & 1));
-      const Direction direction{int(apart.x()), int(apart.y()), int(apart.z()),
-                                Family(int(apart.squaredNorm()) - 1)};
-      const Matrix3d block = k[direction.family] * spring_share(moments, c, direction) * apart *
-                             apart.transpose() / apart.squaredNorm();
-      result[std::size_t(c)] += block;
-      result[std::size_t(other)] += block;
-    }
+  for (const CellSpring& spring : cell_springs) {
+    const Direction& d = half_stencil[spring.direction];
+    const Vector3 apart(d.dx, d.dy, d.dz);
+    const Matrix3d block = k[d.family] * spring_share(moments, spring.start, d) * apart *
+                           apart.transpose() / apart.squaredNorm();
+    result[std::size_t(spring.start)] += block;
+    result[std::size_t(spring.end)] += block;
   }
   return result;
 }

@@ -9,29 +9,16 @@ namespace fingertip::lattice {
 using meshes::Rubber;
 using meshes::Violation;
 
-namespace {
-
-/// C by homogenisation of springs and volume constant: C12 = C44 + kappa.
-CellMaterial cubic_material(const SpringConstants& k, double spacing, double shear) {
+CellMaterial cubic_material(const SpringConstants& k, double spacing, double share) {
   CellMaterial material;
   material.kind = CellLawKind::cubic;
-  material.c11 = (k.k1 + k.k2) / spacing + shear + k.kappa;
-  material.c12 = shear + k.kappa;
-  material.c44 = shear;
-  material.bending = fibre_share * shear;
+  material.c44 = shear_stiffness(k, spacing);
+  material.c12 = material.c44 + k.kappa;
+  material.c11 = (k.k1 + k.k2) / spacing + material.c44 + k.kappa;
+  material.bending = share * material.c44;
   return material;
 }
 
-CellMaterial network_material(const Rubber& rubber) {
-  CellMaterial material;
-  material.kind = CellLawKind::network;
-  material.shear = rubber.shear_modulus;
-  material.lambda = rubber.lame_lambda();
-  material.bending = fibre_share * rubber.shear_modulus;
-  return material;
-}
-
-/// kappa alone: kappa/2 (tr H)² or kappa/2 (J - 1)².
 CellMaterial volume_material(double kappa, bool finite) {
   CellMaterial material;
   material.kind = finite ? CellLawKind::volume : CellLawKind::cubic;
@@ -40,7 +27,14 @@ CellMaterial volume_material(double kappa, bool finite) {
   return material;
 }
 
-}  // namespace
+CellMaterial network_material(double shear, double lambda, double share) {
+  CellMaterial material;
+  material.kind = CellLawKind::network;
+  material.shear = shear;
+  material.lambda = lambda;
+  material.bending = share * shear;
+  return material;
+}
 
 Formulation formulation_for(const Rubber& rubber, const LatticeSettings& settings) {
   const double a = settings.spacing;
@@ -55,11 +49,12 @@ Formulation formulation_for(const Rubber& rubber, const LatticeSettings& setting
       settings.model == ModelKind::central || (formulation.finite && !network);
   formulation.cell_law = settings.model != ModelKind::central;
   if (network && formulation.finite) {
-    formulation.material = network_material(rubber);
+    formulation.material =
+        network_material(rubber.shear_modulus, rubber.lame_lambda(), fibre_share);
   } else if (formulation.central_springs) {
     formulation.material = volume_material(formulation.constants.kappa, formulation.finite);
   } else {
-    formulation.material = cubic_material(formulation.constants, a, formulation.shear);
+    formulation.material = cubic_material(formulation.constants, a, fibre_share);
   }
   formulation.material.retardation_time = rubber.retardation_time;
   return formulation;

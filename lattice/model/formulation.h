@@ -32,6 +32,16 @@ struct Formulation {
   double shear = 0.0;            ///< C44 at rest [Pa]
 };
 
+/// C by homogenisation of springs and volume constant: C12 = C44 + kappa, C11 = (k1 + 2 k2 + 4/3
+/// k3)/a + kappa, C44 = (k2 + 4/3 k3)/a; fibres carry the share `share` of C44. `spacing` a > 0
+/// [m].
+CellMaterial cubic_material(const SpringConstants& constants, double spacing, double share);
+/// kappa alone [Pa]: kappa/2 (tr H)² or kappa/2 (J - 1)².
+CellMaterial volume_material(double kappa, bool finite);
+/// `shear` G and `lambda` [Pa]; fibres carry the share `share` of G. With lambda < 0 the energy has
+/// no bound below as J -> 0; not checked.
+CellMaterial network_material(double shear, double lambda, double share);
+
 /// settings.constants are those of hookean (kappa included) and central, the network takes G and
 /// lambda of the rubber. Settings must be free of material_violations.
 Formulation formulation_for(const meshes::Rubber& rubber, const LatticeSettings& settings);

@@ -42,14 +42,13 @@ double spring_share(const CornerMoments& moments, int corner, const Direction& d
 
 Eigen::Matrix<double, 3, 8> mean_gradients(const CornerMoments& moments, double spacing,
                                            const Eigen::Matrix3d& axes) {
-  constexpr std::array<Direction, 3> edges{{{1, 0, 0, axis}, {0, 1, 0, axis}, {0, 0, 1, axis}}};
   const double volume = std::accumulate(moments.begin(), moments.end(), 0.0);
   Eigen::Matrix<double, 3, 8> gradients;
   for (int c = 0; c < 8; ++c) {
     for (int d = 0; d < 3; ++d) {
       const double slope = (c >> d & 1) != 0 ? 1.0 : -1.0;
-      gradients(d, c) =
-          slope * spring_share(moments, c, edges[std::size_t(d)]) / (volume * spacing);
+      const Direction& edge = half_stencil[along_axis[std::size_t(d)]];
+      gradients(d, c) = slope * spring_share(moments, c, edge) / (volume * spacing);
     }
   }
   return axes * gradients;
@@ -167,13 +166,9 @@ std::array<std::vector<double>, directions> spring_shares(const GridCells& cells
   for (const CutCell& cell : cells.cells()) {
     const CornerMoments moments = corner_moments(cell);
     const std::array<std::uint32_t, 8> corners = cells.corners(cell);
-    for (std::size_t s = 0; s < half_stencil.size(); ++s) {
-      const Direction& d = half_stencil[s];
-      for (int c = 0; c < 8; ++c) {
-        const int x = (c & 1) + d.dx, y = (c >> 1 & 1) + d.dy, z = (c >> 2 & 1) + d.dz;
-        if ((x | y | z) & ~1) continue;  // the spring would leave the cell
-        shares[s][cells.point(corners[std::size_t(c)])] += spring_share(moments, c, d);
-      }
+    for (const CellSpring& spring : cell_springs) {
+      shares[spring.direction][cells.point(corners[std::size_t(spring.start)])] +=
+          spring_share(moments, spring.start, half_stencil[spring.direction]);
     }
   }
   return shares;

@@ -42,19 +42,13 @@ Rates rates_of(PressParameter parameter, const LatticeSettings& settings) {
   return rates;
 }
 
-CellLaw law_slope(const Formulation& formulation, const Rates& rates,
-                  const LatticeSettings& settings) {
-  const SpringConstants& k = rates.constants;
-  if (formulation.central_springs) {
-    return formulation.cell_law && k.kappa != 0.0 ? CellLaw::volume(k.kappa, formulation.finite)
-                                                  : CellLaw();
-  }
-  if (formulation.material.kind == CellLawKind::network) {
-    if (rates.shear == 0.0 && rates.lambda == 0.0) return {};
-    return CellLaw::network(rates.shear, rates.lambda, fibre_share);
-  }
-  if (k.k1 == 0.0 && k.k2 == 0.0 && k.k3 == 0.0 && k.kappa == 0.0) return {};
-  return CellLaw::cubic(k, settings.spacing, fibre_share, settings.axes);
+/// Every law is linear in its moduli.
+CellMaterial material_slope(const Formulation& formulation, const Rates& rates, double spacing) {
+  if (formulation.central_springs)
+    return volume_material(formulation.cell_law ? rates.constants.kappa : 0.0, formulation.finite);
+  if (formulation.material.kind == CellLawKind::network)
+    return network_material(rates.shear, rates.lambda, fibre_share);
+  return cubic_material(rates.constants, spacing, fibre_share);
 }
 
 /// The family whose springs have the length of this one.
@@ -169,7 +163,7 @@ LatticeBody body_slope(const LatticeBody& body, const PressSetup& setup, PressPa
   const Rates rates = rates_of(parameter, setup.lattice);
   const double shear = rates.shear / formulation.shear;  // fibres and ties are proportional to it
   LatticeBody slope = body;
-  slope.law = law_slope(formulation, rates, setup.lattice);
+  slope.law.material = material_slope(formulation, rates, setup.lattice.spacing);
   if (slope.law.none()) slope.cells.clear();
   slope.springs =
       formulation.central_springs ? springs_slope(body, setup, parameter) : std::vector<Spring>();

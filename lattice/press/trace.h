@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::lattice {

@@ -31,11 +31,7 @@ class Engine {
 namespace {
 
 SweepOffer offer(int width) {
-  switch (width) {
-    case 2: return sweep_width2();
-    case 4: return sweep_width4();
-    default: return sweep_width8();
-  }
+  return kernel::by_width(width, sweep_at<2>, sweep_at<4>, sweep_at<8>)();
 }
 
 template <typename Real>

@@ -63,13 +63,12 @@ struct LaneGrid {
 template <typename Real>
 using SweepPlane = void (*)(const LaneGrid<Real>& grid, int plane, Real* forces);
 
-/// What the file compiled for one register width offers.
+/// What one compilation offers (sweep_widths.cc), `width` doubles per register.
 struct SweepOffer {
   SweepPlane<double> damped64, undamped64;
   SweepPlane<float> damped32, undamped32;
 };
-SweepOffer sweep_width2();
-SweepOffer sweep_width4();
-SweepOffer sweep_width8();
+template <int width>
+SweepOffer sweep_at();
 
 }  // namespace fingertip::lattice::springs

@@ -1,5 +1,5 @@
-/// The sweep itself, compiled once per instruction set (sweep_width2/4/8.cc). Included by those
-/// files only. `Pack` is one of their registers; its type keeps the instantiations apart.
+/// The sweep itself, compiled once per instruction set (sweep_widths.cc). Included by that
+/// file only. `Pack` is one of their registers; its type keeps the instantiations apart.
 ///
 /// README.md explains layout and order. In short: a slot's masses and the forces on them stay in
 /// registers while it meets its 13 neighbouring slots, whose forces are read, added to and written

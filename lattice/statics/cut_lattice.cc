@@ -39,20 +39,11 @@ void add_springs(const GridCells& cells, const Formulation& formulation, Lattice
   }
 }
 
-CellLaw law_for(const Formulation& formulation, const Rubber& rubber, const CubicGrid& grid) {
-  const CellMaterial& material = formulation.material;
-  if (!formulation.cell_law) return {};
-  if (material.kind == CellLawKind::volume) return CellLaw::volume(material.kappa, true);
-  if (material.kind == CellLawKind::network) return CellLaw::network(rubber, fibre_share);
-  return CellLaw::cubic(formulation.constants, grid.spacing, fibre_share, grid.axes);
-}
-
 /// Particles, springs and cells; no bond, no outer points, nothing held.
-LatticeBody elastic_body(const GridCells& cells, const Formulation& formulation,
-                         const Rubber& rubber) {
+LatticeBody elastic_body(const GridCells& cells, const Formulation& formulation, double density) {
   LatticeBody body;
   body.finite = formulation.finite;
-  body.law = law_for(formulation, rubber, cells.grid());
+  if (formulation.cell_law) body.law = {formulation.material, cells.grid().axes};
   body.mass.assign(cells.particles(), 0.0);
   body.fixed.assign(3 * cells.particles(), 0);
   for (std::size_t p = 0; p < cells.particles(); ++p) body.rest.push_back(cells.rest_position(p));
@@ -60,7 +51,7 @@ LatticeBody elastic_body(const GridCells& cells, const Formulation& formulation,
   for (const CutCell& cell : cells.cells()) {
     const CornerMoments moments = corner_moments(cell);
     const auto corners = cells.corners(cell);
-    for (std::size_t c = 0; c < 8; ++c) body.mass[corners[c]] += rubber.density * cube * moments[c];
+    for (std::size_t c = 0; c < 8; ++c) body.mass[corners[c]] += density * cube * moments[c];
     body.cells.push_back(
         {corners, mean_gradients(moments, spacing, cells.grid().axes), cell.fraction() * cube});
   }
@@ -104,7 +95,7 @@ LatticeBody published_springs(const LatticeModel& model, std::vector<std::uint32
 LatticeBody build_cut_tip(const Geometry& geometry, const Rubber& rubber,
                           const LatticeSettings& settings, int sectors) {
   CutTip tip = cut_tip(geometry, rubber, settings, sectors);
-  LatticeBody body = elastic_body(tip.cells, tip.formulation, rubber);
+  LatticeBody body = elastic_body(tip.cells, tip.formulation, rubber.density);
   body.sectors = sectors;
   hold_mirror_planes(settings.spacing, sectors, body);
   body.bond = std::move(tip.bond);
@@ -150,7 +141,7 @@ LatticeBody build_free_block(const Rubber& rubber, const LatticeSettings& settin
   grid.axes = settings.axes;
   grid.size = {cells[0] + 1, cells[1] + 1, cells[2] + 1};
   return elastic_body(GridCells(grid, whole_cells({0, 0, 0}, cells)),
-                      formulation_for(rubber, settings), rubber);
+                      formulation_for(rubber, settings), rubber.density);
 }
 
 int largest_symmetry(const LatticeSettings& settings, const meshes::PressProtocol& protocol) {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "lattice/model/cell_law.h"
 #include "lattice/model/embedded_points.h"
-#include "lattice/statics/cell_law.h"
 #include "meshes/geometry.h"
 
 namespace fingertip::lattice {

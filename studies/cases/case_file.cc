@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "studies/cases/case_table.h"
+#include <fmt/format.h>
+#include <toml++/toml.h>
 
 namespace fingertip::studies {
 
@@ -11,16 +12,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the variant has a setting of its own for the key.
-bool sets_key(const CaseVariant& variant, const std::string& key) {
-  return std::ranges::any_of(variant.sets,
+/// Whether the run has a setting of its own for the key.
+bool sets_key(const CaseRun& run, const std::string& key) {
+  return std::ranges::any_of(run.sets,
                              [&](const std::string& one) { return one.starts_with(key + "="); });
 }
 
 }  // namespace
 
-std::string full_name(const CaseVariant& variant) {
-  return (variant.series.empty() ? "" : variant.series + ", ") + variant.name;
+const std::vector<RunKind>& run_kinds() {
+  static const std::vector<RunKind> kinds = {
+      {"run", "", "", false, {"verb", "beside", "varied", "when", "times", "exhibit"}},
+      {"variant", "press", "variants", true, {}},
+      {"fit", "fit", "fits", true, {}},
+      {"prediction", "press", "", true, {}},  // below each fit
+      {"press", "press", "presses", false, {"beside", "continuum", "snapshots"}},
+      {"grasp", "grasp", "grasps", false, {}}};
+  return kinds;
+}
+
+std::string full_name(const CaseRun& run) {
+  return (run.series.empty() ? "" : run.series + ", ") + run.name;
+}
+
+bool is_asked(const CaseRun& prediction, const CaseRun& fit) {
+  return prediction.is("prediction") && fit.is("fit") &&
+         (prediction.series.empty() || prediction.series == fit.series);
 }
 
 fs::path cases_folder() {
@@ -71,22 +88,26 @@ Case load_case(const fs::path& file, const ConfigSource& source) {
   return one;
 }
 
-LoadedConfig variant_config(const Case& one, const CaseVariant& variant) {
-  std::vector<std::string> sets = variant.sets;
-  sets.emplace_back("press.mode=static");
+LoadedConfig run_config(const Case& one, const CaseRun& run) {
+  std::vector<std::string> sets = run.sets;
+  for (const auto& [key, factor] : run.times) {
+    const toml::table own = toml::parse("value = " + one.loaded.entries.at(key).literal);
+    sets.push_back(fmt::format("{}={}", key, factor * own["value"].value_or(0.0)));
+  }
+  const auto kind = std::ranges::find(run_kinds(), run.kind, &RunKind::name);
+  if (kind->at_rest) sets.emplace_back("press.mode=static");
   try {
     return one.loaded.with(sets);
   } catch (const ConfigError& error) {
-    throw at_variant(error, variant);
+    throw at_run(error, run);
   }
 }
 
-ConfigError at_variant(const ConfigError& error, const CaseVariant& variant) {
+ConfigError at_run(const ConfigError& error, const CaseRun& run) {
   std::vector<Problem> problems = error.problems();
-  const std::string who = " (variant " + full_name(variant) + ")";
   for (Problem& problem : problems) {
-    if (sets_key(variant, problem.key)) problem.place = variant.place;
-    problem.place += who;
+    if (sets_key(run, problem.key)) problem.place = run.place;
+    problem.place += " (variant " + full_name(run) + ")";
   }
   return ConfigError(std::move(problems));
 }

@@ -1,8 +1,10 @@
-#include "studies/cases/case_table.h"
+#include "studies/cases/case_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -10,11 +12,9 @@
 #include <toml++/toml.h>
 
 #include "calibration/toml_depth.h"
-#include "studies/cases/control_measures.h"
-#include "studies/cases/fit_measures.h"
-#include "studies/cases/grasp_measures.h"
 #include "studies/cases/measures.h"
-#include "studies/cases/variant_measures.h"
+#include "studies/cases/outputs.h"
+#include "studies/cases/planner.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
 #include "studies/config/value_reader.h"
@@ -37,12 +37,26 @@ toml::table parsed(const fs::path& file) {
   }
 }
 
-/// Keys that follow from what a variant is: a press in equilibrium, measured against the continuum
-/// of its own kinematics.
-const std::set<std::string>& derived_keys() {
+/// Keys that follow from what a run is: a press in equilibrium, measured against the continuum of
+/// its own kinematics, or one in time, beside the transient continuum.
+bool is_derived(const std::string& key, const std::string& kind) {
   static const std::set<std::string> keys = {"press.mode", "reference.strain", "reference.law",
                                              "reference.mode"};
-  return keys;
+  return kind != "run" && keys.contains(key) && !(kind == "press" && key == "press.mode");
+}
+
+const std::map<std::string, std::string CaseRun::*>& run_texts() {
+  static const std::map<std::string, std::string CaseRun::*> texts = {
+      {"name", &CaseRun::name},     {"series", &CaseRun::series}, {"verb", &CaseRun::verb},
+      {"beside", &CaseRun::beside}, {"varied", &CaseRun::varied}, {"when", &CaseRun::when}};
+  return texts;
+}
+
+const std::map<std::string, bool CaseRun::*>& run_flags() {
+  static const std::map<std::string, bool CaseRun::*> flags = {{"continuum", &CaseRun::continuum},
+                                                               {"snapshots", &CaseRun::snapshots},
+                                                               {"exhibit", &CaseRun::exhibit}};
+  return flags;
 }
 
 /// "key=literal". A file that a value names is relative to the folder of the case.
@@ -67,26 +81,43 @@ class CaseReader {
   std::vector<Problem> read() {
     // By reference: a copy of a TOML node forgets its line.
     const toml::table root = parsed(file_);
+    static const toml::table none;
     const auto* found = root["case"].as_table();
-    if (found == nullptr) return {};
-    const toml::table& table = *found;
+    const toml::table& table = found == nullptr ? none : *found;
     for (const auto& [key, node] : table) read_entry(std::string(key.str()), node);
-    // Budgets and criteria speak of variants.
-    each(table, "variant", &CaseReader::read_variant);
-    each(table, "fit", &CaseReader::read_fit);
-    each(table, "prediction", &CaseReader::read_prediction);
-    each(table, "press", &CaseReader::read_press);
-    each(table, "grasp", &CaseReader::read_grasp);
-    each(table, "budget", &CaseReader::read_budget);
-    each(table, "criteria", &CaseReader::read_criterion);
+    for (const RunKind& kind : run_kinds())
+      each(table, kind.name, [&](const toml::table& entry) { read_run(entry, kind); });
+    each(table, "table", [&](const toml::table& entry) { read_table(entry); });
+    if (target_.runs.empty() && !is_core_) take_core_runs();
+    // Budgets and criteria speak of runs.
+    each(table, "budget", [&](const toml::table& entry) { read_budget(entry); });
+    const std::vector<std::string> measures = measure_names(target_);
+    each(table, "criteria", [&](const toml::table& entry) { read_criterion(entry, measures); });
     return problems_;
   }
 
  private:
+  void take_core_runs() {
+    static const Case core = [] {
+      Case one;
+      const fs::path file = fs::path(FINGERTIP_CASES_FOLDER) / core_case / "case.toml";
+      CaseReader reader(file, one);
+      reader.is_core_ = true;
+      std::vector<Problem> problems = reader.read();
+      if (one.runs.empty())
+        problems.push_back({file.string(), "case.run", "", "the core case must say what is run",
+                            "restore the file"});
+      if (!problems.empty()) throw ConfigError(problems);
+      return one;
+    }();
+    target_.takes_core_runs = true;
+    target_.runs = core.runs;
+    target_.tables = core.tables;
+  }
+
   void read_entry(const std::string& name, const toml::node& node) {
-    static const std::set<std::string> lists = {"variant", "budget", "fit",     "prediction",
-                                                "press",   "grasp",  "criteria"};
-    const bool list = lists.contains(name);
+    const bool list = name == "table" || name == "budget" || name == "criteria" ||
+                      std::ranges::find(run_kinds(), name, &RunKind::name) != run_kinds().end();
     if (name == "title") {
       target_.title = text(node, "case.title");
     } else if (name == "description") {
@@ -95,17 +126,17 @@ class CaseReader {
       target_.abscissa = text(node, "case.x");
     } else if (!list || !node.is_array_of_tables()) {
       problem(node, "case." + name, "", "unknown entry of [case]",
-              "use title, description, x, [[case.variant]], [[case.budget]], [[case.fit]], "
-              "[[case.prediction]], [[case.press]], [[case.grasp]] and [[case.criteria]] with "
-              "name, measure, limit");
+              "use title, description, x, [[case.run]], [[case.variant]], [[case.budget]], "
+              "[[case.fit]], [[case.prediction]], [[case.press]], [[case.grasp]], [[case.table]] "
+              "and [[case.criteria]] with name, measure, limit");
     }
   }
 
-  void each(const toml::table& table, const char* name,
-            void (CaseReader::*reader)(const toml::table&)) {
+  template <class Reader>
+  void each(const toml::table& table, const std::string& name, const Reader& reader) {
     const auto* list = table[name].as_array();
     if (list == nullptr || !list->is_array_of_tables()) return;
-    for (const toml::node& entry : *list) (this->*reader)(*entry.as_table());
+    for (const toml::node& entry : *list) reader(*entry.as_table());
   }
 
   void problem(const toml::node& node, const std::string& key, const std::string& value,
@@ -123,12 +154,18 @@ class CaseReader {
     return {};
   }
 
-  void read_criterion(const toml::table& entry) {
+  std::vector<std::string> texts(const toml::table& entry, const char* name) {
+    std::vector<std::string> list;
+    if (const auto* found = entry[name].as_array())
+      for (const toml::node& one : *found) list.push_back(one.value_or(std::string()));
+    return list;
+  }
+
+  void read_criterion(const toml::table& entry, const std::vector<std::string>& measures) {
     CaseCriterion criterion;
     criterion.name = entry["name"].value_or(std::string());
     criterion.measure = entry["measure"].value_or(std::string());
     criterion.limit = entry["limit"].value_or(std::nan(""));
-    const std::vector<std::string> measures = measures_of_case();
     if (criterion.name.empty() || !std::isfinite(criterion.limit) || entry.size() != 3) {
       problem(entry, "case.criteria", criterion.name, "needs exactly name, measure and limit",
               "complete the entry");
@@ -139,111 +176,135 @@ class CaseReader {
     target_.criteria.push_back(std::move(criterion));
   }
 
-  std::vector<std::string> measures_of_case() const {
-    if (!target_.fits.empty()) return fit_measure_names(target_);
-    if (!target_.presses.empty()) return control_measure_names(target_);
-    if (!target_.grasps.empty()) return grasp_measure_names(target_);
-    return target_.variants.empty() ? measure_names() : variant_measure_names(target_);
-  }
-
-  void read_press(const toml::table& entry) {
-    CasePress press;
-    toml::table common = entry;
-    const auto take = [&](const char* name, auto& value) {
-      using Value = std::remove_reference_t<decltype(value)>;
-      const toml::node* node = entry.get(name);
-      if (node == nullptr) return;
-      common.erase(name);
-      if (const auto found = node->value_exact<Value>()) {
-        value = *found;
-      } else {
-        problem(*node, fmt::format("case.press.{}", name), toml_literal(*node),
-                "must be of another type", "use continuum and snapshots = true, beside = \"NAME\"");
-      }
+  void read_run(const toml::table& entry, const RunKind& kind) {
+    CaseRun run;
+    run.kind = kind.name;
+    run.verb = kind.verb;
+    run.place = place(entry);
+    for (const auto& [key, node] : entry) read_entry_of(run, kind, std::string(key.str()), node);
+    const auto problem_of = [&](const std::string& name, const std::string& value,
+                                const std::string& rule, const std::string& remedy) {
+      problem(entry, "case." + run.kind + "." + name, value, rule, remedy);
     };
-    take("continuum", press.continuum);
-    take("snapshots", press.snapshots);
-    take("beside", press.beside);
-    std::vector<CaseVariant> before(target_.presses.begin(), target_.presses.end());
-    const bool known =
-        press.beside.empty() || std::ranges::find(before, press.beside, full_name) != before.end();
-    if (!known)
-      problem(entry, "case.press.beside", press.beside, "must be a press above",
-              "name it \"series, name\"");
-    read_run(common, "press", before);
-    static_cast<CaseVariant&>(press) = std::move(before.back());
-    target_.presses.push_back(std::move(press));
-  }
-
-  void read_variant(const toml::table& entry) { read_run(entry, "variant", target_.variants); }
-  void read_grasp(const toml::table& entry) { read_run(entry, "grasp", target_.grasps); }
-  void read_fit(const toml::table& entry) { read_run(entry, "fit", target_.fits); }
-  void read_prediction(const toml::table& entry) {
-    read_run(entry, "prediction", target_.predictions);
-  }
-
-  void read_run(const toml::table& entry, const std::string& kind, std::vector<CaseVariant>& runs) {
-    CaseVariant variant;
-    variant.place = place(entry);
-    for (const auto& [key, node] : entry) {
-      const std::string name(key.str());
-      if (name == "name" || name == "series") {
-        (name == "name" ? variant.name : variant.series) = text(node, "case." + kind + "." + name);
-      } else if (name == "x" && node.is_number() &&
-                 std::isfinite(node.value<double>().value_or(NAN))) {
-        variant.x = *node.value<double>();
-      } else if (name == "set" && node.is_table()) {
-        read_settings(*node.as_table(), kind, variant);
-      } else {
-        problem(node, "case." + kind + "." + name, toml_literal(node), "no such entry of a " + kind,
-                "use name, series (texts), x (a number) and set = { \"section.key\" = value }");
-      }
+    bool twice = false, known = run.beside.empty();
+    for (const CaseRun& other : target_.runs) {
+      if (!other.is(run.kind)) continue;
+      twice |= other.name == run.name && other.series == run.series;
+      if (full_name(other) != run.beside) continue;
+      known = true;
+      if (run.is("run")) run.continuum = other.verb == "reference";
     }
-    const bool twice = std::ranges::any_of(runs, [&](const CaseVariant& other) {
-      return other.name == variant.name && other.series == variant.series;
-    });
-    if (variant.name.empty() || twice)
-      problem(entry, "case." + kind + ".name", variant.name, "must be given, once in a series",
-              "name every " + kind);
-    runs.push_back(std::move(variant));
+    if (run.name.empty() || twice)
+      problem_of("name", run.name, "must be given, once in a series", "name every " + run.kind);
+    if (!known)
+      problem_of("beside", run.beside, "must be a press above", "name it \"series, name\"");
+    if (kind.verb.empty() && std::ranges::find(run_verbs(), run.verb) == run_verbs().end())
+      problem_of("verb", run.verb, "must say what is run",
+                 "use one of " + fmt::format("{}", fmt::join(run_verbs(), ", ")));
+    if (!run.when.empty() && run.when != "coarser" && run.when != "another")
+      problem_of("when", run.when, "must be coarser or another",
+                 "leave it out for a run that is always made");
+    target_.runs.push_back(std::move(run));
   }
 
-  void read_settings(const toml::table& settings, const std::string& kind, CaseVariant& variant) {
+  void read_entry_of(CaseRun& run, const RunKind& kind, const std::string& name,
+                     const toml::node& node) {
+    const std::string key = "case." + kind.name + "." + name;
+    const bool common = name == "name" || name == "series";
+    const bool own = kind.entries.contains(name);
+    if ((own || common) && run_texts().contains(name)) {
+      run.*run_texts().at(name) = text(node, key);
+    } else if (own && run_flags().contains(name)) {
+      const std::optional<bool> value = node.value_exact<bool>();
+      if (!value)
+        problem(node, key, toml_literal(node), "must be of another type",
+                "use " + name + " = true");
+      run.*run_flags().at(name) = value.value_or(false);
+    } else if (name == "x" && node.is_number() &&
+               std::isfinite(node.value<double>().value_or(NAN))) {
+      run.x = *node.value<double>();
+    } else if (name == "set" && node.is_table()) {
+      read_settings(*node.as_table(), run);
+    } else if (own && name == "times" && node.is_table()) {
+      read_factors(*node.as_table(), run);
+    } else {
+      std::string others;
+      for (const std::string& other : kind.entries) others += ", " + other;
+      problem(node, key, toml_literal(node), "no such entry of a " + kind.name,
+              "use name, series (texts), x (a number), set = { \"section.key\" = value }" + others);
+    }
+  }
+
+  void read_settings(const toml::table& settings, CaseRun& run) {
     for (const auto& [key, value] : settings) {
       const std::string name(key.str());
       if (value.is_table()) {
         problem(value, "case.variant.set", name, "must be a full key and its value",
                 "put the key in quotes: \"" + name + ".key\" = value");
-      } else if (derived_keys().contains(name) && !(kind == "press" && name == "press.mode")) {
+      } else if (is_derived(name, run.kind)) {
         problem(value, name, toml_literal(value),
                 "a variant is a static press, measured against the continuum of its kinematics, a "
                 "press is measured against the transient one",
                 "leave it out, or set lattice.kinematics");
       } else {
-        variant.sets.push_back(setting(name, value, file_.parent_path()));
+        run.sets.push_back(setting(name, value, file_.parent_path()));
       }
     }
   }
 
+  void read_factors(const toml::table& factors, CaseRun& run) {
+    for (const auto& [key, value] : factors) {
+      const std::string name(key.str());
+      const Key* known = find_key(name);
+      const double factor = value.is_number() ? value.value<double>().value_or(NAN) : NAN;
+      if (known == nullptr || known->kind != Kind::number || !std::isfinite(factor))
+        problem(value, "case.run.times", name, "must be the key of a number and a factor",
+                "use times = { \"section.key\" = 10.0 }");
+      else
+        run.times[name] = factor;
+    }
+  }
+
+  void read_table(const toml::table& entry) {
+    CaseTable table{entry["file"].value_or(std::string()), entry["series"].value_or(std::string()),
+                    texts(entry, "columns")};
+    const bool plain = table.file.ends_with(".csv") && as_folder(table.file) == table.file;
+    const auto shown = [&](const CaseRun& run) {
+      return run.is_verdict() && run.series == table.series;
+    };
+    if (!plain || entry.size() != 3 || table.columns.empty() ||
+        std::ranges::none_of(target_.runs, shown))
+      problem(entry, "case.table", table.file,
+              "needs exactly file, a name that ends with .csv, series, one of presses above, and "
+              "columns",
+              "complete the entry");
+    for (const std::string& column : table.columns) {
+      const std::vector<std::string> columns = table_columns();
+      if (std::ranges::find(columns, column) == columns.end())
+        problem(entry, "case.table.columns", column, "unknown column",
+                "the nearest one is " + nearest_word(column, columns));
+    }
+    target_.tables.push_back(std::move(table));
+  }
+
   void read_budget(const toml::table& entry) {
-    CaseBudget budget;
-    budget.name = entry["name"].value_or(std::string());
-    if (const auto* parts = entry["parts"].as_array())
-      for (const toml::node& part : *parts) budget.parts.push_back(part.value_or(std::string()));
+    const std::size_t problems = problems_.size();
+    CaseBudget budget{entry["name"].value_or(std::string()), texts(entry, "parts")};
     if (budget.name.empty() || budget.parts.empty() || entry.size() != 2)
       problem(entry, "case.budget", budget.name, "needs exactly name and parts, a list of series",
               "complete the entry");
     for (const std::string& part : budget.parts) {
-      if (soft_variants(target_, part).size() >= 2) continue;
+      if (soft_variants(blank_results(target_), part).size() >= 2) continue;
       problem(entry, "case.budget.parts", part,
               "must be a series above with a variant at x = 1 and another one at x > 1",
               "add the variants");
     }
-    target_.budgets.push_back(std::move(budget));
+    if (problems_.size() == problems) target_.budgets.push_back(std::move(budget));
   }
 
   fs::path file_;
   Case& target_;
+  bool is_core_ = false;
   std::vector<Problem> problems_;
 };
 
@@ -255,16 +316,31 @@ std::string number(double value) {
   return toml_literal(toml::value<double>(value));
 }
 
-std::string run_toml(const char* kind, const CaseVariant& variant) {
-  std::string text = fmt::format("\n[[case.{}]]\nname = ", kind) + quoted(variant.name) + "\n";
-  if (!variant.series.empty()) text += "series = " + quoted(variant.series) + "\n";
-  if (std::isfinite(variant.x)) text += "x = " + number(variant.x) + "\n";
-  std::string settings;
-  for (const std::string& one : variant.sets) {
+std::string texts_toml(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& one : texts) list += (list.empty() ? "" : ", ") + quoted(one);
+  return "[" + list + "]";
+}
+
+std::string run_toml(const CaseRun& run) {
+  const RunKind& kind = *std::ranges::find(run_kinds(), run.kind, &RunKind::name);
+  std::string text = fmt::format("\n[[case.{}]]\n", run.kind);
+  for (const auto& [name, member] : run_texts()) {
+    const bool own = name == "name" || name == "series" || kind.entries.contains(name);
+    if (own && !(run.*member).empty()) text += name + " = " + quoted(run.*member) + "\n";
+  }
+  for (const auto& [name, member] : run_flags())
+    if (run.*member && kind.entries.contains(name)) text += name + " = true\n";
+  if (std::isfinite(run.x)) text += "x = " + number(run.x) + "\n";
+  std::string settings, factors;
+  for (const std::string& one : run.sets) {
     const auto equals = one.find('=');
     settings += fmt::format("{}{} = {}", settings.empty() ? "" : ", ",
                             quoted(one.substr(0, equals)), one.substr(equals + 1));
   }
+  for (const auto& [key, factor] : run.times)
+    factors += (factors.empty() ? "" : ", ") + quoted(key) + " = " + number(factor);
+  if (!factors.empty()) text += "times = { " + factors + " }\n";
   return text + "set = { " + settings + " }\n";
 }
 
@@ -278,22 +354,15 @@ std::string case_toml(const Case& one) {
   std::string text = fmt::format("\n[case]\ntitle = {}\ndescription = {}\n", quoted(one.title),
                                  quoted(one.description));
   if (!one.abscissa.empty()) text += "x = " + quoted(one.abscissa) + "\n";
-  for (const CaseVariant& variant : one.variants) text += run_toml("variant", variant);
-  for (const CaseVariant& fit : one.fits) text += run_toml("fit", fit);
-  for (const CaseVariant& prediction : one.predictions) text += run_toml("prediction", prediction);
-  for (const CasePress& press : one.presses) {
-    text += run_toml("press", press);
-    if (press.continuum) text += "continuum = true\n";
-    if (press.snapshots) text += "snapshots = true\n";
-    if (!press.beside.empty()) text += "beside = " + quoted(press.beside) + "\n";
+  if (!one.takes_core_runs) {
+    for (const CaseRun& run : one.runs) text += run_toml(run);
+    for (const CaseTable& table : one.tables)
+      text += fmt::format("\n[[case.table]]\nfile = {}\nseries = {}\ncolumns = {}\n",
+                          quoted(table.file), quoted(table.series), texts_toml(table.columns));
   }
-  for (const CaseVariant& grasp : one.grasps) text += run_toml("grasp", grasp);
-  for (const CaseBudget& budget : one.budgets) {
-    std::string parts;
-    for (const std::string& part : budget.parts)
-      parts += (parts.empty() ? "" : ", ") + quoted(part);
-    text += fmt::format("\n[[case.budget]]\nname = {}\nparts = [{}]\n", quoted(budget.name), parts);
-  }
+  for (const CaseBudget& budget : one.budgets)
+    text += fmt::format("\n[[case.budget]]\nname = {}\nparts = {}\n", quoted(budget.name),
+                        texts_toml(budget.parts));
   for (const CaseCriterion& criterion : one.criteria) {
     text += fmt::format("\n[[case.criteria]]\nname = {}\nmeasure = {}\nlimit = {}\n",
                         quoted(criterion.name), quoted(criterion.measure), number(criterion.limit));

@@ -9,15 +9,15 @@ namespace fingertip::studies {
 /// Whether every criterion of the case was met.
 enum class Verdict { passed, failed };
 
-/// Throws ConfigError for a case whose plan cannot be carried out: check_validation for the core
-/// plan; a broken rule of a variant, told with the line of the variant, for the other.
+/// Throws ConfigError for a case that cannot be carried out, with the line of the run that is to
+/// blame.
 void check_case(const Case& one);
 
-/// Carries out the case's plan (plan.h), judges its criteria, and writes summary.json and
-/// report.html into the session's folder. Jobs run side by side, one thread each, and come from the
-/// cache when nothing they depend on has changed.
-/// Throws what the jobs throw, except that the published and central models and the presses of
-/// variants may fail to converge: their status then says so.
+/// Carries out the case's runs (planner.h), judges its criteria, and writes tables, summary.json
+/// and report.html into the session's folder. Jobs run side by side, one thread each, and come from
+/// the cache when nothing they depend on has changed.
+/// Throws what the jobs throw, except that exhibits and the presses of variants may fail to
+/// converge: their status then says so.
 Verdict validate(Session& session, const Case& one);
 
 }  // namespace fingertip::studies

@@ -19,6 +19,7 @@ bool run_stages(FitPlan& plan, Session& session) {
   bool computed = false;
   const std::filesystem::path& folder = session.folder().path();
   for (auto jobs = plan.next(folder); !jobs.empty(); jobs = plan.next(folder)) {
+    session.expect_later(plan.later_weight());
     const auto results =
         jobs.size() == 1 ? std::vector{session.run(jobs.front())} : session.run_all(jobs);
     for (const JobResult& result : results) computed = computed || !result.reused;

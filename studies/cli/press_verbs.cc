@@ -10,9 +10,9 @@
 #include "meshes/table_rows.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
-#include "studies/files/json_fields.h"
 #include "studies/files/mode_table.h"
 #include "studies/files/press_summary.h"
+#include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -98,7 +98,7 @@ std::string heading(const fem_reference::ReferenceJob& order) {
   std::string text = finite ? fmt::format("continuum, finite strain (law {})", name(order.law))
                             : std::string("continuum, small strain");
   if (order.analysis == fem_reference::Analysis::modes) return text + ", natural frequencies";
-  return fmt::format("{}, {} contact, {}", text, meshes::name(order.contact),
+  return fmt::format("{}, {} contact, {}", text, meshes::name(order.protocol.contact),
                      fem_reference::name(order.analysis));
 }
 
@@ -276,7 +276,7 @@ int run_reference(const CommandLine& line) {
     if (!line.quiet) {
       fmt::print("{}\n", heading(order));
       if (press) {
-        print_response(folder, order.protocol());
+        print_response(folder, order.protocol);
         if (order.estimate_error) print_accuracy(folder, order);
       } else {
         print_frequencies(folder);

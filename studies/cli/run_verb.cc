@@ -16,8 +16,12 @@ namespace fingertip::studies {
 
 namespace {
 
-/// What to do with a run that ended early.
-std::string kept_in(const std::filesystem::path& folder) {
+/// What to do with a run that ended early. What did not converge would not do so again.
+std::string kept_in(const std::filesystem::path& folder, bool computes_on) {
+  if (!computes_on)
+    return fmt::format(
+        "\nfingertip: {} is kept; run it with other settings, the same ones end the same way",
+        folder.string());
   return fmt::format(
       "\nfingertip: {} is kept; the same command with --out {} --resume auto computes the "
       "rest",
@@ -61,14 +65,15 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
   const Cache cache(Cache::default_folder());
   cache.tidy();
   Session session(folder, progress, cache, cores_for(loaded), line.ranks);
-  const auto end = [&](const std::string& status, int code, const std::exception& why) {
+  const auto end = [&](const std::string& status, int code, const std::exception& why,
+                       bool computes_on = true) {
     progress.clear();
     try {
       folder.finish(status, code, why.what());
     } catch (const meshes::CannotWrite&) {
       // The reason why the run ended is what counts.
     }
-    return why.what() + kept_in(folder.path());
+    return why.what() + kept_in(folder.path(), computes_on);
   };
   const auto refuse = [&](const std::exception& why) {
     progress.clear();
@@ -87,7 +92,7 @@ int run_in_folder(const CommandLine& line, const LoadedConfig& loaded, const std
   } catch (const lattice::ControllerFailed& error) {
     throw lattice::ControllerFailed(end("controller failed", 3, error));
   } catch (const meshes::NotConverged& error) {
-    throw meshes::NotConverged(end("not converged", 3, error));
+    throw meshes::NotConverged(end("not converged", 3, error, false));
   } catch (const meshes::Interrupted& error) {
     throw meshes::Interrupted(end("interrupted", 130, error));
   } catch (const meshes::InvalidInput& error) {

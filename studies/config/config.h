@@ -1,9 +1,11 @@
 /// A complete, resolved order for every verb: what the key table's values add up to.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibration/moduli_fit.h"
@@ -21,6 +23,11 @@ enum class ConstantsSource {
   calibrated,  ///< fit to the rubber's moduli (central, hookean)
   file,        ///< a material.toml written by `calibrate`
 };
+std::string_view name(ConstantsSource source);
+constexpr auto values(ConstantsSource) {
+  return std::array{ConstantsSource::automatic, ConstantsSource::rule, ConstantsSource::calibrated,
+                    ConstantsSource::file};
+}
 
 /// What `calibrate` fits (key calibration.problem).
 enum class CalibrationProblem {
@@ -31,24 +38,31 @@ enum class CalibrationProblem {
   damping,        ///< the retardation time
 };
 std::string_view name(CalibrationProblem problem);
+constexpr auto values(CalibrationProblem) {
+  using enum CalibrationProblem;
+  return std::array{moduli, curve, experiment, finite_strain, damping};
+}
 
 /// What answers for the press when parameters are varied (key calibration.forward).
 enum class ForwardKind { lattice, continuum };
 std::string_view name(ForwardKind forward);
+constexpr auto values(ForwardKind) {
+  return std::array{ForwardKind::lattice, ForwardKind::continuum};
+}
 
 /// Section [calibration]; the key table says what the entries mean.
 struct CalibrationOrder {
   CalibrationProblem problem = CalibrationProblem::moduli;
   std::vector<std::filesystem::path> data;  ///< absolute
   std::vector<std::string> conditions;      ///< "section.key=value; ..." per curve
-  double depth = 0.0;                       ///< [m]
+  double depth = 1.5e-3;                    ///< [m]
   int points = 6;
   std::vector<std::string> parameters;  ///< empty: the problem's own
   ForwardKind forward = ForwardKind::lattice;
-  double prior = 0.0;        ///< relative; 0: none
-  double model_error = 0.0;  ///< relative
+  double prior = 0.02;        ///< relative; 0: none
+  double model_error = 0.01;  ///< relative
   double robust_width = 0.0;
-  std::vector<double> poisson_range;  ///< lowest, highest
+  std::vector<double> poisson_range = {0.0, 0.4999};  ///< lowest, highest
   std::vector<std::string> profile;
   bool bias = false, surrogate = false;
   double isotropy_weight = 0.0, bulk_weight = 0.0;
@@ -66,6 +80,11 @@ enum class ControllerKind {
   library,   ///< SharedObjectController (studies/control)
   socket,    ///< SocketController (studies/control)
 };
+std::string_view name(ControllerKind kind);
+constexpr auto values(ControllerKind) {
+  using enum ControllerKind;
+  return std::array{pid, adaptive, force, hybrid, library, socket};
+}
 
 /// What of section [controller] goes beyond the PID. The stiffness schedules are empty here;
 /// studies/run/controller_choice.h reads the file.
@@ -73,18 +92,18 @@ struct ControllerOrder {
   ControllerKind kind = ControllerKind::pid;
   lattice::AdaptiveSettings adaptive;
   lattice::ForceSettings force;
-  std::filesystem::path schedule;  ///< absolute; empty for none
-  std::filesystem::path library;   ///< shared object, absolute; empty for none
-  std::string address;             ///< where a socket is, see LocalAddress
-  double timeout = 5.0;            ///< for an answer over the socket [s]
-  double connect_timeout = 60.0;   ///< for the first client of the socket [s]
+  std::filesystem::path schedule;                 ///< absolute; empty for none
+  std::filesystem::path library;                  ///< shared object, absolute; empty for none
+  std::string address = "unix:fingertip.socket";  ///< where a socket is, see LocalAddress
+  double timeout = 5.0;                           ///< for an answer over the socket [s]
+  double connect_timeout = 60.0;                  ///< for the first client of the socket [s]
 };
 
 /// Section [exchange]: what is handed to another program.
 struct ExchangeOrder {
   bool cube = false;            ///< a free cube instead of the fingertip
   int cells = 8;                ///< along its edge
-  bool hangs_on_rod = true;     ///< else the tip is free
+  bool is_free = false;         ///< else the tip hangs on its rod
   bool has_wall = false;        ///< an elastic wall comes
   double wall_stiffness = 1.0;  ///< over that of an axis spring
   long steps = 1000;
@@ -110,7 +129,7 @@ struct Config {
   ExchangeOrder exchange;
   lattice::GripSettings grip;
   lattice::BlockSettings block;
-  double grasp_gravity = 0.0;  ///< [m/s²]
+  double grasp_gravity = 9.80665;  ///< [m/s²]
 };
 
 /// The model's own kinematics: published and network finite, central and hookean small.

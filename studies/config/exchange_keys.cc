@@ -6,17 +6,8 @@ namespace fingertip::studies {
 
 namespace {
 
-void assign_body(Config& config, const Value& value) {
-  config.exchange.cube = value.word == "cube";
-}
-
-void assign_hold(Config& config, const Value& value) {
-  config.exchange.hangs_on_rod = value.word == "rod";
-}
-
-void assign_plane(Config& config, const Value& value) {
-  config.exchange.has_wall = value.word == "wall";
-}
+/// Members of what is handed over, as targets of keys.
+constexpr auto order = [](auto member) { return at(&Config::exchange, member); };
 
 /// 350 million springs; the model alone takes some 10 GB then.
 constexpr double most_cells = 300;
@@ -27,41 +18,37 @@ constexpr double most_agitation = 0.2;
 
 std::vector<Key> exchange_keys() {
   return {
-      choice("exchange", "body", "fingertip",
+      choice("exchange", "body",
              {{"fingertip", "the tip of [geometry]"},
               {"cube", "a free cube of exchange.cells cells a side, for checks and benchmarks"}},
-             "which lattice is handed to another program", assign_body),
-      plain("exchange", "cells", Kind::integer, "8", {1, most_cells, true},
-            "cells along an edge of the cube",
-            [](Config& config, const Value& value) { config.exchange.cells = int(value.number); }),
+             "which lattice is handed to another program", order(&ExchangeOrder::cube)),
+      plain("exchange", "cells", {1, most_cells, true}, "cells along an edge of the cube",
+            order(&ExchangeOrder::cells)),
       with_rule(
-          choice("exchange", "hold", "rod",
+          choice("exchange", "hold",
                  {{"rod", "ligaments to a rod at rest (published)"},
                   {"free", "nothing holds the lattice"}},
-                 "what holds the tip; a cube is always free", assign_hold),
+                 "what holds the tip; a cube is always free", order(&ExchangeOrder::is_free)),
           "the other models are tied to the rod at points of its surface, which bonds between "
           "masses cannot express",
           {"lattice.model"}),
-      with_rule(choice("exchange", "plane", "none",
+      with_rule(choice("exchange", "plane",
                        {{"none", "no plane"},
                         {"wall", "an elastic wall that comes from press.clearance at press.speed"}},
-                       "what the tip is pressed against", assign_plane),
+                       "what the tip is pressed against", order(&ExchangeOrder::has_wall)),
                 "a wall needs press.contact = \"frictionless\" and the fingertip",
                 {"press.contact", "exchange.body"}),
-      plain("exchange", "wall_stiffness", Kind::number, "1.0", positive,
+      plain("exchange", "wall_stiffness", positive,
             "force of the wall per penetration of a mass, over the stiffness of an axis spring",
-            [](Config& config, const Value& value) {
-              config.exchange.wall_stiffness = value.number;
-            }),
-      plain("exchange", "steps", Kind::integer, "1000", {1, most_steps, true}, "how many steps",
-            [](Config& config, const Value& value) { config.exchange.steps = long(value.number); }),
-      plain("exchange", "every", Kind::integer, "100", {0, most_steps, true},
-            "steps between stored frames; 0: none",
-            [](Config& config, const Value& value) { config.exchange.every = long(value.number); }),
-      plain("exchange", "agitation", Kind::number, "0.01", {0.0, most_agitation, true},
+            order(&ExchangeOrder::wall_stiffness)),
+      plain("exchange", "steps", {1, most_steps, true}, "how many steps",
+            order(&ExchangeOrder::steps)),
+      plain("exchange", "every", {0, most_steps, true}, "steps between stored frames; 0: none",
+            order(&ExchangeOrder::every)),
+      plain("exchange", "agitation", {0.0, most_agitation, true},
             "largest random displacement of a mass along an axis at the start, in spacings; "
             "velocities are as large, times the frequency of an axis spring",
-            [](Config& config, const Value& value) { config.exchange.agitation = value.number; }),
+            order(&ExchangeOrder::agitation)),
   };
 }
 

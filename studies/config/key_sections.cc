@@ -1,5 +1,6 @@
 #include "studies/config/key_sections.h"
 
+#include "calibration/words.h"
 #include "studies/config/key_builders.h"
 
 #include <algorithm>
@@ -9,10 +10,8 @@ namespace fingertip::studies {
 namespace {
 
 void assign_constants(Config& config, const Value& value) {
-  config.constants = value.word == "auto"         ? ConstantsSource::automatic
-                     : value.word == "rule"       ? ConstantsSource::rule
-                     : value.word == "calibrated" ? ConstantsSource::calibrated
-                                                  : ConstantsSource::file;
+  config.constants = ConstantsSource::file;
+  store(value, config.constants);
   if (config.constants == ConstantsSource::file) config.constants_file = value.word;
 }
 
@@ -25,37 +24,13 @@ void assign_spacing(Config& config, const Value& value) {
   }
 }
 
-void assign_kinematics(Config& config, const Value& value) {
-  config.kinematics.reset();
-  if (value.word == "small") config.kinematics = lattice::Kinematics::small;
-  if (value.word == "finite") config.kinematics = lattice::Kinematics::finite;
-}
-
-void assign_rotation(Config& config, const Value& value) {
-  config.rotation = value.numbers;
-}
-
 void assign_samples(Config& config, const Value& value) {
   config.press.protocol.samples = value.numbers;
   std::ranges::sort(config.press.protocol.samples);
 }
 
-void assign_duration(Config& config, const Value& value) {
-  config.press.duration.reset();
-  if (value.word.empty()) config.press.duration = value.number;
-}
-
-void assign_time_step(Config& config, const Value& value) {
-  config.press.time_step.reset();
-  if (value.word.empty()) config.press.time_step = value.number;
-}
-
 /// Members of what the continuum is asked for, as targets of keys.
-constexpr auto job = [](auto fem_reference::ReferenceJob::*member) {
-  return [member](Config & config) -> auto& {
-    return config.reference.*member;
-  };
-};
+constexpr auto job = [](auto member) { return at(&Config::reference, member); };
 
 }  // namespace
 
@@ -78,11 +53,11 @@ const std::vector<Section>& sections() {
 }
 
 std::vector<Key> specimen_keys() {
-  const auto geometry = [](double meshes::Geometry::*member) {
-    return [member](Config& config) -> double& { return config.press.geometry.*member; };
+  const auto geometry = [](auto member) {
+    return at(&Config::press, &lattice::PressSetup::geometry, member);
   };
-  const auto rubber = [](double meshes::Rubber::*member) {
-    return [member](Config& config) -> double& { return config.press.rubber.*member; };
+  const auto rubber = [](auto member) {
+    return at(&Config::press, &lattice::PressSetup::rubber, member);
   };
   using meshes::Geometry;
   using meshes::Rubber;
@@ -93,217 +68,184 @@ std::vector<Key> specimen_keys() {
     };
     return key;
   };
-  const auto optional_number = [](const char* name, Range range, const char* help,
-                                  std::optional<double> Config::*member) {
-    Key key = plain("rubber", name, Kind::number, "\"auto\"", range, help,
-                    [member](Config& config, const Value& value) {
-                      config.*member =
-                          value.word.empty() ? std::optional(value.number) : std::nullopt;
-                    });
-    key.word = "auto";
-    return key;
-  };
   return {
-      quantity("geometry", "tip_radius", "1 cm", "m", positive, "R, outer radius of the rubber",
+      quantity("geometry", "tip_radius", "cm", "m", positive, "R, outer radius of the rubber",
                geometry(&Geometry::tip_radius)),
-      with_rule(quantity("geometry", "rod_radius", "0.5 cm", "m", positive,
+      with_rule(quantity("geometry", "rod_radius", "cm", "m", positive,
                          "r, radius of the rod; the rubber is bonded to it",
                          geometry(&Geometry::rod_radius)),
                 "smaller than tip_radius", {"geometry.tip_radius"}),
-      quantity("geometry", "sleeve_length", "1.5 cm", "m", not_negative,
+      quantity("geometry", "sleeve_length", "cm", "m", not_negative,
                "L, length of the rubber sleeve behind the hemisphere",
                geometry(&Geometry::sleeve_length)),
-      with_rule(quantity("geometry", "rod_length", "3 cm", "m", positive,
+      with_rule(quantity("geometry", "rod_length", "cm", "m", positive,
                          "l, from the hemisphere's centre to the rod's endpoint, which is held",
                          geometry(&Geometry::rod_length)),
                 "at least sleeve_length", {"geometry.sleeve_length"}),
-      or_auto(quantity("rubber", "youngs_modulus", "40 gf/cm^2", "Pa", positive,
+      or_auto(quantity("rubber", "youngs_modulus", "gf/cm^2", "Pa", positive,
                        "E, Young's modulus; auto: from the others",
                        rubber(&Rubber::youngs_modulus))),
-      with_rule(or_auto(quantity("rubber", "shear_modulus", "14 gf/cm^2", "Pa", positive,
+      with_rule(or_auto(quantity("rubber", "shear_modulus", "gf/cm^2", "Pa", positive,
                                  "G, shear modulus; auto: from the others",
                                  rubber(&Rubber::shear_modulus))),
                 "greater than youngs_modulus/3 (Poisson's ratio below 1/2)",
                 {"rubber.youngs_modulus"}),
-      with_rule(
-          optional_number("poissons_ratio", {-1.0, 0.4999, false},
-                          "nu, beside E or G; auto: from E and G, 0.49 where one is given alone",
-                          &Config::poissons_ratio),
-          "two of E (or hardness), G and nu", {}),
-      with_rule(
-          optional_number("shore_hardness", {10.0, 90.0, true},
-                          "Shore A hardness instead of E, by Gent's formula: rough; auto: none",
-                          &Config::shore_hardness),
-          "not beside youngs_modulus", {}),
-      quantity("rubber", "density", "0.5 g/cm^3", "kg/m^3", positive, "rho, mass density",
+      with_rule(plain("rubber", "poissons_ratio", {-1.0, 0.4999, false},
+                      "nu, beside E or G; auto: from E and G, 0.49 where one is given alone",
+                      at(&Config::poissons_ratio)),
+                "two of E (or hardness), G and nu", {}),
+      with_rule(plain("rubber", "shore_hardness", {10.0, 90.0, true},
+                      "Shore A hardness instead of E, by Gent's formula: rough; auto: none",
+                      at(&Config::shore_hardness)),
+                "not beside youngs_modulus", {}),
+      quantity("rubber", "density", "g/cm^3", "kg/m^3", positive, "rho, mass density",
                rubber(&Rubber::density)),
-      quantity("rubber", "retardation_time", "0.3 ms", "s", not_negative,
+      quantity("rubber", "retardation_time", "ms", "s", not_negative,
                "tau of the Kelvin-Voigt damping, loss factor = omega tau",
                rubber(&Rubber::retardation_time)),
-      quantity("rod", "density", "2.7 g/cm^3", "kg/m^3", positive,
+      quantity("rod", "density", "g/cm^3", "kg/m^3", positive,
                "mass density of the rod; sets its inertia",
-               [](Config& config) -> double& { return config.press.rod.density; }),
+               at(&Config::press, &lattice::PressSetup::rod, &lattice::RodSettings::density)),
   };
 }
 
 std::vector<Key> lattice_keys() {
-  using lattice::ModelKind;
-  Key spacing =
-      with_rule(quantity("lattice", "spacing", "tip_radius/12", "m", positive,
-                         "a, distance of neighbouring masses along the axes",
-                         [](Config& config) -> double& { return config.press.lattice.spacing; }),
-                "at most (tip_radius - rod_radius)/2, and no more than 20 million masses",
-                {"geometry.tip_radius", "geometry.rod_radius"});
+  Key spacing = with_rule(quantity("lattice", "spacing", "m", "m", positive,
+                                   "a, distance of neighbouring masses along the axes",
+                                   at(&Config::press, &lattice::PressSetup::lattice,
+                                      &lattice::LatticeSettings::spacing)),
+                          "at most (tip_radius - rod_radius)/2, and no more than 20 million masses",
+                          {"geometry.tip_radius", "geometry.rod_radius"});
+  const double divisor = meshes::Geometry().tip_radius / lattice::LatticeSettings().spacing;
+  spacing.preset = "\"tip_radius/" + calibration::rounded(divisor, 12) + '"';
   spacing.word = "tip_radius/N";
   spacing.assign = assign_spacing;
   Key constants = with_rule(
-      choice("lattice", "constants", "auto",
+      choice("lattice", "constants",
              {{"auto", "central: calibrated; the others: rule"},
               {"rule", "published, central: k = E a^2/l0; hookean, network: exact closed forms"},
               {"calibrated", "least-squares fit to the rubber's moduli (central, hookean)"}},
-             "spring constants: a word, or a material.toml written by calibrate", assign_constants),
+             "spring constants: a word, or a material.toml written by calibrate",
+             at(&Config::constants)),
       "a file must be for the same model; published has a rule and is never calibrated",
       {"lattice.model"});
   constants.kind = Kind::source;
+  constants.assign = assign_constants;
   Key rotation =
-      with_rule(plain("lattice", "rotation", Kind::quantities, "[\"0 deg\", \"0 deg\", \"0 deg\"]",
-                      any, "turns of the grid about x, then y, then z", assign_rotation),
+      with_rule(plain("lattice", "rotation", any, "turns of the grid about x, then y, then z",
+                      at(&Config::rotation)),
                 "three angles; not with the published model", {"lattice.model"});
+  rotation.kind = Kind::quantities;
+  rotation.preset = "[\"0 deg\", \"0 deg\", \"0 deg\"]";
   rotation.unit = "rad";
   rotation.length = 3;
   return {
-      choice("lattice", "model", "hookean",
+      choice("lattice", "model",
              {{"published", "Reznik & Laugier 1996 as printed: every spring counts fully"},
               {"central", "spring constants fitted to E and G, weighted per cell"},
               {"hookean", "central plus one volume constant per cell: exact E, G and nu"},
               {"network", "fibres of zero rest length under a cell pressure: finite strain"}},
              "which mass-spring model",
-             assign_named(
-                 [](Config & config) -> auto& { return config.press.lattice.model; },
-                 std::vector{ModelKind::published, ModelKind::central, ModelKind::hookean,
-                             ModelKind::network})),
+             at(&Config::press, &lattice::PressSetup::lattice, &lattice::LatticeSettings::model)),
       spacing,
-      plain("lattice", "offset", Kind::numbers, "[0.0, 0.0, 0.0]", {-1.0, 1.0, true},
+      plain("lattice", "offset", {-1.0, 1.0, true},
             "shift of the grid along x, y, z in units of the spacing",
-            [](Config& config, const Value& value) {
-              for (int axis = 0; axis < 3; ++axis) {
-                config.press.lattice.offset[axis] = value.numbers[std::size_t(axis)];
-              }
-            }),
+            at(&Config::press, &lattice::PressSetup::lattice, &lattice::LatticeSettings::offset)),
       rotation,
       constants,
-      plain("lattice", "ligament_stiffness", Kind::number, "1.0", positive,
+      plain("lattice", "ligament_stiffness", positive,
             "multiplies the stiffness of the bond between tip and rod (published: its ligaments)",
-            [](Config& config, const Value& value) {
-              config.press.lattice.ligament_stiffness = value.number;
-            }),
-      with_rule(plain("lattice", "contact_stiffness", Kind::number, "1.0", positive,
+            at(&Config::press, &lattice::PressSetup::lattice,
+               &lattice::LatticeSettings::ligament_stiffness)),
+      with_rule(plain("lattice", "contact_stiffness", positive,
                       "multiplies the stiffness of the ties between tip and plane",
-                      [](Config& config, const Value& value) {
-                        config.press.lattice.contact_stiffness = value.number;
-                      }),
+                      at(&Config::press, &lattice::PressSetup::lattice,
+                         &lattice::LatticeSettings::contact_stiffness)),
                 "1 for the published model", {"lattice.model"}),
-      choice("lattice", "kinematics", "auto",
+      choice("lattice", "kinematics",
              {{"auto", "published, network: finite; central, hookean: small"},
               {"small", "linearised about the rest state"},
               {"finite", "true spring lengths and cell volumes"}},
-             "how deformation is measured", assign_kinematics),
-      plain("lattice", "modes", Kind::integer, "10", {1, 1000, true},
+             "how deformation is measured", at(&Config::kinematics)),
+      plain("lattice", "modes", {1, 1000, true},
             "how many natural frequencies, lowest first, for the verb modes",
-            [](Config& config, const Value& value) { config.lattice_modes = int(value.number); }),
+            at(&Config::lattice_modes)),
   };
 }
 
 std::vector<Key> press_keys() {
-  const auto protocol = [](auto meshes::PressProtocol::*member) {
-    return [member](Config & config) -> auto& {
-      return config.press.protocol.*member;
-    };
+  const auto protocol = [](auto member) {
+    return at(&Config::press, &lattice::PressSetup::protocol, member);
   };
-  using meshes::ContactMode;
-  using meshes::DriveMode;
-  using meshes::LateralPath;
   using meshes::PressProtocol;
   Key samples = with_rule(
-      plain("press", "samples", Kind::quantities, "[]", positive,
+      plain("press", "samples", positive,
             "output depths, e.g. [\"0.05 cm\", \"0.1 cm\"]; [] means ten up to depth",
-            assign_samples),
+            protocol(&PressProtocol::samples)),
       "different depths; the largest one becomes the depth of the press", {"press.depth"});
+  samples.kind = Kind::quantities;
+  samples.assign = assign_samples;
   samples.unit = "m";
-  Key duration = quantity("press", "duration", "auto", "s", positive,
-                          "ends a moving press at this time, if not at its depth before; auto: no "
-                          "such end",
-                          [](Config& config) -> double& { return *config.press.duration; });
-  duration.word = "auto";
-  duration.assign = assign_duration;
   return {
-      choice("press", "mode", "pid",
+      choice("press", "mode",
              {{"pid", "dynamics; a controller holds speed and orientation"},
               {"quasi-static", "dynamics; the rod's motion is prescribed"},
               {"static", "no time: equilibrium at every sample depth"}},
-             "what moves the rod (lattice only)",
-             assign_named(
-                 protocol(&PressProtocol::mode),
-                 std::vector{DriveMode::pid, DriveMode::quasi_static, DriveMode::equilibrium})),
-      choice("press", "contact", "stick",
+             "what moves the rod (lattice only)", protocol(&PressProtocol::mode)),
+      choice("press", "contact",
              {{"stick", "infinite friction: anchored where it first touched"},
               {"frictionless", "only the normal gap is held, compressive only"},
               {"coulomb",
                "sticks until the shear exceeds friction times the push, then slides "
                "(moving lattices and reference)"}},
-             "how tip and plane interact",
-             assign_named(
-                 protocol(&PressProtocol::contact),
-                 std::vector{ContactMode::stick, ContactMode::frictionless, ContactMode::coulomb})),
+             "how tip and plane interact", protocol(&PressProtocol::contact)),
       only_with("press.contact", {"coulomb"},
-                plain("press", "friction", Kind::number, "0.5", positive,
-                      "Coulomb's coefficient of friction",
-                      [](Config& config, const Value& value) {
-                        config.press.protocol.friction = value.number;
-                      })),
+                plain("press", "friction", positive, "Coulomb's coefficient of friction",
+                      at(&Config::press, &lattice::PressSetup::protocol,
+                         &meshes::PressProtocol::friction))),
       with_rule(
           quantity(
-              "press", "tilt", "0 deg", "rad", any,
+              "press", "tilt", "deg", "rad", any,
               "of the rod against the plane's normal, about y (published: static presses only)",
               protocol(&PressProtocol::tilt)),
           "between -45 and 45 degrees", {}),
       with_rule(
-          quantity("press", "lateral", "0 cm", "m", any,
+          quantity("press", "lateral", "cm", "m", any,
                    "how far the plane has moved along t1 at the end; press.lateral_path says when "
                    "it moves (published: static presses only)",
                    protocol(&PressProtocol::lateral)),
           "at most tip_radius either way", {"geometry.tip_radius"}),
-      with_rule(choice("press", "lateral_path", "diagonal",
-                       {{"diagonal",
-                         "on the way down, in proportion to the indentation: a tip that sticks is "
-                         "sheared from first touch on"},
-                        {"after", "first down to full depth, then along the plane at that depth"}},
-                       "when the plane moves by press.lateral",
-                       assign_named(protocol(&PressProtocol::lateral_path),
-                                    std::vector{LateralPath::diagonal, LateralPath::after})),
-                "after: static presses and reference", {"press.mode"}),
+      with_rule(
+          choice("press", "lateral_path",
+                 {{"diagonal",
+                   "on the way down, in proportion to the indentation: a tip that sticks is "
+                   "sheared from first touch on"},
+                  {"after", "first down to full depth, then along the plane at that depth"}},
+                 "when the plane moves by press.lateral", protocol(&PressProtocol::lateral_path)),
+          "after: static presses and reference", {"press.mode"}),
       only_with(
           "press.lateral_path", {"after"},
-          plain("press", "lateral_samples", Kind::integer, "10", {1, 1000, true},
+          plain("press", "lateral_samples", {1, 1000, true},
                 "outputs of the lateral motion at full depth, in equal steps to press.lateral",
-                [](Config& config, const Value& value) {
-                  config.press.protocol.lateral_samples = int(value.number);
-                })),
-      with_rule(quantity("press", "depth", "0.3 cm", "m", positive, "final indentation",
+                at(&Config::press, &lattice::PressSetup::protocol,
+                   &meshes::PressProtocol::lateral_samples))),
+      with_rule(quantity("press", "depth", "cm", "m", positive, "final indentation",
                          protocol(&PressProtocol::depth)),
                 "less than tip_radius - rod_radius",
                 {"press.samples", "geometry.tip_radius", "geometry.rod_radius"}),
-      quantity("press", "speed", "1 cm/s", "m/s", positive,
+      quantity("press", "speed", "cm/s", "m/s", positive,
                "approach speed of the rod; the continuum's, too, when reference.mode is transient",
                protocol(&PressProtocol::speed)),
-      quantity("press", "clearance", "0.05 cm", "m", positive,
+      quantity("press", "clearance", "cm", "m", positive,
                "gap between pole and plane at the start, where the rod is at rest",
                protocol(&PressProtocol::clearance)),
       samples,
-      quantity("press", "gravity", "0 m/s^2", "m/s^2", not_negative,
+      quantity("press", "gravity", "m/s^2", "m/s^2", not_negative,
                "acceleration of gravity on rod and tip, toward the plane (moving lattices)",
-               [](Config& config) -> double& { return config.press.gravity; }),
-      duration,
+               at(&Config::press, &lattice::PressSetup::gravity)),
+      quantity("press", "duration", "", "s", positive,
+               "ends a moving press at this time, if not at its depth before; auto: no such end",
+               at(&Config::press, &lattice::PressSetup::duration)),
   };
 }
 
@@ -314,39 +256,41 @@ std::vector<Key> continuum_model_keys() {
   using namespace fem_reference;
   using Job = ReferenceJob;
   return {
-      with_rule(
-          choice("reference", "strain", "linear",
-                 {{"linear", "small strain, Hooke's law"},
-                  {"finite", "large strain, the law of reference.law"}},
-                 "continuum theory",
-                 assign_named(job(&Job::strain), std::vector{Strain::linear, Strain::finite})),
-          "finite needs a Poisson's ratio of 0 or more",
-          {"rubber.youngs_modulus", "rubber.shear_modulus", "rubber.poissons_ratio"}),
+      with_rule(choice("reference", "strain",
+                       {{"linear", "small strain, Hooke's law"},
+                        {"finite", "large strain, the law of reference.law"}},
+                       "continuum theory", job(&Job::strain)),
+                "finite needs a Poisson's ratio of 0 or more",
+                {"rubber.youngs_modulus", "rubber.shear_modulus", "rubber.poissons_ratio"}),
       only_with(
           "reference.strain", {"finite"},
-          choice("reference", "law", "A",
+          choice("reference", "law",
                  {{"A", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (ln J)^2, the project's standard"},
                   {"B", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (J - 1)^2"},
                   {"C", "W = G/2 (J^(-2/3) I1 - 3) + K/2 (ln J)^2"}},
                  "strain energy at finite strain (neo-Hookean, same E and G at small strain)",
-                 assign_named(job(&Job::law), std::vector{StrainEnergy::law_a, StrainEnergy::law_b,
-                                                          StrainEnergy::law_c}))),
-      with_rule(choice("reference", "mode", "static",
+                 job(&Job::law))),
+      with_rule(choice("reference", "mode",
                        {{"static", "one equilibrium per output depth"},
                         {"transient", "the press at press.speed, with inertia and damping"},
                         {"modes", "natural frequencies of the tip bonded to a fixed rod"}},
-                       "what is solved",
-                       assign_named(job(&Job::analysis),
-                                    std::vector{Analysis::static_press, Analysis::transient,
-                                                Analysis::modes})),
+                       "what is solved", job(&Job::analysis)),
                 "transient: linear strain, stick or frictionless, no tilt, no lateral motion",
                 {"reference.strain", "press.contact", "press.tilt", "press.lateral"}),
-      only_with("reference.mode", {"modes"},
-                plain("reference", "modes", Kind::integer, "10", {1, 1000, true},
-                      "how many natural frequencies, lowest first",
-                      [](Config& config, const Value& value) {
-                        config.reference.modes = int(value.number);
-                      })),
+      with_rule(choice("reference", "symmetry",
+                       {{"automatic",
+                         "the meridian of the body of revolution where nothing breaks "
+                         "its symmetry, else the solid"},
+                        {"axisymmetric", "the meridian; what breaks the symmetry is refused"},
+                        {"none", "the solid"}},
+                       "whether a straight press is computed on the meridian, in seconds",
+                       job(&Job::symmetry)),
+                "axisymmetric: no tilt, no lateral motion, no vibrations",
+                {"press.tilt", "press.lateral", "reference.mode"}),
+      only_with(
+          "reference.mode", {"modes"},
+          plain("reference", "modes", {1, 1000, true}, "how many natural frequencies, lowest first",
+                at(&Config::reference, &fem_reference::ReferenceJob::modes))),
   };
 }
 
@@ -354,52 +298,40 @@ std::vector<Key> continuum_model_keys() {
 std::vector<Key> continuum_solver_keys() {
   using namespace fem_reference;
   using Job = ReferenceJob;
-  const auto number = [](double Job::*member) {
-    return
-        [member](Config& config, const Value& value) { config.reference.*member = value.number; };
-  };
-  const auto flag = [](bool Job::*member) {
-    return [member](Config& config, const Value& value) {
-      config.reference.*member = value.number != 0.0;
-    };
-  };
   return {
-      plain(
-          "reference", "degree", Kind::integer, "2", {1, 3, true},
-          "polynomial degree of the elements",
-          [](Config& config, const Value& value) { config.reference.degree = int(value.number); }),
-      choice("reference", "volumetric", "projected",
+      plain("reference", "degree", {1, 3, true}, "polynomial degree of the elements",
+            at(&Config::reference, &fem_reference::ReferenceJob::degree)),
+      choice("reference", "volumetric",
              {{"pointwise", "at every quadrature point: the plain displacement element"},
               {"projected", "its dilatation projected, per element, on one degree lower"}},
-             "how the volumetric part of the energy is integrated",
-             assign_named(job(&Job::volumetric),
-                          std::vector{Volumetric::pointwise, Volumetric::projected})),
-      plain("reference", "refinement", Kind::number, "0.5", {0.25, 4, true},
-            "factor on the element counts of the first mesh", number(&Job::refinement)),
-      plain("reference", "tolerance", Kind::number, "0.005", {1e-5, 0.5, true},
+             "how the volumetric part of the energy is integrated", job(&Job::volumetric)),
+      plain("reference", "refinement", {0.25, 4, true},
+            "factor on the element counts of the first mesh", job(&Job::refinement)),
+      plain("reference", "tolerance", {1e-5, 0.5, true},
             "wanted force_error over normal_force at every output depth; the mesh is refined until "
             "it is met",
-            number(&Job::tolerance)),
-      plain("reference", "max_unknowns", Kind::number, "4e5", {1e3, 1e9, true},
-            "no mesh with more unknowns is tried; 4e5 needs about 8 GB",
-            number(&Job::max_unknowns)),
-      choice("reference", "solver", "automatic",
+            job(&Job::tolerance)),
+      plain("reference", "max_unknowns", {1e3, 1e9, true},
+            "no mesh with more unknowns is tried; 4e5 needs about 8 GB", job(&Job::max_unknowns)),
+      choice("reference", "solver",
              {{"automatic", "condensed while it fits into memory, else multigrid"},
               {"condensed", "sparse Cholesky factors, condensed to the contact patch"},
               {"multigrid", "conjugate gradients with algebraic multigrid"}},
-             "linear solver",
-             assign_named(job(&Job::solver),
-                          std::vector{LinearSolver::automatic, LinearSolver::condensed,
-                                      LinearSolver::multigrid})),
-      plain("reference", "solver_tolerance", Kind::number, "1e-10", {1e-14, 1e-4, true},
+             "linear solver of the solid; a meridian is always factored", job(&Job::solver)),
+      plain("reference", "solver_tolerance", {1e-14, 1e-4, true},
             "relative residual of the multigrid solver (the condensed one is direct)",
-            number(&Job::solver_tolerance)),
-      plain("reference", "estimate_error", Kind::boolean, "true", any,
+            job(&Job::solver_tolerance)),
+      plain("reference", "estimate_error", any,
             "refine until the tolerance is met and fill in the column force_error; false: the "
             "first mesh alone",
-            flag(&Job::estimate_error)),
-      plain("reference", "fields", Kind::boolean, "true", any,
-            "write displacement, stress and pressure for ParaView", flag(&Job::write_fields)),
+            job(&Job::estimate_error)),
+      plain("reference", "fields", any, "write displacement, stress and pressure for ParaView",
+            job(&Job::write_fields)),
+      with_rule(plain("reference", "field_sectors", {0, 360, true},
+                      "turn the fields of a meridian into a solid of so many sectors for ParaView; "
+                      "0: the meridian alone",
+                      job(&Job::field_sectors)),
+                "0, or 3 and more", {"reference.symmetry"}),
   };
 }
 
@@ -412,24 +344,16 @@ std::vector<Key> reference_keys() {
 }
 
 std::vector<Key> run_keys() {
-  Key time_step =
-      quantity("run", "time_step", "auto", "s", positive,
-               "lattice time step; auto takes the largest safe one, of scaled masses one "
-               "that keeps the force within 2 %",
-               [](Config& config) -> double& { return *config.press.time_step; });
-  time_step.word = "auto";
-  time_step.assign = assign_time_step;
   return {
-      plain("run", "threads", Kind::integer, "0", {0, 1024, true},
+      plain("run", "threads", {0, 1024, true},
             "threads to use, 0 for all cores; results do not depend on it",
-            [](Config& config, const Value& value) { config.press.threads = int(value.number); }),
-      choice("run", "units", "si",
+            at(&Config::press, &lattice::PressSetup::threads)),
+      choice("run", "units",
              {{"si", "mN, mm, kPa"}, {"paper", "gf, cm, gf/cm^2, as in the paper of 1996"}},
              "units of screens, pages, figures and the live view; files keep theirs, and no result "
-             "depends on it",
-             [](Config&, const Value&) {}),
+             "depends on it"),
       choice(
-          "run", "integrator", "symplectic-euler",
+          "run", "integrator",
           {{"symplectic-euler", "velocities first, then positions"},
            {"explicit-euler", "as printed in the paper's Fig. 4; published lattice"},
            {"runge-kutta", "order 5(4) by SUNDIALS ARKODE, see run.tolerance"},
@@ -437,27 +361,19 @@ std::vector<Key> run_keys() {
             "symplectic Euler at long steps, with inertia against deformation; for slow presses: "
             "fast ones take plain masses unless run.time_step is given, and then tell the error"},
            {"energy-controlled", "symplectic Euler, see run.energy_bound"}},
-          "time integration of the lattice",
-          [](Config& config, const Value& value) {
-            for (const auto one :
-                 {lattice::Integrator::symplectic_euler, lattice::Integrator::explicit_euler,
-                  lattice::Integrator::mass_scaled, lattice::Integrator::runge_kutta,
-                  lattice::Integrator::energy_controlled}) {
-              if (value.word == name(one)) config.press.integrator = one;
-            }
-          }),
-      only_with(
-          "run.integrator", {"runge-kutta"},
-          plain("run", "tolerance", Kind::number, "1e-6", {0.0, 1.0, false},
-                "error of a step, relative to a strain of 1 % in root mean square",
-                [](Config& config, const Value& value) { config.press.tolerance = value.number; })),
+          "time integration of the lattice", at(&Config::press, &lattice::PressSetup::integrator)),
+      only_with("run.integrator", {"runge-kutta"},
+                plain("run", "tolerance", {0.0, 1.0, false},
+                      "error of a step, relative to a strain of 1 % in root mean square",
+                      at(&Config::press, &lattice::PressSetup::tolerance))),
       only_with("run.integrator", {"energy-controlled"},
-                plain("run", "energy_bound", Kind::number, "1e-7", {0.0, 1.0, false},
+                plain("run", "energy_bound", {0.0, 1.0, false},
                       "energy that a step may make or lose, per Young's modulus times tip_radius^3",
-                      [](Config& config, const Value& value) {
-                        config.press.energy_bound = value.number;
-                      })),
-      time_step,
+                      at(&Config::press, &lattice::PressSetup::energy_bound))),
+      quantity("run", "time_step", "", "s", positive,
+               "lattice time step; auto takes the largest safe one, of scaled masses one that "
+               "keeps the force within 2 %",
+               at(&Config::press, &lattice::PressSetup::time_step)),
   };
 }
 

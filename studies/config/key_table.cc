@@ -1,9 +1,13 @@
 #include "studies/config/key_table.h"
 
 #include <algorithm>
+#include <tuple>
 
+#include "calibration/words.h"
 #include "meshes/files.h"
+#include "studies/config/key_builders.h"
 #include "studies/config/key_sections.h"
+#include "studies/config/units.h"
 
 namespace fingertip::studies {
 
@@ -35,6 +39,23 @@ std::string_view last_part(std::string_view name) {
 }
 
 }  // namespace
+
+std::string number_literal(double value) {
+  std::string text = meshes::to_text(value);
+  if (text.find_first_of(".e") == text.npos) text += ".0";
+  if (const auto at = text.find("e+"); at != text.npos) text.erase(at + 1, 1);
+  for (auto at = text.find("e"); at != text.npos;) {
+    const auto zero = text.find_first_not_of('-', at + 1);
+    if (zero + 1 >= text.size() || text[zero] != '0') break;
+    text.erase(zero, 1);
+  }
+  return text;
+}
+
+std::string quantity_literal(double value, const std::string& unit, const std::string& shown) {
+  const double number = value / parse_quantity("1 " + shown, unit, "1 " + shown);
+  return '"' + calibration::rounded(number, 12) + ' ' + shown + '"';
+}
 
 std::string Key::example() const {
   if (kind == Kind::quantities) return "0.1 cm";
@@ -82,13 +103,19 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 }
 
 std::string nearest_key(std::string_view name) {
-  // A right name in the wrong section is the likelier slip than a wrong name in the right one. A
-  // part of a name stands for it: "young" means youngs_modulus.
   const std::string_view last = last_part(name);
+  const std::string section(name.substr(0, name.size() - last.size()));
+  // The last part is a key's name, or a part of it, or neither.
+  const auto likeness = [&](const Key& key) {
+    if (key.name == last) return 0;
+    constexpr std::size_t shortest = 3;
+    return last.size() >= shortest && key.name.find(last) != key.name.npos ? 1 : 2;
+  };
+  // A right name in the wrong section is the likelier slip than a wrong name in the right one; a
+  // name that nothing is like is compared with its own section's.
   const auto distance = [&](const Key& key) {
-    const bool part = last.size() >= 3 && key.name.find(last) != key.name.npos;
-    return (part ? std::min(2, edit_distance(last, key.name)) : 2 * edit_distance(last, key.name)) +
-           edit_distance(name, key.full_name());
+    return std::tuple(likeness(key), key.section + "." != section,
+                      edit_distance(last, key.name) + edit_distance(name, key.full_name()));
   };
   return std::ranges::min_element(key_table(), {}, distance)->full_name();
 }

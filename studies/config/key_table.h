@@ -87,7 +87,8 @@ const std::vector<Key>& key_table();
 /// The key called "section.key"; nullptr when there is none.
 const Key* find_key(std::string_view full_name);
 
-/// The valid key nearest to `name` by edit distance, preferring an equal last part.
+/// The valid key nearest to `name`: one of which its last part is a part, else by edit distance
+/// within its section.
 std::string nearest_key(std::string_view name);
 
 /// The nearest of `words` to `word` by edit distance.

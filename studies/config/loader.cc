@@ -204,14 +204,7 @@ LoadedConfig Reader::finish() {
   }
   config.reference.geometry = press.geometry;
   config.reference.rubber = press.rubber;
-  config.reference.contact = protocol.contact;
-  config.reference.friction = protocol.friction;
-  config.reference.tilt = protocol.tilt;
-  config.reference.lateral = protocol.lateral;
-  config.reference.lateral_path = protocol.lateral_path;
-  config.reference.lateral_samples = protocol.lateral_samples;
-  config.reference.speed = protocol.speed;
-  config.reference.samples = protocol.samples;
+  config.reference.protocol = protocol;
 
   std::vector<meshes::Violation> broken = press.geometry.violations();
   for (const auto& more : {press.rubber.violations(), protocol.violations(press.geometry)}) {

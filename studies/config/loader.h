@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "calibration/material.h"
 #include "meshes/errors.h"
 #include "studies/config/config.h"
 
@@ -53,6 +55,9 @@ struct LoadedConfig {
   Config config;
   std::map<std::string, Entry> entries;  ///< by full key name; every key of the table is present
   std::vector<std::string> notes;        ///< remarks for the log, e.g. an overridden depth
+  /// What the file of lattice.constants says, once somebody has read it; shared by copies.
+  std::shared_ptr<std::optional<calibration::Material>> material =
+      std::make_shared<std::optional<calibration::Material>>();
 
   /// The same configuration with one more --set, e.g. for a series of runs. Throws ConfigError.
   LoadedConfig with(const std::vector<std::string>& further_sets) const;

@@ -35,12 +35,12 @@ LatticeModel cube(const lattice::PressSetup& setup, int cells) {
                               setup.rubber.density, 0.0);
 }
 
-LatticeModel tip(lattice::PressSetup setup, bool hangs_on_rod) {
+LatticeModel tip(lattice::PressSetup setup, bool is_free) {
   setup.rubber.retardation_time = 0.0;
   LatticeModel model = lattice::build_tip(setup.geometry, setup.rubber, setup.lattice);
   model.boundary.clear();
   model.outer.clear();
-  if (!hangs_on_rod) {
+  if (is_free) {
     model.ligaments.clear();
     model.bond.clear();
   }
@@ -136,7 +136,7 @@ UndampedBody undamped_body(const LoadedConfig& loaded) {
   if (order.has_wall) check_wall(loaded);
   const lattice::PressSetup setup = press_setup(loaded);
   UndampedBody body;
-  body.model = order.cube ? cube(setup, order.cells) : tip(setup, order.hangs_on_rod);
+  body.model = order.cube ? cube(setup, order.cells) : tip(setup, order.is_free);
   take_dampers_out(body.model);
   body.rod = lattice::rod_body(setup.geometry, setup.rod);
   body.gravity = -setup.gravity * lattice::press_plane(setup.protocol, setup.geometry).normal;

@@ -1,13 +1,13 @@
 /// summary.json of a case, SI.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/press_response.h"
+#include "studies/files/press_summary.h"
 
 namespace fingertip::studies {
 
@@ -36,23 +36,54 @@ constexpr auto fields_of(const TargetEntry*) {
                &Whole::shear_modulus, &Whole::poissons_ratio, &Whole::bulk_modulus);
 }
 
-/// A lattice of the core case: constants [Pa], unless its press left nothing, and errors against
-/// the continuum.
-struct ModelEntry {
-  double E_100 = meshes::unknown, E_110 = meshes::unknown, E_111 = meshes::unknown,
-         G = meshes::unknown, nu_100 = meshes::unknown, K = meshes::unknown,
-         anisotropy = meshes::unknown, real_time_factor = meshes::unknown;
+/// The continuum that presses are measured against: forces [N] at the case's depths.
+struct ReferenceEntry {
+  std::string status;
+  std::vector<double> force, relative_force_error;
+};
+constexpr auto fields_of(const ReferenceEntry*) {
+  using meshes::named;
+  using Whole = ReferenceEntry;
+  return named("status force relative_force_error", &Whole::status, &Whole::force,
+               &Whole::relative_force_error);
+}
+
+/// The continuum's code against analytic solutions.
+struct VerificationEntry {
+  std::size_t checks = 0, failed_checks = 0;
+};
+constexpr auto fields_of(const VerificationEntry*) {
+  using meshes::named;
+  using Whole = VerificationEntry;
+  return named("checks failed_checks", &Whole::checks, &Whole::failed_checks);
+}
+
+/// The lattice of the core case at rest, by depth.
+struct EquilibriumEntry {
+  std::vector<double> hookean_force_error;
+};
+constexpr auto fields_of(const EquilibriumEntry*) {
+  using meshes::named;
+  using Whole = EquilibriumEntry;
+  return named("hookean_force_error", &Whole::hookean_force_error);
+}
+
+/// A press without a series: constants of its lattice [Pa], of one in time that left a summary, and
+/// errors against what it stands beside.
+struct ModelEntry : ModuliEntry {
+  bool in_time = true;  ///< in no file
+  double real_time_factor = meshes::unknown;
   std::vector<double> force_error;
   double relative_l2_force_error = meshes::unknown;
   std::string status;
 };
 constexpr auto fields_of(const ModelEntry*) {
-  using meshes::named, meshes::newer;
+  using meshes::named, meshes::newer, meshes::only;
   using Whole = ModelEntry;
   return std::tuple_cat(
-      named("E_100 E_110 E_111 G nu_100 K", &Whole::E_100, &Whole::E_110, &Whole::E_111, &Whole::G,
-            &Whole::nu_100, &Whole::K),
-      newer(named("anisotropy", &Whole::anisotropy)),
+      only(&Whole::in_time,
+           newer(named("E_100 E_110 E_111 G nu_100 K anisotropy", &Whole::E_100, &Whole::E_110,
+                       &Whole::E_111, &Whole::G, &Whole::nu_100, &Whole::K, &Whole::anisotropy))),
       named("real_time_factor force_error relative_l2_force_error status", &Whole::real_time_factor,
             &Whole::force_error, &Whole::relative_l2_force_error, &Whole::status));
 }
@@ -148,7 +179,7 @@ constexpr auto fields_of(const PredictionEntry*) {
 
 /// The rubber that fits are to find.
 struct TruthEntry {
-  std::map<std::string, double> parameters;
+  meshes::Entries<double> parameters;
 };
 constexpr auto fields_of(const TruthEntry*) {
   using meshes::named;
@@ -170,7 +201,7 @@ constexpr auto fields_of(const TransferEntry*) {
                &Whole::worst_error, &Whole::truth);
 }
 
-/// A press of a case on virtual control.
+/// A press of a case on virtual control; its other measures stand beside these.
 struct PressEntry {
   std::string series, name, folder, continuum, beside;
   bool pictured = false;
@@ -186,7 +217,7 @@ constexpr auto fields_of(const PressEntry*) {
       if_known(named("change force_error", &Whole::change, &Whole::force_error)));
 }
 
-/// A grasp of a case.
+/// A grasp of a case; its measures stand beside these.
 struct GraspEntry {
   std::string series, name, folder, status;
 };
@@ -197,32 +228,39 @@ constexpr auto fields_of(const GraspEntry*) {
                &Whole::status);
 }
 
-/// summary.json of `validate`, by the kind of case.
+/// summary.json of `validate`, by the kinds of the case's runs.
 struct CaseSummary {
   std::string case_name, title, description, status;
-  std::vector<CriterionEntry> criteria;
-  std::map<std::string, ModelEntry> models;
   std::optional<TargetEntry> target;
   std::vector<double> depths;
+  std::optional<ReferenceEntry> reference;
+  std::optional<VerificationEntry> verification;
+  std::optional<EquilibriumEntry> equilibrium;
+  meshes::Entries<ModelEntry> models;
   std::optional<StudyEntry> variants;
   std::optional<TransferEntry> calibration;
   std::vector<PressEntry> presses;
   std::vector<GraspEntry> grasps;
+  std::vector<CriterionEntry> criteria;
 
-  bool is_core() const { return !models.empty(); }
-  bool has_kind() const {
-    return is_core() || variants || calibration || !presses.empty() || !grasps.empty();
+  bool has_target() const { return target.has_value(); }
+  bool has_results() const {
+    return target || verification || equilibrium || !models.empty() || variants || calibration ||
+           !presses.empty() || !grasps.empty();
   }
 };
 constexpr auto fields_of(const CaseSummary*) {
   using meshes::if_known, meshes::named, meshes::only;
   using Whole = CaseSummary;
-  return std::tuple_cat(named("case title description status criteria", &Whole::case_name,
-                              &Whole::title, &Whole::description, &Whole::status, &Whole::criteria),
-                        if_known(named("models target", &Whole::models, &Whole::target)),
-                        only(&Whole::is_core, named("depths", &Whole::depths)),
-                        if_known(named("variants calibration presses grasps", &Whole::variants,
-                                       &Whole::calibration, &Whole::presses, &Whole::grasps)));
+  return std::tuple_cat(
+      named("case title description status", &Whole::case_name, &Whole::title, &Whole::description,
+            &Whole::status),
+      if_known(named("target", &Whole::target)),
+      only(&Whole::has_target, named("depths reference", &Whole::depths, &Whole::reference)),
+      if_known(named("verification equilibrium models variants calibration presses grasps",
+                     &Whole::verification, &Whole::equilibrium, &Whole::models, &Whole::variants,
+                     &Whole::calibration, &Whole::presses, &Whole::grasps)),
+      named("criteria", &Whole::criteria));
 }
 
 }  // namespace fingertip::studies

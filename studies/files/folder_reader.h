@@ -10,7 +10,7 @@
 #include "meshes/errors.h"
 #include "meshes/press_response.h"
 #include "meshes/table_rows.h"
-#include "studies/files/json_fields.h"
+#include "studies/files/read_fields.h"
 
 namespace fingertip::studies {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::studies {

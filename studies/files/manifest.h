@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/press_response.h"
 
 namespace fingertip::studies {

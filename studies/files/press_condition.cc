@@ -66,9 +66,10 @@ PressCondition condition_of(const JsonEntry& inputs) {
   condition.rod_length = number_if_any(geometry, "rod_length");
   condition.youngs_modulus = number_if_any(rubber, "youngs_modulus");
   condition.shear_modulus = number_if_any(rubber, "shear_modulus");
-  // A lattice keeps its press apart, the continuum does not.
   const bool lattice = inputs.contains("lattice");
-  const JsonEntry press = lattice ? object_if_any(inputs, "protocol") : inputs;
+  // Older runs of the continuum do not keep the press apart.
+  const bool apart = lattice || inputs.contains("protocol");
+  const JsonEntry press = apart ? object_if_any(inputs, "protocol") : inputs;
   const std::string strain = lattice ? text_if_any(object_if_any(inputs, "lattice"), "kinematics")
                                      : text_if_any(inputs, "strain");
   condition.strain = strain == "linear" ? "small" : strain;

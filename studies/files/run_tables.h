@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "meshes/fields.h"
+#include "meshes/file_fields.h"
 #include "meshes/geometry.h"
 #include "meshes/press_response.h"
 

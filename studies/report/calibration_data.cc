@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <string_view>
 
 #include "studies/report/format.h"
@@ -34,7 +33,7 @@ using calibration::CurveEntry;
 using calibration::FitDataRow;
 using calibration::FitFile;
 using calibration::ParameterEntry;
-using Truth = std::map<std::string, double>;
+using Truth = meshes::Entries<double>;
 
 FitParameter read_parameter(const ParameterEntry& entry, const Truth& truth) {
   FitParameter parameter;
@@ -59,8 +58,7 @@ FitParameter read_parameter(const ParameterEntry& entry, const Truth& truth) {
     parameter.prior_mean = entry.prior->mean;
     parameter.prior_deviation = entry.prior->deviation;
   }
-  if (const auto known = truth.find(entry.name); known != truth.end())
-    parameter.truth = known->second;
+  if (const double* known = truth.find(entry.name)) parameter.truth = *known;
   parameter.at_bound = entry.at_bound;
   parameter.bounded = entry.bound_of == "poissons_ratio" ? "ν" : parameter.symbol;
   return parameter;
@@ -98,19 +96,6 @@ void add_points(Fit& fit, const std::vector<FitDataRow>& rows) {
     curve->fitted.push_back(row.fitted);
     curve->left_out.push_back(row.left_out);
   }
-}
-
-/// What a fit to moduli, which has no curves, has in common with others.
-FitFile as_fit(const calibration::ModuliFile& moduli) {
-  FitFile fit;
-  fit.problem = "moduli";
-  fit.model = moduli.model;
-  fit.spacing = moduli.spacing;
-  fit.constants = moduli.constants;
-  fit.target = moduli.target;
-  fit.achieved = moduli.achieved;
-  fit.statement = moduli.statement;
-  return fit;
 }
 
 Fit read_fit(const fs::path& folder, const Truth& truth, FolderReader& reader) {

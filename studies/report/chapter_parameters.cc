@@ -184,9 +184,9 @@ std::string direction_words(const Fit& fit, const DirectionEntry& entry) {
   if (!entry.statement.empty()) return entry.statement;
   std::vector<std::string> parts;
   for (const FitParameter& one : fit.parameters) {
-    const auto change = entry.direction.find(one.name);
-    if (change != entry.direction.end() && std::abs(change->second) > 5e-4)
-      parts.push_back(one.symbol + " × " + number(change->second, 2));
+    const double* change = entry.direction.find(one.name);
+    if (change && std::abs(*change) > 5e-4)
+      parts.push_back(one.symbol + " × " + number(*change, 2));
   }
   return "A change along " + (parts.empty() ? "an unnamed direction" : enumerate(parts)) +
          " is hardly seen.";

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "meshes/errors.h"
 
@@ -50,9 +52,9 @@ void check_places(std::vector<Row>& rows, std::size_t Row::*place, std::size_t c
 }
 
 /// The order of the story: as printed, as fitted, as it should be; then whatever else was run.
-std::vector<std::string> ordered_models(const std::map<std::string, ModelEntry>& models) {
+std::vector<std::string> ordered_models(const meshes::Entries<ModelEntry>& models) {
   std::vector<std::string> names{"published", "central", "hookean"};
-  std::erase_if(names, [&](const std::string& name) { return !models.contains(name); });
+  std::erase_if(names, [&](const std::string& name) { return !models.find(name); });
   for (const auto& [name, entry] : models) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
@@ -118,10 +120,12 @@ void take_summary(RunData& run, FolderReader& reader) {
     return;
   run.summary = reader.take<CaseSummary>(file);
   reader.attempt([&] {
-    if (!run.summary.has_kind())
-      throw meshes::InvalidInput({(run.folder / "summary.json").string(), "",
-                                  "tells neither models, variants, calibration, presses nor grasps",
-                                  "validate again"});
+    // A case may have nothing but series and tables of its own; what it had must not get lost.
+    if (run.summary.has_results()) return;
+    std::set<std::string_view> known;
+    meshes::for_each_field<CaseSummary>([&](const auto& field) { known.insert(field.name); });
+    for (const auto& [key, entry] : file.members())
+      if (!known.contains(key)) entry.refuse("is no entry of a case");
   });
   run.depths = run.summary.depths;
   run.study = run.summary.variants.value_or(StudyEntry());
@@ -211,7 +215,7 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   const auto& models = run.summary.models;
   for (const std::string& name : ordered_models(models)) {
     run.models.push_back(
-        reader.attempt([&] { return read_model(folder, name, models.at(name), reader); }));
+        reader.attempt([&] { return read_model(folder, name, *models.find(name), reader); }));
     run.models.back().name = name;
     run.models.back().force_error.resize(run.depths.size(), meshes::unknown);
   }

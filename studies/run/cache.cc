@@ -96,8 +96,8 @@ bool Cache::fetch(const Job& job, const fs::path& target) const {
   if (!fs::is_regular_file(source / marker_name, failed)) return false;
   fs::copy(source, target, fs::copy_options::recursive, failed);
   // What is checked is what was copied: another process may replace the entry meanwhile.
-  const bool sound = !failed && !noted(job, target / marker_name, "status").empty() &&
-                     is_whole_result(target);
+  const bool sound =
+      !failed && !noted(job, target / marker_name, "status").empty() && is_whole_result(target);
   std::error_code ignored;
   if (!sound) fs::remove_all(target, ignored);
   return sound;

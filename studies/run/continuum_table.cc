@@ -24,11 +24,12 @@ std::vector<PressSample> samples_of(const fs::path& folder, const ReferenceJob& 
   const auto refuse = [&](const std::string& value, const std::string& rule) {
     throw InvalidInput({file.string(), value, rule, "run this press again, to its end"});
   };
-  if (samples.size() != order.samples.size())
+  if (samples.size() != order.protocol.samples.size())
     refuse(std::to_string(samples.size()) + " samples",
-           "a table needs the " + std::to_string(order.samples.size()) + " samples of its order");
+           "a table needs the " + std::to_string(order.protocol.samples.size()) +
+               " samples of its order");
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double wanted = order.samples[i], depth = samples[i].indentation;
+    const double wanted = order.protocol.samples[i], depth = samples[i].indentation;
     if (!(std::abs(depth - wanted) <= 1e-9 * wanted))
       refuse(meshes::to_text(depth) + " m",
              "the order has its sample at " + meshes::to_text(wanted) + " m");
@@ -69,7 +70,7 @@ ContinuumTable read_continuum_table(const ReferenceJob& order,
         {"folders", std::to_string(folders.size()),
          "a table has one run per Poisson's ratio, here " + std::to_string(poissons_ratios.size()),
          "give a folder for each"});
-  const Index rows = Index(order.samples.size());
+  const Index rows = Index(order.protocol.samples.size());
   Eigen::MatrixXd scaled(rows, Index(folders.size()));
   Eigen::VectorXd error = Eigen::VectorXd::Zero(rows);
   for (Index k = 0; k < scaled.cols(); ++k) {

@@ -13,6 +13,8 @@
 #include "lattice/control/approach.h"
 #include "lattice/control/force_controller.h"
 #include "lattice/control/hybrid_controller.h"
+#include "lattice/press/setup_fields.h"
+#include "meshes/fields_json.h"
 #include "studies/control/shared_object_controller.h"
 #include "studies/control/socket_controller.h"
 #include "studies/run/digest.h"
@@ -52,31 +54,20 @@ Schedule read_schedule(const LoadedConfig& loaded) {
   }
 }
 
+std::string identity_of(const char* type, const auto& settings, const Schedule& schedule) {
+  return ordered_json{
+      {"type", type}, {"settings", meshes::json_of(settings)}, {"schedule", schedule.identity}}
+      .dump();
+}
+
 void choose_adaptive(const LoadedConfig& loaded, lattice::PressSetup& setup) {
   lattice::AdaptiveSettings settings = loaded.config.controller.adaptive;
   const Schedule schedule = read_schedule(loaded);
   settings.stiffness = schedule.stiffness;
-  setup.controller_identity =
-      ordered_json{{"type", "adaptive"},           {"sensitivity", settings.sensitivity},
-                   {"relay", settings.relay},      {"estimate", settings.estimate},
-                   {"memory", settings.memory},    {"force_noise", settings.force_noise},
-                   {"schedule", schedule.identity}}
-          .dump();
+  setup.controller_identity = identity_of("adaptive", settings, schedule);
   setup.make_controller = [pid = setup.controller, settings](const ControlTask& task) {
     return std::make_unique<lattice::AdaptivePid>(pid, settings, task);
   };
-}
-
-ordered_json identity_of(const char* type, const lattice::ForceSettings& settings,
-                         const Schedule& schedule) {
-  return {{"type", type},
-          {"force", settings.force},
-          {"bandwidth", settings.bandwidth},
-          {"touch_force", settings.touch_force},
-          {"release_force", settings.release_force},
-          {"confirmation", settings.confirmation},
-          {"dwell", settings.dwell},
-          {"schedule", schedule.identity}};
 }
 
 template <typename ForceLaw>
@@ -89,7 +80,7 @@ void choose_force(const LoadedConfig& loaded, const char* type, lattice::PressSe
   }
   const Schedule schedule = read_schedule(loaded);
   settings.stiffness = schedule.stiffness;
-  setup.controller_identity = identity_of(type, settings, schedule).dump();
+  setup.controller_identity = identity_of(type, settings, schedule);
   setup.make_controller = [pid = setup.controller, settings](const ControlTask& task) {
     return std::make_unique<ForceLaw>(pid, settings, task);
   };

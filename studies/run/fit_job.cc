@@ -9,7 +9,9 @@
 #include "calibration/curves/model_error.h"
 #include "calibration/curves/remembered_model.h"
 #include "calibration/curves/stretch_models.h"
+#include "lattice/press/setup_fields.h"
 #include "lattice/press/static_press.h"
+#include "meshes/fields_json.h"
 #include "source_hash.h"
 #include "studies/run/digest.h"
 #include "studies/run/fit_order.h"
@@ -36,7 +38,9 @@ ordered_json curve_inputs(const FitOrder& order, std::size_t i) {
                          {"x", curve.x},
                          {"y", curve.y},
                          {"sigma", curve.sigma}};
-  if (i < order.presses.size()) inputs["press"] = to_json(order.presses[i]);
+  if (i < order.presses.size()) inputs["press"] = inputs_of(order.presses[i]);
+  // The ramp's lattice is static, its rubber's damping is not.
+  if (order.kinds[i] == CurveKind::ramp) inputs["speed"] = order.presses[i].protocol.speed;
   return inputs;
 }
 
@@ -361,7 +365,9 @@ void run_fit(FitOrder order, const fs::path& folder, const JobContext& context) 
 ordered_json inputs_of(const FitOrder& order) {
   ordered_json inputs = {
       {"problem", name(order.problem)},
-      {"base", to_json(order.base)},
+      {"geometry", meshes::json_of(order.base.geometry)},
+      {"rubber", meshes::json_of(order.base.rubber)},
+      {"lattice", meshes::json_of(order.base.lattice)},
       {"rubber_known", order.rubber_known},
       {"robust_width", order.options.robust_width},
       {"starts", order.start_ratios},
@@ -401,7 +407,7 @@ Job fit_job(const FitOrder& order) {
   job.kind = "fit";
   job.inputs = inputs_of(order);
   job.source_hash = source_hash::calibration;
-  job.weight = 10.0;
+  job.weight = fit_weight;
   job.resumable = true;
   job.run = [order](const fs::path& folder, const JobContext& context) {
     run_fit(order, folder, context);

@@ -109,6 +109,15 @@ std::vector<PlannedJob> FitPlan::next(const fs::path& run) {
   return jobs;
 }
 
+double FitPlan::later_weight() const {
+  double weight = 0.0;
+  if (stage_ <= Stage::fit) weight += by_moduli() ? moduli_weight : fit_weight;
+  if (stage_ > Stage::follow_up) return weight;
+  if (loaded_.config.calibration.surrogate) weight += surrogate_weight;
+  if (measures_bias()) weight += reference_weight * double(setup_.continua.size());
+  return weight;
+}
+
 std::vector<PlannedJob> FitPlan::data_jobs() {
   std::vector<PlannedJob> jobs;
   if (by_moduli()) return jobs;
@@ -193,7 +202,7 @@ PlannedJob FitPlan::bias(const fs::path& run, std::size_t curve) const {
   const calibration::Material found = material(run);
   order.rubber.youngs_modulus = found.rubber.youngs_modulus;
   order.rubber.shear_modulus = found.rubber.shear_modulus;
-  order.samples = thinned(order.samples, bias_samples);
+  order.press_to(thinned(order.protocol.samples, bias_samples));
   return {place("bias_" + std::to_string(curve + 1)), reference_job(order), false};
 }
 

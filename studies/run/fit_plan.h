@@ -33,6 +33,9 @@ class FitPlan {
   /// The jobs that may run now. None: the files are written, the calibration is complete.
   std::vector<PlannedJob> next(const std::filesystem::path& run);
 
+  /// What the jobs that `next` has not returned yet will weigh.
+  double later_weight() const;
+
   /// Remarks on measured files.
   const std::vector<std::string>& notes() const { return setup_.notes; }
 

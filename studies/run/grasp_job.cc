@@ -3,7 +3,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "meshes/json_fields.h"
+#include "lattice/grasp/grasp_fields.h"
+#include "lattice/press/setup_fields.h"
+#include "meshes/fields_json.h"
 #include "source_hash.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/run/jobs.h"
@@ -14,6 +16,7 @@ namespace fingertip::studies {
 
 namespace {
 
+using meshes::json_of;
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
@@ -93,32 +96,11 @@ void run_grasp_job(lattice::GraspSetup setup, const fs::path& folder, const JobC
 
 ordered_json inputs_of(const lattice::GraspSetup& setup) {
   const lattice::FingerSetup& finger = setup.hand.finger;
-  const lattice::BlockSettings& block = setup.hand.block;
-  const lattice::GripSettings& grip = setup.grip;
-  const auto vector = [](const meshes::Vector3& v) { return ordered_json{v.x(), v.y(), v.z()}; };
-  return {{"geometry", to_json(finger.geometry)},
-          {"rubber", to_json(finger.rubber)},
-          {"lattice", to_json(finger.lattice)},
-          {"contact", meshes::name(finger.contact.mode)},
-          {"friction", finger.contact.friction},
-          {"time_step", finger.time_step ? ordered_json(*finger.time_step) : ordered_json()},
-          {"clearance", setup.hand.clearance},
-          {"gravity", setup.hand.gravity},
-          {"block",
-           {{"mass", block.mass},
-            {"width", block.width},
-            {"height", block.height},
-            {"eccentricity", vector(block.eccentricity)}}},
-          {"grip",
-           {{"force", grip.force},
-            {"closing_speed", grip.closing_speed},
-            {"time_constant", grip.time_constant},
-            {"lift_height", grip.lift_height},
-            {"lift_speed", grip.lift_speed},
-            {"hold_time", grip.hold_time},
-            {"release_time", grip.release_time},
-            {"slip_limit", grip.slip_limit},
-            {"period", grip.period}}}};
+  return {{"geometry", json_of(finger.geometry)}, {"rubber", json_of(finger.rubber)},
+          {"lattice", json_of(finger.lattice)},   {"contact", meshes::name(finger.contact.mode)},
+          {"friction", finger.contact.friction},  {"time_step", json_of(finger.time_step)},
+          {"clearance", setup.hand.clearance},    {"gravity", setup.hand.gravity},
+          {"block", json_of(setup.hand.block)},   {"grip", json_of(setup.grip)}};
 }
 
 }  // namespace

@@ -27,6 +27,10 @@ class ProcessLost : public meshes::NotConverged {
   using meshes::NotConverged::NotConverged;
 };
 
+/// Expected shares of the work: a lattice press in time at R/12 is 10.
+inline constexpr double moduli_weight = 0.1, surrogate_weight = 5.0, fit_weight = 10.0,
+                        reference_weight = 40.0, meridian_weight = 2.0;
+
 /// `inputs` holds only what the result depends on, so that equal inputs mean equal results.
 struct Job {
   std::string kind;               ///< "press", "reference", "moduli", "cubes"

@@ -2,7 +2,8 @@
 
 #include "calibration/cube_test.h"
 #include "calibration/result_io.h"
-#include "meshes/json_fields.h"
+#include "lattice/press/setup_fields.h"
+#include "meshes/fields_json.h"
 #include "meshes/table_rows.h"
 #include "source_hash.h"
 #include "studies/files/run_tables.h"
@@ -16,6 +17,7 @@ namespace fingertip::studies {
 namespace {
 
 using lattice::ModelKind;
+using meshes::json_of;
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
@@ -64,109 +66,52 @@ void run_cubes(const meshes::Rubber& rubber, const lattice::SpringConstants& cen
   meshes::write_rows(rows, folder / "cubes.csv");
 }
 
-/// Of a lateral motion that follows the press; nothing where none does.
-void add_sliding(ordered_json& inputs, const meshes::PressProtocol& protocol) {
-  if (!protocol.slides_after()) return;
-  inputs["lateral_path"] = meshes::name(protocol.lateral_path);
-  inputs["lateral_samples"] = protocol.lateral_samples;
+void drop(ordered_json& inputs, std::initializer_list<const char*> idle) {
+  for (const char* key : idle) inputs.erase(key);
 }
 
-/// Only what the result depends on: neither mass nor damping enters an equilibrium, no press enters
-/// the natural frequencies.
+ordered_json inputs_of(const meshes::PressProtocol& protocol, bool moves) {
+  ordered_json inputs = json_of(protocol);
+  if (!protocol.slides_after()) drop(inputs, {"lateral_path", "lateral_samples"});
+  if (protocol.contact != meshes::ContactMode::coulomb) drop(inputs, {"friction"});
+  if (!moves) drop(inputs, {"speed", "clearance"});
+  return inputs;
+}
+
+/// Neither mass nor damping enters an equilibrium, no press enters the natural frequencies.
 ordered_json inputs_of(const fem_reference::ReferenceJob& order) {
   using fem_reference::Analysis;
-  const bool has_press =
-      order.analysis == Analysis::static_press || order.analysis == Analysis::transient;
-  ordered_json inputs = {{"analysis", fem_reference::name(order.analysis)},
-                         {"geometry", to_json(order.geometry)},
-                         {"rubber", to_json(order.rubber)},
-                         {"strain", fem_reference::name(order.strain)},
-                         {"degree", order.degree},
-                         {"volumetric", fem_reference::name(order.volumetric)},
-                         {"refinement", order.refinement},
-                         {"tolerance", order.tolerance},
-                         {"max_unknowns", order.max_unknowns},
-                         {"solver", fem_reference::name(order.solver)},
-                         {"solver_tolerance", order.solver_tolerance},
-                         {"fields", order.write_fields},
-                         {"estimate_error", order.estimate_error}};
-  if (order.strain == fem_reference::Strain::finite) inputs["law"] = fem_reference::name(order.law);
-  if (order.analysis == Analysis::static_press) {
-    inputs["rubber"].erase("density");
-    inputs["rubber"].erase("retardation_time");
-  }
-  if (order.analysis == Analysis::modes) {
-    inputs["rubber"].erase("retardation_time");
-    inputs["modes"] = order.modes;
-  }
-  if (order.analysis == Analysis::transient) inputs["speed"] = order.speed;
-  if (has_press) {
-    inputs["contact"] = meshes::name(order.contact);
-    inputs["tilt"] = order.tilt;
-    inputs["lateral"] = order.lateral;
-    add_sliding(inputs, order.protocol());
-    inputs["samples"] = order.samples;
-    if (order.contact == meshes::ContactMode::coulomb) inputs["friction"] = order.friction;
-  }
+  ordered_json inputs = json_of(order);
+  inputs["protocol"] = inputs_of(order.protocol, order.analysis == Analysis::transient);
+  drop(inputs["protocol"], {"mode", "clearance"});
+  if (order.strain != fem_reference::Strain::finite) drop(inputs, {"law"});
+  if (order.analysis != Analysis::modes) drop(inputs, {"modes"});
+  if (order.analysis == Analysis::static_press)
+    drop(inputs["rubber"], {"density", "retardation_time"});
+  if (order.analysis == Analysis::modes) drop(inputs["rubber"], {"retardation_time"});
+  if (order.analysis == Analysis::modes || order.analysis == Analysis::verification)
+    drop(inputs, {"protocol"});
   return inputs;
 }
 
 }  // namespace
 
-ordered_json to_json(const meshes::Geometry& geometry) {
-  return {{"tip_radius", geometry.tip_radius},
-          {"rod_radius", geometry.rod_radius},
-          {"sleeve_length", geometry.sleeve_length},
-          {"rod_length", geometry.rod_length}};
-}
-
-ordered_json to_json(const meshes::Rubber& rubber) {
-  return {{"youngs_modulus", rubber.youngs_modulus},
-          {"shear_modulus", rubber.shear_modulus},
-          {"density", rubber.density},
-          {"retardation_time", rubber.retardation_time}};
-}
-
-ordered_json to_json(const meshes::PressProtocol& protocol) {
-  ordered_json json = {{"mode", meshes::name(protocol.mode)},
-                       {"contact", meshes::name(protocol.contact)},
-                       {"depth", protocol.depth},
-                       {"tilt", protocol.tilt},
-                       {"lateral", protocol.lateral}};
-  add_sliding(json, protocol);
-  if (protocol.contact == meshes::ContactMode::coulomb) json["friction"] = protocol.friction;
-  if (protocol.mode != meshes::DriveMode::equilibrium) {
-    json["speed"] = protocol.speed;
-    json["clearance"] = protocol.clearance;
+ordered_json inputs_of(const lattice::PressSetup& setup) {
+  const bool moves = setup.protocol.mode != meshes::DriveMode::equilibrium;
+  ordered_json inputs = json_of(setup);
+  inputs["protocol"] = inputs_of(setup.protocol, moves);
+  if (setup.integrator != lattice::Integrator::runge_kutta) drop(inputs, {"tolerance"});
+  if (setup.integrator != lattice::Integrator::energy_controlled) drop(inputs, {"energy_bound"});
+  if (setup.protocol.mode != meshes::DriveMode::pid) {
+    drop(inputs, {"rod", "controller_identity", "follows_path", "hardware"});
+    // Steps divide it, whatever moves the rod.
+    inputs["controller"] = {{"period", setup.controller.period}};
   }
-  json["samples"] = protocol.samples;
-  return json;
-}
-
-ordered_json to_json(const lattice::PressSetup& setup) {
-  return {{"geometry", to_json(setup.geometry)},
-          {"rubber", to_json(setup.rubber)},
-          {"protocol", to_json(setup.protocol)},
-          {"lattice", to_json(setup.lattice)}};
-}
-
-ordered_json to_json(const lattice::LatticeSettings& settings) {
-  ordered_json json = {
-      {"model", lattice::name(settings.model)},
-      {"kinematics", lattice::name(settings.kinematics)},
-      {"spacing", settings.spacing},
-      {"offset", std::vector<double>(settings.offset.begin(), settings.offset.end())},
-      {"constants", to_json(settings.constants)},
-      {"ligament_stiffness", settings.ligament_stiffness}};
-  if (settings.contact_stiffness != 1.0) json["contact_stiffness"] = settings.contact_stiffness;
-  if (!settings.axes.isIdentity(0.0))
-    json["axes"] = std::vector<double>(settings.axes.data(), settings.axes.data() + 9);
-  return json;
-}
-
-ordered_json to_json(const lattice::SpringConstants& constants) {
-  return {
-      {"k1", constants.k1}, {"k2", constants.k2}, {"k3", constants.k3}, {"kappa", constants.kappa}};
+  if (!moves) drop(inputs["rubber"], {"density", "retardation_time"});
+  if (!moves)
+    drop(inputs, {"controller", "duration", "gravity", "integrator", "time_step", "tolerance",
+                  "energy_bound"});
+  return inputs;
 }
 
 Job reference_job(const fem_reference::ReferenceJob& order) {
@@ -174,11 +119,16 @@ Job reference_job(const fem_reference::ReferenceJob& order) {
   job.kind = "reference";
   job.inputs = inputs_of(order);
   job.source_hash = source_hash::reference;
-  job.weight = 40.0;
+  job.weight = order.axisymmetric() ? meridian_weight : reference_weight;
   job.resumable = true;
   job.run = [order](const fs::path& folder, const JobContext& context) {
     fem_reference::write_job(order, folder / "job.json");
-    run_fem_process(reference_program(), folder, context);
+    JobContext own = context;
+    if (order.axisymmetric() && own.ranks > 1) {
+      own.log("a meridian is solved on one process: --ranks is not used");
+      own.ranks = 1;
+    }
+    run_fem_process(reference_program(), folder, own);
     fs::remove_all(folder / "checkpoint");  // of use to an unfinished job alone
   };
   return job;
@@ -195,7 +145,7 @@ Job verification_job() {
 Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions& options) {
   Job job;
   job.kind = "moduli";
-  job.inputs = {{"rubber", to_json(rubber)},
+  job.inputs = {{"rubber", json_of(rubber)},
                 {"model", lattice::name(options.model)},
                 {"spacing", options.spacing},
                 {"starts", options.starts},
@@ -203,7 +153,7 @@ Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions
                 {"isotropy_weight", options.isotropy_weight},
                 {"bulk_weight", options.bulk_weight}};
   job.source_hash = source_hash::calibration;
-  job.weight = 0.1;
+  job.weight = moduli_weight;
   job.run = [rubber, options](const fs::path& folder, const JobContext& context) {
     run_moduli(rubber, options, folder, context);
   };
@@ -214,9 +164,9 @@ Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& cent
               const lattice::SpringConstants& hookean, double spacing) {
   Job job;
   job.kind = "cubes";
-  job.inputs = {{"rubber", to_json(rubber)},
-                {"central", to_json(central)},
-                {"hookean", to_json(hookean)},
+  job.inputs = {{"rubber", json_of(rubber)},
+                {"central", json_of(central)},
+                {"hookean", json_of(hookean)},
                 {"spacing", spacing}};
   job.source_hash = source_hash::calibration;
   job.weight = 1.0;

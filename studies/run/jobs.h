@@ -15,6 +15,10 @@ namespace fingertip::studies {
 /// none.
 Job press_job(const lattice::PressSetup& setup, int movie_pictures = 0);
 
+/// What a press weighs (Job::weight): masses ~ 1/a³, steps ~ 1/a; factorisations of 3-D lattices ~
+/// 1/a⁶.
+double press_weight(const lattice::PressSetup& setup);
+
 /// Natural frequencies of the lattice bonded to a fixed rod, lowest first. Files: modes.csv
 /// (`mode,frequency [Hz]` and what moves, see lattice::ModeMotion), summary.json.
 Job modes_job(const lattice::PressSetup& setup, int count);
@@ -36,14 +40,8 @@ Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions
 Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& central,
               const lattice::SpringConstants& hookean, double spacing);
 
-/// SI values that define a specimen and a press, for `Job::inputs` and summaries. Static presses
-/// do not depend on speed and clearance.
-nlohmann::ordered_json to_json(const meshes::Geometry& geometry);
-nlohmann::ordered_json to_json(const meshes::Rubber& rubber);
-nlohmann::ordered_json to_json(const meshes::PressProtocol& protocol);
-nlohmann::ordered_json to_json(const lattice::LatticeSettings& settings);
-/// What an equilibrium depends on: specimen, protocol and lattice.
-nlohmann::ordered_json to_json(const lattice::PressSetup& setup);
-nlohmann::ordered_json to_json(const lattice::SpringConstants& constants);
+/// What a press depends on, for `Job::inputs`: all members but those that have no effect. Static
+/// presses know neither time nor controller.
+nlohmann::ordered_json inputs_of(const lattice::PressSetup& setup);
 
 }  // namespace fingertip::studies

@@ -2,16 +2,13 @@
 
 #include <cmath>
 
-#include "meshes/files.h"
+#include "meshes/fields_json.h"
 #include "studies/files/json_entry.h"
 
 namespace fingertip::studies {
 
 void write_json(const nlohmann::ordered_json& content, const std::filesystem::path& file) {
-  // Names of files need not be UTF-8, JSON must.
-  const std::string text =
-      content.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  meshes::write_atomically(file, [&](std::ostream& out) { out << text << '\n'; });
+  meshes::write_json_file(content, file);
 }
 
 nlohmann::ordered_json read_json(const std::filesystem::path& file) {

@@ -1,8 +1,10 @@
 #include <cmath>
 
+#include "lattice/press/setup_fields.h"
 #include "lattice/press/static_press.h"
 #include "lattice/statics/mode_motion.h"
 #include "lattice/statics/vibration_modes.h"
+#include "meshes/fields_json.h"
 #include "meshes/table_rows.h"
 #include "source_hash.h"
 #include "studies/files/run_tables.h"
@@ -31,7 +33,7 @@ void run_modes_job(const lattice::PressSetup& setup, int count, const fs::path& 
   write_json({{"model", lattice::name(setup.lattice.model)},
               {"status", "finished"},
               {"spacing", setup.lattice.spacing},
-              {"constants", to_json(setup.lattice.constants)},
+              {"constants", meshes::json_of(setup.lattice.constants)},
               {"particles", body.rest.size()},
               {"cells", body.cells.size()}},
              folder / "summary.json");
@@ -42,10 +44,11 @@ void run_modes_job(const lattice::PressSetup& setup, int count, const fs::path& 
 Job modes_job(const lattice::PressSetup& setup, int count) {
   Job job;
   job.kind = "modes";
-  job.inputs = {{"geometry", to_json(setup.geometry)},
-                {"rubber", to_json(setup.rubber)},
-                {"lattice", to_json(setup.lattice)},
+  job.inputs = {{"geometry", meshes::json_of(setup.geometry)},
+                {"rubber", meshes::json_of(setup.rubber)},
+                {"lattice", meshes::json_of(setup.lattice)},
                 {"modes", count}};
+  job.inputs["rubber"].erase("retardation_time");  // undamped
   job.source_hash = source_hash::lattice;
   job.weight = 2.0 * std::pow(setup.geometry.tip_radius / (12.0 * setup.lattice.spacing), 6);
   job.run = [setup, count](const fs::path& folder, const JobContext& context) {

@@ -6,7 +6,7 @@
 #include "calibration/moduli.h"
 #include "lattice/press/press.h"
 #include "lattice/press/press_deviation.h"
-#include "meshes/json_fields.h"
+#include "meshes/fields_json.h"
 #include "source_hash.h"
 #include "studies/run/controller_choice.h"
 #include "studies/run/jobs.h"
@@ -146,52 +146,13 @@ void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path
   }
 }
 
-ordered_json hardware_inputs(const lattice::HardwareSettings& hardware) {
-  const auto channel = [](const lattice::SensorChannel& c) {
-    return ordered_json{{"noise", c.noise}, {"resolution", c.resolution}};
-  };
-  return {{"position", channel(hardware.position)},
-          {"orientation", channel(hardware.orientation)},
-          {"velocity", channel(hardware.velocity)},
-          {"angular_velocity", channel(hardware.angular_velocity)},
-          {"force", channel(hardware.force)},
-          {"torque", channel(hardware.torque)},
-          {"tactile", hardware.tactile},
-          {"sensor_latency", hardware.sensor_latency},
-          {"actuator_latency", hardware.actuator_latency},
-          {"force_rate", hardware.force_rate},
-          {"torque_rate", hardware.torque_rate},
-          {"seed", hardware.seed}};
-}
-
-ordered_json inputs_of(const lattice::PressSetup& setup) {
-  ordered_json inputs = {
-      {"geometry", to_json(setup.geometry)},
-      {"rubber", to_json(setup.rubber)},
-      {"protocol", to_json(setup.protocol)},
-      {"lattice", to_json(setup.lattice)},
-      {"integrator", lattice::name(setup.integrator)},
-      {"time_step", setup.time_step ? ordered_json(*setup.time_step) : ordered_json()},
-      {"gravity", setup.gravity},
-      {"duration", setup.duration ? ordered_json(*setup.duration) : ordered_json()},
-      {"period", setup.controller.period}};  // steps divide it, whatever moves the rod
-  if (setup.integrator == lattice::Integrator::runge_kutta) inputs["tolerance"] = setup.tolerance;
-  if (setup.integrator == lattice::Integrator::energy_controlled)
-    inputs["energy_bound"] = setup.energy_bound;
-  if (setup.protocol.mode == meshes::DriveMode::pid) {
-    const lattice::PidSettings& pid = setup.controller;
-    inputs["rod_density"] = setup.rod.density;
-    inputs["controller"] = {
-        {"natural_frequency", pid.natural_frequency}, {"derivative_filter", pid.derivative_filter},
-        {"bond_compensation", pid.bond_compensation}, {"force_limit", pid.force_limit},
-        {"torque_limit", pid.torque_limit},           {"setpoint_weight", pid.setpoint_weight},
-        {"identity", setup.controller_identity}};
-    inputs["hardware"] = hardware_inputs(setup.hardware);
-  }
-  return inputs;
-}
-
 }  // namespace
+
+double press_weight(const lattice::PressSetup& setup) {
+  const double finer = setup.geometry.tip_radius / (12.0 * setup.lattice.spacing);
+  return setup.protocol.mode == meshes::DriveMode::equilibrium ? 2.0 * std::pow(finer, 6)
+                                                               : 10.0 * std::pow(finer, 4);
+}
 
 Job press_job(const lattice::PressSetup& setup, int movie_pictures) {
   if (setup.protocol.mode == meshes::DriveMode::equilibrium) return static_press_job(setup);
@@ -201,9 +162,7 @@ Job press_job(const lattice::PressSetup& setup, int movie_pictures) {
   if (movie_pictures > 0) job.inputs["movie"] = movie_pictures;
   job.source_hash = source_hash::lattice;
   job.repeatable = repeatable(setup);
-  // Masses ~ 1/a³, steps ~ 1/a: 10 units at R/12.
-  const double finer = setup.geometry.tip_radius / (12.0 * setup.lattice.spacing);
-  job.weight = 10.0 * std::pow(finer, 4);
+  job.weight = press_weight(setup);
   job.run = [setup, movie_pictures](const fs::path& folder, const JobContext& context) {
     run_press_job(setup, movie_pictures, folder, context);
   };

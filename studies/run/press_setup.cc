@@ -1,6 +1,9 @@
 #include "studies/run/press_setup.h"
 
+#include <cmath>
+
 #include "calibration/material.h"
+#include "calibration/words.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/files.h"
 #include "studies/config/key_table.h"
@@ -31,11 +34,11 @@ void check_constants_source(const LoadedConfig& loaded) {
   }
 }
 
-calibration::Material material_of(const LoadedConfig& loaded) {
+const calibration::Material& material_of(const LoadedConfig& loaded) {
   const Config& config = loaded.config;
-  calibration::Material material;
+  std::optional<calibration::Material>& known = *loaded.material;
   try {
-    material = calibration::read_material_toml(config.constants_file);
+    if (!known) known = calibration::read_material_toml(config.constants_file);
   } catch (const meshes::InvalidInput& error) {
     std::vector<meshes::Violation> broken = error.violations();
     for (meshes::Violation& violation : broken) {
@@ -44,14 +47,14 @@ calibration::Material material_of(const LoadedConfig& loaded) {
     }
     throw loaded.locate(broken);
   }
-  if (material.model != config.press.lattice.model) {
+  if (known->model != config.press.lattice.model) {
     throw loaded.locate(
         {{"lattice.constants", config.constants_file.string(),
-          "the file holds constants of the model " + std::string(lattice::name(material.model)) +
+          "the file holds constants of the model " + std::string(lattice::name(known->model)) +
               ", not of " + std::string(lattice::name(config.press.lattice.model)),
           "calibrate this model, or change lattice.model"}});
   }
-  return material;
+  return *known;
 }
 
 /// Where keys are left at their defaults the material's values take their place.
@@ -102,20 +105,23 @@ lattice::SpringConstants resolve_constants(const LoadedConfig& loaded) {
 }
 
 void check_spacing(const LoadedConfig& loaded) {
-  const Config& config = loaded.config;
-  const double spacing = config.press.lattice.spacing;
-  const std::string value = meshes::to_text(spacing) + " m";
+  const meshes::Geometry& geometry = loaded.config.press.geometry;
+  const double spacing = loaded.config.press.lattice.spacing, radius = geometry.tip_radius;
+  const auto divided = [](double by) { return "tip_radius/" + calibration::rounded(by, 6); };
+  const std::string value = calibration::rounded(spacing) + " m";
   std::vector<meshes::Violation> broken;
-  if (!(spacing <= 0.5 * config.press.geometry.thickness())) {
+  if (!(spacing <= 0.5 * geometry.thickness())) {
     broken.push_back({"lattice.spacing", value,
                       "the spacing must be at most (R - r)/2 = " +
-                          meshes::to_text(0.5 * config.press.geometry.thickness()) +
+                          calibration::rounded(0.5 * geometry.thickness()) +
                           " m, two cells through the rubber",
-                      "choose a finer lattice"});
-  } else if (meshes::expected_particle_count(config.press.geometry, spacing) > most_particles) {
+                      "choose a finer lattice, for instance " +
+                          divided(std::ceil(3.0 * radius / geometry.thickness()))});
+  } else if (meshes::expected_particle_count(geometry, spacing) > most_particles) {
+    const double finest = std::cbrt(geometry.tip_volume() / most_particles);
     broken.push_back({"lattice.spacing", value,
                       "the tip would consist of more than 20 million masses",
-                      "choose a coarser lattice"});
+                      "choose a coarser lattice, at most " + divided(std::floor(radius / finest))});
   }
   if (!broken.empty()) throw loaded.locate(broken);
 }
@@ -124,7 +130,7 @@ void check_spacing(const LoadedConfig& loaded) {
 
 LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use) {
   if (loaded.config.constants != ConstantsSource::file) return loaded;
-  const calibration::Material material = material_of(loaded);
+  const calibration::Material& material = material_of(loaded);
   LoadedConfig complete = loaded;
   take_over(material, complete);
   const lattice::PressSetup& press = complete.config.press;
@@ -140,7 +146,7 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded) {
   check_constants_source(loaded);
   lattice::PressSetup setup = loaded.config.press;
   if (loaded.config.constants == ConstantsSource::file) {
-    const calibration::Material material = material_of(loaded);
+    const calibration::Material& material = material_of(loaded);
     setup = with_material(loaded, LatticeUse::press).config.press;
     setup.rubber.youngs_modulus = material.rubber.youngs_modulus;
     setup.rubber.shear_modulus = material.rubber.shear_modulus;

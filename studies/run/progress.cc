@@ -55,8 +55,14 @@ void Progress::expect(const std::string& job, double weight) {
   parts_[job].weight = weight;
 }
 
+void Progress::expect_later(double weight) {
+  const std::lock_guard lock(mutex_);
+  later_ = weight;
+}
+
 Progress::Sum Progress::sum() const {
   Sum sum;
+  sum.all = later_;
   for (const auto& [name, part] : parts_) {
     const double done = part.weight * part.fraction;
     sum.all += part.weight;
@@ -77,7 +83,7 @@ void Progress::reused(const std::string& job) {
 void Progress::report(const std::string& job, double fraction, const std::string& stage) {
   const std::lock_guard lock(mutex_);
   Part& part = parts_[job];
-  part.fraction = std::clamp(fraction, 0.0, 1.0);
+  part.fraction = std::max(part.fraction, std::min(fraction, 1.0));
   if (due(fraction)) show(job, part, stage);
 }
 
@@ -92,7 +98,8 @@ void Progress::show(const std::string& job, const Part& part, const std::string&
   const Sum all = sum();
   const double taken = elapsed();
   const auto remaining = remaining_time(taken, all.computed, all.all - all.done);
-  const double percent = 100.0 * all.fraction();
+  shown_ = std::max(shown_, all.fraction());
+  const double percent = 100.0 * shown_;
   if (style_ == ProgressStyle::json) {
     const nlohmann::ordered_json line = {
         {"job", job},
@@ -107,7 +114,7 @@ void Progress::show(const std::string& job, const Part& part, const std::string&
                left(remaining), job, stage);
   } else {
     constexpr int width = 30;
-    const int filled = int(width * all.fraction());
+    const int filled = int(width * shown_);
     const std::string bar =
         std::string(std::size_t(filled), '#') + std::string(std::size_t(width - filled), '.');
     const std::string line =

@@ -40,8 +40,10 @@ class Progress {
   /// Announces a job, so that the bar knows how much is to come. `weight`: its expected share of
   /// the work, any unit.
   void expect(const std::string& job, double weight = 1.0);
+  /// What jobs that are not announced yet will weigh.
+  void expect_later(double weight);
 
-  /// `fraction` of the job is done, 0 ... 1.
+  /// `fraction` of the job is done, 0 ... 1; it never falls.
   void report(const std::string& job, double fraction, const std::string& stage);
   /// The job need not be computed: its share took no time, and says nothing on the rest.
   void reused(const std::string& job);
@@ -71,6 +73,8 @@ class Progress {
   Clock::time_point drawn_;
   double next_line_;  ///< [s] after the start
   std::map<std::string, Part> parts_;
+  double later_ = 0.0;  ///< weight
+  double shown_ = 0.0;  ///< largest fraction of all so far
   std::mutex mutex_;
 };
 

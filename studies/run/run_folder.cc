@@ -9,7 +9,7 @@
 #include <ctime>
 #include <filesystem>
 
-#include "meshes/json_fields.h"
+#include "meshes/fields_json.h"
 #include "source_hash.h"
 #include "studies/config/documents.h"
 #include "studies/run/asked_units.h"

@@ -53,6 +53,9 @@ class Session {
   /// After the first failure no further job starts; it is thrown when the running ones have ended.
   std::vector<JobResult> run_all(const std::vector<PlannedJob>& planned);
 
+  /// What jobs of later stages will weigh, for the progress.
+  void expect_later(double weight) { progress_.expect_later(weight); }
+
   RunFolder& folder() { return folder_; }
   std::filesystem::path path_of(const PlannedJob& planned) const {
     return planned.name.empty() ? folder_.path() : folder_.path() / planned.name;

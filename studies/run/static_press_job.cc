@@ -2,8 +2,9 @@
 
 #include <cmath>
 
+#include "lattice/press/setup_fields.h"
 #include "lattice/press/static_press.h"
-#include "meshes/json_fields.h"
+#include "meshes/fields_json.h"
 #include "meshes/table_rows.h"
 #include "source_hash.h"
 #include "studies/files/run_tables.h"
@@ -98,10 +99,9 @@ void set_press_status(const fs::path& folder, const std::string& status) {
 Job static_press_job(const lattice::PressSetup& setup) {
   Job job;
   job.kind = "press";
-  job.inputs = to_json(setup);
+  job.inputs = inputs_of(setup);
   job.source_hash = source_hash::lattice;
-  // Factorisations of 3-D lattices grow with the sixth power of R/a; 2 units at R/12.
-  job.weight = 2.0 * std::pow(setup.geometry.tip_radius / (12.0 * setup.lattice.spacing), 6);
+  job.weight = press_weight(setup);
   job.run = [setup](const fs::path& folder, const JobContext& context) {
     run_static_job(setup, folder, context);
   };

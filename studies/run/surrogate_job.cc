@@ -78,12 +78,12 @@ Job surrogate_job(const lattice::PressSetup& order, const ForceUncertainty& unce
   job.kind = "surrogate";
   job.inputs = {
       {"format", 1},
-      {"press", to_json(setup)},
+      {"press", inputs_of(setup)},
       {"parameters", names},
       {"covariance", std::vector<double>(covariance.data(), covariance.data() + covariance.size())},
       {"model_error", uncertainty.model_error}};
   job.source_hash = source_hash::calibration;
-  job.weight = 5.0;
+  job.weight = surrogate_weight;
   job.run = [setup, uncertainty](const fs::path& folder, const JobContext& context) {
     run_surrogate(setup, uncertainty, folder, context);
   };

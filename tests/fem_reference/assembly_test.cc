@@ -27,7 +27,7 @@ using fem_reference::Volumetric;
 
 namespace {
 
-void refine_pole(Body& body) {
+void refine_pole(Body<3>& body) {
   for (const auto& cell : body.triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && cell->center().distance(dealii::Point<3>(0, 0, 0.01)) < 4e-3)
       cell->set_refine_flag();
@@ -36,10 +36,11 @@ void refine_pole(Body& body) {
 
 /// A coarse quarter tip, if wanted fine near the pole, so that there are hanging nodes on and
 /// in it.
-std::unique_ptr<Body> make_body(int degree, const std::vector<fem_reference::FixedComponent>& fixed,
-                                bool hanging = true, int refinements = 0) {
+std::unique_ptr<Body<3>> make_body(int degree,
+                                   const std::vector<fem_reference::FixedComponent>& fixed,
+                                   bool hanging = true, int refinements = 0) {
   const SharedMesh mesh(0.3);
-  auto body = fem_reference::read_tip(MPI_COMM_WORLD, mesh.file(), degree, 0.0);
+  auto body = fem_reference::read_tip<3>(MPI_COMM_WORLD, mesh.file(), degree, 0.0);
   if (hanging) refine_pole(*body);
   body->triangulation.refine_global(unsigned(refinements));
   body->number(fixed);
@@ -48,7 +49,7 @@ std::unique_ptr<Body> make_body(int degree, const std::vector<fem_reference::Fix
 using Field = std::function<Eigen::Vector3d(const dealii::Point<3>&)>;
 
 /// Nodal values of a field on the owned unknowns, constrained ones zero.
-Vector interpolate(const Body& body, const Space& space, const Field& field) {
+Vector interpolate(const Body<3>& body, const Space<3>& space, const Field& field) {
   std::map<dealii::types::global_dof_index, dealii::Point<3>> points;
   dealii::DoFTools::map_dofs_to_support_points(body.mapping, space.dofs, points);
   std::vector<dealii::types::global_dof_index> indices(space.element.n_dofs_per_cell());
@@ -76,12 +77,12 @@ class Assembly : public ::testing::TestWithParam<int> {};
 
 /// Largest force inside the body in a linear displacement, over the largest at the surface; what
 /// the energy and the matrix say is checked against the exact energy.
-double force_inside(const Body& body, double energy_tolerance) {
+double force_inside(const Body<3>& body, double energy_tolerance) {
   const meshes::Rubber rubber;
   const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2;
   const double density = rubber.lame_lambda() / 2 * std::pow(strain.trace(), 2) +
                          rubber.shear_modulus * strain.squaredNorm();
-  HookeKernel kernel(rubber, Volumetric::projected);
+  HookeKernel<3> kernel(rubber, Volumetric::projected);
   LinearSystem system(body, false);
   const Vector u = interpolate(body, body.fine, linear);
   assemble(body, kernel, u, system);
@@ -114,9 +115,9 @@ TEST_P(Assembly, PassesThePatchTest) {
 }
 
 /// Energy of a rotation by a small angle, over that of a shear by the same angle.
-double energy_of_rotation(const Body& body) {
+double energy_of_rotation(const Body<3>& body) {
   const meshes::Rubber rubber;
-  HookeKernel kernel(rubber, Volumetric::projected);
+  HookeKernel<3> kernel(rubber, Volumetric::projected);
   LinearSystem system(body, false);
   const double angle = 0.1;
   const Vector rotation = interpolate(body, body.fine, [&](const dealii::Point<3>& x) {
@@ -140,7 +141,7 @@ TEST_P(Assembly, HangingNodesMissRigidRotationsByLittle) {
 
 TEST_P(Assembly, RigidMotionsCostNothing) {
   const auto body = make_body(GetParam(), {}, false);
-  HookeKernel kernel(meshes::Rubber{}, Volumetric::projected);
+  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
   LinearSystem system(*body, false);
   const Vector rigid = interpolate(*body, body->fine, [](const dealii::Point<3>& x) {
     return Eigen::Vector3d(0.01 - 0.3 * x[1] + 0.5 * x[2], 0.02 + 0.3 * x[0] - 0.8 * x[2],
@@ -154,7 +155,7 @@ TEST_P(Assembly, RigidMotionsCostNothing) {
 /// Hanging or not.
 TEST_P(Assembly, TranslationsCostNothing) {
   const auto body = make_body(GetParam(), {});
-  HookeKernel kernel(meshes::Rubber{}, Volumetric::projected);
+  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
   LinearSystem system(*body, false);
   const Vector shift = interpolate(*body, body->fine, [](const dealii::Point<3>&) {
     return Eigen::Vector3d(0.01, 0.02, -0.03);
@@ -169,8 +170,8 @@ TEST_P(Assembly, TranslationsCostNothing) {
 
 /// What hanging nodes and held components do not touch stays symmetric.
 TEST_P(Assembly, MatrixIsSymmetric) {
-  const auto body = make_body(GetParam(), fem_reference::tip_supports());
-  HookeKernel kernel(meshes::Rubber{}, Volumetric::projected);
+  const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
+  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
   LinearSystem system(*body, false);
   assemble(*body, kernel, body->fine.vector(), system);
   Vector a = interpolate(*body, body->fine, [](const auto& x) {
@@ -187,8 +188,8 @@ TEST_P(Assembly, MatrixIsSymmetric) {
 
 /// The Galerkin product: the energy of a piecewise linear field is the same in both matrices.
 TEST_P(Assembly, CoarseMatrixIsTheRestrictionToLinearElements) {
-  const auto body = make_body(GetParam(), fem_reference::tip_supports());
-  HookeKernel kernel(meshes::Rubber{}, Volumetric::projected);
+  const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
+  HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
   LinearSystem system(*body, true);
   assemble(*body, kernel, body->fine.vector(), system);
   const auto energy = [&](const Field& field) {
@@ -221,9 +222,9 @@ TEST_P(Assembly, CoarseMatrixIsTheRestrictionToLinearElements) {
 
 /// What the bond exerts on the body balances what pulls elsewhere.
 TEST_P(Assembly, UnconstrainedForcesAddUpToZero) {
-  const auto body = make_body(GetParam(), fem_reference::tip_supports());
-  HyperelasticKernel kernel(HyperelasticLaw(fem_reference::StrainEnergy::law_a, meshes::Rubber{}),
-                            Volumetric::projected);
+  const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
+  HyperelasticKernel<3> kernel(
+      HyperelasticLaw(fem_reference::StrainEnergy::law_a, meshes::Rubber{}), Volumetric::projected);
   const Vector u = interpolate(*body, body->fine, [](const auto& x) {
     return Eigen::Vector3d(2 * x[0] * x[2], x[1] * x[1], -3 * x[2] * x[0]);
   });
@@ -234,9 +235,9 @@ TEST_P(Assembly, UnconstrainedForcesAddUpToZero) {
 
 /// Inverted at the pole alone, so that not every process sees it; all of them say so.
 TEST_P(Assembly, AnInvertedElementStopsEveryProcess) {
-  const auto body = make_body(GetParam(), fem_reference::tip_supports());
-  HyperelasticKernel kernel(HyperelasticLaw(fem_reference::StrainEnergy::law_a, meshes::Rubber{}),
-                            Volumetric::projected);
+  const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
+  HyperelasticKernel<3> kernel(
+      HyperelasticLaw(fem_reference::StrainEnergy::law_a, meshes::Rubber{}), Volumetric::projected);
   LinearSystem system(*body, false);
   const Vector u = interpolate(*body, body->fine, [](const auto& x) {
     return Eigen::Vector3d(0, 0, x.distance(dealii::Point<3>(0, 0, 0.01)) < 1e-9 ? -0.01 : 0.0);

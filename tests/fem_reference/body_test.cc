@@ -36,9 +36,9 @@ struct Options {
   double refine_near_pole = 0.0;
 };
 
-std::unique_ptr<Body> make_body(const Options& o) {
+std::unique_ptr<Body<3>> make_body(const Options& o) {
   const SharedMesh mesh(o.refinement, o.sector, o.geometry);
-  auto body = fem_reference::read_tip(MPI_COMM_WORLD, mesh.file(), o.degree, o.tilt);
+  auto body = fem_reference::read_tip<3>(MPI_COMM_WORLD, mesh.file(), o.degree, o.tilt);
   body->triangulation.refine_global(unsigned(o.global_refinements));
   if (o.refine_near_pole > 0.0) {
     const dealii::Point<3> pole(0.0, 0.0, o.geometry.tip_radius);
@@ -47,11 +47,11 @@ std::unique_ptr<Body> make_body(const Options& o) {
         cell->set_refine_flag();
     body->triangulation.execute_coarsening_and_refinement();
   }
-  body->number(fem_reference::tip_supports());
+  body->number(fem_reference::tip_supports<3>());
   return body;
 }
 
-double area(const Body& body, PhysicalTag tag) {
+double area(const Body<3>& body, PhysicalTag tag) {
   return fem_reference::area(body, dealii::types::boundary_id(tag));
 }
 
@@ -70,7 +70,7 @@ Measures exact(const Geometry& g, double part) {
           part * (2 * pi * r * r + 2 * pi * r * L), part * pi * (R * R - r * r)};
 }
 
-Measures measure(const Body& body) {
+Measures measure(const Body<3>& body) {
   return {fem_reference::volume(body), area(body, PhysicalTag::outer),
           area(body, PhysicalTag::bond), area(body, PhysicalTag::end)};
 }
@@ -84,7 +84,7 @@ Vector3 in_rod_axes(const dealii::Point<3>& x, double tilt) {
 
 /// Calls `take` with every vertex of the boundary `tag` that this process owns a face of.
 template <class Take>
-void for_each_vertex(const Body& body, PhysicalTag tag, Take take) {
+void for_each_vertex(const Body<3>& body, PhysicalTag tag, Take take) {
   for (const auto& cell : body.triangulation.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
     for (const auto& face : cell->face_iterators())
@@ -210,7 +210,7 @@ TEST(OuterArea, OfTheDeformedSurfaceIsItsShadow) {
   const double stretch_x = 1.3, stretch_y = 0.8, stretch_z = 0.6, R = Geometry{}.tip_radius;
   const auto shadow = [&](double refinement) {
     const SharedMesh mesh(refinement);
-    const auto body = fem_reference::read_tip(MPI_COMM_WORLD, mesh.file(), 2, 0.0);
+    const auto body = fem_reference::read_tip<3>(MPI_COMM_WORLD, mesh.file(), 2, 0.0);
     body->number({});
     fem_reference::Vector u = body->fine.vector();
     std::map<dealii::types::global_dof_index, dealii::Point<3>> points;
@@ -246,7 +246,7 @@ class MeshFile : public ::testing::Test {
     const TemporaryFolder folder;
     write_text(folder / "tip.msh", text);
     try {
-      fem_reference::read_tip(MPI_COMM_SELF, folder / "tip.msh", 2, 0.0);
+      fem_reference::read_tip<3>(MPI_COMM_SELF, folder / "tip.msh", 2, 0.0);
     } catch (const meshes::InvalidInput& error) {
       EXPECT_NE(std::string(error.what()).find("tip.msh"), std::string::npos);
       return true;
@@ -261,7 +261,7 @@ TEST_F(MeshFile, IsReadWhenWhole) {
 }
 
 TEST_F(MeshFile, IsRefusedWhenMissing) {
-  EXPECT_THROW(fem_reference::read_tip(MPI_COMM_SELF, "no/such/file.msh", 2, 0.0),
+  EXPECT_THROW(fem_reference::read_tip<3>(MPI_COMM_SELF, "no/such/file.msh", 2, 0.0),
                meshes::InvalidInput);
 }
 

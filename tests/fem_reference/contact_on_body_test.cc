@@ -26,16 +26,16 @@ const double R = meshes::Geometry{}.tip_radius;
 
 /// Half a tip of linear rubber under the plane, on any number of processes.
 struct Tip {
-  std::unique_ptr<Body> body;
+  std::unique_ptr<Body<3>> body;
   std::unique_ptr<LinearSystem> system;
   std::unique_ptr<FieldSolver> solver;
   std::unique_ptr<PlaneContact> contact;
 
   Tip(ContactMode mode, double friction) {
     const SharedMesh mesh(0.4, meshes::Sector::half);
-    body = fem_reference::read_tip(MPI_COMM_WORLD, mesh.file(), 2, 0.0);
-    body->number(fem_reference::tip_supports());
-    HookeKernel kernel(rubber, fem_reference::Volumetric::projected);
+    body = fem_reference::read_tip<3>(MPI_COMM_WORLD, mesh.file(), 2, 0.0);
+    body->number(fem_reference::tip_supports<3>());
+    HookeKernel<3> kernel(rubber, fem_reference::Volumetric::projected);
     const bool serial = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
     system = std::make_unique<LinearSystem>(*body, !serial);
     assemble(*body, kernel, body->fine.vector(), *system);

@@ -99,7 +99,7 @@ class CurvedElement {
   std::vector<Eigen::Vector3d> nodes_;
 };
 
-ElementSystem integrate(ElementKernel& kernel, const CurvedElement& element,
+ElementSystem integrate(ElementKernel<3>& kernel, const CurvedElement& element,
                         const Eigen::VectorXd& u) {
   ElementSystem result;
   kernel.integrate(element.values(), u, result);
@@ -117,7 +117,7 @@ void for_every_hyperelastic_kernel(Check check) {
     for (const Volumetric volumetric : volumetrics) {
       const std::string what = std::string(name(law)) + " " + std::string(name(volumetric));
       SCOPED_TRACE(what);
-      HyperelasticKernel kernel(HyperelasticLaw(law, meshes::Rubber{}), volumetric);
+      HyperelasticKernel<3> kernel(HyperelasticLaw(law, meshes::Rubber{}), volumetric);
       check(kernel);
     }
 }
@@ -154,7 +154,7 @@ TEST_P(Element, PolynomialsAreOrthonormalAndReproduceTheirDegree) {
 
 TEST_P(Element, HookeHasSixRigidModesAndIsStiffOtherwise) {
   for (const Volumetric volumetric : volumetrics) {
-    HookeKernel kernel(meshes::Rubber{}, volumetric);
+    HookeKernel<3> kernel(meshes::Rubber{}, volumetric);
     const auto system = integrate(kernel, element, Eigen::VectorXd::Zero(element.unknowns()));
     const Eigen::MatrixXd& k = system.matrix;
     EXPECT_LT((k - k.transpose()).norm(), 1e-14 * k.norm());
@@ -178,7 +178,7 @@ TEST_P(Element, HookeEnergyOfAnAffineDisplacementIsExact) {
   const Eigen::VectorXd u = element.affine(gradient, {1e-3, 2e-3, 3e-3});
   Eigen::VectorXd force;
   for (const Volumetric volumetric : volumetrics) {
-    HookeKernel kernel(rubber, volumetric);
+    HookeKernel<3> kernel(rubber, volumetric);
     const auto system = integrate(kernel, element, u);
     EXPECT_NEAR(system.energy / exact, 1.0, 1e-12);
     EXPECT_LT((system.force - system.matrix * u).norm(), 1e-12 * system.force.norm());
@@ -191,8 +191,8 @@ TEST_P(Element, HookeEnergyOfAnAffineDisplacementIsExact) {
 
 /// Where the dilatation varies, projecting it takes energy out: that is what cures locking.
 TEST_P(Element, ProjectionSoftensWhatIsNotAffine) {
-  HookeKernel plain(meshes::Rubber{}, Volumetric::pointwise);
-  HookeKernel projected(meshes::Rubber{}, Volumetric::projected);
+  HookeKernel<3> plain(meshes::Rubber{}, Volumetric::pointwise);
+  HookeKernel<3> projected(meshes::Rubber{}, Volumetric::projected);
   const Eigen::VectorXd u = element.random(1e-4, 3);
   EXPECT_LT(integrate(projected, element, u).energy, 0.99 * integrate(plain, element, u).energy);
 }
@@ -204,7 +204,7 @@ TEST_P(Element, HyperelasticEnergyOfAnAffineDeformationIsExact) {
   for (const StrainEnergy law : laws) {
     const HyperelasticLaw point(law, meshes::Rubber{});
     const double exact = element.volume() * point.complete(F).energy;
-    HyperelasticKernel plain(point, Volumetric::pointwise), smooth(point, Volumetric::projected);
+    HyperelasticKernel<3> plain(point, Volumetric::pointwise), smooth(point, Volumetric::projected);
     const auto a = integrate(plain, element, u), b = integrate(smooth, element, u);
     EXPECT_NEAR(a.energy / exact, 1.0, 1e-12) << name(law);
     EXPECT_NEAR(b.energy / exact, 1.0, 1e-12) << name(law);
@@ -218,7 +218,7 @@ TEST_P(Element, HyperelasticEnergyOfAnAffineDeformationIsExact) {
 
 TEST_P(Element, ForceIsTheEnergysDerivative) {
   const Eigen::VectorXd u = element.smooth();
-  for_every_hyperelastic_kernel([&](ElementKernel& kernel) {
+  for_every_hyperelastic_kernel([&](ElementKernel<3>& kernel) {
     const auto system = integrate(kernel, element, u);
     EXPECT_GT(std::abs(system.min_jacobian - 1.0), 1e-3);
     for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -235,7 +235,7 @@ TEST_P(Element, ForceIsTheEnergysDerivative) {
 
 TEST_P(Element, TangentIsTheForcesDerivative) {
   const Eigen::VectorXd u = element.smooth();
-  for_every_hyperelastic_kernel([&](ElementKernel& kernel) {
+  for_every_hyperelastic_kernel([&](ElementKernel<3>& kernel) {
     const Eigen::MatrixXd tangent = integrate(kernel, element, u).matrix;
     EXPECT_LT((tangent - tangent.transpose()).norm(), 1e-13 * tangent.norm());
     for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -255,7 +255,7 @@ TEST_P(Element, TangentIsTheForcesDerivative) {
 TEST_P(Element, AtRestEveryLawIsHookes) {
   const meshes::Rubber rubber;
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(element.unknowns());
-  HookeKernel plain(rubber, Volumetric::pointwise), projected(rubber, Volumetric::projected);
+  HookeKernel<3> plain(rubber, Volumetric::pointwise), projected(rubber, Volumetric::projected);
   const Eigen::MatrixXd pointwise = integrate(plain, element, rest).matrix,
                         smooth = integrate(projected, element, rest).matrix;
   const double ratio = 2 * rubber.shear_modulus / (3 * rubber.lame_lambda());
@@ -265,7 +265,7 @@ TEST_P(Element, AtRestEveryLawIsHookes) {
       Eigen::MatrixXd expected = volumetric == Volumetric::pointwise ? pointwise : smooth;
       if (law == StrainEnergy::law_c && volumetric == Volumetric::projected)
         expected += ratio * (smooth - pointwise);
-      HyperelasticKernel kernel(HyperelasticLaw(law, rubber), volumetric);
+      HyperelasticKernel<3> kernel(HyperelasticLaw(law, rubber), volumetric);
       const auto system = integrate(kernel, element, rest);
       EXPECT_LT((system.matrix - expected).norm(), 1e-12 * expected.norm());
       EXPECT_LT(system.force.norm(), 1e-12 * expected.norm() * element.size());
@@ -279,7 +279,7 @@ TEST_P(Element, RotationsCostNothingAtLargeStrain) {
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
   const Eigen::VectorXd u = element.affine(turn - Eigen::Matrix3d::Identity(), {1e-3, 0, 0});
-  for_every_hyperelastic_kernel([&](ElementKernel& kernel) {
+  for_every_hyperelastic_kernel([&](ElementKernel<3>& kernel) {
     const auto system = integrate(kernel, element, u);
     EXPECT_LT(system.force.norm(), 1e-11 * system.matrix.norm() * element.size());
     EXPECT_NEAR(system.min_jacobian, 1.0, 1e-12);
@@ -293,7 +293,7 @@ TEST_P(Element, InvertedIsRefused) {
       element.affine(Eigen::Vector3d(0, 0, -1.0).asDiagonal(), Eigen::Vector3d::Zero());
   Eigen::VectorXd unknown = Eigen::VectorXd::Zero(element.unknowns());
   unknown[0] = std::nan("");
-  for_every_hyperelastic_kernel([&](ElementKernel& kernel) {
+  for_every_hyperelastic_kernel([&](ElementKernel<3>& kernel) {
     EXPECT_THROW(integrate(kernel, element, mirrored), meshes::NotConverged);
     EXPECT_THROW(integrate(kernel, element, flat), meshes::NotConverged);
     EXPECT_THROW(integrate(kernel, element, unknown), meshes::NotConverged);
@@ -302,7 +302,7 @@ TEST_P(Element, InvertedIsRefused) {
 
 TEST_P(Element, MassIsDensityTimesVolume) {
   const double density = 500.0, mass = density * element.volume();
-  MassKernel kernel(density);
+  MassKernel<3> kernel(density);
   const auto system = integrate(kernel, element, Eigen::VectorXd::Zero(element.unknowns()));
   const Eigen::MatrixXd& m = system.matrix;
   EXPECT_LT((m - m.transpose()).norm(), 1e-14 * m.norm());

@@ -28,17 +28,17 @@ namespace {
 
 /// A tip with or without hanging nodes, its stiffness, and the contact unknowns near the pole.
 struct Problem {
-  std::unique_ptr<Body> body;
+  std::unique_ptr<Body<3>> body;
   std::unique_ptr<LinearSystem> system;
   ContactUnknowns contact;
   Vector load;
 
   Problem(int degree, bool hanging) {
     const SharedMesh mesh(degree == 1 ? 0.6 : degree == 2 ? 0.4 : 0.25);
-    body = fem_reference::read_tip(MPI_COMM_WORLD, mesh.file(), degree, 0.0);
+    body = fem_reference::read_tip<3>(MPI_COMM_WORLD, mesh.file(), degree, 0.0);
     if (hanging) refine_pole();
-    body->number(fem_reference::tip_supports());
-    HookeKernel kernel(meshes::Rubber{}, Volumetric::projected);
+    body->number(fem_reference::tip_supports<3>());
+    HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
     system = std::make_unique<LinearSystem>(*body, true);
     assemble(*body, kernel, body->fine.vector(), *system);
     contact = contact_unknowns(outer_nodes(*body), true, 6e-3);
@@ -171,10 +171,10 @@ class HollowSphere {
   explicit HollowSphere(double refinement) {
     geometry_.sleeve_length = 0.0;
     const SharedMesh mesh(refinement, meshes::Sector::quarter, geometry_);
-    body_ = fem_reference::read_tip(MPI_COMM_WORLD, mesh.file(), 2, 0.0);
-    body_->number(fem_reference::tip_supports());
+    body_ = fem_reference::read_tip<3>(MPI_COMM_WORLD, mesh.file(), 2, 0.0);
+    body_->number(fem_reference::tip_supports<3>());
     prescribe();
-    HookeKernel kernel(rubber_, Volumetric::projected);
+    HookeKernel<3> kernel(rubber_, Volumetric::projected);
     LinearSystem system(*body_, false);
     assemble(*body_, kernel, body_->fine.vector(), system);
     const auto solver = make_condensed_solver(*body_, unknowns_);
@@ -227,7 +227,7 @@ class HollowSphere {
 
   meshes::Geometry geometry_;
   const meshes::Rubber rubber_;
-  std::unique_ptr<Body> body_;
+  std::unique_ptr<Body<3>> body_;
   std::vector<long> unknowns_;
   std::vector<double> values_;
   std::vector<char> pushes_;  ///< along z on the sphere off its rim

@@ -28,8 +28,8 @@ TEST(FinitePress, BecomesLinearForSmallDepths) {
     const auto excess = [&](double depth) {
       ReferenceJob job = small_press();
       job.refinement = 0.25;
-      job.contact = mode;
-      job.samples = {depth};
+      job.protocol.contact = mode;
+      job.press_to({depth});
       const double linear = pressed(job, 0.05).sample.normal_force;
       job.strain = Strain::finite;
       return pressed(job, 0.05).sample.normal_force / linear - 1;
@@ -43,7 +43,7 @@ TEST(FinitePress, BecomesLinearForSmallDepths) {
 /// A micrometre: one node touches, its force near the round-off of the stresses.
 TEST(FinitePress, ReachesTinyDepths) {
   ReferenceJob job = finite_press();
-  job.samples = {1e-6};
+  job.press_to({1e-6});
   const PressState finite = pressed(job, 0.05);
   job.strain = Strain::linear;
   const PressState linear = pressed(job, 0.05);
@@ -79,7 +79,7 @@ TEST(FinitePress, ForceIsTheEnergysDerivativeForEveryLaw) {
     ReferenceJob job = finite_press();
     job.law = law;
     const double indentation = 6e-4, h = 1e-3 * indentation;
-    job.samples = {indentation + h};
+    job.press_to({indentation + h});
     Pressing pressing(job);
     pressing.press.set_longest_step(0.05);
     const double before = pressing.press.advance(indentation - h).energy;
@@ -102,10 +102,10 @@ TEST(FinitePress, FrictionlessForceDoesNotDependOnTheSteps) {
 /// the sphere's centre, at the deformed positions.
 TEST(FinitePress, TorqueIsTheEnergysDerivativeByTheTilt) {
   ReferenceJob job = finite_press();
-  job.samples = {5e-4};
+  job.press_to({5e-4});
   const double tilt = 0.3, h = 0.02;
   const auto at = [&](double angle) {
-    job.tilt = angle;
+    job.protocol.tilt = angle;
     return pressed(job, 0.1);
   };
   const PressState centre = at(tilt);
@@ -119,13 +119,13 @@ TEST(FinitePress, TorqueIsTheEnergysDerivativeByTheTilt) {
 
 TEST(FinitePress, FrictionHoldsTheTip) {
   ReferenceJob job = finite_press();
-  job.samples = {4e-4};
-  job.lateral = 7e-5;
-  job.contact = ContactMode::stick;
+  job.press_to({4e-4});
+  job.protocol.lateral = 7e-5;
+  job.protocol.contact = ContactMode::stick;
   const PressState stick = pressed(job, 0.05);
   EXPECT_GT(stick.sample.lateral_force_x, 0.05 * stick.sample.normal_force);
-  job.contact = ContactMode::coulomb;
-  job.friction = 0.1;
+  job.protocol.contact = ContactMode::coulomb;
+  job.protocol.friction = 0.1;
   const PressState coulomb = pressed(job, 0.05);
   EXPECT_LT(coulomb.sample.lateral_force_x, stick.sample.lateral_force_x);
   EXPECT_LE(coulomb.sample.lateral_force_x, 0.1 * coulomb.sample.normal_force * (1 + 1e-9));

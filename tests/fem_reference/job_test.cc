@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/fields_json.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -15,6 +16,7 @@ using fem_reference::ReferenceJob;
 using fem_reference::Strain;
 using fem_reference::StrainEnergy;
 using fem_reference::Volumetric;
+using Json = nlohmann::json;
 
 namespace {
 
@@ -36,16 +38,20 @@ TEST(ReferenceJob, SurvivesTheFile) {
   ReferenceJob job;
   job.geometry = {0.02, 0.012, 0.0, 0.05};
   job.rubber = {5000.0, 2000.0 / 3.0 * 3.1, 900.0, 1e-3};
-  job.contact = meshes::ContactMode::coulomb;
-  job.friction = 0.3;
-  job.tilt = -0.2;
-  job.lateral = 1e-3;
-  job.lateral_path = meshes::LateralPath::after;
-  job.lateral_samples = 3;
-  job.samples = {1e-4, 1.0 / 3000.0, 2e-3};
-  job.speed = 0.02;
+  job.protocol.contact = meshes::ContactMode::coulomb;
+  job.protocol.friction = 0.3;
+  job.protocol.tilt = -0.2;
+  job.protocol.lateral = 1e-3;
+  job.protocol.lateral_path = meshes::LateralPath::after;
+  job.protocol.lateral_samples = 3;
+  job.press_to({1e-4, 1.0 / 3000.0, 2e-3});
+  job.protocol.speed = 0.02;
+  job.protocol.mode = meshes::DriveMode::equilibrium;
+  job.protocol.clearance = 1e-3;
+  job.analysis = Analysis::verification;
   job.strain = Strain::finite;
   job.law = StrainEnergy::law_c;
+  job.symmetry = fem_reference::Symmetry::none;
   job.modes = 17;
   job.degree = 3;
   job.volumetric = Volumetric::pointwise;
@@ -58,82 +64,61 @@ TEST(ReferenceJob, SurvivesTheFile) {
   job.estimate_error = false;
   write_job(job, folder / "job.json");
   const ReferenceJob read = read_job(folder / "job.json");
-  EXPECT_EQ(read.geometry.tip_radius, job.geometry.tip_radius);
-  EXPECT_EQ(read.geometry.rod_radius, job.geometry.rod_radius);
-  EXPECT_EQ(read.geometry.sleeve_length, job.geometry.sleeve_length);
-  EXPECT_EQ(read.geometry.rod_length, job.geometry.rod_length);
-  EXPECT_EQ(read.rubber.youngs_modulus, job.rubber.youngs_modulus);
-  EXPECT_EQ(read.rubber.shear_modulus, job.rubber.shear_modulus);
-  EXPECT_EQ(read.rubber.density, job.rubber.density);
-  EXPECT_EQ(read.rubber.retardation_time, job.rubber.retardation_time);
-  EXPECT_EQ(read.contact, job.contact);
-  EXPECT_EQ(read.friction, job.friction);
-  EXPECT_EQ(read.tilt, job.tilt);
-  EXPECT_EQ(read.lateral, job.lateral);
-  EXPECT_EQ(read.lateral_path, job.lateral_path);
-  EXPECT_EQ(read.lateral_samples, job.lateral_samples);
-  EXPECT_EQ(read.samples, job.samples);  // to the last bit
-  EXPECT_EQ(read.speed, job.speed);
-  EXPECT_EQ(read.analysis, job.analysis);
-  EXPECT_EQ(read.strain, job.strain);
-  EXPECT_EQ(read.law, job.law);
-  EXPECT_EQ(read.modes, job.modes);
-  EXPECT_EQ(read.volumetric, job.volumetric);
-  EXPECT_EQ(read.max_unknowns, job.max_unknowns);
-  EXPECT_EQ(read.solver_tolerance, job.solver_tolerance);
-  EXPECT_EQ(read.degree, job.degree);
-  EXPECT_EQ(read.refinement, job.refinement);
-  EXPECT_EQ(read.tolerance, job.tolerance);
-  EXPECT_EQ(read.solver, job.solver);
-  EXPECT_EQ(read.write_fields, job.write_fields);
-  EXPECT_EQ(read.estimate_error, job.estimate_error);
+  const Json written = meshes::json_of<Json>(job);
+  EXPECT_EQ(meshes::json_of<Json>(read), written);  // to the last bit
+  const Json usual = meshes::json_of<Json>(ReferenceJob()).flatten(), tried = written.flatten();
+  for (const auto& [place, value] : tried.items())
+    EXPECT_FALSE(usual.contains(place) && usual[place] == value) << place << " is not tried";
 }
 
 TEST(ReferenceJob, EveryNameSurvivesTheFile) {
   const TemporaryFolder folder;
   ReferenceJob job;
-  job.samples = {1e-3};
-  const auto survives = [&](auto member, auto... values) {
-    for (const auto value : {values...}) {
+  job.press_to({1e-3});
+  const auto survives = [&](auto member) {
+    const auto usual = job.*member;
+    for (const auto value : values(usual)) {
       job.*member = value;
       write_job(job, folder / "job.json");
       EXPECT_EQ(read_job(folder / "job.json").*member, value);
     }
+    job.*member = usual;
   };
-  survives(&ReferenceJob::analysis, Analysis::modes, Analysis::verification, Analysis::transient,
-           Analysis::static_press);
-  survives(&ReferenceJob::law, StrainEnergy::law_b, StrainEnergy::law_c, StrainEnergy::law_a);
-  survives(&ReferenceJob::solver, LinearSolver::condensed, LinearSolver::multigrid,
-           LinearSolver::automatic);
-  survives(&ReferenceJob::contact, meshes::ContactMode::frictionless, meshes::ContactMode::coulomb,
-           meshes::ContactMode::stick);
-  survives(&ReferenceJob::volumetric, Volumetric::pointwise, Volumetric::projected);
+  survives(&ReferenceJob::analysis);
+  survives(&ReferenceJob::strain);
+  survives(&ReferenceJob::law);
+  survives(&ReferenceJob::symmetry);
+  survives(&ReferenceJob::solver);
+  survives(&ReferenceJob::volumetric);
+  for (const auto contact : values(meshes::ContactMode())) {
+    job.protocol.contact = contact;
+    write_job(job, folder / "job.json");
+    EXPECT_EQ(read_job(folder / "job.json").protocol.contact, contact);
+  }
 }
 
 TEST(ReferenceJob, AbsentEntriesKeepTheirDefaults) {
   const TemporaryFolder folder;
-  write_text(folder / "job.json", R"({"samples": [0.001]})");
+  write_text(folder / "job.json", R"({"protocol": {"samples": [0.001], "depth": 0.001}})");
   const ReferenceJob job = read_job(folder / "job.json");
   EXPECT_EQ(job.degree, 2);
-  EXPECT_EQ(job.contact, meshes::ContactMode::stick);
+  EXPECT_EQ(job.protocol.contact, meshes::ContactMode::stick);
   EXPECT_EQ(job.geometry.tip_radius, meshes::Geometry{}.tip_radius);
 }
 
 TEST(ReferenceJob, RefusesBadFilesNamingTheEntry) {
   const TemporaryFolder folder;
   const auto file = folder / "job.json";
-  EXPECT_NE(refusal(file, R"({"samples": [0.001], "degre": 2})").find("degre"), std::string::npos);
-  EXPECT_NE(refusal(file, R"({"samples": "deep"})").find("samples"), std::string::npos);
-  EXPECT_NE(refusal(file, R"({"samples": [0.001], "contact": "glue"})").find("frictionless"),
+  EXPECT_NE(refusal(file, R"({"protocol": {"samples": [0.001], "deph": 1}})").find("protocol.deph"),
             std::string::npos);
-  EXPECT_NE(refusal(file, R"({"samples": [0.001], "law": "D"})").find("A, B, C"),
+  EXPECT_NE(refusal(file, R"({"protocol": {"samples": "deep"}})").find("samples"),
             std::string::npos);
-  EXPECT_NE(refusal(file, R"({"samples": [0.001], "analysis": "fast"})").find("modes"),
+  EXPECT_NE(refusal(file, R"({"protocol": {"contact": "glue"}})").find("frictionless"),
             std::string::npos);
-  EXPECT_NE(refusal(file, R"({"samples": [0.001], "degree": 1.5})").find("integer"),
-            std::string::npos);
-  EXPECT_NE(refusal(file, R"({"samples": [0.001], "rubber": 7})").find("rubber"),
-            std::string::npos);
+  EXPECT_NE(refusal(file, R"({"degree": 2, "law": "D"})").find("A, B, C"), std::string::npos);
+  EXPECT_NE(refusal(file, R"({"degree": 2, "analysis": "fast"})").find("modes"), std::string::npos);
+  EXPECT_NE(refusal(file, R"({"degree": 1.5})").find("integer"), std::string::npos);
+  EXPECT_NE(refusal(file, R"({"degree": 2, "rubber": 7})").find("rubber"), std::string::npos);
   EXPECT_NE(refusal(file, R"({"samples": [0.001)").find("JSON"), std::string::npos);
   EXPECT_NE(refusal(file, "[1, 2]").find("object"), std::string::npos);
   std::filesystem::remove(file);
@@ -143,7 +128,7 @@ TEST(ReferenceJob, RefusesBadFilesNamingTheEntry) {
 TEST(ReferenceJob, RefusesValuesOutOfRange) {
   const auto rejects = [](auto&& spoil, const std::string& key) {
     ReferenceJob job;
-    job.samples = {1e-3};
+    job.press_to({1e-3});
     EXPECT_TRUE(job.violations().empty());
     spoil(job);
     const auto broken = job.violations();
@@ -151,24 +136,24 @@ TEST(ReferenceJob, RefusesValuesOutOfRange) {
       return violation.key == key;
     })) << key;
   };
-  rejects([](ReferenceJob& job) { job.samples.clear(); }, "press.depth");
-  rejects([](ReferenceJob& job) { job.samples = {2e-3, 1e-3}; }, "press.samples");
-  rejects([](ReferenceJob& job) { job.samples = {5e-3}; }, "press.depth");
+  rejects([](ReferenceJob& job) { job.press_to({}); }, "press.depth");
+  rejects([](ReferenceJob& job) { job.press_to({2e-3, 1e-3}); }, "press.samples");
+  rejects([](ReferenceJob& job) { job.press_to({5e-3}); }, "press.depth");
   rejects([](ReferenceJob& job) { job.degree = 4; }, "reference.degree");
   rejects([](ReferenceJob& job) { job.degree = 0; }, "reference.degree");
   rejects([](ReferenceJob& job) { job.tolerance = 0.6; }, "reference.tolerance");
   rejects([](ReferenceJob& job) { job.max_unknowns = 10; }, "reference.max_unknowns");
   rejects([](ReferenceJob& job) { job.solver_tolerance = 1e-2; }, "reference.solver_tolerance");
   rejects([](ReferenceJob& job) { job.modes = 0; }, "reference.modes");
-  rejects([](ReferenceJob& job) { job.speed = 0.0; }, "press.speed");
-  rejects([](ReferenceJob& job) { job.tilt = 1.0; }, "press.tilt");
-  rejects([](ReferenceJob& job) { job.tilt = std::nan(""); }, "press.tilt");
-  rejects([](ReferenceJob& job) { job.lateral = 0.02; }, "press.lateral");
-  rejects([](ReferenceJob& job) { job.lateral_samples = 0; }, "press.lateral_samples");
+  rejects([](ReferenceJob& job) { job.protocol.speed = 0.0; }, "press.speed");
+  rejects([](ReferenceJob& job) { job.protocol.tilt = 1.0; }, "press.tilt");
+  rejects([](ReferenceJob& job) { job.protocol.tilt = std::nan(""); }, "press.tilt");
+  rejects([](ReferenceJob& job) { job.protocol.lateral = 0.02; }, "press.lateral");
+  rejects([](ReferenceJob& job) { job.protocol.lateral_samples = 0; }, "press.lateral_samples");
   rejects(
       [](ReferenceJob& job) {
-        job.contact = meshes::ContactMode::coulomb;
-        job.friction = 0.0;
+        job.protocol.contact = meshes::ContactMode::coulomb;
+        job.protocol.friction = 0.0;
       },
       "press.friction");
   rejects([](ReferenceJob& job) { job.refinement = 0.1; }, "reference.refinement");
@@ -181,7 +166,7 @@ TEST(ReferenceJob, RefusesValuesOutOfRange) {
 /// Laws A and B have no minimum for lambda < 0; law C and small strain do.
 TEST(ReferenceJob, FiniteStrainNeedsAPositivePoissonRatio) {
   ReferenceJob job;
-  job.samples = {1e-3};
+  job.press_to({1e-3});
   job.rubber.shear_modulus = 0.6 * job.rubber.youngs_modulus;
   EXPECT_TRUE(job.violations().empty());
   job.strain = Strain::finite;
@@ -200,16 +185,17 @@ TEST(ReferenceJob, FiniteStrainNeedsAPositivePoissonRatio) {
 TEST(ReferenceJob, TransientPressesAreUprightAndLinear) {
   const auto refused = [](auto&& spoil) {
     ReferenceJob job;
-    job.samples = {1e-3};
+    job.press_to({1e-3});
     job.analysis = Analysis::transient;
     EXPECT_TRUE(job.violations().empty());
     spoil(job);
     return !job.violations().empty();
   };
-  EXPECT_TRUE(refused([](ReferenceJob& job) { job.tilt = 0.1; }));
-  EXPECT_TRUE(refused([](ReferenceJob& job) { job.lateral = 1e-4; }));
+  EXPECT_TRUE(refused([](ReferenceJob& job) { job.protocol.tilt = 0.1; }));
+  EXPECT_TRUE(refused([](ReferenceJob& job) { job.protocol.lateral = 1e-4; }));
   EXPECT_TRUE(refused([](ReferenceJob& job) { job.strain = Strain::finite; }));
-  EXPECT_TRUE(refused([](ReferenceJob& job) { job.contact = meshes::ContactMode::coulomb; }));
+  EXPECT_TRUE(
+      refused([](ReferenceJob& job) { job.protocol.contact = meshes::ContactMode::coulomb; }));
 }
 
 /// Modes and verification do not press: they need no samples.

@@ -34,10 +34,10 @@ std::vector<double> frequencies(const std::vector<Eigenpair>& pairs) {
   return result;
 }
 
-std::vector<Eigenpair> solve(const Body& body, const meshes::Rubber& rubber, Volumetric volumetric,
-                             int count) {
-  HookeKernel stiffness(rubber, volumetric);
-  MassKernel mass(rubber.density);
+std::vector<Eigenpair> solve(const Body<3>& body, const meshes::Rubber& rubber,
+                             Volumetric volumetric, int count) {
+  HookeKernel<3> stiffness(rubber, volumetric);
+  MassKernel<3> mass(rubber.density);
   return lowest_eigenpairs(body, stiffness, mass, count);
 }
 
@@ -75,7 +75,7 @@ std::vector<double> standing_waves(const meshes::Rubber& rubber, std::size_t cou
 /// Of the `count` lowest frequencies, the largest relative error.
 double box_error(int degree, unsigned elements, Volumetric volumetric, int count) {
   const meshes::Rubber rubber;
-  Body body(MPI_COMM_WORLD, degree);
+  Body<3> body(MPI_COMM_WORLD, degree);
   dealii::GridGenerator::subdivided_hyper_rectangle(
       body.triangulation, {elements, elements, elements}, dealii::Point<3>(),
       dealii::Point<3>(box_edges[0], box_edges[1], box_edges[2]), true);
@@ -122,7 +122,7 @@ double torsion_frequency(const meshes::Geometry& geometry, const meshes::Rubber&
 TEST(Eigenpairs, IncludeTheTorsionOfABondedTube) {
   const meshes::Geometry geometry;
   const meshes::Rubber rubber;
-  Body body(MPI_COMM_WORLD, 2);
+  Body<3> body(MPI_COMM_WORLD, 2);
   dealii::GridGenerator::subdivided_hyper_rectangle(
       body.triangulation, {6, 8, 2}, dealii::Point<3>(geometry.rod_radius, 0.0, 0.0),
       dealii::Point<3>(geometry.tip_radius, pi / 2, 0.004), true);
@@ -171,12 +171,12 @@ std::vector<double> frequencies(const std::vector<NaturalMode>& modes) {
 
 TEST(Eigenpairs, AreOrthonormalAndSatisfyRayleigh) {
   const Tip tip(0.25);
-  const auto body = read_tip(MPI_COMM_WORLD, tip.mesh.file(), 2, 0.0);
-  body->number(tip_supports());
+  const auto body = read_tip<3>(MPI_COMM_WORLD, tip.mesh.file(), 2, 0.0);
+  body->number(tip_supports<3>());
   const auto pairs = solve(*body, tip.job.rubber, tip.job.volumetric, 8);
   LinearSystem stiffness(*body, false), mass(*body, false);
-  HookeKernel hooke(tip.job.rubber, tip.job.volumetric);
-  MassKernel inertia(tip.job.rubber.density);
+  HookeKernel<3> hooke(tip.job.rubber, tip.job.volumetric);
+  MassKernel<3> inertia(tip.job.rubber.density);
   assemble(*body, hooke, body->fine.vector(), stiffness);
   assemble(*body, inertia, body->fine.vector(), mass);
   Vector force = body->fine.vector();
@@ -194,8 +194,8 @@ TEST(TipModes, OfFourSymmetryClassesAreThoseOfTheWholeTip) {
   constexpr int count = 12;
   const Tip quarter(0.25), whole(0.25, meshes::Sector::full);
   TipModes modes(quarter.job, quarter.mesh.file());
-  const auto body = read_tip(MPI_COMM_WORLD, whole.mesh.file(), 2, 0.0);
-  body->number(tip_supports());
+  const auto body = read_tip<3>(MPI_COMM_WORLD, whole.mesh.file(), 2, 0.0);
+  body->number(tip_supports<3>());
   const auto merged = frequencies(lowest_of_all_classes(modes, count));
   EXPECT_LT(
       difference(merged, frequencies(solve(*body, whole.job.rubber, whole.job.volumetric, count))),

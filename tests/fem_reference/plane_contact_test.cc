@@ -66,7 +66,7 @@ ContactUnknowns nodes_at(const std::vector<double>& heights, bool lateral) {
   for (const double height : heights) {
     fem_reference::SurfaceNode node;
     node.position = {0, 0, height};
-    node.area = 1.0;
+    node.area = node.extent = 1.0;
     std::array<int, 3> positions{-1, -1, -1};
     for (std::size_t c = lateral ? 0 : 2; c < 3; ++c) {
       positions[c] = int(unknowns.unknowns.size());

@@ -31,7 +31,7 @@ void expect_same(const PressState& one, const PressState& two, double tolerance)
 
 /// Presses to a third, saves; presses on; restores into a new press of the same job and presses on.
 void check(const ReferenceJob& job, bool refined, double tolerance) {
-  const double depth = job.samples.back();
+  const double depth = job.protocol.depth;
   Pressing first(job);
   const auto press_on = [&](Pressing& pressing) {
     pressing.press.set_longest_step(0.04);
@@ -59,26 +59,26 @@ void check(const ReferenceJob& job, bool refined, double tolerance) {
 
 TEST(PressCheckpoint, StickOnARefinedMesh) {
   ReferenceJob job = small_press();
-  job.contact = ContactMode::stick;
-  job.samples = {3e-4, 1e-3};
+  job.protocol.contact = ContactMode::stick;
+  job.press_to({3e-4, 1e-3});
   check(job, true, 1e-10);
 }
 
 TEST(PressCheckpoint, CoulombUnderTiltAndLateralMotion) {
   ReferenceJob job = small_press();
-  job.contact = ContactMode::coulomb;
-  job.friction = 0.3;
-  job.tilt = 0.2;
-  job.lateral = 2e-4;
+  job.protocol.contact = ContactMode::coulomb;
+  job.protocol.friction = 0.3;
+  job.protocol.tilt = 0.2;
+  job.protocol.lateral = 2e-4;
   check(job, false, 1e-8);
 }
 
 TEST(PressCheckpoint, LargeStrainByMultigrid) {
   ReferenceJob job = small_press();
-  job.contact = ContactMode::stick;
+  job.protocol.contact = ContactMode::stick;
   job.strain = Strain::finite;
   job.solver = LinearSolver::multigrid;
-  job.samples = {3e-4};
+  job.press_to({3e-4});
   job.degree = 1;
   check(job, true, 1e-7);
 }
@@ -89,7 +89,7 @@ TEST(PressCheckpoint, OfAnotherJobIsRefused) {
   first.press.advance(2e-4);
   first.press.save(first.folder().path());
   MPI_Barrier(MPI_COMM_WORLD);
-  job.contact = ContactMode::stick;  // has more contact unknowns
+  job.protocol.contact = ContactMode::stick;  // has more contact unknowns
   Pressing second(job);
   EXPECT_THROW(second.press.load(first.folder().path()), meshes::InvalidInput);
 }

@@ -25,14 +25,14 @@ namespace {
 
 using Field = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 
-std::unique_ptr<Body> make_body(int degree) {
+std::unique_ptr<Body<3>> make_body(int degree) {
   const SharedMesh mesh(0.3);
-  auto body = fem_reference::read_tip(MPI_COMM_WORLD, mesh.file(), degree, 0.0);
+  auto body = fem_reference::read_tip<3>(MPI_COMM_WORLD, mesh.file(), degree, 0.0);
   body->number({});
   return body;
 }
 
-Vector interpolate(const Body& body, const Field& field) {
+Vector interpolate(const Body<3>& body, const Field& field) {
   std::map<dealii::types::global_dof_index, dealii::Point<3>> points;
   dealii::DoFTools::map_dofs_to_support_points(body.mapping, body.fine.dofs, points);
   std::vector<dealii::types::global_dof_index> indices(body.fine.element.n_dofs_per_cell());
@@ -71,7 +71,7 @@ TEST_P(ConstantStress, IsExactAtEveryNodeForBothStrains) {
               ? Eigen::Matrix3d(job.rubber.lame_lambda() * gradient.trace() * one +
                                 job.rubber.shear_modulus * (gradient + gradient.transpose()))
               : fem_reference::HyperelasticLaw(job.law, job.rubber).cauchy_stress(one + gradient);
-      const StressField field(*body, job, u);
+      const StressField<3> field(*body, job, u);
       double worst = 0.0;
       for (const auto& cell : body->fine.dofs.active_cell_iterators())
         if (cell->is_locally_owned())
@@ -92,7 +92,7 @@ TEST(StressField, TakesTheBestLinearDilatation) {
     return Eigen::Vector3d(std::sin(400 * x.x()), std::sin(600 * x.y()), 0.0);
   });
   const Vector ghosted = body->fine.ghosted(u);
-  const StressField field(*body, job, u);
+  const StressField<3> field(*body, job, u);
   const dealii::FE_DGQ<3> element(2);
   const auto flags =
       dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values;

@@ -4,11 +4,12 @@
 #include "fem_reference/press.h"
 #include "tests/fem_reference/shared_mesh.h"
 
-/// A press to 1 mm on one coarse mesh; change what the test is about.
+/// A press of the solid to 1 mm on one coarse mesh; change what the test is about.
 inline fingertip::fem_reference::ReferenceJob small_press() {
   fingertip::fem_reference::ReferenceJob job;
-  job.contact = fingertip::meshes::ContactMode::frictionless;
-  job.samples = {1e-3};
+  job.protocol.contact = fingertip::meshes::ContactMode::frictionless;
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
+  job.press_to({1e-3});
   job.refinement = 0.3;
   job.estimate_error = false;
   job.write_fields = false;
@@ -20,10 +21,7 @@ class Pressing {
  public:
   explicit Pressing(const fingertip::fem_reference::ReferenceJob& job,
                     std::function<bool()> stop_requested = {})
-      : mesh_(job.refinement,
-              has_two_symmetry_planes(job) ? fingertip::meshes::Sector::quarter
-                                           : fingertip::meshes::Sector::half,
-              job.geometry),
+      : mesh_(job.refinement, sector(job), job.geometry),
         press(job, mesh_.file(), std::move(stop_requested)) {}
 
   const SharedFolder& folder() const { return mesh_.folder(); }
@@ -40,5 +38,5 @@ inline fingertip::fem_reference::PressState pressed(
     const fingertip::fem_reference::ReferenceJob& job, double longest_step = 0.01) {
   Pressing pressing(job);
   pressing.press.set_longest_step(longest_step);
-  return pressing.press.advance(job.samples.back());
+  return pressing.press.advance(job.protocol.samples.back());
 }

@@ -13,7 +13,8 @@ namespace {
 /// Three meshes at large strain, some 20 s or more.
 ReferenceJob long_job() {
   ReferenceJob job;
-  for (int i = 1; i <= 8; ++i) job.samples.push_back(1e-4 * i);
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
+  for (int i = 1; i <= 8; ++i) job.protocol.samples.push_back(1e-4 * i);
   job.refinement = 0.3;
   job.strain = fingertip::fem_reference::Strain::finite;
   job.tolerance = 0.5;

@@ -11,7 +11,8 @@ namespace {
 
 ReferenceJob small_job() {
   ReferenceJob job;
-  for (int i = 1; i <= 6; ++i) job.samples.push_back(2e-4 * i);
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
+  job.press_to({2e-4, 4e-4, 6e-4, 8e-4, 1e-3, 1.2e-3});
   job.refinement = 0.3;
   job.tolerance = 0.5;
   job.write_fields = false;
@@ -46,7 +47,7 @@ TEST(Resume, PassesOverAForeignCheckpoint) {
     fs::create_directories(folder / "checkpoint");
     write_text(folder / "checkpoint/run.json", text);
     EXPECT_EQ(carry_out(folder), 0) << text;
-    EXPECT_EQ(samples_of(folder).size(), job.samples.size());
+    EXPECT_EQ(samples_of(folder).size(), job.protocol.samples.size());
   }
 }
 

@@ -24,7 +24,8 @@ namespace {
 /// Three coarse meshes, two samples.
 ReferenceJob small_job() {
   ReferenceJob job;
-  job.samples = {5e-4, 1e-3};
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
+  job.press_to({5e-4, 1e-3});
   job.refinement = 0.3;
   job.tolerance = 0.5;
   return job;
@@ -65,9 +66,10 @@ TEST(ReferenceRun, AgreesWithTheReferenceTable) {
   ASSERT_EQ(table.size(), 10u);
   const TemporaryFolder parent;
   ReferenceJob job;
-  job.contact = ContactMode::frictionless;
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
+  job.protocol.contact = ContactMode::frictionless;
   job.write_fields = false;
-  for (const TableRow& row : table) job.samples.push_back(row.indentation * centimetre);
+  for (const TableRow& row : table) job.protocol.samples.push_back(row.indentation * centimetre);
   const fs::path folder = run_folder(parent, "table", job);
   ASSERT_EQ(carry_out(folder), 0);
   const auto samples = samples_of(folder);
@@ -155,17 +157,17 @@ TEST(ReferenceRun, CarriesOutTiltFrictionAndLargeStrain) {
   ReferenceJob job = small_job();
   job.estimate_error = false;
   job.write_fields = false;
-  job.contact = ContactMode::coulomb;
-  job.tilt = 0.2;
-  job.lateral = 1e-4;
+  job.protocol.contact = ContactMode::coulomb;
+  job.protocol.tilt = 0.2;
+  job.protocol.lateral = 1e-4;
   job.strain = fem_reference::Strain::finite;
   job.refinement = 0.25;
-  job.samples = {1e-4, 2e-4};
+  job.press_to({1e-4, 2e-4});
   const fs::path folder = run_folder(parent, "run", job);
   ASSERT_EQ(carry_out(folder), 0);
   const meshes::PressSample sample = samples_of(folder)[1];
   EXPECT_GT(sample.lateral_force_x, 0.0);
-  EXPECT_LE(sample.lateral_force_x, job.friction * sample.normal_force);
+  EXPECT_LE(sample.lateral_force_x, job.protocol.friction * sample.normal_force);
   EXPECT_EQ(sample.lateral_force_y, 0.0);
   EXPECT_NE(sample.torque_y, 0.0);
   const json summary = summary_of(folder);
@@ -228,7 +230,7 @@ TEST(FingertipFem, TwoProcessesAgreeWithOne) {
        {std::pair{ContactMode::frictionless, 0.5}, std::pair{ContactMode::stick, 0.3}}) {
     const TemporaryFolder parent;
     ReferenceJob job = small_job();
-    job.contact = contact;
+    job.protocol.contact = contact;
     job.refinement = refinement;
     job.solver = LinearSolver::multigrid;
     job.estimate_error = false;
@@ -237,7 +239,7 @@ TEST(FingertipFem, TwoProcessesAgreeWithOne) {
     ASSERT_EQ(carry_out(one), 0);
     ASSERT_EQ(carry_out(two, 2), 0);
     EXPECT_EQ(summary_of(two).at("ranks"), 2);
-    for (std::size_t i = 0; i < job.samples.size(); ++i) {
+    for (std::size_t i = 0; i < job.protocol.samples.size(); ++i) {
       const auto a = samples_of(one)[i], b = samples_of(two)[i];
       EXPECT_NEAR(b.normal_force / a.normal_force, 1.0, 1e-8);
       EXPECT_NEAR(b.max_pressure / a.max_pressure, 1.0, 1e-6);
@@ -250,11 +252,11 @@ TEST(FingertipFem, TwoProcessesAgreeWithOne) {
 TEST(FingertipFem, TwoProcessesRefineAlike) {
   const TemporaryFolder parent;
   ReferenceJob job = small_job();
-  job.contact = ContactMode::frictionless;
+  job.protocol.contact = ContactMode::frictionless;
   const fs::path one = run_folder(parent, "one", job), two = run_folder(parent, "two", job);
   ASSERT_EQ(carry_out(one), 0);
   ASSERT_EQ(carry_out(two, 2), 0);
-  for (std::size_t i = 0; i < job.samples.size(); ++i) {
+  for (std::size_t i = 0; i < job.protocol.samples.size(); ++i) {
     const auto a = samples_of(one)[i], b = samples_of(two)[i];
     EXPECT_NEAR(b.normal_force, a.normal_force, a.force_error);
   }

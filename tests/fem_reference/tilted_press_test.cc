@@ -20,9 +20,9 @@ constexpr double hardly = 1e-13;
 TEST(TiltedPress, UprightHalfEqualsQuarter) {
   for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
     ReferenceJob job = small_press();
-    job.contact = mode;
+    job.protocol.contact = mode;
     const PressState quarter = pressed(job, 0.05);
-    job.tilt = hardly;
+    job.protocol.tilt = hardly;
     const PressState half = pressed(job, 0.05);
     EXPECT_NEAR(half.sample.normal_force / quarter.sample.normal_force, 1.0, 1e-7);
     EXPECT_NEAR(half.energy / quarter.energy, 1.0, 1e-7);
@@ -36,10 +36,10 @@ TEST(TiltedPress, UprightHalfEqualsQuarter) {
 TEST(TiltedPress, MirrorsWithItsTilt) {
   for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
     ReferenceJob job = small_press();
-    job.contact = mode;
-    job.tilt = 0.3;
+    job.protocol.contact = mode;
+    job.protocol.tilt = 0.3;
     const meshes::PressSample one = pressed(job, 0.05).sample;
-    job.tilt = -0.3;
+    job.protocol.tilt = -0.3;
     const meshes::PressSample two = pressed(job, 0.05).sample;
     EXPECT_NEAR(two.normal_force / one.normal_force, 1.0, 1e-6);
     EXPECT_NEAR(two.torque_y / one.torque_y, -1.0, 1e-6);
@@ -55,9 +55,9 @@ TEST(TiltedPress, MirrorsWithItsTilt) {
 TEST(TiltedPress, TorqueIsTheMomentOfTheContactForces) {
   for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
     ReferenceJob job = small_press();
-    job.contact = mode;
+    job.protocol.contact = mode;
     for (const double tilt : {0.15, 0.4}) {
-      job.tilt = tilt;
+      job.protocol.tilt = tilt;
       const meshes::PressSample sample = pressed(job, 0.05).sample;
       const double R = job.geometry.tip_radius, l = job.geometry.rod_length;
       const double height = R + l * std::cos(tilt);
@@ -71,9 +71,9 @@ TEST(TiltedPress, TorqueIsTheMomentOfTheContactForces) {
 
 TEST(TiltedPress, RodTakesWhatThePlaneGives) {
   ReferenceJob job = small_press();
-  job.contact = ContactMode::stick;
-  job.tilt = 0.2;
-  job.lateral = 3e-4;
+  job.protocol.contact = ContactMode::stick;
+  job.protocol.tilt = 0.2;
+  job.protocol.lateral = 3e-4;
   Pressing pressing(job);
   pressing.press.set_longest_step(0.05);
   const meshes::PressSample sample = pressing.press.advance(1e-3).sample;
@@ -84,8 +84,8 @@ TEST(TiltedPress, RodTakesWhatThePlaneGives) {
 
 TEST(LateralPress, StickDragsTheTipAlong) {
   ReferenceJob job = small_press();
-  job.contact = ContactMode::stick;
-  job.lateral = 2e-4;
+  job.protocol.contact = ContactMode::stick;
+  job.protocol.lateral = 2e-4;
   const meshes::PressSample one = pressed(job, 0.05).sample;
   EXPECT_GT(one.lateral_force_x, 0.05 * one.normal_force);
   // Its moment about the endpoint, but for the shift of the pressure.
@@ -93,21 +93,21 @@ TEST(LateralPress, StickDragsTheTipAlong) {
   EXPECT_NEAR(one.torque_y, height * one.lateral_force_x,
               0.5 * one.contact_radius * one.normal_force);
 
-  job.lateral = -2e-4;
+  job.protocol.lateral = -2e-4;
   const meshes::PressSample two = pressed(job, 0.05).sample;
   EXPECT_NEAR(two.lateral_force_x / one.lateral_force_x, -1.0, 1e-6);
   EXPECT_NEAR(two.torque_y / one.torque_y, -1.0, 1e-6);
   EXPECT_NEAR(two.normal_force / one.normal_force, 1.0, 1e-6);
 
   // The force is linear in the motion while the same nodes touch.
-  job.lateral = 1e-4;
+  job.protocol.lateral = 1e-4;
   EXPECT_NEAR(pressed(job, 0.05).sample.lateral_force_x / one.lateral_force_x, 0.5, 0.02);
 }
 
 TEST(LateralPress, FrictionlessFeelsNothing) {
   ReferenceJob job = small_press();
   const double still = pressed(job).sample.normal_force;
-  job.lateral = 5e-4;
+  job.protocol.lateral = 5e-4;
   const meshes::PressSample sample = pressed(job).sample;
   EXPECT_EQ(sample.lateral_force_x, 0.0);
   EXPECT_NEAR(sample.normal_force / still, 1.0, 1e-7);
@@ -116,11 +116,11 @@ TEST(LateralPress, FrictionlessFeelsNothing) {
 
 ReferenceJob press_and_slide(ContactMode contact, double lateral) {
   ReferenceJob job = small_press();
-  job.contact = contact;
-  job.samples = {5e-4, 1e-3};
-  job.lateral = lateral;
-  job.lateral_path = meshes::LateralPath::after;
-  job.lateral_samples = 2;
+  job.protocol.contact = contact;
+  job.press_to({5e-4, 1e-3});
+  job.protocol.lateral = lateral;
+  job.protocol.lateral_path = meshes::LateralPath::after;
+  job.protocol.lateral_samples = 2;
   return job;
 }
 
@@ -129,7 +129,7 @@ std::vector<PressState> states_along(const ReferenceJob& job) {
   Pressing pressing(job);
   pressing.press.set_longest_step(0.05);
   std::vector<PressState> states;
-  const meshes::PressPath path(job.protocol());
+  const meshes::PressPath path(job.protocol);
   for (const double place : path.samples()) states.push_back(pressing.press.advance(place));
   return states;
 }
@@ -138,7 +138,7 @@ TEST(PressAndSlide, FrictionlessFeelsNothing) {
   for (const Strain strain : {Strain::linear, Strain::finite}) {
     ReferenceJob job = press_and_slide(ContactMode::frictionless, 5e-5);
     job.strain = strain;
-    job.samples = {1e-4, 2e-4};
+    job.press_to({1e-4, 2e-4});
     job.degree = strain == Strain::finite ? 1 : 2;
     const auto states = states_along(job);
     ASSERT_EQ(states.size(), 4u);
@@ -159,8 +159,8 @@ TEST(PressAndSlide, StuckItIsALinearSpringThatStoresTheWork) {
   const ReferenceJob job = press_and_slide(ContactMode::stick, 2e-5);
   const auto states = states_along(job);
   ReferenceJob upright = job;
-  upright.lateral = 0.0;
-  upright.tilt = hardly;  // the half mesh
+  upright.protocol.lateral = 0.0;
+  upright.protocol.tilt = hardly;  // the half mesh
   const auto straight = states_along(upright);
   for (const std::size_t i : {0, 1})
     EXPECT_NEAR(states[i].sample.normal_force / straight[i].sample.normal_force, 1.0, 1e-12);
@@ -171,7 +171,7 @@ TEST(PressAndSlide, StuckItIsALinearSpringThatStoresTheWork) {
   EXPECT_NEAR((states[3].energy - states[1].energy) / work, 1.0, 0.01);
 
   ReferenceJob diagonal = job;
-  diagonal.lateral_path = meshes::LateralPath::diagonal;
+  diagonal.protocol.lateral_path = meshes::LateralPath::diagonal;
   EXPECT_LT(states_along(diagonal).back().sample.lateral_force_x, 0.9 * force);
 }
 
@@ -179,10 +179,10 @@ TEST(PressAndSlide, StuckItIsALinearSpringThatStoresTheWork) {
 /// stay away take hold anew within the step: the contact settles, and the plane still pulls.
 TEST(PressAndSlide, StuckItSettlesFarAside) {
   ReferenceJob job = press_and_slide(ContactMode::stick, 1.5e-3);
-  job.lateral_samples = 3;
+  job.protocol.lateral_samples = 3;
   const auto states = states_along(job);
-  ASSERT_EQ(states.size(), job.samples.size() + 3);
-  const std::size_t pressed = job.samples.size() - 1;
+  ASSERT_EQ(states.size(), job.protocol.samples.size() + 3);
+  const std::size_t pressed = job.protocol.samples.size() - 1;
   for (std::size_t i = pressed + 1; i < states.size(); ++i) {
     EXPECT_GT(states[i].sample.lateral_force_x, states[i - 1].sample.lateral_force_x);
     EXPECT_GT(states[i].energy, states[i - 1].energy);
@@ -193,7 +193,7 @@ TEST(PressAndSlide, StuckItSettlesFarAside) {
 /// Pressed first, the tip slides when mu times the push is reached, and from then on under it.
 TEST(PressAndSlide, CoulombSlidesUnderFrictionTimesPush) {
   ReferenceJob job = press_and_slide(ContactMode::coulomb, 1e-3);
-  job.friction = 0.2;
+  job.protocol.friction = 0.2;
   const auto states = states_along(job);
   EXPECT_EQ(states[3].sliding_nodes, states[3].active_nodes);
   EXPECT_GT(states[1].active_nodes, states[1].sliding_nodes);
@@ -203,10 +203,10 @@ TEST(PressAndSlide, CoulombSlidesUnderFrictionTimesPush) {
 
 TEST(CoulombPress, LiesBetweenFrictionlessAndStick) {
   ReferenceJob job = small_press();
-  job.samples = {2e-3};
+  job.press_to({2e-3});
   const auto force = [&](ContactMode mode, double friction) {
-    job.contact = mode;
-    job.friction = friction;
+    job.protocol.contact = mode;
+    job.protocol.friction = friction;
     return pressed(job, 0.04).sample.normal_force;
   };
   const double none = force(ContactMode::frictionless, 0.5);
@@ -224,16 +224,16 @@ TEST(CoulombPress, LiesBetweenFrictionlessAndStick) {
 
 TEST(CoulombPress, GrossSlidingPullsWithFrictionTimesPush) {
   ReferenceJob job = small_press();
-  job.contact = ContactMode::coulomb;
-  job.friction = 0.2;
-  job.lateral = 3e-3;
+  job.protocol.contact = ContactMode::coulomb;
+  job.protocol.friction = 0.2;
+  job.protocol.lateral = 3e-3;
   const PressState state = pressed(job, 0.02);
   const meshes::PressSample& sample = state.sample;
   EXPECT_LE(sample.lateral_force_x, 0.2 * sample.normal_force * (1 + 1e-9));
   EXPECT_GT(sample.lateral_force_x, 0.198 * sample.normal_force);
   EXPECT_EQ(state.sliding_nodes, state.active_nodes);
 
-  job.lateral = 3e-5;
+  job.protocol.lateral = 3e-5;
   const PressState partial = pressed(job, 0.02);
   EXPECT_LT(partial.sample.lateral_force_x, 0.15 * partial.sample.normal_force);
   EXPECT_GT(partial.sample.lateral_force_x, 0.0);

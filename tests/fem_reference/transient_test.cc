@@ -31,11 +31,11 @@ namespace {
 /// Free vibration of one mode of a small tip.
 struct FreeVibration {
   explicit FreeVibration(double retardation_time)
-      : body(read_tip(MPI_COMM_WORLD, mesh.file(), 2, 0.0)),
+      : body(read_tip<3>(MPI_COMM_WORLD, mesh.file(), 2, 0.0)),
         stiffness(rubber, Volumetric::projected),
         mass(rubber.density),
         tau(retardation_time) {
-    body->number(tip_supports());
+    body->number(tip_supports<3>());
     const auto pair = lowest_eigenpairs(*body, stiffness, mass, 1).front();
     shape = pair.shape;
     omega = std::sqrt(pair.eigenvalue);
@@ -44,7 +44,7 @@ struct FreeVibration {
   /// Amplitude of the mode after `time` from amplitude 1, in `steps` steps.
   double amplitude_after(double time, int steps) {
     auto solver = make_condensed_solver(*body, {});
-    GeneralisedAlpha motion(*body, stiffness, mass, tau, false);
+    GeneralisedAlpha<3> motion(*body, stiffness, mass, tau, false);
     Vector acceleration = shape, zero = body->fine.vector();
     acceleration *= -omega * omega;
     motion.set_state(shape, zero, acceleration);
@@ -67,9 +67,9 @@ struct FreeVibration {
 
   SharedMesh mesh{0.25};
   meshes::Rubber rubber;
-  std::unique_ptr<Body> body;
-  HookeKernel stiffness;
-  MassKernel mass;
+  std::unique_ptr<Body<3>> body;
+  HookeKernel<3> stiffness;
+  MassKernel<3> mass;
   double tau;
   Vector shape;
   double omega = 0.0;
@@ -93,13 +93,13 @@ TEST(GeneralisedAlpha, FollowsAModeAtSecondOrder) {
 TEST(GeneralisedAlpha, KeepsWhatMovesUniformlyAndKnowsItsMass) {
   // A box that slides freely along x between smooth walls: no force, momentum m v for ever.
   const meshes::Rubber rubber;
-  Body body(MPI_COMM_WORLD, 2);
+  Body<3> body(MPI_COMM_WORLD, 2);
   dealii::GridGenerator::subdivided_hyper_rectangle(
       body.triangulation, {2, 1, 1}, dealii::Point<3>(), dealii::Point<3>(0.02, 0.01, 0.005), true);
   body.number({{2, 1}, {3, 1}, {4, 2}, {5, 2}});
-  HookeKernel stiffness(rubber, Volumetric::pointwise);
-  MassKernel mass(rubber.density);
-  GeneralisedAlpha motion(body, stiffness, mass, 1e-3, false);
+  HookeKernel<3> stiffness(rubber, Volumetric::pointwise);
+  MassKernel<3> mass(rubber.density);
+  GeneralisedAlpha<3> motion(body, stiffness, mass, 1e-3, false);
   Vector u = body.fine.vector(), v = u, zero = u;
   for (const auto& cell : body.fine.dofs.active_cell_iterators()) {
     std::vector<dealii::types::global_dof_index> indices(body.fine.element.n_dofs_per_cell());
@@ -128,19 +128,19 @@ TEST(GeneralisedAlpha, KeepsWhatMovesUniformlyAndKnowsItsMass) {
 TEST(GeneralisedAlpha, CarriesAPressureWaveAtItsSpeed) {
   constexpr double length = 0.02, width = 1e-3, speed = 0.01;
   const meshes::Rubber rubber;
-  Body body(MPI_COMM_WORLD, 2);
+  Body<3> body(MPI_COMM_WORLD, 2);
   dealii::GridGenerator::subdivided_hyper_rectangle(body.triangulation, {80, 1, 1},
                                                     dealii::Point<3>(),
                                                     dealii::Point<3>(length, width, width), true);
   body.number({{0, 0}, {0, 1}, {0, 2}, {2, 1}, {3, 1}, {4, 2}, {5, 2}});
-  HookeKernel stiffness(rubber, Volumetric::pointwise);
-  MassKernel mass(rubber.density);
+  HookeKernel<3> stiffness(rubber, Volumetric::pointwise);
+  MassKernel<3> mass(rubber.density);
   std::vector<long> face;  // x unknowns of the free end
   const dealii::IndexSet end = dealii::DoFTools::extract_boundary_dofs(
       body.fine.dofs, dealii::ComponentMask({true, false, false}), {1});
   for (const auto i : end) face.push_back(long(i));
   auto solver = make_condensed_solver(body, face);
-  GeneralisedAlpha motion(body, stiffness, mass, 0.0, false);
+  GeneralisedAlpha<3> motion(body, stiffness, mass, 0.0, false);
   const double transit = length / rubber.longitudinal_wave_speed();
   constexpr int steps = 400;  // a transit
   motion.set_step(transit / steps, *solver);
@@ -176,9 +176,10 @@ TEST(GeneralisedAlpha, CarriesAPressureWaveAtItsSpeed) {
 struct Press {
   explicit Press(double speed, ContactMode contact = ContactMode::frictionless) {
     job.analysis = Analysis::transient;
-    job.contact = contact;
-    job.speed = speed;
-    job.samples = {5e-4, 1e-3, 2e-3};
+    job.protocol.contact = contact;
+    job.symmetry = fingertip::fem_reference::Symmetry::none;
+    job.protocol.speed = speed;
+    job.press_to({5e-4, 1e-3, 2e-3});
   }
   std::unique_ptr<TransientPress> transient() const {
     return std::make_unique<TransientPress>(job, mesh.file());
@@ -195,7 +196,7 @@ TEST(TransientPress, IsTheStaticPressWhenSlow) {
   for (const ContactMode contact : {ContactMode::frictionless, ContactMode::stick}) {
     Press press(1e-5, contact);
     const auto transient = press.transient();
-    for (const double indentation : press.job.samples)
+    for (const double indentation : press.job.protocol.samples)
       EXPECT_NEAR(
           transient->advance(indentation).sample.normal_force / press.static_force(indentation),
           1.0, contact == ContactMode::frictionless ? 2e-5 : 1e-3)
@@ -211,10 +212,10 @@ TEST(TransientPress, ForceConvergesWithTheStep) {
       const auto transient = press.transient();
       transient->set_step_factor(factor);
       forces.emplace_back();
-      for (const double indentation : press.job.samples)
+      for (const double indentation : press.job.protocol.samples)
         forces.back().push_back(transient->advance(indentation).sample.normal_force);
     }
-    for (std::size_t i = 0; i < press.job.samples.size(); ++i) {
+    for (std::size_t i = 0; i < press.job.protocol.samples.size(); ++i) {
       const double coarse = std::abs(forces[0][i] / forces[2][i] - 1);
       const double fine = std::abs(forces[1][i] / forces[2][i] - 1);
       EXPECT_LT(fine, 1.5e-3) << speed << " " << i;
@@ -227,7 +228,7 @@ TEST(TransientPress, BalancesEnergyAndMomentum) {
   for (const ContactMode contact : {ContactMode::frictionless, ContactMode::stick}) {
     Press press(0.2, contact);
     const auto transient = press.transient();
-    for (const double indentation : press.job.samples) transient->advance(indentation);
+    for (const double indentation : press.job.protocol.samples) transient->advance(indentation);
     const TransientStep& end = transient->steps().back();
     const double spent = end.kinetic_energy + end.elastic_energy + end.dissipated_energy;
     EXPECT_GT(end.dissipated_energy, 0.02 * end.work);
@@ -288,10 +289,11 @@ TEST(TransientPress, ViscousForceIsTheTangentStiffnessTimesTauTimesSpeed) {
 TEST(TransientRun, WritesWhatTheContractSays) {
   const SharedFolder folder;
   ReferenceJob job;
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
   job.analysis = Analysis::transient;
-  job.contact = ContactMode::frictionless;
-  job.samples = {5e-4, 1e-3};
-  job.speed = 0.05;
+  job.protocol.contact = ContactMode::frictionless;
+  job.press_to({5e-4, 1e-3});
+  job.protocol.speed = 0.05;
   job.refinement = 0.25;
   job.tolerance = 0.05;
   std::ostringstream progress;
@@ -316,9 +318,10 @@ TEST(TransientRun, WritesWhatTheContractSays) {
 TEST(TransientRun, KeepsFinishedSamplesWhenStopped) {
   const SharedFolder folder;
   ReferenceJob job;
+  job.symmetry = fingertip::fem_reference::Symmetry::none;
   job.analysis = Analysis::transient;
-  job.contact = ContactMode::frictionless;
-  job.samples = {2e-4, 1e-3};
+  job.protocol.contact = ContactMode::frictionless;
+  job.press_to({2e-4, 1e-3});
   job.refinement = 0.25;
   job.estimate_error = false;
   job.write_fields = false;

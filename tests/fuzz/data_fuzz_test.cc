@@ -242,7 +242,7 @@ TEST(FuzzData, OrdersForTheContinuum) {
   const std::filesystem::path file = folder / "job.json";
   std::vector<std::string> seeds;
   fem_reference::ReferenceJob job;
-  job.samples = {1e-3, 2e-3};
+  job.press_to({1e-3, 2e-3});
   write_job(job, file);
   seeds.push_back(read_text(file));
   job.analysis = fem_reference::Analysis::modes;
@@ -255,7 +255,7 @@ TEST(FuzzData, OrdersForTheContinuum) {
                  write_text(file, input);
                  const fem_reference::ReferenceJob one = fem_reference::read_job(file);
                  EXPECT_TRUE(one.violations().empty());
-                 EXPECT_TRUE(all_finite(one.samples));
+                 EXPECT_TRUE(all_finite(one.protocol.samples));
                  write_job(one, file);
                  const std::string text = read_text(file);
                  write_job(fem_reference::read_job(file), file);

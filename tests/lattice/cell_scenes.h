@@ -13,6 +13,7 @@
 #include "lattice/forces/cell_forces.h"
 #include "lattice/kernels/stencil.h"
 #include "lattice/model/grid_cells.h"
+#include "tests/lattice/reference.h"
 
 namespace cell_scenes {
 
@@ -26,6 +27,7 @@ using lattice::VectorField;
 using meshes::CubicGrid;
 using meshes::CutCell;
 using meshes::Vector3;
+using reference::cell_energy;
 
 inline constexpr double tau = 3e-4;
 

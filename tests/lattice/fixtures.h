@@ -7,12 +7,12 @@
 #include <random>
 #include <string>
 
-#include "lattice/forces/reference_forces.h"
 #include "lattice/forces/stiffness.h"
 #include "lattice/model/cut_model.h"
 #include "lattice/model/formulation.h"
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
+#include "tests/lattice/reference.h"
 
 namespace fixtures {
 
@@ -98,9 +98,9 @@ inline Eigen::MatrixXd tangent(const lattice::LatticeModel& model, lattice::Stat
     double& value = field.component[std::size_t(j % 3)][model.particles[std::size_t(j / 3)]];
     const double at = value;
     value = at + h;
-    const lattice::VectorField above = lattice::reference_forces(model, state);
+    const lattice::VectorField above = reference::forces(model, state);
     value = at - h;
-    const lattice::VectorField below = lattice::reference_forces(model, state);
+    const lattice::VectorField below = reference::forces(model, state);
     value = at;
     for (Eigen::Index p = 0; p < count; ++p) {
       const std::size_t i = model.particles[std::size_t(p)];

@@ -7,12 +7,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "lattice/statics/cell_law.h"
+#include "tests/lattice/statics/laws.h"
 #include "tests/property/random_numbers.h"
 
 using namespace fingertip;
 using namespace fingertip::random;
-using lattice::CellLaw;
+using namespace laws;
 using meshes::Rubber;
 using Vector3 = Eigen::Vector3d;
 
@@ -34,7 +34,7 @@ bool laws_see_no_turns() {
     const Rubber rubber = random_rubber(0.0);
     const double share = uniform(0.0, 1.0), modulus = rubber.longitudinal_modulus();
     const Matrix3d F = random_deformation(), Q = random_rotation();
-    for (const CellLaw& law : {CellLaw::network(rubber, share), CellLaw::volume(modulus, true)}) {
+    for (const CellLaw& law : {network_law(rubber, share), volume_law(modulus, true)}) {
       const double scale = 1e-12 * modulus * (1.0 + F.squaredNorm() + std::pow(F.norm(), 6));
       RC_ASSERT(std::abs(energy_at(law, Q * F) - energy_at(law, F)) <= scale);
       RC_ASSERT(std::abs(energy_at(law, F * Q) - energy_at(law, F)) <= scale);
@@ -42,10 +42,10 @@ bool laws_see_no_turns() {
     auto k = lattice::hookean_constants(rubber, 1.0, uniform(0.0, 0.7) * rubber.shear_modulus);
     k.k1 *= uniform(0.5, 2.0);  // cubic, not isotropic
     const Matrix3d H = random_matrix(1.0), spin = skew(random_vector(1.0));
-    for (const CellLaw& law : {CellLaw::cubic(k, 1.0, 0.0, Q), CellLaw::volume(k.kappa, false)})
+    for (const CellLaw& law : {cubic_law(k, 1.0, 0.0, Q), volume_law(k.kappa, false)})
       RC_ASSERT(std::abs(law.energy(H + spin) - law.energy(H)) <= 1e-11 * modulus);
-    const double turned = CellLaw::cubic(k, 1.0, share, Q).energy(Q * H * Q.transpose());
-    RC_ASSERT(std::abs(turned - CellLaw::cubic(k, 1.0, share).energy(H)) <= 1e-11 * modulus);
+    const double turned = cubic_law(k, 1.0, share, Q).energy(Q * H * Q.transpose());
+    RC_ASSERT(std::abs(turned - cubic_law(k, 1.0, share).energy(H)) <= 1e-11 * modulus);
   });
 }
 
@@ -56,8 +56,8 @@ bool laws_are_consistent() {
     const auto k =
         lattice::hookean_constants(rubber, 1.0, uniform(0.0, 0.7) * rubber.shear_modulus);
     const CellLaw law = *rc::gen::element(
-        CellLaw::network(rubber, share), CellLaw::volume(uniform(-1.0, 1.0) * modulus, true),
-        CellLaw::volume(modulus, false), CellLaw::cubic(k, 1.0, share, random_rotation()));
+        network_law(rubber, share), volume_law(uniform(-1.0, 1.0) * modulus, true),
+        volume_law(modulus, false), cubic_law(k, 1.0, share, random_rotation()));
     const Matrix3d H = random_deformation() - Matrix3d::Identity();
     const double h = 1e-5;
     const auto response = law.evaluate(H);
@@ -77,7 +77,7 @@ bool laws_are_consistent() {
 bool collapse_costs_without_bound() {
   return rc::check("the network's energy grows without bound as a cell collapses", [] {
     const Rubber rubber = random_rubber(0.0);
-    const CellLaw law = CellLaw::network(rubber, uniform(0.0, 1.0));
+    const CellLaw law = network_law(rubber, uniform(0.0, 1.0));
     const Matrix3d left = random_rotation(), right = random_rotation();
     const Vector3 flattened(uniform(0.0, 1.0), uniform(0.0, 1.0), 1.0);  // how fast each goes
     double before = -std::numeric_limits<double>::infinity();

@@ -7,9 +7,9 @@
 
 #include "lattice/forces/energy.h"
 #include "lattice/forces/forces.h"
-#include "lattice/forces/reference_forces.h"
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
+#include "tests/lattice/reference.h"
 
 using namespace fingertip;
 using lattice::Kinematics;
@@ -115,7 +115,7 @@ bool kernel_equals_edge_list() {
   return rc::check("the kernel computes the edge list's forces", [] {
     const LatticeModel model = random_model();
     const State state = random_state(model, 1.0);
-    const VectorField expected = lattice::reference_forces(model, state);
+    const VectorField expected = reference::forces(model, state);
     const VectorField computed = forces(model, state);
     const double scale = size_of(model, expected);
     for (const std::size_t i : model.particles) {

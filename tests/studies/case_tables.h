@@ -3,25 +3,43 @@
 
 #include <string>
 
-#include "studies/cases/case_file.h"
+#include "studies/cases/measures.h"
 #include "studies/cases/validation.h"
 #include "tests/temporary_folder.h"
 
-/// The case whose table [case] ends with `table`, after a press of two samples.
-inline fingertip::studies::Case case_with(const TemporaryFolder& folder, const std::string& table) {
-  write_text(folder / "case.toml",
-             "[press]\nsamples = [\"0.1 cm\", \"0.2 cm\"]\n[case]\ntitle = \"t\"\n" + table);
+/// The case whose table [case] ends with `table`, after a press of two samples and `settings`.
+inline fingertip::studies::Case case_with(const TemporaryFolder& folder, const std::string& table,
+                                          const std::string& settings = {}) {
+  write_text(folder / "case.toml", "[press]\nsamples = [\"0.1 cm\", \"0.2 cm\"]\n" + settings +
+                                       "[case]\ntitle = \"t\"\n" + table);
   return fingertip::studies::load_case(folder / "case.toml", {});
 }
 
 /// What is said against that case; empty when it is a good one.
-inline std::string refusal(const TemporaryFolder& folder, const std::string& table) {
+inline std::string refusal(const TemporaryFolder& folder, const std::string& table,
+                           const std::string& settings = {}) {
   try {
-    check_case(case_with(folder, table));
+    check_case(case_with(folder, table, settings));
   } catch (const fingertip::studies::ConfigError& error) {
     return error.what();
   }
   return {};
+}
+
+/// The jobs of its first stage.
+inline std::vector<fingertip::studies::PlannedJob> planned_jobs(
+    const fingertip::studies::Case& one) {
+  return fingertip::studies::Planner(one).next({});
+}
+
+/// A finished run with these measures.
+inline fingertip::studies::RunResult finished_run(const fingertip::studies::CaseRun& run,
+                                                  const fingertip::studies::Measures& measures) {
+  fingertip::studies::RunResult result;
+  result.run = &run;
+  result.status = fingertip::studies::finished;
+  result.measures = measures;
+  return result;
 }
 
 inline bool has(const std::string& text, const std::string& part) {

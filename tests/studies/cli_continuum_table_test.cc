@@ -36,7 +36,7 @@ void press(const TemporaryFolder& folder, const std::string& name,
 TEST(ContinuumTable, ForeseesARunBetweenItsNodes) {
   const TemporaryFolder folder;
   fem_reference::ReferenceJob order;
-  order.samples = {2e-4, 8e-4};
+  order.press_to({2e-4, 8e-4});
   const auto nodes = calibration::chebyshev_nodes(0.2, 0.45, 5);
   std::vector<fs::path> folders;
   for (const auto& one : continuum_table_orders(order, nodes)) {

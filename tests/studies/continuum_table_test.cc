@@ -26,8 +26,8 @@ const std::vector<double> nodes = calibration::chebyshev_nodes(0.1, 0.45, 10);
 
 ReferenceJob order() {
   ReferenceJob job;
-  job.samples = {2e-4, 5e-4, 1e-3};
-  job.tilt = 0.1;
+  job.press_to({2e-4, 5e-4, 1e-3});
+  job.protocol.tilt = 0.1;
   return job;
 }
 
@@ -55,7 +55,7 @@ class TableOfContinuum : public testing::Test {
       const fs::path folder = folder_ / std::to_string(folders_.size());
       fs::create_directory(folder);
       PressResponse response;
-      for (const double depth : job.samples) {
+      for (const double depth : job.protocol.samples) {
         PressSample sample;
         sample.indentation = depth;
         sample.normal_force = hertz(job, depth);
@@ -91,8 +91,8 @@ TEST(TableOrders, DifferInPoissonsRatioAlone) {
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     EXPECT_NEAR(orders[k].rubber.poissons_ratio(), nodes[k], 1e-14);
     EXPECT_EQ(orders[k].rubber.shear_modulus, order().rubber.shear_modulus);
-    EXPECT_EQ(orders[k].samples, order().samples);
-    EXPECT_EQ(orders[k].tilt, order().tilt);
+    EXPECT_EQ(orders[k].protocol.samples, order().protocol.samples);
+    EXPECT_EQ(orders[k].protocol.tilt, order().protocol.tilt);
     EXPECT_FALSE(orders[k].write_fields);
     for (std::size_t other = 0; other < k; ++other)
       EXPECT_NE(reference_job(orders[k]).key(), reference_job(orders[other]).key());
@@ -109,7 +109,7 @@ TEST(TableOrders, ThatBreakARuleAreRefused) {
   EXPECT_NE(text.find("Poisson's ratio -0.3 of the table"), std::string::npos) << text;
   EXPECT_EQ(text.find('\n'), std::string::npos) << "0 and 0.4 are fine: " << text;
   ReferenceJob moving = order();
-  moving.tilt = 0.0;
+  moving.protocol.tilt = 0.0;
   moving.analysis = fem_reference::Analysis::transient;
   EXPECT_NE(refusal([&] { continuum_table_orders(moving, negative); }).find("static presses"),
             std::string::npos);
@@ -124,7 +124,8 @@ TEST_F(TableOfContinuum, GivesTheForcesOfOtherModuli) {
     const auto forces =
         made.table.evaluate(Vector2d(other.rubber.youngs_modulus, other.rubber.shear_modulus));
     for (int i = 0; i < 3; ++i)
-      EXPECT_NEAR(forces.value(i) / hertz(other, order().samples[std::size_t(i)]), 1.0, 1e-8);
+      EXPECT_NEAR(forces.value(i) / hertz(other, order().protocol.samples[std::size_t(i)]), 1.0,
+                  1e-8);
   }
   ASSERT_EQ(made.continuum_error.size(), 3);
   EXPECT_NEAR(made.continuum_error(0), 0.019, 1e-12);

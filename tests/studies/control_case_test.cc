@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include "case_tables.h"
-#include "studies/cases/control_measures.h"
-#include "studies/cases/plan.h"
 
 using namespace fingertip::studies;
 
@@ -24,15 +22,15 @@ const std::string two_presses =
 TEST(ControlCase, PlansPressesAndTheContinuaAtTheirSpeeds) {
   const TemporaryFolder folder;
   const Case one = case_with(folder, two_presses);
-  ASSERT_EQ(one.presses.size(), 2u);
-  EXPECT_TRUE(one.presses[0].continuum);
-  EXPECT_TRUE(one.presses[1].snapshots);
-  EXPECT_EQ(one.presses[1].beside, "s, a");
-  const std::vector<PlannedJob> jobs = control_plan(one)->jobs();
+  ASSERT_EQ(one.runs.size(), 2u);
+  EXPECT_TRUE(one.runs[0].continuum);
+  EXPECT_TRUE(one.runs[1].snapshots);
+  EXPECT_EQ(one.runs[1].beside, "s, a");
+  const std::vector<PlannedJob> jobs = planned_jobs(one);
   ASSERT_EQ(jobs.size(), 3u);
   EXPECT_EQ(jobs[0].job.kind, "reference");
   EXPECT_EQ(jobs[0].job.inputs["analysis"], "transient");
-  EXPECT_NEAR(jobs[0].job.inputs["speed"].get<double>(), 0.05, 1e-12);
+  EXPECT_NEAR(jobs[0].job.inputs["protocol"]["speed"].get<double>(), 0.05, 1e-12);
   for (std::size_t i : {1, 2}) EXPECT_EQ(jobs[i].job.kind, "press");
   // What is written into parameters.toml is the same case again.
   const TemporaryFolder other;
@@ -58,14 +56,15 @@ TEST(ControlCase, RefusesWhatIsNoPressInTime) {
 TEST(ControlCase, ASeriesIsJudgedByItsWorstPress) {
   const TemporaryFolder folder;
   const Case one = case_with(folder, two_presses);
-  const std::vector<std::string> names = control_measure_names(one);
+  const std::vector<std::string> names = measure_names(one);
   for (const char* name : {"s.speed_deviation", "s, a.force_error", "s.force_error", "s, b.change"})
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
   EXPECT_EQ(std::ranges::find(names, "s, a.change"), names.end());
-  auto taken = take_control_measures(one,
-                                     {{{"speed_deviation", 0.01}, {"force_error", 0.02}},
-                                      {{"speed_deviation", 0.03}, {"change", 0.001}}},
-                                     0, 0.004);
+  RunResults results = {
+      finished_run(one.runs[0], {{"speed_deviation", 0.01}, {"force_error", 0.02}}),
+      finished_run(one.runs[1], {{"speed_deviation", 0.03}, {"change", 0.001}})};
+  results[0].forces.reference_error = {0.004, 0.002};
+  Measures taken = take_measures(one, results);
   EXPECT_EQ(taken.at("s.speed_deviation"), 0.03);
   EXPECT_EQ(taken.at("s, a.speed_deviation"), 0.01);
   EXPECT_EQ(taken.at("s.force_error"), 0.02);  // b is not meant to have one
@@ -73,7 +72,9 @@ TEST(ControlCase, ASeriesIsJudgedByItsWorstPress) {
   EXPECT_EQ(taken.at("reference.force_error"), 0.004);
   EXPECT_FALSE(taken.contains("s.force_overshoot"));
   // A press that did not finish leaves its series without a measure.
-  taken = take_control_measures(one, {{{"speed_deviation", 0.01}}, {}}, 1, 0.004);
+  results[1].status = "not converged: why";
+  results[1].measures.clear();
+  taken = take_measures(one, results);
   EXPECT_FALSE(taken.contains("s.speed_deviation"));
   EXPECT_EQ(taken.at("presses.not_converged"), 1.0);
 }

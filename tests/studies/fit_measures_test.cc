@@ -1,38 +1,67 @@
-#include "studies/cases/fit_measures.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "case_tables.h"
+#include "studies/cases/measures.h"
+
 using namespace fingertip::studies;
-using nlohmann::ordered_json;
+using fingertip::calibration::FitFile, fingertip::calibration::ParameterEntry;
 
 namespace {
 
 Case two_fits() {
   Case one;
-  for (const char* name : {"good", "bad"}) one.fits.push_back({name, "", 0.0, {}, ""});
-  for (const char* name : {"deeper", "stick"}) one.predictions.push_back({name, "", 0.0, {}, ""});
+  for (const char* name : {"good", "bad"})
+    one.runs.push_back({.kind = "fit", .verb = "fit", .name = name});
+  for (const char* name : {"deeper", "stick"})
+    one.runs.push_back({.kind = "prediction", .verb = "press", .name = name});
   one.loaded.config.press.rubber.youngs_modulus = 4000.0;
   return one;
 }
 
-ordered_json calibration(double estimate, double lower, double upper, bool open) {
-  return {
-      {"parameters",
-       {{{"name", "youngs_modulus"}, {"estimate", estimate}, {"lower", lower}, {"upper", upper}}}},
-      {"unidentifiable", open ? ordered_json::array({1}) : ordered_json::array()}};
+FitFile fit_with(double estimate, double lower, double upper, bool open) {
+  FitFile fit;
+  fit.problem = "experiment";
+  fit.parameters.resize(1);
+  ParameterEntry& one = fit.parameters.front();
+  one.name = "youngs_modulus";
+  one.estimate = estimate;
+  one.lower = lower;
+  one.upper = upper;
+  fit.unidentifiable.resize(open ? 1 : 0);
+  return fit;
 }
 
-const std::vector<ordered_json> found = {calibration(4040.0, 3990.0, 4090.0, false),
-                                         calibration(4400.0, 4200.0, 4600.0, true)};
+const std::vector<FitFile> found = {fit_with(4040.0, 3990.0, 4090.0, false),
+                                    fit_with(4400.0, 4200.0, 4600.0, true)};
+
+/// `errors` per fit and prediction; those that are not asked do not count.
+Measures measures_with(const Case& one, const std::vector<std::vector<double>>& errors) {
+  RunResults results;
+  for (std::size_t f = 0; f < 2; ++f) {
+    RunResult fit = finished_run(one.runs[f], {});
+    fit.found = found[f];
+    fit.measures = measures_of_run(one, fit, {});
+    results.push_back(fit);
+    for (std::size_t p = 0; p < 2; ++p) {
+      if (!is_asked(one.runs[2 + p], one.runs[f])) continue;
+      RunResult press = finished_run(one.runs[2 + p], {});
+      press.fit = &one.runs[f];
+      press.forces.error = {errors[f][p]};
+      press.measures = measures_of_run(one, press, {});
+      results.push_back(press);
+    }
+  }
+  return take_measures(one, results);
+}
 
 }  // namespace
 
 TEST(FitMeasures, AreTakenPerFitAndPrediction) {
   const Case one = two_fits();
-  const auto measures = take_fit_measures(one, {{0.01, 0.02}, {0.05, 0.03}}, found);
+  const auto measures = measures_with(one, {{0.01, 0.02}, {0.05, 0.03}});
   EXPECT_DOUBLE_EQ(measures.at("good.deeper"), 0.01);
   EXPECT_DOUBLE_EQ(measures.at("bad.stick"), 0.03);
   EXPECT_DOUBLE_EQ(measures.at("good.worst_error"), 0.02);
@@ -49,7 +78,7 @@ TEST(FitMeasures, AreTakenPerFitAndPrediction) {
 TEST(FitMeasures, AGapIsNoSmallError) {
   const Case one = two_fits();
   const double gap = std::nan("");
-  const auto measures = take_fit_measures(one, {{0.01, gap}, {0.05, 0.03}}, found);
+  const auto measures = measures_with(one, {{0.01, gap}, {0.05, 0.03}});
   EXPECT_TRUE(measures.contains("good.deeper"));
   EXPECT_FALSE(measures.contains("good.stick"));
   EXPECT_FALSE(measures.contains("good.worst_error"));
@@ -58,9 +87,9 @@ TEST(FitMeasures, AGapIsNoSmallError) {
 
 TEST(FitMeasures, APredictionOfASeriesIsAskedOfItsFitsAlone) {
   Case one = two_fits();
-  one.fits[0].series = one.predictions[1].series = "small strain";
+  one.runs[0].series = one.runs[3].series = "small strain";
   const double gap = std::nan("");
-  const auto measures = take_fit_measures(one, {{0.01, 0.02}, {0.05, gap}}, found);
+  const auto measures = measures_with(one, {{0.01, 0.02}, {0.05, gap}});
   EXPECT_DOUBLE_EQ(measures.at("bad.worst_error"), 0.05) << "not asked for stick";
   EXPECT_DOUBLE_EQ(measures.at("good.worst_error"), 0.02);
   EXPECT_FALSE(measures.contains("bad.stick"));
@@ -68,7 +97,7 @@ TEST(FitMeasures, APredictionOfASeriesIsAskedOfItsFitsAlone) {
 
 TEST(FitMeasures, EveryMeasureHasAName) {
   const Case one = two_fits();
-  const std::vector<std::string> names = fit_measure_names(one);
-  for (const auto& [name, value] : take_fit_measures(one, {{0.0, 0.0}, {0.0, 0.0}}, found))
+  const std::vector<std::string> names = measure_names(one);
+  for (const auto& [name, value] : measures_with(one, {{0.0, 0.0}, {0.0, 0.0}}))
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
 }

@@ -126,73 +126,6 @@ TEST(KeyTable, EveryDefaultIsAValidValueOfItsKey) {
   }
 }
 
-TEST(KeyTable, DefaultsAreThoseOfTheRooms) {
-  // The rooms' structs have defaults of their own: one truth only.
-  const Config resolved = load_config({}).config;
-  const fingertip::lattice::PressSetup rooms;
-  const fingertip::fem_reference::ReferenceJob job;
-  EXPECT_EQ(resolved.press.geometry.tip_radius, rooms.geometry.tip_radius);
-  EXPECT_EQ(resolved.press.geometry.rod_radius, rooms.geometry.rod_radius);
-  EXPECT_EQ(resolved.press.geometry.sleeve_length, rooms.geometry.sleeve_length);
-  EXPECT_EQ(resolved.press.geometry.rod_length, rooms.geometry.rod_length);
-  EXPECT_EQ(resolved.press.rubber.youngs_modulus, rooms.rubber.youngs_modulus);
-  EXPECT_EQ(resolved.press.rubber.shear_modulus, rooms.rubber.shear_modulus);
-  EXPECT_EQ(resolved.press.rubber.density, rooms.rubber.density);
-  EXPECT_EQ(resolved.press.rubber.retardation_time, rooms.rubber.retardation_time);
-  EXPECT_EQ(resolved.press.rod.density, rooms.rod.density);
-  EXPECT_EQ(resolved.press.protocol.depth, rooms.protocol.depth);
-  EXPECT_EQ(resolved.press.protocol.speed, rooms.protocol.speed);
-  EXPECT_EQ(resolved.press.protocol.clearance, rooms.protocol.clearance);
-  EXPECT_EQ(resolved.press.protocol.contact, rooms.protocol.contact);
-  EXPECT_EQ(resolved.press.protocol.mode, rooms.protocol.mode);
-  EXPECT_EQ(resolved.press.lattice.model, rooms.lattice.model);
-  EXPECT_EQ(resolved.press.lattice.kinematics, rooms.lattice.kinematics);
-  EXPECT_EQ(resolved.press.lattice.ligament_stiffness, rooms.lattice.ligament_stiffness);
-  EXPECT_EQ(resolved.press.controller.period, rooms.controller.period);
-  EXPECT_EQ(resolved.press.controller.natural_frequency, rooms.controller.natural_frequency);
-  EXPECT_EQ(resolved.press.controller.derivative_filter, rooms.controller.derivative_filter);
-  EXPECT_EQ(resolved.press.controller.setpoint_weight, rooms.controller.setpoint_weight);
-  const ControllerOrder order;
-  EXPECT_EQ(resolved.controller.adaptive.sensitivity, order.adaptive.sensitivity);
-  EXPECT_EQ(resolved.controller.adaptive.memory, order.adaptive.memory);
-  EXPECT_EQ(resolved.controller.force.force, order.force.force);
-  EXPECT_EQ(resolved.controller.force.bandwidth, order.force.bandwidth);
-  EXPECT_EQ(resolved.controller.force.touch_force, order.force.touch_force);
-  EXPECT_EQ(resolved.controller.force.release_force, order.force.release_force);
-  EXPECT_EQ(resolved.controller.force.confirmation, order.force.confirmation);
-  EXPECT_EQ(resolved.controller.force.dwell, order.force.dwell);
-  EXPECT_EQ(resolved.press.controller.bond_compensation, rooms.controller.bond_compensation);
-  EXPECT_EQ(resolved.press.controller.force_limit, rooms.controller.force_limit);
-  EXPECT_EQ(resolved.press.controller.torque_limit, rooms.controller.torque_limit);
-  EXPECT_EQ(resolved.press.integrator, rooms.integrator);
-  EXPECT_EQ(resolved.press.time_step, rooms.time_step);
-  EXPECT_EQ(resolved.reference.degree, job.degree);
-  EXPECT_EQ(resolved.reference.refinement, job.refinement);
-  EXPECT_EQ(resolved.reference.tolerance, job.tolerance);
-  EXPECT_EQ(resolved.reference.solver, job.solver);
-  EXPECT_EQ(resolved.reference.solver_tolerance, job.solver_tolerance);
-  EXPECT_EQ(resolved.reference.max_unknowns, job.max_unknowns);
-  EXPECT_EQ(resolved.reference.analysis, job.analysis);
-  EXPECT_EQ(resolved.reference.strain, job.strain);
-  EXPECT_EQ(resolved.reference.law, job.law);
-  EXPECT_EQ(resolved.reference.volumetric, job.volumetric);
-  EXPECT_EQ(resolved.reference.modes, job.modes);
-  EXPECT_EQ(resolved.reference.contact, job.contact);
-  EXPECT_EQ(resolved.reference.friction, job.friction);
-  EXPECT_EQ(resolved.reference.tilt, job.tilt);
-  EXPECT_EQ(resolved.reference.lateral, job.lateral);
-  EXPECT_EQ(resolved.reference.lateral_path, job.lateral_path);
-  EXPECT_EQ(resolved.reference.lateral_samples, job.lateral_samples);
-  EXPECT_EQ(resolved.reference.speed, job.speed);
-  EXPECT_EQ(resolved.press.protocol.friction, rooms.protocol.friction);
-  EXPECT_EQ(resolved.press.protocol.tilt, rooms.protocol.tilt);
-  EXPECT_EQ(resolved.press.protocol.lateral, rooms.protocol.lateral);
-  EXPECT_EQ(resolved.press.protocol.lateral_path, rooms.protocol.lateral_path);
-  EXPECT_EQ(resolved.press.protocol.lateral_samples, rooms.protocol.lateral_samples);
-  EXPECT_EQ(resolved.reference.write_fields, job.write_fields);
-  EXPECT_EQ(resolved.reference.estimate_error, job.estimate_error);
-}
-
 TEST(KeyTable, EveryWordOfAContinuumKeyReachesTheJob) {
   using fingertip::fem_reference::name;
   const auto with = [](const std::string& set) { return load_config({{}, {set}, {}}).config; };
@@ -212,7 +145,7 @@ TEST(KeyTable, EveryWordOfAContinuumKeyReachesTheJob) {
   for (const std::string& word : words("reference.solver"))
     EXPECT_EQ(name(with("reference.solver=" + word).reference.solver), word);
   for (const std::string& word : words("press.contact"))
-    EXPECT_EQ(name(with("press.contact=" + word).reference.contact), word);
+    EXPECT_EQ(name(with("press.contact=" + word).reference.protocol.contact), word);
 }
 
 TEST(KeyTable, RangesOfTheContinuumAreThoseOfItsJob) {
@@ -248,6 +181,10 @@ TEST(KeyTable, NearestKeyFindsSlips) {
   EXPECT_EQ(nearest_key("press.contct"), "press.contact");
   EXPECT_EQ(nearest_key("geometry.spacing"), "lattice.spacing");
   EXPECT_EQ(nearest_key("press.detph"), "press.depth");
+  EXPECT_EQ(nearest_key("shear"), "rubber.shear_modulus");
+  EXPECT_TRUE(nearest_key("rubber.colour").starts_with("rubber."));
+  EXPECT_EQ(nearest_key("yongs_modulus"), "rubber.youngs_modulus");
+  EXPECT_EQ(nearest_key("ruber.retardation_time"), "rubber.retardation_time");
 }
 
 TEST(Documents, SchemaDescribesEveryKeyAndItsDefault) {

@@ -91,11 +91,11 @@ TEST(Loader, ParametersFileReproducesEveryKey) {
   EXPECT_EQ(second.config.reference.strain, fingertip::fem_reference::Strain::finite);
   EXPECT_EQ(second.config.reference.law, fingertip::fem_reference::StrainEnergy::law_c);
   EXPECT_EQ(second.config.reference.max_unknowns, 50000.0);
-  EXPECT_EQ(second.config.reference.friction, 0.25);
-  EXPECT_NEAR(second.config.reference.tilt, -std::atan(1.0) / 5.0, 1e-14);
-  EXPECT_EQ(second.config.reference.lateral, 0.002);
-  EXPECT_EQ(second.config.reference.lateral_path, fingertip::meshes::LateralPath::after);
-  EXPECT_EQ(second.config.reference.lateral_samples, 4);
+  EXPECT_EQ(second.config.reference.protocol.friction, 0.25);
+  EXPECT_NEAR(second.config.reference.protocol.tilt, -std::atan(1.0) / 5.0, 1e-14);
+  EXPECT_EQ(second.config.reference.protocol.lateral, 0.002);
+  EXPECT_EQ(second.config.reference.protocol.lateral_path, fingertip::meshes::LateralPath::after);
+  EXPECT_EQ(second.config.reference.protocol.lateral_samples, 4);
 }
 
 TEST(Loader, SetIsALiteralOrElseBareText) {
@@ -113,9 +113,9 @@ TEST(Loader, ThePressGoesToTheContinuumToo) {
   const Config config =
       load_config({{}, {"press.speed=2 cm/s", "press.contact=coulomb", "press.tilt=45 deg"}, {}})
           .config;
-  EXPECT_EQ(config.reference.speed, 0.02);
-  EXPECT_EQ(config.reference.contact, fingertip::meshes::ContactMode::coulomb);
-  EXPECT_NEAR(config.reference.tilt, std::atan(1.0), 1e-14);
+  EXPECT_EQ(config.reference.protocol.speed, 0.02);
+  EXPECT_EQ(config.reference.protocol.contact, fingertip::meshes::ContactMode::coulomb);
+  EXPECT_NEAR(config.reference.protocol.tilt, std::atan(1.0), 1e-14);
 }
 
 TEST(Loader, LaterSourcesWin) {
@@ -132,7 +132,7 @@ TEST(Loader, SamplesSetTheDepthAndSaySo) {
   const LoadedConfig loaded =
       load_config({{}, {"press.samples=[\"0.2 cm\", \"0.1 cm\"]", "press.depth=0.3 cm"}, {}});
   EXPECT_EQ(loaded.config.press.protocol.depth, 0.002);
-  EXPECT_EQ(loaded.config.reference.samples, (std::vector<double>{0.001, 0.002}));
+  EXPECT_EQ(loaded.config.reference.protocol.samples, (std::vector<double>{0.001, 0.002}));
   ASSERT_EQ(loaded.notes.size(), 1U);
 }
 

@@ -164,6 +164,15 @@ TEST(MaterialOfAPress, WhatTheUserSaysIsKeptAndWarnedOf) {
   EXPECT_TRUE(notes({"press.mode=static"}).empty()) << "no file, nothing to warn of";
 }
 
+TEST(MaterialOfAPress, IsReadOnce) {
+  const TemporaryFolder folder;
+  const LoadedConfig loaded =
+      load_config({{}, inside(folder, fitted(lattice::ModelKind::hookean)), {}});
+  check_all(loaded);
+  std::filesystem::remove(folder / "material.toml");
+  EXPECT_NO_THROW(press_setup(with_material(loaded, LatticeUse::press)));
+}
+
 TEST(MaterialOfAPress, ParametersOfARunMakeTheSamePress) {
   const TemporaryFolder folder;
   const auto sets = inside(folder, fitted(lattice::ModelKind::hookean));

@@ -66,6 +66,22 @@ TEST(Progress, TheBarTellsTheTimeLeftAndNotTheTimeGone) {
   EXPECT_NE(text.find("about 2 s left  press: pressing"), std::string::npos) << text;
 }
 
+TEST(Progress, NeverGoesBackwards) {
+  const std::string text = written(ProgressStyle::tty, [](Progress& progress) {
+    progress.expect("data", 10.0);
+    progress.expect_later(10.0);
+    progress.report("data", 1.0, "computed");
+    progress.expect_later(0.0);
+    progress.expect("fit", 30.0);  // weighs more than was thought
+    progress.report("fit", 1.0 / 3.0, "first search");
+    std::this_thread::sleep_for(std::chrono::milliseconds(110));
+    progress.report("fit", 0.1, "second search");
+  });
+  EXPECT_NE(text.find(" 50 %"), std::string::npos) << text;
+  EXPECT_EQ(text.find(" 25 %"), std::string::npos) << text;
+  EXPECT_EQ(text.find("100 %"), std::string::npos) << text;
+}
+
 TEST(Progress, JsonHasElapsedAndRemaining) {
   const std::string text = written(ProgressStyle::json, [](Progress& progress) {
     progress.expect("press");

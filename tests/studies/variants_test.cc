@@ -6,8 +6,7 @@
 #include <set>
 
 #include "case_tables.h"
-#include "studies/cases/plan.h"
-#include "studies/cases/variant_measures.h"
+#include "studies/cases/measures.h"
 #include "studies/config/documents.h"
 
 using namespace fingertip::studies;
@@ -19,31 +18,31 @@ namespace {
 std::pair<std::size_t, std::size_t> planned(const std::string& name) {
   const Case one = load_case(find_case(name), {});
   std::pair<std::size_t, std::size_t> counts{0, 0};
-  for (const PlannedJob& job : variants_plan(one)->jobs())
+  for (const PlannedJob& job : planned_jobs(one))
     ++(job.job.kind == "reference" ? counts.first : counts.second);
   return counts;
 }
 
-VariantResult result_with(double spacing, std::vector<double> error) {
-  VariantResult result;
-  result.spacing = spacing;
-  result.depth.assign(error.size(), 0.0);
-  for (std::size_t i = 0; i < error.size(); ++i) result.depth[i] = 1e-3 * double(i + 1);
-  result.error = std::move(error);
-  result.reference_error.assign(result.error.size(), 1e-3);
+/// A press whose worst error is among its measures.
+RunResult result_with(const CaseRun& run, double spacing, const std::vector<double>& error) {
+  RunResult result = finished_run(run, {{"worst_error", largest(error)}});
+  result.setup.lattice.spacing = spacing;
+  for (std::size_t i = 0; i < error.size(); ++i)
+    result.forces.depth.push_back(1e-3 * double(i + 1));
+  result.forces.error = error;
+  result.forces.reference_error.assign(error.size(), 1e-3);
   return result;
+}
+
+SeriesMeasures measure(const RunResults& results) {
+  return measure_series(members(results, "variant", "s"));
 }
 
 /// Variants of one series at the given x.
 Case series_at(const std::vector<double>& x) {
   Case one;
-  for (const double at : x) {
-    CaseVariant variant;
-    variant.name = std::to_string(at);
-    variant.series = "s";
-    variant.x = at;
-    one.variants.push_back(variant);
-  }
+  for (const double at : x)
+    one.runs.push_back({.kind = "variant", .name = std::to_string(at), .series = "s", .x = at});
   return one;
 }
 
@@ -73,7 +72,7 @@ TEST(Variants, AreStaticPressesAgainstTheContinuumOfTheirKinematics) {
                 "{ name = \"b\", set = { \"lattice.model\" = \"network\" } },\n"
                 "{ name = \"c\", set = { \"lattice.offset\" = [0.5, 0.0, 0.0] } } ]\n");
   std::set<std::string> strains;
-  for (const PlannedJob& job : variants_plan(one)->jobs()) {
+  for (const PlannedJob& job : planned_jobs(one)) {
     const auto& inputs = job.job.inputs;
     EXPECT_EQ(job.exhibit, job.job.kind == "press") << job.name;
     if (job.job.kind == "press") {
@@ -95,7 +94,7 @@ TEST(Variants, ParametersOfARunAreTheStudyAgain) {
   const Case again = load_case(folder / "parameters.toml", {});
   EXPECT_EQ(again.abscissa, first.abscissa);
   EXPECT_EQ(again.budgets.size(), first.budgets.size());
-  const auto before = variants_plan(first)->jobs(), after = variants_plan(again)->jobs();
+  const auto before = planned_jobs(first), after = planned_jobs(again);
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_EQ(before[i].name, after[i].name);
@@ -128,26 +127,28 @@ TEST(Variants, ProblemsAreToldWithTheLineOfTheVariant) {
 
 TEST(VariantMeasures, OrderIsTheSlopeInLogarithms) {
   const Case one = series_at({6, 8, 12, 16});
-  VariantResults results;
-  for (const CaseVariant& variant : one.variants) {
+  RunResults results;
+  for (const CaseRun& variant : one.runs) {
     const double a = 0.01 / variant.x;
-    results.push_back(result_with(a, {-300.0 * a * a, 900.0 * a * a}));
+    results.push_back(result_with(variant, a, {-300.0 * a * a, 900.0 * a * a}));
   }
-  const SeriesMeasures measures = measure_series(one, "s", results);
+  const SeriesMeasures measures = measure(results);
   EXPECT_NEAR(measures.order, 2.0, 1e-12);
   EXPECT_NEAR(measures.worst_error, 900.0 * std::pow(0.01 / 6, 2), 1e-15);
   EXPECT_NEAR(measures.finest_error, 900.0 * std::pow(0.01 / 16, 2), 1e-15);
   EXPECT_NEAR(measures.spread, 900.0 * (std::pow(0.01 / 6, 2) - std::pow(0.01 / 16, 2)), 1e-15);
-  results[2].spacing = results[1].spacing;
-  EXPECT_TRUE(std::isnan(measure_series(one, "s", results).order)) << "not the spacing alone";
+  results[2].setup.lattice.spacing = results[1].setup.lattice.spacing;
+  EXPECT_TRUE(std::isnan(measure(results).order)) << "not the spacing alone";
 }
 
 TEST(VariantMeasures, WhatIsMissingIsNotJudged) {
   const Case one = series_at({1, 2});
-  VariantResults results = {result_with(1e-3, {0.1}), result_with(1e-3, {0.2})};
-  EXPECT_NEAR(take_variant_measures(one, results, 0).at("variants.worst_error"), 0.2, 1e-15);
-  results[0].error[0] = std::nan("");
-  const auto taken = take_variant_measures(one, results, 1);
+  RunResults results = {result_with(one.runs[0], 1e-3, {0.1}),
+                        result_with(one.runs[1], 1e-3, {0.2})};
+  EXPECT_NEAR(take_measures(one, results).at("variants.worst_error"), 0.2, 1e-15);
+  results[0] = result_with(one.runs[0], 1e-3, {std::nan("")});
+  results[0].status = "not converged: why";
+  const auto taken = take_measures(one, results);
   EXPECT_EQ(taken.at("variants.not_converged"), 1.0);
   for (const char* name : {"variants.worst_error", "s.worst_error", "s.spread"})
     EXPECT_EQ(taken.count(name), 0U) << name;
@@ -157,28 +158,26 @@ TEST(VariantMeasures, WhatIsMissingIsNotJudged) {
 // without either is the rest.
 TEST(VariantMeasures, BudgetSeparatesWhatAddsUp) {
   Case one;
-  VariantResults results;
+  RunResults results;
   const auto error = [](double bond, double contact) {
     return 0.004 - 0.010 * bond - 0.006 * contact + 0.001 * contact * contact;
   };
-  for (const std::string series : {"bond", "contact"}) {
-    for (const double x : {4.0, 0.25, 1.0, 2.0}) {
-      CaseVariant variant;
-      variant.series = series;
-      variant.x = x;
-      one.variants.push_back(variant);
-      // Stiffer ties lock: they must not enter.
-      const double locked = x < 1.0 ? 0.5 : 0.0;
-      results.push_back(
-          result_with(1e-3, {locked + (series == "bond" ? error(x, 1.0) : error(1.0, x))}));
-    }
+  for (const std::string series : {"bond", "contact"})
+    for (const double x : {4.0, 0.25, 1.0, 2.0})
+      one.runs.push_back({.kind = "variant", .series = series, .x = x});
+  for (const CaseRun& run : one.runs) {
+    // Stiffer ties lock: they must not enter.
+    const double locked = run.x < 1.0 ? 0.5 : 0.0;
+    const bool bond = run.series == "bond";
+    results.push_back(
+        result_with(run, 1e-3, {locked + (bond ? error(run.x, 1.0) : error(1.0, run.x))}));
   }
   one.budgets.push_back({"b", {"bond", "contact"}});
-  const Budget budget = take_budget(one, one.budgets[0], results);
+  const Budget budget = take_budget(one.budgets[0], results);
   ASSERT_EQ(budget.parts.size(), 2U);
   EXPECT_NEAR(budget.total[0], error(1.0, 1.0), 1e-15);
   EXPECT_NEAR(budget.parts[0][0], -0.010, 1e-12);
   EXPECT_NEAR(budget.parts[1][0], -0.005, 1e-12);
   EXPECT_NEAR(budget.rest[0], 0.004, 1e-12);
-  EXPECT_NEAR(take_variant_measures(one, results, 0).at("b.rest"), 0.004, 1e-12);
+  EXPECT_NEAR(take_measures(one, results).at("b.rest"), 0.004, 1e-12);
 }

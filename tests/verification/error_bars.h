@@ -40,11 +40,13 @@ inline ReferenceJob job_of(const Press& press, double tolerance) {
   job.geometry = {press.tip.tip_radius * 1e-2, press.tip.rod_radius * 1e-2,
                   press.tip.sleeve_length * 1e-2, 0.03};
   job.rubber.youngs_modulus = 2.0 * (1.0 + press.poissons_ratio) * job.rubber.shear_modulus;
-  job.contact = press.contact;
+  job.protocol.contact = press.contact;
   job.strain = press.strain;
   job.tolerance = tolerance;
   job.write_fields = false;
-  for (const double depth : press.depths) job.samples.push_back(depth * job.geometry.thickness());
+  std::vector<double> depths;
+  for (const double depth : press.depths) depths.push_back(depth * job.geometry.thickness());
+  job.press_to(depths);
   return job;
 }
 
@@ -52,9 +54,9 @@ inline std::vector<verification::AxisymmetricSample> truth_of(const ReferenceJob
   verification::AxisymmetricJob truth;
   truth.geometry = job.geometry;
   truth.rubber = job.rubber;
-  truth.contact = job.contact;
+  truth.contact = job.protocol.contact;
   truth.finite = job.strain == Strain::finite;
-  truth.samples = job.samples;
+  truth.samples = job.protocol.samples;
   truth.mesh.parts = 1;
   truth.mesh.contact_elements = truth.finite ? 48 : 120;
   return verification::press_axisymmetric(truth);

@@ -23,7 +23,7 @@ meshes::Rubber rubber_with(double poissons_ratio) {
 meshes::PressResponse press_continuum(const ReferenceJob& job) {
   Pressing pressing(job);
   meshes::PressResponse response;
-  const meshes::PressPath path(job.protocol());
+  const meshes::PressPath path(job.protocol);
   for (const double place : path.samples()) response.append(pressing.press.advance(place).sample);
   return response;
 }
@@ -33,8 +33,8 @@ ReferenceJob continuum_job(const meshes::Geometry& geometry, const meshes::Rubbe
   ReferenceJob job;
   job.geometry = geometry;
   job.rubber = rubber;
-  job.contact = contact;
-  job.samples = meshes::default_samples(depth);
+  job.protocol.contact = contact;
+  job.press_to(meshes::default_samples(depth));
   job.refinement = 0.6;
   return job;
 }
@@ -110,12 +110,12 @@ TEST(LatticeAgainstContinuum, PullsAsHardWhenItIsMovedAside) {
   const meshes::Rubber rubber;
   const double depth = 2e-3;
   ReferenceJob job = continuum_job({}, rubber, ContactMode::stick, depth);
-  job.samples = {depth};
-  job.lateral = 5e-4;
-  job.lateral_path = meshes::LateralPath::after;
-  job.lateral_samples = 2;
+  job.press_to({depth});
+  job.protocol.lateral = 5e-4;
+  job.protocol.lateral_path = meshes::LateralPath::after;
+  job.protocol.lateral_samples = 2;
   lattice::PressSetup setup = lattice_press({}, rubber, ContactMode::stick, depth, 8.0);
-  setup.protocol = job.protocol();
+  setup.protocol = job.protocol;
   setup.protocol.mode = meshes::DriveMode::equilibrium;
   const auto continuum = press_continuum(job);
   const auto lattice = lattice::run_static_press(setup).response;

@@ -57,7 +57,7 @@ void MotionVector::read(const double* y, State& state, RodState& rod) const {
 }
 
 void MotionVector::write_rates(const State& state, const VectorField& force,
-                               const Surfaces::Trial& exerted, double* rates) const {
+                               const CutSurfaces::Trial& exerted, double* rates) const {
   gather(*model_, state.velocity, rates);
   double* acceleration = rates + velocity_;
   for (const auto& component : force.component) {

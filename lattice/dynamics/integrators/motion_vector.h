@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "lattice/contact/surfaces.h"
+#include "lattice/contact/cut_surfaces.h"
 #include "lattice/model/model.h"
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
@@ -25,7 +25,7 @@ class MotionVector {
   void read(const double* y, State& state, RodState& rod) const;
 
   /// u', v' and the rates of the impulses; the rod's are zero.
-  void write_rates(const State& state, const VectorField& force, const Surfaces::Trial& exerted,
+  void write_rates(const State& state, const VectorField& force, const CutSurfaces::Trial& exerted,
                    double* rates) const;
   /// Those of a free rod under a wrench at its endpoint and its weight [N].
   void write_rod_rates(const RodState& rod, const Wrench& at_endpoint,

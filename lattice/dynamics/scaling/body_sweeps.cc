@@ -1,8 +1,9 @@
+// Compiled once per instruction set (lattice/CMakeLists.txt).
 #include "lattice/dynamics/scaling/body_sweeps.h"
 
 #include <algorithm>
 
-#include "lattice/kernels/stencil.h"
+#include "lattice/dynamics/scaling/eight.h"
 
 namespace fingertip::lattice::sweeps {
 
@@ -43,10 +44,7 @@ template <std::size_t count>
   }
 }
 
-}  // namespace
-
-FINGERTIP_CLONES void load(const BodyArrays& body, std::size_t begin, std::size_t end,
-                           const double* motion) {
+void load(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion) {
   for (std::size_t b = begin; b < end; ++b) {
     const std::size_t p = body.blocks[b];
     Places at;
@@ -64,8 +62,7 @@ FINGERTIP_CLONES void load(const BodyArrays& body, std::size_t begin, std::size_
   }
 }
 
-FINGERTIP_CLONES void sum(const BodyArrays& body, std::size_t begin, std::size_t end,
-                          double* sums) {
+void sum(const BodyArrays& body, std::size_t begin, std::size_t end, double* sums) {
   double s[16][lanes] = {};
   for (std::size_t b = begin; b < end; ++b) {
     const std::size_t p = body.blocks[b];
@@ -97,8 +94,6 @@ FINGERTIP_CLONES void sum(const BodyArrays& body, std::size_t begin, std::size_t
   store(s, sums);
 }
 
-namespace {
-
 /// Component c of eight particles that the rod accelerates by `carried`; points without a mass stay
 /// where they are.
 [[gnu::always_inline]] inline void move_lanes(const BodyArrays& body, std::size_t p, std::size_t c,
@@ -117,10 +112,8 @@ namespace {
   std::copy(place, place + lanes, u);
 }
 
-}  // namespace
-
-FINGERTIP_CLONES void move(const BodyArrays& body, std::size_t begin, std::size_t end,
-                           const double* motion, double step, double* sums) {
+void move(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion,
+          double step, double* sums) {
   double s[3][lanes] = {};
   for (std::size_t b = begin; b < end; ++b) {
     Places at;
@@ -132,9 +125,8 @@ FINGERTIP_CLONES void move(const BodyArrays& body, std::size_t begin, std::size_
   store(s, sums);
 }
 
-FINGERTIP_CLONES void move_restrained(const BodyArrays& body, std::size_t begin, std::size_t end,
-                                      const double* motion, const Patch& patch, double step,
-                                      double* sums) {
+void move_restrained(const BodyArrays& body, std::size_t begin, std::size_t end,
+                     const double* motion, const Patch& patch, double step, double* sums) {
   double momentum[3][lanes] = {}, s[6][lanes] = {};
   for (std::size_t b = begin; b < end; ++b) {
     const std::size_t p = body.blocks[b];
@@ -166,5 +158,15 @@ FINGERTIP_CLONES void move_restrained(const BodyArrays& body, std::size_t begin,
   store(momentum, sums);
   store(s, sums + 3);
 }
+
+constexpr BodyLoops loops{load, sum, move, move_restrained};
+
+}  // namespace
+
+template <int width>
+const BodyLoops& body_loops_at() {
+  return loops;
+}
+template const BodyLoops& body_loops_at<native_width>();
 
 }  // namespace fingertip::lattice::sweeps

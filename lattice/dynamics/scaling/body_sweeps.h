@@ -25,24 +25,29 @@ struct BodyArrays {
   const Single* share[3];  ///< of a Restraint
 };
 
-/// load = gain force - mass (a + w x x), motion (a, w); over the blocks from `begin` to
-/// `end`
-void load(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion);
-
-/// Sixteen sums: of mass * acceleration and its moment, of the mass, its moment, and its second
-/// moments xx, yy, zz, xy, yz, zx.
-void sum(const BodyArrays& body, std::size_t begin, std::size_t end, double* sums);
-/// A step of the particles that ends with the new velocity: v += step (acceleration + a + w x x),
-/// u += step v; motion (a, w). Three sums: of mass v before.
-void move(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion,
-          double step, double* sums);
 /// The parts of the patch's acceleration along the restraint's directions.
 struct Patch {
   double part[3][3];
 };
-/// The same, less what is kept of the patch's acceleration: its shares. Six more sums: of mass
-/// times that, and its moment.
-void move_restrained(const BodyArrays& body, std::size_t begin, std::size_t end,
-                     const double* motion, const Patch& patch, double step, double* sums);
+
+/// One compilation's loops (body_sweeps.cc), with the same bits for all.
+struct BodyLoops {
+  /// load = gain force - mass (a + w x x), motion (a, w); over the blocks from `begin` to
+  /// `end`
+  void (*load)(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion);
+  /// Sixteen sums: of mass * acceleration and its moment, of the mass, its moment, and its second
+  /// moments xx, yy, zz, xy, yz, zx.
+  void (*sum)(const BodyArrays& body, std::size_t begin, std::size_t end, double* sums);
+  /// A step of the particles that ends with the new velocity: v += step (acceleration + a + w x x),
+  /// u += step v; motion (a, w). Three sums: of mass v before.
+  void (*move)(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion,
+               double step, double* sums);
+  /// The same, less what is kept of the patch's acceleration: its shares. Six more sums: of mass
+  /// times that, and its moment.
+  void (*move_restrained)(const BodyArrays& body, std::size_t begin, std::size_t end,
+                          const double* motion, const Patch& patch, double step, double* sums);
+};
+template <int width>
+const BodyLoops& body_loops_at();
 
 }  // namespace fingertip::lattice::sweeps

@@ -4,12 +4,19 @@
 #include <algorithm>
 
 #include "lattice/dynamics/scaling/body_sweeps.h"
+#include "lattice/kernels/by_width.h"
 
 namespace fingertip::lattice {
 
 using meshes::Vector3;
 
 namespace {
+
+const sweeps::BodyLoops& body_loops() {
+  static const sweeps::BodyLoops& widest = kernel::by_width(
+      0, sweeps::body_loops_at<2>, sweeps::body_loops_at<4>, sweeps::body_loops_at<8>)();
+  return widest;
+}
 
 constexpr std::size_t blocks_per_sum = 64;  // blocks per partial sum: the same for any thread count
 
@@ -67,7 +74,7 @@ void CarriedRubber::load(const Vector6& motion, const std::vector<double>& gain,
   }
   body.gain = gain.data();
   team.split(model_->blocks.size(), blocks_per_sum, [&](std::size_t begin, std::size_t end) {
-    sweeps::load(body, begin, end, motion.data());
+    body_loops().load(body, begin, end, motion.data());
   });
 }
 
@@ -79,7 +86,7 @@ CarriedRubber::Sums CarriedRubber::sums(const MultigridFields::Field& accelerati
   team.split(scratch.partial.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const std::size_t first = p * blocks_per_sum, last = std::min(blocks, first + blocks_per_sum);
-      sweeps::sum(body, first, last, scratch.partial[p].data());
+      body_loops().sum(body, first, last, scratch.partial[p].data());
     }
   });
   std::array<double, 16> total{};
@@ -113,9 +120,9 @@ CarriedRubber::Moved CarriedRubber::move(const Vector6& motion, const Restraint*
       const std::size_t first = p * blocks_per_sum, last = std::min(blocks, first + blocks_per_sum);
       double* const sums = scratch.partial[p].data();
       if (restraint != nullptr) {
-        sweeps::move_restrained(body, first, last, motion.data(), patch, step, sums);
+        body_loops().move_restrained(body, first, last, motion.data(), patch, step, sums);
       } else {
-        sweeps::move(body, first, last, motion.data(), step, sums);
+        body_loops().move(body, first, last, motion.data(), step, sums);
       }
     }
   });

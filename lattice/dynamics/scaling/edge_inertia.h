@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice/dynamics/scaling/sweeps.h"
+#include "lattice/dynamics/scaling/edge_sweeps.h"
 #include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
@@ -46,32 +46,12 @@ class EdgeInertiaRule {
   /// of S, from some of the cells, to be compared with that of other states [kg].
   double find(const State& state, double step, double allowance, Team& team, EdgeInertia& edges);
 
-  /// Of one cell's edges; nothing for cells that are not there.
-  struct Shares {
-    Single mean[12][lanes] = {};      ///< CellEdges::mean
-    Single majorant[12][lanes] = {};  ///< CellEdges::majorant
-    Single spread[12][lanes] = {};    ///< CellEdges::spread
-
-    bool operator==(const Shares&) const = default;
-  };
-  /// Eight cells side by side along x.
-  struct Pack {
-    std::uint32_t first = 0;          ///< lowest corner of the first one
-    std::uint32_t shares = 0;         ///< where in the rule's list
-    Single moduli[3][3][lanes] = {};  ///< a M of the cells as they are now [kg]
-  };
-  /// Moduli that M is made of, times a [kg].
-  struct Factors {
-    Single elastic_shear, elastic_bulk, viscous_shear, viscous_bulk;
-    Single rest_same, rest_other;  ///< of M at rest, c = d and elsewhere
-  };
-
  private:
-  Factors factors(double elastic, double viscous) const;
+  sweeps::EdgeFactors factors(double elastic, double viscous) const;
 
   const LatticeModel* model_;
-  std::vector<Shares> shares_;  ///< the first is that of whole cells
-  std::vector<Pack> packs_;
+  std::vector<sweeps::EdgeShares> shares_;  ///< the first is that of whole cells
+  std::vector<sweeps::EdgePack> packs_;
 };
 
 }  // namespace fingertip::lattice

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lattice/dynamics/scaling/sweeps.h"
 #include "lattice/model/model.h"
 
 namespace fingertip::lattice {
@@ -22,11 +23,7 @@ struct GridLevel {
   /// with equal weights (some of them the same).
   std::vector<std::array<std::uint32_t, 4>> parents;
   std::size_t sheet_points = 0;
-  struct SheetBlock {
-    std::uint32_t sheet;  ///< its first point there
-    std::uint32_t row;    ///< the point of this grid in its middle row
-  };
-  std::vector<SheetBlock> sheet_blocks;  ///< cover what the nodes are restricted to
+  std::vector<sweeps::SheetBlock> sheet_blocks;  ///< cover what the nodes are restricted to
   std::vector<std::uint32_t>
       coarser_sheets;  ///< per block of the coarser grid: 2i - 1 on the sheet
 

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 
+#include "lattice/kernels/by_width.h"
 #include "lattice/kernels/stencil.h"
 
 namespace fingertip::lattice {
 
 namespace {
+
+const sweeps::Loops& loops() {
+  static const sweeps::Loops& widest =
+      kernel::by_width(0, sweeps::loops_at<2>, sweeps::loops_at<4>, sweeps::loops_at<8>)();
+  return widest;
+}
 
 constexpr std::size_t sweeps_at_once = 64;  // blocks of eight points
 constexpr std::size_t contact_grain = 128;
@@ -68,9 +75,9 @@ void coarsen(const GridLevel& fine_grid, const GridLevel& coarse_grid,
   weights.next[0] = fine_grid.next[1];
   weights.next[1] = fine_grid.next[2];
   weights.all = axis < 3 ? 0.25F : 1.0F;
-  sweeps::share_across(weights, fine.data(), fine_grid.sheet_blocks.data(),
+  loops().share_across(weights, fine.data(), fine_grid.sheet_blocks.data(),
                        fine_grid.sheet_blocks.size(), sheet.data());
-  sweeps::share_along(weights, sheet.data(), fine_grid.coarser_sheets.data(),
+  loops().share_along(weights, sheet.data(), fine_grid.coarser_sheets.data(),
                       coarse_grid.blocks.data(), coarse_grid.blocks.size(), coarse.data());
 }
 
@@ -122,7 +129,7 @@ void Multigrid::finish(std::size_t level, Team& team) {
   }
   std::copy(grid.next.begin(), grid.next.end(), a.next);
   team.split(grid.blocks.size(), sweeps_at_once, [&](std::size_t from, std::size_t to) {
-    sweeps::find_relaxation(a, grid.blocks.data() + from, to - from);
+    loops().find_relaxation(a, grid.blocks.data() + from, to - from);
   });
 }
 
@@ -215,7 +222,7 @@ class Multigrid::Cycle {
   void begin(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
     const sweeps::LevelArrays a = arrays(grid, matrix, fields);
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
-      sweeps::first_sweep(a, grid.blocks.data() + from, to - from);
+      loops().first_sweep(a, grid.blocks.data() + from, to - from);
     });
     over_contact(fields, [&](const PointTie& one) {
       put(fields.solution, one.point, relaxed(matrix, one, at(fields.load, one.point)));
@@ -225,7 +232,7 @@ class Multigrid::Cycle {
   void find_residual(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
     const sweeps::LevelArrays a = arrays(grid, matrix, fields);
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
-      sweeps::find_residual(a, grid.blocks.data() + from, to - from);
+      loops().find_residual(a, grid.blocks.data() + from, to - from);
     });
     over_contact(fields, [&](const PointTie& one) {
       const auto taken = product(at(fields.solution, one.point), one.along, one.aside);
@@ -236,7 +243,7 @@ class Multigrid::Cycle {
   void smooth(const GridLevel& grid, const Matrix& matrix, MultigridFields::Level& fields) {
     const sweeps::LevelArrays a = arrays(grid, matrix, fields);
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
-      sweeps::smooth(a, grid.blocks.data() + from, to - from);
+      loops().smooth(a, grid.blocks.data() + from, to - from);
     });
     over_contact(fields, [&](const PointTie& one) {
       const auto before = at(fields.solution, one.point), plain = at(fields.residual, one.point);
@@ -269,10 +276,10 @@ class Multigrid::Cycle {
     MultigridFields::Level &here = fields_->levels[level], &there = fields_->levels[level + 1];
     const sweeps::TransferArrays t = transfer(level, here.residual, here.gathered, there.load);
     over(grid.sheet_blocks.size(), [&](std::size_t from, std::size_t to) {
-      sweeps::gather(t, grid.sheet_blocks.data() + from, to - from);
+      loops().gather(t, grid.sheet_blocks.data() + from, to - from);
     });
     over(coarse.blocks.size(), [&](std::size_t from, std::size_t to) {
-      sweeps::contract(t, coarse.blocks.data() + from, grid.coarser_sheets.data() + from,
+      loops().contract(t, coarse.blocks.data() + from, grid.coarser_sheets.data() + from,
                        to - from);
     });
     share_contact(grid, coarse, here.contact, there);
@@ -284,10 +291,10 @@ class Multigrid::Cycle {
     MultigridFields::Level &here = fields_->levels[level], &there = fields_->levels[level + 1];
     const sweeps::TransferArrays t = transfer(level, here.solution, here.stretched, there.solution);
     over(coarse.blocks.size(), [&](std::size_t from, std::size_t to) {
-      sweeps::stretch(t, coarse.blocks.data() + from, grid.coarser_sheets.data() + from, to - from);
+      loops().stretch(t, coarse.blocks.data() + from, grid.coarser_sheets.data() + from, to - from);
     });
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
-      sweeps::spread(t, grid.blocks.data() + from, grid.parents.data() + from, to - from);
+      loops().spread(t, grid.blocks.data() + from, grid.parents.data() + from, to - from);
     });
   }
 

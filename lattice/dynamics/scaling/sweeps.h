@@ -1,15 +1,9 @@
 /// The loops of a V-cycle, over runs of eight points and three components.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-
-#include "lattice/dynamics/scaling/grid_hierarchy.h"
-
-/// Compiled for several instruction sets; without sums across lanes, and without contraction to
-/// fused multiply-adds, the bits are the same.
-#define FINGERTIP_CLONES [[gnu::target_clones("avx512f", "avx2", "default")]]
 
 namespace fingertip::lattice::sweeps {
 
@@ -17,16 +11,11 @@ namespace fingertip::lattice::sweeps {
 /// double precision by who asks for it (mass_scaling.h).
 using Single = float;
 
-/// Eight of them, for long chains of arithmetic that the compiler does not vectorise by itself;
-/// handed on by reference only, for without AVX there is no register of that size.
-using Eight = Single __attribute__((vector_size(lanes * sizeof(Single))));
-
-[[gnu::always_inline]] inline void read(Eight& to, const Single* from) {
-  std::memcpy(&to, from, sizeof to);
-}
-[[gnu::always_inline]] inline void write(Single* to, const Eight& from) {
-  std::memcpy(to, &from, sizeof from);
-}
+/// Eight points of the sheet between a grid and the next (GridLevel).
+struct SheetBlock {
+  std::uint32_t sheet;  ///< its first point there
+  std::uint32_t row;    ///< the point of the finer grid in its middle row
+};
 
 /// Of one level; fields by component.
 struct LevelArrays {
@@ -39,13 +28,6 @@ struct LevelArrays {
   std::ptrdiff_t next[2];  ///< along y and z
 };
 
-/// solution = relaxation load
-void first_sweep(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
-/// residual = load - (D + S) solution
-void find_residual(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
-/// residual = solution + relaxation (load - (D + S) solution)
-void smooth(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
-
 /// Of one level.
 struct RelaxationArrays {
   const Single* edge[3][3];  ///< by component and axis
@@ -55,21 +37,12 @@ struct RelaxationArrays {
   std::ptrdiff_t next[3];
 };
 
-/// relaxation = 1/(D + damping times S's diagonal), 0 where there is no inertia
-void find_relaxation(const RelaxationArrays& level, const std::uint32_t* blocks, std::size_t count);
-
 /// Of what points or edges have, the parts that go to the coarser ones they lie next to: weights at
 /// 2i - 2, 2i - 1, 2i along each axis, and a factor.
 struct Weights {
   Single along[3][3], all;
   std::ptrdiff_t next[2];  ///< of the fine level
 };
-/// From points onto the sheet, along y and z
-void share_across(const Weights& weights, const Single* fine, const GridLevel::SheetBlock* blocks,
-                  std::size_t count, Single* sheet);
-/// and from there along x.
-void share_along(const Weights& weights, const Single* sheet, const std::uint32_t* sheets,
-                 const std::uint32_t* coarse_blocks, std::size_t count, Single* coarse);
 
 /// Fields of one level and of the sheet between it and the next.
 struct TransferArrays {
@@ -79,16 +52,37 @@ struct TransferArrays {
   std::ptrdiff_t next[2];  ///< of the fine level
 };
 
-/// sheet = Pᵀ fine along y and z
-void gather(const TransferArrays& arrays, const GridLevel::SheetBlock* blocks, std::size_t count);
-/// coarse = Pᵀ sheet along x
-void contract(const TransferArrays& arrays, const std::uint32_t* coarse_blocks,
-              const std::uint32_t* sheets, std::size_t count);
-/// sheet = P coarse along x
-void stretch(const TransferArrays& arrays, const std::uint32_t* coarse_blocks,
-             const std::uint32_t* sheets, std::size_t count);
-/// fine += P sheet along y and z
-void spread(const TransferArrays& arrays, const std::uint32_t* blocks,
-            const std::array<std::uint32_t, 4>* parents, std::size_t count);
+/// One compilation's loops (sweeps.cc): the bits are the same for all, for nothing is summed across
+/// lanes or contracted to fused multiply-adds.
+struct Loops {
+  /// solution = relaxation load
+  void (*first_sweep)(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
+  /// residual = load - (D + S) solution
+  void (*find_residual)(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
+  /// residual = solution + relaxation (load - (D + S) solution)
+  void (*smooth)(const LevelArrays& level, const std::uint32_t* blocks, std::size_t count);
+  /// relaxation = 1/(D + damping times S's diagonal), 0 where there is no inertia
+  void (*find_relaxation)(const RelaxationArrays& level, const std::uint32_t* blocks,
+                          std::size_t count);
+  /// From points onto the sheet, along y and z
+  void (*share_across)(const Weights& weights, const Single* fine, const SheetBlock* blocks,
+                       std::size_t count, Single* sheet);
+  /// and from there along x.
+  void (*share_along)(const Weights& weights, const Single* sheet, const std::uint32_t* sheets,
+                      const std::uint32_t* coarse_blocks, std::size_t count, Single* coarse);
+  /// sheet = Pᵀ fine along y and z
+  void (*gather)(const TransferArrays& arrays, const SheetBlock* blocks, std::size_t count);
+  /// coarse = Pᵀ sheet along x
+  void (*contract)(const TransferArrays& arrays, const std::uint32_t* coarse_blocks,
+                   const std::uint32_t* sheets, std::size_t count);
+  /// sheet = P coarse along x
+  void (*stretch)(const TransferArrays& arrays, const std::uint32_t* coarse_blocks,
+                  const std::uint32_t* sheets, std::size_t count);
+  /// fine += P sheet along y and z
+  void (*spread)(const TransferArrays& arrays, const std::uint32_t* blocks,
+                 const std::array<std::uint32_t, 4>* parents, std::size_t count);
+};
+template <int width>
+const Loops& loops_at();
 
 }  // namespace fingertip::lattice::sweeps

@@ -18,11 +18,11 @@ FemRun run_fem(const std::string& program, double max_unknowns, const std::vecto
                int threads, double limit, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   // A tolerance that these meshes do not meet, so that `max_unknowns` ends the sequence.
-  const nlohmann::json job{{"contact", "frictionless"},
-                           {"samples", depths},
-                           {"tolerance", 1e-4},
-                           {"max_unknowns", max_unknowns},
-                           {"write_fields", false}};
+  const nlohmann::json job{
+      {"protocol", {{"contact", "frictionless"}, {"depth", depths.back()}, {"samples", depths}}},
+      {"tolerance", 1e-4},
+      {"max_unknowns", max_unknowns},
+      {"write_fields", false}};
   meshes::write_atomically(folder / "job.json", [&](std::ostream& out) { out << job.dump(2); });
   const std::string count = std::to_string(threads);
   FemRun run;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +35,25 @@ TEST(ManufacturedDisplacement, BodyForceKeepsItInEquilibrium) {
       field_checks::expect_consistent_field(field, material, box);
       field_checks::expect_balanced(field, material, box);
     }
+}
+
+TEST(ManufacturedRevolution, BodyForceKeepsItInEquilibrium) {
+  for (const auto& material : field_checks::rubbers()) {
+    const ManufacturedRevolution field(material, 1.0, 0.01);
+    field_checks::expect_consistent_field(field, material, box);
+    field_checks::expect_balanced(field, material, box);
+  }
+}
+
+TEST(ManufacturedRevolution, IsTheSameInEveryMeridian) {
+  const ManufacturedRevolution field(rubber(2.0, 0.3), 1.0, 0.01);
+  const Matrix3 turn = Eigen::AngleAxisd(0.8, Vector3::UnitZ()).toRotationMatrix();
+  for (const Vector3& x : field_checks::random_points(box)) {
+    EXPECT_LT((field.displacement(turn * x) - turn * field.displacement(x)).norm(), 1e-16);
+    EXPECT_LT((field.body_force(turn * x) - turn * field.body_force(x)).norm(), 1e-14);
+    const Vector3 in_plane(x.x(), 0.0, x.z());
+    EXPECT_EQ(field.displacement(in_plane).y(), 0.0);
+  }
 }
 
 TEST(ManufacturedDisplacement, ScalesWithLengthAndAmplitude) {

@@ -59,6 +59,22 @@ TEST_P(Orders, UnderPressureOnCurvedWalls) {
                 0.3, 0.15);
 }
 
+TEST_P(Orders, OnTheMeridianOfAManufacturedSolution) {
+  const bool slow = element.degree == 2 && element.volumetric == projected;
+  const std::array<std::vector<int>, 4> rings{{{}, {16, 32}, {8, 16}, {4, 8}}};
+  // Distorted meshes are not nested: their distortions differ from one to the next.
+  for (const bool curved : {true, false})
+    expect_orders(study_manufactured_meridian(curved, element, rings[std::size_t(element.degree)]),
+                  curved ? 0.1 : 0.15, slow ? 0.25 : 0.1);
+}
+
+TEST_P(Orders, UnderPressureOnMeridians) {
+  const std::array<std::vector<int>, 4> walls{{{}, {16, 32}, {8, 16}, {4, 8}}};
+  const auto& divided = walls[std::size_t(element.degree)];
+  expect_orders(study_cylinder(element, paper_ratio, divided, Meshed::meridian), 0.25, 0.15);
+  expect_orders(study_sphere(element, paper_ratio, divided, Meshed::meridian), 0.25, 0.15);
+}
+
 INSTANTIATE_TEST_SUITE_P(Elements, Orders,
                          testing::Values(ElementType{1, pointwise}, ElementType{1, projected},
                                          ElementType{2, pointwise}, ElementType{2, projected},

@@ -27,7 +27,7 @@ TEST(VerificationRun, LeavesWhatItHasWhenStopped) {
   const Json table = Json::parse(std::ifstream(folder / "verification.json"));
   EXPECT_TRUE(table.at("studies").empty());
   EXPECT_TRUE(table.at("locking").empty());
-  ASSERT_EQ(table.at("checks").size(), 6u * (3u + 6u));
+  ASSERT_EQ(table.at("checks").size(), 6u * (6u + 12u));
   for (const Json& check : table.at("checks")) {
     EXPECT_TRUE(check.at("passed").get<bool>()) << check.at("name");
     for (const char* key : {"value", "expected", "relative_error", "tolerance"})

@@ -9,7 +9,6 @@
 #include "lattice/contact/bond.h"
 #include "lattice/dynamics/time_step.h"
 #include "lattice/forces/energy.h"
-#include "lattice/forces/reference_forces.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
@@ -50,7 +49,7 @@ struct FreeFinger {
 TEST(ExplicitEuler, TakesOneStepAsPrinted) {
   FreeFinger f(ModelKind::published, Kinematics::finite, Integrator::explicit_euler, 0.5);
   const State before = f.finger.state();
-  lattice::VectorField force = lattice::reference_forces(f.model, before);
+  lattice::VectorField force = reference::forces(f.model, before);
   lattice::add_ligament_forces(f.model, before, f.finger.rod(), force);
   const double dt = f.finger.step();
   f.finger.advance(lattice::Wrench{});
@@ -65,7 +64,7 @@ TEST(ExplicitEuler, TakesOneStepAsPrinted) {
 TEST(SymplecticEuler, MovesWithTheNewVelocity) {
   FreeFinger f(ModelKind::published, Kinematics::finite, Integrator::symplectic_euler, 0.5);
   const State before = f.finger.state();
-  lattice::VectorField force = lattice::reference_forces(f.model, before);
+  lattice::VectorField force = reference::forces(f.model, before);
   lattice::add_ligament_forces(f.model, before, f.finger.rod(), force);
   const double dt = f.finger.step();
   f.finger.advance(lattice::Wrench{});
@@ -82,7 +81,7 @@ TEST(SymplecticEuler, OnCutCellsOnlyTheBondsParticlesTakeMoreThanTheRubbersForce
     for (const Kinematics kinematics : both_kinematics) {
       FreeFinger f(kind, kinematics, Integrator::symplectic_euler, 0.5);
       const State before = f.finger.state();
-      const lattice::VectorField force = lattice::reference_forces(f.model, before);
+      const lattice::VectorField force = reference::forces(f.model, before);
       std::set<std::size_t> bonded;
       for (const auto& tie : f.model.bond) bonded.insert(tie.corners.begin(), tie.corners.end());
       const double dt = f.finger.step();

@@ -26,7 +26,7 @@ TEST(CellForces, KernelIsTheReferenceForEveryWidthAndNumberOfThreads) {
     const VectorField u = strained(scene, 1), v = random_field(scene, 0.3, 2);
     VectorField before = random_field(scene, 1e-4, 3), expected = before, first;
     CellExtremes first_extremes;
-    reference_cell_forces(cells, u, v, expected);
+    reference::cell_forces(cells, u, v, expected);
     for (int width = 2; width <= lattice::kernel::supported_width(); width *= 2) {
       for (const int threads : {1, 2}) {
         SCOPED_TRACE(std::to_string(width) + " lanes, threads " + std::to_string(threads));
@@ -70,14 +70,13 @@ TEST(CellForces, EnergyIsThatOfTheCellsOneByOneWithTheSameBitsAtAnyWidth) {
       for (auto& component : u.component) {
         for (double& value : component) value *= size;
       }
-      const double wanted = cell_energy(cells, u),
-                   two = lattice::fast_cell_energy(cells, u, alone, 2);
+      const double wanted = cell_energy(cells, u), two = lattice::cell_energy(cells, u, alone, 2);
       EXPECT_NEAR(two, wanted, 1e-7 * wanted);  // what log J loses at small strain
       if (size == 1.0) {
         EXPECT_NEAR(two, wanted, 1e-12 * wanted);
       }
-      EXPECT_EQ(lattice::fast_cell_energy(cells, u, alone), two);
-      EXPECT_EQ(lattice::fast_cell_energy(cells, u, pair), two);
+      EXPECT_EQ(lattice::cell_energy(cells, u, alone), two);
+      EXPECT_EQ(lattice::cell_energy(cells, u, pair), two);
     }
   });
 }

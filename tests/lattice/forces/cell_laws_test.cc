@@ -6,11 +6,12 @@
 #include <random>
 
 #include "lattice/kernels/pack_algebra.h"
-#include "lattice/statics/cell_law.h"
 #include "tests/lattice/cell_scenes.h"
+#include "tests/lattice/statics/laws.h"
 
 using namespace fingertip;
 using namespace cell_scenes;
+using namespace laws;
 
 namespace {
 
@@ -212,8 +213,7 @@ TEST(CellForces, StiffeningBoundsTheTangent) {
     rubber.shear_modulus = network.shear;
     rubber.youngs_modulus = network.shear * (3.0 * ratio + 2.0) / (ratio + 1.0);
     const CellMaterial volume = material(CellLawKind::volume);
-    const lattice::CellLaw laws[] = {lattice::CellLaw::network(rubber, 0.0),
-                                     lattice::CellLaw::volume(volume.kappa, true)};
+    const lattice::CellLaw laws[] = {network_law(rubber, 0.0), volume_law(volume.kappa, true)};
     for (int i = 0; i < 300; ++i) {
       const double size = i % 2 == 0 ? 0.2 : 0.5;
       Matrix3d H = size * Matrix3d::NullaryExpr([&] { return normal(generator); });

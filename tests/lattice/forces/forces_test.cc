@@ -6,7 +6,6 @@
 
 #include "lattice/contact/bond.h"
 #include "lattice/forces/energy.h"
-#include "lattice/forces/reference_forces.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
@@ -67,7 +66,7 @@ TEST(Forces, OneSpringObeysEquationOne) {
 TEST(Forces, KernelMatchesTheEdgeListForEveryInstructionSet) {
   for_all_variants([](const LatticeModel& model, const std::string& label) {
     const State state = random_state(model, 0.2, 0.5, 7);
-    const VectorField expected = lattice::reference_forces(model, state);
+    const VectorField expected = reference::forces(model, state);
     const double scale = largest(model, expected);
     VectorField first;
     for (int width = 2; width <= lattice::kernel::supported_width(); width *= 2) {
@@ -84,7 +83,7 @@ TEST(Forces, TheTipsKernelMatchesTheEdgeListOnAnyNumberOfThreads) {
     const LatticeModel model = tip(kind, Kinematics::finite, 6);
     // Little enough that no sliver is turned inside out.
     const State state = random_state(model, 0.1, 0.5, 3);
-    const VectorField expected = lattice::reference_forces(model, state);
+    const VectorField expected = reference::forces(model, state);
     const VectorField one = kernel_forces(model, state, 1);
     EXPECT_LT(difference(model, one, expected), 1e-13 * largest(model, expected));
     EXPECT_EQ(difference(model, one, kernel_forces(model, state, 3)), 0.0);

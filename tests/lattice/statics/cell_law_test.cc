@@ -1,4 +1,4 @@
-#include "lattice/statics/cell_law.h"
+#include "lattice/model/cell_law.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "tests/lattice/statics/laws.h"
+
 using namespace fingertip;
+using namespace laws;
 using Eigen::Matrix3d;
-using lattice::CellLaw;
 
 namespace {
 
@@ -40,10 +42,10 @@ lattice::SpringConstants anisotropic() {
 
 std::vector<std::pair<const char*, CellLaw>> all_laws() {
   return {{"none", CellLaw()},
-          {"cubic", CellLaw::cubic(anisotropic(), spacing, share, some_axes())},
-          {"volume, small", CellLaw::volume(5000.0, false)},
-          {"volume, finite", CellLaw::volume(5000.0, true)},
-          {"network", CellLaw::network(rubber, share)}};
+          {"cubic", cubic_law(anisotropic(), spacing, share, some_axes())},
+          {"volume, small", volume_law(5000.0, false)},
+          {"volume, finite", volume_law(5000.0, true)},
+          {"network", network_law(rubber, share)}};
 }
 
 /// Energy of isotropic fibres that carry the modulus s G, above rest.
@@ -54,7 +56,7 @@ double fibre_energy(double s, const Matrix3d& H) {
 
 /// Nominal stress of network and fibres together.
 Matrix3d network_stress(double s, const Matrix3d& F) {
-  const Vector9 stress = CellLaw::network(rubber, s).evaluate(F - Matrix3d::Identity()).stress;
+  const Vector9 stress = network_law(rubber, s).evaluate(F - Matrix3d::Identity()).stress;
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(stress.data()) +
          s * rubber.shear_modulus * F;
 }
@@ -110,7 +112,7 @@ TEST(CellLaw, NetworkDoesNotSeeRotations) {
   const Matrix3d turn = some_axes(), F = Matrix3d::Identity() + some_gradient();
   const auto total = [](const Matrix3d& deformation) {
     const Matrix3d H = deformation - Matrix3d::Identity();
-    return CellLaw::network(rubber, share).energy(H) + fibre_energy(share, H);
+    return network_law(rubber, share).energy(H) + fibre_energy(share, H);
   };
   EXPECT_NEAR(total(turn), 0.0, 1e-12 * rubber.shear_modulus);
   EXPECT_NEAR(total(turn * F), total(F), 1e-12 * total(F));
@@ -120,21 +122,21 @@ TEST(CellLaw, NetworkDoesNotSeeRotations) {
 TEST(CellLaw, NetworkHasNoStressAtRestAndHookesTangent) {
   const Matrix3d rest = Matrix3d::Identity();
   EXPECT_LT(network_stress(share, rest).norm(), 1e-12 * rubber.shear_modulus);
-  auto tangent = CellLaw::network(rubber, share).evaluate(Matrix3d::Zero()).tangent;
-  const auto hooke = CellLaw::cubic(lattice::hookean_constants(rubber, spacing), spacing, share)
+  auto tangent = network_law(rubber, share).evaluate(Matrix3d::Zero()).tangent;
+  const auto hooke = cubic_law(lattice::hookean_constants(rubber, spacing), spacing, share)
                          .evaluate(Matrix3d::Zero())
                          .tangent;
   EXPECT_LT((tangent - hooke).norm(), 1e-12 * hooke.norm());
 }
 
 TEST(CellLaw, NetworkRefusesInvertedCells) {
-  const CellLaw law = CellLaw::network(rubber, share);
+  const CellLaw law = network_law(rubber, share);
   Matrix3d H = Matrix3d::Zero();
   for (const double flat : {-1.0, -1.5}) {
     H(2, 2) = flat;
     EXPECT_THROW(law.evaluate(H), std::domain_error);
     EXPECT_EQ(law.energy(H), std::numeric_limits<double>::infinity());
-    EXPECT_NO_THROW(CellLaw::volume(5000.0, true).evaluate(H));
+    EXPECT_NO_THROW(volume_law(5000.0, true).evaluate(H));
   }
 }
 
@@ -147,8 +149,8 @@ TEST(CellLaw, CubicOfHookeanConstantsIsIsotropic) {
     const auto constants =
         lattice::hookean_constants(rubber, spacing, k3 * spacing * rubber.shear_modulus);
     for (const Matrix3d& axes : {Matrix3d(Matrix3d::Identity()), some_axes()}) {
-      EXPECT_NEAR(CellLaw::cubic(constants, spacing, 0.0, axes).energy(H), exact, 1e-12 * exact);
-      EXPECT_NEAR(CellLaw::cubic(constants, spacing, share, axes).energy(H) +
+      EXPECT_NEAR(cubic_law(constants, spacing, 0.0, axes).energy(H), exact, 1e-12 * exact);
+      EXPECT_NEAR(cubic_law(constants, spacing, share, axes).energy(H) +
                       0.5 * share * rubber.shear_modulus * H.squaredNorm(),
                   exact, 1e-12 * exact);
     }
@@ -174,5 +176,5 @@ TEST(CellLaw, CubicIsTheSumOfItsSprings) {
     }
   }
   const double energy = springs / std::pow(spacing, 3) + 0.5 * k.kappa * std::pow(H.trace(), 2);
-  EXPECT_NEAR(CellLaw::cubic(k, spacing, 0.0, axes).energy(H), energy, 1e-12 * energy);
+  EXPECT_NEAR(cubic_law(k, spacing, 0.0, axes).energy(H), energy, 1e-12 * energy);
 }

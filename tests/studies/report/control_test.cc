@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "meshes/csv_table.h"
-#include "meshes/json_fields.h"
+#include "meshes/fields_json.h"
 #include "meshes/table_rows.h"
 #include "page_check.h"
 #include "studies/report/moving_press.h"

@@ -73,7 +73,7 @@ void expect_columns_missed(const fs::path& run, const fs::path& file) {
 template <typename Value>
 void required_entries(const json& content, const json::json_pointer& at, const Value& value,
                       std::set<std::string>& found) {
-  if constexpr (meshes::HasFields<Value>) {
+  if constexpr (meshes::HasFileFields<Value>) {
     meshes::for_each_field<Value>([&](const auto& field) {
       if (!std::invoke(field.when, value)) return;
       const json::json_pointer own = at / std::string(field.name);
@@ -162,7 +162,7 @@ TYPED_TEST(Table, ReadsBackWhatIsWritten) {
     if constexpr (std::is_same_v<Value, std::string>)
       value_of(rows[0]) = "it's \"" + std::to_string(number) + "\", quoted";
     else if constexpr (std::is_enum_v<Value>)
-      value_of(rows[0]) = values_of(Value{}).back();
+      value_of(rows[0]) = values(Value{}).back();
     else
       value_of(rows[0]) = Value(number + 0.1);
   });
@@ -276,7 +276,7 @@ std::set<std::string> between_backquotes(const std::string& text) {
 /// Names of a struct's fields and of those inside.
 template <typename Value>
 void field_names(std::set<std::string>& names) {
-  if constexpr (meshes::HasFields<Value>) {
+  if constexpr (meshes::HasFileFields<Value>) {
     meshes::for_each_field<Value>([&]<typename Own>(const Own& field) {
       names.insert(std::string(field.name));
       field_names<std::remove_cvref_t<std::invoke_result_t<decltype(field.member), Value&>>>(names);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "meshes/csv_table.h"
-#include "meshes/json_fields.h"
+#include "meshes/fields_json.h"
 #include "page_check.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/report/grasp_run.h"

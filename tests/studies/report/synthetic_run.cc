@@ -12,7 +12,7 @@
 #include "calibration/fit_file.h"
 #include "fem_reference/run_tables.h"
 #include "lattice/press/trace.h"
-#include "meshes/json_fields.h"
+#include "meshes/fields_json.h"
 #include "meshes/table_rows.h"
 #include "studies/files/manifest.h"
 #include "studies/files/press_summary.h"
@@ -407,9 +407,17 @@ json run_summary() {
   return {{"case", "01_paper_rubber"},
           {"title", "The paper's rubber"},
           {"status", "ok"},
-          {"depths", depths},
           {"description", "What this case is about."},
-          {"reference", {{"status", "ok"}}},
+          {"target",
+           {{"youngs_modulus", 40.0 * gf_per_cm2},
+            {"shear_modulus", 14.0 * gf_per_cm2},
+            {"poissons_ratio", 3.0 / 7.0},
+            {"bulk_modulus", 280.0 / 3.0 * gf_per_cm2}}},
+          {"depths", depths},
+          {"reference",
+           {{"status", "finished"},
+            {"force", std::vector<double>(depths.size(), 0.1)},
+            {"relative_force_error", std::vector<double>(depths.size(), 0.004)}}},
           {"models", models},
           {"criteria",
            {{{"name", "hookean force error at 0.3 cm"},

@@ -1,0 +1,20 @@
+// The kernels of springs and particles, compiled once per instruction set (lattice/CMakeLists.txt).
+#include "lattice/kernels/kernel_body.h"
+
+namespace fingertip::lattice::kernel {
+
+using Pack = std::experimental::native_simd<double>;
+
+template <int width>
+GatherForces springs_at(const Variant& variant) {
+  return Body<Pack>::select(variant);
+}
+template GatherForces springs_at<int(Pack::size())>(const Variant&);
+
+template <int width>
+MoveParticles move_at() {
+  return Body<Pack>::move;
+}
+template MoveParticles move_at<int(Pack::size())>();
+
+}  // namespace fingertip::lattice::kernel

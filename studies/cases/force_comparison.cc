@@ -1,0 +1,63 @@
+#include "studies/cases/force_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/report/run_data.h"
+
+namespace fingertip::studies {
+
+using meshes::PressResponse;
+
+namespace {
+
+/// Of a continuum's force at a depth, relative: that of the nearest sample, for it is known at
+/// samples only. NaN where it was not estimated.
+double estimated_force_error(const PressResponse& continuum, double depth) {
+  if (continuum.empty()) return meshes::unknown;
+  const auto nearest = std::ranges::min_element(
+      continuum.samples(), {},
+      [&](const meshes::PressSample& sample) { return std::abs(sample.indentation - depth); });
+  return nearest->force_error / nearest->normal_force;
+}
+
+}  // namespace
+
+double larger(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? meshes::unknown : std::max(a, b);
+}
+
+double largest(const std::vector<double>& values) {
+  double result = values.empty() ? meshes::unknown : 0.0;
+  for (const double value : values) result = larger(result, std::abs(value));
+  return result;
+}
+
+ForceComparison compare_forces(const PressResponse& response, const PressResponse& reference,
+                               const std::vector<double>& depths) {
+  ForceComparison result;
+  result.depth = depths;
+  for (const double depth : depths) {
+    const double force = reporting::force_at(response, depth);
+    const double wanted = reporting::force_at(reference, depth);
+    result.force.push_back(force);
+    result.reference_force.push_back(wanted);
+    result.reference_error.push_back(estimated_force_error(reference, depth));
+    result.error.push_back(force / wanted - 1.0);
+  }
+  const double reached =
+      response.empty() || reference.empty() ? 0.0 : std::min(response.depth(), reference.depth());
+  if (reached > 0.0) result.l2_error = relative_l2_force_error(response, reference, 0.0, reached);
+  return result;
+}
+
+std::vector<double> verdict_depths(double depth) {
+  return {depth / 6.0, depth / 3.0, depth / 2.0, depth * 2.0 / 3.0, depth};
+}
+
+PressResponse response_in(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "response.csv";
+  return std::filesystem::exists(file) ? PressResponse::read_csv(file) : PressResponse();
+}
+
+}  // namespace fingertip::studies

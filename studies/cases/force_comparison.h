@@ -1,0 +1,37 @@
+/// Forces of a press against those of a continuum or another press.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "meshes/press_response.h"
+
+namespace fingertip::studies {
+
+/// The larger one; NaN when either is.
+double larger(double a, double b);
+
+/// The largest magnitude; NaN with a gap, or without values.
+double largest(const std::vector<double>& values);
+
+/// Depth by depth. NaN where a press did not get that far.
+struct ForceComparison {
+  std::vector<double> depth, force, reference_force;  ///< [m], [N]
+  std::vector<double> reference_error;                ///< estimated, relative
+  std::vector<double> error;                          ///< force over reference_force minus 1
+  double l2_error = meshes::unknown;  ///< relative L2 error of the force curve, as far as both go
+};
+
+/// At `depths`.
+ForceComparison compare_forces(const meshes::PressResponse& response,
+                               const meshes::PressResponse& reference,
+                               const std::vector<double>& depths);
+
+/// The depths at which the core case compares: 1/6, 1/3, 1/2, 2/3 and 1 of the press.
+std::vector<double> verdict_depths(double depth);
+
+/// response.csv of a press; empty when there is none.
+meshes::PressResponse response_in(const std::filesystem::path& folder);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,288 @@
+#include "studies/cases/planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "studies/cases/measures.h"
+#include "studies/files/read_fields.h"
+#include "studies/run/fit_setup.h"
+#include "studies/run/grasp_job.h"
+#include "studies/run/jobs.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the run is made at this spacing at all.
+bool is_wanted(const CaseRun& run, const LoadedConfig& loaded, const LoadedConfig& own) {
+  if (run.when.empty()) return true;
+  const meshes::Geometry& geometry = loaded.config.press.geometry;
+  const double ratio = loaded.config.press.lattice.spacing / own.config.press.lattice.spacing;
+  const bool allowed = loaded.config.press.lattice.spacing <= 0.5 * geometry.thickness();
+  return allowed && (run.when == "coarser" ? ratio > 1.0 + 1e-9 : std::abs(ratio - 1.0) >= 1e-9);
+}
+
+/// The continuum pressed as `loaded` says, in time.
+fem_reference::ReferenceJob continuum_at_speed(LoadedConfig loaded) {
+  fem_reference::ReferenceJob& order = loaded.config.reference;
+  order.analysis = fem_reference::Analysis::transient;
+  order.strain = fem_reference::Strain::linear;
+  order.write_fields = false;
+  return continuum_job(loaded);
+}
+
+/// The case with the fit's settings, then the prediction's.
+LoadedConfig predicted_config(const Case& one, const CaseRun& fit, const CaseRun& prediction) {
+  CaseRun both = prediction;
+  both.sets.insert(both.sets.begin(), fit.sets.begin(), fit.sets.end());
+  both.name = fit.name + " predicts " + prediction.name;
+  return run_config(one, both);
+}
+
+calibration::FitFile fit_in(const JsonEntry& file) {
+  if (file.contains("problem")) return struct_of<calibration::FitFile>(file);
+  const auto moduli = struct_of<calibration::ModuliFile>(file);
+  calibration::FitFile fit = as_fit(moduli);
+  fit.unidentifiable.resize(moduli.unidentifiable.size());
+  return fit;
+}
+
+void read_summary(const fs::path& place, RunResult& result) {
+  const std::string& verb = result.run->verb;
+  const fs::path file = place / (verb == "fit" ? "calibration.json" : "summary.json");
+  if (!fs::exists(file)) return;
+  if (verb == "press") result.press = struct_of<PressSummary>(read_entry(file));
+  if (verb == "grasp") result.grasp = struct_of<GraspSummary>(read_entry(file));
+  if (verb == "fit") result.found = fit_in(read_entry(file));
+}
+
+/// Continua first, then the longest, so that the lanes end together.
+void sort(std::vector<PlannedJob>& jobs) {
+  std::ranges::stable_sort(jobs, std::greater(), [](const PlannedJob& one) {
+    return std::pair(one.job.kind == "reference", one.job.weight);
+  });
+}
+
+}  // namespace
+
+RunResults blank_results(const Case& one) {
+  RunResults results;
+  for (const CaseRun& run : one.runs) {
+    if (!run.is("prediction")) results.push_back({.run = &run});
+    for (const CaseRun& prediction : one.runs)
+      if (is_asked(prediction, run)) results.push_back({.run = &prediction, .fit = &run});
+  }
+  return results;
+}
+
+std::string as_folder(std::string text) {
+  for (char& c : text) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
+    if (!plain) c = '_';
+  }
+  if (text.starts_with('.')) text.front() = '_';
+  return text;
+}
+
+const std::vector<std::string>& run_verbs() {
+  static const std::vector<std::string> verbs = {"press", "reference", "verification", "moduli",
+                                                 "cubes"};
+  return verbs;
+}
+
+Planner::Planner(const Case& one) : case_(one) {
+  for (const RunKind& kind : run_kinds()) folders_.insert(kind.folder);
+  folders_.insert("continuum");
+  // What runs below a run would be cleared away with it.
+  for (const CaseRun& run : one.runs)
+    if (run.is("run") && !run.series.empty()) folders_.insert(as_folder(run.series));
+  // The core case's models: the published one can do least.
+  const auto core = std::ranges::find(one.runs, "published", full_name);
+  if (core != one.runs.end() && core->is_verdict()) check_validation(one.loaded);
+  std::vector<Problem> problems;
+  for (const CaseRun& run : one.runs) {
+    try {
+      add(run);
+    } catch (const ConfigError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
+void Planner::add(const CaseRun& run) {
+  if (run.is("prediction")) return;  // with each fit
+  const LoadedConfig loaded = run_config(case_, run);
+  if (!is_wanted(run, loaded, case_.loaded)) return;
+  RunResult result{.run = &run, .beside = results_.size()};
+  if (run.verb == "fit") return add_fit(loaded, std::move(result));
+  try {
+    if (run.verb == "press") add_press(loaded, result);
+    result.folder = planned(result, job_of(loaded, result));
+  } catch (const ConfigError& error) {
+    throw at_run(error, run);
+  }
+  results_.push_back(std::move(result));
+}
+
+/// Its setup, and what its forces are compared with.
+void Planner::add_press(const LoadedConfig& loaded, RunResult& result) {
+  const CaseRun& run = *result.run;
+  result.setup = press_setup(loaded);
+  const bool at_rest = result.setup.protocol.mode == meshes::DriveMode::equilibrium;
+  if (run.is("press") && at_rest)
+    throw ConfigError({{"", "press.mode", "static", "a press under a controller takes time",
+                        "choose pid, or a case with variants"}});
+  if (run.is("variant"))
+    result.against = continuum_of(continuum_beside(loaded, result.setup.lattice.kinematics));
+  if (run.is("press") && run.continuum) result.against = continuum_of(continuum_at_speed(loaded));
+  for (std::size_t i = 0; i < results_.size() && !run.beside.empty(); ++i) {
+    const CaseRun& other = *results_[i].run;
+    if (!other.is(run.kind) || full_name(other) != run.beside) continue;
+    if (run.is("run"))
+      result.against = results_[i].folder;
+    else
+      result.beside = i;
+  }
+}
+
+void Planner::add_fit(const LoadedConfig& loaded, RunResult result) {
+  result.folder = free_folder(*result.run);
+  try {
+    // Criteria judge what comes of a fit, also of one that failed its own tests.
+    fits_.push_back({FitPlan(loaded, result.folder, FitPlan::Failed::kept)});
+  } catch (const ConfigError& error) {
+    throw at_run(error, *result.run);
+  }
+  results_.push_back(result);
+  for (const CaseRun& prediction : case_.runs)
+    if (is_asked(prediction, *result.run)) add_prediction(prediction, result);
+}
+
+/// The press itself needs the fit's material.
+void Planner::add_prediction(const CaseRun& prediction, const RunResult& fit) {
+  const LoadedConfig loaded = predicted_config(case_, *fit.run, prediction);
+  results_.push_back(
+      {.run = &prediction,
+       .fit = fit.run,
+       .folder = fit.folder + "/predicts/" + as_folder(prediction.name),
+       .against = continuum_of(continuum_beside(loaded, loaded.config.press.lattice.kinematics)),
+       .beside = results_.size()});
+}
+
+Job Planner::job_of(const LoadedConfig& loaded, RunResult& result) {
+  const std::string& verb = result.run->verb;
+  const Config& config = loaded.config;
+  if (verb == "press") return press_job(result.setup);
+  if (verb == "grasp") return grasp_job(grasp_setup(loaded));
+  if (verb == "reference") return reference_job(continuum_job(loaded));
+  if (verb == "verification") return verification_job();
+  if (verb == "moduli")
+    return moduli_job(config.press.rubber, fit_options(loaded, config.press.lattice.model));
+  const auto constants_of = [&](const char* model) {
+    return press_setup(
+               loaded.with({std::string("lattice.model=") + model, "lattice.constants=auto"}))
+        .lattice.constants;
+  };
+  return cubes_job(config.press.rubber, constants_of("central"), constants_of("hookean"),
+                   config.press.lattice.spacing);
+}
+
+std::string Planner::planned(const RunResult& result, Job job) {
+  std::string& folder = folder_of_key_[job.key()];
+  if (!folder.empty()) return folder;
+  folder = free_folder(*result.run);
+  // Slower approaches take more steps.
+  if (result.run->is("press")) job.weight *= 0.01 / result.setup.protocol.speed;
+  jobs_.push_back({folder, std::move(job), result.run->exhibit || !result.run->is("run")});
+  return folder;
+}
+
+std::string Planner::free_folder(const CaseRun& run) {
+  const RunKind& kind = *std::ranges::find(run_kinds(), run.kind, &RunKind::name);
+  std::string folder = kind.folder.empty() ? "" : kind.folder + "/";
+  if (!run.series.empty() && !run.is("fit")) folder += as_folder(run.series) + "/";
+  folder += as_folder(run.name);
+  while (!folders_.insert(folder).second) folder += "_";
+  return folder;
+}
+
+std::string Planner::continuum_of(const fem_reference::ReferenceJob& order) {
+  const Job job = reference_job(order);
+  const std::string key = job.key();
+  const auto found = std::ranges::find(continua_, key, &Continuum::key);
+  if (found != continua_.end()) return found->folder;
+  const std::string folder = fmt::format("continuum/{}", continua_.size() + 1);
+  continua_.push_back({folder, order, key});
+  jobs_.push_back({folder, job, false});
+  return folder;
+}
+
+/// Fits go on stage by stage, all side by side; when none has anything left, the predictions.
+std::vector<PlannedJob> Planner::next(const fs::path& folder) {
+  std::vector<PlannedJob> jobs = std::exchange(jobs_, {});
+  for (Fit& fit : fits_) {
+    if (fit.done) continue;
+    const std::vector<PlannedJob> more = fit.plan.next(folder);
+    fit.done = more.empty();
+    jobs.insert(jobs.end(), more.begin(), more.end());
+  }
+  if (jobs.empty() && !std::exchange(predicted_, true)) jobs = predictions(folder);
+  sort(jobs);
+  return jobs;
+}
+
+double Planner::later_weight() const {
+  double weight = 0.0;
+  for (const Fit& fit : fits_) weight += fit.plan.later_weight();
+  if (predicted_) return weight;
+  for (const RunResult& result : results_)
+    if (result.fit != nullptr)
+      weight += press_weight(predicted_config(case_, *result.fit, *result.run).config.press);
+  return weight;
+}
+
+std::vector<PlannedJob> Planner::predictions(const fs::path& folder) {
+  std::vector<PlannedJob> jobs;
+  const RunResult* fit = nullptr;
+  for (RunResult& result : results_) {
+    if (result.run->is("fit")) fit = &result;
+    if (result.fit == nullptr) continue;
+    const fs::path material = fs::absolute(folder / fit->folder / "material.toml");
+    result.setup = press_setup(predicted_config(case_, *result.fit, *result.run)
+                                   .with({"lattice.constants=" + material.string()}));
+    jobs.push_back({result.folder, press_job(result.setup), true});
+  }
+  return jobs;
+}
+
+RunResults Planner::results(const fs::path& folder, const std::vector<JobResult>& jobs) const {
+  RunResults results = results_;
+  for (RunResult& result : results) {
+    const auto job = std::ranges::find(jobs, result.folder, &JobResult::name);
+    if (job != jobs.end()) result.status = job->status;
+    const fs::path place = folder / result.folder;
+    read_summary(place, result);
+    const meshes::PressProtocol& protocol = result.setup.protocol;
+    const bool verdict = result.run->is_verdict();
+    if (verdict || !result.against.empty())
+      result.forces = compare_forces(
+          response_in(place),
+          result.against.empty() ? meshes::PressResponse() : response_in(folder / result.against),
+          verdict ? verdict_depths(protocol.depth) : protocol.samples);
+    const RunResult& other = results[result.beside];
+    if (&other != &result)
+      result.change = compare_forces(response_in(place), response_in(folder / other.folder),
+                                     other.setup.protocol.samples);
+    result.measures = measures_of_run(case_, result, place);
+  }
+  return results;
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,107 @@
+/// From the runs of a case to jobs, and from what these left to results.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "calibration/fit_file.h"
+#include "studies/cases/case_file.h"
+#include "studies/cases/force_comparison.h"
+#include "studies/files/grasp_summary.h"
+#include "studies/files/press_summary.h"
+#include "studies/run/fit_plan.h"
+#include "studies/run/session.h"
+
+namespace fingertip::studies {
+
+/// Measures by name; NaN, or absent: could not be taken.
+using Measures = std::map<std::string, double>;
+
+/// One run of a case: as it is planned and, once its job has ended, what came of it.
+struct RunResult {
+  const CaseRun* run = nullptr;
+  const CaseRun* fit = nullptr;    ///< of a prediction: whose material is pressed
+  std::string folder = {};         ///< below the case's; runs that come to the same share it
+  std::string against = {};        ///< folder of what its forces are measured against, or empty
+  std::size_t beside = 0;          ///< place of the press that it stands beside, else its own
+  lattice::PressSetup setup = {};  ///< of a press
+
+  std::string status = {};          ///< of its job
+  PressSummary press = {};          ///< its summary.json, where it is a press ...
+  GraspSummary grasp = {};          ///< ... or a grasp
+  calibration::FitFile found = {};  ///< calibration.json of a fit; one to moduli has no curves
+  ForceComparison forces = {};      ///< with what they are measured against
+  ForceComparison change = {};      ///< with the press it stands beside, at that one's samples
+  Measures measures = {};           ///< of this run alone, see measures.h
+  bool ok() const { return status == finished; }
+};
+
+using RunResults = std::vector<RunResult>;
+
+/// Of the case's runs before anything is planned: nothing is known but which results there will be.
+RunResults blank_results(const Case& one);
+
+/// Letters, digits, '-' and, but for the first place, '.'; anything else becomes '_'.
+std::string as_folder(std::string text);
+
+/// What [[case.run]] may name as its verb.
+const std::vector<std::string>& run_verbs();
+
+/// A continuum that presses are measured against. Lattice, offset and rotation do not matter to it.
+struct Continuum {
+  std::string folder;
+  fem_reference::ReferenceJob order;
+  std::string key;  ///< of its job
+};
+
+class Planner {
+ public:
+  /// `one` must outlive the planner. Throws ConfigError with every problem of every run.
+  explicit Planner(const Case& one);
+
+  /// The jobs that may run now, given the results of those before in `folder`, in the order in
+  /// which they should start. None: everything is computed.
+  std::vector<PlannedJob> next(const std::filesystem::path& folder);
+
+  /// What the jobs that `next` will still return weigh, as far as that is known.
+  double later_weight() const;
+
+  /// What the jobs left in `folder`.
+  RunResults results(const std::filesystem::path& folder, const std::vector<JobResult>& jobs) const;
+
+  const std::vector<Continuum>& continua() const { return continua_; }
+
+ private:
+  struct Fit {
+    FitPlan plan;
+    bool done = false;
+  };
+
+  void add(const CaseRun& run);
+  void add_press(const LoadedConfig& loaded, RunResult& result);
+  void add_fit(const LoadedConfig& loaded, RunResult result);
+  void add_prediction(const CaseRun& prediction, const RunResult& fit);
+  Job job_of(const LoadedConfig& loaded, RunResult& result);
+  /// The folder of the job, which is planned unless an equal one is.
+  std::string planned(const RunResult& result, Job job);
+  std::string free_folder(const CaseRun& run);
+  /// The folder of a continuum, which is planned unless an equal one is.
+  std::string continuum_of(const fem_reference::ReferenceJob& order);
+  std::vector<PlannedJob> predictions(const std::filesystem::path& folder);
+
+  const Case& case_;
+  RunResults results_;
+  std::vector<Continuum> continua_;
+  std::vector<Fit> fits_;
+  std::vector<PlannedJob> jobs_;  ///< not handed out yet
+  bool predicted_ = false;
+  std::map<std::string, std::string> folder_of_key_;
+  std::set<std::string> folders_;
+};
+
+}  // namespace fingertip::studies

@@ -1,0 +1,246 @@
+#include "studies/cases/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "fem_reference/verification/verification_file.h"
+#include "lattice/press/trace.h"
+#include "meshes/table_rows.h"
+#include "studies/files/read_fields.h"
+#include "studies/files/run_tables.h"
+#include "studies/report/moving_press.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a measure may look at.
+struct Evidence {
+  const Case& one;
+  const RunResult& result;
+  fs::path place;  ///< of the run
+
+  const PressSummary& press() const { return result.press; }
+  const GraspSummary& grasp() const { return result.grasp; }
+  const meshes::Rubber& rubber() const { return one.loaded.config.press.rubber; }
+  template <typename Row>
+  std::vector<Row> rows(const char* name) const {
+    return fs::exists(place / name) ? meshes::read_rows<Row>(place / name) : std::vector<Row>();
+  }
+};
+
+using Roles = std::vector<std::string>;
+
+struct RunMeasure {
+  std::string name;
+  Roles roles;  ///< of the runs that it is meant for
+  std::function<double(const Evidence&)> take;
+};
+
+/// |value/wanted - 1|
+double relative_error(double value, double wanted) {
+  return std::abs(value / wanted - 1.0);
+}
+
+/// As what a run is measured: its kind, with the verb where that is its own, and what it is beside.
+Roles roles_of(const CaseRun& run) {
+  Roles all = {run.is("run") ? "run " + run.verb : run.kind};
+  if (run.is("press") && run.continuum) all.emplace_back("beside continuum");
+  if (run.is("press") && !run.beside.empty()) all.emplace_back("beside press");
+  return all;
+}
+
+// What needs more than a number of summary.json.
+
+double failed_checks(const Evidence& run) {
+  const fs::path file = run.place / "verification.json";
+  if (!fs::exists(file)) return meshes::unknown;
+  const auto found = struct_of<fem_reference::VerificationFile>(read_entry(file));
+  return double(std::ranges::count(found.checks, false, &fem_reference::Check::passed));
+}
+
+/// Largest relative deviation of the hookean cubes in cubes.csv from the rubber's E, G, nu.
+double cube_error(const Evidence& run) {
+  const std::pair<double CubeRow::*, double> wanted[] = {
+      {&CubeRow::youngs_modulus_100, run.rubber().youngs_modulus},
+      {&CubeRow::youngs_modulus_110, run.rubber().youngs_modulus},
+      {&CubeRow::youngs_modulus_111, run.rubber().youngs_modulus},
+      {&CubeRow::shear_modulus, run.rubber().shear_modulus},
+      {&CubeRow::poissons_ratio_100, run.rubber().poissons_ratio()}};
+  std::vector<double> errors;
+  for (const CubeRow& cube : run.rows<CubeRow>("cubes.csv")) {
+    if (cube.model != "hookean") continue;
+    for (const auto& [value, target] : wanted)
+      errors.push_back((cube.*value - target) / std::max(std::abs(target), 1e-3));
+  }
+  return largest(errors);
+}
+
+double youngs_modulus_error(const Evidence& run) {
+  std::vector<double> errors;
+  for (const auto direction : {&ModuliEntry::E_100, &ModuliEntry::E_110, &ModuliEntry::E_111})
+    errors.push_back(run.press().moduli.*direction / run.rubber().youngs_modulus - 1.0);
+  return largest(errors);
+}
+
+bool is_held(const Evidence& run) {
+  return run.grasp().fate == "held";
+}
+
+using calibration::ParameterEntry;
+
+/// A parameter of a fit; unknown where it was not fitted. Estimates of a search that did not end
+/// are none.
+ParameterEntry parameter(const Evidence& run, const std::string& name) {
+  const calibration::FitFile& fit = run.result.found;
+  const auto found = std::ranges::find(fit.parameters, name, &ParameterEntry::name);
+  return fit.converged && found != fit.parameters.end() ? *found : ParameterEntry();
+}
+
+/// 0 inside the interval, else how far outside, over the truth.
+double outside(const ParameterEntry& parameter, double truth) {
+  if (std::isnan(parameter.estimate)) return meshes::unknown;
+  const double below = parameter.lower - truth;
+  const double above = truth - parameter.upper;
+  return larger(larger(below, above), 0.0) / std::abs(truth);
+}
+
+double open_directions(const Evidence& run) {
+  const calibration::FitFile& fit = run.result.found;
+  return fit.empty() ? meshes::unknown : double(fit.unidentifiable.size());
+}
+
+// The table.
+
+/// How a press's controller did.
+RunMeasure of_tracking(const char* name, double TrackingEntry::*number) {
+  return {name, {"run press", "press"}, [number](const Evidence& run) {
+            return run.press().tracking.*number;
+          }};
+}
+
+/// Of a modulus in the press's summary against the case's rubber.
+RunMeasure modulus_error(const char* name, double ModuliEntry::*modulus,
+                         std::function<double(const meshes::Rubber&)> wanted) {
+  return {name, {"run press"}, [=](const Evidence& run) {
+            return relative_error(run.press().moduli.*modulus, wanted(run.rubber()));
+          }};
+}
+
+/// Of a grasp's number against another one.
+RunMeasure grasp_error(const char* name, double GraspSummary::*number,
+                       double GraspSummary::*wanted) {
+  return {name, {"grasp"}, [=](const Evidence& run) {
+            return relative_error(run.grasp().*number, run.grasp().*wanted);
+          }};
+}
+
+std::vector<RunMeasure> all_measures() {
+  using R = const Evidence&;
+  using lattice::TraceRow;
+  using meshes::Rubber;
+  std::vector<RunMeasure> all = {
+      {"failed_checks", {"run verification"}, failed_checks},
+      {"hookean_error", {"run cubes"}, cube_error},
+      {"youngs_modulus_error", {"run press"}, youngs_modulus_error},
+      modulus_error("shear_modulus_error", &ModuliEntry::G,
+                    [](const Rubber& r) { return r.shear_modulus; }),
+      modulus_error("bulk_modulus_error", &ModuliEntry::K,
+                    [](const Rubber& r) { return r.bulk_modulus(); }),
+      {"poissons_ratio_error",
+       {"run press"},
+       [](R run) { return std::abs(run.press().moduli.nu_100 - run.rubber().poissons_ratio()); }},
+      {"max_force_error", {"run press"}, [](R run) { return largest(run.result.forces.error); }},
+      {"l2_force_error", {"run press"}, [](R run) { return run.result.forces.l2_error; }},
+      of_tracking("speed_deviation", &TrackingEntry::speed_deviation),
+      of_tracking("speed_deviation_at_touch", &TrackingEntry::speed_deviation_at_touch),
+      of_tracking("tilt_deg", &TrackingEntry::tilt_deg),
+      {"momentum_defect",
+       {"run press", "press"},
+       [](R run) { return run.press().momentum_defect; }},
+      {"force_overshoot",
+       {"press"},
+       [](R run) { return reporting::force_overshoot(run.rows<TraceRow>("trace.csv")); }},
+      {"mode_switches",
+       {"press"},
+       [](R run) { return reporting::mode_switches(run.rows<TraceRow>("trace.csv")); }},
+      {"force_error", {"beside continuum"}, [](R run) { return largest(run.result.forces.error); }},
+      {"change", {"beside press"}, [](R run) { return largest(run.result.change.error); }},
+      {"worst_error",
+       {"variant", "prediction"},
+       [](R run) { return largest(run.result.forces.error); }},
+      {"held", {"grasp"}, [](R run) { return is_held(run) ? 1.0 : 0.0; }},
+      {"lost", {"grasp"}, [](R run) { return is_held(run) ? 0.0 : 1.0; }},
+      {"surplus",
+       {"grasp"},
+       [](R run) { return run.grasp().wanted_force / run.grasp().least_force - 1.0; }},
+      grasp_error("slip_error", &GraspSummary::slip_ratio, &GraspSummary::friction),
+      grasp_error("sliding_error", &GraspSummary::sliding_ratio, &GraspSummary::friction),
+      // Where the grip does not fall, the force of slip is the one that was asked for.
+      {"slip_force_error",
+       {"grasp"},
+       [](R run) {
+         return is_held(run)
+                    ? relative_error(run.grasp().slip_force, run.grasp().least_force_at_rest)
+                    : meshes::unknown;
+       }},
+      {"load_error", {"grasp"}, [](R run) { return relative_error(run.grasp().held_load, 1.0); }},
+      {"momentum_defect", {"grasp"}, [](R run) { return run.grasp().momentum_defect; }},
+      {"open_directions", {"fit"}, open_directions},
+      {"claims_certainty", {"fit"}, [](R run) {
+         const double open = open_directions(run);
+         return std::isnan(open) ? open : open > 0.0 ? 0.0 : 1.0;
+       }}};
+  // What a fit's parameter should be: the case's own rubber.
+  const std::pair<std::string, double (*)(const Rubber&)> parameters[] = {
+      {"youngs_modulus", [](const Rubber& r) { return r.youngs_modulus; }},
+      {"shear_modulus", [](const Rubber& r) { return r.shear_modulus; }},
+      {"lame_shear", [](const Rubber& r) { return r.shear_modulus; }},
+      {"lambda", [](const Rubber& r) { return r.lame_lambda(); }},
+      {"retardation_time", [](const Rubber& r) { return r.retardation_time; }}};
+  for (const auto& [name, truth] : parameters) {
+    all.push_back({name + "_error", {"fit"}, [name, truth](R run) {
+                     const double estimate = parameter(run, name).estimate;
+                     return relative_error(estimate, truth(run.rubber()));
+                   }});
+    all.push_back({name + "_outside", {"fit"}, [name, truth](R run) {
+                     return outside(parameter(run, name), truth(run.rubber()));
+                   }});
+  }
+  return all;
+}
+
+/// The measures that are meant for the run.
+std::vector<RunMeasure> meant(const CaseRun& run) {
+  static const std::vector<RunMeasure> table = all_measures();
+  const Roles own = roles_of(run);
+  std::vector<RunMeasure> measures;
+  std::ranges::copy_if(table, std::back_inserter(measures), [&](const RunMeasure& measure) {
+    return std::ranges::find_first_of(measure.roles, own) != measure.roles.end();
+  });
+  return measures;
+}
+
+}  // namespace
+
+std::vector<std::string> measures_meant(const CaseRun& run) {
+  std::vector<std::string> names;
+  for (const RunMeasure& measure : meant(run)) names.push_back(measure.name);
+  return names;
+}
+
+Measures measures_of_run(const Case& one, const RunResult& result, const fs::path& place) {
+  Measures taken;
+  const CaseRun& run = *result.run;
+  if ((run.is("press") || run.is("grasp")) && !result.ok()) return taken;
+  for (const RunMeasure& measure : meant(run)) {
+    const double value = measure.take({one, result, place});
+    if (std::isfinite(value)) taken[measure.name] = value;
+  }
+  return taken;
+}
+
+}  // namespace fingertip::studies
