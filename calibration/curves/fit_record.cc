@@ -57,7 +57,7 @@ std::vector<DirectionEntry> directions(const FitRecord& record,
                                        const std::vector<Direction>& found) {
   std::vector<DirectionEntry> result;
   for (const Direction& one : found) {
-    std::map<std::string, double> changes;
+    meshes::Entries<double> changes;
     for (std::size_t i = 0; i < record.fit.parameters.size(); ++i)
       changes[std::string(name(record.fit.parameters[i]))] = one.changes(Index(i));
     result.push_back({changes, one.relative_singular_value, one.interval, one.statement});
