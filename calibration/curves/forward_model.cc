@@ -88,24 +88,43 @@ bool is_modulus(MaterialParameter parameter) {
          parameter == MaterialParameter::shear_modulus || parameter == MaterialParameter::modulus;
 }
 
+bool is_of_the_rubber(MaterialParameter parameter) {
+  return is_modulus(parameter) || parameter == MaterialParameter::lame_shear ||
+         parameter == MaterialParameter::lambda;
+}
+
 meshes::Rubber with_moduli(meshes::Rubber rubber, const std::vector<MaterialParameter>& parameters,
                            const Eigen::VectorXd& values) {
+  const auto set_lame = [&](double g, double lambda) {
+    rubber.shear_modulus = g;
+    rubber.youngs_modulus = g * (3.0 * lambda + 2.0 * g) / (lambda + g);
+  };
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const double value = values(Eigen::Index(i));
-    if (parameters[i] == MaterialParameter::youngs_modulus) rubber.youngs_modulus = value;
-    if (parameters[i] == MaterialParameter::shear_modulus) rubber.shear_modulus = value;
-    if (parameters[i] != MaterialParameter::modulus) continue;
-    rubber.shear_modulus *= value / rubber.youngs_modulus;
-    rubber.youngs_modulus = value;
+    switch (parameters[i]) {
+      case MaterialParameter::youngs_modulus: rubber.youngs_modulus = value; break;
+      case MaterialParameter::shear_modulus: rubber.shear_modulus = value; break;
+      case MaterialParameter::modulus:
+        rubber.shear_modulus *= value / rubber.youngs_modulus;
+        rubber.youngs_modulus = value;
+        break;
+      case MaterialParameter::lame_shear: set_lame(value, rubber.lame_lambda()); break;
+      case MaterialParameter::lambda: set_lame(rubber.shear_modulus, value); break;
+      default: break;
+    }
   }
   return rubber;
 }
 
 Eigen::Vector2d moduli_slopes(MaterialParameter parameter, double poissons_ratio) {
+  const double nu = poissons_ratio;
   switch (parameter) {
     case MaterialParameter::youngs_modulus: return {1.0, 0.0};
     case MaterialParameter::shear_modulus: return {0.0, 1.0};
-    default: return {1.0, 0.5 / (1.0 + poissons_ratio)};
+    // E = G (3 lambda + 2G)/(lambda + G) and lambda = 2 G nu/(1 - 2 nu).
+    case MaterialParameter::lame_shear: return {2.0 + 4.0 * nu * nu, 1.0};
+    case MaterialParameter::lambda: return {(1.0 - 2.0 * nu) * (1.0 - 2.0 * nu), 0.0};
+    default: return {1.0, 0.5 / (1.0 + nu)};
   }
 }
 
@@ -184,7 +203,7 @@ bool LatticeForwardModel::by_moduli() const {
 
 PressSetup LatticeForwardModel::setup_with(const Eigen::VectorXd& parameters) const {
   PressSetup setup = setup_;
-  setup.rubber = with_moduli(setup.rubber, parameters_, parameters);
+  if (by_moduli()) setup.rubber = with_moduli(setup.rubber, parameters_, parameters);
   for (std::size_t i = 0; i < parameters_.size(); ++i)
     if (const auto same = press_parameter(parameters_[i]))
       set_value(*same, parameters(Eigen::Index(i)), setup);

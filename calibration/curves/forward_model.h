@@ -54,14 +54,19 @@ class ForwardModel {
   virtual CurveSlopes evaluate(const Eigen::VectorXd& parameters) = 0;
 };
 
-/// E, G and modulus: what describes a rubber by its moduli.
+/// E, G and modulus: what describes a rubber by its engineering moduli.
 bool is_modulus(MaterialParameter parameter);
 
-/// `rubber` with the moduli among `parameters` (others are passed over) set to their values.
+/// Moduli, lame_shear and lambda: what a continuum depends on, too.
+bool is_of_the_rubber(MaterialParameter parameter);
+
+/// `rubber` with the moduli, lame_shear and lambda among `parameters` set to their values; others
+/// are passed over.
 meshes::Rubber with_moduli(meshes::Rubber rubber, const std::vector<MaterialParameter>& parameters,
                            const Eigen::VectorXd& values);
 
-/// d(E, G)/d(parameter) of a modulus at the rubber's Poisson's ratio, dimensionless.
+/// d(E, G)/d(parameter) of a modulus, lame_shear or lambda at the rubber's Poisson's ratio,
+/// dimensionless.
 Eigen::Vector2d moduli_slopes(MaterialParameter parameter, double poissons_ratio);
 
 /// lambda = G (E - 2G)/(3G - E) by E and by G, dimensionless.

@@ -62,7 +62,7 @@ BenchPlan smallest_plan() {
   plan.depth = 0.0005;
   plan.error_from = 0.0002;
   plan.reference_degree = 1;
-  plan.reference_refinement = 0.25;
+  plan.reference_refinement = 1.0;
   plan.reference_error = plan.small_strain = plan.known_references_only = false;
   plan.continua = {};
   plan.times = false;

@@ -57,20 +57,19 @@ Key data_key() {
 }
 
 Key forward_key() {
-  return choice("calibration", "forward",
-                {{"lattice", "the static lattice of [lattice], with exact derivatives"},
-                 {"continuum", "continuum runs at several Poisson's ratios, interpolated"}},
-                "what answers for the press in an experiment",
-                at(&Config::calibration, &CalibrationOrder::forward));
+  return choice(
+      "calibration", "forward",
+      {{"lattice", "the static lattice of [lattice], with exact derivatives"},
+       {"continuum", "the continuum, run at the Poisson's ratios that the search comes near"}},
+      "what answers for the press in an experiment",
+      at(&Config::calibration, &CalibrationOrder::forward));
 }
 
 Key range_key() {
   return with_rule(
       entry("poisson_range", {-0.99, 0.4999, true}, "Poisson's ratios between which is sought",
             &CalibrationOrder::poisson_range),
-      "the lower one first; for experiment; the continuum, which is run at seven "
-      "ratios between, takes [0.25, 0.49] unless the range is given",
-      {});
+      "the lower one first; for experiment", {});
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve cur
   fit.order.curves.push_back(std::move(curve));
   fit.order.kinds.push_back(kind);
   fit.order.presses.push_back(press);
-  fit.continua.push_back(continuum_beside(own, press.lattice.kinematics));
+  fit.order.continua.push_back(continuum_beside(own, press.lattice.kinematics));
 }
 
 /// The start of a driven rod shakes the tip; this long a way dies the shaking out before touch.
@@ -120,8 +120,8 @@ void add_moving_press(FitSetup& fit, const LoadedConfig& own, Curve curve) {
   lattice::PressSetup& press = fit.order.presses.back();
   press.protocol.clearance = run_up * press.protocol.speed;
   press.rubber.retardation_time *= 2.0;
-  fit.continua.back().analysis = fem_reference::Analysis::transient;
-  fit.continua.back().strain = fem_reference::Strain::linear;
+  fit.order.continua.back().analysis = fem_reference::Analysis::transient;
+  fit.order.continua.back().strain = fem_reference::Strain::linear;
 }
 
 }  // namespace
@@ -163,7 +163,7 @@ CurveKind kind_of(const MeasuredFile& file, const CalibrationOrder& order) {
   if (file.x_quantity == "frequency") return CurveKind::loss_factor;
   if (file.y_quantity == "creep") return CurveKind::creep;
   if (file.x_quantity == "time") return CurveKind::ramp;
-  return order.forward == ForwardKind::continuum ? CurveKind::table : CurveKind::press;
+  return order.forward == ForwardKind::continuum ? CurveKind::continuum : CurveKind::press;
 }
 
 std::string place_in(const std::filesystem::path& file, std::size_t line) {
@@ -266,7 +266,7 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
     MeasuredFile file = read_measured(order.data[i], quantities_of(order.problem));
     const CurveKind kind = kind_of(file, order);
     const bool press =
-        kind == CurveKind::press || kind == CurveKind::table || kind == CurveKind::ramp;
+        kind == CurveKind::press || kind == CurveKind::continuum || kind == CurveKind::ramp;
     if (i > 0 && press == fit.order.presses.empty())
       throw refused(loaded, "calibration.data", order.data[i].string(),
                     "forces of presses and other tests do not go into one fit",

@@ -13,6 +13,7 @@
 #include "lattice/press/static_press.h"
 #include "meshes/fields_json.h"
 #include "source_hash.h"
+#include "studies/run/continuum_model.h"
 #include "studies/run/digest.h"
 #include "studies/run/fit_order.h"
 #include "studies/run/jobs.h"
@@ -39,6 +40,8 @@ ordered_json curve_inputs(const FitOrder& order, std::size_t i) {
                          {"y", curve.y},
                          {"sigma", curve.sigma}};
   if (i < order.presses.size()) inputs["press"] = inputs_of(order.presses[i]);
+  if (order.kinds[i] == CurveKind::continuum)
+    inputs["continuum"] = reference_job(order.continua[i]).key();
   // The ramp's lattice is static, its rubber's damping is not.
   if (order.kinds[i] == CurveKind::ramp) inputs["speed"] = order.presses[i].protocol.speed;
   return inputs;
@@ -62,6 +65,7 @@ std::unique_ptr<ForwardModel> ramp_model(lattice::PressSetup setup, const std::v
 }
 
 std::unique_ptr<ForwardModel> model_of(const FitOrder& order, std::size_t i,
+                                       const JobContext& context,
                                        const std::function<bool()>& go_on) {
   const std::vector<double>& x = order.curves[i].x;
   const std::vector<MaterialParameter> parameters = parameters_of(order);
@@ -69,7 +73,9 @@ std::unique_ptr<ForwardModel> model_of(const FitOrder& order, std::size_t i,
     case CurveKind::press:
       return std::make_unique<calibration::LatticeForwardModel>(order.presses[i], parameters,
                                                                 go_on);
-    case CurveKind::table: return std::make_unique<calibration::ScaledTable>(order.tables[i]);
+    case CurveKind::continuum:
+      return std::make_unique<calibration::ScaledModel>(continuum_model(
+          order.continua[i], parameters, fmt::format("continuum_{}", i + 1), context));
     case CurveKind::uniaxial:
       return std::make_unique<calibration::UniaxialModel>(x, parameters, order.base.rubber);
     case CurveKind::simple_shear:
@@ -86,10 +92,11 @@ std::unique_ptr<ForwardModel> model_of(const FitOrder& order, std::size_t i,
 /// Models, and what remembers their answers in the folder's evaluations/.
 class Models {
  public:
-  Models(const FitOrder& order, const fs::path& folder, const std::function<bool()>& go_on) {
+  Models(const FitOrder& order, const fs::path& folder, const JobContext& context,
+         const std::function<bool()>& go_on) {
     fs::create_directories(folder / "evaluations");
     for (std::size_t i = 0; i < order.curves.size(); ++i) {
-      models_.push_back(model_of(order, i, go_on));
+      models_.push_back(model_of(order, i, context, go_on));
       remembering_.push_back(std::make_unique<calibration::RememberedModel>(
           *models_[i], folder / "evaluations" / fmt::format("curve_{}.jsonl", i + 1),
           Eigen::Index(order.curves[i].x.size()), Eigen::Index(order.options.free.size()),
@@ -137,7 +144,7 @@ lattice::PressSetup fitted_setup(const FitOrder& order, const Eigen::VectorXd& e
     setup.rubber.retardation_time = estimates(0);
   } else if (order.problem == CalibrationProblem::finite_strain) {
     put_rubber(law_rubber(order, estimates), setup);
-  } else if (!order.tables.empty()) {
+  } else if (by_continuum(order)) {
     put_rubber(calibration::with_moduli(order.base.rubber, parameters_of(order), estimates), setup);
   } else {
     return calibration::LatticeForwardModel(setup, parameters_of(order)).setup_with(estimates);
@@ -200,7 +207,7 @@ void add_profile(const FitOrder& order, const std::vector<ForwardModel*>& models
   };
   const std::size_t first = place(order.profile[0]), second = place(order.profile[1]);
   calibration::ProfileOptions grid;
-  if (order.presses.empty() || !order.tables.empty()) grid.points = fine_grid;
+  if (order.presses.empty() || by_continuum(order)) grid.points = fine_grid;
   record.profile = calibration::profile_likelihood(record.curves, models, record.options,
                                                    record.fit, first, second, grid);
   record.profile_first = record.fit.parameters[first];
@@ -230,14 +237,14 @@ void write(const calibration::FitRecord& record, const fs::path& folder) {
 std::string model_error_words(const FitOrder& order) {
   std::string words = order.with_lattice_error ? "the known error of the lattice" : "";
   if (!order.theory_error.empty())
-    words += std::string(words.empty() ? "" : " and ") + "what finite strain adds";
+    words += std::string(words.empty() ? "" : " and ") + order.theory_error_of;
   return words;
 }
 
 calibration::FitRecord described(const FitOrder& order) {
   calibration::FitRecord record;
   record.problem = name(order.problem);
-  record.forward = !order.tables.empty()   ? "continuum"
+  record.forward = by_continuum(order)     ? "continuum"
                    : order.presses.empty() ? "formula"
                                            : "lattice";
   record.curves = order.curves;
@@ -339,7 +346,7 @@ void run_fit(FitOrder order, const fs::path& folder, const JobContext& context) 
         std::min(1.0, double(evaluations) / budget),
         fmt::format("{}: {} of at most {} evaluations", stage, evaluations, budget));
   };
-  const Models models(order, folder, go_on);
+  const Models models(order, folder, context, go_on);
   const std::vector<ForwardModel*> list = models.addresses();
   order.options.threads = context.threads;
   order.options.progress = [&](int count, double) {
@@ -379,8 +386,7 @@ ordered_json inputs_of(const FitOrder& order) {
       {"poissons_ratios",
        {order.options.lowest_poissons_ratio, order.options.highest_poissons_ratio}},
       {"known", {order.density_known, order.retardation_time_known}},
-      {"provenance", order.provenance},
-      {"tables", order.table_keys}};
+      {"provenance", order.provenance}};
   inputs["curves"] = inputs["free"] = ordered_json::array();
   for (std::size_t i = 0; i < order.curves.size(); ++i)
     inputs["curves"].push_back(curve_inputs(order, i));
@@ -395,6 +401,10 @@ ordered_json inputs_of(const FitOrder& order) {
 }
 
 }  // namespace
+
+bool by_continuum(const FitOrder& order) {
+  return !order.kinds.empty() && order.kinds.front() == CurveKind::continuum;
+}
 
 std::vector<MaterialParameter> parameters_of(const FitOrder& order) {
   std::vector<MaterialParameter> parameters;

@@ -9,7 +9,7 @@
 #include "calibration/curves/curve.h"
 #include "calibration/curves/curve_fit.h"
 #include "calibration/curves/fit_record.h"
-#include "calibration/curves/scaled_table.h"
+#include "fem_reference/job.h"
 #include "lattice/press/press_setup.h"
 #include "studies/config/config.h"
 #include "studies/run/job.h"
@@ -19,7 +19,7 @@ namespace fingertip::studies {
 /// What answers for one curve.
 enum class CurveKind {
   press,         ///< the static lattice
-  table,         ///< the continuum, tabulated over Poisson's ratio
+  continuum,     ///< run at the Poisson's ratios that the search comes near
   uniaxial,      ///< law A
   simple_shear,  ///< law A
   loss_factor,
@@ -28,15 +28,15 @@ enum class CurveKind {
   moving_press,  ///< the moving lattice
 };
 
-/// SI. `curves`, `conditions` and `kinds` have an entry per curve; `presses` too where a lattice
-/// answers, `tables` where the continuum does.
+/// SI. `curves`, `conditions` and `kinds` have an entry per curve; `presses` and `continua` too
+/// where these are presses.
 struct FitOrder {
   CalibrationProblem problem = CalibrationProblem::curve;
   std::vector<calibration::Curve> curves;
   std::vector<std::string> conditions;
   std::vector<CurveKind> kinds;
   std::vector<lattice::PressSetup> presses;
-  std::vector<calibration::ScaledTable> tables;
+  std::vector<fem_reference::ReferenceJob> continua;  ///< the presses of a continuum
   lattice::PressSetup base;   ///< of the configuration: rubber and lattice that are not sought
   bool rubber_known = false;  ///< the data were made of base.rubber
   calibration::CurveFitOptions options;
@@ -46,16 +46,20 @@ struct FitOrder {
   bool scale_to_data = false;
   /// What the lattices are known to miss goes into the covariance of the forces.
   bool with_lattice_error = false;
-  /// Per curve, what finite strain adds to every force, relative: the same. None: nothing.
+  /// Per curve, what the model may miss of every force, relative: the same; and what that is, for
+  /// people. None: nothing.
   std::vector<std::vector<double>> theory_error;
+  std::string theory_error_of;
   bool density_known = true, retardation_time_known = true;  ///< of base.rubber, for material.toml
   std::vector<std::string> profile;                          ///< two parameters, or none
-  std::vector<std::string> table_keys;  ///< of the continuum jobs that tables are made of
-  std::string provenance, program;      ///< for material.toml
+  std::string provenance, program;                           ///< for material.toml
 };
 
 /// What the fit has found, as a material, whether it may be used or not.
 inline constexpr const char* estimates_name = "estimates.toml";
+
+/// Whether the continuum answers for the curves.
+bool by_continuum(const FitOrder& order);
 
 /// Of `order.options.free`.
 std::vector<calibration::MaterialParameter> parameters_of(const FitOrder& order);

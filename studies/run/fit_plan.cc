@@ -7,7 +7,6 @@
 
 #include "calibration/result_io.h"
 #include "meshes/press_response.h"
-#include "studies/run/continuum_table.h"
 #include "studies/run/fit_bias.h"
 #include "studies/run/fit_setup.h"
 #include "studies/run/jobs.h"
@@ -24,8 +23,6 @@ using calibration::MaterialParameter;
 using meshes::PressResponse;
 using nlohmann::ordered_json;
 
-/// Continua per curve that stand for all Poisson's ratios between.
-constexpr int table_nodes = 7;
 /// Indentations at which a lattice is judged by its continuum; between them its relative error is
 /// taken as linear.
 constexpr std::size_t bias_samples = 8;
@@ -43,12 +40,6 @@ const meshes::PressSample& sample_near(const PressResponse& response, double dep
   return *std::ranges::min_element(response.samples(), {}, [&](const meshes::PressSample& one) {
     return std::abs(one.indentation - depth);
   });
-}
-
-/// What the continuum knows, too.
-bool is_of_the_rubber(MaterialParameter parameter) {
-  using enum MaterialParameter;
-  return calibration::is_modulus(parameter) || parameter == lame_shear || parameter == lambda;
 }
 
 Eigen::MatrixXd matrix_of(const ordered_json& rows) {
@@ -114,52 +105,18 @@ double FitPlan::later_weight() const {
   if (stage_ <= Stage::fit) weight += by_moduli() ? moduli_weight : fit_weight;
   if (stage_ > Stage::follow_up) return weight;
   if (loaded_.config.calibration.surrogate) weight += surrogate_weight;
-  if (measures_bias()) weight += reference_weight * double(setup_.continua.size());
+  if (measures_bias())
+    for (const auto& order : setup_.order.continua) weight += reference_job(order).weight;
   return weight;
 }
 
 std::vector<PlannedJob> FitPlan::data_jobs() {
   std::vector<PlannedJob> jobs;
   if (by_moduli()) return jobs;
-  for (std::size_t i = 0; i < setup_.order.kinds.size(); ++i) {
-    if (setup_.data_from_continuum)
-      jobs.push_back(
-          {place("reference_" + std::to_string(i + 1)), reference_job(setup_.continua[i]), false});
-    if (setup_.order.kinds[i] == CurveKind::table)
-      for (PlannedJob& job : table_jobs(i)) jobs.push_back(std::move(job));
-  }
+  if (!setup_.data_from_continuum) return jobs;
+  for (const fem_reference::ReferenceJob& order : setup_.order.continua)
+    jobs.push_back({place("reference_" + std::to_string(jobs.size() + 1)), reference_job(order)});
   return jobs;
-}
-
-std::vector<double> FitPlan::table_ratios() const {
-  const std::vector<double> range = poisson_range(loaded_);
-  return calibration::chebyshev_nodes(range[0], range[1], table_nodes);
-}
-
-std::string FitPlan::table_place(std::size_t curve, std::size_t ratio) const {
-  return place(fmt::format("table_{}/{}", curve + 1, ratio + 1));
-}
-
-std::vector<PlannedJob> FitPlan::table_jobs(std::size_t curve) {
-  std::vector<PlannedJob> jobs;
-  for (const fem_reference::ReferenceJob& order :
-       continuum_table_orders(setup_.continua[curve], table_ratios())) {
-    jobs.push_back({table_place(curve, jobs.size()), reference_job(order), false});
-    setup_.order.table_keys.push_back(jobs.back().job.key());
-  }
-  return jobs;
-}
-
-void FitPlan::take_tables(const fs::path& run) {
-  const std::vector<double> ratios = table_ratios();
-  for (std::size_t i = 0; i < setup_.order.kinds.size(); ++i) {
-    if (setup_.order.kinds[i] != CurveKind::table) continue;
-    std::vector<fs::path> folders;
-    for (std::size_t k = 0; k < ratios.size(); ++k) folders.push_back(run / table_place(i, k));
-    setup_.order.tables.push_back(
-        read_continuum_table(setup_.continua[i], ratios, folders, parameters_of(setup_.order))
-            .table);
-  }
 }
 
 /// Forces of the continuum become data; their deviation is its own error and what the model of a
@@ -186,19 +143,18 @@ PlannedJob FitPlan::fit(const fs::path& run) {
                        fit_options(loaded_, loaded_.config.press.lattice.model)),
             false};
   if (setup_.data_from_continuum) take_continuum_data(run);
-  take_tables(run);
   return {place("fit"), fit_job(setup_.order), false};
 }
 
 /// Of a lattice that answered for measured forces: the continuum at the estimates tells its error.
 bool FitPlan::measures_bias() const {
   return loaded_.config.calibration.problem == CalibrationProblem::experiment &&
-         loaded_.config.calibration.bias && setup_.order.tables.empty() &&
-         std::ranges::all_of(parameters_of(setup_.order), is_of_the_rubber);
+         loaded_.config.calibration.bias && !by_continuum(setup_.order) &&
+         std::ranges::all_of(parameters_of(setup_.order), calibration::is_of_the_rubber);
 }
 
 PlannedJob FitPlan::bias(const fs::path& run, std::size_t curve) const {
-  fem_reference::ReferenceJob order = setup_.continua[curve];
+  fem_reference::ReferenceJob order = setup_.order.continua[curve];
   const calibration::Material found = material(run);
   order.rubber.youngs_modulus = found.rubber.youngs_modulus;
   order.rubber.shear_modulus = found.rubber.shear_modulus;
@@ -211,7 +167,7 @@ std::vector<PlannedJob> FitPlan::follow_up_jobs(const fs::path& run) {
   if (!usable(run)) return jobs;
   if (loaded_.config.calibration.surrogate) jobs.push_back(surrogate(run));
   if (measures_bias())
-    for (std::size_t i = 0; i < setup_.continua.size(); ++i) jobs.push_back(bias(run, i));
+    for (std::size_t i = 0; i < setup_.order.continua.size(); ++i) jobs.push_back(bias(run, i));
   return jobs;
 }
 

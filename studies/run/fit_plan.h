@@ -13,9 +13,10 @@
 namespace fingertip::studies {
 
 /// One calibration as stages of jobs, each of which needs the results of those before: the
-/// continuum that makes data, answers for the press or judges the lattice, the fit, the surrogate.
-///   reference_N/   continuum of curve N, or table_N/K: curve N at the K-th Poisson's ratio
+/// continuum that makes data or judges the lattice, the fit, the surrogate.
+///   reference_N/   continuum of curve N
 ///   fit/           the fit itself (moduli: in the calibration's folder)
+///   continuum_N/   that answers for curve N, run by the fit at Poisson's ratios
 ///   bias_N/        continuum of curve N at the estimates
 ///   surrogate/     the calibrated lattice's press, smoothed
 /// In the folder itself: calibration.json, material.toml, fit_data.csv, summary.json, surrogate.csv
@@ -50,10 +51,6 @@ class FitPlan {
   bool usable(const std::filesystem::path& run) const;
   std::string place(const std::string& name) const;
   std::vector<PlannedJob> data_jobs();
-  std::vector<PlannedJob> table_jobs(std::size_t curve);
-  std::vector<double> table_ratios() const;
-  std::string table_place(std::size_t curve, std::size_t ratio) const;
-  void take_tables(const std::filesystem::path& run);
   void take_continuum_data(const std::filesystem::path& run);
   PlannedJob fit(const std::filesystem::path& run);
   std::vector<PlannedJob> follow_up_jobs(const std::filesystem::path& run);

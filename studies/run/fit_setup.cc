@@ -8,6 +8,7 @@
 #include "calibration/curves/forward_model.h"
 #include "calibration/curves/model_error.h"
 #include "meshes/files.h"
+#include "studies/run/continuum_model.h"
 #include "studies/run/fit_curves.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/provenance.h"
@@ -28,10 +29,6 @@ constexpr double search_tolerance = 1e-2;
 
 /// Poisson's ratios scanned for starts: denser where rubbers are.
 constexpr double scanned_ratios[] = {0.1, 0.3, 0.42, 0.48};
-
-/// Poisson's ratios of a table, unless they are given: the pole of confined rubber at 1/2 wants
-/// more nodes than a continuum is run for.
-const std::vector<double> table_range = {0.25, 0.49};
 
 /// Finite strain that adds less to the deepest force than this is not worth its cost.
 constexpr double small_excess = 0.01;
@@ -169,7 +166,7 @@ void bound_modulus(FreeParameter& free, double lower, double upper) {
   free.start = std::clamp(free.start, lower, upper);
 }
 
-/// Law A knows no nu < 0, a table none beyond its nodes, a rubber none outside of its range.
+/// Law A knows no nu < 0, a rubber none outside of its range.
 void bound_poissons_ratio(const LoadedConfig& loaded, FitOrder& order) {
   const CalibrationOrder& wanted = loaded.config.calibration;
   calibration::CurveFitOptions& options = order.options;
@@ -177,7 +174,7 @@ void bound_poissons_ratio(const LoadedConfig& loaded, FitOrder& order) {
                       wanted.problem == CalibrationProblem::finite_strain;
   if (finite) options.lowest_poissons_ratio = 0.0;
   if (wanted.problem != CalibrationProblem::experiment) return;
-  const std::vector<double> range = poisson_range(loaded);
+  const std::vector<double>& range = wanted.poisson_range;
   const double lowest = options.lowest_poissons_ratio =
                    std::max(range[0], options.lowest_poissons_ratio),
                highest = options.highest_poissons_ratio = range[1];
@@ -201,13 +198,13 @@ void bound_poissons_ratio(const LoadedConfig& loaded, FitOrder& order) {
 /// What a model would refuse is said before the continuum runs for it.
 void check_models(const LoadedConfig& loaded, const FitOrder& order) {
   for (std::size_t i = 0; i < order.kinds.size(); ++i) {
-    if (order.kinds[i] == CurveKind::table &&
-        !std::ranges::all_of(parameters_of(order), calibration::is_modulus))
-      throw refused(loaded, "calibration.parameters", "", "the continuum knows E and G alone",
-                    "free youngs_modulus, shear_modulus or both, or modulus");
-    if (order.kinds[i] != CurveKind::press) continue;
+    const bool lattice = order.kinds[i] == CurveKind::press;
+    if (!lattice && order.kinds[i] != CurveKind::continuum) continue;
     try {
-      calibration::LatticeForwardModel(order.presses[i], parameters_of(order));
+      if (lattice)
+        calibration::LatticeForwardModel(order.presses[i], parameters_of(order));
+      else
+        continuum_model(order.continua[i], parameters_of(order), "", {});
     } catch (const meshes::InvalidInput& error) {
       std::vector<meshes::Violation> broken = error.violations();
       for (meshes::Violation& one : broken)
@@ -261,6 +258,11 @@ FitSetup assembled(const LoadedConfig& loaded) {
                             wanted.problem == CalibrationProblem::finite_strain;
   fit.order.start_ratios = start_ratios(fit.order);
   check_models(loaded, fit.order);
+  // A reference ends where every force is known that well.
+  if (by_continuum(fit.order)) fit.order.theory_error_of = "the continuum's tolerance";
+  if (by_continuum(fit.order))
+    for (const calibration::Curve& curve : fit.order.curves)
+      fit.order.theory_error.emplace_back(curve.x.size(), loaded.config.reference.tolerance);
   fit.order.with_lattice_error = std::ranges::all_of(fit.order.kinds, [](CurveKind kind) {
     return kind == CurveKind::press || kind == CurveKind::moving_press;
   });
@@ -293,7 +295,7 @@ bool may_be_finite(const LoadedConfig& loaded, const FitOrder& order) {
   const auto given = [&](const char* key) { return loaded.entries.at(key).given; };
   return !given("lattice.model") && !given("lattice.kinematics") && !given("lattice.constants") &&
          std::ranges::all_of(parameters_of(order), [](MaterialParameter one) {
-           return calibration::is_modulus(one) || one == bond || one == contact;
+           return calibration::is_of_the_rubber(one) || one == bond || one == contact;
          });
 }
 
@@ -325,6 +327,7 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit) {
     return fit;
   }
   fit.order.theory_error = excess;
+  fit.order.theory_error_of = "what finite strain adds";
   fit.notes.push_back(said +
                       ": that difference counts as an error of the model, which widens the "
                       "intervals (the finite law: lattice.model = network)");
@@ -345,12 +348,6 @@ void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
 }
 
 }  // namespace
-
-std::vector<double> poisson_range(const LoadedConfig& loaded) {
-  const CalibrationOrder& order = loaded.config.calibration;
-  const bool given = loaded.entries.at("calibration.poisson_range").given;
-  return order.forward == ForwardKind::continuum && !given ? table_range : order.poisson_range;
-}
 
 fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
                                              lattice::Kinematics kinematics) {

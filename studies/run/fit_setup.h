@@ -9,22 +9,17 @@
 
 namespace fingertip::studies {
 
-/// A fit's order as far as the configuration and measured files tell, and the continuum that goes
-/// with each curve: the one that will make its data (y is then still empty), or the one the lattice
-/// can be judged by. No continua for coupon tests and damping by files.
+/// A fit's order as far as the configuration and measured files tell. The continuum of a curve
+/// answers for it, makes its data (y is then still empty), or can judge the lattice.
 struct FitSetup {
   LoadedConfig loaded;  ///< what is fitted: the configuration, or that at finite strain
   FitOrder order;
-  std::vector<fem_reference::ReferenceJob> continua;
   bool data_from_continuum = false;
   std::vector<std::string> notes;  ///< on measured files, strain and budget; for people
 };
 
 /// Throws ConfigError with every problem of [calibration], of a condition or a measured file.
 FitSetup fit_setup(const LoadedConfig& loaded);
-
-/// calibration.poisson_range, or what a table of the continuum spans where it is not given.
-std::vector<double> poisson_range(const LoadedConfig& loaded);
 
 /// The continuum beside a press: static, linear or law A as `kinematics` says, without fields.
 fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,

@@ -4,12 +4,15 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "meshes/errors.h"
 
 namespace fingertip::studies {
+
+struct PlannedJob;
 
 /// What a job may use while it runs.
 struct JobContext {
@@ -18,6 +21,9 @@ struct JobContext {
   std::function<void(const std::string& line)> log;
   int threads = 1;
   int ranks = 1;  ///< MPI processes of the continuum
+  /// Carries out further jobs, named beside this one in the run folder, as a session does: from the
+  /// cache where it knows them, several at a time. Their folders; throws as they do.
+  std::function<std::vector<std::filesystem::path>(const std::vector<PlannedJob>&)> run_all = {};
 };
 
 /// A process that did the work was lost (killed, out of memory, crashed). Ends a program like
@@ -46,6 +52,14 @@ struct Job {
 
   /// SHA-256 over kind, inputs and source hash.
   std::string key() const;
+};
+
+/// A job with its place in the run folder.
+struct PlannedJob {
+  std::string name;  ///< shown to the user; also the sub-folder, "" for the run folder itself
+  Job job;
+  /// An exhibit may fail to converge without failing the run: its status says so.
+  bool exhibit = false;
 };
 
 }  // namespace fingertip::studies

@@ -86,6 +86,7 @@ ordered_json inputs_of(const fem_reference::ReferenceJob& order) {
   drop(inputs["protocol"], {"mode", "clearance"});
   if (order.strain != fem_reference::Strain::finite) drop(inputs, {"law"});
   if (order.analysis != Analysis::modes) drop(inputs, {"modes"});
+  if (!order.axisymmetric() || !order.write_fields) drop(inputs, {"field_sectors"});
   if (order.analysis == Analysis::static_press)
     drop(inputs["rubber"], {"density", "retardation_time"});
   if (order.analysis == Analysis::modes) drop(inputs["rubber"], {"retardation_time"});

@@ -88,7 +88,16 @@ void Session::compute(const PlannedJob& planned, JobResult& result, int threads)
                              return !interrupted();
                            },
                            [&](const std::string& line) { folder_.log(result.name + ": " + line); },
-                           threads, ranks_};
+                           threads, ranks_,
+                           [&](std::vector<PlannedJob> further) {
+                             std::vector<fs::path> folders;
+                             for (PlannedJob& one : further) {
+                               one.name = fs::path(planned.name).parent_path() / one.name;
+                               folders.push_back(path_of(one));
+                             }
+                             run_all(further);
+                             return folders;
+                           }};
   result.status = finished;
   mark_attempt(planned.job, target);
   try {

@@ -12,14 +12,6 @@
 
 namespace fingertip::studies {
 
-/// A job with its place in the run folder.
-struct PlannedJob {
-  std::string name;  ///< shown to the user; also the sub-folder, "" for the run folder itself
-  Job job;
-  /// An exhibit may fail to converge without failing the run: its status says so.
-  bool exhibit = false;
-};
-
 struct JobResult {
   std::string name;
   std::string status;      ///< "finished", or "not converged: why" for an exhibit

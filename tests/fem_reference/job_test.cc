@@ -61,6 +61,7 @@ TEST(ReferenceJob, SurvivesTheFile) {
   job.solver = LinearSolver::multigrid;
   job.solver_tolerance = 3e-12;
   job.write_fields = false;
+  job.field_sectors = 12;
   job.estimate_error = false;
   write_job(job, folder / "job.json");
   const ReferenceJob read = read_job(folder / "job.json");

@@ -321,7 +321,7 @@ TEST(Calibrate, RefusesWhatCannotBeFitted) {
        "press, geometry and reference"},
       {{"--set", "calibration.data=[\"good.csv\"]", "--set", "calibration.forward=continuum",
         "--set", "calibration.parameters=[\"k1\"]"},
-       "E and G alone"},
+       "moduli alone"},
       {{"--set", "calibration.data=[\"good.csv\"]", "--set",
         "calibration.parameters=[\"youngs_modulus\", \"k1\"]"},
        "described in one way"},

@@ -6,14 +6,19 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "meshes/files.h"
 #include "meshes/press_response.h"
 #include "program.h"
 #include "studies/run/fem_launch.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
+using nlohmann::json;
+namespace meshes = fingertip::meshes;
 using fingertip::meshes::PressResponse;
 using fingertip::studies::children_of;
 
@@ -21,12 +26,12 @@ namespace {
 
 /// A press on one mesh of some 28 000 unknowns: three seconds, the last of them with samples.
 std::vector<std::string> reference(const std::string& out, std::vector<std::string> more = {}) {
-  std::vector<std::string> words = {
-      "reference", "--out", out, "--set", "reference.symmetry=none", "--set",
-      "reference.estimate_error=false", "--set",
-      // Several ranks solve by multigrid, which takes longer.
-      more.empty() || more.front() != "--ranks" ? "reference.refinement=0.7"
-                                                : "reference.refinement=0.3"};
+  std::vector<std::string> words = {"reference", "--out", out, "--set", "reference.symmetry=none",
+                                    "--set", "reference.estimate_error=false", "--set",
+                                    // Several ranks solve by multigrid, which takes longer.
+                                    more.empty() || more.front() != "--ranks"
+                                        ? "reference.refinement=0.7"
+                                        : "reference.refinement=0.3"};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -131,4 +136,41 @@ TEST_F(Continuum, RanksDoNotChangeTheForces) {
       run_program(folder_.path(), reference("shared", {"--ranks", "3", "--threads", "2"}));
   ASSERT_EQ(result.code, 0) << result.err;
   expect_equal(whole, PressResponse::read_csv(folder_ / "shared/response.csv"));
+}
+
+/// A fit runs the continuum where its search goes; what it ran serves the next fit.
+TEST_F(Continuum, IsRunInsideTheFit) {
+  std::vector<std::string> press = {"reference", "--out", "press", "--set", "press.contact=stick"};
+  for (const char* setting :
+       {"press.samples=[\"0.2 mm\", \"0.4 mm\", \"0.8 mm\", \"1.5 mm\"]", "reference.strain=finite",
+        "reference.tolerance=0.003", "reference.fields=false", "rubber.youngs_modulus=30 kPa",
+        "rubber.shear_modulus=10.5 kPa"})
+    press.insert(press.end(), {"--set", setting});
+  ASSERT_EQ(run_program(folder_.path(), press).code, 0);
+  std::ofstream data(folder_ / "data.csv");
+  data << "# press.contact = \"stick\"\nindentation [m],force [N],sigma [N]\n";
+  const PressResponse measured = PressResponse::read_csv(folder_ / "press/response.csv");
+  for (const auto& sample : measured.samples())
+    data << meshes::to_text(sample.indentation) << ',' << meshes::to_text(sample.normal_force)
+         << ',' << meshes::to_text(0.005 * sample.normal_force) << '\n';
+  data.close();
+  const auto fit = [&](const std::string& out, const std::string& parameters) {
+    const ProgramResult result = run_program(
+        folder_.path(),
+        {"calibrate", "--out", out, "--force", "--set", "calibration.problem=experiment", "--set",
+         "calibration.forward=continuum", "--set", "calibration.data=[\"data.csv\"]", "--set",
+         "lattice.model=network", "--set", "reference.tolerance=0.01", "--set",
+         "calibration.parameters=" + parameters});
+    EXPECT_TRUE(result.code == 0 || result.code == 4) << result.err;
+    return json::parse(read_text(folder_ / (out + "/calibration.json")))["parameters"];
+  };
+  const json moduli = fit("moduli", "[\"youngs_modulus\", \"shear_modulus\"]");
+  EXPECT_NEAR(moduli[0]["estimate"].get<double>(), 30e3, 0.01 * 30e3);
+  EXPECT_NEAR(moduli[1]["estimate"].get<double>(), 10.5e3, 0.01 * 10.5e3);
+  const json constants = fit("constants", "[\"lame_shear\", \"lambda\"]");
+  EXPECT_NEAR(constants[0]["estimate"].get<double>() / moduli[1]["estimate"].get<double>(), 1.0,
+              1e-3);
+  for (const auto& node : fs::directory_iterator(folder_ / "constants/continuum_1"))
+    EXPECT_TRUE(fs::exists(folder_ / "moduli/continuum_1" / node.path().filename()))
+        << node.path() << " is computed again";
 }

@@ -90,7 +90,8 @@ Sets other_values(const Key& key, const std::string& literal) {
         if (one.word != text) values.push_back(one.word);
       return values;
     case Kind::boolean: return {text == "true" ? "false" : "true"};
-    case Kind::integer: return {std::to_string(std::stol(text) + 1)};
+    case Kind::integer:
+      return {std::to_string(std::stol(text) + 1), std::to_string(std::stol(text) + 16)};
     case Kind::numbers: return {"[0.1, 0.2, 0.3]"};
     case Kind::number_pair: return {"[0.1, 0.4]"};
     case Kind::number:
@@ -192,8 +193,8 @@ const Sets no_continuum = {"reference."}, no_fit = {"calibration."}, no_grasp = 
 const Sets diagonal = {"press.lateral_path", "press.lateral_samples"},
            no_friction = {"press.friction"};
 /// The continuum beside a fit is what the fit needs.
-const Sets beside = {"reference.mode", "reference.strain", "reference.law", "reference.modes",
-                     "reference.fields"};
+const Sets beside = {"reference.mode",  "reference.strain", "reference.law",
+                     "reference.modes", "reference.fields", "reference.field_sectors"};
 /// A fit presses where its data are.
 const Sets own_depths = {"press.mode", "press.depth", "press.samples"};
 
@@ -250,7 +251,9 @@ const World worlds[] = {
              no_grasp,
              no_rod,
              no_time,
-             {"lattice.", "press.mode", "rubber.density", "rubber.retardation_time"}})},
+             // Aside, so that it is no meridian.
+             {"lattice.", "press.mode", "rubber.density", "rubber.retardation_time",
+              "reference.field_sectors"}})},
     {"continuum in time",
      {"reference.mode=transient"},
      continuum,
@@ -272,7 +275,7 @@ const World worlds[] = {
              no_grasp,
              no_rod,
              no_time,
-             {"lattice.", "press.", "rubber.retardation_time"}})},
+             {"lattice.", "press.", "rubber.retardation_time", "reference.field_sectors"}})},
     {"fit to moduli",
      {"calibration.problem=moduli", "lattice.model=central"},
      calibration,
