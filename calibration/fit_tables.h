@@ -2,15 +2,27 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "meshes/file_fields.h"
 #include "meshes/press_response.h"
+#include "meshes/table_rows.h"
 
 namespace fingertip::calibration {
 
+/// The name of a curve: in quotes whatever it says.
+struct CurveName : std::string {
+  CurveName() = default;
+  CurveName(std::string text) : std::string(std::move(text)) {}
+};
+inline std::string csv_cell(const CurveName& name) {
+  const std::string cell = meshes::csv_cell(name);
+  return cell.starts_with('"') ? cell : '"' + cell + '"';
+}
+
 /// fit_data.csv: a measured value, SI; x and measured are the curve's quantities.
 struct FitDataRow {
-  std::string curve;
+  CurveName curve;
   double x = meshes::unknown;
   double measured = meshes::unknown;
   double sigma = meshes::unknown;

@@ -159,7 +159,7 @@ TYPED_TEST(Table, ReadsBackWhatIsWritten) {
   meshes::for_each_column<TypeParam>([&](const auto&, std::size_t, const auto& value_of) {
     using Value = std::remove_cvref_t<decltype(value_of(rows.front()))>;
     ++number;
-    if constexpr (std::is_same_v<Value, std::string>)
+    if constexpr (std::is_base_of_v<std::string, Value>)
       value_of(rows[0]) = "it's \"" + std::to_string(number) + "\", quoted";
     else if constexpr (std::is_enum_v<Value>)
       value_of(rows[0]) = values(Value{}).back();
