@@ -1,9 +1,13 @@
 #include "fem_reference/assembly.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/work_stream.h>
 #include <deal.II/fe/fe_tools.h>
+#include <deal.II/grid/filtered_iterator.h>
+#include <dlfcn.h>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 #include "meshes/errors.h"
@@ -31,6 +35,74 @@ void agree(const std::string& failure, MPI_Comm communicator) {
   if (first != all.end()) throw meshes::NotConverged(*first);
 }
 
+/// What a thread needs to integrate elements.
+template <int dim>
+struct Work {
+  dealii::FEValues<dim> values;
+  std::unique_ptr<ElementKernel<dim>> kernel;
+  std::vector<global_dof_index> indices;
+  Eigen::VectorXd local;
+
+  Work(const Body<dim>& body, const ElementKernel<dim>& original)
+      : values(body.mapping, body.fine.element.base_element(0),
+               dealii::QGauss<dim>(body.fine.element.degree + 1),
+               dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
+                   dealii::update_JxW_values),
+        kernel(original.clone()),
+        indices(body.fine.element.n_dofs_per_cell()),
+        local(Eigen::Index(indices.size())) {}
+  Work(const Work& other)
+      : values(other.values.get_mapping(), other.values.get_fe(), other.values.get_quadrature(),
+               other.values.get_update_flags()),
+        kernel(other.kernel->clone()),
+        indices(other.indices),
+        local(other.local) {}
+};
+
+/// An element's system on its way from the thread that made it.
+template <int dim>
+struct Contribution {
+  CellIterator<dim> cell;
+  ElementSystem element;
+  dealii::FullMatrix<double> matrix;
+  dealii::Vector<double> force;
+  std::string failure;
+
+  explicit Contribution(std::size_t unknowns)
+      : matrix(unsigned(unknowns), unsigned(unknowns)), force(unsigned(unknowns)) {}
+};
+
+/// While elements keep all threads busy, products of their small matrices must not ask for more.
+class OneBlasThread {
+ public:
+  OneBlasThread() {
+    if (set_threads() && get_threads()) {
+      before_ = get_threads()();
+      set_threads()(1);
+    }
+  }
+  ~OneBlasThread() {
+    if (before_ > 0) set_threads()(before_);
+  }
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+
+ private:
+  // Looked up by name: which BLAS serves the program is the system's choice.
+  static void (*set_threads())(int) {
+    static const auto found =
+        reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+    return found;
+  }
+  static int (*get_threads())() {
+    static const auto found =
+        reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+    return found;
+  }
+
+  int before_ = 0;
+};
+
 }  // namespace
 
 template <int dim>
@@ -42,38 +114,42 @@ LinearSystem::LinearSystem(const Body<dim>& body, bool with_coarse_matrix)
 template <int dim>
 void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
                       const ElementAction<dim>& take) {
-  const dealii::FiniteElement<dim>& scalar = body.fine.element.base_element(0);
-  dealii::FEValues<dim> values(body.mapping, scalar, dealii::QGauss<dim>(scalar.degree + 1),
-                               dealii::update_values | dealii::update_gradients |
-                                   dealii::update_quadrature_points | dealii::update_JxW_values);
   const std::vector<Eigen::Index> order = element_order(body.fine.element);
   const Vector u = body.fine.ghosted(displacement);
-  std::vector<global_dof_index> indices(order.size());
-  Eigen::VectorXd local(Eigen::Index(order.size()));
-  dealii::FullMatrix<double> matrix(unsigned(order.size()), unsigned(order.size()));
-  dealii::Vector<double> force(static_cast<unsigned>(order.size()));
-  ElementSystem element;
-  std::string failure;
-  for (const auto& cell : body.fine.dofs.active_cell_iterators()) {
-    if (!cell->is_locally_owned() || !failure.empty()) continue;
-    values.reinit(static_cast<typename dealii::Triangulation<dim>::cell_iterator>(cell));
-    cell->get_dof_indices(indices);
-    for (unsigned i = 0; i < order.size(); ++i) local[order[i]] = u[indices[i]];
+  using Owned = dealii::FilteredIterator<CellIterator<dim>>;
+  const auto integrate = [&](const Owned& cell, Work<dim>& work, Contribution<dim>& result) {
+    result.cell = static_cast<const CellIterator<dim>&>(cell);
+    result.failure.clear();
+    work.values.reinit(
+        static_cast<typename dealii::Triangulation<dim>::cell_iterator>(result.cell));
+    cell->get_dof_indices(work.indices);
+    for (unsigned i = 0; i < order.size(); ++i) work.local[order[i]] = u[work.indices[i]];
+    ElementSystem& element = result.element;
     try {
-      kernel.integrate(values, local, element);
+      work.kernel->integrate(work.values, work.local, element);
     } catch (const meshes::NotConverged& error) {
-      failure = error.what();
-      continue;
+      result.failure = error.what();
+      return;
     } catch (const std::domain_error& error) {  // of the material law, at the edge of J = 0
-      failure = error.what();
-      continue;
+      result.failure = error.what();
+      return;
     }
     for (unsigned i = 0; i < order.size(); ++i) {
-      for (unsigned j = 0; j < order.size(); ++j) matrix(i, j) = element.matrix(order[i], order[j]);
-      force[i] = element.force[order[i]];
+      for (unsigned j = 0; j < order.size(); ++j)
+        result.matrix(i, j) = element.matrix(order[i], order[j]);
+      result.force[i] = element.force[order[i]];
     }
-    take(cell, matrix, force, element);
-  }
+  };
+  std::string failure;
+  const auto hand_over = [&](const Contribution<dim>& result) {
+    if (failure.empty()) failure = result.failure;
+    if (failure.empty()) take(result.cell, result.matrix, result.force, result.element);
+  };
+  const dealii::IteratorFilters::LocallyOwnedCell owned;
+  const OneBlasThread one_blas_thread;
+  dealii::WorkStream::run(Owned(owned).set_to_next_positive(body.fine.dofs.begin_active()),
+                          Owned(owned, body.fine.dofs.end()), integrate, hand_over,
+                          Work<dim>(body, kernel), Contribution<dim>(order.size()));
   agree(failure, body.fine.communicator);
 }
 

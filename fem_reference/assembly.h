@@ -44,7 +44,8 @@ using ElementAction = std::type_identity_t<
     std::function<void(const CellIterator<dim>&, const dealii::FullMatrix<double>&,
                        const dealii::Vector<double>&, const ElementSystem&)>>;
 
-/// Calls `take` for every locally owned cell.
+/// Calls `take` for every locally owned cell, in their order whatever the number of threads that
+/// integrate them.
 template <int dim>
 void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
                       const ElementAction<dim>& take);

@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "fem_reference/job.h"
@@ -31,6 +32,8 @@ class ElementKernel {
   virtual ~ElementKernel() = default;
   virtual void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                          ElementSystem& result) = 0;
+  /// For another thread: a kernel keeps work space.
+  virtual std::unique_ptr<ElementKernel> clone() const = 0;
 };
 
 /// Hooke's law at small strain: K_ai,bj = ∫ lambda da_i db_j + G (da_j db_i + delta_ij da·db), with
@@ -45,6 +48,9 @@ class HookeKernel : public ElementKernel<dim> {
   HookeKernel(const meshes::Rubber& rubber, Volumetric volumetric);
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  ElementSystem& result) override;
+  std::unique_ptr<ElementKernel<dim>> clone() const override {
+    return std::make_unique<HookeKernel>(*this);
+  }
 
  private:
   double lambda_, shear_;
@@ -61,6 +67,9 @@ class HyperelasticKernel : public ElementKernel<dim> {
   HyperelasticKernel(const HyperelasticLaw& law, Volumetric volumetric);
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  ElementSystem& result) override;
+  std::unique_ptr<ElementKernel<dim>> clone() const override {
+    return std::make_unique<HyperelasticKernel>(*this);
+  }
 
  private:
   HyperelasticLaw law_;
@@ -75,6 +84,9 @@ class MassKernel : public ElementKernel<dim> {
   explicit MassKernel(double density) : density_(density) {}
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  ElementSystem& result) override;
+  std::unique_ptr<ElementKernel<dim>> clone() const override {
+    return std::make_unique<MassKernel>(*this);
+  }
 
  private:
   double density_;

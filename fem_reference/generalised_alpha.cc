@@ -13,25 +13,28 @@ namespace {
 template <int dim>
 class EffectiveKernel : public ElementKernel<dim> {
  public:
-  EffectiveKernel(ElementKernel<dim>& stiffness, double stiffness_factor, ElementKernel<dim>& mass,
-                  double mass_factor)
-      : stiffness_(stiffness),
-        mass_(mass),
+  EffectiveKernel(const ElementKernel<dim>& stiffness, double stiffness_factor,
+                  const ElementKernel<dim>& mass, double mass_factor)
+      : stiffness_(stiffness.clone()),
+        mass_(mass.clone()),
         stiffness_factor_(stiffness_factor),
         mass_factor_(mass_factor) {}
 
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  ElementSystem& result) override {
-    stiffness_.integrate(values, displacement, result);
-    mass_.integrate(values, displacement, mass_part_);
+    stiffness_->integrate(values, displacement, result);
+    mass_->integrate(values, displacement, mass_part_);
     result.matrix = stiffness_factor_ * result.matrix + mass_factor_ * mass_part_.matrix;
     result.force.noalias() = result.matrix * displacement;
     result.energy = 0.5 * displacement.dot(result.force);
   }
 
+  std::unique_ptr<ElementKernel<dim>> clone() const override {
+    return std::make_unique<EffectiveKernel>(*stiffness_, stiffness_factor_, *mass_, mass_factor_);
+  }
+
  private:
-  ElementKernel<dim>& stiffness_;
-  ElementKernel<dim>& mass_;
+  std::unique_ptr<ElementKernel<dim>> stiffness_, mass_;
   double stiffness_factor_, mass_factor_;
   ElementSystem mass_part_;
 };

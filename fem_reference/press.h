@@ -79,7 +79,7 @@ class ContinuumPress {
 
   MeshSummary mesh() const;
 
-  /// Longest step of a press whose path matters, in units of R - r; 0.01 at first.
+  /// Longest step in units of R - r; at first 0.01, or 0.1 where nothing sticks.
   void set_longest_step(double step);
 
   /// Moves on to `place` [m] of the job's PressPath, at least the present one. Throws

@@ -24,7 +24,7 @@ constexpr double linear_bulge = 1.2, finite_bulge = 2.0;
 constexpr int most_newton_iterations = 25;
 constexpr int most_backtracks = 6;
 /// Equilibrium: out-of-balance forces over the contact forces.
-constexpr double balanced = 1e-9;
+constexpr double balanced = 1e-7;
 /// Contact forces below this many G R² are not resolved to the full tolerance.
 constexpr double least_force = 1e-4;
 
@@ -72,6 +72,7 @@ void TipPress<dim>::prepare() {
   displacement_.reinit(body_->fine.vector());
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);
   assemble(*body_, *kernel_, displacement_, *system_);
+  at_displacement_ = true;
   if (job_.strain == Strain::linear) solver_->set_matrix(*system_);
   marks_.clear();
 }
@@ -105,6 +106,7 @@ void TipPress<dim>::step(double place, PressState& effort) {
     check_other_nodes(place);
   } catch (...) {
     displacement_ = before;
+    at_displacement_ = job_.strain == Strain::linear;
     throw;
   }
   contact_->commit();
@@ -144,7 +146,8 @@ void TipPress<dim>::newton_step(const PlanePose& target, PressState& effort) {
                             ? std::max(balanced, 10.0 * job_.solver_tolerance)
                             : balanced;
   Vector u = displacement_;
-  assemble(*body_, *kernel_, u, *system_);
+  if (!at_displacement_) assemble(*body_, *kernel_, u, *system_);
+  at_displacement_ = false;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
     ++effort.newton_iterations;
@@ -180,6 +183,7 @@ void TipPress<dim>::newton_step(const PlanePose& target, PressState& effort) {
     last = norm;
     if (factor == 1.0 && same_contact && norm < enough) {
       displacement_ = u;
+      at_displacement_ = true;
       return;
     }
   }

@@ -35,8 +35,6 @@ std::string bench_text(const ordered_json& bench) {
             ? fmt::format("{:.2f}", 100.0 * press.at("worst_force_error").get<double>())
             : "-");
   }
-  if (bench.contains("missing_reference"))
-    text += bench.at("missing_reference").get<std::string>() + "\n";
   return text;
 }
 

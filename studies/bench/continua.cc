@@ -65,8 +65,8 @@ Job continuum_job(const LoadedConfig& loaded, const BenchPlan& plan,
 
 nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
                                        const ContinuumPlan& continuum,
-                                       const std::optional<meshes::PressResponse>& truth,
-                                       const BenchPlan& plan, double period) {
+                                       const meshes::PressResponse& truth, const BenchPlan& plan,
+                                       double period) {
   const auto summary = read_json(folder / "summary.json");
   double seconds = 0.0;
   for (const auto& sample : summary.at("samples")) seconds += sample.at("wall_time").get<double>();
@@ -78,8 +78,7 @@ nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
           {"solves_per_second", rate},
           {"real_time_factor", rate * period},
           {"worst_force_error",
-           truth ? number_or_null(worst_force_error(response, *truth, plan.error_from, plan.depth))
-                 : nlohmann::ordered_json()}};
+           number_or_null(worst_force_error(response, truth, plan.error_from, plan.depth))}};
 }
 
 std::string continuum_name(const ContinuumPlan& continuum) {

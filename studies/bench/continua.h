@@ -1,7 +1,6 @@
 /// The continuum: what errors are measured against, and as a way of simulating the press itself.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +33,8 @@ Job continuum_job(const LoadedConfig& loaded, const BenchPlan& plan,
 /// per control period: the factor is solves per second times the controller's `period` [s].
 nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
                                        const ContinuumPlan& continuum,
-                                       const std::optional<meshes::PressResponse>& truth,
-                                       const BenchPlan& plan, double period);
+                                       const meshes::PressResponse& truth, const BenchPlan& plan,
+                                       double period);
 
 /// "degree2_0.5"
 std::string continuum_name(const ContinuumPlan& continuum);

@@ -36,19 +36,19 @@ BenchPlan full_plan() {
   BenchPlan plan;
   plan.sizes = {20, 48, 22, 70, 100};
   plan.presses = presses({6, 8, 12, 16, 24});
-  plan.continua = {{1, 0.25}, {1, 0.5}, {1, 1.0}, {2, 0.25}, {2, 0.5}};
+  plan.continua = {{1, 1.0}, {1, 2.0}, {2, 0.5}, {2, 1.0}, {2, 2.0}};
   return plan;
 }
 
 BenchPlan quick_plan() {
   BenchPlan plan;
-  plan.quick = plan.known_references_only = true;
+  plan.quick = true;
   plan.rounds = 3;
   plan.wide_rounds = 1;
   plan.seconds = 0.05;
   plan.sizes = {20, 48};
   plan.presses = presses({6, 8});
-  plan.continua = {{1, 0.25}, {1, 0.5}};
+  plan.continua = {{1, 1.0}, {2, 0.5}, {2, 1.0}};
   return plan;
 }
 
@@ -63,7 +63,7 @@ BenchPlan smallest_plan() {
   plan.error_from = 0.0002;
   plan.reference_degree = 1;
   plan.reference_refinement = 1.0;
-  plan.reference_error = plan.small_strain = plan.known_references_only = false;
+  plan.reference_error = plan.small_strain = false;
   plan.continua = {};
   plan.times = false;
   return plan;

@@ -45,8 +45,6 @@ struct BenchPlan {
   double reference_refinement = 0.5;
   bool reference_error = true;  ///< refine the reference until it meets the tolerance
   bool small_strain = true;     ///< a second reference, of small strain
-  /// Take references that are there already and compute none: without one there are no errors.
-  bool known_references_only = false;
   std::vector<ContinuumPlan> continua;
   int continuum_solves = 30;  ///< equilibria per press of these
   bool times = true;          ///< of static press and calibration
@@ -54,8 +52,7 @@ struct BenchPlan {
 
 /// Half an hour on two cores, most of it for R/24.
 BenchPlan full_plan();
-/// R/6 and R/8 only, fewer repeats: about two minutes. Force errors only where a full run has left
-/// the references in the cache.
+/// R/6 and R/8 only, fewer repeats: below three minutes.
 BenchPlan quick_plan();
 /// Seconds: to see that everything works, not to measure.
 BenchPlan smallest_plan();

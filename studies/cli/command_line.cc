@@ -132,7 +132,7 @@ void add_bench(CLI::App& sub, CommandLine& line) {
   sub.add_option("--json", line.json, "write what was measured to this file, too")
       ->type_name("FILE");
   sub.add_flag("--quick", line.quick,
-               "coarse lattices, few repeats, no continuum: some two minutes");
+               "coarse lattices, few repeats: below three minutes");
   sub.add_option("--history", line.history,
                  "folder of history.jsonl, which gets a line (default: in the cache)")
       ->type_name("DIR");

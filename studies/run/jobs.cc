@@ -125,10 +125,10 @@ Job reference_job(const fem_reference::ReferenceJob& order) {
   job.run = [order](const fs::path& folder, const JobContext& context) {
     fem_reference::write_job(order, folder / "job.json");
     JobContext own = context;
-    if (order.axisymmetric() && own.ranks > 1) {
+    if (order.axisymmetric() && own.ranks > 1)
       own.log("a meridian is solved on one process: --ranks is not used");
-      own.ranks = 1;
-    }
+    // Threads would wait for each other longer than its small fronts take.
+    if (order.axisymmetric()) own.ranks = own.threads = 1;
     run_fem_process(reference_program(), folder, own);
     fs::remove_all(folder / "checkpoint");  // of use to an unfinished job alone
   };

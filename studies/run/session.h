@@ -35,12 +35,6 @@ class Session {
   /// exhibit); a failed job leaves what it had.
   JobResult run(const PlannedJob& planned);
 
-  /// Whether `run` would find the job's result instead of computing it.
-  bool has_result(const PlannedJob& planned) const {
-    return marked_status(planned.job, path_of(planned)) == finished ||
-           (planned.job.repeatable && cache_.has_entry(planned.job));
-  }
-
   /// Runs all jobs, as many at a time as there are threads, one thread each, in the given order.
   /// After the first failure no further job starts; it is thrown when the running ones have ended.
   std::vector<JobResult> run_all(const std::vector<PlannedJob>& planned);

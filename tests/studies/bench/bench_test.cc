@@ -113,16 +113,3 @@ TEST(Bench, WithoutAvx512AndPeersTheRatiosAreNull) {
   EXPECT_EQ(bench.at("missing_programs").at("lammps"),
             "a-program-that-is-not-there is not on the PATH (package lammps)");
 }
-
-TEST(Bench, WithoutAContinuumInTheCacheAQuickRunSaysThatErrorsAreMissing) {
-  const TemporaryFolder folder;
-  BenchPlan plan = studies::smallest_plan();
-  plan.known_references_only = true;
-  plan.presses.resize(1);
-  plan.lammps.clear();
-  plan.bullet = false;
-  const ordered_json bench = bench_in(folder, plan);
-  EXPECT_TRUE(bench.at("press").at(0).at("worst_force_error").is_null());
-  EXPECT_NE(studies::bench_text(bench).find("no force errors"), std::string::npos);
-  EXPECT_FALSE(std::filesystem::exists(folder / "run/reference"));
-}
