@@ -126,25 +126,12 @@ void put_rubber(const meshes::Rubber& rubber, lattice::PressSetup& setup) {
                                 : lattice::hookean_constants(rubber, options.spacing);
 }
 
-/// E and G of law A's parameters.
-meshes::Rubber law_rubber(const FitOrder& order, const Eigen::VectorXd& estimates) {
-  const auto law =
-      calibration::LawParameters(parameters_of(order), order.base.rubber).at(estimates);
-  meshes::Rubber rubber = order.base.rubber;
-  rubber.shear_modulus = law.shear;
-  rubber.youngs_modulus =
-      law.shear * (3.0 * law.lambda + 2.0 * law.shear) / (law.lambda + law.shear);
-  return rubber;
-}
-
 /// The lattice and rubber that the estimates stand for.
 lattice::PressSetup fitted_setup(const FitOrder& order, const Eigen::VectorXd& estimates) {
   lattice::PressSetup setup = order.base;
   if (order.problem == CalibrationProblem::damping) {
     setup.rubber.retardation_time = estimates(0);
-  } else if (order.problem == CalibrationProblem::finite_strain) {
-    put_rubber(law_rubber(order, estimates), setup);
-  } else if (by_continuum(order)) {
+  } else if (order.problem == CalibrationProblem::finite_strain || by_continuum(order)) {
     put_rubber(calibration::with_moduli(order.base.rubber, parameters_of(order), estimates), setup);
   } else {
     return calibration::LatticeForwardModel(setup, parameters_of(order)).setup_with(estimates);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -240,16 +239,19 @@ TEST(Meridian, ResumesWhereItWasSaved) {
             straight.press.advance(1e-3).sample.normal_force);
 }
 
+/// The file of the fields at an indentation [m].
+std::string fields_at(double indentation, const ReferenceJob& job) {
+  Pressing pressing(job);
+  pressing.press.advance(indentation);
+  const auto file = pressing.folder() / "fields.vtu";
+  pressing.press.write_fields(*pressing.press.snapshot(), file);
+  return read_text(file);
+}
+
 /// Surfaces in the plane y = 0 whose fields lie in space: three components of displacement, nine of
 /// stress.
 TEST(Meridian, FieldsAreInSpace) {
-  const ReferenceJob job = meridian_press(ContactMode::stick, Strain::finite);
-  Pressing pressing(job);
-  pressing.press.advance(1e-3);
-  const auto file = pressing.folder() / "fields.vtu";
-  pressing.press.write_fields(*pressing.press.snapshot(), file);
-  std::ifstream in(file);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = fields_at(1e-3, meridian_press(ContactMode::stick, Strain::finite));
   EXPECT_NE(text.find("Name=\"displacement\" NumberOfComponents=\"3\""), std::string::npos);
   EXPECT_NE(text.find("Name=\"stress\" NumberOfComponents=\"9\""), std::string::npos);
   for (const char* scalar :
@@ -262,12 +264,7 @@ TEST(Meridian, IsTurnedIntoTheBodyOnWish) {
   ReferenceJob job = meridian_press();
   const auto cells = [&](int sectors) {
     job.field_sectors = sectors;
-    Pressing pressing(job);
-    pressing.press.advance(1e-3);
-    const auto file = pressing.folder() / "fields.vtu";
-    pressing.press.write_fields(*pressing.press.snapshot(), file);
-    std::ifstream in(file);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string text = fields_at(1e-3, job);
     const std::string key = "NumberOfCells=\"";
     return std::stoi(text.substr(text.find(key) + key.size()));
   };
