@@ -103,6 +103,24 @@ class OneBlasThread {
   int before_ = 0;
 };
 
+void start_sums(LinearSystem& system) {
+  system.force.compress(dealii::VectorOperation::add);  // what a failed assembly left behind
+  system.force = 0.0;
+  system.min_jacobian = 1.0;
+  system.energy = 0.0;
+}
+
+void add_sums(const ElementSystem& element, LinearSystem& system) {
+  system.min_jacobian = std::min(system.min_jacobian, element.min_jacobian);
+  system.energy += element.energy;
+}
+
+void finish_sums(MPI_Comm communicator, LinearSystem& system) {
+  system.force.compress(dealii::VectorOperation::add);
+  system.min_jacobian = dealii::Utilities::MPI::min(system.min_jacobian, communicator);
+  system.energy = dealii::Utilities::MPI::sum(system.energy, communicator);
+}
+
 }  // namespace
 
 template <int dim>
@@ -113,7 +131,7 @@ LinearSystem::LinearSystem(const Body<dim>& body, bool with_coarse_matrix)
 
 template <int dim>
 void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
-                      const ElementAction<dim>& take) {
+                      const ElementAction<dim>& take, Parts parts) {
   const std::vector<Eigen::Index> order = element_order(body.fine.element);
   const Vector u = body.fine.ghosted(displacement);
   using Owned = dealii::FilteredIterator<CellIterator<dim>>;
@@ -126,7 +144,7 @@ void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const V
     for (unsigned i = 0; i < order.size(); ++i) work.local[order[i]] = u[work.indices[i]];
     ElementSystem& element = result.element;
     try {
-      work.kernel->integrate(work.values, work.local, element);
+      work.kernel->integrate(work.values, work.local, parts, element);
     } catch (const meshes::NotConverged& error) {
       result.failure = error.what();
       return;
@@ -135,9 +153,10 @@ void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const V
       return;
     }
     for (unsigned i = 0; i < order.size(); ++i) {
+      result.force[i] = element.force[order[i]];
+      if (parts == Parts::force) continue;
       for (unsigned j = 0; j < order.size(); ++j)
         result.matrix(i, j) = element.matrix(order[i], order[j]);
-      result.force[i] = element.force[order[i]];
     }
   };
   std::string failure;
@@ -157,8 +176,6 @@ template <int dim>
 void assemble(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
               LinearSystem& system) {
   system.matrix = 0.0;
-  system.force.compress(dealii::VectorOperation::add);  // what a failed assembly left behind
-  system.force = 0.0;
   const bool with_coarse = system.coarse_matrix.m() > 0;
   if (with_coarse) system.coarse_matrix = 0.0;
   dealii::FullMatrix<double> embedding(body.fine.element.n_dofs_per_cell(),
@@ -166,13 +183,11 @@ void assemble(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& d
   dealii::FETools::get_interpolation_matrix(body.coarse.element, body.fine.element, embedding);
   dealii::FullMatrix<double> restricted(embedding.n(), embedding.n());
   std::vector<global_dof_index> fine(embedding.m()), coarse(embedding.n());
-  system.min_jacobian = 1.0;
-  system.energy = 0.0;
+  start_sums(system);
   for_each_element(body, kernel, displacement,
                    [&](const CellIterator<dim>& cell, const dealii::FullMatrix<double>& matrix,
                        const dealii::Vector<double>& force, const ElementSystem& element) {
-                     system.min_jacobian = std::min(system.min_jacobian, element.min_jacobian);
-                     system.energy += element.energy;
+                     add_sums(element, system);
                      cell->get_dof_indices(fine);
                      body.fine.constraints.distribute_local_to_global(matrix, force, fine,
                                                                       system.matrix, system.force);
@@ -186,10 +201,25 @@ void assemble(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& d
                      restricted = 0.0;
                    });
   system.matrix.compress(dealii::VectorOperation::add);
-  system.force.compress(dealii::VectorOperation::add);
   if (with_coarse) system.coarse_matrix.compress(dealii::VectorOperation::add);
-  system.min_jacobian = dealii::Utilities::MPI::min(system.min_jacobian, body.fine.communicator);
-  system.energy = dealii::Utilities::MPI::sum(system.energy, body.fine.communicator);
+  finish_sums(body.fine.communicator, system);
+}
+
+template <int dim>
+void assemble_force(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
+                    LinearSystem& system) {
+  start_sums(system);
+  std::vector<global_dof_index> indices(body.fine.element.n_dofs_per_cell());
+  for_each_element(
+      body, kernel, displacement,
+      [&](const CellIterator<dim>& cell, const dealii::FullMatrix<double>&,
+          const dealii::Vector<double>& force, const ElementSystem& element) {
+        add_sums(element, system);
+        cell->get_dof_indices(indices);
+        body.fine.constraints.distribute_local_to_global(force, indices, system.force);
+      },
+      Parts::force);
+  finish_sums(body.fine.communicator, system);
 }
 
 template <int dim>
@@ -198,12 +228,14 @@ Vector condensed_force(const Body<dim>& body, ElementKernel<dim>& kernel,
                        const dealii::AffineConstraints<double>& constraints) {
   Vector result = body.fine.vector();
   std::vector<global_dof_index> indices(body.fine.element.n_dofs_per_cell());
-  for_each_element(body, kernel, displacement,
-                   [&](const CellIterator<dim>& cell, const dealii::FullMatrix<double>&,
-                       const dealii::Vector<double>& force, const ElementSystem&) {
-                     cell->get_dof_indices(indices);
-                     constraints.distribute_local_to_global(force, indices, result);
-                   });
+  for_each_element(
+      body, kernel, displacement,
+      [&](const CellIterator<dim>& cell, const dealii::FullMatrix<double>&,
+          const dealii::Vector<double>& force, const ElementSystem&) {
+        cell->get_dof_indices(indices);
+        constraints.distribute_local_to_global(force, indices, result);
+      },
+      Parts::force);
   result.compress(dealii::VectorOperation::add);
   return result;
 }
@@ -217,8 +249,10 @@ Vector unconstrained_force(const Body<dim>& body, ElementKernel<dim>& kernel,
 #define FINGERTIP_INSTANTIATE(dim)                                                             \
   template LinearSystem::LinearSystem(const Body<dim>&, bool);                                 \
   template void for_each_element(const Body<dim>&, ElementKernel<dim>&, const Vector&,         \
-                                 const ElementAction<dim>&);                                   \
+                                 const ElementAction<dim>&, Parts);                            \
   template void assemble(const Body<dim>&, ElementKernel<dim>&, const Vector&, LinearSystem&); \
+  template void assemble_force(const Body<dim>&, ElementKernel<dim>&, const Vector&,           \
+                               LinearSystem&);                                                 \
   template Vector condensed_force(const Body<dim>&, ElementKernel<dim>&, const Vector&,        \
                                   const dealii::AffineConstraints<double>&);                   \
   template Vector unconstrained_force(const Body<dim>&, ElementKernel<dim>&, const Vector&);

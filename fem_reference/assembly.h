@@ -26,6 +26,11 @@ template <int dim>
 void assemble(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
               LinearSystem& system);
 
+/// The same without its matrices, which stay those of the last assembly.
+template <int dim>
+void assemble_force(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
+                    LinearSystem& system);
+
 /// Internal force of the elements at `displacement`, passed through `constraints` [N].
 template <int dim>
 Vector condensed_force(const Body<dim>& body, ElementKernel<dim>& kernel,
@@ -45,9 +50,9 @@ using ElementAction = std::type_identity_t<
                        const dealii::Vector<double>&, const ElementSystem&)>>;
 
 /// Calls `take` for every locally owned cell, in their order whatever the number of threads that
-/// integrate them.
+/// integrate them. Without `Parts::all` the matrix is undefined.
 template <int dim>
 void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const Vector& displacement,
-                      const ElementAction<dim>& take);
+                      const ElementAction<dim>& take, Parts parts = Parts::all);
 
 }  // namespace fingertip::fem_reference

@@ -18,7 +18,9 @@ class CondensedSolver : public FieldSolver {
   }
 
   void set_matrix(const LinearSystem& system) override {
-    const UpperTriangle upper = free_.upper_triangle(system.matrix);
+    SymmetricMatrix matrix;
+    free_.restrict(system.matrix, matrix);
+    const UpperTriangle upper = upper_triangle(matrix);
     if (!factor_) factor_ = std::make_unique<SparseFactor>(upper, free_.node(), contact_);
     factor_->factorise(upper);
     compliance_ = factor_->last_block_of_inverse();

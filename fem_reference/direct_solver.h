@@ -1,12 +1,18 @@
 /// What the two direct solvers share: the free unknowns of a space and their matrix.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "fem_reference/assembly.h"
 #include "fem_reference/sparse_factor.h"
 
 namespace fingertip::fem_reference {
+
+using SymmetricMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, long>;
+
+/// With the rows and columns that are held cut off from the others, where some are.
+UpperTriangle upper_triangle(const SymmetricMatrix& matrix, const std::vector<char>& held = {});
 
 /// Numbers the unknowns of a space that no constraint takes away. One process only.
 class FreeUnknowns {
@@ -20,13 +26,16 @@ class FreeUnknowns {
   /// The node (named by one of its unknowns) to which every free unknown belongs.
   const std::vector<long>& node() const { return node_; }
 
-  UpperTriangle upper_triangle(const SparseMatrix& matrix) const;
+  /// Every matrix must have the pattern of the first.
+  void restrict(const SparseMatrix& matrix, SymmetricMatrix& result);
   Eigen::VectorXd restrict(const Vector& v) const;
   Vector extend(const Eigen::VectorXd& v) const;
 
  private:
   Vector zero_;  ///< of the whole space
   std::vector<long> number_, node_;
+  SymmetricMatrix pattern_;
+  std::vector<long> place_;  ///< of every entry of a matrix in the pattern's values, or -1
 };
 
 }  // namespace fingertip::fem_reference

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -38,36 +39,28 @@ Eigen::VectorXd weights_of(const dealii::FEValues<dim>& values) {
   return weights;
 }
 
-/// The entries of F that an element can change.
+/// What a displacement component changes F by, point after point: its two or three derivatives and,
+/// in a body of revolution, phi/r. A matrix (3 points, nodes), the same for every component.
 template <int dim>
-constexpr Index entry_count = Index(Kinematics<dim>::entries.size());
-
-/// The matrix B with B u = those entries of grad u, at all quadrature points.
-template <int dim>
-void fill_strain_operator(const dealii::FEValues<dim>& values, Eigen::MatrixXd& strain_operator) {
-  constexpr Index size = entry_count<dim>;
-  strain_operator.setZero(size * point_count(values), dim * node_count(values));
+void fill_slopes(const dealii::FEValues<dim>& values, Eigen::MatrixXd& slopes) {
+  slopes.resize(3 * point_count(values), node_count(values));
   for (Index q = 0; q < point_count(values); ++q)
     for (Index a = 0; a < node_count(values); ++a) {
       const auto& gradient = values.shape_grad(unsigned(a), unsigned(q));
-      for (Index i = 0; i < dim; ++i)
-        for (Index j = 0; j < dim; ++j)
-          strain_operator(size * q + dim * i + j, dim * a + i) = gradient[unsigned(j)];
+      for (Index j = 0; j < dim; ++j) slopes(3 * q + j, a) = gradient[unsigned(j)];
       if constexpr (Kinematics<dim>::revolved)
-        strain_operator(size * q + dim * dim, dim * a) =
+        slopes(3 * q + 2, a) =
             values.shape_value(unsigned(a), unsigned(q)) / values.quadrature_point(unsigned(q))[0];
     }
 }
 
-/// I + grad u.
-template <int dim>
-Eigen::Matrix3d deformation_gradient(const Eigen::Ref<const Eigen::VectorXd>& entries) {
-  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
-  for (Index e = 0; e < entries.size(); ++e) {
-    const Index place = Kinematics<dim>::entries[std::size_t(e)];
-    result(place / 3, place % 3) += entries[e];
-  }
-  return result;
+/// `take(i, s, e)` for every slope s of a component i that changes entry e of F.
+template <int dim, class Take>
+void for_each_slope(Take take) {
+  for (Index i = 0; i < dim; ++i)
+    for (Index s = 0; s < 3; ++s)
+      if (const int e = Kinematics<dim>::slopes[std::size_t(i)][std::size_t(s)]; e >= 0)
+        take(i, s, Index(e));
 }
 
 /// First and second derivative of h(J) with respect to F, index 3 i + J:
@@ -127,10 +120,15 @@ Eigen::MatrixXd ElementPolynomials<dim>::monomials(
   for (Index row = 0; row < values.rows(); ++row) {
     const dealii::Tensor<1, dim> x = (points[std::size_t(row)] - centre_) / size_;
     Index column = 0;
-    for (int i = 0; i <= degree_; ++i)
-      for (int j = 0; i + j <= degree_; ++j)
-        for (int k = 0; k <= std::min(solid, degree_ - i - j); ++k)
-          values(row, column++) = std::pow(x[0], i) * std::pow(x[1], j) * std::pow(x[dim - 1], k);
+    double of_x = 1.0;
+    for (int i = 0; i <= degree_; ++i, of_x *= x[0]) {
+      double of_xy = of_x;
+      for (int j = 0; i + j <= degree_; ++j, of_xy *= x[1]) {
+        double of_xyz = of_xy;
+        for (int k = 0; k <= std::min(solid, degree_ - i - j); ++k, of_xyz *= x[dim - 1])
+          values(row, column++) = of_xyz;
+      }
+    }
   }
   return values;
 }
@@ -141,7 +139,8 @@ HookeKernel<dim>::HookeKernel(const meshes::Rubber& rubber, Volumetric volumetri
 
 template <int dim>
 void HookeKernel<dim>::integrate(const dealii::FEValues<dim>& values,
-                                 const Eigen::VectorXd& displacement, ElementSystem& result) {
+                                 const Eigen::VectorXd& displacement, Parts,
+                                 ElementSystem& result) {
   constexpr bool revolved = Kinematics<dim>::revolved;
   const Index nodes = node_count(values), points = point_count(values);
   const Eigen::VectorXd roots = weights_of(values).cwiseSqrt();
@@ -191,21 +190,23 @@ HyperelasticKernel<dim>::HyperelasticKernel(const HyperelasticLaw& law, Volumetr
 
 template <int dim>
 void HyperelasticKernel<dim>::integrate(const dealii::FEValues<dim>& values,
-                                        const Eigen::VectorXd& displacement,
+                                        const Eigen::VectorXd& displacement, Parts parts,
                                         ElementSystem& result) {
-  constexpr Index size = entry_count<dim>;
-  constexpr auto entries = Kinematics<dim>::entries;
   const Index nodes = node_count(values), points = point_count(values);
-  fill_strain_operator(values, strain_operator_);
-  stressed_operator_.resize(size * points, dim * nodes);
-  const Eigen::VectorXd changes = strain_operator_ * displacement;
+  const bool projects = volumetric_ == Volumetric::projected;
+  fill_slopes(values, slopes_);
+  using NodeRows = Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor>;
+  const Eigen::MatrixXd changes =
+      slopes_ * Eigen::Map<const NodeRows>(displacement.data(), nodes, dim);
 
   std::vector<Eigen::Matrix3d> gradient(static_cast<std::size_t>(points));
   Eigen::VectorXd measure(points), jacobians(points);
   const Eigen::VectorXd weights = weights_of(values);
   for (Index q = 0; q < points; ++q) {
-    gradient[std::size_t(q)] = deformation_gradient<dim>(changes.segment(size * q, size));
-    jacobians[q] = gradient[std::size_t(q)].determinant();
+    Eigen::Matrix3d& f = gradient[std::size_t(q)] = Eigen::Matrix3d::Identity();
+    for_each_slope<dim>(
+        [&](Index i, Index s, Index e) { f(e / 3, e % 3) += changes(3 * q + s, i); });
+    jacobians[q] = f.determinant();
     if (!(jacobians[q] > 0.0))
       throw meshes::NotConverged("an element of the rubber is turned inside out (J = " +
                                  std::to_string(jacobians[q]) + ")");
@@ -213,7 +214,7 @@ void HyperelasticKernel<dim>::integrate(const dealii::FEValues<dim>& values,
   }
   Eigen::MatrixXd basis;
   Eigen::VectorXd effective = measure;  // the measure that multiplies the modulus
-  if (volumetric_ == Volumetric::projected) {
+  if (projects) {
     basis = volumetric_basis(values);
     effective = basis * (basis.transpose() * weights.cwiseProduct(measure));
   }
@@ -221,36 +222,76 @@ void HyperelasticKernel<dim>::integrate(const dealii::FEValues<dim>& values,
   result.energy = 0.5 * modulus * weights.dot(effective.cwiseProduct(effective));
   result.min_jacobian = jacobians.minCoeff();
 
-  Eigen::MatrixXd volume_rows(points, dim * nodes);  // dh/du at every point
-  Eigen::VectorXd stresses(size * points);
+  const bool with_matrix = parts == Parts::all;
+  // By point and slope, for every component: the stress, and how h changes.
+  Eigen::MatrixXd stresses = Eigen::MatrixXd::Zero(3 * points, dim), swelling = stresses;
+  tangents_.resize(with_matrix ? std::size_t(points) : 0);
   for (Index q = 0; q < points; ++q) {
     const Eigen::Matrix3d& f = gradient[std::size_t(q)];
     const auto response = law_.pointwise(f);
     const auto volume = differentiate(law_.volumetric(jacobians[q]), jacobians[q], f.inverse());
-    const auto rows = strain_operator_.middleRows(size * q, size);
-    volume_rows.row(q).noalias() = volume.first(entries).transpose() * rows;
-    Matrix9 tangent = response.tangent + modulus * effective[q] * volume.second;
-    if (volumetric_ == Volumetric::pointwise)
-      tangent += modulus * volume.first * volume.first.transpose();
-    const Eigen::Matrix<double, size, size> reduced = tangent(entries, entries);
-    stressed_operator_.middleRows(size * q, size).noalias() = weights[q] * reduced * rows;
-    for (Index e = 0; e < size; ++e) {
-      const Index place = entries[std::size_t(e)];
-      stresses[size * q + e] = weights[q] * (response.stress(place / 3, place % 3) +
-                                             modulus * effective[q] * volume.first[place]);
-    }
     result.energy += weights[q] * response.energy;
+    for_each_slope<dim>([&](Index i, Index s, Index e) {
+      stresses(3 * q + s, i) =
+          weights[q] * (response.stress(e / 3, e % 3) + modulus * effective[q] * volume.first[e]);
+      swelling(3 * q + s, i) = volume.first[e];
+    });
+    if (!with_matrix) continue;
+    Matrix9 tangent = response.tangent + modulus * effective[q] * volume.second;
+    if (!projects) tangent += modulus * volume.first * volume.first.transpose();
+    auto& ordered = tangents_[std::size_t(q)];
+    ordered.setZero();
+    for_each_slope<dim>([&](Index i, Index s, Index e) {
+      for_each_slope<dim>([&](Index k, Index t, Index column) {
+        ordered(3 * i + s, 3 * k + t) = weights[q] * tangent(e, column);
+      });
+    });
   }
-  result.force.noalias() = strain_operator_.transpose() * stresses;
-  result.matrix.noalias() = strain_operator_.transpose() * stressed_operator_;
-  if (volumetric_ == Volumetric::projected) {
-    const Eigen::MatrixXd projected = volume_rows.transpose() * weights.asDiagonal() * basis;
-    result.matrix.noalias() += modulus * (projected * projected.transpose());
+  result.force.resize(dim * nodes);
+  Eigen::Map<NodeRows>(result.force.data(), nodes, dim).noalias() = slopes_.transpose() * stresses;
+  if (!with_matrix) return;
+  fill_tangent(result.matrix);
+  if (projects) add_swelling(swelling, weights.asDiagonal() * basis, modulus, result.matrix);
+}
+
+/// Block (i, k) couples components of two nodes: slopes^T (tangent of i and k) slopes.
+template <int dim>
+void HyperelasticKernel<dim>::fill_tangent(Eigen::MatrixXd& matrix) {
+  const Index nodes = slopes_.cols(), points = slopes_.rows() / 3;
+  matrix.resize(dim * nodes, dim * nodes);
+  stressed_.resize(3 * points, nodes);
+  for (Index k = 0; k < dim; ++k)
+    for (Index i = 0; i <= k; ++i) {
+      for (Index q = 0; q < points; ++q)
+        stressed_.middleRows<3>(3 * q).noalias() =
+            tangents_[std::size_t(q)].template block<3, 3>(3 * i, 3 * k) *
+            slopes_.middleRows<3>(3 * q);
+      block_.noalias() = slopes_.transpose() * stressed_;
+      for (Index b = 0; b < nodes; ++b)
+        for (Index a = 0; a < nodes; ++a)
+          matrix(dim * a + i, dim * b + k) = matrix(dim * b + k, dim * a + i) = block_(a, b);
+    }
+}
+
+/// modulus sum_p c_p c_p^T, c_p = ∫ p dh/du of the orthonormal polynomials p.
+template <int dim>
+void HyperelasticKernel<dim>::add_swelling(const Eigen::MatrixXd& swelling,
+                                           const Eigen::MatrixXd& weighted_basis, double modulus,
+                                           Eigen::MatrixXd& matrix) {
+  const Index nodes = slopes_.cols(), points = slopes_.rows() / 3;
+  projected_.resize(dim * nodes, weighted_basis.cols());
+  for (Index i = 0; i < dim; ++i) {
+    for (Index q = 0; q < points; ++q)
+      stressed_.row(q).noalias() =
+          swelling.col(i).segment<3>(3 * q).transpose() * slopes_.middleRows<3>(3 * q);
+    block_.noalias() = stressed_.topRows(points).transpose() * weighted_basis;
+    for (Index a = 0; a < nodes; ++a) projected_.row(dim * a + i) = block_.row(a);
   }
+  matrix.noalias() += modulus * (projected_ * projected_.transpose());
 }
 
 template <int dim>
-void MassKernel<dim>::integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd&,
+void MassKernel<dim>::integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd&, Parts,
                                 ElementSystem& result) {
   const Index nodes = node_count(values);
   result.matrix.setZero(dim * nodes, dim * nodes);

@@ -24,14 +24,18 @@ struct ElementSystem {
   double energy = 0.0;        ///< [J]
 };
 
-/// Integrates one element. `values` is of the scalar element, with gradients, values, points and
-/// JxW; `displacement` holds the element's dim n nodal displacements [m].
+/// What is asked of an element: its force costs a fifth of its stiffness at large strain.
+enum class Parts { force, all };
+
+/// Integrates one element. A kernel may fill in the matrix though only the force is asked for.
+/// `values` is of the scalar element, with gradients, values, points and JxW; `displacement` holds
+/// the element's dim n nodal displacements [m].
 template <int dim>
 class ElementKernel {
  public:
   virtual ~ElementKernel() = default;
   virtual void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
-                         ElementSystem& result) = 0;
+                         Parts parts, ElementSystem& result) = 0;
   /// For another thread: a kernel keeps work space.
   virtual std::unique_ptr<ElementKernel> clone() const = 0;
 };
@@ -47,7 +51,7 @@ class HookeKernel : public ElementKernel<dim> {
  public:
   HookeKernel(const meshes::Rubber& rubber, Volumetric volumetric);
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
-                 ElementSystem& result) override;
+                 Parts parts, ElementSystem& result) override;
   std::unique_ptr<ElementKernel<dim>> clone() const override {
     return std::make_unique<HookeKernel>(*this);
   }
@@ -66,15 +70,21 @@ class HyperelasticKernel : public ElementKernel<dim> {
  public:
   HyperelasticKernel(const HyperelasticLaw& law, Volumetric volumetric);
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
-                 ElementSystem& result) override;
+                 Parts parts, ElementSystem& result) override;
   std::unique_ptr<ElementKernel<dim>> clone() const override {
     return std::make_unique<HyperelasticKernel>(*this);
   }
 
  private:
+  void fill_tangent(Eigen::MatrixXd& matrix);
+  void add_swelling(const Eigen::MatrixXd& swelling, const Eigen::MatrixXd& weighted_basis,
+                    double modulus, Eigen::MatrixXd& matrix);
+
   HyperelasticLaw law_;
   Volumetric volumetric_;
-  Eigen::MatrixXd strain_operator_, stressed_operator_;
+  Eigen::MatrixXd slopes_, stressed_, block_, projected_;
+  /// dP/dF of every point, by component and slope of both.
+  std::vector<Eigen::Matrix<double, 3 * dim, 3 * dim>> tangents_;
 };
 
 /// Consistent mass, rho ∫ phi_a phi_b delta_ij.
@@ -83,7 +93,7 @@ class MassKernel : public ElementKernel<dim> {
  public:
   explicit MassKernel(double density) : density_(density) {}
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
-                 ElementSystem& result) override;
+                 Parts parts, ElementSystem& result) override;
   std::unique_ptr<ElementKernel<dim>> clone() const override {
     return std::make_unique<MassKernel>(*this);
   }

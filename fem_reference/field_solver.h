@@ -27,10 +27,12 @@ template <int dim>
 std::unique_ptr<FieldSolver> make_condensed_solver(const Body<dim>& body,
                                                    const std::vector<long>& contact_unknowns);
 
-/// Factorises the matrix anew, without the held unknowns, whenever these change. At large strain,
-/// where the matrix changes in every iteration anyway, this costs little more than condensation,
-/// and it needs no stable tip without contact: under the dead load of the plane's forces alone a
-/// strongly compressed tip is not. One process only.
+/// For a matrix that changes a little and often, as at large strain. Factorises it without the held
+/// unknowns, so that no stable tip without contact is needed: under the dead load of the plane's
+/// forces alone a strongly compressed tip is not. The factor stays while it helps: unknowns that
+/// are held since it was made are taken out by their Schur complement, and conjugate gradients,
+/// starting from the solution before, make up for the change of the matrix until what was out of
+/// balance after `set_load` is down to a thousandth. `noise` tells. One process only.
 template <int dim>
 std::unique_ptr<FieldSolver> make_eliminating_solver(const Body<dim>& body,
                                                      const std::vector<long>& contact_unknowns);

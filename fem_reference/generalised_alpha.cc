@@ -20,10 +20,10 @@ class EffectiveKernel : public ElementKernel<dim> {
         stiffness_factor_(stiffness_factor),
         mass_factor_(mass_factor) {}
 
-  void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
+  void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement, Parts,
                  ElementSystem& result) override {
-    stiffness_->integrate(values, displacement, result);
-    mass_->integrate(values, displacement, mass_part_);
+    stiffness_->integrate(values, displacement, Parts::all, result);
+    mass_->integrate(values, displacement, Parts::all, mass_part_);
     result.matrix = stiffness_factor_ * result.matrix + mass_factor_ * mass_part_.matrix;
     result.force.noalias() = result.matrix * displacement;
     result.energy = 0.5 * displacement.dot(result.force);

@@ -30,6 +30,9 @@ struct Kinematics<3> {
   /// Which entries of F (row by row) an element can change: first those of the gradient, component
   /// by component, then the hoop's.
   static constexpr std::array<Eigen::Index, 9> entries{0, 1, 2, 3, 4, 5, 6, 7, 8};
+  /// Those that each component changes by its slopes: its derivatives and, in a body of revolution,
+  /// u/r. -1: no such slope.
+  static constexpr std::array<std::array<int, 3>, 3> slopes{{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
   static constexpr bool revolved = false;
 };
 
@@ -37,6 +40,7 @@ template <>
 struct Kinematics<2> {
   static constexpr std::array<unsigned, 2> axis{0, 2};
   static constexpr std::array<Eigen::Index, 5> entries{0, 2, 6, 8, 4};
+  static constexpr std::array<std::array<int, 3>, 2> slopes{{{0, 2, 4}, {6, 8, -1}}};
   static constexpr bool revolved = true;
 };
 

@@ -92,7 +92,8 @@ PressState ContinuumPress::advance(double place) {
   while (self.model->place() < place) {
     stop_if_asked(self.stop_requested);
     try {
-      self.model->step(self.next_step(place, limit), effort);
+      const double next = self.next_step(place, limit);
+      self.model->step(next, next == place, effort);
       ++effort.steps;
       limit = std::min(1.0, 1.5 * limit);
     } catch (const meshes::NotConverged&) {

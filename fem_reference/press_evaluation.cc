@@ -105,6 +105,7 @@ PressState TipPress<dim>::evaluate() {
     system_->matrix.vmult(force, displacement_);
     state.energy = 0.5 * (force * displacement_);
   }
+  stale_tangent_ = true;  // resumed from here, a press goes on the same way
   add_resultant(state);
   note_indicators(state);
   return state;

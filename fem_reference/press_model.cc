@@ -22,9 +22,12 @@ using meshes::ContactMode;
 /// the contact before it meets the plane, the more the larger the strain.
 constexpr double linear_bulge = 1.2, finite_bulge = 2.0;
 constexpr int most_newton_iterations = 25;
+/// A step starts with the last tangent of the step before. After that a tangent serves as long as
+/// an iteration leaves at most this share of the forces that were out of balance before.
+constexpr double chord_progress = 0.05;
 constexpr int most_backtracks = 6;
-/// Equilibrium: out-of-balance forces over the contact forces.
-constexpr double balanced = 1e-7;
+/// Equilibrium: out-of-balance forces over the contact forces, at a sample and on the way to it.
+constexpr double balanced = 1e-7, nearly_balanced = 1e-4;
 /// Contact forces below this many G R² are not resolved to the full tolerance.
 constexpr double least_force = 1e-4;
 
@@ -71,9 +74,8 @@ void TipPress<dim>::prepare() {
   place_ = 0.0;
   displacement_.reinit(body_->fine.vector());
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);
-  assemble(*body_, *kernel_, displacement_, *system_);
+  linearise(displacement_);
   at_displacement_ = true;
-  if (job_.strain == Strain::linear) solver_->set_matrix(*system_);
   marks_.clear();
 }
 
@@ -95,13 +97,13 @@ void TipPress<dim>::abandon() {
 }
 
 template <int dim>
-void TipPress<dim>::step(double place, PressState& effort) {
+void TipPress<dim>::step(double place, bool sampled, PressState& effort) {
   const PlanePose target = pose(place);
   const Vector before = displacement_;
   if (job_.strain == Strain::linear)
     linear_step(target, effort);
   else
-    newton_step(target, effort);
+    newton_step(target, sampled, effort);
   try {
     check_other_nodes(place);
   } catch (...) {
@@ -122,8 +124,15 @@ void TipPress<dim>::linear_step(const PlanePose& target, PressState& effort) {
 }
 
 template <int dim>
-double TipPress<dim>::residual(const Vector& displacement) {
+void TipPress<dim>::linearise(const Vector& displacement) {
   assemble(*body_, *kernel_, displacement, *system_);
+  solver_->set_matrix(*system_);
+  stale_tangent_ = false;
+}
+
+template <int dim>
+double TipPress<dim>::residual(const Vector& displacement) {
+  assemble_force(*body_, *kernel_, displacement, *system_);
   Vector out_of_balance = system_->force;
   const std::vector<char> held = contact_->held();
   const std::vector<long>& unknowns = contact_->unknowns().unknowns;
@@ -140,18 +149,20 @@ double TipPress<dim>::residual(const Vector& displacement) {
 }
 
 template <int dim>
-void TipPress<dim>::newton_step(const PlanePose& target, PressState& effort) {
+void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressState& effort) {
+  const double wanted = sampled ? balanced : nearly_balanced;
   // An iterative solver leaves out-of-balance forces of its own.
   const double enough = solver_kind_ == LinearSolver::multigrid
-                            ? std::max(balanced, 10.0 * job_.solver_tolerance)
-                            : balanced;
+                            ? std::max(wanted, 10.0 * job_.solver_tolerance)
+                            : wanted;
   Vector u = displacement_;
-  if (!at_displacement_) assemble(*body_, *kernel_, u, *system_);
+  stale_tangent_ |= !at_displacement_;
   at_displacement_ = false;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
     ++effort.newton_iterations;
-    solver_->set_matrix(*system_);
+    const bool new_tangent = stale_tangent_;
+    if (new_tangent) linearise(u);
     Vector load = u;  // of the system linearised at u, for the whole displacement
     system_->matrix.vmult(load, u);
     load -= system_->force;
@@ -175,17 +186,22 @@ void TipPress<dim>::newton_step(const PlanePose& target, PressState& effort) {
       u.add(factor, full_step);
       try {
         norm = residual(u);
+        if (!same_contact || norm < last || norm < enough) break;
       } catch (const meshes::NotConverged&) {  // an element turned inside out
-        continue;
       }
-      if (!same_contact || norm < last || norm < enough) break;
+      if (new_tangent) continue;
+      u = start;  // try again with the tangent there
+      stale_tangent_ = true;
+      break;
     }
-    last = norm;
-    if (factor == 1.0 && same_contact && norm < enough) {
+    if (stale_tangent_) continue;
+    if (factor == 1.0 && norm < enough) {
       displacement_ = u;
       at_displacement_ = true;
       return;
     }
+    stale_tangent_ = iteration == 0 || norm > chord_progress * last;
+    last = norm;
   }
   throw meshes::NotConverged("Newton's method did not converge within " +
                              std::to_string(most_newton_iterations) + " iterations");

@@ -31,7 +31,7 @@ class PressModel {
   virtual MeshSummary mesh() const = 0;
 
   /// One step to `place` [m]; adds what it cost to `effort`. Throws NotConverged.
-  virtual void step(double place, PressState& effort) = 0;
+  virtual void step(double place, bool sampled, PressState& effort) = 0;
   /// Back to the last step that converged.
   virtual void abandon() = 0;
 
@@ -61,7 +61,7 @@ class TipPress final : public PressModel {
   TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file);
 
   MeshSummary mesh() const override;
-  void step(double place, PressState& effort) override;
+  void step(double place, bool sampled, PressState& effort) override;
   void abandon() override;
   PressState evaluate() override;
   bool refine(double share, const std::vector<char>& wanted) override;
@@ -78,9 +78,11 @@ class TipPress final : public PressModel {
   std::unique_ptr<FieldSolver> make_solver(const std::vector<long>& contact_unknowns) const;
   PlanePose pose(double place) const;
   void linear_step(const PlanePose& target, PressState& effort);
-  void newton_step(const PlanePose& target, PressState& effort);
-  /// Assembles at `displacement`; force of the system minus the plane's forces, where nothing is
-  /// held, over the largest nodal force.
+  void newton_step(const PlanePose& target, bool sampled, PressState& effort);
+  /// Assembles the tangent at `displacement` and hands it to the solver.
+  void linearise(const Vector& displacement);
+  /// Assembles the force at `displacement`; force of the system minus the plane's forces, where
+  /// nothing is held, over the largest nodal force.
   double residual(const Vector& displacement);
   void check_other_nodes(double place) const;
   /// How many of the mesh make the tip.
@@ -98,7 +100,8 @@ class TipPress final : public PressModel {
   std::vector<SurfaceNode> outer_nodes_;
   LinearSolver solver_kind_ = LinearSolver::automatic;
   Vector displacement_;           ///< of the last converged step
-  bool at_displacement_ = false;  ///< whether the system is that of large strain there
+  bool at_displacement_ = false;  ///< whether the system's force is that of large strain there
+  bool stale_tangent_ = false;    ///< whether large strain needs a new tangent
   /// Where a sample asks for smaller elements, per local cell.
   struct Marks {
     dealii::Vector<float> indicators;  ///< squared error indicators over their sum

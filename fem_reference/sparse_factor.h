@@ -28,7 +28,11 @@ class SparseFactor {
 
   /// Throws NotConverged for a matrix that is not positive definite, or for want of memory.
   void factorise(const UpperTriangle& matrix);
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const { return solve_columns(b); }
+  /// A^-1 b for each column of b at once.
+  Eigen::MatrixXd solve_columns(const Eigen::MatrixXd& b) const;
+  /// About as many solutions, one after the other, as take the time of one factorisation.
+  double solves_per_factorisation() const;
   /// Block of the inverse that belongs to `last`: with L's last block L_c it is (L_c L_c^T)^-1.
   Eigen::MatrixXd last_block_of_inverse() const;
 

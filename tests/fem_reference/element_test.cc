@@ -102,7 +102,7 @@ class CurvedElement {
 ElementSystem integrate(ElementKernel<3>& kernel, const CurvedElement& element,
                         const Eigen::VectorXd& u) {
   ElementSystem result;
-  kernel.integrate(element.values(), u, result);
+  kernel.integrate(element.values(), u, fem_reference::Parts::all, result);
   return result;
 }
 
@@ -283,6 +283,18 @@ TEST_P(Element, RotationsCostNothingAtLargeStrain) {
     const auto system = integrate(kernel, element, u);
     EXPECT_LT(system.force.norm(), 1e-11 * system.matrix.norm() * element.size());
     EXPECT_NEAR(system.min_jacobian, 1.0, 1e-12);
+  });
+}
+
+TEST_P(Element, ForceAloneIsThatOfTheWholeSystem) {
+  const Eigen::VectorXd u = element.random(0.05 * element.size(), 7);
+  for_every_hyperelastic_kernel([&](ElementKernel<3>& kernel) {
+    const ElementSystem whole = integrate(kernel, element, u);
+    ElementSystem alone;
+    kernel.integrate(element.values(), u, fem_reference::Parts::force, alone);
+    EXPECT_EQ(alone.force, whole.force);
+    EXPECT_EQ(alone.energy, whole.energy);
+    EXPECT_EQ(alone.min_jacobian, whole.min_jacobian);
   });
 }
 

@@ -153,6 +153,42 @@ TEST_P(FieldSolverTest, CondensedAgreesWithMultigrid) {
   }
 }
 
+/// One that keeps its factor while matrix and contact change, beside one that never saw another.
+TEST_P(FieldSolverTest, EliminatingAgreesWithAFreshOne) {
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) GTEST_SKIP();
+  const auto kept = make_eliminating_solver(*problem.body, problem.contact.unknowns);
+  double stiffness = 1.0;
+  for (const auto& [radius, stick] : stages) {
+    LinearSystem stiffer(*problem.body, false);
+    meshes::Rubber rubber;
+    rubber.shear_modulus *= stiffness;  // at the same E: not a multiple of the matrix before
+    HookeKernel<3> kernel(rubber, Volumetric::projected);
+    assemble(*problem.body, kernel, problem.body->fine.vector(), stiffer);
+    stiffness *= 0.985;
+    for (const double wider : {0.0, 4e-4, 8e-4}) {  // the contact grows on the way
+      const Request wanted = request(problem.contact, radius + wider, stick);
+      const auto fresh = make_eliminating_solver(*problem.body, problem.contact.unknowns);
+      fresh->set_matrix(stiffer);
+      fresh->set_load(problem.load);
+      const ConstrainedSolution one =
+          fresh->solve_constrained(wanted.held, wanted.values, wanted.loads);
+      kept->set_matrix(stiffer);
+      double before = std::numeric_limits<double>::infinity();
+      for (int round = 0; round < 5; ++round) {  // each leaves a thousandth out of balance
+        kept->set_load(problem.load);
+        const ConstrainedSolution two =
+            kept->solve_constrained(wanted.held, wanted.values, wanted.loads);
+        const double difference = (one.displacement - two.displacement).norm();
+        EXPECT_LT(difference, std::max(0.05 * before, 1e-9 * one.displacement.norm()));
+        before = difference;
+        if (round == 4) {
+          EXPECT_LT((one.reaction - two.reaction).norm(), 1e-8 * one.reaction.norm());
+        }
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(DegreesAndHangingNodes, FieldSolverTest,
                          ::testing::Combine(::testing::Values(1, 2, 3), ::testing::Bool()));
 
