@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "studies/report/calibration_chapters.h"
@@ -27,10 +26,10 @@ void add_goodness(ChapterData& chapter, const Fit& fit) {
                deviation = fit.file.residual_deviation;
   const std::string unit = fit.curves.empty() ? "" : fit.curves.front().y_quantity.si_unit;
   chapter["sigma"] = std::ranges::any_of(fit.curves, &FitCurve::has_sigma);
-  chapter["deviation"] = std::isfinite(deviation) ? with_prefix(deviation, unit) : "";
-  chapter["chi_square"] = std::isfinite(chi_square) ? number(chi_square) : "";
+  chapter["deviation"] = if_known(deviation, with_prefix(deviation, unit));
+  chapter["chi_square"] = if_known(chi_square, number(chi_square));
   chapter["freedom"] = count(double(fit.file.degrees_of_freedom));
-  chapter["probability"] = std::isfinite(probability) ? number(probability, 2) : "";
+  chapter["probability"] = if_known(probability, number(probability, 2));
   chapter["large"] = probability < 0.01;
   chapter["small"] = probability > 0.99;
   chapter["fair"] = probability >= 0.01 && probability <= 0.99;
@@ -111,7 +110,7 @@ Chapter material_chapter(const Fit& fit, const std::string& prefix) {
   chapter["prefix"] = prefix;
   chapter["condition"] = fit.surrogate_notes.condition;
   chapter["statement"] = fit.surrogate_notes.statement;
-  chapter["widest"] = std::isfinite(widest) ? percent_magnitude(widest) : "";
+  chapter["widest"] = if_known(widest, percent_magnitude(widest));
   chapter.figures = {fitted_moduli_figure(fit, prefix), surrogate_figure(fit, prefix)};
   return written(std::move(chapter));
 }
@@ -152,8 +151,8 @@ std::string fit_answer(const Fit& fit) {
   words["model"] = fit.model;
   words["curves"] = std::to_string(fit.curves.size());
   words["one"] = fit.curves.size() == 1;
-  words["worst"] = std::isfinite(worst) ? percent_magnitude(worst) : "";
-  words["left_out"] = std::isfinite(left_out) ? percent_magnitude(left_out) : "";
+  words["worst"] = if_known(worst, percent_magnitude(worst));
+  words["left_out"] = if_known(left_out, percent_magnitude(left_out));
   words["open"] = !fit.file.unidentifiable.empty();
   return sentences("answer_fit", words);
 }

@@ -86,7 +86,7 @@ WordList certainty(const RunData& run, const std::vector<Sample>& samples) {
   words["worst_depth"] = length(relative->depth);
   words["largest_error"] = same ? "" : force(absolute->error);
   words["largest_depth"] = length(absolute->depth);
-  words["tolerance"] = std::isfinite(tolerance) ? percent_magnitude(tolerance) : "";
+  words["tolerance"] = if_known(tolerance, percent_magnitude(tolerance));
   words["reached"] = share <= tolerance;
   words["meshes"] = std::to_string(relative->forces.size());
   words["two"] = relative->forces.size() == 2;

@@ -239,9 +239,9 @@ std::string control_answer(const std::vector<MovingPress>& presses) {
   double force = meshes::unknown;
   for (const MovingPress& press : presses) force = std::fmax(force, press.force_error);
   Words words;
-  words["speed"] = std::isfinite(speed) ? percent_magnitude(speed) : "";
+  words["speed"] = if_known(speed, percent_magnitude(speed));
   words["tilt"] = degrees(worst_of(presses, &TrackingEntry::tilt_deg));
-  words["force"] = std::isfinite(force) ? percent_magnitude(force) : "";
+  words["force"] = if_known(force, percent_magnitude(force));
   return sentences("answer_control", words);
 }
 

@@ -259,8 +259,8 @@ Chapter elasticity_chapter(const RunData& run) {
   const double nu = run.target.poissons_ratio;
   const ModelData* central = run.model("central");
   const Moduli paid = central ? central->moduli : Moduli();
-  chapter["nu"] = std::isfinite(nu) ? number(nu) : "";
-  chapter["central_nu"] = std::isfinite(paid.K) ? number(paid.nu_100) : "";
+  chapter["nu"] = if_known(nu, number(nu));
+  chapter["central_nu"] = if_known(paid.K, number(paid.nu_100));
   chapter["central_bulk"] = stress(paid.K);
   chapter["bulk"] = stress(run.target.bulk_modulus);
   chapter["calibrations"] = calibrations(run);

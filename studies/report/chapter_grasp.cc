@@ -266,8 +266,8 @@ std::string grasp_answer(const std::vector<GraspRun>& grasps) {
   Words words;
   words["single"] = grasps.size() == 1;
   words["fate"] = grasps.empty() ? "" : grasps.front().fate();
-  words["weakest"] = std::isfinite(weakest) ? percent(weakest) : "";
-  words["strongest"] = std::isfinite(strongest) ? percent(strongest) : "";
+  words["weakest"] = if_known(weakest, percent(weakest));
+  words["strongest"] = if_known(strongest, percent(strongest));
   words["slip"] = words["label"] = "";
   if (!released.empty()) {
     const GraspRun& last = released.back();

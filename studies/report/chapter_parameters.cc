@@ -90,7 +90,7 @@ constexpr ParameterColumn parameter_columns[] = {
     {"Bias", "of a model error", [](const FitParameter& one) { return std::isfinite(one.bias); },
      [](const FitParameter& one) {
        Cell cell = value_cell(one, one.bias);
-       cell.note = std::isfinite(one.bias) ? percent(one.bias / one.estimate) : "";
+       cell.note = if_known(one.bias, percent(one.bias / one.estimate));
        return cell;
      }},
 };
@@ -196,7 +196,7 @@ void add_directions(WordList& words, const Fit& fit, const std::vector<Direction
     one["open"] = open;
     one["statement"] = entry.statement;
     one["direction"] = components(fit, entry);
-    one["share"] = std::isfinite(share) ? percent_magnitude(share) : "";
+    one["share"] = if_known(share, percent_magnitude(share));
     one["width"] = width <= 1.0 ? percent_magnitude(width) : "";
     one["wide"] = std::isfinite(width) && width > 1.0;
   }

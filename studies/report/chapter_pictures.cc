@@ -1,6 +1,4 @@
 /// Pictures of mesh and lattices.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -35,7 +35,7 @@ Words published_reason(const RunData& run, const ModelData& model) {
   words["across"] = factor(across);
   words["shear"] = factor(shear);
   words["confined"] = factor(confined);
-  words["ratio"] = std::isfinite(ratio) ? factor(ratio) : "";
+  words["ratio"] = if_known(ratio, factor(ratio));
   words["below"] = below;
   words["above"] = above;
   words["between"] = !below && !above;
@@ -70,7 +70,7 @@ Words hookean_reason(const RunData& run, const ModelData& model) {
   const double spacing = model.summary.spacing;
   Words words;
   words["worst"] = worst < 1e-6 ? "" : percent_magnitude(worst);
-  words["spacing"] = std::isfinite(spacing) ? with_unit(spacing, shown_units().length, 3) : "";
+  words["spacing"] = if_known(spacing, with_unit(spacing, shown_units().length, 3));
   words["error"] = words["depth"] = "";
   if (!std::isfinite(model.last_force_error())) return words;
   std::size_t worst_depth = model.force_error.size() - 1;

@@ -1,6 +1,4 @@
 /// Forces at speed beside the transient continuum, and presses beside one another.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -136,6 +136,7 @@ WordList refinements(const StudyEntry& study, const std::vector<VariantPress>& p
     std::vector<const VariantPress*> own;
     for (const VariantPress& press : presses)
       if (press.series == entry.name && std::isfinite(press.worst())) own.push_back(&press);
+    if (own.size() < 2) continue;
     std::ranges::sort(own, std::greater(), &VariantPress::spacing);
     const VariantPress &coarse = *own.front(), &before = *own[own.size() - 2], &fine = *own.back();
     const double last =
@@ -162,8 +163,9 @@ void add_figures(ChapterData& chapter, const StudyEntry& study,
   if (against_x.panels.empty()) {
     chapter.figures = variant_depth_figures(presses);
     for (const std::string& series : series_of(presses)) {
-      depths.emplace_back()["figure"] = chapter.figures[depths.size() - 1].name;
-      depths.back()["series"] = series;
+      Words& words = depths.emplace_back();
+      words["figure"] = chapter.figures[depths.size() - 1].name;
+      words["series"] = series;
     }
   }
   chapter["x"] = x;
@@ -196,8 +198,10 @@ Chapter variants_chapter(const RunData& run) {
   ChapterData chapter("variants");
   chapter["presses"] = std::to_string(presses.size());
   chapter["continua"] = std::to_string(run.study.continua.size());
+  WordList series = refinements(run.study, presses);
+  chapter["converges"] = !series.empty();
+  chapter["refinements"] = std::move(series);
   chapter["refined"] = refined;
-  chapter["refinements"] = refinements(run.study, presses);
   add_figures(chapter, run.study, presses);
   chapter.tables["budgets"] = budget_table(run.study.budgets);
   chapter.tables["series"] = series_table(run.study, presses, refined);

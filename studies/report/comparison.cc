@@ -148,7 +148,7 @@ std::string summary_sentence(const Comparison& comparison) {
     words["difference"] = percent(comparison.rows[last - 1][i].difference);
     words["depth"] = length(comparison.depths[last - 1]);
     const OverallDifference all = overall(curves[i], curves.front());
-    words["l2"] = std::isfinite(all.l2) ? percent_magnitude(all.l2) : "";
+    words["l2"] = if_known(all.l2, percent_magnitude(all.l2));
     words["from"] = length(all.from);
   }
   Words words;

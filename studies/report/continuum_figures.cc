@@ -1,7 +1,5 @@
 #include "studies/report/continuum_figures.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -39,21 +39,23 @@ double largest_error(const ModelData& model) {
   return largest < 0.0 ? std::numeric_limits<double>::infinity() : largest;
 }
 
-/// How far a model's force is off: "+2 % at 1 mm" to "+9 % at 3 mm", or one error at all depths.
+/// How far a model's force is off: the least and the greatest error, or one at all depths.
 Words description_of(const RunData& run, const ModelData& model) {
-  const std::size_t least = extreme(model, -1.0), most = extreme(model, 1.0);
-  const bool known = least < model.force_error.size();
   Words words;
   words["model"] = model.name;
-  words["known"] = known;
-  words["least"] = words["most"] = "";
-  if (!known) return words;
-  const auto at = [&](std::size_t i) {
-    return percent(model.force_error[i]) + " at " + length(run.depths[i]);
-  };
-  const bool flat = model.force_error[most] - model.force_error[least] < 5e-4;
-  words["least"] = flat ? percent(model.force_error[most]) : at(least);
-  words["most"] = flat ? "" : at(most);
+  for (const char* name : {"error", "least", "least_depth", "most", "most_depth"}) words[name] = "";
+  const std::vector<double>& errors = model.force_error;
+  const std::size_t least = extreme(model, -1.0), most = extreme(model, 1.0);
+  words["unknown"] = least == errors.size();
+  if (least == errors.size()) return words;
+  if (errors[most] - errors[least] < 5e-4) {
+    words["error"] = percent(errors[most]);
+    return words;
+  }
+  words["least"] = percent(errors[least]);
+  words["least_depth"] = length(run.depths[least]);
+  words["most"] = percent(errors[most]);
+  words["most_depth"] = length(run.depths[most]);
   return words;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <kainjow/mustache.hpp>
 #include <stdexcept>
 
@@ -198,6 +199,10 @@ std::string sentences(const std::string& name, const Words& words) {
   data.values = words.values;
   const Chapter chapter = written(std::move(data));
   return chapter.blocks.empty() ? "" : std::get<Paragraph>(chapter.blocks.front()).text;
+}
+
+std::string if_known(double value, const std::string& text) {
+  return std::isfinite(value) ? text : "";
 }
 
 std::string joined(const std::string& first, const std::string& second) {

@@ -59,6 +59,8 @@ Chapter written(ChapterData data, std::string_view text);
 
 /// The text of a template that is one paragraph; "" when nothing is left of it.
 std::string sentences(const std::string& name, const Words& words);
+/// `text` where `value`, of which it tells, is known; "" of NaN.
+std::string if_known(double value, const std::string& text);
 /// Both texts, one after the other.
 std::string joined(const std::string& first, const std::string& second);
 
