@@ -8,6 +8,7 @@
 
 #include "studies/report/bench_figures.h"
 #include "studies/report/run_data.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -22,16 +23,6 @@ bool is_scaled(const JsonEntry& press) {
 
 Table press_table(const JsonEntry& bench) {
   Table table;
-  table.caption =
-      "Press of the default finger to its depth. Real-time factor: simulated over elapsed time in "
-      "the slowest 10 ms of simulated time from the first touch on, by the wall clock, of the "
-      "fastest of up to five runs; below it by "
-      "the processor time of the pressing thread, which others on the machine do not lengthen. "
-      "Errors: the largest from " +
-      shown_units().length.text(1e-3) +
-      " on; of the press against the continuum of law A, of the "
-      "same lattice at rest against it, of the press against small strain. Steps: how many, and "
-      "the longest.";
   table.header = {plain("Lattice", "strain, steps"),
                   plain("a", "masses"),
                   plain("Threads"),
@@ -69,10 +60,6 @@ Table press_table(const JsonEntry& bench) {
 
 Table continuum_table(const JsonEntry& bench) {
   Table table;
-  table.caption =
-      "Quasi-static finite elements as a way to simulate the press: one equilibrium per control "
-      "period of 1 ms would be real time. Solves on the whole machine, started from the one "
-      "before.";
   table.header = {plain("Elements"), plain("Unknowns"), plain("Solves per second"),
                   plain("Real-time factor"), plain("Force error")};
   for (const JsonEntry& one : array_if_any(bench, "continua")) {
@@ -87,25 +74,16 @@ Table continuum_table(const JsonEntry& bench) {
 }
 
 Chapter pace_chapter(const JsonEntry& bench) {
-  Chapter chapter{"pace", "Error against speed", {}};
-  const Figure figure = pace_figure(bench);
-  if (!figure.panels.empty())
-    chapter.blocks.push_back(FigureBlock{
-        figure, "Error of the force against the real-time factor",
-        "Down and right is better; the coloured corner is an error below 2 % in real time or "
-        "faster. Colours tell models, circles the largest safe step, triangles scaled masses. One "
-        "core (processor time) unless said otherwise, errors against the continuum of law A; "
-        "hollow ones of hookean against that of small strain, which it computes, at the same "
-        "spacings. "
-        "Squares: finite elements, with their number of unknowns."});
-  if (!array_if_any(bench, "press").empty()) chapter.blocks.push_back(press_table(bench));
-  if (!array_if_any(bench, "continua").empty()) chapter.blocks.push_back(continuum_table(bench));
-  return chapter;
+  ChapterData chapter("pace");
+  chapter["from"] = shown_units().length.text(1e-3);
+  chapter.figures = {pace_figure(bench)};
+  chapter.tables["presses"] = press_table(bench);
+  chapter.tables["continua"] = continuum_table(bench);
+  return written(std::move(chapter));
 }
 
-Table kernel_table(const JsonEntry& bench, const char* list, const std::string& caption) {
+Table kernel_table(const JsonEntry& bench, const char* list) {
   Table table;
-  table.caption = caption;
   table.header = {plain("Kernel"),
                   plain("Registers"),
                   plain("Precision"),
@@ -151,14 +129,6 @@ std::string aim_of(const std::string& name) {
 
 Table ratio_table(const JsonEntry& bench) {
   Table table;
-  table.caption =
-      "Medians over rounds of the ratio within a round: AVX-512, double precision, damped. "
-      "edge_list, lammps: their time over ours (2t: ours on two threads, LAMMPS on two ranks or, "
-      "where those take longer, one, the "
-      "edge list on one thread), in cubes of 48 and 20 masses a side; threads: one thread over "
-      "two; roofline: share of the multiply-adds this core can do; edge_list_over_lammps: how good "
-      "a peer the edge list is. With two threads by the wall clock, which only an idle machine "
-      "does justice.";
   table.header = {plain("Ratio"),  plain("Median"),  plain("Aim"),
                   plain("Lowest"), plain("Highest"), plain("Remark")};
   const JsonEntry values = object_if_any(bench, "ratios");
@@ -179,23 +149,11 @@ Table ratio_table(const JsonEntry& bench) {
 }
 
 Chapter kernel_chapter(const JsonEntry& bench) {
-  Chapter chapter{"kernels", "Kernels", {}};
-  if (!bench.contains("kernels")) return chapter;
-  chapter.blocks.push_back(ratio_table(bench));
-  chapter.blocks.push_back(kernel_table(
-      bench, "kernels",
-      "Every kernel. One thread: processor time; more: wall time. Operations: of the spring engine "
-      "the 17 in multiply pipes, of the product's forces every addition, multiplication, division, "
-      "root and comparison that the kernel's own source executes, idle lanes included. Roofline: "
-      "share of what the cores do at best, multiply-adds for the engine, additions and "
-      "multiplications in turns for the others, which are compiled without fusing them. Springs of "
-      "hookean and network are fibres, of which there are few: most of the work is in cells."));
-  if (!array_if_any(bench, "peers").empty())
-    chapter.blocks.push_back(kernel_table(
-        bench, "peers",
-        "Peers on the same cubes, in the same rounds: LAMMPS' harmonic bonds (undamped, "
-        "threads are MPI ranks), Bullet's links (projected positions)."));
-  return chapter;
+  if (!bench.contains("kernels")) return {};
+  ChapterData chapter("kernels");
+  chapter.tables["ratios"] = ratio_table(bench);
+  for (const char* list : {"kernels", "peers"}) chapter.tables[list] = kernel_table(bench, list);
+  return written(std::move(chapter));
 }
 
 /// Least and largest cost of a spring [ns], of the engine on one thread with the widest registers,
@@ -216,58 +174,35 @@ std::pair<double, double> costs_between(const JsonEntry& bench, double from, dou
 }
 
 /// How far the cost of a spring goes apart from 1e4 masses on, and why.
-std::string growth_text(const JsonEntry& bench) {
-  std::string text =
-      "Level means that cost grows linearly with the lattice. Grey: what arithmetic and DRAM alone "
-      "would take; a mass is 48 bytes of position and velocity, read and written once per step. "
-      "Vertical lines: lattices that fill the second and the third cache.";
-  const JsonEntry probes = object_if_any(bench, "probes");
-  const double held = number_if_any(probes, "cache_L3") / 48.0;
-  const auto inside = costs_between(bench, 1e4, held);
-  const auto beyond = costs_between(bench, held, 1e9);
-  if (inside.second > inside.first)
-    text += fmt::format(
-        " From 10 000 masses to as many as the third cache holds, a spring costs {} "
-        "to {} ns on one thread, a factor {}.",
-        number(inside.first, 3), number(inside.second, 3), number(inside.second / inside.first, 3));
-  if (std::isfinite(beyond.first) && std::isfinite(inside.first))
-    text += fmt::format(
-        " Beyond, the way to memory comes on top: {} ns and DRAM's {} ns make {}, "
-        "measured {}.",
-        number(inside.first, 3), number(dram_cost(bench), 3),
-        number(inside.first + dram_cost(bench), 3), number(beyond.second, 3));
-  return text;
-}
-
 Chapter growth_chapter(const JsonEntry& bench) {
-  Chapter chapter{"growth", "Growth with the number of masses", {}};
-  const Figure engine = growth_figure(bench), presses = press_growth_figure(bench);
-  if (!engine.panels.empty())
-    chapter.blocks.push_back(FigureBlock{
-        engine, "Cost per spring and step against the number of masses", growth_text(bench)});
-  if (!presses.panels.empty())
-    chapter.blocks.push_back(FigureBlock{
-        presses, "Cost per mass and step of the presses",
-        "Whole presses on one thread, processor time: forces, contact, rod, control, choice of the "
-        "step. Scaled masses take a dearer step, seldom."});
-  return chapter;
+  const double held = number_if_any(object_if_any(bench, "probes"), "cache_L3") / 48.0;
+  const auto [least, most] = costs_between(bench, 1e4, held);
+  const auto beyond = costs_between(bench, held, 1e9);
+  const bool both = std::isfinite(beyond.first) && std::isfinite(least);
+  ChapterData chapter("growth");
+  chapter["least"] = number(least, 3);
+  chapter["most"] = number(most, 3);
+  chapter["factor"] = most > least ? number(most / least, 3) : "";
+  chapter["dram"] = number(dram_cost(bench), 3);
+  chapter["sum"] = number(least + dram_cost(bench), 3);
+  chapter["beyond"] = both ? number(beyond.second, 3) : "";
+  chapter.figures = {growth_figure(bench), press_growth_figure(bench)};
+  return written(std::move(chapter));
 }
 
 Chapter time_chapter(const JsonEntry& bench) {
-  Chapter chapter{"times", "Other times", {}};
+  ChapterData chapter("times");
   Table table;
-  table.caption = "What else a user waits for.";
   table.header = {plain("What"), plain("Time"), plain("Remark")};
   for (const JsonEntry& one : array_if_any(bench, "times"))
     table.rows.push_back({plain(text_if_any(one, "what")),
                           plain(with_prefix(number_if_any(one, "seconds"), "s")),
                           plain(one.at("from_cache").flag() ? "from an earlier run" : "")});
-  if (!table.rows.empty()) chapter.blocks.push_back(table);
-  return chapter;
+  chapter.tables["times"] = std::move(table);
+  return written(std::move(chapter));
 }
 
 Chapter machine_chapter(const JsonEntry& bench, const JsonList& history) {
-  Chapter chapter{"machine", "Machine", {}};
   const JsonEntry facts = object_if_any(bench, "machine");
   const JsonEntry probes = object_if_any(bench, "probes");
   Table table;
@@ -294,22 +229,21 @@ Chapter machine_chapter(const JsonEntry& bench, const JsonList& history) {
   for (const char* name : {"bandwidth_L2", "bandwidth_DRAM"})
     if (const double rate = number_if_any(probes, name); std::isfinite(rate))
       table.rows.push_back({plain(name), plain(with_prefix(rate, "B/s"))});
-  chapter.blocks.push_back(table);
-  const JsonEntry missing = object_if_any(bench, "missing_programs");
-  for (const auto& [program, why] : missing.members())
-    chapter.blocks.push_back(Paragraph{program, why.text(), true});
-  const Figure figure = history_figure(history);
-  if (!figure.panels.empty())
-    chapter.blocks.push_back(
-        FigureBlock{figure, "Ratios from run to run", "One point per run in the history."});
-  return chapter;
+  WordList missing;
+  const JsonEntry programs = object_if_any(bench, "missing_programs");
+  for (const auto& [program, why] : programs.members()) {
+    missing.emplace_back()["program"] = program;
+    missing.back()["why"] = why.text();
+  }
+  ChapterData chapter("machine");
+  chapter["missing"] = std::move(missing);
+  chapter.figures = {history_figure(history)};
+  chapter.tables["facts"] = std::move(table);
+  return written(std::move(chapter));
 }
 
 /// The press on which most depends, in a sentence.
 std::string answer_text(const JsonEntry& bench) {
-  if (bench.contains("missing_reference"))
-    return "No force errors: the continuum they are measured against is not in the cache, and a "
-           "quick run does not compute it.";
   const JsonList presses = array_if_any(bench, "press");
   const JsonEntry* best = nullptr;
   for (const JsonEntry& press : presses) {
@@ -319,17 +253,23 @@ std::string answer_text(const JsonEntry& bench) {
         number_if_any(press, "real_time_factor") > number_if_any(*best, "real_time_factor"))
       best = &press;
   }
-  if (best == nullptr)
-    return "No lattice that was pressed keeps its force within 2 % of the continuum.";
-  return fmt::format(
-      "The fastest lattice within 2 % of the continuum is {} at {} on {}: error {}, real-time "
-      "factor {} in its slowest 10 ms.",
-      text_if_any(*best, "model") + (is_scaled(*best) ? " with scaled masses" : ""),
-      spacing_text(*best),
-      number_if_any(*best, "threads") == 1.0 ? "one thread"
-                                             : count(number_if_any(*best, "threads")) + " threads",
-      percent_magnitude(number_if_any(*best, "worst_force_error")),
-      number(number_if_any(*best, "real_time_factor"), 3));
+  const bool missing = bench.contains("missing_reference");
+  WordList found;
+  if (best && !missing) {
+    const double threads = number_if_any(*best, "threads");
+    Words& words = found.emplace_back();
+    words["model"] = text_if_any(*best, "model");
+    words["scaled"] = is_scaled(*best);
+    words["spacing"] = spacing_text(*best);
+    words["threads"] = threads == 1.0 ? "" : count(threads);
+    words["error"] = percent_magnitude(number_if_any(*best, "worst_force_error"));
+    words["factor"] = number(number_if_any(*best, "real_time_factor"), 3);
+  }
+  Words words;
+  words["no_reference"] = missing;
+  words["none"] = found.empty() && !missing;
+  words["best"] = std::move(found);
+  return sentences("answer_bench", words);
 }
 
 }  // namespace

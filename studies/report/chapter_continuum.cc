@@ -8,6 +8,7 @@
 
 #include "studies/report/chapters.h"
 #include "studies/report/continuum_figures.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -67,55 +68,30 @@ const Sample* worst(const std::vector<Sample>& samples, Measure measure) {
   return found;
 }
 
-std::string certainty(const RunData& run, const std::vector<Sample>& samples) {
+/// How far the force may be off, and how that is estimated; none where no depth has an estimate.
+WordList certainty(const RunData& run, const std::vector<Sample>& samples) {
   const Sample* relative = worst(samples, [](const Sample& s) { return s.relative_error(); });
-  if (!relative) {
-    return "How far the force is off is not known: an estimate needs the same press on several "
-           "meshes, and no depth was computed on more than one.";
-  }
+  if (!relative) return {};
   const auto estimated = std::count_if(samples.begin(), samples.end(), [](const Sample& s) {
     return std::isfinite(s.relative_error());
   });
-  const double share = relative->relative_error();
-  std::string text = fmt::format(
-      "The continuum's force is known to within {} at {}: the worst estimate relative to the "
-      "force, {}, "
-      "belongs to {}",
-      percent_magnitude(share),
-      std::size_t(estimated) == samples.size()
-          ? "every depth computed"
-          : fmt::format("{} of {} depths computed", estimated, samples.size()),
-      force(relative->error), length(relative->depth));
   const Sample* absolute = worst(samples, [](const Sample& s) { return s.error; });
-  if (absolute != relative)
-    text += fmt::format(", the largest of all, {}, to {}", force(absolute->error),
-                        length(absolute->depth));
-  text += ".";
-  const double tolerance = run.continuum.tolerance;
-  if (std::isfinite(tolerance)) {
-    text += fmt::format(" Asked for was {}: {}.", percent_magnitude(tolerance),
-                        share <= tolerance ? "reached" : "not reached");
-  }
-  return text;
-}
-
-std::string method(const RunData& run, const std::vector<Sample>& samples) {
-  const Sample* sample = worst(samples, [](const Sample& s) { return s.relative_error(); });
-  if (!sample) return "";
-  const std::size_t meshes = sample->forces.size();
-  const std::string rule =
-      meshes == 2 ? "Of two meshes, the error of the finer one is 3 times its change of force"
-                  : "The error of the finest is 1.25 times the larger of its changes of force "
-                    "against the two meshes before it";
-  std::string text = fmt::format(
-      "The press was repeated on {} meshes, each with smaller elements where the error indicators "
-      "of the one before were largest. {}, scaled as if the error fell with the power "
-      "1.5 of the node spacing at that depth's contact edge (a "
-      "cautious relative of Roache's grid convergence index). In simulated sequences this rule "
-      "reached the true error in about 19 of 20 cases.",
-      meshes, rule);
-  text += " Errors that all meshes share escape it";
-  return text + (run.verification.empty() ? "." : "; the next chapter looks for those.");
+  const double share = relative->relative_error(), tolerance = run.continuum.tolerance;
+  const bool all = std::size_t(estimated) == samples.size(), same = absolute == relative;
+  Words words;
+  words["error"] = percent_magnitude(share);
+  words["estimated"] = all ? "" : std::to_string(estimated);
+  words["all"] = std::to_string(samples.size());
+  words["worst_error"] = force(relative->error);
+  words["worst_depth"] = length(relative->depth);
+  words["largest_error"] = same ? "" : force(absolute->error);
+  words["largest_depth"] = length(absolute->depth);
+  words["tolerance"] = if_known(tolerance, percent_magnitude(tolerance));
+  words["reached"] = share <= tolerance;
+  words["meshes"] = std::to_string(relative->forces.size());
+  words["two"] = relative->forces.size() == 2;
+  words["verified"] = !run.verification.empty();
+  return {words};
 }
 
 /// Change of force against the finest mesh in percent, with the estimate as bars of the latter.
@@ -181,7 +157,7 @@ Series slope_guide(const Panel& panel) {
   return guide;
 }
 
-FigureBlock convergence_figure(const RunData& run, const std::vector<Sample>& samples) {
+Figure convergence_figure(const RunData& run, const std::vector<Sample>& samples) {
   std::vector<Sample> refined;
   for (const Sample& sample : samples)
     if (sample.forces.size() > 1) refined.push_back(sample);
@@ -200,12 +176,7 @@ FigureBlock convergence_figure(const RunData& run, const std::vector<Sample>& sa
     entry.legend_only = true;
     figure.panels[0].series.push_back(entry);
   }
-  return {figure, "Force on each mesh against the force on the finest",
-          "One colour per indentation. Above: with sign; bars: the estimated error of the finest "
-          "mesh, moved apart a little sideways. Below: the same magnitudes, and in the place of "
-          "the finest mesh its estimated error. The dotted slope is the order that the estimate "
-          "assumes; it is not fitted. Where contact edges jump from node to node, curves need not "
-          "fall evenly."};
+  return figure;
 }
 
 /// A count of a sample; "–" where summary.json does not have the sample.
@@ -290,10 +261,6 @@ std::vector<SampleColumn> contact_columns(const RunData& run) {
 
 Table sample_table(const RunData& run, const std::vector<Sample>& samples) {
   Table table;
-  table.caption =
-      "Every depth on the finest mesh that computed it. Convergence tells how the last three "
-      "forces follow each other: monotone ones fit an order, the others do not, which is common "
-      "while the edge of contact moves from node to node; the estimate does not depend on it.";
   std::vector<SampleColumn> columns = force_columns(run);
   for (SampleColumn& column : contact_columns(run)) columns.push_back(std::move(column));
   table.header = {plain("Indentation", unit_name(shown_units().length))};
@@ -321,9 +288,6 @@ double largest_change(const std::vector<Sample>& samples, int number) {
 
 Table sequence_table(const RunData& run, const std::vector<Sample>& samples) {
   Table table;
-  table.caption =
-      "The meshes. The time is that of the samples, without meshing and assembly; the change is "
-      "the largest of all depths.";
   table.header = {plain("Mesh"),   plain("Cells"),     plain("Unknowns"),
                   plain("Depths"), plain("Wall time"), plain("Force off the finest", "largest")};
   int number = 0;
@@ -337,58 +301,49 @@ Table sequence_table(const RunData& run, const std::vector<Sample>& samples) {
   return table;
 }
 
-/// Both ends of the press beside Hertz's, in words.
-std::string hertz_text(const RunData& run, const std::vector<Sample>& samples) {
+/// Both ends of the press beside Hertz's.
+WordList beside_hertz(const RunData& run, const std::vector<Sample>& samples) {
   const auto hertz = hertz_contact(run);
+  if (!hertz) return {};
   const auto off = [&](const Sample& s) { return s.force / hertz->force(s.depth) - 1.0; };
   const Sample &first = samples.front(), &last = samples.back();
-  std::string text = fmt::format(
-      "A whole rubber sphere of the tip's radius, {}, pressed as deep with small strain and "
-      "without friction, follows Hertz only while the contact is small beside everything else. "
-      "The tip's force is {} off Hertz's at {}",
-      length(tip_radius(run)), percent(off(first)), length(first.depth));
-  if (samples.size() > 1)
-    text += fmt::format(" and {} at {}", percent(off(last)), length(last.depth));
   const meshes::PressSample& deepest = run.reference.pressing().back();
-  text += fmt::format(", its peak pressure {} and its contact radius {} there.",
-                      percent(deepest.max_pressure / hertz->max_pressure(last.depth) - 1.0),
-                      percent(deepest.contact_radius / hertz->contact_radius(last.depth) - 1.0));
-  if (off(last) > 0.0 && off(last) >= off(first)) {
-    text +=
-        " It is the stiffer one because its rubber is a thin layer bonded to a rigid rod and "
-        "cannot give way there. Even a solid hemisphere leaves Hertz once it is pressed by more "
-        "than 2×10⁻⁴ of its radius.";
-  }
-  if (run.continuum.contact != "frictionless")
-    text += " Here the surface also sticks or rubs, which Hertz's does not.";
-  if (run.continuum.strain == "finite") text += " Here strain is finite, too.";
-  return text;
+  Words words;
+  words["radius"] = length(tip_radius(run));
+  words["first"] = percent(off(first));
+  words["first_depth"] = length(first.depth);
+  words["last"] = samples.size() > 1 ? percent(off(last)) : "";
+  words["last_depth"] = length(last.depth);
+  words["pressure"] = percent(deepest.max_pressure / hertz->max_pressure(last.depth) - 1.0);
+  words["contact_radius"] =
+      percent(deepest.contact_radius / hertz->contact_radius(last.depth) - 1.0);
+  words["stiffer"] = off(last) > 0.0 && off(last) >= off(first);
+  words["rubs"] = run.continuum.contact != "frictionless";
+  words["finite"] = run.continuum.strain == "finite";
+  return {words};
 }
 
 }  // namespace
 
 Chapter continuum_chapter(const RunData& run) {
-  Chapter chapter{"continuum", "How sure is the continuum?", {}};
   const std::vector<Sample> samples = read_samples(run);
-  const std::string status = run.continuum.status;
-  if (!status.empty() && status != "ok") {
-    chapter.blocks.push_back(Paragraph{"Status: " + status + ".", run.continuum.message});
-  }
-  if (samples.empty()) return chapter;
-  chapter.blocks.push_back(Paragraph{"", certainty(run, samples)});
-  const std::string how = method(run, samples);
-  if (!how.empty()) chapter.blocks.push_back(Paragraph{"How it is estimated.", how});
+  ChapterData chapter("continuum");
+  chapter["status"] = run.continuum.status == "ok" ? "" : run.continuum.status;
+  chapter["message"] = run.continuum.message;
+  const WordList known = certainty(run, samples);
+  chapter["unknown"] = known.empty() && !samples.empty();
+  chapter["known"] = known;
+  chapter["hertz"] = samples.empty() ? WordList() : beside_hertz(run, samples);
+  if (samples.empty()) return written(std::move(chapter));
   if (std::any_of(samples.begin(), samples.end(),
                   [](const Sample& s) { return s.forces.size() > 1; }))
-    chapter.blocks.push_back(convergence_figure(run, samples));
-  chapter.blocks.push_back(sample_table(run, samples));
-  if (!run.continuum.meshes.empty()) chapter.blocks.push_back(sequence_table(run, samples));
+    chapter.figures.push_back(convergence_figure(run, samples));
+  chapter.tables["samples"] = sample_table(run, samples);
+  chapter.tables["meshes"] = sequence_table(run, samples);
   if (!run.section.empty() && run.reference.samples().back().contact_radius > 0.0)
-    chapter.blocks.push_back(mesh_figure(run));
-  if (!run.pressure.empty()) chapter.blocks.push_back(pressure_figure(run));
-  if (hertz_contact(run))
-    chapter.blocks.push_back(Paragraph{"Against Hertz.", hertz_text(run, samples)});
-  return chapter;
+    chapter.figures.push_back(mesh_figure(run));
+  if (!run.pressure.empty()) chapter.figures.push_back(pressure_figure(run));
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

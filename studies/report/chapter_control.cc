@@ -8,6 +8,7 @@
 
 #include "studies/report/chapters.h"
 #include "studies/report/moving_press.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -188,14 +189,8 @@ std::string degrees(double angle) {
   return angle < 1e-9 ? "less than 1e-9 degrees" : number(angle, 2) + " degrees";
 }
 
-Table tracking_table(const std::vector<MovingPress>& presses) {
-  const bool forces = std::ranges::any_of(presses, &MovingPress::controls_force);
+Table tracking_table(const std::vector<MovingPress>& presses, bool forces) {
   Table table;
-  table.caption =
-      "The approach speed is to stay within 1 % of its set point from 50 ms after the start, "
-      "except "
-      "for 20 ms after first touch, which have a column of their own; the orientation within "
-      "0.05 degrees.";
   table.header = {plain("Press"),
                   plain("Approach", unit_name(shown_units().speed)),
                   plain("First touch", "s"),
@@ -204,9 +199,6 @@ Table tracking_table(const std::vector<MovingPress>& presses) {
                   plain("Tilt", "largest"),
                   plain("Peak force", unit_name(shown_units().force))};
   if (forces) {
-    table.caption +=
-        " Under force control the overshoot over the wanted force counts instead, and "
-        "how often the controller changed between speed and force.";
     table.header.push_back(plain("Overshoot", "of the force"));
     table.header.push_back(plain("Changes of mode"));
   }
@@ -244,17 +236,13 @@ double worst_of(const std::vector<MovingPress>& presses, double TrackingEntry::*
 
 std::string control_answer(const std::vector<MovingPress>& presses) {
   const double speed = worst_of(presses, &TrackingEntry::speed_deviation);
-  if (std::isnan(speed)) return "No press got far enough to be judged.";
-  std::string text = fmt::format(
-      "Through contact the approach speed stays within {} of its set point and the rod "
-      "within {} of its orientation",
-      percent_magnitude(speed), degrees(worst_of(presses, &TrackingEntry::tilt_deg)));
   double force = meshes::unknown;
   for (const MovingPress& press : presses) force = std::fmax(force, press.force_error);
-  if (std::isfinite(force))
-    text += fmt::format("; at speed the force is within {} of the continuum's",
-                        percent_magnitude(force));
-  return text + ".";
+  Words words;
+  words["speed"] = if_known(speed, percent_magnitude(speed));
+  words["tilt"] = degrees(worst_of(presses, &TrackingEntry::tilt_deg));
+  words["force"] = if_known(force, percent_magnitude(force));
+  return sentences("answer_control", words);
 }
 
 std::string control_text(const std::vector<MovingPress>& presses) {
@@ -277,30 +265,17 @@ std::string control_text(const std::vector<MovingPress>& presses) {
 }
 
 Chapter control_chapter(const std::vector<MovingPress>& presses) {
-  Chapter chapter{"control", "Virtual control", {}};
   const std::vector<Group> tracked = groups_of(presses, false), forced = groups_of(presses, true);
-  if (tracked.empty() && forced.empty()) return chapter;
-  chapter.blocks.push_back(Paragraph{
-      "",
-      "The task of the 1996 paper: a controller that knows pose, twist and wrench at the rod's "
-      "endpoint, as it would from a robot's hardware, commands a wrench there so that approach "
-      "speed and orientation stay what they were before, during and after contact."});
-  if (!tracked.empty())
-    chapter.blocks.push_back(FigureBlock{
-        columns_figure("tracking", tracked,
-                       {speed_panel, deviation_panel, tilt_panel, command_panel, force_panel}),
-        "Speed, its deviation, tilt, commanded force and force of the tip over time",
-        "Dotted verticals: first touch, and 20 ms later, when first contact counts as over. "
-        "Shaded: what is tolerated, 1 % of the commanded speed and 0.05 degrees of tilt. The "
-        "commanded "
-        "force acts along the approach."});
-  if (!forced.empty())
-    chapter.blocks.push_back(FigureBlock{
-        columns_figure("force_control", forced, {speed_panel, command_panel, force_panel}),
-        "Force control: force of the tip, commanded force and speed over time",
-        "Dashed: the force that is wanted; shaded: within 5 % of it."});
-  chapter.blocks.push_back(tracking_table(presses));
-  return chapter;
+  if (tracked.empty() && forced.empty()) return {};
+  const bool forces = std::ranges::any_of(presses, &MovingPress::controls_force);
+  ChapterData chapter("control");
+  chapter["forces"] = forces;
+  chapter.figures = {
+      columns_figure("tracking", tracked,
+                     {speed_panel, deviation_panel, tilt_panel, command_panel, force_panel}),
+      columns_figure("force_control", forced, {speed_panel, command_panel, force_panel})};
+  chapter.tables["tracking"] = tracking_table(presses, forces);
+  return written(std::move(chapter));
 }
 
 Chapter control_chapter(const RunData& run) {

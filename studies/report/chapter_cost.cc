@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "studies/report/chapters.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -55,7 +56,6 @@ std::vector<Quantity> time_quantities() {
 
 Table lattice_table(const RunData& run) {
   Table table;
-  table.caption = "Size, time step and cost of the lattices.";
   table.header = {plain("Lattice")};
   for (const ModelData& model : run.models) {
     if (model.summary.empty()) continue;
@@ -112,7 +112,6 @@ std::vector<MeshRow> mesh_rows(const fem_reference::RunSummary& summary) {
 
 Table mesh_table(const RunData& run) {
   Table table;
-  table.caption = "The continuum's problem, mesh and cost.";
   table.header = {plain("Continuum"), plain("Value")};
   for (const std::vector<MeshRow>& rows : {problem_rows(run.continuum), mesh_rows(run.continuum)}) {
     for (const auto& [label, value] : rows) {
@@ -138,22 +137,22 @@ void add_rows(Table& table, const nlohmann::ordered_json& object, const std::str
 }  // namespace
 
 Chapter cost_chapter(const RunData& run) {
-  Chapter chapter{"cost", "Time step, cost and quality", {}};
-  const Table lattices = lattice_table(run);
-  if (lattices.header.size() > 1) chapter.blocks.push_back(lattices);
+  ChapterData chapter("cost");
+  if (Table lattices = lattice_table(run); lattices.header.size() > 1)
+    chapter.tables["lattices"] = std::move(lattices);
+  WordList steps;
   for (const ModelData& model : run.models) {
-    const std::string& explanation = model.summary.step.explanation;
-    if (!explanation.empty())
-      chapter.blocks.push_back(Paragraph{fmt::format("Step of {}.", model.name), explanation});
+    if (model.summary.step.explanation.empty()) continue;
+    steps.emplace_back()["model"] = model.name;
+    steps.back()["explanation"] = model.summary.step.explanation;
   }
-  if (!run.continuum.empty()) chapter.blocks.push_back(mesh_table(run));
-  return chapter;
+  chapter["steps"] = std::move(steps);
+  if (!run.continuum.empty()) chapter.tables["continuum"] = mesh_table(run);
+  return written(std::move(chapter));
 }
 
 Chapter provenance_chapter(const RunData& run) {
-  Chapter chapter{"provenance", "Provenance", {}};
   Table table;
-  table.caption = "What made these numbers, from manifest.json.";
   table.header = {plain("Entry"), plain("Value")};
   const Manifest& manifest = run.manifest;
   add_row(table, "version", manifest.version);
@@ -164,18 +163,12 @@ Chapter provenance_chapter(const RunData& run) {
   add_row(table, "finished", manifest.finished.value_or(""));
   add_rows(table, manifest.host, "host: ");
   add_rows(table, manifest.packages, "");
-  if (!table.rows.empty()) chapter.blocks.push_back(std::move(table));
-  if (!run.parameters.empty()) {
-    chapter.blocks.push_back(Paragraph{
-        "To reproduce:",
-        fmt::format(
-            "take parameters.toml from this folder (below) and run `fingertip {} --config "
-            "parameters.toml`; every value that went into the run is in it. The curves, traces "
-            "and fields in the subfolders are the data behind the figures.",
-            run.verb)});
-    chapter.blocks.push_back(Listing{"parameters.toml", run.parameters});
-  }
-  return chapter;
+  ChapterData chapter("provenance");
+  chapter.tables["manifest"] = std::move(table);
+  chapter["verb"] = run.verb;
+  chapter["parameters"] = !run.parameters.empty();
+  if (!run.parameters.empty()) chapter.listings["parameters"] = run.parameters;
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

@@ -10,6 +10,7 @@
 #include "calibration/moduli.h"
 #include "studies/report/chapters.h"
 #include "studies/report/modulus_surfaces.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -66,7 +67,7 @@ Panel polar_panel(const RunData& run, const std::string& title, const Vector3d& 
   return panel;
 }
 
-FigureBlock polar_figure(const RunData& run) {
+Figure polar_figure(const RunData& run) {
   const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
   Panel cube_face = polar_panel(run, "(001) plane", x, y);
   Panel diagonal = polar_panel(run, "(1-10) plane", (x + y).normalized(), z);
@@ -89,13 +90,7 @@ FigureBlock polar_figure(const RunData& run) {
   for (Panel* panel : {&cube_face, &diagonal})
     panel->x_range = panel->y_range = Range{-1.45 * most, 1.45 * most};
   diagonal.key = "bottom right";
-  return {{"elastic_directions", 860, 470, 2, {cube_face, diagonal}},
-          "Young's modulus against direction",
-          "Distance from the centre is E along that direction of the lattice. Rubber is a circle "
-          "(dotted). "
-          "A model that touches it only along the cube axes has the right stiffness in one test "
-          "and the wrong "
-          "one in every other."};
+  return {"elastic_directions", 860, 470, 2, {cube_face, diagonal}};
 }
 
 /// All directions at once; empty without models whose constants are known.
@@ -108,10 +103,6 @@ Figure surface_figure(const RunData& run) {
 
 Table achieved_table(const RunData& run) {
   Table table;
-  table.caption = "Homogenised constants of the infinite lattices: achieved value in " +
-                  unit_name(shown_units().stress) +
-                  " and deviation. A = 2 C44/(C11 − "
-                  "C12) is Zener's anisotropy, 1 for an isotropic material.";
   table.graded = true;
   table.header = {{"Constant", "", Grade::none}, {"Target", "", Grade::none}};
   for (const ModelData& model : run.models)
@@ -153,29 +144,6 @@ Table achieved_table(const RunData& run) {
   return table;
 }
 
-std::string cauchy_text(const RunData& run) {
-  std::string text =
-      "Springs that push and pull only along their own line cannot tell shear from sideways "
-      "contraction: for every choice "
-      "of k1, k2, k3 they give C12 = C44 (Cauchy's relation). If such a lattice is isotropic, "
-      "Poisson's ratio is 1/4, "
-      "whatever the constants";
-  if (std::isfinite(run.target.poissons_ratio)) {
-    text += fmt::format("; this rubber has {}", number(run.target.poissons_ratio));
-  }
-  text += ".";
-  const ModelData* central = run.model("central");
-  if (central && std::isfinite(central->moduli.K)) {
-    text += fmt::format(
-        " Fitted to E and G together, the central lattice therefore pays with ν₁₀₀ = {} and K = {} "
-        "in place of {}.",
-        number(central->moduli.nu_100), stress(central->moduli.K), stress(run.target.bulk_modulus));
-  }
-  return text +
-         " A volume constant per cell, as in hookean, lifts the limit: it adds to C11 and C12 and "
-         "leaves C44 alone.";
-}
-
 /// "(0.62, −0.62, 0.47, 0)" for each direction the tests leave open, "–" when there is none.
 std::string null_directions(const calibration::ModuliFile& calibration) {
   std::vector<std::string> directions;
@@ -188,12 +156,8 @@ std::string null_directions(const calibration::ModuliFile& calibration) {
   return directions.empty() ? "–" : enumerate(directions);
 }
 
-void add_calibrations(const RunData& run, Chapter& chapter) {
+Table spring_table(const RunData& run) {
   Table table;
-  table.caption =
-      "Spring and volume constants. Null direction: the moves of the constants that no test of "
-      "elastic "
-      "constants notices.";
   table.header = {{"Model", "", Grade::none},
                   plain("Spacing", unit_name(shown_units().length)),
                   {"k1", "axis", Grade::none},
@@ -218,12 +182,18 @@ void add_calibrations(const RunData& run, Chapter& chapter) {
     row.push_back({null_directions(model.calibration), "", Grade::none});
     table.rows.push_back(std::move(row));
   }
-  if (!table.rows.empty()) chapter.blocks.push_back(std::move(table));
+  return table;
+}
+
+/// What the calibrations say of themselves.
+WordList calibrations(const RunData& run) {
+  WordList words;
   for (const ModelData& model : run.models) {
     if (model.calibration.empty()) continue;
-    chapter.blocks.push_back(
-        Paragraph{fmt::format("Calibration of {}.", model.name), model.calibration.statement});
+    words.emplace_back()["model"] = model.name;
+    words.back()["statement"] = model.calibration.statement;
   }
+  return words;
 }
 
 struct CubeColumn {
@@ -237,10 +207,6 @@ constexpr CubeColumn cube_columns[] = {
 
 Table cubes_table(const RunData& run) {
   Table table;
-  table.caption = "Free cubes of whole cells, loaded on all faces (" +
-                  unit_name(shown_units().stress) +
-                  "; deviation from the infinite lattice "
-                  "of the same model below).";
   table.header = {{"Model", "", Grade::none}, {"Cells across", "", Grade::none}};
   for (const CubeColumn& column : cube_columns)
     table.header.push_back({column.label, "", Grade::none});
@@ -262,7 +228,7 @@ Table cubes_table(const RunData& run) {
   return table;
 }
 
-FigureBlock cubes_figure(const RunData& run) {
+Figure cubes_figure(const RunData& run) {
   Panel panel;
   panel.x_label = "cells across the cube";
   panel.y_label = shown_units().stress.label("E along [100]");
@@ -282,33 +248,28 @@ FigureBlock cubes_figure(const RunData& run) {
   for (auto& [name, curve] : curves) panel.series.push_back(std::move(curve));
   panel.x_range = Range{0.8 * least, 1.25 * most};
   panel.y_range = Range{0.0, meshes::unknown};
-  return {{"cubes", 760, 340, 1, {panel}},
-          "The surface effect of full springs",
-          "Counted fully, the springs of a free surface are shared with no neighbouring cell, so a "
-          "small specimen is too stiff. "
-          "Weighted per cell, every size gives the constants of the infinite lattice."};
+  return {"cubes", 760, 340, 1, {panel}};
 }
 
 }  // namespace
 
 Chapter elasticity_chapter(const RunData& run) {
-  Chapter chapter{"elasticity", "Elastic constants", {}};
-  if (run.models.empty()) return chapter;
-  chapter.blocks.push_back(polar_figure(run));
-  if (Figure surfaces = surface_figure(run); !surfaces.panels.empty()) {
-    chapter.blocks.push_back(
-        FigureBlock{std::move(surfaces), "Young's modulus along every direction",
-                    "Distance from the centre and colour are E along that direction, all lattices "
-                    "at the same scale; n is the direction in the cube's axes. Rubber is a ball."});
-  }
-  chapter.blocks.push_back(achieved_table(run));
-  chapter.blocks.push_back(Paragraph{"The Cauchy limit.", cauchy_text(run)});
-  add_calibrations(run, chapter);
-  if (!run.cubes.empty()) {
-    chapter.blocks.push_back(cubes_figure(run));
-    chapter.blocks.push_back(cubes_table(run));
-  }
-  return chapter;
+  if (run.models.empty()) return {};
+  ChapterData chapter("elasticity");
+  const double nu = run.target.poissons_ratio;
+  const ModelData* central = run.model("central");
+  const Moduli paid = central ? central->moduli : Moduli();
+  chapter["nu"] = if_known(nu, number(nu));
+  chapter["central_nu"] = if_known(paid.K, number(paid.nu_100));
+  chapter["central_bulk"] = stress(paid.K);
+  chapter["bulk"] = stress(run.target.bulk_modulus);
+  chapter["calibrations"] = calibrations(run);
+  chapter.figures = {polar_figure(run), surface_figure(run)};
+  chapter.tables["achieved"] = achieved_table(run);
+  chapter.tables["constants"] = spring_table(run);
+  if (!run.cubes.empty()) chapter.figures.push_back(cubes_figure(run));
+  chapter.tables["cubes"] = cubes_table(run);
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "studies/report/chapters.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -43,9 +44,6 @@ std::vector<StaticLattice> read_lattices(const std::vector<EquilibriumStudyRow>&
 
 Table force_table(const std::vector<StaticLattice>& lattices) {
   Table table;
-  table.caption = "Contact force in equilibrium in " + unit_name(shown_units().force) +
-                  ", and its error against the continuum below, at each "
-                  "indentation.";
   table.graded = true;
   table.header = {{"Lattice", "", Grade::none}, plain("Spacing", unit_name(shown_units().length))};
   for (const double depth : lattices.front().depth)
@@ -61,7 +59,7 @@ Table force_table(const std::vector<StaticLattice>& lattices) {
   return table;
 }
 
-FigureBlock error_figure(const std::vector<StaticLattice>& lattices, const RunData& run) {
+Figure error_figure(const std::vector<StaticLattice>& lattices, const RunData& run) {
   Panel panel;
   panel.x_label = shown_units().length.label("indentation");
   panel.y_label = "force error [%]";
@@ -90,43 +88,32 @@ FigureBlock error_figure(const std::vector<StaticLattice>& lattices, const RunDa
   panel.band = Band{-1.0, 1.0};
   const double room = 0.6 * (most - least) + 1.0;
   panel.y_range = Range{least - room, most + 0.1 * room};
-  Figure figure{"equilibrium_error", 760, 430, 1, {}};
-  figure.panels = {panel};
-  return {
-      figure, "Force error of lattices in equilibrium",
-      "Cells cut by the true sphere and cylinder, no inertia, no damping. The band is one per "
-      "cent. Grey: the moving lattice of the chapters above, the same cells and ties at speed."};
+  return {"equilibrium_error", 760, 430, 1, {panel}};
 }
 
-/// What the finest hookean lattice of the study reached.
-std::string finding(const std::vector<StaticLattice>& lattices) {
+/// The finest hookean lattice of the study; nullptr without one.
+const StaticLattice* finest_hookean(const std::vector<StaticLattice>& lattices) {
   const auto finest =
       std::ranges::find_if(lattices.rbegin(), lattices.rend(),
                            [](const StaticLattice& lattice) { return lattice.model == "hookean"; });
-  if (finest == lattices.rend() || std::isnan(finest->worst())) return "";
-  return fmt::format(
-      " At a = {} the force of the hookean lattice is within {} of the continuum's "
-      "at every depth of the table.",
-      with_unit(finest->spacing, shown_units().length, 3), percent_magnitude(finest->worst()));
+  return finest == lattices.rend() ? nullptr : &*finest;
 }
 
 }  // namespace
 
 Chapter equilibrium_chapter(const RunData& run) {
-  Chapter chapter{"equilibrium", "In equilibrium", {}};
   const std::vector<StaticLattice> lattices = read_lattices(run.equilibrium_study);
-  if (lattices.empty()) return chapter;
-  chapter.blocks.push_back(Paragraph{
-      "The same lattices without inertia and damping.",
-      "The cells at the surface are cut by it and weigh what their rubber weighs; contact and "
-      "bond act on the true sphere and cylinder. A third of the shear energy is carried by fibres "
-      "along the cells' edges, the rest by each cell's mean deformation, so that a cell resists "
-      "bending as the continuum does; springs alone are three times too stiff in it. The moduli "
-      "are exact either way." +
-          finding(lattices)});
-  chapter.blocks.push_back(error_figure(lattices, run));
-  chapter.blocks.push_back(force_table(lattices));
-  return chapter;
+  if (lattices.empty()) return {};
+  ChapterData chapter("equilibrium");
+  chapter["worst"] = chapter["spacing"] = "";
+  if (const StaticLattice* finest = finest_hookean(lattices);
+      finest && !std::isnan(finest->worst())) {
+    chapter["spacing"] = with_unit(finest->spacing, shown_units().length, 3);
+    chapter["worst"] = percent_magnitude(finest->worst());
+  }
+  chapter.figures = {error_figure(lattices, run)};
+  chapter.tables["forces"] = force_table(lattices);
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

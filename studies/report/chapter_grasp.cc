@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "studies/report/grasp_run.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -218,11 +219,6 @@ std::string off(double value, double wanted) {
 
 Table grasp_table(const std::vector<GraspRun>& grasps) {
   Table table;
-  table.caption =
-      "Two contacts carry at most mu times their normal force each: the block is held iff the grip "
-      "force is above m (g + a)/(2 mu), a the lift's largest acceleration. Where every point of "
-      "both contacts begins to slide for good, and at the end of the sliding, |t|/(mu n) is given "
-      "less 1.";
   table.header = {plain("Grasp"),
                   plain("Grip force", unit_name(shown_units().force)),
                   plain("Over the limit", "m (g + a)/(2 mu)"),
@@ -266,24 +262,19 @@ std::string grasp_answer(const std::vector<GraspRun>& grasps) {
     else if (!grasp.fate().empty())
       strongest = std::fmax(strongest, surplus);
   }
-  std::string text = "No grasp held.";
-  if (grasps.size() == 1) {
-    text = fmt::format("The block was {}.", grasps.front().fate());
-  } else if (std::isfinite(weakest)) {
-    text = fmt::format(
-        "The weakest grip that holds the block is off the friction limit m (g + a)/(2 mu) by {}{}.",
-        percent(weakest),
-        std::isfinite(strongest)
-            ? fmt::format(", the strongest that does not by {}", percent(strongest))
-            : "");
-  }
   const std::vector<GraspRun> released = released_of(grasps);
+  Words words;
+  words["single"] = grasps.size() == 1;
+  words["fate"] = grasps.empty() ? "" : grasps.front().fate();
+  words["weakest"] = if_known(weakest, percent(weakest));
+  words["strongest"] = if_known(strongest, percent(strongest));
+  words["slip"] = words["label"] = "";
   if (!released.empty()) {
     const GraspRun& last = released.back();
-    text += fmt::format(" Where the grip falls, the block begins to slip at m g/(2 mu) {} ({}).",
-                        off(last.summary.slip_force, last.rest_limit()), last.label);
+    words["slip"] = off(last.summary.slip_force, last.rest_limit());
+    words["label"] = last.label;
   }
-  return text;
+  return sentences("answer_grasp", words);
 }
 
 std::string grasp_text(const std::vector<GraspRun>& grasps) {
@@ -303,37 +294,17 @@ std::string grasp_text(const std::vector<GraspRun>& grasps) {
 }
 
 Chapter grasp_chapter(const std::vector<GraspRun>& grasps) {
-  Chapter chapter{"grasp", "Grasp", {}};
-  if (grasps.empty()) return chapter;
-  chapter.blocks.push_back(Paragraph{
-      "",
-      "Two fingers squeeze a rigid block under force control, take up its weight, lift it, hold it "
-      "and, where asked, let the grip force fall. Points that touch obey Coulomb's law one by one; "
-      "that the block obeys it as a whole is what comes out."});
-  if (grasps.size() > 1)
-    chapter.blocks.push_back(FigureBlock{
-        fate_figure(grasps), "Height of the block against grip force",
-        "Filled: held; open: not. The vertical is the friction limit, with the acceleration of "
-        "each lift."});
+  if (grasps.empty()) return {};
   const std::vector<GraspRun> released = released_of(grasps);
-  if (!released.empty())
-    chapter.blocks.push_back(
-        FigureBlock{release_figure(released), "Grip force against slip while the grip falls",
-                    "Time runs from top left to bottom right. Dotted: the friction limit."});
-  Figure friction = friction_figure(grasps);
-  if (!friction.panels.empty())
-    chapter.blocks.push_back(FigureBlock{
-        std::move(friction), "Friction of the points, and their resultant",
-        "Slip begins when the sum of the points' friction reaches mu n (dashed). Its resultant is "
-        "smaller, since squeezing presses the rubber outward against friction and the points are "
-        "still pulled toward the contact's centre; sliding turns them all along the load."});
   const GraspRun& shown = released.empty() ? grasps.back() : released.back();
-  if (!shown.rows.empty())
-    chapter.blocks.push_back(FigureBlock{
-        time_figure(shown), "A grasp in time: " + shown.label,
-        "Squeeze, load, lift, hold, release; forces are means over a step of the communication."});
-  chapter.blocks.push_back(grasp_table(grasps));
-  return chapter;
+  ChapterData chapter("grasp");
+  chapter["shown"] = shown.label;
+  chapter.figures = {friction_figure(grasps)};
+  if (grasps.size() > 1) chapter.figures.push_back(fate_figure(grasps));
+  if (!released.empty()) chapter.figures.push_back(release_figure(released));
+  if (!shown.rows.empty()) chapter.figures.push_back(time_figure(shown));
+  chapter.tables["grasps"] = grasp_table(grasps);
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

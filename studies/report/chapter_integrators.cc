@@ -6,6 +6,7 @@
 
 #include "studies/report/chapters.h"
 #include "studies/report/moving_press.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -60,10 +61,6 @@ Table cost_table(const std::vector<MovingPress>& presses) {
   double cheapest = meshes::unknown;
   for (const MovingPress& press : presses) cheapest = std::fmin(cheapest, press.summary.wall_time);
   Table table;
-  table.caption =
-      "Steps and force evaluations of each press, its wall time as a multiple of the quickest "
-      "press of this run, and the largest difference of the normal force at the samples from the "
-      "press it is compared with.";
   table.header = {plain("Integrator"),
                   plain("Step or bound"),
                   plain("Steps"),
@@ -97,11 +94,12 @@ std::string integrators_answer(const std::vector<MovingPress>& presses) {
   const MovingPress* best = nullptr;
   for (const MovingPress& press : presses)
     if (is_compared(press) && (!best || press.change < best->change)) best = &press;
-  if (!best) return "No press has another one to be compared with.";
-  return fmt::format(
-      "Beside {}, the force of {} comes closest, within {}, for {} force evaluations.",
-      best->beside, best->label, percent_magnitude(best->change),
-      count(best->summary.steps.force_evaluations));
+  Words words;
+  words["beside"] = best ? best->beside : "";
+  words["press"] = best ? best->label : "";
+  words["change"] = best ? percent_magnitude(best->change) : "";
+  words["evaluations"] = best ? count(best->summary.steps.force_evaluations) : "";
+  return sentences("answer_integrators", words);
 }
 
 std::string integrators_text(const std::vector<MovingPress>& presses) {
@@ -116,15 +114,11 @@ std::string integrators_text(const std::vector<MovingPress>& presses) {
 }
 
 Chapter integrators_chapter(const std::vector<MovingPress>& presses) {
-  Chapter chapter{"integrators", "Cost against error", {}};
-  if (!compares_integrators(presses)) return chapter;
-  chapter.blocks.push_back(
-      FigureBlock{cost_figure(presses), "Difference of the force against force evaluations",
-                  "Each point is one press: its cost in evaluations of all internal forces, and "
-                  "how far its normal force is at most from the press it is compared with, at the "
-                  "samples. Down and left is better."});
-  chapter.blocks.push_back(cost_table(presses));
-  return chapter;
+  if (!compares_integrators(presses)) return {};
+  ChapterData chapter("integrators");
+  chapter.figures = {cost_figure(presses)};
+  chapter.tables["costs"] = cost_table(presses);
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

@@ -8,13 +8,12 @@
 
 #include "studies/report/calibration_chapters.h"
 #include "studies/report/calibration_figures.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
 
 using calibration::DirectionEntry, calibration::MinimumEntry;
-
-using Blocks = std::vector<Block>;
 
 /// "40.1 kPa"; in the paper's units SI is the note.
 std::string shown(const FitParameter& parameter, double value) {
@@ -91,39 +90,37 @@ constexpr ParameterColumn parameter_columns[] = {
     {"Bias", "of a model error", [](const FitParameter& one) { return std::isfinite(one.bias); },
      [](const FitParameter& one) {
        Cell cell = value_cell(one, one.bias);
-       cell.note = std::isfinite(one.bias) ? percent(one.bias / one.estimate) : "";
+       cell.note = if_known(one.bias, percent(one.bias / one.estimate));
        return cell;
      }},
 };
 
+bool any_parameter(const Fit& fit, bool (*there)(const FitParameter&)) {
+  return std::ranges::any_of(fit.parameters, there);
+}
+
 Table parameter_table(const Fit& fit) {
   Table table;
-  table.caption =
-      "The parameters. Intervals are linearised at the estimates and know of no errors "
-      "of the model itself";
-  const auto any = [&](const auto& there) { return std::ranges::any_of(fit.parameters, there); };
-  table.caption += any([](const FitParameter& one) { return std::isfinite(one.bias); })
-                       ? " but the bias: how far the known error of the model moves the estimate."
-                       : ".";
-  table.graded = any([](const FitParameter& one) { return std::isfinite(one.truth); });
+  table.graded =
+      any_parameter(fit, [](const FitParameter& one) { return std::isfinite(one.truth); });
   table.header = {plain("Parameter")};
   for (const ParameterColumn& column : parameter_columns)
-    if (any(column.there)) table.header.push_back(plain(column.title, column.note));
+    if (any_parameter(fit, column.there)) table.header.push_back(plain(column.title, column.note));
   for (const FitParameter& one : fit.parameters) {
     const std::string unit = one.unit.empty() ? "1" : one.unit;
     std::vector<Cell> row{plain(one.symbol + " [" + unit + "]", one.name)};
     for (const ParameterColumn& column : parameter_columns)
-      if (any(column.there)) row.push_back(column.cell(one));
+      if (any_parameter(fit, column.there)) row.push_back(column.cell(one));
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
-Table correlation_table(const Fit& fit, const std::vector<std::vector<double>>& correlation) {
+/// Without rows for a single parameter.
+Table correlation_table(const Fit& fit) {
+  const std::vector<std::vector<double>> correlation = fit.square(fit.file.correlation);
   Table table;
-  table.caption =
-      "Correlation of the estimates: near 1 or −1 the data know a combination of the two much "
-      "better than either.";
+  if (correlation.size() < 2) return table;
   table.header = {plain("Correlation")};
   for (const FitParameter& one : fit.parameters) table.header.push_back(plain(one.symbol));
   for (std::size_t i = 0; i < correlation.size(); ++i) {
@@ -143,32 +140,32 @@ bool same_place(const std::vector<double>& one, const std::vector<double>& other
   return true;
 }
 
-void add_minima(Blocks& blocks, const Fit& fit) {
-  const std::vector<MinimumEntry>& minima = fit.file.minima;
-  if (minima.size() < 2) return;
-  const MinimumEntry& least = *std::ranges::min_element(minima, {}, [](const MinimumEntry& one) {
+const MinimumEntry& least_minimum(const Fit& fit) {
+  return *std::ranges::min_element(fit.file.minima, {}, [](const MinimumEntry& one) {
     return std::isfinite(one.loss) ? one.loss : std::numeric_limits<double>::infinity();
   });
-  const auto same = std::ranges::count_if(
-      minima, [&](const MinimumEntry& one) { return same_place(one.estimates, least.estimates); });
-  if (same == std::ptrdiff_t(minima.size())) {
-    blocks.push_back(Paragraph{
-        "Other minima.", fmt::format("All {} starts ended at the same place.", minima.size())});
-    return;
-  }
+}
+
+/// Whether all of several starts ended at one place.
+bool is_same_minimum(const Fit& fit) {
+  const std::vector<MinimumEntry>& minima = fit.file.minima;
+  return minima.size() > 1 && std::ranges::all_of(minima, [&](const MinimumEntry& one) {
+           return same_place(one.estimates, least_minimum(fit).estimates);
+         });
+}
+
+/// Without rows where there is but one minimum.
+Table minima_table(const Fit& fit) {
   Table table;
-  table.caption = fmt::format(
-      "Where the {} starts ended. The one of least loss is reported; one of nearly the same loss "
-      "elsewhere would describe the data as well.",
-      minima.size());
+  if (fit.file.minima.size() < 2 || is_same_minimum(fit)) return table;
   table.header = {plain("Start")};
   for (const FitParameter& one : fit.parameters)
     table.header.push_back(plain(one.symbol, one.unit));
   table.header.insert(table.header.end(), {plain("Loss"), plain("Iterations")});
-  for (const MinimumEntry& one : minima) {
+  for (const MinimumEntry& one : fit.file.minima) {
     const std::vector<double>& estimates = one.estimates;
-    std::vector<Cell> row{
-        plain(std::to_string(table.rows.size() + 1), &one == &least ? "reported" : "")};
+    std::vector<Cell> row{plain(std::to_string(table.rows.size() + 1),
+                                &one == &least_minimum(fit) ? "reported" : "")};
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
       row.push_back(plain(number(i < estimates.size() ? fit.parameters[i].factor * estimates[i]
                                                       : meshes::unknown)));
@@ -176,97 +173,100 @@ void add_minima(Blocks& blocks, const Fit& fit) {
     row.push_back(plain(count(double(one.iterations))));
     table.rows.push_back(std::move(row));
   }
-  blocks.push_back(std::move(table));
+  return table;
 }
 
-/// A direction in words: its statement, else its components.
-std::string direction_words(const Fit& fit, const DirectionEntry& entry) {
-  if (!entry.statement.empty()) return entry.statement;
+/// "E × 0.71 and κ × 0.7", the components of a direction.
+std::string components(const Fit& fit, const DirectionEntry& entry) {
   std::vector<std::string> parts;
   for (const FitParameter& one : fit.parameters) {
     const double* change = entry.direction.find(one.name);
     if (change && std::abs(*change) > 5e-4)
       parts.push_back(one.symbol + " × " + number(*change, 2));
   }
-  return "A change along " + (parts.empty() ? "an unnamed direction" : enumerate(parts)) +
-         " is hardly seen.";
+  return enumerate(parts);
 }
 
-void add_directions(Blocks& blocks, const Fit& fit, const std::vector<DirectionEntry>& directions,
-                    const std::string& lead) {
+/// The directions that the data leave `open`, or that only priors close.
+void add_directions(WordList& words, const Fit& fit, const std::vector<DirectionEntry>& directions,
+                    bool open) {
   for (const DirectionEntry& entry : directions) {
-    std::string text = direction_words(fit, entry);
     const double share = entry.relative_singular_value, width = entry.interval;
-    if (std::isfinite(share))
-      text += fmt::format(" Singular value: {} of the largest.", percent_magnitude(share));
-    if (std::isfinite(width))
-      text += width <= 1.0
-                  ? fmt::format(" 95 % interval along it: ±{} of the parameters.",
-                                percent_magnitude(width))
-                  : std::string(" 95 % interval along it: wider than the parameters themselves.");
-    blocks.push_back(Paragraph{lead, text, true});
+    Words& one = words.emplace_back();
+    one["open"] = open;
+    one["statement"] = entry.statement;
+    one["direction"] = components(fit, entry);
+    one["share"] = if_known(share, percent_magnitude(share));
+    one["width"] = width <= 1.0 ? percent_magnitude(width) : "";
+    one["wide"] = std::isfinite(width) && width > 1.0;
   }
 }
 
-std::string profile_caption(const Fit& fit) {
-  std::string text =
-      "Lines: where the least chi-square with the two parameters held exceeds the minimum by 2.30, "
-      "5.99 and 9.21, the regions of 68, 95 and 99 %. Dashed: the 95 % region as the linearised "
-      "fit has it; where the two part, the intervals of the table are not to be trusted. ";
+/// How far chi-square falls below the fit's on the grid of the profile; "" when it does not.
+std::string fall_of_chi_square(const Fit& fit) {
   double least = 0.0;
-  for (const std::vector<double>& row : fit.file.profile->increase)
-    for (const double value : row) least = std::fmin(least, value);
-  if (least < -0.1)
-    text += fmt::format(
-        "Chi-square falls by {} below the fit's somewhere on this grid: the fit is not at the "
-        "least minimum. ",
-        number(-least, 3));
-  return text +
-         "Lines end where the computed grid does; squares in their place are the grid's own "
-         "points, "
-         "too far apart for lines.";
+  if (fit.file.profile)
+    for (const std::vector<double>& row : fit.file.profile->increase)
+      for (const double value : row) least = std::fmin(least, value);
+  return least < -0.1 ? number(-least, 3) : "";
+}
+
+/// "indentation up to 20 % of the thickness, model central and …"; empty when nothing is told.
+std::string checked_for(const Fit& fit) {
+  const calibration::ValidityEntry& validity = fit.file.validity;
+  std::vector<std::string> parts;
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty() && value != "–") parts.push_back(name + value);
+  };
+  add("indentation up to ",
+      std::isfinite(validity.largest_strain_measure)
+          ? percent_magnitude(validity.largest_strain_measure) + " of the thickness"
+          : "");
+  add("model ", validity.model);
+  add("kinematics ", validity.kinematics);
+  if (std::isfinite(validity.spacing)) add("spacing ", length(validity.spacing));
+  add("Poisson's ratio ", number(validity.poissons_ratio));
+  return enumerate(parts);
 }
 
 }  // namespace
 
-std::vector<Block> parameter_blocks(const Fit& fit) {
-  std::vector<Block> blocks;
-  if (fit.parameters.empty()) return blocks;
-  blocks.push_back(parameter_table(fit));
-  const auto correlation = fit.square(fit.file.correlation);
-  if (correlation.size() > 1) blocks.push_back(correlation_table(fit, correlation));
-  add_minima(blocks, fit);
-  return blocks;
+Chapter parameter_chapter(const Fit& fit, const std::string& prefix) {
+  ChapterData chapter("fit_parameters");
+  chapter.id = prefix + "-parameters";
+  chapter["name"] = fit.name;
+  chapter["starts"] = std::to_string(fit.file.minima.size());
+  chapter["bias"] =
+      any_parameter(fit, [](const FitParameter& one) { return std::isfinite(one.bias); });
+  chapter["same_minimum"] = !fit.parameters.empty() && is_same_minimum(fit);
+  chapter["checked"] = checked_for(fit);
+  if (!fit.parameters.empty()) {
+    chapter.tables["parameters"] = parameter_table(fit);
+    chapter.tables["correlation"] = correlation_table(fit);
+    chapter.tables["minima"] = minima_table(fit);
+  }
+  return written(std::move(chapter));
 }
 
-std::vector<Block> identifiability_blocks(const Fit& fit, const std::string& prefix) {
-  std::vector<Block> blocks;
-  if (fit.parameters.empty()) return blocks;
-  add_directions(blocks, fit, fit.file.unidentifiable, "The data do not determine the answer.");
-  add_directions(blocks, fit, fit.file.only_from_priors, "Only priors determine this.");
+Chapter identifiability_chapter(const Fit& fit, const std::string& prefix) {
+  if (fit.parameters.empty()) return {};
+  ChapterData chapter("fit_identifiability");
+  chapter.id = prefix + "-identifiability";
+  chapter["name"] = fit.name;
+  chapter["prefix"] = prefix;
+  WordList directions;
+  add_directions(directions, fit, fit.file.unidentifiable, true);
+  add_directions(directions, fit, fit.file.only_from_priors, false);
+  chapter["directions"] = std::move(directions);
   std::vector<std::string> bounded;
   for (const FitParameter& one : fit.parameters)
     if (one.at_bound) bounded.push_back(one.bounded);
-  if (!bounded.empty())
-    blocks.push_back(Paragraph{
-        "At a bound.",
-        enumerate(bounded) + " ended at the limit set for the search; the data would go further, "
-                             "and what is given as the interval is none.",
-        true});
-  if (fit.file.unidentifiable.empty() && fit.file.only_from_priors.empty())
-    blocks.push_back(Paragraph{"", fit.parameters.size() == 1
-                                       ? "The data determine the parameter."
-                                       : "The data determine every direction of the parameters."});
-  const auto add = [&](Figure figure, const std::string& title, const std::string& caption) {
-    if (!figure.panels.empty()) blocks.push_back(FigureBlock{std::move(figure), title, caption});
-  };
-  add(singular_value_figure(fit, prefix), "What the data see",
-      "How strongly the curves respond, in units of sigma, to a change of all parameters by "
-      "their own size along one direction. A value below the dashed line is a direction "
-      "along which a model error of two per cent moves the parameters by their own size.");
-  if (fit.file.profile)
-    add(profile_figure(fit, prefix), "Profile likelihood", profile_caption(fit));
-  return blocks;
+  chapter["bounded"] = enumerate(bounded);
+  chapter["one"] = fit.parameters.size() == 1;
+  chapter["below"] = fall_of_chi_square(fit);
+  chapter.figures = {singular_value_figure(fit, prefix)};
+  if (fit.file.profile) chapter.figures.push_back(profile_figure(fit, prefix));
+  return written(std::move(chapter));
 }
 
 std::string estimate_words(const FitParameter& one) {

@@ -1,11 +1,10 @@
 /// Pictures of mesh and lattices.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "studies/report/chapters.h"
 #include "studies/report/continuum_figures.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -97,7 +96,7 @@ Series anchored_series(const ModelData& model) {
   return series;
 }
 
-FigureBlock shapes_figure(const RunData& run) {
+Figure shapes_figure(const RunData& run) {
   const Frame frame = common_frame(run);
   Figure figure{"shapes", 900, 700, 3, {}};
   if (!run.section.empty()) {
@@ -128,27 +127,18 @@ FigureBlock shapes_figure(const RunData& run) {
     figure.panels.push_back(pressed);
   }
   if (figure.panels.size() <= 3) figure.height = 370;
-  return {
-      figure, "Continuum and lattices at first touch and pressed",
-      "Everything in the rod's frame (the rod's travel is subtracted) and to the same scale, "
-      "pole down: the plane, a "
-      "heavy line, rises by the indentation. Mesh: the element edges in the section y = 0. "
-      "Lattices: the "
-      "boundary springs on the viewer's side, projected; dots are particles held by the plane. In "
-      "the calibrated models a boundary particle is drawn where the true surface is nearest to "
-      "it."};
+  return figure;
 }
 
 }  // namespace
 
 Chapter pictures_chapter(const RunData& run) {
-  Chapter chapter{"pictures", "Shapes", {}};
   // Without its trace a press cannot be drawn in the rod's frame.
   for (const ModelData& model : run.models)
-    if (!model.boundary.empty() && model.trace.empty()) return chapter;
-  FigureBlock shapes = shapes_figure(run);
-  if (!shapes.figure.panels.empty()) chapter.blocks.push_back(std::move(shapes));
-  return chapter;
+    if (!model.boundary.empty() && model.trace.empty()) return {};
+  ChapterData chapter("pictures");
+  chapter.figures = {shapes_figure(run)};
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

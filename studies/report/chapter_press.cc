@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "studies/report/chapters.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -90,8 +91,6 @@ Range error_axis(const RunData& run, const std::vector<Series>& curves) {
 
 Table response_table(const RunData& run) {
   Table table;
-  table.caption = "Normal force in " + unit_name(shown_units().force) +
-                  " at the depths of the verdict, and the continuum's contact.";
   table.header = {plain("Indentation", unit_name(shown_units().length)),
                   {"Continuum", "± estimated error", Grade::none},
                   plain("Contact radius", unit_name(shown_units().length)),
@@ -126,14 +125,9 @@ Table response_table(const RunData& run) {
 }  // namespace
 
 Chapter force_chapter(const RunData& run) {
-  Chapter chapter{"force", "Force against indentation", {}};
-  Figure curves{"force_indentation", 760, 460, 1, {force_panel(run)}};
-  if (curves.panels.front().series.empty()) return chapter;
-  chapter.blocks.push_back(FigureBlock{
-      curves, "Normal force against indentation",
-      "Black: the deal.II continuum, its points with bars of the estimated error of discretisation "
-      "(mostly smaller than the points). A lattice that is the same material on the same body "
-      "follows the black curve."});
+  ChapterData chapter("force");
+  chapter.figures = {{"force_indentation", 760, 460, 1, {force_panel(run)}}};
+  if (chapter.figures.front().panels.front().series.empty()) return {};
   Panel errors;
   errors.x_label = shown_units().length.label("indentation");
   errors.y_label = "force error [%]";
@@ -145,14 +139,10 @@ Chapter force_chapter(const RunData& run) {
   }
   if (!errors.series.empty()) {
     errors.y_range = error_axis(run, errors.series);
-    chapter.blocks.push_back(FigureBlock{
-        {"force_error", 760, 360, 1, {errors}},
-        "Relative error of the force against the continuum",
-        "The shaded band is ±2 %. The error is largest where few lattice points touch, and each "
-        "further layer of points that reaches the plane shows as a step."});
+    chapter.figures.push_back({"force_error", 760, 360, 1, {errors}});
   }
-  if (!run.depths.empty()) chapter.blocks.push_back(response_table(run));
-  return chapter;
+  chapter.tables["response"] = response_table(run);
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

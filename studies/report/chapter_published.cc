@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "studies/report/chapters.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -59,9 +60,6 @@ std::vector<double> all_depths(const std::vector<Variant>& variants) {
 
 Table study_table(const std::vector<Variant>& variants) {
   Table table;
-  table.caption = "Contact force of the published lattice in " + unit_name(shown_units().force) +
-                  ", and its error against the continuum below, at "
-                  "each indentation.";
   table.graded = true;
   table.header = {{"Varied", "", Grade::none},
                   plain("Spacing", unit_name(shown_units().length)),
@@ -91,7 +89,7 @@ Table study_table(const std::vector<Variant>& variants) {
   return table;
 }
 
-FigureBlock study_figure(const std::vector<Variant>& variants) {
+Figure study_figure(const std::vector<Variant>& variants) {
   Figure figure{"published_study", 960, 430, 0, {}};
   double least = 0.0, most = 0.0;
   for (const Variant& variant : variants) {
@@ -120,57 +118,24 @@ FigureBlock study_figure(const std::vector<Variant>& variants) {
     std::replace(panel.title.begin(), panel.title.end(), '_', ' ');
   }
   figure.columns = int(figure.panels.size());
-  return {figure, "The published model's force error against depth",
-          "Left to right: other spacing, other place of the grid in the body, other stiffness of "
-          "the ligaments to the rod. The "
-          "material is the same in every curve; what changes is the grid."};
-}
-
-/// The range of errors in the table, as evidence for the text.
-std::string spread(const std::vector<Variant>& variants) {
-  double least = meshes::unknown, most = meshes::unknown;
-  for (const Variant& variant : variants) {
-    for (double error : variant.error)
-      least = std::fmin(least, error), most = std::fmax(most, error);
-  }
-  return fmt::format("Over the lattices of this table the error of the force runs from {} to {}.",
-                     percent(least), percent(most));
+  return figure;
 }
 
 }  // namespace
 
 Chapter published_chapter(const RunData& run) {
-  Chapter chapter{"published", "The published model's force", {}};
   const std::vector<Variant> variants = read_variants(run.published_study);
-  if (variants.empty()) return chapter;
-  chapter.blocks.push_back(
-      Paragraph{"No particular force should be expected from it.",
-                "Its contact is made of particles. Where a grid point lies on the pole, that one "
-                "carries everything until the next layer of the grid reaches the plane; elsewhere "
-                "nothing touches until a layer does. A few ligaments of unspecified stiffness hand "
-                "the load to the rod. The "
-                "force is a property of the grid as much as of "
-                "the rubber. " +
-                    spread(variants)});
-  chapter.blocks.push_back(study_figure(variants));
-  chapter.blocks.push_back(study_table(variants));
-  chapter.blocks.push_back(
-      Paragraph{"How the printed rule is read.",
-                "The paper sets k = E/l₀, which is a force per length only after multiplication by "
-                "an area. Taken literally the effective "
-                "modulus would grow like 1/a² as the grid is refined; the lattice reading k = E "
-                "a²/l₀ (k1 = E a, k2 = E a/√2, k3 = E a/√3) "
-                "makes the lattice a material of its own, the same at every spacing, though not "
-                "the rubber it was meant to be."});
-  chapter.blocks.push_back(Paragraph{
-      "Misprints that are not copied.",
-      "AccumulateForces subtracts u_j although u_j = −u_i already, which would push both "
-      "ends the same way. With i, j ≥ 0 the offset "
-      "−R/2 in w_ijk keeps little more than half of the tip, so i and j run over both signs here. "
-      "The paper leaves the ligaments open: here every "
-      "particle closer than one spacing to the rod gets an isotropic spring to the rod, k = E a "
-      "times the factor in the table, with zero force at rest."});
-  return chapter;
+  if (variants.empty()) return {};
+  double least = meshes::unknown, most = meshes::unknown;
+  for (const Variant& variant : variants)
+    for (const double error : variant.error)
+      least = std::fmin(least, error), most = std::fmax(most, error);
+  ChapterData chapter("published");
+  chapter["least"] = percent(least);
+  chapter["most"] = percent(most);
+  chapter.figures = {study_figure(variants)};
+  chapter.tables["study"] = study_table(variants);
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

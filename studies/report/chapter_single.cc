@@ -10,6 +10,7 @@
 
 #include "studies/files/mode_table.h"
 #include "studies/report/chapters.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -95,8 +96,7 @@ Table sample_table(SampleRange samples, const SampleAxis& axis) {
   std::size_t every = 1;
   for (const std::size_t step : {2, 5, 10, 20, 50, 100, 200, 500, 1000})
     if ((samples.size() + every - 1) / every > most_rows) every = step;
-  std::size_t rows = 0;
-  for (std::size_t i = (samples.size() - 1) % every; i < samples.size(); i += every, ++rows) {
+  for (std::size_t i = (samples.size() - 1) % every; i < samples.size(); i += every) {
     const auto& sample = samples[i];
     std::vector<Cell> row{plain(fmt::format("{:.4g}", units.length(sample.*axis.value)))};
     for (const Column& column : shown) {
@@ -107,13 +107,19 @@ Table sample_table(SampleRange samples, const SampleAxis& axis) {
     }
     table.rows.push_back(std::move(row));
   }
-  table.caption = rows < samples.size() ? fmt::format("{} of the {} samples.", rows, samples.size())
-                                        : "The samples.";
   return table;
 }
 
+void add_samples(ChapterData& chapter, SampleRange samples, const SampleAxis& axis) {
+  Table table = sample_table(samples, axis);
+  const std::size_t rows = table.rows.size();
+  chapter["shown"] = rows < samples.size() ? std::to_string(rows) : "";
+  chapter["all"] = std::to_string(samples.size());
+  chapter.tables["samples"] = std::move(table);
+}
+
 /// Pressure of the points on the plane against their distance from the contact's centre.
-FigureBlock pressure_figure(const std::vector<ContactRow>& contact) {
+Figure pressure_figure(const std::vector<ContactRow>& contact) {
   double weight = 0.0;
   meshes::Vector3 sum = meshes::Vector3::Zero();
   for (const ContactRow& point : contact) {
@@ -140,91 +146,75 @@ FigureBlock pressure_figure(const std::vector<ContactRow>& contact) {
   }
   panel.series.push_back(std::move(series));
   panel.x_range = Range{0.0, meshes::unknown};
-  return {{"contact_pressure", 760, 380, 1, {panel}},
-          "Contact pressure at the end",
-          "One dot per point of the true surface that the plane holds; points of one ring lie "
-          "above each "
-          "other where the contact is round."};
+  return {"contact_pressure", 760, 380, 1, {panel}};
 }
 
 }  // namespace
 
 Chapter press_chapter(const meshes::PressResponse& response,
                       const std::vector<ContactRow>& contact) {
-  Chapter chapter{"press", "Force against indentation", {}};
-  if (response.empty()) return chapter;
+  if (response.empty()) return {};
   const SampleRange samples = response.pressing();
-  chapter.blocks.push_back(
-      FigureBlock{{"force_indentation",
-                   760,
-                   420,
-                   1,
-                   {curve_panel(samples, by_indentation, "normal force",
-                                &meshes::PressSample::normal_force, shown_units().force)}},
-                  "Normal force against indentation",
-                  "Indentation counts from first touch."});
-  chapter.blocks.push_back(sample_table(samples, by_indentation));
+  ChapterData chapter("press");
+  chapter.figures = {{"force_indentation",
+                      760,
+                      420,
+                      1,
+                      {curve_panel(samples, by_indentation, "normal force",
+                                   &meshes::PressSample::normal_force, shown_units().force)}}};
+  add_samples(chapter, samples, by_indentation);
   if (known(samples, &meshes::PressSample::contact_radius))
-    chapter.blocks.push_back(
-        FigureBlock{{"contact_radius",
-                     760,
-                     340,
-                     1,
-                     {curve_panel(samples, by_indentation, "contact radius",
-                                  &meshes::PressSample::contact_radius, shown_units().length)}},
-                    "Contact radius against indentation",
-                    "Where a lattice touches with single points, its contact grows in steps."});
-  if (!contact.empty()) chapter.blocks.push_back(pressure_figure(contact));
-  return chapter;
+    chapter.figures.push_back(
+        {"contact_radius",
+         760,
+         340,
+         1,
+         {curve_panel(samples, by_indentation, "contact radius",
+                      &meshes::PressSample::contact_radius, shown_units().length)}});
+  if (!contact.empty()) chapter.figures.push_back(pressure_figure(contact));
+  return written(std::move(chapter));
 }
 
 Chapter sliding_chapter(const meshes::PressResponse& response) {
-  Chapter chapter{"sliding", "Lateral motion at full depth", {}};
-  if (response.sliding().empty()) return chapter;
+  if (response.sliding().empty()) return {};
   // From where the press ended, which is the first sample of both.
   const SampleRange samples =
       SampleRange(response.samples()).subspan(response.pressing().size() - 1);
-  if (!significant(samples, &meshes::PressSample::lateral_force_x)) {
-    chapter.blocks.push_back(Paragraph{"", "The plane slides free: nothing holds it back."});
-    chapter.blocks.push_back(sample_table(samples, by_displacement));
-    return chapter;
+  const bool free = !significant(samples, &meshes::PressSample::lateral_force_x);
+  ChapterData chapter("sliding");
+  chapter["free"] = free;
+  chapter["depth"] = length(response.depth());
+  add_samples(chapter, samples, by_displacement);
+  if (!free) {
+    Panel panel = curve_panel(samples, by_displacement, "lateral force",
+                              &meshes::PressSample::lateral_force_x, shown_units().force);
+    const double end = shown_units().length(samples.back().lateral_displacement);
+    panel.x_range = Range{std::min(0.0, end), std::max(0.0, end)};
+    chapter.figures = {{"lateral_force", 760, 420, 1, {panel}}};
   }
-  Panel panel = curve_panel(samples, by_displacement, "lateral force",
-                            &meshes::PressSample::lateral_force_x, shown_units().force);
-  const double end = shown_units().length(samples.back().lateral_displacement);
-  panel.x_range = Range{std::min(0.0, end), std::max(0.0, end)};
-  chapter.blocks.push_back(FigureBlock{
-      {"lateral_force", 760, 420, 1, {panel}},
-      "Lateral force against lateral displacement",
-      fmt::format("The plane moves along t1 at {} indentation; the force is the plane's "
-                  "on the finger along t1.",
-                  length(response.depth()))});
-  chapter.blocks.push_back(sample_table(samples, by_displacement));
-  return chapter;
+  return written(std::move(chapter));
 }
 
 std::string press_answer(const meshes::PressResponse& response) {
-  if (response.empty()) return "The press has no sample.";
+  Words words;
+  for (const char* name : {"depth", "force", "radius", "moved", "held", "push"}) words[name] = "";
+  if (response.empty()) return sentences("answer_press", words);
   const meshes::PressSample& last = response.pressing().back();
-  std::string text = fmt::format("Pressed {} deep, the finger pushes back with {}",
-                                 length(last.indentation), force(last.normal_force));
-  if (last.contact_radius > 0.0)
-    text += fmt::format("; the contact's radius is {}", length(last.contact_radius));
-  if (response.sliding().empty()) return text + ".";
-  const meshes::PressSample& end = response.sliding().back();
-  const bool held = significant(response.sliding(), &meshes::PressSample::lateral_force_x);
-  return text + fmt::format(
-                    ". Moved {} along the plane at that depth, the plane {} and pushes it "
-                    "with {}.",
-                    length(end.lateral_displacement),
-                    held ? "pulls it along with " + force(end.lateral_force_x)
-                         : std::string("slides free"),
-                    force(end.normal_force));
+  words["depth"] = length(last.indentation);
+  words["force"] = force(last.normal_force);
+  if (last.contact_radius > 0.0) words["radius"] = length(last.contact_radius);
+  if (!response.sliding().empty()) {
+    const meshes::PressSample& end = response.sliding().back();
+    words["moved"] = length(end.lateral_displacement);
+    words["push"] = force(end.normal_force);
+    if (significant(response.sliding(), &meshes::PressSample::lateral_force_x))
+      words["held"] = force(end.lateral_force_x);
+  }
+  return sentences("answer_press", words);
 }
 
 Chapter modes_chapter(const std::vector<VibrationMode>& modes) {
-  Chapter chapter{"modes", "Natural vibrations", {}};
-  if (modes.empty()) return chapter;
+  if (modes.empty()) return {};
   const bool lattice = modes.front().of_lattice;
   const bool errors = std::ranges::any_of(
       modes, [](const VibrationMode& mode) { return std::isfinite(mode.error); });
@@ -263,28 +253,22 @@ Chapter modes_chapter(const std::vector<VibrationMode>& modes) {
     table.rows.push_back(std::move(row));
   }
   for (auto& [name, series] : kinds) panel.series.push_back(std::move(series));
-  table.caption = "Vibrations of the finger bonded to a rod that stands still, without contact.";
-  if (lattice)
-    table.caption +=
-        " Mass and inertia: the shares that answer when the rod shakes across its axis, along it, "
-        "or turns about it (effective modal masses). Pairs of equal frequency are one shape in two "
-        "directions.";
-  chapter.blocks.push_back(FigureBlock{
-      {"frequencies", 760, 380, 1, {panel}},
-      "Natural frequencies",
-      "Kinds of motion: alike around the axis (torsion, along it, breathing), sideways, "
-      "or with waves around it."});
-  chapter.blocks.push_back(std::move(table));
-  return chapter;
+  ChapterData chapter("modes");
+  chapter["lattice"] = lattice;
+  chapter.figures = {{"frequencies", 760, 380, 1, {panel}}};
+  chapter.tables["modes"] = std::move(table);
+  return written(std::move(chapter));
 }
 
 std::string modes_answer(const std::vector<VibrationMode>& modes) {
   if (modes.empty()) return "";
   const VibrationMode& first = modes.front();
-  return fmt::format("The lowest natural frequency is {} Hz{}; {} modes lie up to {} Hz.",
-                     number(first.frequency, 4),
-                     first.motion.empty() ? "" : " (" + first.motion + ")", modes.size(),
-                     number(modes.back().frequency, 4));
+  Words words;
+  words["first"] = number(first.frequency, 4);
+  words["motion"] = first.motion;
+  words["modes"] = std::to_string(modes.size());
+  words["last"] = number(modes.back().frequency, 4);
+  return sentences("answer_modes", words);
 }
 
 }  // namespace fingertip::studies::reporting

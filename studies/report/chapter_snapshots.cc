@@ -10,6 +10,7 @@
 #include "studies/report/chapters.h"
 #include "studies/report/continuum_figures.h"
 #include "studies/report/moving_press.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -239,7 +240,7 @@ void frame(Figure& figure) {
   }
 }
 
-FigureBlock figure_of(const MovingPress& press, std::size_t number) {
+void add_snapshots(const MovingPress& press, WordList& words, std::vector<Figure>& figures) {
   const std::vector<Snapshot> snapshots = snapshots_of(press);
   double largest_force = 0.0, largest_torque = 0.0;
   for (const Snapshot& one : snapshots) {
@@ -249,32 +250,31 @@ FigureBlock figure_of(const MovingPress& press, std::size_t number) {
   // Of a straight press there is nothing but round-off.
   if (largest_torque < 1e-6 * largest_force * 0.01) largest_torque = 0.0;
   const Drawing drawing(press, snapshots.front(), largest_force, largest_torque);
-  Figure figure{fmt::format("snapshots_{}", number), 900, 860, 2, {}};
+  Figure figure{fmt::format("snapshots_{}", figures.size() + 1), 900, 860, 2, {}};
   for (const Snapshot& one : snapshots) {
     figure.panels.push_back(drawing.panel(one));
     figure.panels.back().texts.push_back({0.0, 0.0, wrench_text(one, largest_torque)});
   }
   frame(figure);
-  return {figure, "Snapshots: " + press.label,
-          "Masses' springs of the tip's boundary on the viewer's side, the rod (dashed inside the "
-          "tip) and the plane, all to one scale; dots: points that the plane holds, seen through "
-          "the tip. Orange arrow: force of the tip on the rod at its endpoint" +
-              std::string(largest_torque > 0.0 ? "; blue, with two heads: its torque" : "") +
-              ", the longest arrow of a kind being the largest of the four."};
+  words.emplace_back()["figure"] = figure.name;
+  words.back()["label"] = press.label;
+  words.back()["torque"] = largest_torque > 0.0;
+  figures.push_back(std::move(figure));
 }
 
 }  // namespace
 
 Chapter snapshots_chapter(const std::vector<MovingPress>& presses) {
-  Chapter chapter{"snapshots", "Snapshots", {}};
+  ChapterData chapter("snapshots");
+  WordList words;
   for (const MovingPress& press : presses) {
     const bool complete = !press.snapshots.empty() && !press.snapshot_points.empty() &&
                           !press.boundary.empty() &&
                           std::isfinite(press.summary.geometry.rod_length);
-    if (press.pictured && complete)
-      chapter.blocks.push_back(figure_of(press, chapter.blocks.size() + 1));
+    if (press.pictured && complete) add_snapshots(press, words, chapter.figures);
   }
-  return chapter;
+  chapter["presses"] = std::move(words);
+  return written(std::move(chapter));
 }
 
 Chapter snapshots_chapter(const RunData& run) {

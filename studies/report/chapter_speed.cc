@@ -1,11 +1,10 @@
 /// Forces at speed beside the transient continuum, and presses beside one another.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "studies/report/chapters.h"
 #include "studies/report/moving_press.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -67,10 +66,6 @@ Figure force_figure(const std::vector<MovingPress>& presses) {
 
 Table error_table(const std::vector<MovingPress>& presses) {
   Table table;
-  table.caption =
-      "Force of the lattice in " + unit_name(shown_units().force) +
-      " at the continuum's samples, below it the error against the "
-      "continuum that is pressed at the same speed, with inertia and the same retardation time.";
   table.graded = true;
   table.header = {plain("Press")};
   for (const MovingPress& press : presses) {
@@ -93,8 +88,6 @@ Table error_table(const std::vector<MovingPress>& presses) {
 /// The presses that are compared with others, and by how much their forces differ at most.
 Table change_table(const std::vector<MovingPress>& presses) {
   Table table;
-  table.caption =
-      "Presses that should not differ: the largest difference of the normal force at the samples.";
   table.header = {plain("Press"), plain("compared with"), plain("Largest difference")};
   for (const MovingPress& press : presses) {
     if (press.beside.empty()) continue;
@@ -107,17 +100,13 @@ Table change_table(const std::vector<MovingPress>& presses) {
 }  // namespace
 
 Chapter speed_chapter(const std::vector<MovingPress>& presses) {
-  Chapter chapter{"speed", "Force at speed", {}};
+  ChapterData chapter("speed");
   if (std::ranges::any_of(presses, has_reference)) {
-    chapter.blocks.push_back(
-        FigureBlock{force_figure(presses), "Force against indentation at speed, and its error",
-                    "Points: the continuum pressed at the same constant speed, with inertia and "
-                    "the rubber's retardation time; lines: the lattice under its controller."});
-    chapter.blocks.push_back(error_table(presses));
+    chapter.figures = {force_figure(presses)};
+    chapter.tables["errors"] = error_table(presses);
   }
-  Table changes = change_table(presses);
-  if (!changes.rows.empty()) chapter.blocks.push_back(std::move(changes));
-  return chapter;
+  chapter.tables["changes"] = change_table(presses);
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

@@ -6,6 +6,7 @@
 
 #include "studies/report/calibration_chapters.h"
 #include "studies/report/calibration_figures.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -35,9 +36,6 @@ std::string place(const CalibrationData& data, const std::string& fit,
 
 Table transfer_table(const CalibrationData& data) {
   Table table;
-  table.caption =
-      "Largest error of the normal force, and the indentation where it occurs. Rows: what the "
-      "lattice was fitted to; columns: what it was asked for.";
   table.graded = true;
   table.header = {plain("Fitted to")};
   for (const std::string& prediction : data.predictions) table.header.push_back(plain(prediction));
@@ -75,18 +73,21 @@ std::size_t extreme(const CalibrationData& data, double sign) {
 
 std::string transfer_answer(const CalibrationData& data) {
   const std::size_t best = extreme(data, -1.0), worst = extreme(data, 1.0);
-  const auto quoted = [&](std::size_t i) { return "“" + data.fits[i].name + "”"; };
+  if (worst == data.fits.size()) return "";
+  const bool complete = best < data.fits.size();
   const auto error = [&](std::size_t i) {
     return percent_magnitude(largest_magnitude(data.worst_error[i]));
   };
-  if (worst == data.fits.size()) return "";
-  const std::string farthest =
-      fmt::format("The largest error of all, {}, is that of {}.", error(worst), quoted(worst));
-  if (best == data.fits.size()) return "No fit predicted every press asked for. " + farthest;
-  return fmt::format(
-      "Of {} {}, {} carries farthest: it predicts every press asked for within {}.{}",
-      data.fits.size(), data.fits.size() == 1 ? "fit" : "fits", quoted(best), error(best),
-      best == worst ? "" : " " + farthest);
+  Words words;
+  words["fits"] = std::to_string(data.fits.size());
+  words["one"] = data.fits.size() == 1;
+  words["complete"] = complete;
+  words["best"] = complete ? data.fits[best].name : "";
+  words["best_error"] = complete ? error(best) : "";
+  words["another"] = best != worst;
+  words["worst"] = data.fits[worst].name;
+  words["worst_error"] = error(worst);
+  return sentences("answer_transfer", words);
 }
 
 std::string ascii(const std::string& text) {
@@ -116,17 +117,12 @@ std::string parameter_lines(const Fit& fit) {
 }  // namespace
 
 Chapter transfer_chapter(const CalibrationData& data) {
-  Chapter chapter{"transfer", "How far the fits carry", {}};
-  if (data.predictions.empty() || data.fits.empty()) return chapter;
-  if (const std::string text = transfer_answer(data); !text.empty())
-    chapter.blocks.push_back(Paragraph{"", text});
-  chapter.blocks.push_back(transfer_table(data));
-  if (Figure figure = transfer_figure(data); !figure.panels.empty())
-    chapter.blocks.push_back(
-        FigureBlock{std::move(figure), "Force error of the predictions",
-                    "A panel for what was asked for, a curve for what was fitted. The band is the "
-                    "largest estimated error of the reference itself."});
-  return chapter;
+  if (data.predictions.empty() || data.fits.empty()) return {};
+  ChapterData chapter("transfer");
+  chapter["answer"] = transfer_answer(data);
+  chapter.figures = {transfer_figure(data)};
+  chapter.tables["transfer"] = transfer_table(data);
+  return written(std::move(chapter));
 }
 
 std::string calibration_answer(const CalibrationData& data) {

@@ -7,6 +7,7 @@
 
 #include "studies/report/chapters.h"
 #include "studies/report/variant_data.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -18,10 +19,6 @@ std::string full_name(const VariantPress& press) {
 /// Presses with other samples than the first one leave their cells empty.
 Table press_table(const std::vector<VariantPress>& presses) {
   Table table;
-  table.caption =
-      "Error of the normal force against the press's own continuum at each indentation, the force "
-      "below it in " +
-      unit_name(shown_units().force) + ". Time: one thread, when the press was computed.";
   table.graded = true;
   table.header = {plain("Press"), plain("a", unit_name(shown_units().length))};
   const std::vector<double>& depths = presses.front().depth;
@@ -44,20 +41,11 @@ Table press_table(const std::vector<VariantPress>& presses) {
   return table;
 }
 
-Table series_table(const StudyEntry& study, const std::vector<VariantPress>& presses) {
-  const bool refined = std::ranges::any_of(
-      study.series, [](const SeriesEntry& entry) { return std::isfinite(entry.order); });
+Table series_table(const StudyEntry& study, const std::vector<VariantPress>& presses,
+                   bool refined) {
   Table table;
-  table.caption =
-      "Series by series: the largest force error of all its presses, and how far errors at one "
-      "depth lie apart.";
   table.header = {plain("Series"), plain("Presses"), plain("Largest error"), plain("Spread")};
-  if (refined) {
-    table.caption +=
-        " Of series that are refined, the largest error of the finest lattice and the observed "
-        "order, the slope of the largest error against the spacing in logarithms.";
-    table.header.insert(table.header.end(), {plain("Finest lattice"), plain("Order")});
-  }
+  if (refined) table.header.insert(table.header.end(), {plain("Finest lattice"), plain("Order")});
   for (const SeriesEntry& entry : study.series) {
     const std::string name = entry.name;
     const auto count = std::ranges::count(presses, name, &VariantPress::series);
@@ -85,9 +73,6 @@ std::map<std::string, double> continuum_errors(const std::vector<VariantRow>& ta
 
 Table continuum_table(const RunData& run, const std::vector<VariantPress>& presses) {
   Table table;
-  table.caption =
-      "The continua, each with its largest estimated error over the indentations. At finite strain "
-      "the material is law A, the one the network stands for.";
   table.header = {plain("Continuum"),
                   plain("Contact"),
                   plain("E", unit_name(shown_units().stress)),
@@ -111,10 +96,7 @@ Table continuum_table(const RunData& run, const std::vector<VariantPress>& press
 
 Table budget_table(const std::vector<BudgetEntry>& budgets) {
   Table table;
-  table.caption =
-      "Where the force error comes from. A tie's share is the error with the tie as it is minus "
-      "the error continued to a rigid tie from softer ones; the rest is the interior and what "
-      "stiff ties lock.";
+  if (budgets.empty()) return table;
   table.header = {plain("Press and part")};
   const std::vector<double> depths = budgets.front().depths;
   for (const double depth : depths)
@@ -145,58 +127,52 @@ const VariantPress* extreme(const std::vector<VariantPress>& presses, double sig
   return found;
 }
 
-/// What refining a series does, in words; empty without an order. One slope would hide a floor that
-/// the error has reached: the last refinement is told apart.
-std::string refinement(const SeriesEntry& entry, const std::vector<VariantPress>& presses) {
-  const std::string name = entry.name;
-  const double order = entry.order;
-  if (!std::isfinite(order)) return "";
-  std::vector<const VariantPress*> own;
-  for (const VariantPress& press : presses)
-    if (press.series == name && std::isfinite(press.worst())) own.push_back(&press);
-  std::ranges::sort(own, std::greater(), &VariantPress::spacing);
-  const VariantPress &coarse = *own.front(), &before = *own[own.size() - 2], &fine = *own.back();
-  const double last =
-      std::log(before.worst() / fine.worst()) / std::log(before.spacing / fine.spacing);
-  return fmt::format(
-      " {}: the largest error {} from {} at {} to {} at {}, order {}; from {} to {} alone, order "
-      "{}.",
-      name, fine.worst() < coarse.worst() ? "falls" : "goes", percent_magnitude(coarse.worst()),
-      coarse.name, percent_magnitude(fine.worst()), fine.name, number(order, 2), before.name,
-      fine.name, number(last, 2));
-}
-
-Paragraph method(const RunData& run, const std::vector<VariantPress>& presses) {
-  return {"What is compared.",
-          fmt::format("{} static presses of lattices, each against the continuum of the same "
-                      "specimen, contact and kinematics ({} in all, listed below). Spacing, "
-                      "offset, rotation and model of the lattice do not matter to the continuum, "
-                      "so presses that differ in these alone share one.",
-                      presses.size(), run.study.continua.size())};
-}
-
-void add_figures(Chapter& chapter, const RunData& run, const std::vector<VariantPress>& presses) {
-  const std::string label = run.study.x_label;
-  const auto add = [&](Figure figure, const std::string& title, const std::string& caption) {
-    if (!figure.panels.empty()) chapter.blocks.push_back(FigureBlock{figure, title, caption});
-  };
-  add(convergence_figure(presses, run.study), "Largest force error against spacing",
-      "Largest magnitude over the indentations, both axes logarithmic; the order in the legend is "
-      "the slope of the straight line that fits best.");
-  Figure against_x = variant_error_figure(presses, label.empty() ? "x" : label);
-  const bool has_x = !against_x.panels.empty();
-  add(std::move(against_x), "Force error against " + (label.empty() ? "x" : label),
-      "At up to four of the indentations. The band is one per cent.");
-  if (!has_x) {
-    const std::vector<std::string> series = series_of(presses);
-    std::vector<Figure> figures = variant_depth_figures(presses);
-    for (std::size_t i = 0; i < figures.size(); ++i)
-      add(std::move(figures[i]),
-          "Force error against indentation" + (series[i].empty() ? "" : ": " + series[i]),
-          "Every press beside its own continuum. The band is one per cent.");
+/// What refining the series with an order does. One slope would hide a floor that the error has
+/// reached: the last refinement is told apart.
+WordList refinements(const StudyEntry& study, const std::vector<VariantPress>& presses) {
+  WordList all;
+  for (const SeriesEntry& entry : study.series) {
+    if (!std::isfinite(entry.order)) continue;
+    std::vector<const VariantPress*> own;
+    for (const VariantPress& press : presses)
+      if (press.series == entry.name && std::isfinite(press.worst())) own.push_back(&press);
+    if (own.size() < 2) continue;
+    std::ranges::sort(own, std::greater(), &VariantPress::spacing);
+    const VariantPress &coarse = *own.front(), &before = *own[own.size() - 2], &fine = *own.back();
+    const double last =
+        std::log(before.worst() / fine.worst()) / std::log(before.spacing / fine.spacing);
+    Words& words = all.emplace_back();
+    words["series"] = std::string(entry.name);
+    words["falls"] = fine.worst() < coarse.worst();
+    words["coarse"] = coarse.name;
+    words["coarse_error"] = percent_magnitude(coarse.worst());
+    words["before"] = before.name;
+    words["fine"] = fine.name;
+    words["fine_error"] = percent_magnitude(fine.worst());
+    words["order"] = number(entry.order, 2);
+    words["last_order"] = number(last, 2);
   }
-  add(variant_force_figure(presses), "Force against indentation",
-      "Dashed black: the continua that the presses are measured against.");
+  return all;
+}
+
+void add_figures(ChapterData& chapter, const StudyEntry& study,
+                 const std::vector<VariantPress>& presses) {
+  const std::string x = study.x_label.empty() ? "x" : study.x_label;
+  Figure against_x = variant_error_figure(presses, x);
+  WordList depths;
+  if (against_x.panels.empty()) {
+    chapter.figures = variant_depth_figures(presses);
+    for (const std::string& series : series_of(presses)) {
+      Words& words = depths.emplace_back();
+      words["figure"] = chapter.figures[depths.size() - 1].name;
+      words["series"] = series;
+    }
+  }
+  chapter["x"] = x;
+  chapter["depths"] = std::move(depths);
+  chapter.figures.push_back(convergence_figure(presses, study));
+  chapter.figures.push_back(std::move(against_x));
+  chapter.figures.push_back(variant_force_figure(presses));
 }
 
 }  // namespace
@@ -204,29 +180,34 @@ void add_figures(Chapter& chapter, const RunData& run, const std::vector<Variant
 std::string variants_answer(const RunData& run) {
   const std::vector<VariantPress> presses = read_variants(run.variants);
   const VariantPress *best = extreme(presses, -1.0), *worst = extreme(presses, 1.0);
-  if (best == nullptr) return "No press got far enough to be compared.";
-  return fmt::format(
-      "Of {} static presses, the one nearest to its continuum is {}, within {} at every "
-      "indentation; the farthest is {}, off by up to {}.",
-      presses.size(), full_name(*best), percent_magnitude(best->worst()), full_name(*worst),
-      percent_magnitude(worst->worst()));
+  Words words;
+  words["complete"] = best != nullptr;
+  words["presses"] = std::to_string(presses.size());
+  words["best"] = best ? full_name(*best) : "";
+  words["best_error"] = best ? percent_magnitude(best->worst()) : "";
+  words["worst"] = best ? full_name(*worst) : "";
+  words["worst_error"] = best ? percent_magnitude(worst->worst()) : "";
+  return sentences("answer_variants", words);
 }
 
 Chapter variants_chapter(const RunData& run) {
-  Chapter chapter{"variants", "Presses against their continua", {}};
   const std::vector<VariantPress> presses = read_variants(run.variants);
-  if (presses.empty()) return chapter;
-  chapter.blocks.push_back(method(run, presses));
-  std::string orders;
-  for (const SeriesEntry& entry : run.study.series) orders += refinement(entry, presses);
-  if (!orders.empty()) chapter.blocks.push_back(Paragraph{"Convergence.", orders.substr(1)});
-  add_figures(chapter, run, presses);
-  const std::vector<BudgetEntry>& budgets = run.study.budgets;
-  if (!budgets.empty()) chapter.blocks.push_back(budget_table(budgets));
-  if (!run.study.series.empty()) chapter.blocks.push_back(series_table(run.study, presses));
-  chapter.blocks.push_back(press_table(presses));
-  chapter.blocks.push_back(continuum_table(run, presses));
-  return chapter;
+  if (presses.empty()) return {};
+  const bool refined = std::ranges::any_of(
+      run.study.series, [](const SeriesEntry& entry) { return std::isfinite(entry.order); });
+  ChapterData chapter("variants");
+  chapter["presses"] = std::to_string(presses.size());
+  chapter["continua"] = std::to_string(run.study.continua.size());
+  WordList series = refinements(run.study, presses);
+  chapter["converges"] = !series.empty();
+  chapter["refinements"] = std::move(series);
+  chapter["refined"] = refined;
+  add_figures(chapter, run.study, presses);
+  chapter.tables["budgets"] = budget_table(run.study.budgets);
+  chapter.tables["series"] = series_table(run.study, presses, refined);
+  chapter.tables["presses"] = press_table(presses);
+  chapter.tables["continua"] = continuum_table(run, presses);
+  return written(std::move(chapter));
 }
 
 std::string variants_text(const RunData& run) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "studies/report/chapters.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -102,10 +103,6 @@ Cell order_cell(const ConvergenceStudy& study, const Norm& norm) {
 
 Table order_table(const std::vector<ConvergenceStudy>& studies) {
   Table table;
-  table.caption = fmt::format(
-      "Orders of convergence between the two finest meshes, and the relative errors on the "
-      "finest. ● at most {:g} below the theory's order, ◐ at most {:g}, ✕ more.",
-      order_slack, order_near);
   table.header = {plain("Problem"),
                   plain("Element"),
                   plain("ν"),
@@ -170,7 +167,7 @@ Panel study_panel(const std::vector<ConvergenceStudy>& studies, const std::strin
   return panel;
 }
 
-FigureBlock orders_figure(const std::vector<ConvergenceStudy>& studies) {
+Figure orders_figure(const std::vector<ConvergenceStudy>& studies) {
   Figure figure{"verification_orders", 960, 0, 2, {}, 150};
   const std::vector<std::string> problems = distinct(studies, &ConvergenceStudy::problem);
   figure.height = 90 + 290 * int(problems.size());
@@ -184,12 +181,7 @@ FigureBlock orders_figure(const std::vector<ConvergenceStudy>& studies) {
   Series guide{"theory's slope", "", {}, {}, {}, {"#777777", "(2,3)", 1.5, 0, true}};
   guide.legend_only = true;
   first.series.push_back(guide);
-  return {figure, "Error against element size",
-          "Left the displacement, right its gradient, both in L2 over the body. A dotted slope "
-          "below the best element of each degree falls with the theory's order, degree + 1 on the "
-          "left and degree on the right: curves should run parallel to theirs. Elements: Q1, Q2, "
-          "Q3 of degree 1, 2, 3; pointwise is the plain displacement element, projected the one "
-          "whose volume change is projected on polynomials of one degree less."};
+  return figure;
 }
 
 /// A value with the unit that its quantity names in brackets, e.g. "deflection [m]", for people.
@@ -248,11 +240,6 @@ std::vector<CheckGroup> check_groups(const std::vector<Check>& checks) {
 
 Table check_table(const std::vector<Check>& checks) {
   Table table;
-  table.caption =
-      "Single figures against what is known otherwise, failed ones first. Of several checks of "
-      "one kind that passed, the one that used most of its tolerance is shown; all are in "
-      "verification/verification.json. The deviation is relative to the expected value, or the "
-      "value itself where zero is expected.";
   table.header = {plain("Check"),     plain("Passed"),    plain("Value"), plain("Expected"),
                   plain("Deviation"), plain("Tolerance"), plain("Source")};
   for (const CheckGroup& group : check_groups(checks)) {
@@ -303,7 +290,7 @@ Panel locking_panel(const std::vector<LockingPoint>& locking, const std::string&
   return panel;
 }
 
-FigureBlock locking_figure(const std::vector<LockingPoint>& locking) {
+Figure locking_figure(const std::vector<LockingPoint>& locking) {
   Figure figure{"locking", 860, 0, 1, {}, 150};
   const std::vector<std::string> problems = distinct(locking, &LockingPoint::problem);
   figure.height = 80 + 230 * int(problems.size());
@@ -314,17 +301,11 @@ FigureBlock locking_figure(const std::vector<LockingPoint>& locking) {
   first.key = figure.beside_panels();
   for (Series& entry : element_legend({elements.begin(), elements.end()}))
     first.series.push_back(std::move(entry));
-  return {figure, "Locking: how far each element is off as ν → 1/2",
-          "Magnitude of the relative error of a stiffness, all elements on the same mesh. An "
-          "element that locks climbs towards the right; one that does not stays level. Below 0.001 "
-          "% nothing "
-          "is drawn."};
+  return figure;
 }
 
 Table locking_table(const std::vector<LockingPoint>& locking) {
   Table table;
-  table.caption =
-      "The same numbers with their sign: positive is too stiff. Columns: Poisson's ratio.";
   table.graded = true;
   table.header = {plain("Problem, element")};
   std::set<double> ratios;
@@ -354,69 +335,65 @@ Table locking_table(const std::vector<LockingPoint>& locking) {
   return table;
 }
 
-std::string answer_of(const std::vector<ConvergenceStudy>& studies,
-                      const std::vector<Check>& checks) {
-  const auto kept = std::count_if(studies.begin(), studies.end(), order_holds);
-  const auto right = std::ranges::count(checks, true, &Check::passed);
-  std::string text;
-  if (!checks.empty())
-    text += fmt::format("{} of {} checks against known solutions passed. ", right, checks.size());
-  if (!studies.empty())
-    text += fmt::format(
-        "In {} of {} convergence studies the errors of displacement and gradient fall as fast as "
-        "theory asks of the element. ",
-        kept, studies.size());
+/// The problems where some element falls short of its order, and those elements.
+WordList slow_elements(const std::vector<ConvergenceStudy>& studies) {
+  WordList problems;
   for (const std::string& problem : distinct(studies, &ConvergenceStudy::problem)) {
     std::set<std::string> slow;
     for (const ConvergenceStudy& study : studies)
       if (study.problem == problem && !order_holds(study)) slow.insert(element_of(study));
-    if (!slow.empty())
-      text += fmt::format("Slower in \u201c{}\u201d: {}. ", problem, enumerate(slow));
+    if (slow.empty()) continue;
+    problems.emplace_back()["problem"] = problem;
+    problems.back()["elements"] = enumerate(slow);
   }
+  return problems;
+}
+
+/// "" of none.
+std::string unless_none(std::size_t number) {
+  return number > 0 ? std::to_string(number) : "";
+}
+
+/// How the checks, all studies, and those of the element of this run's press did.
+void add_results(ChapterData& chapter, const RunData& run,
+                 const std::vector<ConvergenceStudy>& studies) {
+  const std::vector<Check>& checks = run.verification.checks;
   std::vector<std::string> failed;
   for (const Check& check : checks)
     if (!check.passed) failed.push_back(check.name);
-  if (!failed.empty()) text += fmt::format("Failed: {}. ", enumerate(failed));
-  return text;
-}
-
-/// How the element of this run's press did.
-std::string used_element(const RunData& run, const std::vector<ConvergenceStudy>& studies) {
-  if (run.continuum.empty()) return "";
-  const std::string used = fmt::format("Q{} {}", run.continuum.degree, run.continuum.volumetric);
-  std::size_t count = 0, kept = 0;
-  for (const ConvergenceStudy& study : studies) {
-    if (element_of(study) != used) continue;
-    ++count;
-    if (order_holds(study)) ++kept;
-  }
-  std::string text = fmt::format("The press of this report was computed with {}", used);
-  if (count > 0) text += fmt::format(", which keeps its order in {} of {} studies", kept, count);
-  return text + ".";
+  chapter["checks"] = unless_none(checks.size());
+  chapter["passed"] = std::to_string(checks.size() - failed.size());
+  chapter["studies"] = unless_none(studies.size());
+  chapter["kept"] = std::to_string(std::ranges::count_if(studies, order_holds));
+  chapter["slow"] = slow_elements(studies);
+  chapter["failed"] = enumerate(failed);
+  const std::string used =
+      run.continuum.empty() ? ""
+                            : fmt::format("Q{} {}", run.continuum.degree, run.continuum.volumetric);
+  std::vector<ConvergenceStudy> own;
+  std::ranges::copy_if(studies, std::back_inserter(own),
+                       [&](const ConvergenceStudy& study) { return element_of(study) == used; });
+  chapter["used"] = used;
+  chapter["used_studies"] = unless_none(own.size());
+  chapter["used_kept"] = std::to_string(std::ranges::count_if(own, order_holds));
 }
 
 }  // namespace
 
 Chapter verification_chapter(const RunData& run) {
-  Chapter chapter{"verification", "Does the code solve its equations?", {}};
   const std::vector<ConvergenceStudy> studies = by_problem(run.verification.studies);
-  const std::vector<Check>& checks = run.verification.checks;
   const std::vector<LockingPoint> locking = by_problem(run.verification.locking);
-  if (studies.empty() && checks.empty() && locking.empty()) return chapter;
-  const std::string text = answer_of(studies, checks);
-  if (!text.empty()) chapter.blocks.push_back(Paragraph{"", text});
-  const std::string used = used_element(run, studies);
-  if (!used.empty()) chapter.blocks.push_back(Paragraph{"", used});
-  if (!studies.empty()) {
-    chapter.blocks.push_back(orders_figure(studies));
-    chapter.blocks.push_back(order_table(studies));
-  }
-  if (!checks.empty()) chapter.blocks.push_back(check_table(checks));
-  if (!locking.empty()) {
-    chapter.blocks.push_back(locking_figure(locking));
-    chapter.blocks.push_back(locking_table(locking));
-  }
-  return chapter;
+  if (studies.empty() && run.verification.checks.empty() && locking.empty()) return {};
+  ChapterData chapter("verification");
+  add_results(chapter, run, studies);
+  chapter["slack"] = fmt::format("{:g}", order_slack);
+  chapter["near"] = fmt::format("{:g}", order_near);
+  if (!studies.empty()) chapter.figures.push_back(orders_figure(studies));
+  chapter.tables["orders"] = order_table(studies);
+  chapter.tables["checks"] = check_table(run.verification.checks);
+  if (!locking.empty()) chapter.figures.push_back(locking_figure(locking));
+  chapter.tables["locking"] = locking_table(locking);
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

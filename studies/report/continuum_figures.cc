@@ -1,7 +1,5 @@
 #include "studies/report/continuum_figures.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -236,16 +234,11 @@ std::optional<fem_reference::analytic::Hertz> hertz_contact(const RunData& run) 
   return fem_reference::analytic::Hertz(rubber, radius);
 }
 
-FigureBlock mesh_figure(const RunData& run) {
-  return {{"adaptive_mesh", 900, 460, 2, {whole_section(run), contact_section(run)}},
-          "The finest mesh in the section y = 0",
-          "Where an element is halved beside one that is not, the nodes between them hang on the "
-          "larger one; edges are drawn straight from corner to corner. The heavy line is the "
-          "plane, the dotted one the contact radius. Elements "
-          "were halved where the error indicators of the mesh before were largest."};
+Figure mesh_figure(const RunData& run) {
+  return {"adaptive_mesh", 900, 460, 2, {whole_section(run), contact_section(run)}};
 }
 
-FigureBlock pressure_figure(const RunData& run) {
+Figure pressure_figure(const RunData& run) {
   Panel panel;
   panel.x_label = shown_units().length.label("radius");
   panel.y_label = shown_units().stress.label("contact pressure");
@@ -265,19 +258,12 @@ FigureBlock pressure_figure(const RunData& run) {
     dots.push_back(thinned(profile, colour));
   }
   panel.series.insert(panel.series.end(), dots.begin(), dots.end());
-  std::string caption =
-      "One colour per indentation, darker is deeper. Dots: nodes of the surface, of each of 80 "
-      "rings those of the highest and of the lowest pressure (all of them: "
-      "reference/pressure.csv).";
   if (hertz) {
     Series entry{"Hertz", "", {}, {}, {}, {"#555555", "(7,4)", 1.3, 0, true}};
     entry.legend_only = true;
     panel.series.push_back(entry);
-    caption +=
-        " Dashed: Hertz's p₀√(1 − r²/a²) with a² = Rδ, for the same rubber, radius and "
-        "indentation.";
   }
-  return {{"pressure", 760, 430, 1, {panel}}, "Contact pressure of the continuum", caption};
+  return {"pressure", 760, 430, 1, {panel}};
 }
 
 }  // namespace fingertip::studies::reporting

@@ -42,8 +42,8 @@ double tip_radius(const RunData& run);
 std::optional<fem_reference::analytic::Hertz> hertz_contact(const RunData& run);
 
 /// The finest mesh as a whole and near the contact.
-FigureBlock mesh_figure(const RunData& run);
+Figure mesh_figure(const RunData& run);
 /// Pressure over radius, with Hertz's at the same indentation where it is known.
-FigureBlock pressure_figure(const RunData& run);
+Figure pressure_figure(const RunData& run);
 
 }  // namespace fingertip::studies::reporting

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "meshes/files.h"
-#include "studies/report/page_template.h"
+#include "studies/report/templates.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -125,7 +125,7 @@ std::string render(const Page& page, const fs::path& figures) {
   root.set("chapters", chapters);
   root.set("not_run", missing);
   root.set("has_not_run", !page.not_run.empty());
-  kainjow::mustache::mustache view{std::string(page_template())};
+  kainjow::mustache::mustache view{std::string(template_text("report"))};
   if (!view.is_valid()) throw std::runtime_error("report template: " + view.error_message());
   return view.render(root);
 }

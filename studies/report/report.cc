@@ -9,6 +9,7 @@
 #include "studies/report/chapters.h"
 #include "studies/report/grasp_run.h"
 #include "studies/report/moving_press.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies {
 namespace reporting {
@@ -61,7 +62,7 @@ std::string with_case(const RunData& run, const std::string& subject) {
   return subject + (name.empty() ? "" : ", case " + name) + (started.empty() ? "" : ", " + started);
 }
 
-/// "k1 = 12.30 N/m, ...: " of a calibration.json.
+/// "k1 = 12.30 N/m, …." of a calibration.json.
 std::string constants_words(const calibration::FitConstants& constants) {
   std::string text;
   for (const auto& [name, value] : {std::pair{"k1", constants.k1},
@@ -73,7 +74,7 @@ std::string constants_words(const calibration::FitConstants& constants) {
     if (std::isfinite(value))
       text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, with_unit(value, unit));
   }
-  return text.empty() ? text : text + ". ";
+  return text.empty() ? text : text + ".";
 }
 
 /// Makes the pages of a run, each from the chapters that can be made: damage in one leaves the
@@ -100,8 +101,8 @@ class PageMaker {
     if (!run_.status.empty() && run_.status != "ok")
       page.status = "Status of the run: " + run_.status;
     page.answer =
-        words([&] { return fits_alone ? calibration_answer(calibration) : std::string(); }) +
-        words([&] { return answer(run_, reader_); });
+        joined(words([&] { return fits_alone ? calibration_answer(calibration) : std::string(); }),
+               words([&] { return answer(run_, reader_); }));
     if (!calibration.empty()) add_fits(page, calibration);
     return page;
   }
@@ -211,8 +212,8 @@ class PageMaker {
     press.pictured = true;
     Page page = headed("Soft fingertip: a press under its controller",
                        "A mass-spring fingertip pressed against a plane");
-    page.answer = words([&] { return press_answer(press.response) + " "; }) +
-                  words([&] { return control_answer({press}); });
+    page.answer = joined(words([&] { return press_answer(press.response); }),
+                         words([&] { return control_answer({press}); }));
     add(page, [&] { return press_chapter(press.response, {}); });
     add(page, [&] { return control_chapter(std::vector{press}); });
     add(page, [&] { return snapshots_chapter(std::vector{press}); });
@@ -258,8 +259,8 @@ class PageMaker {
     page.title = "Soft fingertip: spring constants for a rubber";
     page.subtitle = words(
         [&] { return with_case(run_, "The lattice whose elastic constants are the rubber's"); });
-    page.answer = words([&] { return constants_words(run_.moduli_fit.constants); }) +
-                  words([&] { return run_.moduli_fit.statement; });
+    page.answer = joined(words([&] { return constants_words(run_.moduli_fit.constants); }),
+                         words([&] { return run_.moduli_fit.statement; }));
     add(page, [&] { return elasticity_chapter(run_); });
     end(page);
     return page;

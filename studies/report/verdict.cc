@@ -11,6 +11,7 @@
 #include "studies/report/grasp_run.h"
 #include "studies/report/moving_press.h"
 #include "studies/report/report.h"
+#include "studies/report/words.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -38,29 +39,39 @@ double largest_error(const ModelData& model) {
   return largest < 0.0 ? std::numeric_limits<double>::infinity() : largest;
 }
 
-std::string describe(const RunData& run, const ModelData& model) {
+/// How far a model's force is off: the least and the greatest error, or one at all depths.
+Words description_of(const RunData& run, const ModelData& model) {
+  Words words;
+  words["model"] = model.name;
+  for (const char* name : {"error", "least", "least_depth", "most", "most_depth"}) words[name] = "";
+  const std::vector<double>& errors = model.force_error;
   const std::size_t least = extreme(model, -1.0), most = extreme(model, 1.0);
-  if (least == model.force_error.size()) return model.name + " is unknown";
-  const auto at = [&](std::size_t i) {
-    return percent(model.force_error[i]) + " at " + length(run.depths[i]);
-  };
-  const bool flat = model.force_error[most] - model.force_error[least] < 5e-4;
-  if (flat) return fmt::format("{} is off by {}", model.name, percent(model.force_error[most]));
-  return fmt::format("{} is off by {} to {}", model.name, at(least), at(most));
+  words["unknown"] = least == errors.size();
+  if (least == errors.size()) return words;
+  if (errors[most] - errors[least] < 5e-4) {
+    words["error"] = percent(errors[most]);
+    return words;
+  }
+  words["least"] = percent(errors[least]);
+  words["least_depth"] = length(run.depths[least]);
+  words["most"] = percent(errors[most]);
+  words["most_depth"] = length(run.depths[most]);
+  return words;
 }
 
 std::string criteria_sentence(const RunData& run) {
+  const std::vector<CriterionEntry>& criteria = run.summary.criteria;
+  if (criteria.empty()) return "";
   std::vector<std::string> failed;
-  for (const CriterionEntry& criterion : run.summary.criteria) {
+  for (const CriterionEntry& criterion : criteria)
     if (!criterion.passed) failed.push_back(criterion.name);
-  }
-  if (run.summary.criteria.empty()) return "";
-  if (failed.empty() && run.summary.criteria.size() == 1)
-    return " The criterion of the case is met.";
-  if (failed.empty())
-    return fmt::format(" All {} criteria of the case are met.", run.summary.criteria.size());
-  return fmt::format(" Of {} criteria {} {} not met: {}.", run.summary.criteria.size(),
-                     failed.size(), failed.size() == 1 ? "is" : "are", enumerate(failed));
+  Words words;
+  words["criteria"] = std::to_string(criteria.size());
+  words["single"] = criteria.size() == 1;
+  words["count"] = std::to_string(failed.size());
+  words["one"] = failed.size() == 1;
+  words["failed"] = enumerate(failed);
+  return sentences("answer_criteria", words);
 }
 
 struct Constant {
@@ -124,18 +135,13 @@ Table constants_table(const RunData& run) {
   }
   header.push_back(plain("Real time", "factor"));
   target.push_back(plain(""));
-  Table table = model_table(
+  return model_table(
       run, std::move(header), std::move(target), [&](const ModelData& model, auto& row) {
         for (const Constant& constant : constants_shown)
           row.push_back(
               constant_cell(constant, model.moduli.*constant.value, run.target.*constant.target));
         row.push_back(plain(number(model.real_time_factor, 3)));
       });
-  table.caption = fmt::format(
-      "Every model against the rubber: elastic constants in {}, deviation below. Real time: "
-      "simulated over wall time.",
-      shown_units().stress.name);
-  return table;
 }
 
 Table force_table(const RunData& run) {
@@ -147,20 +153,16 @@ Table force_table(const RunData& run) {
   }
   header.push_back(plain("F", "rel. L²"));
   target.push_back(plain(""));
-  Table table =
-      model_table(run, std::move(header), std::move(target), [](const ModelData& model, auto& row) {
+  return model_table(
+      run, std::move(header), std::move(target), [](const ModelData& model, auto& row) {
         for (const double error : model.force_error)
           row.push_back({percent(error), "", grade(error)});
         row.push_back({percent_magnitude(model.l2_error), "", grade(model.l2_error)});
       });
-  table.caption =
-      "Every model against the continuum: error of the normal force at each indentation.";
-  return table;
 }
 
 Table criteria_table(const RunData& run) {
   Table table;
-  table.caption = "What this case demands.";
   table.header = {{"Criterion", "", Grade::none},
                   {"Value", "", Grade::none},
                   {"Limit", "", Grade::none},
@@ -215,50 +217,51 @@ std::string text_table(const RunData& run) {
                             shown_units().stress.ascii);
 }
 
-}  // namespace
-
-std::string answer(const RunData& run, FolderReader& reader) {
-  if (!run.variants.empty()) return variants_answer(run) + criteria_sentence(run);
-  if (!run.summary.presses.empty()) {
-    const std::vector<MovingPress> presses = read_moving_presses(run, reader);
-    return (compares_integrators(presses) ? integrators_answer(presses) : control_answer(presses)) +
-           criteria_sentence(run);
-  }
-  if (!run.summary.grasps.empty())
-    return grasp_answer(read_grasps(run, reader)) + criteria_sentence(run);
-  std::string text;
-  if (!run.reference.empty()) {
-    const double depth = run.reference.depth();
-    text = fmt::format("Pressed {} deep, the continuum pushes back with {}. ", length(depth),
-                       force(run.reference.normal_force_at(depth)));
-  }
+std::string models_answer(const RunData& run) {
+  const double depth = run.reference.empty() ? meshes::unknown : run.reference.depth();
   std::vector<const ModelData*> models;
   for (const ModelData& model : run.models) models.push_back(&model);
   // Best first; models without a force at the end.
   std::stable_sort(models.begin(), models.end(), [](const ModelData* a, const ModelData* b) {
     return largest_error(*a) < largest_error(*b);
   });
-  std::vector<std::string> sentences;
-  for (const ModelData* model : models) sentences.push_back(describe(run, *model));
-  if (!sentences.empty()) {
-    text += run.reference.empty() ? "Without a continuum to compare with, "
-                                  : "Against the continuum, the contact force of ";
-    for (std::size_t i = 0; i < sentences.size(); ++i) text += (i ? "; " : "") + sentences[i];
-    text += ".";
+  WordList compared;
+  for (const ModelData* model : models) {
+    Words words = description_of(run, *model);
+    words["next"] = !compared.empty();
+    compared.push_back(std::move(words));
   }
-  return text + criteria_sentence(run);
+  Words words;
+  words["depth"] = run.reference.empty() ? "" : length(depth);
+  words["force"] = run.reference.empty() ? "" : force(run.reference.normal_force_at(depth));
+  words["compared"] = !compared.empty();
+  words["models"] = std::move(compared);
+  return sentences("answer_models", words);
+}
+
+}  // namespace
+
+std::string answer(const RunData& run, FolderReader& reader) {
+  const auto result = [&] {
+    if (!run.variants.empty()) return variants_answer(run);
+    if (!run.summary.presses.empty()) {
+      const std::vector<MovingPress> presses = read_moving_presses(run, reader);
+      return compares_integrators(presses) ? integrators_answer(presses) : control_answer(presses);
+    }
+    return run.summary.grasps.empty() ? models_answer(run) : grasp_answer(read_grasps(run, reader));
+  };
+  return joined(result(), criteria_sentence(run));
 }
 
 Chapter verdict_chapter(const RunData& run) {
-  Chapter chapter{"verdict", "Verdict", {}};
-  if (!run.summary.description.empty())
-    chapter.blocks.push_back(Paragraph{"", run.summary.description});
+  ChapterData chapter("verdict");
+  chapter["description"] = run.summary.description;
   if (!run.models.empty()) {
-    chapter.blocks.push_back(force_table(run));
-    chapter.blocks.push_back(constants_table(run));
+    chapter.tables["forces"] = force_table(run);
+    chapter.tables["constants"] = constants_table(run);
   }
-  if (!run.summary.criteria.empty()) chapter.blocks.push_back(criteria_table(run));
-  return chapter;
+  chapter.tables["criteria"] = criteria_table(run);
+  return written(std::move(chapter));
 }
 
 }  // namespace fingertip::studies::reporting

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "page_check.h"
 #include "studies/report/report.h"
@@ -134,4 +135,47 @@ TEST(StudyReport, PressThatStoppedLeavesGaps) {
   const std::string text = report_testing::visible_text(read_text(run / "report.html"));
   EXPECT_TRUE(has(text, "not converged: at 0.1 cm, why")) << text;
   EXPECT_FALSE(has(text, " nan"));
+}
+
+namespace {
+
+/// Empties a column of the study's table.
+void empty_column(const fs::path& run, std::size_t column) {
+  std::istringstream lines(read_text(run / "variants.csv"));
+  std::string line, table;
+  std::getline(lines, table);
+  table += '\n';
+  while (std::getline(lines, line)) {
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < column; ++i) from = line.find(',', from) + 1;
+    table += line.erase(from, line.find(',', from) - from) + '\n';
+  }
+  write_file(run / "variants.csv", table);
+}
+
+}  // namespace
+
+TEST(StudyReport, WithoutAnAbscissaEverySeriesHasItsFigure) {
+  const TemporaryFolder folder;
+  const fs::path run = write_study(folder);
+  empty_column(run, 2);
+  studies::write_report(run);
+  const std::string text = report_testing::visible_text(read_text(run / "report.html"));
+  const std::size_t first = text.find("Force error against indentation: second order."),
+                    second = text.find("Force error against indentation: other.");
+  EXPECT_LT(first, second);
+  EXPECT_LT(second, std::string::npos);
+  EXPECT_LT(text.find("variants_depth_1.csv"), second);
+  EXPECT_LT(second, text.find("variants_depth_2.csv"));
+  EXPECT_FALSE(fs::exists(run / "figures/variants_error.svg"));
+}
+
+TEST(StudyReport, AnOrderWithoutErrorsIsNotTold) {
+  const TemporaryFolder folder;
+  const fs::path run = write_study(folder);
+  empty_column(run, 13);
+  studies::write_report(run);
+  const std::string text = report_testing::visible_text(read_text(run / "report.html"));
+  EXPECT_TRUE(has(text, "No press got far enough to be compared.")) << text;
+  EXPECT_FALSE(has(text, "Convergence.")) << text;
 }
