@@ -36,6 +36,8 @@ class HeldFactor {
     columns_.resize(Index(held.size()), 0);
   }
 
+  void forget() { base_.clear(); }
+
   /// Solutions that take the time of a factorisation.
   double worth() const { return factor_.solves_per_factorisation(); }
 
@@ -132,6 +134,11 @@ class EliminatingSolver : public FieldSolver {
     for (std::size_t i = 0; i < held.size(); ++i)
       if (!held[i]) solution.reaction[Index(i)] = loads[Index(i)];
     return solution;
+  }
+
+  void forget() override {
+    if (factor_) factor_->forget();
+    displacement_.setZero();
   }
 
   Vector field() override { return free_.extend(displacement_); }

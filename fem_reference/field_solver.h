@@ -16,6 +16,9 @@ class FieldSolver : public ContactSolver {
   virtual void set_matrix(const LinearSystem& system) = 0;
   /// f [N]; zero at first. Constrained entries are ignored.
   virtual void set_load(const Vector& load) = 0;
+  /// Forgets what it learnt from the matrices and solutions before, as a press that is resumed has:
+  /// it is to end in the same bits.
+  virtual void forget() {}
   /// Displacement of all unknowns at the last `hold` [m].
   virtual Vector field() = 0;
 };

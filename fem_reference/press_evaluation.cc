@@ -97,6 +97,7 @@ PressState TipPress<dim>::evaluate() {
   state.sliding_nodes = job_.protocol.contact == meshes::ContactMode::coulomb
                             ? int(std::ranges::count(contact_->status(), NodeStatus::slide))
                             : 0;
+  solver_->forget();
   if (job_.strain == Strain::finite) {
     state.min_jacobian = system_->min_jacobian;
     state.energy = system_->energy;
@@ -105,7 +106,6 @@ PressState TipPress<dim>::evaluate() {
     system_->matrix.vmult(force, displacement_);
     state.energy = 0.5 * (force * displacement_);
   }
-  stale_tangent_ = true;  // resumed from here, a press goes on the same way
   add_resultant(state);
   note_indicators(state);
   return state;

@@ -22,8 +22,8 @@ using meshes::ContactMode;
 /// the contact before it meets the plane, the more the larger the strain.
 constexpr double linear_bulge = 1.2, finite_bulge = 2.0;
 constexpr int most_newton_iterations = 25;
-/// A step starts with the last tangent of the step before. After that a tangent serves as long as
-/// an iteration leaves at most this share of the forces that were out of balance before.
+/// A tangent serves again where an iteration left at most this share of the forces that were out of
+/// balance before. Not in the first two: the first finds where new nodes touch.
 constexpr double chord_progress = 0.05;
 constexpr int most_backtracks = 6;
 /// Equilibrium: out-of-balance forces over the contact forces, at a sample and on the way to it.
@@ -74,8 +74,7 @@ void TipPress<dim>::prepare() {
   place_ = 0.0;
   displacement_.reinit(body_->fine.vector());
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);
-  linearise(displacement_);
-  at_displacement_ = true;
+  if (job_.strain == Strain::linear) linearise(displacement_);
   marks_.clear();
 }
 
@@ -108,7 +107,6 @@ void TipPress<dim>::step(double place, bool sampled, PressState& effort) {
     check_other_nodes(place);
   } catch (...) {
     displacement_ = before;
-    at_displacement_ = job_.strain == Strain::linear;
     throw;
   }
   contact_->commit();
@@ -127,7 +125,6 @@ template <int dim>
 void TipPress<dim>::linearise(const Vector& displacement) {
   assemble(*body_, *kernel_, displacement, *system_);
   solver_->set_matrix(*system_);
-  stale_tangent_ = false;
 }
 
 template <int dim>
@@ -156,12 +153,11 @@ void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressStat
                             ? std::max(wanted, 10.0 * job_.solver_tolerance)
                             : wanted;
   Vector u = displacement_;
-  stale_tangent_ |= !at_displacement_;
-  at_displacement_ = false;
+  bool stale = true;  // the tangent
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
     ++effort.newton_iterations;
-    const bool new_tangent = stale_tangent_;
+    const bool new_tangent = std::exchange(stale, false);
     if (new_tangent) linearise(u);
     Vector load = u;  // of the system linearised at u, for the whole displacement
     system_->matrix.vmult(load, u);
@@ -191,16 +187,15 @@ void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressStat
       }
       if (new_tangent) continue;
       u = start;  // try again with the tangent there
-      stale_tangent_ = true;
+      stale = true;
       break;
     }
-    if (stale_tangent_) continue;
+    if (stale) continue;
     if (factor == 1.0 && norm < enough) {
       displacement_ = u;
-      at_displacement_ = true;
       return;
     }
-    stale_tangent_ = iteration == 0 || norm > chord_progress * last;
+    stale = iteration == 0 || norm > chord_progress * last;
     last = norm;
   }
   throw meshes::NotConverged("Newton's method did not converge within " +

@@ -99,9 +99,7 @@ class TipPress final : public PressModel {
   std::unique_ptr<PlaneContact> contact_;
   std::vector<SurfaceNode> outer_nodes_;
   LinearSolver solver_kind_ = LinearSolver::automatic;
-  Vector displacement_;           ///< of the last converged step
-  bool at_displacement_ = false;  ///< whether the system's force is that of large strain there
-  bool stale_tangent_ = false;    ///< whether large strain needs a new tangent
+  Vector displacement_;  ///< of the last converged step
   /// Where a sample asks for smaller elements, per local cell.
   struct Marks {
     dealii::Vector<float> indicators;  ///< squared error indicators over their sum

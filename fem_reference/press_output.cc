@@ -195,7 +195,6 @@ void TipPress<dim>::load(const std::filesystem::path& folder) {
   dealii::parallel::distributed::SolutionTransfer<dim, Vector> displacement_transfer(
       body_->fine.dofs);
   displacement_transfer.deserialize(displacement_);
-  at_displacement_ = false;
   load_marks(json.at("samples").get<std::size_t>());
 
   place_ = json.at("place").get<double>();
