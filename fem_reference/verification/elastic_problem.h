@@ -4,13 +4,13 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "fem_reference/analytic/elastic_field.h"
 #include "fem_reference/job.h"
 #include "fem_reference/verification/body_mesh.h"
+#include "fem_reference/verification/loading.h"
 #include "meshes/rubber.h"
 
 namespace fingertip::fem_reference {
@@ -20,31 +20,6 @@ struct ElementType {
   int degree = 2;
   Volumetric volumetric = Volumetric::projected;
 };
-
-/// A displacement component (0, 1, 2) prescribed on a boundary. A meridian has no component 1.
-struct Prescribed {
-  int boundary = 0;
-  int component = 0;
-};
-
-/// All three components on each boundary of the list.
-std::vector<Prescribed> whole(const std::vector<int>& boundaries);
-
-/// Loads and supports. Functions that are not set are zero. A component of the traction that is
-/// prescribed as a displacement has no effect.
-struct Loading {
-  using Field = std::function<meshes::Vector3(const meshes::Vector3& position)>;
-  using Traction = std::function<meshes::Vector3(int boundary, const meshes::Vector3& position,
-                                                 const meshes::Vector3& outward_normal)>;
-  std::vector<Prescribed> prescribed;
-  Field displacement;  ///< [m]
-  Field body_force;    ///< [N/m³]
-  Traction traction;   ///< [Pa]
-};
-
-/// The loading under which `exact` is the solution: its displacement on what is prescribed, its
-/// traction on all other boundaries, its body force. Keeps a reference to `exact`.
-Loading loading_of(const analytic::ElasticField& exact, std::vector<Prescribed> prescribed);
 
 /// Relative errors over the body: of the displacement in L2 and of its gradient in L2 (the H1
 /// seminorm).

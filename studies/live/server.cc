@@ -7,16 +7,14 @@
 
 #include <array>
 #include <condition_variable>
-#include <fstream>
 #include <future>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <thread>
 
 #include "meshes/errors.h"
 #include "studies/live/access.h"
-#include "studies/live/page_files.h"
+#include "studies/live/page_server.h"
 
 /// CivetWeb asks for stacks of 100 kB. glibc takes the thread-local variables of all libraries out
 /// of a thread's stack (OpenBLAS, METIS and glog together have 120 kB), so pthread_create() would
@@ -41,37 +39,6 @@ constexpr double rest_allowance = 2.0;  ///< burst of messages over their rate
 
 double seconds_now() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-}
-
-/// Everything a browser must not do with the page.
-std::string security_headers(int port) {
-  return fmt::format(
-      "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: "
-      "no-referrer\r\nX-Frame-Options: DENY\r\nContent-Security-Policy: default-src 'self'; "
-      "connect-src 'self' ws://127.0.0.1:{0} ws://localhost:{0}; style-src 'self' "
-      "'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; "
-      "form-action 'none'\r\n",
-      port);
-}
-
-std::string_view header(const mg_connection* connection, const char* name) {
-  const char* value = mg_get_header(connection, name);
-  return value != nullptr ? value : "";
-}
-
-Credentials credentials_of(const mg_connection* connection) {
-  const mg_request_info* request = mg_get_request_info(connection);
-  return {header(connection, "Host"), header(connection, "Origin"), header(connection, "Cookie"),
-          request->query_string != nullptr ? request->query_string : ""};
-}
-
-std::string file_content(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw meshes::InvalidInput({"three.js", file.string(), "the file cannot be read",
-                                "install the Debian package libjs-three"});
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 struct Client {
@@ -105,10 +72,7 @@ class LiveServer::Implementation {
 
   void start();
   void route();
-  void collect_files();
-  int serve(mg_connection* connection);
   bool refuse(mg_connection* connection);
-  void answer(mg_connection* connection, std::string_view type, std::string_view content) const;
   void greet(mg_connection* connection);
   bool take(mg_connection* connection, int bits, std::string_view text);
   void forget(const mg_connection* connection);
@@ -122,7 +86,7 @@ class LiveServer::Implementation {
   const Reference& reference_;
   ServerOptions options_;
   std::string scene_;
-  std::map<std::string, std::pair<std::string, std::string>, std::less<>> files_;  ///< type, text
+  PageServer page_;
   mg_context* context_ = nullptr;
   int port_ = 0;
   std::unique_ptr<Access> access_;
@@ -136,7 +100,10 @@ class LiveServer::Implementation {
 
 LiveServer::Implementation::Implementation(Simulation& simulation, const Reference& reference,
                                            const std::string& title, const ServerOptions& options)
-    : simulation_(simulation), reference_(reference), options_(options) {
+    : simulation_(simulation),
+      reference_(reference),
+      options_(options),
+      page_(reference, options.three_folder) {
   const LiveRig& rig = simulation.rig();
   LiveScene scene;
   if (reference_.remark) {
@@ -154,7 +121,6 @@ LiveServer::Implementation::Implementation(Simulation& simulation, const Referen
     scene.reference.push_back({sample.indentation, sample.normal_force});
   for (const Overlay& overlay : reference.overlays) scene.overlays.push_back(overlay.indentation);
   scene_ = encode_scene(scene);
-  collect_files();
   start();
   sender_ = std::thread([this] { stream(); });
 }
@@ -198,21 +164,6 @@ void LiveServer::Implementation::stop() {
   }
 }
 
-void LiveServer::Implementation::collect_files() {
-  for (const PageFile& file : page_files())
-    files_[std::string(file.path)] = {std::string(file.type), std::string(file.content)};
-  const std::filesystem::path three =
-      options_.three_folder.empty() ? "/usr/share/javascript/three" : options_.three_folder;
-  const char* script = "text/javascript; charset=utf-8";
-  files_["/three.min.js"] = {script, file_content(three / "three.min.js")};
-  files_["/OrbitControls.js"] = {script,
-                                 file_content(three / "examples/js/controls/OrbitControls.js")};
-  for (std::size_t i = 0; i < reference_.overlays.size(); ++i) {
-    files_[fmt::format("/overlay/{}", i)] = {"application/octet-stream",
-                                             encode_overlay(reference_.overlays[i])};
-  }
-}
-
 void LiveServer::Implementation::start() {
   mg_init_library(0);
   const std::string where = fmt::format("127.0.0.1:{}", options_.port);
@@ -252,7 +203,8 @@ void LiveServer::Implementation::route() {
   mg_set_request_handler(
       context_, "**",
       [](mg_connection* connection, void* self) {
-        return static_cast<Implementation*>(self)->serve(connection);
+        const auto& us = *static_cast<const Implementation*>(self);
+        return us.page_.serve(connection, us.port_, us.access());
       },
       this);
   // Here, not in the connect handler: it may answer.
@@ -288,37 +240,6 @@ bool LiveServer::Implementation::refuse(mg_connection* connection) {
     return true;
   }
   return false;
-}
-
-int LiveServer::Implementation::serve(mg_connection* connection) {
-  const mg_request_info* request = mg_get_request_info(connection);
-  if (!access_->may_read(credentials_of(connection))) {
-    mg_send_http_error(connection, 403, "%s",
-                       "wrong host, origin or token: open the address that fingertip printed");
-    return 403;
-  }
-  const std::string_view method = request->request_method;
-  const auto file = files_.find(std::string_view(request->local_uri));
-  if (method != "GET" && method != "HEAD") {
-    mg_send_http_error(connection, 405, "%s", "pages are read, nothing else");
-    return 405;
-  }
-  if (file == files_.end()) {
-    mg_send_http_error(connection, 404, "%s", "there is no such page");
-    return 404;
-  }
-  answer(connection, file->second.first, method == "GET" ? file->second.second : "");
-  return 200;
-}
-
-void LiveServer::Implementation::answer(mg_connection* connection, std::string_view type,
-                                        std::string_view content) const {
-  const std::string head = fmt::format(
-      "HTTP/1.1 200 OK\r\nContent-Type: {}\r\nContent-Length: {}\r\n{}Set-Cookie: "
-      "{}={}; Path=/; HttpOnly; SameSite=Strict\r\nConnection: close\r\n\r\n",
-      type, content.size(), security_headers(port_), access_->cookie_name(), access_->token());
-  mg_write(connection, head.data(), head.size());
-  mg_write(connection, content.data(), content.size());
 }
 
 std::shared_ptr<Client> LiveServer::Implementation::client(const mg_connection* connection) const {

@@ -1,0 +1,95 @@
+#include "studies/live/page_server.h"
+
+#include <civetweb.h>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "meshes/errors.h"
+#include "studies/live/page_files.h"
+#include "studies/live/protocol.h"
+
+namespace fingertip::studies {
+namespace {
+
+/// Everything a browser must not do with the page.
+std::string security_headers(int port) {
+  return fmt::format(
+      "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: "
+      "no-referrer\r\nX-Frame-Options: DENY\r\nContent-Security-Policy: default-src 'self'; "
+      "connect-src 'self' ws://127.0.0.1:{0} ws://localhost:{0}; style-src 'self' "
+      "'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; "
+      "form-action 'none'\r\n",
+      port);
+}
+
+std::string_view header(const mg_connection* connection, const char* name) {
+  const char* value = mg_get_header(connection, name);
+  return value != nullptr ? value : "";
+}
+
+std::string file_content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw meshes::InvalidInput({"three.js", file.string(), "the file cannot be read",
+                                "install the Debian package libjs-three"});
+  }
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void answer(mg_connection* connection, int port, const Access& access, std::string_view type,
+            std::string_view content) {
+  const std::string head = fmt::format(
+      "HTTP/1.1 200 OK\r\nContent-Type: {}\r\nContent-Length: {}\r\n{}Set-Cookie: "
+      "{}={}; Path=/; HttpOnly; SameSite=Strict\r\nConnection: close\r\n\r\n",
+      type, content.size(), security_headers(port), access.cookie_name(), access.token());
+  mg_write(connection, head.data(), head.size());
+  mg_write(connection, content.data(), content.size());
+}
+
+}  // namespace
+
+Credentials credentials_of(const mg_connection* connection) {
+  const mg_request_info* request = mg_get_request_info(connection);
+  return {header(connection, "Host"), header(connection, "Origin"), header(connection, "Cookie"),
+          request->query_string != nullptr ? request->query_string : ""};
+}
+
+PageServer::PageServer(const Reference& reference, const std::filesystem::path& three_folder) {
+  for (const PageFile& file : page_files())
+    files_[std::string(file.path)] = {std::string(file.type), std::string(file.content)};
+  const std::filesystem::path three =
+      three_folder.empty() ? "/usr/share/javascript/three" : three_folder;
+  const char* script = "text/javascript; charset=utf-8";
+  files_["/three.min.js"] = {script, file_content(three / "three.min.js")};
+  files_["/OrbitControls.js"] = {script,
+                                 file_content(three / "examples/js/controls/OrbitControls.js")};
+  for (std::size_t i = 0; i < reference.overlays.size(); ++i) {
+    files_[fmt::format("/overlay/{}", i)] = {"application/octet-stream",
+                                             encode_overlay(reference.overlays[i])};
+  }
+}
+
+int PageServer::serve(mg_connection* connection, int port, const Access& access) const {
+  const mg_request_info* request = mg_get_request_info(connection);
+  if (!access.may_read(credentials_of(connection))) {
+    mg_send_http_error(connection, 403, "%s",
+                       "wrong host, origin or token: open the address that fingertip printed");
+    return 403;
+  }
+  const std::string_view method = request->request_method;
+  const auto file = files_.find(std::string_view(request->local_uri));
+  if (method != "GET" && method != "HEAD") {
+    mg_send_http_error(connection, 405, "%s", "pages are read, nothing else");
+    return 405;
+  }
+  if (file == files_.end()) {
+    mg_send_http_error(connection, 404, "%s", "there is no such page");
+    return 404;
+  }
+  answer(connection, port, access, file->second.first, method == "GET" ? file->second.second : "");
+  return 200;
+}
+
+}  // namespace fingertip::studies
