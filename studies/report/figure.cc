@@ -17,6 +17,7 @@
 #include "studies/report/document.h"
 #include "studies/report/figure_points.h"
 #include "studies/report/format.h"
+#include "studies/report/surface_script.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -165,12 +166,6 @@ std::string axis(const Panel& panel, bool vertical) {
   if (!vertical && !panel.x_names.empty()) text += named_tics(panel.x_names);
   return text + axis_range(name, range, base != 0);
 }
-
-/// Into gnuplot's log, for page_points().
-constexpr const char* tell_axes =
-    "print sprintf('axes %.6g %.6g %.6g %.6g %.9g %.9g %.9g %.9g', GPVAL_TERM_XMIN, "
-    "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX, GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, "
-    "GPVAL_Y_MAX)\n";
 
 std::string panel_script(const Panel& panel, std::size_t index) {
   std::string text = "unset object\nunset arrow\nunset label\nunset logscale\n";

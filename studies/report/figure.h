@@ -123,7 +123,4 @@ Drawing draw(const Figure& figure, const std::string& title, const std::filesyst
 /// `text` as a string in a gnuplot script: in single quotes, which suspend every other escape.
 std::string gnuplot_string(const std::string& text);
 
-/// The part of a gnuplot script that draws the surfaces of the figure's panels.
-std::string surface_script(const Figure& figure);
-
 }  // namespace fingertip::studies::reporting

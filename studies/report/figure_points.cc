@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "meshes/table_rows.h"
+#include "studies/report/surface_script.h"
 
 namespace fingertip::studies::reporting {
 namespace {
@@ -130,11 +131,18 @@ std::string page_points(const Figure& figure, const std::string& log) {
   ordered_json panels = ordered_json::array();
   for (std::size_t i = 0; i < std::min(axes.size(), figure.panels.size()); ++i) {
     const Panel& panel = figure.panels[i];
-    if (panel.bare || panel.surface) continue;
+    if (panel.bare) continue;
     const Axes& a = axes[i];
+    const ordered_json box = {a.left, a.right, figure.height - a.top, figure.height - a.bottom};
+    if (panel.surface) {
+      panels.push_back(
+          {{"title", panel.title}, {"box", box}, {"colour_scale", colour_scale_at(figure)}});
+      panels.back().update(turning_surface(panel, a.right - a.left));
+      continue;
+    }
     panels.push_back({{"x_label", panel.x_label},
                       {"y_label", panel.y_label},
-                      {"box", {a.left, a.right, figure.height - a.top, figure.height - a.bottom}},
+                      {"box", box},
                       {"x", {a.x[0], a.x[1], panel.log_x != 0}},
                       {"y", {a.y[0], a.y[1], panel.log_y != 0}},
                       {"series", series_of(figure, i)}});

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -168,6 +171,55 @@ TEST_F(FitReport, SurfacesShowRuleAndFit) {
   const double ball = G * (3.0 * lambda + 2.0 * G) / (lambda + G) / 1e3;
   for (const auto& row : rows("fit_moduli", "after: fitted")) EXPECT_NEAR(row[3], ball, 1e-6);
   EXPECT_LT(fs::file_size(run_ / "figures" / "fit_moduli.svg"), 300'000u);
+}
+
+// What readers turn starts as what gnuplot printed: every corner of every facet is where one of the
+// page's points is seen from its angles.
+TEST_F(FitReport, SurfacesThatTurnCoincideWithThePicture) {
+  const std::string html = report();
+  const std::string opening = "<script type=\"application/json\">";
+  const auto from = html.find(opening, html.find("<figure id=\"fit_moduli\"")) + opening.size();
+  const std::string text = html.substr(from, html.find("</script>", from) - from);
+  EXPECT_LT(text.size(), 120'000u);
+  const json panels = json::parse(text);
+  ASSERT_EQ(panels.size(), 2u);
+  using Place = std::array<double, 2>;
+  std::vector<Place> seen;
+  for (const json& panel : panels) {
+    const double a = panel["view"][0].get<double>() / 57.29577951308232;
+    const double e = panel["view"][1].get<double>() / 57.29577951308232;
+    const auto& box = panel["box"];
+    for (const json& point : panel["points"]) {
+      const double x = point[0], y = point[1], z = point[2];
+      const double ahead = std::cos(a) * y - std::sin(a) * x;
+      seen.push_back(
+          {(box[0].get<double>() + box[1].get<double>()) / 2.0 + std::cos(a) * x + std::sin(a) * y,
+           (box[2].get<double>() + box[3].get<double>()) / 2.0 - std::sin(e) * ahead -
+               std::cos(e) * z});
+    }
+    int facets = 0;
+    for (const json& piece : panel["pieces"]) facets += piece.size() == 5;
+    EXPECT_EQ(facets, 20 * 40);
+  }
+  const std::string picture = svg("fit_moduli");
+  const std::regex corners("<polygon fill = '[^']*' points = '([^']*)'");
+  int facets = 0;
+  double farthest = 0.0;
+  for (std::sregex_iterator it(picture.begin(), picture.end(), corners), end; it != end; ++it) {
+    std::string places = (*it)[1];
+    std::replace(places.begin(), places.end(), ',', ' ');
+    if (std::stod(places) > panels[0]["colour_scale"].get<double>() - 1.0) continue;
+    std::istringstream stream(places);
+    ++facets;
+    for (Place place; stream >> place[0] >> place[1];) {
+      double nearest = 1e9;
+      for (const Place& other : seen)
+        nearest = std::fmin(nearest, std::hypot(place[0] - other[0], place[1] - other[1]));
+      farthest = std::fmax(farthest, nearest);
+    }
+  }
+  EXPECT_EQ(facets, 2 * 20 * 40);
+  EXPECT_LT(farthest, 0.2);
 }
 
 TEST_F(FitReport, SurrogateHasForceAndStiffnessWithKnots) {
