@@ -41,9 +41,9 @@ class MeshHistory {
   /// b: no difference shows what no refinement has touched. F is the derivative of the energy E by
   /// the indentation, and a mesh stores too much of it everywhere; as both grow with like powers of
   /// the indentation, F is too large by about the share that E is. So b = 2 F S/E, S the finest
-  /// mesh's sum of squared error indicators (PressState::indicator). Against axisymmetric solutions
-  /// the mean excess is 0.4 ... 1.7 F S/E without friction at small strain, -0.9 ... 0.9 with stick
-  /// (README). It is no correction: its factor varies with mesh and rubber.
+  /// mesh's indicator (PressState::indicator). Against axisymmetric solutions the mean excess of
+  /// solids is 0.4 ... 1.7 F S/E without friction at small strain, -0.9 ... 0.9 with stick. It is
+  /// no correction: its factor varies with mesh and rubber.
   ForceError error(std::size_t index) const;
   /// Largest force_error over normal_force; NaN before there is an estimate for every sample.
   double worst_relative_error() const;

@@ -23,11 +23,30 @@ constexpr double friction_settled = 1e-9;
 /// Rounds after which friction forces are changed by half of what they should be.
 constexpr int friction_patience = 60;
 
+/// Itself for a node with area, the nearest of those for one without; itself where there is none.
+std::vector<std::size_t> leaders_of(const std::vector<SurfaceNode>& nodes) {
+  std::vector<std::size_t> leaders(nodes.size());
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    leaders[node] = node;
+    if (nodes[node].area > 0.0) continue;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t other = 0; other < nodes.size(); ++other) {
+      const double distance = (nodes[other].position - nodes[node].position).norm();
+      if (nodes[other].area > 0.0 && distance < nearest) {
+        nearest = distance;
+        leaders[node] = other;
+      }
+    }
+  }
+  return leaders;
+}
+
 }  // namespace
 
 PlaneContact::PlaneContact(ContactUnknowns unknowns, ContactMode mode, const PlanePose& start,
                            double friction, double shear_modulus)
     : unknowns_(std::move(unknowns)),
+      leaders_(leaders_of(unknowns_.nodes)),
       mode_(mode),
       friction_(friction),
       shear_modulus_(shear_modulus) {
@@ -106,11 +125,21 @@ std::vector<std::size_t> PlaneContact::offenders(const ConstrainedSolution& solu
   const double depth = std::max(gap_noise, solution.displacement.size()
                                                ? noise * solution.displacement.cwiseAbs().maxCoeff()
                                                : 0.0);
+  // What a node without area carries counts for the one that it follows.
+  std::vector<double> reactions(trial_.status.size(), 0.0);
+  for (std::size_t node = 0; node < reactions.size(); ++node) {
+    const double own = solution.reaction[unknowns_.of_node[node][2]];
+    reactions[node] += own;
+    if (follows(node)) reactions[leader(node)] += own;
+  }
   std::vector<std::size_t> result;
   for (std::size_t node = 0; node < trial_.status.size(); ++node) {
-    const bool wrong = trial_.status[node] != NodeStatus::open
-                           ? solution.reaction[unknowns_.of_node[node][2]] > pull
-                           : gap(node, solution.displacement, trial_.pose) < -depth;
+    const bool penetrates = gap(node, solution.displacement, trial_.pose) < -depth;
+    bool wrong = is_open(node) ? penetrates : reactions[node] > pull;
+    if (follows(node)) {
+      const bool led = !is_open(leader(node));
+      wrong = is_open(node) ? led || (wrong && releases_[node] == 0) : wrong && !led;
+    }
     if (wrong) result.push_back(node);
   }
   return result;

@@ -47,6 +47,11 @@ struct ContactEffort {
 /// where it was nor open is a solution. It has come off and down again within the step; pulled off
 /// a second time, it is anchored where it comes down, at the end of the step.
 ///
+/// A node without area, the pole of a meridian, has no share of the pressure: its reaction says
+/// nothing while its neighbours push. It follows the nearest node with area when that touches, and
+/// decides for itself while that is open; of itself it comes on at most once in a solution. Left
+/// out of contact it would rise through the plane, a pit in the meridian.
+///
 /// Coulomb: a node sticks while |t| <= mu p; beyond, it slides under t = mu p d. In each round the
 /// force of a sliding node is projected anew, t <- mu p (t - rho s)/|t - rho s| with its slip s
 /// since the start of the step and rho = G SurfaceNode::extent, and it sticks again when |t - rho
@@ -73,6 +78,8 @@ class PlaneContact {
   int active_nodes() const;
   /// Force of the plane on a candidate node [N].
   meshes::Vector3 reaction(std::size_t node) const;
+  /// The node whose pressure is this one's: itself, or the one that it follows.
+  std::size_t leader(std::size_t node) const { return leaders_[node]; }
   /// One flag per contact unknown that the trial holds.
   std::vector<char> held() const;
   /// Forces of the plane on all contact unknowns [N].
@@ -93,6 +100,8 @@ class PlaneContact {
   double gap(std::size_t node, const Eigen::VectorXd& displacement, const PlanePose& pose) const;
   ConstrainedSolution solve(ContactSolver& solver) const;
   void touch_at_start();
+  bool is_open(std::size_t node) const { return trial_.status[node] == NodeStatus::open; }
+  bool follows(std::size_t node) const { return leader(node) != node; }
   std::vector<std::size_t> offenders(const ConstrainedSolution& solution, double noise) const;
   void change(std::size_t node, const ConstrainedSolution& solution);
   /// Anchors a node where it was at `time`, 0 ... 1, between the start of the step and `trial`.
@@ -101,10 +110,11 @@ class PlaneContact {
   double update_friction(const ConstrainedSolution& solution, double relaxation);
 
   ContactUnknowns unknowns_;
+  std::vector<std::size_t> leaders_;  ///< of each node: itself, or the one that it follows
   meshes::ContactMode mode_;
   double friction_, shear_modulus_;
   State committed_, trial_;
-  std::vector<int> releases_;  ///< of each node, since `settle` began
+  std::vector<int> releases_;  ///< of each node, since `solve` began
 };
 
 }  // namespace fingertip::fem_reference

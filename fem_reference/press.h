@@ -28,8 +28,9 @@ struct PressState {
   double node_spacing = 0.0;          ///< of the candidate nodes around the contact edge [m]
   double min_jacobian = 1.0;          ///< smallest det F at a quadrature point; 1 at small strain
   double energy = 0.0;                ///< stored in the rubber [J]
-  /// G times the sum of the squared error indicators (refine()): proportional to the energy that
-  /// the mesh stores in excess, up to a factor of order one that meshes share [J].
+  /// About the energy that the mesh stores in excess: G times the sum of the squared error
+  /// indicators (refine()), 2.5 times that on a meridian, up to a factor of order one that meshes
+  /// share [J].
   double indicator = 0.0;
   int steps = 0;
   int newton_iterations = 0;

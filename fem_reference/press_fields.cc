@@ -326,7 +326,8 @@ ContactField<dim>::ContactField(const Body<dim>& body, const PlaneContact& conta
   for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[2]);
   const std::vector<double> areas = body.fine.gather(area, unknowns);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const meshes::Vector3 traction = contact.reaction(i) / areas[i];
+    const std::size_t shown = contact.leader(i);
+    const meshes::Vector3 traction = contact.reaction(shown) / areas[shown];
     const double values[] = {-traction.z(), traction.head<2>().norm(), double(contact.status()[i])};
     for (std::size_t f = 0; f < contact_fields.size(); ++f) {
       const auto unknown = unsigned(nodes[i].unknown[Kinematics<dim>::axis[f % dim]]);

@@ -30,6 +30,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t fewest_meshes = 3;
 /// The cells that carry this share of the squared error indicators are refined.
 constexpr double refined_share = 0.5;
+/// Element counts of a meridian's first mesh over those of a solid's: on fewer the first meshes are
+/// too coarse for the error estimate, and cost as many steps as any.
+constexpr double meridian_counts = 2.0;
 /// Refining every element multiplies the unknowns by at most this.
 constexpr double most_growth = 8.0;
 /// A checkpoint is written when the last one is older than this [s].
@@ -150,7 +153,8 @@ class PressRun {
   }
 
   void make_mesh() {
-    meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(job_.refinement);
+    const double counts = job_.axisymmetric() ? meridian_counts : 1.0;
+    meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(counts * job_.refinement);
     options.sector = sector(job_);
     mesh_quality_ = write_mesh_once(job_.geometry, options, folder_ / "tip.msh");
   }

@@ -204,13 +204,12 @@ std::vector<SurfaceNode> outer_nodes(const Body<dim>& tip) {
   const double largest = area.linfty_norm();
   for (const auto& part : dealii::Utilities::MPI::all_gather(space.communicator, own))
     for (const auto& e : part)
-      if (e[3] > no_area * largest)
-        nodes.push_back(
-            {.position = {e[0], e[1], e[2]},
-             .unknown = {long(e[4]), long(e[5]), long(e[6])},
-             .free = {e[7] != 0.0, e[8] != 0.0, e[9] != 0.0},
-             .area = e[3],
-             .extent = dim == 2 ? circumference(dealii::Point<2>(e[0], e[2])) : std::sqrt(e[3])});
+      nodes.push_back(
+          {.position = {e[0], e[1], e[2]},
+           .unknown = {long(e[4]), long(e[5]), long(e[6])},
+           .free = {e[7] != 0.0, e[8] != 0.0, e[9] != 0.0},
+           .area = e[3] > no_area * largest ? e[3] : 0.0,
+           .extent = dim == 2 ? circumference(dealii::Point<2>(e[0], e[2])) : std::sqrt(e[3])});
   // Rounded, so that the order does not hang on the last bits of a position.
   const auto key = [](const SurfaceNode& node) {
     const auto rounded = [](double x) { return std::llround(x * 1e9); };

@@ -136,8 +136,8 @@ class TipInMotion final : public TransientModel {
     state.active_nodes = contact->active_nodes();
     double outermost = 0.0;
     for (std::size_t i = 0; i < contact->status().size(); ++i) {
-      if (contact->status()[i] == NodeStatus::open) continue;
       const SurfaceNode& node = contact->unknowns().nodes[i];
+      if (contact->status()[i] == NodeStatus::open || node.area == 0.0) continue;
       state.contact.push_back({radius(node), -contact->reaction(i).z() / node.area});
       if (radius(node) < outermost) continue;
       outermost = radius(node);

@@ -61,7 +61,7 @@ TEST(Meridian, HasVolumeAndAreaOfTheBody) {
   // The pole has no area; the others share it all.
   double shared = 0.0;
   for (const auto& node : outer_nodes(*tip)) {
-    EXPECT_GT(node.position.x(), 0.0);
+    EXPECT_EQ(node.area > 0.0, node.position.x() > 1e-9 * R);
     EXPECT_EQ(node.position.y(), 0.0);
     EXPECT_FALSE(node.free[1]);
     shared += node.area;
@@ -89,6 +89,21 @@ TEST(Meridian, GivesTheForcesOfAnotherProgram) {
     EXPECT_LE(std::abs(sample.normal_force / gf - known[i].second),
               sample.force_error / gf + 5e-5 * known[i].second);  // its own last digits
   }
+}
+
+/// Nothing but its neighbours holds the pole of the meridian down: left to itself it rises through
+/// the plane, and beyond some 0.6 of the thickness no step converges.
+TEST(Meridian, GoesDeepWithoutFriction) {
+  ReferenceJob job = meridian_press(ContactMode::frictionless, Strain::finite);
+  job.refinement = 1.0;
+  const double deep = 0.7 * job.geometry.thickness();
+  job.press_to({deep});
+  Pressing pressing(job);
+  const PressState state = pressing.press.advance(deep);
+  EXPECT_GT(state.min_jacobian, 0.1);
+  const meshes::Geometry& g = job.geometry;
+  for (const auto& edge : pressing.press.section(*pressing.press.snapshot()))
+    EXPECT_LE(std::max(edge.deformed[1], edge.deformed[3]), g.tip_radius - deep + 1e-3 * deep);
 }
 
 struct Case {

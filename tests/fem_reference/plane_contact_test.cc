@@ -202,6 +202,32 @@ TEST(PlaneContact, LetsGoWhenPulled) {
   }
 }
 
+/// A pole has no area. Its reaction pulls here, and it stays with its neighbour all the same; alone
+/// it comes on when it penetrates, and goes when both are let go.
+TEST(PlaneContact, NodeWithoutAreaFollowsItsNeighbour) {
+  Eigen::MatrixXd compliance = Eigen::MatrixXd::Identity(2, 2);
+  compliance(0, 1) = compliance(1, 0) = 0.9;  // the neighbour presses the pole down with itself
+  DenseBody body(compliance);
+  ContactUnknowns unknowns = nodes_at({0.88, 1.0}, false);
+  unknowns.nodes[0].area = 0.0;
+  PlaneContact contact = frictionless(unknowns);
+  press(contact, body, 0.2);
+  EXPECT_EQ(contact.active_nodes(), 2);
+  EXPECT_GT(contact.reaction(0).z(), 0.0);
+  EXPECT_NEAR(contact.gap(0), 0.0, 1e-12);
+  EXPECT_EQ(contact.leader(0), 1u);
+  EXPECT_EQ(contact.leader(1), 1u);
+  press(contact, body, -0.1);
+  EXPECT_EQ(contact.active_nodes(), 0);
+
+  unknowns.nodes[0].position.z() = 1.0;
+  unknowns.nodes[1].position.z() = 0.5;
+  PlaneContact alone = frictionless(unknowns);
+  press(alone, body, 0.2);
+  EXPECT_EQ(alone.active_nodes(), 1);
+  EXPECT_NEAR(alone.reaction(0).z(), -0.2, 1e-12);
+}
+
 TEST(PlaneContact, AbandonedTrialsLeaveNoTrace) {
   DenseBody body(dragging_springs());
   PlaneContact contact = sticking(nodes_at({1.0, 0.9}, true));
