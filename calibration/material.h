@@ -40,7 +40,7 @@ struct Material {
   meshes::Rubber rubber;            ///< the rubber they stand for
   /// Whether the rubber's own are known; if not, they are not written, and a press has its own.
   bool density_known = true, retardation_time_known = true;
-  std::optional<meshes::Geometry> geometry;  ///< of the finger they were found on
+  std::optional<meshes::Geometry> geometry;  ///< of the dome they were found on
   Validity validity;
   std::string provenance;  ///< how they were found and from what: "moduli", files with SHA-256
   std::string program;     ///< with its version; may be empty

@@ -42,10 +42,12 @@ std::vector<Quantity> quantities(Material& m) {
   factor("ligament_stiffness", m.ligament_stiffness, "factor on the bond to the rod");
   factor("contact_stiffness", m.contact_stiffness, "factor on the ties to the plane");
   const auto members = [&](std::string_view section, auto& settings) {
-    visit_fields(settings, [&](std::string_view key, double& value, std::string_view unit) {
-      const bool may_be_unknown =
-          &value == &m.rubber.density || &value == &m.rubber.retardation_time;
-      all.push_back({section, key, unit, &value, nullptr, !may_be_unknown});
+    visit_fields(settings, [&](std::string_view key, auto& value, std::string_view unit) {
+      if constexpr (std::is_same_v<decltype(value), double&>) {  // a profile is no quantity
+        const bool may_be_unknown =
+            &value == &m.rubber.density || &value == &m.rubber.retardation_time;
+        all.push_back({section, key, unit, &value, nullptr, !may_be_unknown});
+      }
     });
   };
   if (m.model != ModelKind::network) members("constants", m.constants);

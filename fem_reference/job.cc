@@ -57,8 +57,15 @@ void read_fields(const Json& object, const std::string& place, Settings& setting
   visit_fields(settings, [&](const char* key, auto& member, const char*) {
     known.emplace_back(key);
     if (!object.contains(key)) return;
-    if constexpr (meshes::HasFields<std::remove_reference_t<decltype(member)>>) {
+    using Member = std::remove_reference_t<decltype(member)>;
+    if constexpr (meshes::HasFields<Member>) {
       read_fields(object.at(key), place + key + ".", member, broken);
+    } else if constexpr (meshes::HasListedFields<Member>) {
+      const Json& list = object.at(key);
+      if (!list.is_array()) return refuse(key, list, "must be a list");
+      member.resize(list.size());
+      for (std::size_t i = 0; i < list.size(); ++i)
+        read_fields(list[i], place + key + "[" + std::to_string(i) + "].", member[i], broken);
     } else {
       try {
         get(object.at(key), member);
@@ -170,6 +177,13 @@ std::vector<Violation> ReferenceJob::violations() const {
          press ? "a tilt or a lateral motion of the plane breaks the symmetry about the axis"
                : "vibrations leave the meridian: they need the solid",
          "choose reference.symmetry = \"automatic\""});
+  if (!geometry.is_dome() && !axisymmetric() && analysis != Analysis::verification)
+    broken.push_back(
+        {"geometry.shape", "profile",
+         press && symmetry != Symmetry::none
+             ? "the continuum presses a profile along its axis: no tilt, no lateral motion"
+             : "the continuum knows a profile by its meridian, not as a solid",
+         "take the dome, or press along the axis with reference.symmetry = \"automatic\""});
   if (analysis == Analysis::transient)
     require(strain == Strain::linear && protocol.tilt == 0.0 && protocol.lateral == 0.0 &&
                 protocol.contact != meshes::ContactMode::coulomb,

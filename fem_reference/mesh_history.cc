@@ -104,6 +104,7 @@ ForceError MeshHistory::error(std::size_t index) const {
   const double excess =
       excess_per_indicator * state.indicator / state.energy * state.sample.normal_force;
   if (excess > error.value) error.value = excess;
+  error.value *= safety_;
   return error;
 }
 
@@ -172,8 +173,8 @@ Json MeshHistory::to_json() const {
   return all;
 }
 
-MeshHistory MeshHistory::from_json(const Json& json) {
-  MeshHistory history;
+MeshHistory MeshHistory::from_json(const Json& json, double safety) {
+  MeshHistory history(safety);
   for (const Json& entry : json) {
     MeshRecord record;
     record.mesh = {entry.at("cells").get<std::size_t>(), entry.at("unknowns").get<std::size_t>(),

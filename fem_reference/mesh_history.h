@@ -20,6 +20,8 @@ struct MeshRecord {
 /// The sequence of meshes, coarse to fine.
 class MeshHistory {
  public:
+  /// `safety` multiplies every error.
+  explicit MeshHistory(double safety = 1.0) : safety_(safety) {}
   void start_mesh(const MeshSummary& mesh) { meshes_.push_back({mesh, {}, 0.0}); }
   /// Appends the next sample of the finest mesh and estimates its error.
   void add(PressState state);
@@ -28,7 +30,8 @@ class MeshHistory {
   MeshRecord& finest() { return meshes_.back(); }
   /// Each sample from the finest mesh on which it has been computed, with its `force_error`.
   std::vector<PressState> best() const;
-  /// Error of sample `index` on the finest mesh that has it: max(e, m w, b); NaN while e is.
+  /// Error of sample `index` on the finest mesh that has it: the safety times max(e, m w, b); NaN
+  /// while e is.
   ///
   /// e: estimate_force_error with the node spacing h at this sample's contact edge as the measure
   /// of a mesh: adaptive meshes are refined here for one sample and there for another, and a mesh
@@ -49,7 +52,7 @@ class MeshHistory {
   double worst_relative_error() const;
 
   nlohmann::json to_json() const;
-  static MeshHistory from_json(const nlohmann::json& json);
+  static MeshHistory from_json(const nlohmann::json& json, double safety = 1.0);
 
  private:
   const PressState* finest_state(std::size_t index) const;
@@ -57,6 +60,7 @@ class MeshHistory {
   double typical_edge_error() const;
 
   std::vector<MeshRecord> meshes_;
+  double safety_;
 };
 
 }  // namespace fingertip::fem_reference

@@ -45,7 +45,7 @@ template <int dim>
 TipPress<dim>::TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file)
     : PressModel(job),
       path_(job.protocol),
-      body_(read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, job.protocol.tilt)),
+      body_(read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, job.protocol.tilt, job.geometry)),
       kernel_(make_kernel<dim>(job)) {
   body_->number(tip_supports<dim>());
   prepare();
@@ -67,7 +67,7 @@ void TipPress<dim>::prepare() {
   const double bulge = job_.strain == Strain::finite ? finite_bulge : linear_bulge;
   ContactUnknowns candidates =
       contact_unknowns(outer_nodes_, job_.protocol.contact != ContactMode::frictionless,
-                       job_.geometry.tip_radius - bulge * job_.protocol.samples.back());
+                       job_.geometry.pole() - bulge * job_.protocol.samples.back());
   solver_ = make_solver(candidates.unknowns);
   contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.protocol.contact, pose(0.0),
                                             job_.protocol.friction, job_.rubber.shear_modulus);
@@ -87,7 +87,7 @@ MeshSummary TipPress<dim>::mesh() const {
 template <int dim>
 PlanePose TipPress<dim>::pose(double place) const {
   const meshes::PressPose pose = path_.at(place);
-  return {job_.geometry.tip_radius - pose.indentation, pose.lateral};
+  return {job_.geometry.pole() - pose.indentation, pose.lateral};
 }
 
 template <int dim>

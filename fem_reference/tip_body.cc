@@ -13,11 +13,13 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <tuple>
 
 #include "fem_reference/kinematics.h"
 #include "meshes/errors.h"
+#include "meshes/meridian.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -64,6 +66,56 @@ class ShellManifold : public dealii::Manifold<dim> {
   dealii::Tensor<1, dim> axis_;
 };
 
+/// Keeps new points on a piece of a profile.
+class PieceManifold : public dealii::Manifold<2> {
+ public:
+  explicit PieceManifold(const meshes::MeridianPiece& piece) : piece_(piece) {}
+
+  std::unique_ptr<dealii::Manifold<2>> clone() const override {
+    return std::make_unique<PieceManifold>(piece_);
+  }
+
+  dealii::Point<2> get_new_point(const dealii::ArrayView<const dealii::Point<2>>& points,
+                                 const dealii::ArrayView<const double>& weights) const override {
+    meshes::Vector2 mean(0.0, 0.0);
+    for (unsigned i = 0; i < points.size(); ++i)
+      mean += weights[i] * meshes::Vector2(points[i][0], points[i][1]);
+    const meshes::Vector2 found = piece_.at(piece_.nearest(mean));
+    return {found.x(), found.y()};
+  }
+
+ private:
+  meshes::MeridianPiece piece_;
+};
+
+meshes::ProfileSurface surface_of(dealii::types::boundary_id boundary) {
+  if (boundary == id(PhysicalTag::outer)) return meshes::ProfileSurface::contact;
+  if (boundary == id(PhysicalTag::bond)) return meshes::ProfileSurface::bond;
+  if (boundary == id(PhysicalTag::end)) return meshes::ProfileSurface::free;
+  return meshes::ProfileSurface::axis;
+}
+
+/// Edges on the boundary are curved as the piece is on which they lie, all others straight.
+void follow_profile(const meshes::Geometry& geometry, Triangulation<2>& triangulation) {
+  const meshes::Meridian meridian(geometry);
+  const auto& pieces = meridian.pieces();
+  for (unsigned p = 0; p < pieces.size(); ++p)
+    triangulation.set_manifold(p, PieceManifold(pieces[p]));
+  for (const auto& cell : triangulation.active_cell_iterators())
+    for (const auto& face : cell->face_iterators()) {
+      if (!face->at_boundary()) continue;
+      const meshes::Vector2 middle(face->center()[0], face->center()[1]);
+      double least = std::numeric_limits<double>::infinity();
+      for (unsigned p = 0; p < pieces.size(); ++p) {
+        if (pieces[p].surface() != surface_of(face->boundary_id())) continue;
+        const double distance = (pieces[p].at(pieces[p].nearest(middle)) - middle).norm();
+        if (distance >= least) continue;
+        least = distance;
+        face->set_manifold_id(p);
+      }
+    }
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& rule) {
   throw meshes::InvalidInput(
       {"mesh", file.string(), rule, "make it anew: delete it and run again"});
@@ -85,10 +137,15 @@ void read_mesh(const std::filesystem::path& file, Triangulation<dim>& triangulat
 
 template <int dim>
 std::unique_ptr<Body<dim>> read_tip(MPI_Comm communicator, const std::filesystem::path& mesh_file,
-                                    int degree, double tilt) {
+                                    int degree, double tilt, const meshes::Geometry& geometry) {
   auto body = std::make_unique<Body<dim>>(communicator, degree);
   Triangulation<dim>& triangulation = body->triangulation;
   read_mesh(mesh_file, triangulation);
+  if constexpr (dim == 2)
+    if (!geometry.is_dome()) {
+      follow_profile(geometry, triangulation);
+      return body;
+    }
   constexpr dealii::types::manifold_id sphere = 1, cylinder = 2;
   for (const auto& cell : triangulation.cell_iterators())
     cell->set_all_manifold_ids(cell->center()[dim - 1] > 0.0 ? sphere : cylinder);
@@ -222,7 +279,7 @@ std::vector<SurfaceNode> outer_nodes(const Body<dim>& tip) {
 
 #define FINGERTIP_INSTANTIATE(dim)                                                          \
   template std::unique_ptr<Body<dim>> read_tip(MPI_Comm, const std::filesystem::path&, int, \
-                                               double);                                     \
+                                               double, const meshes::Geometry&);            \
   template std::vector<FixedComponent> tip_supports<dim>();                                 \
   template std::vector<SurfaceNode> outer_nodes(const Body<dim>&);                          \
   template Vector outer_area(const Body<dim>&, const Vector*);

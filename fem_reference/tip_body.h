@@ -13,12 +13,12 @@ namespace fingertip::fem_reference {
 /// Reads the gmsh mesh of a tip (dim = 3: quarter or half; dim = 2: the meridian) and turns it
 /// about y by -`tilt` [rad], so that the plane's normal becomes the z axis whatever the tilt: n =
 /// (-sin tilt, 0, -cos tilt) in rod axes is (0, 0, -1) in plane axes, and t1 is their x axis.
-/// Refined cells keep to the true sphere and cylinder. Collective over `communicator`. Throws
-/// InvalidInput when the mesh cannot be read, is damaged or has inverted elements. A meridian takes
-/// no tilt.
+/// Refined cells keep to the true sphere and cylinder, or to the pieces of `geometry`'s profile.
+/// Collective over `communicator`. Throws InvalidInput when the mesh cannot be read, is damaged or
+/// has inverted elements. A meridian takes no tilt.
 template <int dim>
 std::unique_ptr<Body<dim>> read_tip(MPI_Comm communicator, const std::filesystem::path& mesh_file,
-                                    int degree, double tilt);
+                                    int degree, double tilt, const meshes::Geometry& geometry = {});
 
 /// What holds the tip: all of `bond`, and on the symmetry planes that the mesh has (the axis, of a
 /// meridian) the component across them.
@@ -26,8 +26,8 @@ template <int dim>
 std::vector<FixedComponent> tip_supports();
 
 /// The nodes of the outer surface that are free to move along z, sorted by position. The pole of a
-/// meridian is left out: it has no area, Gauss-Lobatto quadrature gives it no force, and that of an
-/// even pressure on quadratic elements vanishes there.
+/// meridian has no area: Gauss-Lobatto quadrature gives it no force, and that of an even pressure
+/// on quadratic elements vanishes there.
 template <int dim>
 std::vector<SurfaceNode> outer_nodes(const Body<dim>& tip);
 

@@ -37,7 +37,7 @@ template <int dim>
 std::unique_ptr<Body<dim>> read_body(const ReferenceJob& job,
                                      const std::filesystem::path& mesh_file,
                                      const std::filesystem::path& adapted) {
-  auto body = read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, 0.0);
+  auto body = read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, 0.0, job.geometry);
   if (!adapted.empty()) body->triangulation.load((adapted / "mesh").string());
   body->number(tip_supports<dim>());
   return body;
@@ -86,7 +86,7 @@ class TipInMotion final : public TransientModel {
                solver_kind == LinearSolver::multigrid) {
     ContactUnknowns candidates = contact_unknowns(
         outer_nodes(*body), job.protocol.contact != meshes::ContactMode::frictionless,
-        job.geometry.tip_radius - bulge * job.protocol.samples.back());
+        job.geometry.pole() - bulge * job.protocol.samples.back());
     solver = make_solver(candidates.unknowns);
     contact = std::make_unique<PlaneContact>(std::move(candidates), job.protocol.contact, pose(0.0),
                                              job.protocol.friction, job.rubber.shear_modulus);
@@ -182,7 +182,7 @@ class TipInMotion final : public TransientModel {
     return make_condensed_solver(*body, unknowns);
   }
 
-  PlanePose pose(double indentation) const { return {job.geometry.tip_radius - indentation, 0.0}; }
+  PlanePose pose(double indentation) const { return {job.geometry.pole() - indentation, 0.0}; }
 
   void record(double indentation, double work, double dissipated) {
     double push = 0.0;

@@ -1,9 +1,12 @@
 #include "meshes/cubic_grid.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "meshes/files.h"
+#include "meshes/meridian.h"
 
 namespace fingertip::meshes {
 
@@ -12,11 +15,8 @@ namespace {
 void check(const Geometry& geometry, double spacing, const Vector3& offset,
            const Eigen::Matrix3d& axes) {
   std::vector<Violation> found;
-  if (!(std::isfinite(spacing) && spacing > 0.0 && spacing <= 0.5 * geometry.thickness())) {
-    found.push_back({"lattice.spacing", to_text(spacing) + " m",
-                     "the spacing must be positive and at most (R - r)/2, two cells through the "
-                     "rubber",
-                     "choose a finer lattice"});
+  if (!(std::isfinite(spacing) && spacing > 0.0 && spacing <= geometry.coarsest_spacing())) {
+    found.push_back(too_coarse(geometry, spacing));
   }
   if (!(offset.allFinite() && offset.cwiseAbs().maxCoeff() <= 1.0)) {
     found.push_back({"lattice.offset", "",
@@ -34,9 +34,11 @@ void check(const Geometry& geometry, double spacing, const Vector3& offset,
 
 /// How far the tip reaches from the centre (0, 0, -L) of its end along the unit vector d [m].
 double reach(const Geometry& geometry, const Vector3& d) {
+  const double across = geometry.tip_radius * std::hypot(d.x(), d.y());
+  if (!geometry.is_dome())
+    return across + (geometry.pole() - geometry.lowest()) * std::max(0.0, d.z());
   // The farthest point is on the hemisphere if d points upward, else on the rim of the end.
-  return d.z() >= 0.0 ? geometry.tip_radius + geometry.sleeve_length * d.z()
-                      : geometry.tip_radius * std::hypot(d.x(), d.y());
+  return d.z() >= 0.0 ? geometry.tip_radius + geometry.sleeve_length * d.z() : across;
 }
 
 }  // namespace
@@ -57,18 +59,26 @@ CubicGrid covering_grid(const Geometry& geometry, double spacing, const Vector3&
     below[d] = lower;
     grid.size[std::size_t(d)] = lower + layers(axes.col(d)) + 1;
   }
-  const Vector3 end_centre(0.0, 0.0, -geometry.sleeve_length);
+  const Vector3 end_centre(0.0, 0.0, geometry.lowest());
   grid.origin = spacing * (offset - below) + axes.transpose() * end_centre;
   return grid;
 }
 
 std::vector<std::uint8_t> sample_particles(const Geometry& geometry, const CubicGrid& grid) {
   const double tolerance = 1e-9 * geometry.tip_radius;
+  std::optional<Meridian> meridian;
+  if (!geometry.is_dome()) meridian.emplace(geometry);
+  const auto contains = [&](const Vector3& w) {
+    if (!meridian) return geometry.contains(w, tolerance);
+    // As of the dome: what lies on the surface belongs to it, but not on the bond.
+    return meridian->signed_distance(w) <= tolerance &&
+           meridian->nearest(ProfileSurface::bond, w).distance > tolerance;
+  };
   std::vector<std::uint8_t> inside(grid.points(), 0);
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
-        inside[grid.index(i, j, k)] = geometry.contains(grid.position(i, j, k), tolerance);
+        inside[grid.index(i, j, k)] = contains(grid.position(i, j, k));
       }
     }
   }

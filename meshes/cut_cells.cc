@@ -6,55 +6,23 @@
 #include <vector>
 
 #include "meshes/files.h"
+#include "meshes/revolved_cells.h"
+#include "meshes/smoothed_gauss.h"
 
-// A cell's integral is three nested ones. Along the innermost direction a line meets the boundary
-// (spheres, cylinders, planes) where quadratic equations say, so that integral is exact. Along the
-// other two the integrand is smooth except where the way the boundary passes through the cell
-// changes: at the cell's own edges and faces, at silhouettes, and at the circles in which the
-// quadrics meet. All these events are crossings of straight lines with the boundary, too, and Gauss
-// points are laid between them. Dimension reduction: Saye, SIAM J. Sci. Comput. 37 (2015) A993.
+// On a grid along the axis: revolved_cells.h. On a turned one, of the dome, a cell's integral is
+// three nested ones. Along the innermost direction a line meets the boundary (spheres, cylinders,
+// planes) where quadratic equations say, so that integral is exact. Along the other two the
+// integrand is smooth except where the way the boundary passes through the cell changes: at the
+// cell's own edges and faces, at silhouettes, and at the circles in which the quadrics meet. All
+// these events are crossings of straight lines with the boundary, too, and Gauss points are laid
+// between them. Dimension reduction: Saye, SIAM J. Sci. Comput. 37 (2015) A993.
 
 namespace fingertip::meshes {
 
 namespace {
 
-/// A point and its weight of a quadrature on [0, 1].
-struct Node {
-  double at;
-  double weight;
-};
-
-constexpr int nodes = 10;             ///< with 7 the error is ten to a thousand times larger
 constexpr double same_event = 1e-10;  ///< events closer than this [cells] count as one
 constexpr double parallel = 1e-12;    ///< squared sine below which directions count as parallel
-
-/// Value and derivative of the Legendre polynomial of degree `nodes`.
-std::array<double, 2> legendre(double x) {
-  double previous = 1.0, value = x;
-  for (int n = 2; n <= nodes; ++n) {
-    const double next = ((2 * n - 1) * x * value - (n - 1) * previous) / n;
-    previous = value;
-    value = next;
-  }
-  return {value, nodes * (x * value - previous) / (x * x - 1.0)};
-}
-
-/// Gauss's rule in s with x = s²(3 - 2s): square roots at either end of the interval, which stem
-/// from silhouettes, become smooth in s. Exact for x⁰ and x¹.
-std::array<Node, nodes> smoothed_gauss_rule() {
-  std::array<Node, nodes> rule;
-  for (int i = 0; i < nodes; ++i) {
-    double x = std::cos(std::numbers::pi * (i + 0.75) / (nodes + 0.5));
-    for (int newton = 0; newton < 10; ++newton) {
-      const auto [value, slope] = legendre(x);
-      x -= value / slope;
-    }
-    const double slope = legendre(x)[1], s = 0.5 * (1.0 - x);
-    const double weight = 1.0 / ((1.0 - x * x) * slope * slope);
-    rule[std::size_t(i)] = {s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) * weight};
-  }
-  return rule;
-}
 
 /// The points at + t along.
 struct Line {
@@ -258,7 +226,9 @@ void Cell::find_slices() {
 std::array<double, 2> Cell::line_moments(const Vector3& at) const {
   Crossings cuts = crossings({at, inner_});
   cuts.push_back(1.0);
-  std::sort(cuts.begin(), cuts.end());
+  // By insertion: they are few, and GCC 12 warns of std::sort's on so short an array.
+  for (double* next = cuts.begin(); next != cuts.end(); ++next)
+    std::rotate(std::upper_bound(cuts.begin(), next, *next), next, next + 1);
   std::array<double, 2> sum{0.0, 0.0};
   double from = 0.0;
   for (const double to : cuts) {
@@ -274,14 +244,13 @@ std::array<double, 2> Cell::line_moments(const Vector3& at) const {
 
 /// Integrals of s^j t^k, [j + 2 k], over the rubber on at + s middle + t inner.
 std::array<double, 4> Cell::slice_moments(const Vector3& at) {
-  static const auto rule = smoothed_gauss_rule();
   strips_.clear();
   add_slice_events(at, middle_, inner_, strips_);
   complete(strips_);
   std::array<double, 4> sum{};
   for (std::size_t e = 1; e < strips_.size(); ++e) {
     const double width = strips_[e] - strips_[e - 1];
-    for (const Node& node : rule) {
+    for (const QuadratureNode& node : smoothed_gauss_rule()) {
       const double s = strips_[e - 1] + width * node.at, weight = width * node.weight;
       const auto line = line_moments(at + s * middle_);
       for (std::size_t k = 0; k < 2; ++k) {
@@ -294,12 +263,11 @@ std::array<double, 4> Cell::slice_moments(const Vector3& at) {
 }
 
 std::array<double, 8> Cell::moments() {
-  static const auto rule = smoothed_gauss_rule();
   find_slices();
   std::array<double, 8> sum{};
   for (std::size_t e = 1; e < slices_.size(); ++e) {
     const double width = slices_[e] - slices_[e - 1];
-    for (const Node& node : rule) {
+    for (const QuadratureNode& node : smoothed_gauss_rule()) {
       const double x = slices_[e - 1] + width * node.at, weight = width * node.weight;
       const auto slice = slice_moments(corner_ + x * outer_);
       for (std::size_t jk = 0; jk < 4; ++jk) {
@@ -312,8 +280,12 @@ std::array<double, 8> Cell::moments() {
   return sum;
 }
 
-void check_cells(const Geometry& geometry, double smallest_fraction) {
+void check_cells(const Geometry& geometry, const CubicGrid& grid, double smallest_fraction) {
   auto found = geometry.violations();
+  if (!geometry.is_dome() && !along_axes(grid)) {
+    found.push_back({"lattice.rotation", "", "only the dome can be cut by a turned grid",
+                     "leave the lattice unturned, or take geometry.shape = \"dome\""});
+  }
   if (!(smallest_fraction >= 0.0 && smallest_fraction < 1.0)) {
     found.push_back({"smallest_fraction", to_text(smallest_fraction),
                      "the smallest share of rubber of a kept cell must lie in [0, 1)",
@@ -326,21 +298,27 @@ void check_cells(const Geometry& geometry, double smallest_fraction) {
 
 std::vector<CutCell> cut_cells(const Geometry& geometry, const CubicGrid& grid,
                                double smallest_fraction) {
-  check_cells(geometry, smallest_fraction);
+  check_cells(geometry, grid, smallest_fraction);
   const std::array<double, 8> cube{1.0, 0.5, 0.5, 0.25, 0.5, 0.25, 0.25, 0.125};
   const double reach = 0.5 * std::numbers::sqrt3 * grid.spacing;
   const double round_off = 1e-12;
   const Vector3 to_centre = 0.5 * grid.spacing * grid.axes.rowwise().sum();
+  const Meridian meridian(geometry);
+  const bool along = along_axes(grid);
   std::vector<CutCell> cells;
   for (int k = 0; k + 1 < grid.size[2]; ++k) {
     for (int j = 0; j + 1 < grid.size[1]; ++j) {
       for (int i = 0; i + 1 < grid.size[0]; ++i) {
-        const double distance = geometry.signed_distance(grid.position(i, j, k) + to_centre);
+        const double distance =
+            meridian.signed_distance(Vector3(grid.position(i, j, k) + to_centre));
         if (distance > reach) continue;
         CutCell cell{{i, j, k}, cube};
         if (distance > -reach) {
-          const auto moments = Cell(geometry, grid, i, j, k).moments();
+          auto moments = along ? revolved_moments(meridian, grid, i, j, k)
+                               : Cell(geometry, grid, i, j, k).moments();
           if (moments[0] <= smallest_fraction) continue;
+          for (std::size_t m = 0; m < moments.size(); ++m)
+            moments[m] = std::clamp(moments[m], 0.0, cube[m]);  // but for round-off
           if (moments[0] < 1.0 - round_off) cell.moments = moments;
         }
         cells.push_back(cell);

@@ -19,11 +19,24 @@ concept Fields = std::same_as<std::remove_const_t<T>, Settings>;
 /// The bindings name every member, so that a new one that is not visited does not compile.
 template <Fields<Geometry> T>
 void visit_fields(T& geometry, auto&& visit) {
-  auto& [tip_radius, rod_radius, sleeve_length, rod_length] = geometry;
+  auto& [tip_radius, rod_radius, sleeve_length, rod_length, profile] = geometry;
   visit("tip_radius", tip_radius, "m");
   visit("rod_radius", rod_radius, "m");
   visit("sleeve_length", sleeve_length, "m");
   visit("rod_length", rod_length, "m");
+  // Files of a dome need not name what it has not.
+  if (!std::is_const_v<T> || !profile.empty()) visit("profile", profile, "");
+}
+
+template <Fields<ProfileCorner> T>
+void visit_fields(T& corner, auto&& visit) {
+  auto& [r, z, surface, curve, centre_r, centre_z] = corner;
+  visit("r", r, "m");
+  visit("z", z, "m");
+  visit("surface", surface, "");
+  visit("curve", curve, "");
+  visit("centre_r", centre_r, "m");
+  visit("centre_z", centre_z, "m");
 }
 
 template <Fields<Rubber> T>
@@ -55,6 +68,13 @@ void visit_fields(T& protocol, auto&& visit) {
 /// All values of an enumeration; name() tells how each is written.
 constexpr auto values(ContactMode) {
   return std::array{ContactMode::stick, ContactMode::frictionless, ContactMode::coulomb};
+}
+constexpr auto values(ProfileSurface) {
+  return std::array{ProfileSurface::contact, ProfileSurface::bond, ProfileSurface::free,
+                    ProfileSurface::axis};
+}
+constexpr auto values(ProfileCurve) {
+  return std::array{ProfileCurve::straight, ProfileCurve::arc, ProfileCurve::spline};
 }
 constexpr auto values(DriveMode) {
   return std::array{DriveMode::pid, DriveMode::quasi_static, DriveMode::equilibrium};

@@ -29,6 +29,13 @@ concept HasFields = requires(T& settings) {
   visit_fields(settings, [](const char*, auto&, const char*) {});
 };
 
+/// Whether `T` is a list of such structs.
+template <typename T>
+concept HasListedFields = requires {
+  typename T::value_type;
+}
+&&HasFields<typename T::value_type>;
+
 template <typename Value>
 inline constexpr bool is_optional = false;
 template <typename Value>

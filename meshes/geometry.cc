@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "meshes/files.h"
+#include "meshes/meridian.h"
 
 namespace fingertip::meshes {
 
@@ -17,8 +19,56 @@ std::string_view name(Surface surface) {
   return "";
 }
 
+Geometry Geometry::of_profile(std::vector<ProfileCorner> corners, std::optional<double> endpoint) {
+  Geometry geometry;
+  geometry.profile = std::move(corners);
+  const Meridian meridian(geometry);
+  geometry.tip_radius = meridian.largest_radius();
+  geometry.rod_radius = 0.0;
+  for (const MeridianPiece& piece : meridian.pieces())
+    if (piece.surface() == ProfileSurface::bond)
+      geometry.rod_radius = std::max({geometry.rod_radius, piece.from().x(), piece.to().x()});
+  geometry.sleeve_length = -meridian.lowest();
+  geometry.rod_length = -endpoint.value_or(meridian.lowest());
+  return geometry;
+}
+
+double Geometry::pole() const {
+  if (is_dome()) return tip_radius;
+  double top = lowest();
+  for (const ProfileCorner& corner : profile)
+    if (corner.r == 0.0) top = std::max(top, corner.z);
+  return top;
+}
+
+double Geometry::reach(double tilt) const {
+  return is_dome() ? tip_radius : Meridian(*this).reach(tilt);
+}
+
+double Geometry::thickness() const {
+  if (is_dome()) return tip_radius - rod_radius;
+  double held = lowest();
+  for (std::size_t i = 0; i < profile.size(); ++i)
+    if (profile[i].surface == ProfileSurface::bond)
+      held = std::max({held, profile[i].z, profile[(i + 1) % profile.size()].z});
+  return pole() - held;
+}
+
+double Geometry::coarsest_spacing() const {
+  // A wall is known to round-off.
+  return is_dome() ? 0.5 * thickness() : 0.25 * (1.0 + 1e-9) * Meridian(*this).wall();
+}
+
 std::vector<Violation> Geometry::violations() const {
   std::vector<Violation> found;
+  if (!is_dome()) {
+    try {
+      const Meridian meridian(*this);
+    } catch (const InvalidInput& error) {
+      found = error.violations();
+    }
+    return found;
+  }
   const auto require = [&](bool holds, const char* key, double value, const char* rule,
                            const char* remedy) {
     if (!holds) found.push_back({key, to_text(value) + " m", rule, remedy});
@@ -39,6 +89,18 @@ std::vector<Violation> Geometry::violations() const {
           "l must be at least sleeve_length L, for the sleeve sits on the rod",
           "lengthen the rod or shorten the sleeve");
   return found;
+}
+
+Violation too_coarse(const Geometry& geometry, double spacing) {
+  if (geometry.is_dome())
+    return {"lattice.spacing", to_text(spacing) + " m",
+            "the spacing must be positive and at most (R - r)/2, two cells through the rubber",
+            "choose a finer lattice"};
+  const double coarsest = geometry.coarsest_spacing();
+  return {"lattice.spacing", to_text(spacing) + " m",
+          "the spacing must be positive and at most a quarter of the thinnest wall, " +
+              to_text(4.0 * coarsest) + " m",
+          "choose at most " + to_text(coarsest) + " m"};
 }
 
 double Geometry::radial_distance(const Vector3& w) {
@@ -62,6 +124,7 @@ bool Geometry::contains(const Vector3& w, double tolerance) const {
 }
 
 double Geometry::tip_volume() const {
+  if (!is_dome()) return Meridian(*this).volume();
   const auto cube = [](double x) { return x * x * x; };
   const auto square = [](double x) { return x * x; };
   return std::numbers::pi * (2.0 / 3.0 * (cube(tip_radius) - cube(rod_radius)) +

@@ -1,12 +1,14 @@
-/// The deformable finger of Reznik & Laugier (1996), Fig. 1: a rigid rod (cylinder and
-/// hemisphere of radius r) inside a rubber tip (hemispherical shell and sleeve, outer radius R).
+/// The deformable finger: the dome of Reznik & Laugier (1996), Fig. 1, or a body of revolution.
 ///
-/// Frame: the common centre of both hemispheres is the origin, the axis is z, the pole of the tip
-/// is (0, 0, R), the sleeve ends at z = -L and the rod's endpoint, held by the robot, is
-/// (0, 0, -l).
+/// The dome is a rigid rod (cylinder and hemisphere of radius r) inside a rubber tip (hemispherical
+/// shell and sleeve, outer radius R). Frame: the common centre of both hemispheres is the origin,
+/// the axis is z, the pole of the tip is (0, 0, R), the sleeve ends at z = -L and the rod's
+/// endpoint, held by the robot, is (0, 0, -l). A profile has its own heights; its axis is z, too,
+/// and its pole, the highest point, touches first.
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -25,12 +27,46 @@ enum class Surface {
 
 std::string_view name(Surface surface);
 
-/// Lengths in metres.
+/// What a piece of a profile is.
+enum class ProfileSurface {
+  contact,  ///< may touch
+  bond,     ///< held rigidly by the hand
+  free,
+  axis,  ///< r = 0, no surface
+};
+std::string_view name(ProfileSurface surface);
+
+enum class ProfileCurve {
+  straight,
+  arc,     ///< of a circle, less than half of it
+  spline,  ///< consecutive pieces of one surface are one C2 cubic through their corners
+};
+std::string_view name(ProfileCurve curve);
+
+/// A corner of a profile's closed meridian [m], and the piece from it to the next corner.
+struct ProfileCorner {
+  double r = 0.0, z = 0.0;
+  ProfileSurface surface = ProfileSurface::free;
+  ProfileCurve curve = ProfileCurve::straight;
+  double centre_r = 0.0, centre_z = 0.0;  ///< of an arc
+};
+
+/// Lengths in metres. Those of a profile follow from it: `of_profile`.
 struct Geometry {
-  double tip_radius = 0.010;     ///< R, outer radius of the rubber [m]
-  double rod_radius = 0.005;     ///< r, radius of the rod [m], 0 < r < R
-  double sleeve_length = 0.015;  ///< L, length of the sleeve below the hemisphere [m], L >= 0
-  double rod_length = 0.030;     ///< l, distance from the centre to the rod's endpoint [m], l >= L
+  double tip_radius = 0.010;  ///< R, outer radius of the rubber; of a profile its largest [m]
+  double rod_radius =
+      0.005;  ///< r, radius of the rod, 0 < r < R; of a profile that of the bond [m]
+  /// L, length of the sleeve below the hemisphere, L >= 0; minus a profile's lowest height [m]
+  double sleeve_length = 0.015;
+  /// l, distance from the centre to the rod's endpoint, l >= L; minus a profile's endpoint [m]
+  double rod_length = 0.030;
+  std::vector<ProfileCorner> profile = {};  ///< empty: the dome
+
+  /// The body of revolution with this meridian; force and torque are told at the height `endpoint`
+  /// of the axis, by default the lowest. Throws InvalidInput (Meridian).
+  static Geometry of_profile(std::vector<ProfileCorner> corners,
+                             std::optional<double> endpoint = std::nullopt);
+  bool is_dome() const { return profile.empty(); }
 
   /// Every rule this geometry breaks; empty when it is valid.
   std::vector<Violation> violations() const;
@@ -38,22 +74,37 @@ struct Geometry {
   /// Distance from the axis of the tip's core: |w| above the equator, sqrt(x²+y²) below.
   static double radial_distance(const Vector3& w);
 
-  /// Signed distance to the tip's boundary [m]: negative inside the rubber, exact everywhere.
+  /// Of the dome: signed distance to the tip's boundary [m], negative inside the rubber, exact
+  /// everywhere. Of any shape: Meridian.
   double signed_distance(const Vector3& w) const;
 
-  /// Membership in the paper's set P (section II.C): r < |w| <= R for z >= 0,
+  /// Of the dome. Membership in the paper's set P (section II.C): r < |w| <= R for z >= 0,
   /// r < sqrt(x²+y²) <= R for -L <= z < 0. Points within `tolerance` [m] of a surface count as
   /// lying on it, so that grid points meant to be on the boundary are not lost to round-off.
   bool contains(const Vector3& w, double tolerance = 0.0) const;
 
-  /// Volume of the rubber, (R³ - r³) 2π/3 + (R² - r²) π L [m³] (paper, section II.C).
+  /// Volume of the rubber, of the dome (R³ - r³) 2π/3 + (R² - r²) π L [m³] (paper, section II.C).
   double tip_volume() const;
 
-  /// Thickness of the rubber layer, R - r [m].
-  double thickness() const { return tip_radius - rod_radius; }
+  /// Height of the pole, which touches first [m].
+  double pole() const;
+  /// How far the surface that may touch reaches along the axis turned by `tilt` [rad], from the
+  /// origin [m]: R of a dome, the pole of a profile at tilt 0.
+  double reach(double tilt) const;
+  /// Lowest height of the rubber [m].
+  double lowest() const { return -sleeve_length; }
+  /// Rubber between the pole and what is held: R - r, of a profile the height of the pole over the
+  /// highest corner of the bond [m].
+  double thickness() const;
+  /// Coarsest grid [m]: two cells through the dome's rubber, four through a profile's thinnest
+  /// wall.
+  double coarsest_spacing() const;
 
   /// The rod's endpoint (0, 0, -l) [m], where the robot holds it and force and torque are felt.
   Vector3 rod_endpoint() const { return {0.0, 0.0, -rod_length}; }
 };
+
+/// What to say of a grid coarser than coarsest_spacing().
+Violation too_coarse(const Geometry& geometry, double spacing);
 
 }  // namespace fingertip::meshes

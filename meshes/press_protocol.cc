@@ -65,7 +65,9 @@ std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const
   };
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   require(positive(depth) && depth < geometry.thickness(), "press.depth", to_text(depth) + " m",
-          "the depth must lie between 0 and the rubber's thickness R - r",
+          geometry.is_dome()
+              ? "the depth must lie between 0 and the rubber's thickness R - r"
+              : "the depth must lie between 0 and the height of the pole over the bond",
           "press less deep, or make the rubber thicker");
   require(positive(speed), "press.speed", to_text(speed) + " m/s",
           "the speed must be finite and positive", "give the approach speed");

@@ -1,10 +1,13 @@
 #include "meshes/surface_points.h"
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "meshes/files.h"
+#include "meshes/meridian.h"
 
 namespace fingertip::meshes {
 
@@ -39,41 +42,58 @@ void add_ring(const Ring& ring, double spacing, std::vector<SurfacePoint>& point
   }
 }
 
-/// Bands of equal width from the pole to the equator. Area is uniform in z (Archimedes), so points
-/// at the mean height of their band integrate z, and with it the normal, exactly.
-void add_hemisphere(double radius, double outward, double spacing,
-                    std::vector<SurfacePoint>& points) {
-  const int bands = pieces(0.5 * pi * radius, spacing);
-  const auto height = [&](int i) { return radius * std::cos(0.5 * pi * i / bands); };
-  for (int i = 0; i < bands; ++i) {
-    const double top = height(i), bottom = i + 1 < bands ? height(i + 1) : 0.0;
-    const double z = 0.5 * (top + bottom);
-    const double across = std::sqrt((radius - z) * (radius + z));
-    add_ring({across, z, 2.0 * pi * radius * (top - bottom), outward * across / radius,
-              outward * z / radius},
-             spacing, points);
+ProfileSurface piece_of(Surface surface) {
+  switch (surface) {
+    case Surface::outer: return ProfileSurface::contact;
+    case Surface::bond: return ProfileSurface::bond;
+    case Surface::end: return ProfileSurface::free;
   }
+  return ProfileSurface::axis;
 }
 
-void add_cylinder(double radius, double length, double outward, double spacing,
-                  std::vector<SurfacePoint>& points) {
-  const int bands = pieces(length, spacing);
-  for (int i = 0; i < bands; ++i) {
-    const double width = length / bands;
-    add_ring({radius, -(i + 0.5) * width, 2.0 * pi * radius * width, outward, 0.0}, spacing,
-             points);
+/// Of a band's points: where a piece has the band's mean height (arcs: area is uniform in z where
+/// the centre lies on the axis, and the normal follows z) or its mean r² (lines), a spline its
+/// middle by area. Between the parameters a and b.
+double mean_place(const MeridianPiece& piece, double a, double b) {
+  const double whole = piece.area(a, b);
+  const auto mean = [&](auto&& value) {
+    return 2.0 * pi *
+           boost::math::quadrature::gauss<double, 15>::integrate(
+               [&](double t) { return value(t) * piece.at(t).x() * piece.slope(t).norm(); }, a, b) /
+           whole;
+  };
+  switch (piece.curve()) {
+    case ProfileCurve::straight: {
+      const double from = piece.from().x(), change = piece.to().x() - from;
+      if (std::abs(change) < 1e-9 * piece.length()) return 0.5 * (a + b);
+      return (std::sqrt(mean([&](double t) { return std::pow(piece.at(t).x(), 2); })) - from) /
+             change;
+    }
+    case ProfileCurve::arc: {
+      const double z = mean([&](double t) { return piece.at(t).y(); });
+      const double before = piece.at(a).y() - z, after = piece.at(b).y() - z;
+      if (before * after >= 0.0) break;  // around its top or bottom
+      std::uintmax_t rounds = 100;
+      const auto [low, high] = boost::math::tools::toms748_solve(
+          [&](double t) { return piece.at(t).y() - z; }, a, b, before, after,
+          boost::math::tools::eps_tolerance<double>(52), rounds);
+      return 0.5 * (low + high);
+    }
+    case ProfileCurve::spline: break;
   }
+  return mean([](double t) { return t; });
 }
 
-/// Points at the root mean square radius of their band integrate x² + y² exactly.
-void add_annulus(const Geometry& geometry, double spacing, std::vector<SurfacePoint>& points) {
-  const int bands = pieces(geometry.thickness(), spacing);
-  const double width = geometry.thickness() / bands;
+/// Bands of equal length.
+void add_piece(const MeridianPiece& piece, bool backward, double spacing,
+               std::vector<SurfacePoint>& points) {
+  const int bands = pieces(piece.length() * (1.0 - 1e-12), spacing);
   for (int i = 0; i < bands; ++i) {
-    const double inner = geometry.rod_radius + i * width, outer = inner + width;
-    add_ring({std::sqrt(0.5 * (inner * inner + outer * outer)), -geometry.sleeve_length,
-              pi * (outer - inner) * (outer + inner), 0.0, -1.0},
-             spacing, points);
+    const int band = backward ? bands - 1 - i : i;
+    const double a = double(band) / bands, b = double(band + 1) / bands;
+    const double t = mean_place(piece, a, b);
+    const Vector2 at = piece.at(t), normal = piece.normal(t);
+    add_ring({at.x(), at.y(), piece.area(a, b), normal.x(), normal.y()}, spacing, points);
   }
 }
 
@@ -98,27 +118,19 @@ std::vector<SurfacePoint> surface_points(const Geometry& geometry, Surface surfa
                                          double spacing) {
   check(geometry, spacing);
   std::vector<SurfacePoint> points;
-  if (surface == Surface::end) {
-    add_annulus(geometry, spacing, points);
-  } else {
-    const bool outer = surface == Surface::outer;
-    const double radius = outer ? geometry.tip_radius : geometry.rod_radius;
-    const double outward = outer ? 1.0 : -1.0;
-    add_hemisphere(radius, outward, spacing, points);
-    add_cylinder(radius, geometry.sleeve_length, outward, spacing, points);
+  const std::vector<MeridianPiece> all = Meridian(geometry).pieces();
+  // Counter-clockwise, `contact` ends at the pole.
+  const bool backward = surface == Surface::outer;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const MeridianPiece& piece = all[backward ? all.size() - 1 - i : i];
+    if (piece.surface() == piece_of(surface)) add_piece(piece, backward, spacing, points);
   }
   return points;
 }
 
 double surface_area(const Geometry& geometry, Surface surface) {
   check(geometry);
-  const double outer = geometry.tip_radius, rod = geometry.rod_radius;
-  switch (surface) {
-    case Surface::outer: return 2.0 * pi * outer * (outer + geometry.sleeve_length);
-    case Surface::bond: return 2.0 * pi * rod * (rod + geometry.sleeve_length);
-    case Surface::end: return pi * (outer - rod) * (outer + rod);
-  }
-  return 0.0;
+  return Meridian(geometry).area(piece_of(surface));
 }
 
 }  // namespace fingertip::meshes

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "meshes/meridian_mesh.h"
+
 namespace fingertip::meshes {
 namespace {
 
@@ -309,56 +311,14 @@ MeshQuality measure() {
   return quality;
 }
 
-/// Two transfinite blocks, or one without a sleeve.
-void build_meridian(const Geometry& geometry, const TipMeshOptions& options) {
-  namespace geo = gmsh::model::geo;
-  const double r = geometry.rod_radius, R = geometry.tip_radius, end = -geometry.sleeve_length;
-  const int centre = geo::addPoint(0, 0, 0);
-  std::vector<std::array<int, 2>> points{{geo::addPoint(0, r, 0), geo::addPoint(0, R, 0)},
-                                         {geo::addPoint(r, 0, 0), geo::addPoint(R, 0, 0)}};
-  if (end < 0.0) points.push_back({geo::addPoint(r, end, 0), geo::addPoint(R, end, 0)});
-  std::vector<int> across, faces;
-  std::array<std::vector<int>, 2> along;
-  for (const auto& [inside, outside] : points) {
-    across.push_back(geo::addLine(inside, outside));
-    geo::mesh::setTransfiniteCurve(across.back(), options.radial_elements + 1, "Bump",
-                                   1.0 / options.radial_grading);
-  }
-  const int dome = options.cap_elements + options.ring_elements;
-  for (std::size_t layer = 0; layer < 2; ++layer) {
-    along[layer].push_back(geo::addCircleArc(points[0][layer], centre, points[1][layer]));
-    geo::mesh::setTransfiniteCurve(along[layer].back(), dome + 1, "Progression",
-                                   std::pow(options.cap_grading, 1.0 / (dome - 1)));
-    if (points.size() == 2) continue;
-    along[layer].push_back(geo::addLine(points[1][layer], points[2][layer]));
-    geo::mesh::setTransfiniteCurve(along[layer].back(), options.sleeve_elements + 1);
-  }
-  for (std::size_t block = 0; block + 1 < points.size(); ++block) {
-    // Counter-clockwise in (r, z), so that Jacobians are positive.
-    const int loop =
-        geo::addCurveLoop({-across[block], along[0][block], across[block + 1], -along[1][block]});
-    faces.push_back(geo::addPlaneSurface({loop}));
-    geo::mesh::setTransfiniteSurface(faces.back());
-    geo::mesh::setRecombine(2, faces.back());
-  }
-  geo::synchronize();
-  const auto group = [](int dimension, const std::vector<int>& tags, PhysicalTag tag,
-                        const char* group_name) {
-    gmsh::model::addPhysicalGroup(dimension, tags, int(tag));
-    gmsh::model::setPhysicalName(dimension, int(tag), group_name);
-  };
-  group(2, faces, PhysicalTag::tip, "tip");
-  group(1, along[1], PhysicalTag::outer, "outer");
-  group(1, along[0], PhysicalTag::bond, "bond");
-  group(1, {across.back()}, PhysicalTag::end, "end");
-  group(1, {across.front()}, PhysicalTag::symmetry_x, "symmetry_x");
-}
-
 MeshQuality mesh_tip(const Geometry& geometry, const TipMeshOptions& options,
                      const std::filesystem::path& file) {
   const GmshSession session;
   if (options.sector == Sector::meridian) {
-    build_meridian(geometry, options);
+    if (geometry.is_dome())
+      build_dome_meridian(geometry, options);
+    else
+      build_meridian(geometry, options);
     gmsh::model::mesh::generate(2);
   } else {
     const bool sleeve = geometry.sleeve_length > 0.0;

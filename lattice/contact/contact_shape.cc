@@ -29,7 +29,7 @@ std::vector<std::vector<std::uint32_t>> points_by_cell(const std::vector<Embedde
 /// Lane `lane` of a group becomes this point, or if it only fills up one that is tied to nothing.
 void set_point(kernel::ContactGroup& group, std::size_t lane, const EmbeddedPoint& tie,
                const Eigen::Matrix3d& to_grid, bool fills_up) {
-  const Vector3 rest = to_grid * tie.rest, facing = tie.area * (to_grid * outer_normal(tie.rest));
+  const Vector3 rest = to_grid * tie.rest, facing = tie.area * (to_grid * tie.normal);
   double size = 0.0;
   for (const double weight : tie.weights) size += std::abs(weight);
   group.stiffness.at[lane] = fills_up ? 0.0 : tie.stiffness;

@@ -16,8 +16,7 @@ namespace {
 constexpr double deepest = 0.7;
 
 Pose finger_base(const HandSetup& setup, double side) {
-  const double distance =
-      0.5 * setup.block.width + setup.clearance + setup.finger.geometry.tip_radius;
+  const double distance = 0.5 * setup.block.width + setup.clearance + setup.finger.geometry.pole();
   Eigen::Matrix3d axes;  // columns: the finger's x, y, z
   axes.col(2) = Vector3(-side, 0.0, 0.0);
   axes.col(0) = Vector3::UnitZ();
@@ -55,7 +54,7 @@ Hand::Hand(const HandSetup& setup, double period)
 
 double Hand::find_coupling() const {
   const meshes::Geometry& geometry = setup_.finger.geometry;
-  const double lowest = geometry.tip_radius - deepest * geometry.thickness();
+  const double lowest = geometry.pole() - deepest * geometry.thickness();
   const RodBody& body = block_.body();
   Matrix6 own = Matrix6::Zero(), touching = Matrix6::Zero();
   own.topLeftCorner<3, 3>() = body.mass * Eigen::Matrix3d::Identity();

@@ -103,7 +103,7 @@ CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   keep_sector(grid, sectors, cut);
   CutTip tip{GridCells(grid, largest_piece(grid, cut)), formulation_for(rubber, settings), {}, {}};
   const double stiffness = tie_stiffness * tip.formulation.shear / grid.spacing;
-  tip.bond = tied_surface(tip.cells, geometry, Surface::bond, -geometry.sleeve_length, sectors,
+  tip.bond = tied_surface(tip.cells, geometry, Surface::bond, geometry.lowest(), sectors,
                           stiffness * settings.ligament_stiffness);
   tip.outer = tied_surface(tip.cells, geometry, Surface::outer, lowest_contact(geometry), sectors,
                            stiffness * settings.contact_stiffness);
@@ -124,7 +124,7 @@ int grid_symmetry(const LatticeSettings& settings) {
 }
 
 double lowest_contact(const Geometry& geometry) {
-  return -geometry.thickness();
+  return std::max(geometry.lowest(), geometry.pole() - geometry.tip_radius - geometry.thickness());
 }
 
 }  // namespace fingertip::lattice

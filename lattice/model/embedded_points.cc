@@ -41,10 +41,6 @@ std::uint32_t nearest_cell(const GridCells& cells, const Vector3& at) {
 
 }  // namespace
 
-Vector3 outer_normal(const Vector3& rest) {
-  return Vector3(rest.x(), rest.y(), std::max(rest.z(), 0.0)).normalized();
-}
-
 EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, double stiffness) {
   const Vector3 at = cells.grid().coordinates(point.position);
   const std::uint32_t nearest = nearest_cell(cells, at);
@@ -63,17 +59,19 @@ EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, dou
     for (int d = 0; d < 3; ++d) weight *= (c >> d & 1) != 0 ? local[d] : 1.0 - local[d];
   }
   tied.rest = point.position;
+  tied.normal = point.normal;
   tied.area = point.area;
   tied.stiffness = stiffness * point.area;
   return tied;
 }
 
-EmbeddedPoint tie_to_particle(std::uint32_t particle, const Vector3& rest, double area,
-                              double stiffness) {
+EmbeddedPoint tie_to_particle(std::uint32_t particle, const Vector3& rest, const Vector3& normal,
+                              double area, double stiffness) {
   EmbeddedPoint tied;
   tied.corners.fill(particle);
   tied.weights[0] = 1.0;
   tied.rest = rest;
+  tied.normal = normal;
   tied.area = area;
   tied.stiffness = stiffness;
   return tied;

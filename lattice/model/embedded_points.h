@@ -13,13 +13,11 @@ namespace fingertip::lattice {
 struct EmbeddedPoint {
   std::array<std::uint32_t, 8> corners{};
   std::array<double, 8> weights{};
-  meshes::Vector3 rest = meshes::Vector3::Zero();  ///< on the true surface [m]
-  double area = 0.0;                               ///< of the surface it stands for [m²]
-  double stiffness = 0.0;                          ///< of its tie to rod or plane [N/m]
+  meshes::Vector3 rest = meshes::Vector3::Zero();    ///< on the true surface [m]
+  meshes::Vector3 normal = meshes::Vector3::Zero();  ///< out of the rubber, unit length
+  double area = 0.0;                                 ///< of the surface it stands for [m²]
+  double stiffness = 0.0;                            ///< of its tie to rod or plane [N/m]
 };
-
-/// Unit normal out of the rubber where the outer surface is nearest to `rest`.
-meshes::Vector3 outer_normal(const meshes::Vector3& rest);
 
 /// The surface point tied to the eight corners of its cell by trilinear weights, its stiffness
 /// `stiffness` [Pa/m] times its area. A point whose cell was left out is tied to the nearest of the
@@ -28,7 +26,7 @@ meshes::Vector3 outer_normal(const meshes::Vector3& rest);
 EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, double stiffness);
 
 /// `particle` itself as a tied point.
-EmbeddedPoint tie_to_particle(std::uint32_t particle, const meshes::Vector3& rest, double area,
-                              double stiffness);
+EmbeddedPoint tie_to_particle(std::uint32_t particle, const meshes::Vector3& rest,
+                              const meshes::Vector3& normal, double area, double stiffness);
 
 }  // namespace fingertip::lattice

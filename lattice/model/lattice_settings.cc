@@ -61,7 +61,8 @@ void add_ties(std::vector<Violation>& found, const LatticeSettings& l,
                      "only lattices with true surfaces are tied to the plane",
                      "take another model, or leave it at 1"});
   // The bond's area shrinks with the rod; a thread through a cell holds nothing.
-  if (l.model != ModelKind::published && geometry.rod_radius < 0.1 * l.spacing)
+  if (l.model != ModelKind::published && geometry.is_dome() &&
+      geometry.rod_radius < 0.1 * l.spacing)
     found.push_back({"lattice.spacing", meshes::to_text(l.spacing) + " m",
                      "the spacing must be at most ten times the rod's radius, or the bond does not "
                      "hold the rubber",
@@ -74,12 +75,8 @@ std::vector<Violation> LatticeSettings::violations(const meshes::Geometry& geome
                                                    const meshes::Rubber& rubber) const {
   const LatticeSettings& l = *this;
   std::vector<Violation> found;
-  if (!(positive(l.spacing) && l.spacing <= 0.5 * geometry.thickness())) {
-    found.push_back({"lattice.spacing", meshes::to_text(l.spacing) + " m",
-                     "the spacing must be positive and at most (R - r)/2, two cells through the "
-                     "rubber",
-                     "choose a finer lattice"});
-  }
+  if (!(positive(l.spacing) && l.spacing <= geometry.coarsest_spacing()))
+    found.push_back(meshes::too_coarse(geometry, l.spacing));
   if (!(l.offset.allFinite() && l.offset.cwiseAbs().maxCoeff() <= 1.0)) {
     found.push_back({"lattice.offset", "",
                      "every component of the offset must lie between -1 and 1 spacing",

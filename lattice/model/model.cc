@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "meshes/files.h"
+#include "meshes/meridian.h"
 
 namespace fingertip::lattice {
 
@@ -157,26 +158,29 @@ std::size_t neighbour_count(const LatticeModel& model, std::size_t i) {
 }  // namespace
 
 void find_boundary(LatticeModel& model, const Geometry& geometry) {
-  const double middle = 0.5 * (geometry.tip_radius + geometry.rod_radius);
-  for (const std::uint32_t i : model.particles) {
+  const meshes::Meridian meridian(geometry);
+  const auto distance = [&](meshes::ProfileSurface surface, std::uint32_t i) {
+    return meridian.nearest(surface, model.rest_position(i)).distance;
+  };
+  for (const std::uint32_t i : model.particles)
     if (neighbour_count(model, i) < 26 &&
-        Geometry::radial_distance(model.rest_position(i)) > middle) {
+        distance(meshes::ProfileSurface::contact, i) < distance(meshes::ProfileSurface::bond, i))
       model.boundary.push_back(i);
-    }
-  }
 }
 
 namespace {
 
-/// Published: every particle within one spacing of the rod hangs on a ligament k = E a, critically
+/// Published: every particle within one spacing of the bond hangs on a ligament k = E a, critically
 /// damped by the paper's rule. The rod is thousands of times heavier, so the equivalent mass of
 /// the pair is the particle's.
 void hang_on_ligaments(LatticeModel& model, const Geometry& geometry, double layer_stiffness) {
-  const double reach = geometry.rod_radius + model.spacing() + 1e-9 * geometry.tip_radius;
+  const double reach = model.spacing() + 1e-9 * geometry.tip_radius;
+  const meshes::Meridian meridian(geometry);
   for (const std::uint32_t i : model.particles) {
-    if (Geometry::radial_distance(model.rest_position(i)) > reach) continue;
-    model.ligaments.push_back({i, model.rest_position(i), layer_stiffness,
-                               2.0 * std::sqrt(model.mass[i] * layer_stiffness)});
+    const meshes::Vector3 rest = model.rest_position(i);
+    if (meridian.nearest(meshes::ProfileSurface::bond, rest).distance > reach) continue;
+    model.ligaments.push_back(
+        {i, rest, layer_stiffness, 2.0 * std::sqrt(model.mass[i] * layer_stiffness)});
   }
 }
 

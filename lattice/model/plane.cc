@@ -14,7 +14,7 @@ PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geom
   plane.normal = Vector3(-s, 0.0, -c);
   plane.t1 = first_tangent(plane.normal);
   plane.t2 = plane.t1.cross(plane.normal);
-  plane.radius = geometry.tip_radius;
+  plane.height = geometry.reach(protocol.tilt);
   plane.path = meshes::PressPath(protocol);
   return plane;
 }

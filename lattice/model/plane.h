@@ -14,14 +14,14 @@ namespace fingertip::lattice {
 struct PressPlane {
   meshes::Vector3 normal = -meshes::Vector3::UnitZ(), t1 = meshes::Vector3::UnitX(),
                   t2 = meshes::Vector3::UnitY();
-  double radius = 0.0;  ///< R: distance from the tip's centre at indentation 0 [m]
+  double height = 0.0;  ///< distance from the origin at indentation 0, R of the dome [m]
   meshes::PressPath path;
 
   /// The point of the plane that lies below the tip's centre at indentation 0, when the plane is at
   /// `s` [m] of its path.
   meshes::Vector3 point(double s) const {
     const meshes::PressPose pose = path.at(s);
-    return (pose.indentation - radius) * normal + pose.lateral * t1;
+    return (pose.indentation - height) * normal + pose.lateral * t1;
   }
 };
 

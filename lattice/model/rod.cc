@@ -22,6 +22,18 @@ Matrix3d shifted(double mass, const Vector3& arm) {
   return mass * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
 }
 
+/// What holds a profile: a cylinder as wide as the bond and as long, below the lowest rubber.
+RodBody hand_body(const meshes::Geometry& geometry, const RodSettings& settings) {
+  const double r = geometry.rod_radius, length = 2.0 * r;
+  RodBody body;
+  body.mass = settings.density * std::numbers::pi * r * r * length;
+  body.centre = Vector3(0.0, 0.0, geometry.lowest() - 0.5 * length);
+  body.endpoint = geometry.rod_endpoint();
+  const double across = body.mass * (3.0 * r * r + length * length) / 12.0;
+  body.inertia = Vector3(across, across, 0.5 * body.mass * r * r).asDiagonal();
+  return body;
+}
+
 }  // namespace
 
 Matrix6 rigid_inertia(double mass, const Vector3& arm, const Matrix3d& inertia) {
@@ -40,6 +52,7 @@ Eigen::Matrix<double, 3, 6> rigid_motion(const Vector3& arm) {
 }
 
 RodBody rod_body(const meshes::Geometry& geometry, const RodSettings& settings) {
+  if (!geometry.is_dome()) return hand_body(geometry, settings);
   const double r = geometry.rod_radius, l = geometry.rod_length;
   const double cylinder = settings.density * std::numbers::pi * r * r * l;
   const double dome = settings.density * 2.0 / 3.0 * std::numbers::pi * r * r * r;

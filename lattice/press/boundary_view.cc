@@ -3,19 +3,11 @@
 #include <algorithm>
 
 #include "lattice/model/cut_tip.h"
+#include "meshes/meridian.h"
 
 namespace fingertip::lattice {
 
 using meshes::Vector3;
-
-namespace {
-
-/// The point of the outer surface nearest to `rest`: cut cells reach beyond it.
-Vector3 outer_point(const Vector3& rest, double radius) {
-  return Vector3(0.0, 0.0, std::min(rest.z(), 0.0)) + radius * outer_normal(rest);
-}
-
-}  // namespace
 
 BoundaryView::BoundaryView(const LatticeModel& model, const meshes::Geometry& geometry)
     : model_(&model) {
@@ -43,10 +35,14 @@ std::vector<BoundaryView::Candidate> BoundaryView::candidates(
     const meshes::Geometry& geometry) const {
   std::vector<Candidate> all;
   std::vector<int> number(model_->points(), -1);
+  const meshes::Meridian meridian(geometry);
   for (const std::uint32_t particle : model_->boundary) {
     number[particle] = int(all.size());
     const Vector3 rest = model_->rest_position(particle);
-    all.push_back({model_->is_cut() ? outer_point(rest, geometry.tip_radius) : rest, nullptr});
+    // Cut cells reach beyond the surface.
+    const Vector3 place =
+        model_->is_cut() ? meridian.nearest(meshes::ProfileSurface::contact, rest).position : rest;
+    all.push_back({place, nullptr});
   }
   const std::vector<Candidate> nominal = all;
   for (const EmbeddedPoint& tie : model_->outer) {

@@ -43,6 +43,11 @@ struct Sway {
   double mass = 0.0;       ///< mu m [kg]
 
   Sway(const Geometry& geometry, const Rubber& rubber) {
+    if (!geometry.is_dome()) {  // a column in shear, held below
+      frequency = 0.5 * std::numbers::pi * rubber.shear_wave_speed() / geometry.thickness();
+      mass = 8.0 / (std::numbers::pi * std::numbers::pi) * rubber.density * geometry.tip_volume();
+      return;
+    }
     constexpr int intervals = 200;
     const double r = geometry.rod_radius, R = geometry.tip_radius, h = (R - r) / intervals;
     double area = 0.0, first = 0.0, second = 0.0, strain = 0.0;

@@ -7,6 +7,7 @@
 #include "lattice/model/cut_tip.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
+#include "meshes/meridian.h"
 
 namespace fingertip::lattice {
 
@@ -112,15 +113,21 @@ LatticeBody body_of(const LatticeModel& model, const Geometry& geometry, const R
   std::vector<std::uint32_t> number(model.points(), GridCells::none);
   LatticeBody body = published_springs(model, number);
   const double a = model.spacing();
+  const meshes::Meridian meridian(geometry);
+  const auto normal = [&](meshes::ProfileSurface surface, const Vector3& rest) {
+    return meridian.nearest(surface, rest).normal;
+  };
   for (const Ligament& ligament : model.ligaments) {
-    body.bond.push_back(
-        tie_to_particle(number[ligament.particle], ligament.rest, a * a, ligament.stiffness));
+    body.bond.push_back(tie_to_particle(number[ligament.particle], ligament.rest,
+                                        normal(meshes::ProfileSurface::bond, ligament.rest), a * a,
+                                        ligament.stiffness));
   }
   for (const std::uint32_t point : model.boundary) {
     const Vector3 rest = model.rest_position(point);
     if (rest.z() < lowest_contact(geometry)) continue;
-    body.outer.push_back(
-        tie_to_particle(number[point], rest, a * a, particle_tie * rubber.youngs_modulus * a));
+    body.outer.push_back(tie_to_particle(number[point], rest,
+                                         normal(meshes::ProfileSurface::contact, rest), a * a,
+                                         particle_tie * rubber.youngs_modulus * a));
   }
   return body;
 }

@@ -130,7 +130,7 @@ std::vector<LoadedPoint> StaticContact::loaded_points(const VectorXd& displaceme
     const Vector3 place = body_->finite ? position(outer, displacement) : outer.rest;
     points.push_back({{place.dot(plane_.t1), place.dot(plane_.t2)},
                       push,
-                      outer.area * std::abs(outer_normal(outer.rest).dot(plane_.normal))});
+                      outer.area * std::abs(outer.normal.dot(plane_.normal))});
   }
   return points;
 }

@@ -15,6 +15,10 @@ std::string_view name(CalibrationProblem problem) {
   return "unknown";
 }
 
+std::string_view name(ShapeKind shape) {
+  return shape == ShapeKind::dome ? "dome" : "profile";
+}
+
 std::string_view name(ConstantsSource source) {
   switch (source) {
     case ConstantsSource::automatic: return "auto";

@@ -16,6 +16,16 @@
 
 namespace fingertip::studies {
 
+/// What the finger is (key geometry.shape).
+enum class ShapeKind {
+  dome,     ///< the paper's finger
+  profile,  ///< a body of revolution from a file
+};
+std::string_view name(ShapeKind shape);
+constexpr auto values(ShapeKind) {
+  return std::array{ShapeKind::dome, ShapeKind::profile};
+}
+
 /// Where the spring constants come from (key lattice.constants).
 enum class ConstantsSource {
   automatic,   ///< published: its rule; central: fit; hookean, network: closed form
@@ -115,6 +125,9 @@ struct ExchangeOrder {
 /// `studies/run/press_setup.h` resolves them.
 struct Config {
   lattice::PressSetup press;
+  ShapeKind shape = ShapeKind::dome;
+  std::filesystem::path profile;   ///< absolute; only for ShapeKind::profile
+  std::optional<double> endpoint;  ///< of a profile, on the axis [m]
   ControllerOrder controller;
   ConstantsSource constants = ConstantsSource::automatic;
   std::filesystem::path constants_file;           ///< absolute; only for ConstantsSource::file

@@ -68,20 +68,37 @@ std::vector<Key> specimen_keys() {
     };
     return key;
   };
+  const auto of_dome = [](Key key) {
+    return only_with("geometry.shape", {"dome"}, std::move(key));
+  };
+  const auto of_profile = [](Key key) {
+    return only_with("geometry.shape", {"profile"}, std::move(key));
+  };
   return {
-      quantity("geometry", "tip_radius", "cm", "m", positive, "R, outer radius of the rubber",
-               geometry(&Geometry::tip_radius)),
-      with_rule(quantity("geometry", "rod_radius", "cm", "m", positive,
-                         "r, radius of the rod; the rubber is bonded to it",
-                         geometry(&Geometry::rod_radius)),
-                "smaller than tip_radius", {"geometry.tip_radius"}),
-      quantity("geometry", "sleeve_length", "cm", "m", not_negative,
-               "L, length of the rubber sleeve behind the hemisphere",
-               geometry(&Geometry::sleeve_length)),
-      with_rule(quantity("geometry", "rod_length", "cm", "m", positive,
-                         "l, from the hemisphere's centre to the rod's endpoint, which is held",
-                         geometry(&Geometry::rod_length)),
-                "at least sleeve_length", {"geometry.sleeve_length"}),
+      choice("geometry", "shape",
+             {{"dome", "the paper's finger: hemisphere and sleeve on a rod"},
+              {"profile", "the body of revolution of geometry.profile"}},
+             "what the finger is", at(&Config::shape)),
+      of_profile(choice("geometry", "profile", {{"none", "only for a profile"}},
+                        "closed meridian, a CSV file with the columns r [mm],z [mm],surface,curve",
+                        at(&Config::profile))),
+      of_profile(quantity("geometry", "endpoint", "cm", "m", any,
+                          "height on the axis where force and torque are told; auto: the lowest",
+                          at(&Config::endpoint))),
+      of_dome(quantity("geometry", "tip_radius", "cm", "m", positive,
+                       "R, outer radius of the rubber", geometry(&Geometry::tip_radius))),
+      of_dome(with_rule(quantity("geometry", "rod_radius", "cm", "m", positive,
+                                 "r, radius of the rod; the rubber is bonded to it",
+                                 geometry(&Geometry::rod_radius)),
+                        "smaller than tip_radius", {"geometry.tip_radius"})),
+      of_dome(quantity("geometry", "sleeve_length", "cm", "m", not_negative,
+                       "L, length of the rubber sleeve behind the hemisphere",
+                       geometry(&Geometry::sleeve_length))),
+      of_dome(with_rule(quantity("geometry", "rod_length", "cm", "m", positive,
+                                 "l, from the hemisphere's centre to the rod's endpoint, which is "
+                                 "held",
+                                 geometry(&Geometry::rod_length)),
+                        "at least sleeve_length", {"geometry.sleeve_length"})),
       or_auto(quantity("rubber", "youngs_modulus", "gf/cm^2", "Pa", positive,
                        "E, Young's modulus; auto: from the others",
                        rubber(&Rubber::youngs_modulus))),
@@ -110,12 +127,14 @@ std::vector<Key> specimen_keys() {
 }
 
 std::vector<Key> lattice_keys() {
-  Key spacing = with_rule(quantity("lattice", "spacing", "m", "m", positive,
-                                   "a, distance of neighbouring masses along the axes",
-                                   at(&Config::press, &lattice::PressSetup::lattice,
-                                      &lattice::LatticeSettings::spacing)),
-                          "at most (tip_radius - rod_radius)/2, and no more than 20 million masses",
-                          {"geometry.tip_radius", "geometry.rod_radius"});
+  Key spacing = with_rule(
+      quantity(
+          "lattice", "spacing", "m", "m", positive,
+          "a, distance of neighbouring masses along the axes",
+          at(&Config::press, &lattice::PressSetup::lattice, &lattice::LatticeSettings::spacing)),
+      "at most (tip_radius - rod_radius)/2, of a profile a quarter of its thinnest wall, "
+      "and no more than 20 million masses",
+      {"geometry.tip_radius", "geometry.rod_radius"});
   const double divisor = meshes::Geometry().tip_radius / lattice::LatticeSettings().spacing;
   spacing.preset = "\"tip_radius/" + calibration::rounded(divisor, 12) + '"';
   spacing.word = "tip_radius/N";

@@ -11,6 +11,7 @@
 #include "meshes/files.h"
 #include "studies/config/elasticity.h"
 #include "studies/config/key_table.h"
+#include "studies/config/profile_file.h"
 #include "studies/config/trimmed.h"
 #include "studies/config/units.h"
 #include "studies/config/value_reader.h"
@@ -50,6 +51,7 @@ class Reader {
   LoadedConfig finish();
 
  private:
+  void resolve_shape();
   /// Files named by a value are relative to `base`: the configuration file's folder.
   void take(const Key& key, const toml::node& node, Entry entry, const std::filesystem::path& base);
   void read_section(const std::string& section, const toml::node& node,
@@ -177,9 +179,34 @@ std::vector<std::string> inert_keys(const LoadedConfig& loaded) {
   return notes;
 }
 
+/// The finger of geometry.shape.
+void Reader::resolve_shape() {
+  Config& config = loaded_.config;
+  if (config.shape == ShapeKind::dome) return;
+  const Entry& entry = loaded_.entries.at("geometry.profile");
+  if (config.profile.empty()) {
+    problems_.push_back({loaded_.entries.at("geometry.shape").place, "geometry.profile", "none",
+                         "a profile needs the file of its meridian",
+                         "write e.g. geometry.profile = \"finger.csv\""});
+    return;
+  }
+  try {
+    config.press.geometry =
+        meshes::Geometry::of_profile(read_profile(config.profile), config.endpoint);
+  } catch (const meshes::InvalidInput& error) {
+    for (const meshes::Violation& broken : error.violations()) {
+      const bool whole = broken.key == "geometry.profile";
+      problems_.push_back({whole ? entry.place + ", " + config.profile.string() : broken.key, "",
+                           "", (broken.value.empty() ? "" : broken.value + ": ") + broken.rule,
+                           broken.remedy});
+    }
+  }
+}
+
 LoadedConfig Reader::finish() {
   Config& config = loaded_.config;
   lattice::PressSetup& press = config.press;
+  resolve_shape();
   resolve_elasticity(loaded_, problems_);
   if (config.spacing_divisor) {
     press.lattice.spacing = press.geometry.tip_radius / *config.spacing_divisor;

@@ -68,7 +68,7 @@ calibration::Material material_of(const FitOrder& order, const calibration::FitR
   material.spacing = setup.lattice.spacing;
   material.constants = setup.lattice.constants;
   material.rubber = setup.rubber;
-  material.geometry = setup.geometry;
+  if (setup.geometry.is_dome()) material.geometry = setup.geometry;
   material.density_known = order.density_known;
   material.retardation_time_known =
       order.retardation_time_known || order.problem == CalibrationProblem::damping;

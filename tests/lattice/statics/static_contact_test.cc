@@ -44,8 +44,9 @@ LatticeBody confined_block(ModelKind model, Kinematics kinematics, double tie) {
   for (std::size_t p = 0; p < body.rest.size(); ++p)
     if (body.rest[p].z() > 0.5 * spacing) body.fixed[3 * p + 2] = 0;
   for (const MeanCell& cell : body.cells) {
-    EmbeddedPoint point{
-        cell.corners, {}, Vector3::Zero(), spacing * spacing, tie * spacing * spacing};
+    EmbeddedPoint point{cell.corners,      {},
+                        Vector3::Zero(),   Vector3::UnitZ(),
+                        spacing * spacing, tie * spacing * spacing};
     int top = 0;
     for (std::size_t c = 0; c < 8; ++c) {
       if (body.rest[cell.corners[c]].z() < height - 0.5 * spacing) continue;
@@ -60,7 +61,7 @@ LatticeBody confined_block(ModelKind model, Kinematics kinematics, double tie) {
 
 lattice::PressPlane plane_above(double distance) {
   lattice::PressPlane plane;
-  plane.radius = distance;
+  plane.height = distance;
   return plane;
 }
 

@@ -1,0 +1,651 @@
+#include "meshes/meridian.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "meshes/files.h"
+
+namespace fingertip::meshes {
+namespace {
+
+using std::numbers::pi;
+using Gauss = boost::math::quadrature::gauss<double, 15>;
+
+/// Radii of an arc's ends may differ by this share of it: a file has few digits.
+constexpr double round_arc = 1e-4;
+/// Smallest and largest extent of a finger [m].
+constexpr double smallest_finger = 0.5e-3, largest_finger = 0.5;
+/// Straight pieces by which a curve is replaced to find where the meridian crosses itself.
+constexpr int chords = 24;
+/// Points per piece from which the thickness of the wall is measured.
+constexpr int wall_points = 16;
+/// A length over the finger's extent that is round-off.
+constexpr double no_length = 1e-9;
+
+double cross(const Vector2& a, const Vector2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+std::string place(const Vector2& corner) {
+  return "(r, z) = (" + to_text(1e3 * corner.x()) + ", " + to_text(1e3 * corner.y()) + ") mm";
+}
+
+[[noreturn]] void refuse(std::size_t corner, const Vector2& at, const std::string& rule,
+                         const std::string& remedy) {
+  throw InvalidInput({"geometry.profile",
+                      "corner " + std::to_string(corner + 1) + " at " + place(at), rule, remedy});
+}
+
+[[noreturn]] void refuse(const std::string& value, const std::string& rule,
+                         const std::string& remedy) {
+  throw InvalidInput({"geometry.profile", value, rule, remedy});
+}
+
+/// Slopes at the corners of the C2 cubic through points with the knots `at`: natural at its ends,
+/// but where one lies on the axis z has no slope there, since the other half is its mirror image.
+std::vector<Vector2> spline_slopes(const std::vector<Vector2>& points,
+                                   const std::vector<double>& at) {
+  const auto n = Eigen::Index(points.size());
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(n, 2);
+  const auto point = [&](Eigen::Index i) { return points[std::size_t(i)]; };
+  const auto step = [&](Eigen::Index i) { return at[std::size_t(i + 1)] - at[std::size_t(i)]; };
+  const auto secant = [&](Eigen::Index i) -> Vector2 {
+    return (point(i + 1) - point(i)) / step(i);
+  };
+  system(0, 0) = system(n - 1, n - 1) = 2.0;
+  system(0, 1) = system(n - 1, n - 2) = 1.0;
+  right.row(0) = 3.0 * secant(0);
+  right.row(n - 1) = 3.0 * secant(n - 2);
+  for (Eigen::Index i = 1; i + 1 < n; ++i) {
+    system(i, i - 1) = step(i);
+    system(i, i) = 2.0 * (step(i - 1) + step(i));
+    system(i, i + 1) = step(i - 1);
+    right.row(i) = 3.0 * (step(i) * secant(i - 1) + step(i - 1) * secant(i));
+  }
+  Eigen::MatrixX2d slopes(n, 2);
+  slopes.col(0) = system.lu().solve(right.col(0));
+  for (const Eigen::Index end : {Eigen::Index(0), n - 1})
+    if (point(end).x() == 0.0) {
+      system.row(end).setZero();
+      system(end, end) = 1.0;
+      right(end, 1) = 0.0;
+    }
+  slopes.col(1) = system.lu().solve(right.col(1));
+  std::vector<Vector2> result;
+  for (Eigen::Index i = 0; i < n; ++i) result.emplace_back(slopes.row(i));
+  return result;
+}
+
+/// Counter-clockwise: with them reversed, `surface` and `curve` stay with the piece they name.
+std::vector<ProfileCorner> counter_clockwise(std::vector<ProfileCorner> corners) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const ProfileCorner &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    area += a.r * b.z - a.z * b.r;
+  }
+  if (area >= 0.0) return corners;
+  std::ranges::reverse(corners);
+  const std::vector<ProfileCorner> places = corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double r = corners[i].r, z = corners[i].z;
+    corners[i] = places[(i + 1) % corners.size()];
+    corners[i].r = r, corners[i].z = z;
+  }
+  return corners;
+}
+
+void check(const std::vector<ProfileCorner>& corners) {
+  if (corners.size() < 3)
+    refuse(std::to_string(corners.size()) + " corners", "a meridian has at least three",
+           "one row per corner of the closed curve, in order");
+  double extent = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const ProfileCorner& c = corners[i];
+    const Vector2 at(c.r, c.z);
+    if (!at.allFinite()) refuse(i, at, "r and z must be finite numbers", "mend the row");
+    if (c.r < 0.0)
+      refuse(i, at, "r, the distance from the axis, must not be negative",
+             "draw the half of the section on the side r >= 0");
+    extent = std::max({extent, 2.0 * c.r, std::abs(c.z - corners[0].z)});
+  }
+  if (extent < smallest_finger || extent > largest_finger)
+    refuse(to_text(extent) + " m across", "a finger measures 0.5 mm to 0.5 m",
+           "check the unit in the head of the columns, e.g. r [mm],z [mm]");
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const ProfileCorner &c = corners[i], &next = corners[(i + 1) % corners.size()];
+    const Vector2 at(c.r, c.z), to(next.r, next.z);
+    if ((to - at).norm() < no_length * extent)
+      refuse(i, at, "a corner must differ from the next one",
+             "delete one of the two rows; the last corner joins the first by itself");
+    if (c.surface == ProfileSurface::axis && (c.r != 0.0 || next.r != 0.0))
+      refuse(i, at, "a piece of the axis runs from r = 0 to r = 0",
+             "put both its corners on the axis, or name the piece contact, bond or free");
+    if (c.surface == ProfileSurface::axis && c.curve != ProfileCurve::straight)
+      refuse(i, at, "the axis is straight", "leave its curve empty");
+    if (c.surface != ProfileSurface::axis && c.r == 0.0 && next.r == 0.0)
+      refuse(i, at, "a piece along r = 0 has no area", "name it axis");
+    if (c.curve != ProfileCurve::arc) continue;
+    const Vector2 centre(c.centre_r, c.centre_z);
+    const double a = (at - centre).norm(), b = (to - centre).norm();
+    if (!(std::abs(a - b) <= round_arc * std::max(a, b)) || a == 0.0)
+      refuse(i, at,
+             "both ends of an arc are equally far from its centre; they are " + to_text(1e3 * a) +
+                 " and " + to_text(1e3 * b) + " mm from it",
+             "write arc R C with the centre's coordinates");
+    if (cross(at - centre, to - centre) == 0.0)
+      refuse(i, at, "an arc must be shorter than half a circle", "split it by a corner");
+  }
+}
+
+std::vector<MeridianPiece> pieces_of(const std::vector<ProfileCorner>& corners) {
+  const std::size_t n = corners.size();
+  const auto next = [&](std::size_t i) { return (i + 1) % n; };
+  const auto at = [&](std::size_t i) { return Vector2(corners[i].r, corners[i].z); };
+  const auto joined = [&](std::size_t i, std::size_t j) {
+    return corners[i].curve == ProfileCurve::spline && corners[j].curve == ProfileCurve::spline &&
+           corners[i].surface == corners[j].surface;
+  };
+  // A spline must not be cut where the list begins.
+  std::size_t first = 0;
+  while (first < n && joined((first + n - 1) % n, first)) ++first;
+  if (first == n)
+    refuse("all " + std::to_string(n) + " pieces", "the axis, contact and bond must be told apart",
+           "name the surfaces of the pieces");
+  std::vector<MeridianPiece> pieces;
+  for (std::size_t count = 0; count < n;) {
+    const std::size_t i = (first + count) % n;
+    const ProfileCorner& c = corners[i];
+    if (c.curve == ProfileCurve::straight) {
+      pieces.push_back(MeridianPiece::line(at(i), at(next(i)), c.surface));
+    } else if (c.curve == ProfileCurve::arc) {
+      pieces.push_back(MeridianPiece::arc(at(i), at(next(i)), {c.centre_r, c.centre_z}, c.surface));
+    } else {
+      std::vector<Vector2> points{at(i)};
+      std::vector<double> knots{0.0};
+      std::size_t last = i;
+      for (;;) {
+        points.push_back(at(next(last)));
+        knots.push_back(knots.back() + (points.back() - points[points.size() - 2]).norm());
+        if (!joined(last, next(last)) || points.size() > n) break;
+        last = next(last);
+      }
+      const std::vector<Vector2> slopes = spline_slopes(points, knots);
+      for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const double third = (knots[k + 1] - knots[k]) / 3.0;
+        pieces.push_back(MeridianPiece::cubic(points[k], points[k] + third * slopes[k],
+                                              points[k + 1] - third * slopes[k + 1], points[k + 1],
+                                              c.surface));
+      }
+      count += points.size() - 2;
+    }
+    ++count;
+  }
+  return pieces;
+}
+
+/// The dome of the paper as a profile.
+std::vector<ProfileCorner> dome_corners(const Geometry& g) {
+  using enum ProfileSurface;
+  using enum ProfileCurve;
+  const double R = g.tip_radius, r = g.rod_radius, end = -g.sleeve_length;
+  std::vector<ProfileCorner> corners;
+  if (end < 0.0) {
+    corners = {{r, end, free, straight}, {R, end, contact, straight}, {R, 0.0, contact, arc},
+               {0.0, R, axis, straight}, {0.0, r, bond, arc},         {r, 0.0, bond, straight}};
+  } else {
+    corners = {{r, 0.0, free, straight},
+               {R, 0.0, contact, arc},
+               {0.0, R, axis, straight},
+               {0.0, r, bond, arc}};
+  }
+  return corners;
+}
+
+/// Where two straight segments cross or touch, apart from a common end.
+bool meet(const std::array<Vector2, 2>& a, const std::array<Vector2, 2>& b) {
+  const auto side = [](const std::array<Vector2, 2>& s, const Vector2& p) {
+    return cross(s[1] - s[0], p - s[0]);
+  };
+  const double a0 = side(b, a[0]), a1 = side(b, a[1]), b0 = side(a, b[0]), b1 = side(a, b[1]);
+  if (a0 * a1 > 0.0 || b0 * b1 > 0.0) return false;
+  if (a0 == 0.0 && a1 == 0.0) {  // on one line
+    const Vector2 along = a[1] - a[0];
+    const double length = along.squaredNorm();
+    const double s = (b[0] - a[0]).dot(along) / length, t = (b[1] - a[0]).dot(along) / length;
+    return std::max(std::min(s, t), 0.0) <= std::min(std::max(s, t), 1.0);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string_view name(ProfileSurface surface) {
+  switch (surface) {
+    case ProfileSurface::contact: return "contact";
+    case ProfileSurface::bond: return "bond";
+    case ProfileSurface::free: return "free";
+    case ProfileSurface::axis: return "axis";
+  }
+  return "";
+}
+
+std::string_view name(ProfileCurve curve) {
+  switch (curve) {
+    case ProfileCurve::straight: return "straight";
+    case ProfileCurve::arc: return "arc";
+    case ProfileCurve::spline: return "spline";
+  }
+  return "";
+}
+
+MeridianPiece MeridianPiece::line(const Vector2& from, const Vector2& to, ProfileSurface surface) {
+  MeridianPiece piece;
+  piece.surface_ = surface;
+  piece.from_ = from, piece.to_ = to;
+  piece.control1_ = piece.control2_ = 0.5 * (from + to);
+  piece.low_ = from.cwiseMin(to), piece.high_ = from.cwiseMax(to);
+  return piece;
+}
+
+MeridianPiece MeridianPiece::arc(const Vector2& from, const Vector2& to, const Vector2& centre,
+                                 ProfileSurface surface) {
+  MeridianPiece piece = line(from, to, surface);
+  piece.curve_ = ProfileCurve::arc;
+  piece.control1_ = centre;
+  const Vector2 a = from - centre, b = to - centre;
+  piece.radius_ = 0.5 * (a.norm() + b.norm());
+  piece.angle_ = std::atan2(a.y(), a.x());
+  piece.sweep_ = std::atan2(cross(a, b), a.dot(b));
+  piece.low_ = centre.array() - piece.radius_, piece.high_ = centre.array() + piece.radius_;
+  return piece;
+}
+
+MeridianPiece MeridianPiece::cubic(const Vector2& from, const Vector2& control1,
+                                   const Vector2& control2, const Vector2& to,
+                                   ProfileSurface surface) {
+  MeridianPiece piece = line(from, to, surface);
+  piece.curve_ = ProfileCurve::spline;
+  piece.control1_ = control1, piece.control2_ = control2;
+  piece.low_ = piece.low_.cwiseMin(control1).cwiseMin(control2);
+  piece.high_ = piece.high_.cwiseMax(control1).cwiseMax(control2);
+  return piece;
+}
+
+Vector2 MeridianPiece::at(double t) const {
+  if (t == 0.0) return from_;
+  if (t == 1.0) return to_;
+  const double s = 1.0 - t;
+  switch (curve_) {
+    case ProfileCurve::straight: return s * from_ + t * to_;
+    case ProfileCurve::arc: {
+      const double angle = angle_ + t * sweep_;
+      return control1_ + radius_ * Vector2(std::cos(angle), std::sin(angle));
+    }
+    case ProfileCurve::spline:
+      return s * s * s * from_ + 3.0 * s * t * (s * control1_ + t * control2_) + t * t * t * to_;
+  }
+  return from_;
+}
+
+Vector2 MeridianPiece::slope(double t) const {
+  const double s = 1.0 - t;
+  switch (curve_) {
+    case ProfileCurve::straight: return to_ - from_;
+    case ProfileCurve::arc: {
+      const double angle = angle_ + t * sweep_;
+      return radius_ * sweep_ * Vector2(-std::sin(angle), std::cos(angle));
+    }
+    case ProfileCurve::spline:
+      return 3.0 * (s * s * (control1_ - from_) + 2.0 * s * t * (control2_ - control1_) +
+                    t * t * (to_ - control2_));
+  }
+  return from_;
+}
+
+Vector2 MeridianPiece::normal(double t) const {
+  const Vector2 along = slope(t).normalized();
+  return {along.y(), -along.x()};
+}
+
+double MeridianPiece::nearest(const Vector2& point) const {
+  const auto clamped = [](double t) { return std::clamp(t, 0.0, 1.0); };
+  switch (curve_) {
+    case ProfileCurve::straight: {
+      const Vector2 along = to_ - from_;
+      return clamped((point - from_).dot(along) / along.squaredNorm());
+    }
+    case ProfileCurve::arc: {
+      const Vector2 middle = at(0.5) - control1_, d = point - control1_;
+      const double turned = std::atan2(cross(middle, d), middle.dot(d));  // from the middle
+      return clamped(0.5 + turned / sweep_);
+    }
+    case ProfileCurve::spline: break;
+  }
+  double best = 0.0, least = std::numeric_limits<double>::infinity();
+  constexpr int starts = 4;
+  for (int i = 0; i <= starts; ++i) {
+    double t = double(i) / starts;
+    for (int newton = 0; newton < 8; ++newton) {
+      // (x - p) x' = 0, with x'' left out where it would lead away from the minimum.
+      const Vector2 d = at(t) - point, x = slope(t);
+      const Vector2 bend = 6.0 * ((1.0 - t) * (control2_ - 2.0 * control1_ + from_) +
+                                  t * (to_ - 2.0 * control2_ + control1_));
+      const double curvature = x.squaredNorm() + d.dot(bend);
+      t = clamped(t - d.dot(x) / (curvature > 0.0 ? curvature : x.squaredNorm()));
+    }
+    const double distance = (at(t) - point).norm();
+    if (distance < least) least = distance, best = t;
+  }
+  return best;
+}
+
+double MeridianPiece::farther_than(const Vector2& point) const {
+  const Vector2 outside = (low_ - point).cwiseMax(point - high_).cwiseMax(0.0);
+  return outside.norm();
+}
+
+double MeridianPiece::length() const {
+  return Gauss::integrate([this](double t) { return slope(t).norm(); }, 0.0, 1.0);
+}
+
+double MeridianPiece::area(double from, double to) const {
+  return 2.0 * pi *
+         Gauss::integrate([this](double t) { return at(t).x() * slope(t).norm(); }, from, to);
+}
+
+std::vector<double> MeridianPiece::turning_points() const {
+  std::vector<double> found;
+  const auto add = [&](double t) {
+    if (t > 1e-12 && t < 1.0 - 1e-12) found.push_back(t);
+  };
+  if (curve_ == ProfileCurve::arc) {
+    for (int quarter = -8; quarter <= 8; ++quarter) add((0.5 * pi * quarter - angle_) / sweep_);
+  } else if (curve_ == ProfileCurve::spline) {
+    const Vector2 a = control1_ - from_, b = control2_ - control1_, c = to_ - control2_;
+    for (const Eigen::Index axis : {0, 1}) {  // s² a + 2 s t b + t² c = 0
+      const double q = a[axis] - 2.0 * b[axis] + c[axis], p = b[axis] - a[axis];
+      const double root = p * p - q * a[axis];
+      if (root < 0.0) continue;
+      const double w = -(p + std::copysign(std::sqrt(root), p));
+      if (q != 0.0) add(w / q);
+      if (w != 0.0) add(a[axis] / w);
+    }
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+MonotonePart::MonotonePart(const MeridianPiece& piece, double from, double to)
+    : piece_(piece), from_(from), to_(to) {
+  const Vector2 a = piece.at(from), b = piece.at(to);
+  r_ = {std::min(a.x(), b.x()), std::max(a.x(), b.x())};
+  z_ = {std::min(a.y(), b.y()), std::max(a.y(), b.y())};
+}
+
+double MonotonePart::parameter_at(int axis, double value) const {
+  const auto off = [&](double t) { return piece_.at(t)[axis] - value; };
+  const double a = off(from_), b = off(to_);
+  if (a == 0.0 || b == 0.0 || a * b > 0.0) return std::abs(a) <= std::abs(b) ? from_ : to_;
+  std::uintmax_t rounds = 100;
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      off, from_, to_, a, b, boost::math::tools::eps_tolerance<double>(52), rounds);
+  return 0.5 * (low + high);
+}
+
+double MonotonePart::radius_at(double z) const {
+  switch (piece_.curve()) {
+    case ProfileCurve::straight: {
+      const Vector2 along = piece_.to() - piece_.from();
+      return piece_.from().x() + (z - piece_.from().y()) / along.y() * along.x();
+    }
+    case ProfileCurve::arc: {
+      const Vector2& centre = piece_.centre();
+      const double radius = (piece_.at(0.5) - centre).norm(), up = z - centre.y();
+      const double across = std::sqrt(std::max(0.0, (radius - up) * (radius + up)));
+      const bool right = piece_.at(0.5 * (from_ + to_)).x() >= centre.x();
+      return std::max(0.0, centre.x() + (right ? across : -across));
+    }
+    case ProfileCurve::spline: break;
+  }
+  return piece_.at(parameter_at(1, z)).x();
+}
+
+double MonotonePart::height_at(double r) const {
+  switch (piece_.curve()) {
+    case ProfileCurve::straight: {
+      const Vector2 along = piece_.to() - piece_.from();
+      return piece_.from().y() + (r - piece_.from().x()) / along.x() * along.y();
+    }
+    case ProfileCurve::arc: {
+      const Vector2& centre = piece_.centre();
+      const double radius = (piece_.at(0.5) - centre).norm(), out = r - centre.x();
+      const double up = std::sqrt(std::max(0.0, (radius - out) * (radius + out)));
+      const bool above = piece_.at(0.5 * (from_ + to_)).y() >= centre.y();
+      return centre.y() + (above ? up : -up);
+    }
+    case ProfileCurve::spline: break;
+  }
+  return piece_.at(parameter_at(0, r)).y();
+}
+
+Meridian::Meridian(const Geometry& geometry) {
+  std::vector<ProfileCorner> corners = geometry.profile;
+  if (corners.empty()) {
+    const auto found = geometry.violations();
+    if (!found.empty()) throw InvalidInput(found);
+    corners = dome_corners(geometry);
+  }
+  check(corners);
+  pieces_ = pieces_of(counter_clockwise(std::move(corners)));
+  for (const MeridianPiece& piece : pieces_) {
+    if (piece.surface() == ProfileSurface::axis) continue;
+    double from = 0.0;
+    std::vector<double> ends = piece.turning_points();
+    ends.push_back(1.0);
+    for (const double to : ends) {
+      parts_.emplace_back(piece, from, to);
+      from = to;
+    }
+  }
+  check_crossings();
+  measure();
+}
+
+void Meridian::check_crossings() const {
+  struct Chord {
+    std::array<Vector2, 2> ends;
+    std::size_t piece;
+  };
+  std::vector<Chord> all;
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const int count = pieces_[p].curve() == ProfileCurve::straight ? 1 : chords;
+    for (int i = 0; i < count; ++i)
+      all.push_back({{pieces_[p].at(double(i) / count), pieces_[p].at(double(i + 1) / count)}, p});
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& ends = all[i].ends;
+    if (std::min(ends[0].x(), ends[1].x()) < 0.0)
+      refuse("near " + place(ends[0]), "the curve must not cross the axis",
+             "move its corners, or end it at r = 0");
+    for (std::size_t j = i + 2; j < all.size(); ++j) {
+      if (i == 0 && j + 1 == all.size()) continue;  // they share the first corner
+      if (meet(ends, all[j].ends))
+        refuse("piece " + std::to_string(all[i].piece + 1) + " near " + place(ends[0]) +
+                   " and piece " + std::to_string(all[j].piece + 1) + " near " +
+                   place(all[j].ends[0]),
+               "a meridian must not cross or touch itself", "check the order of the corners");
+    }
+  }
+}
+
+void Meridian::measure() {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  pole_ = bond_top_ = -none;
+  lowest_ = none;
+  bool on_axis = false;
+  Vector2 top(0.0, -none);
+  for (const MonotonePart& part : parts_) lowest_ = std::min(lowest_, part.lowest());
+  for (const MeridianPiece& piece : pieces_) {
+    std::vector<double> at = piece.turning_points();
+    at.insert(at.end(), {0.0, 1.0});
+    for (const double t : at) {
+      const Vector2 x = piece.at(t);
+      radius_ = std::max(radius_, x.x());
+      if (piece.surface() == ProfileSurface::bond) bond_top_ = std::max(bond_top_, x.y());
+      if (piece.surface() == ProfileSurface::contact) {
+        if (x.y() > pole_) on_axis = false;
+        pole_ = std::max(pole_, x.y());
+        if (x.y() == pole_ && x.x() == 0.0) on_axis = true;
+      }
+      if (x.y() > top.y()) top = x;
+    }
+  }
+  for (const auto& [surface, height] :
+       {std::pair(ProfileSurface::contact, pole_), std::pair(ProfileSurface::bond, bond_top_)})
+    if (height == -none)
+      refuse("no " + std::string(name(surface)),
+             surface == ProfileSurface::bond ? "something must be held by the hand"
+                                             : "something must be able to touch",
+             "name at least one piece " + std::string(name(surface)));
+  if (!on_axis)
+    refuse("top at " + place(top), "the highest point of contact must lie on the axis, r = 0",
+           "start `contact` at the axis; a ring that touches first is not supported");
+  if (top.y() > pole_)
+    refuse("top at " + place(top), "no piece may lie higher than `contact`",
+           "turn the finger so that it points along +z");
+}
+
+double Meridian::wall() const {
+  // Toward a surface that `contact` meets rubber runs out in a wedge, which is no wall.
+  const auto meets_contact = [&](ProfileSurface surface) {
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const ProfileSurface a = pieces_[i].surface(),
+                           b = pieces_[(i + 1) % pieces_.size()].surface();
+      if ((a == surface && b == ProfileSurface::contact) ||
+          (b == surface && a == ProfileSurface::contact))
+        return true;
+    }
+    return false;
+  };
+  double wall = pole_ - bond_top_;
+  for (const MeridianPiece& piece : pieces_) {
+    if (piece.surface() != ProfileSurface::contact) continue;
+    for (int i = 0; i < wall_points; ++i) {
+      const double t = (i + 0.5) / wall_points;
+      const Vector2 start = piece.at(t), inward = -piece.normal(t);
+      const auto place = [&](double depth) {
+        const Vector2 at = start + depth * inward;
+        return Vector2(std::abs(at.x()), at.y());
+      };
+      double inside = 0.0, outside = 1e-3 * radius_;
+      while (outside < wall && contains(place(outside)))
+        inside = std::exchange(outside, 1.1 * outside);
+      if (outside >= wall) continue;
+      for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (inside + outside);
+        (contains(place(middle)) ? inside : outside) = middle;
+      }
+      const Vector2 end = place(outside);
+      const MeridianPiece& far = *std::ranges::min_element(pieces_, {}, [&](const auto& other) {
+        return (other.at(other.nearest(end)) - end).norm();
+      });
+      if (far.surface() == ProfileSurface::contact || !meets_contact(far.surface()))
+        wall = std::min(wall, outside);
+    }
+  }
+  return wall;
+}
+
+double Meridian::signed_distance(const Vector2& point) const {
+  double distance = std::numeric_limits<double>::infinity();
+  for (const MeridianPiece& piece : pieces_)
+    if (piece.surface() != ProfileSurface::axis && piece.farther_than(point) < distance)
+      distance = std::min(distance, (piece.at(piece.nearest(point)) - point).norm());
+  return contains(point) ? -distance : distance;
+}
+
+double Meridian::signed_distance(const Vector3& w) const {
+  return signed_distance(Vector2(std::hypot(w.x(), w.y()), w.z()));
+}
+
+NearestPoint Meridian::nearest(ProfileSurface surface, const Vector3& w) const {
+  const Vector2 point(w.head<2>().norm(), w.z());
+  const Vector3 across = point.x() > 0.0 ? Vector3(w.x() / point.x(), w.y() / point.x(), 0.0)
+                                         : Vector3(Vector3::UnitX());
+  const auto in_space = [&](const Vector2& x) -> Vector3 {
+    return x.x() * across + x.y() * Vector3::UnitZ();
+  };
+  NearestPoint found{std::numeric_limits<double>::infinity(), {}, {}};
+  for (const MeridianPiece& piece : pieces_) {
+    if (piece.surface() != surface || piece.farther_than(point) >= found.distance) continue;
+    const double t = piece.nearest(point), distance = (piece.at(t) - point).norm();
+    if (distance < found.distance)
+      found = {distance, in_space(piece.at(t)), in_space(piece.normal(t))};
+  }
+  return found;
+}
+
+double Meridian::reach(double tilt) const {
+  if (tilt == 0.0) return pole_;
+  const Vector2 axis(std::abs(std::sin(tilt)), std::cos(tilt));
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (const MeridianPiece& piece : pieces_) {
+    if (piece.surface() != ProfileSurface::contact) continue;
+    const auto along = [&](double t) { return axis.dot(piece.at(t)); };
+    double best = 0.0;
+    for (int i = 1; i <= chords; ++i)
+      if (along(double(i) / chords) > along(best)) best = double(i) / chords;
+    const double low = std::max(0.0, best - 1.0 / chords), high = std::min(1.0, best + 1.0 / chords);
+    const auto [at, least] = boost::math::tools::brent_find_minima(
+        [&](double t) { return -along(t); }, low, high, std::numeric_limits<double>::digits);
+    farthest = std::max({farthest, along(best), -least});
+  }
+  return farthest;
+}
+
+bool Meridian::contains(const Vector2& point) const {
+  bool inside = false;
+  for (const MonotonePart& part : parts_)
+    if (part.lowest() <= point.y() && point.y() < part.highest() &&
+        part.radius_at(point.y()) > point.x())
+      inside = !inside;
+  return inside;
+}
+
+bool Meridian::contains(const Vector3& w) const {
+  return contains(Vector2(std::hypot(w.x(), w.y()), w.z()));
+}
+
+std::vector<double> Meridian::radii(double z) const {
+  std::vector<double> result;
+  for (const MonotonePart& part : parts_)
+    if (part.lowest() <= z && z < part.highest()) result.push_back(part.radius_at(z));
+  std::ranges::sort(result, std::greater());
+  return result;
+}
+
+double Meridian::volume() const {
+  double sum = 0.0;  // Green: the integral of r² dz
+  for (const MeridianPiece& piece : pieces_)
+    sum += Gauss::integrate(
+        [&](double t) { return piece.at(t).x() * piece.at(t).x() * piece.slope(t).y(); }, 0.0, 1.0);
+  return pi * sum;
+}
+
+double Meridian::area(ProfileSurface surface) const {
+  double sum = 0.0;
+  for (const MeridianPiece& piece : pieces_)
+    if (piece.surface() == surface) sum += piece.area();
+  return sum;
+}
+
+}  // namespace fingertip::meshes

@@ -1,0 +1,133 @@
+/// The closed curve in the half plane r >= 0 that sweeps a body of revolution: lines, circular arcs
+/// and cubics.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "meshes/geometry.h"
+
+namespace fingertip::meshes {
+
+using Vector2 = Eigen::Vector2d;
+
+/// A piece of the curve, x(t) = (r, z) for t in [0, 1]; rubber lies to its left.
+class MeridianPiece {
+ public:
+  static MeridianPiece line(const Vector2& from, const Vector2& to, ProfileSurface surface);
+  /// The shorter arc; `from` and `to` are equally far from `centre`.
+  static MeridianPiece arc(const Vector2& from, const Vector2& to, const Vector2& centre,
+                           ProfileSurface surface);
+  /// Bézier's cubic.
+  static MeridianPiece cubic(const Vector2& from, const Vector2& control1, const Vector2& control2,
+                             const Vector2& to, ProfileSurface surface);
+
+  ProfileCurve curve() const { return curve_; }
+  ProfileSurface surface() const { return surface_; }
+  const Vector2& from() const { return from_; }
+  const Vector2& to() const { return to_; }
+  const Vector2& centre() const { return control1_; }  ///< of an arc
+  const Vector2& control1() const { return control1_; }
+  const Vector2& control2() const { return control2_; }
+
+  Vector2 at(double t) const;
+  /// dx/dt [m].
+  Vector2 slope(double t) const;
+  /// The unit normal out of the rubber.
+  Vector2 normal(double t) const;
+  /// The parameter of the nearest point of the piece.
+  double nearest(const Vector2& point) const;
+  /// A distance that no point of the piece is nearer than [m].
+  double farther_than(const Vector2& point) const;
+  double length() const;
+  /// Area that the piece sweeps between two parameters [m²].
+  double area(double from = 0.0, double to = 1.0) const;
+  /// The parameters in (0, 1) at which r or z has an extremum, increasing.
+  std::vector<double> turning_points() const;
+
+ private:
+  ProfileCurve curve_ = ProfileCurve::straight;
+  ProfileSurface surface_ = ProfileSurface::free;
+  Vector2 from_, to_;
+  Vector2 low_, high_;           ///< a box around it
+  Vector2 control1_, control2_;  ///< of a cubic; `control1_` of an arc is its centre
+  double angle_ = 0.0, sweep_ = 0.0, radius_ = 0.0;
+};
+
+/// A part of a piece along which r and z are monotone.
+class MonotonePart {
+ public:
+  MonotonePart(const MeridianPiece& piece, double from, double to);
+
+  double lowest() const { return z_[0]; }
+  double highest() const { return z_[1]; }
+  /// r at a height within the part, and the height at an r within it; `crosses_radius` tells
+  /// whether it is.
+  double radius_at(double z) const;
+  double height_at(double r) const;
+  bool crosses_radius(double r) const { return r > r_[0] && r < r_[1]; }
+
+ private:
+  double parameter_at(int axis, double value) const;
+
+  MeridianPiece piece_;
+  double from_, to_;             ///< parameters
+  std::array<double, 2> r_, z_;  ///< smallest, largest
+};
+
+/// A point of a surface in space, and the unit normal out of the rubber there.
+struct NearestPoint {
+  double distance = 0.0;  ///< to the point asked for [m]
+  Vector3 position = Vector3::Zero(), normal = Vector3::Zero();
+};
+
+/// Immutable. Lengths in metres.
+class Meridian {
+ public:
+  /// Of the dome or of the profile. Throws InvalidInput with the corner when the curve is open,
+  /// crosses itself or leaves r >= 0, an arc has no centre, `contact` or `bond` is missing, the
+  /// pole is not on the axis, or the finger is smaller than 0.5 mm or larger than 0.5 m.
+  explicit Meridian(const Geometry& geometry);
+
+  const std::vector<MeridianPiece>& pieces() const { return pieces_; }
+
+  /// Distance to the body's boundary, the axis being none: negative inside the rubber.
+  double signed_distance(const Vector2& point) const;
+  double signed_distance(const Vector3& w) const;
+  /// The point of a surface that is nearest to `w`.
+  NearestPoint nearest(ProfileSurface surface, const Vector3& w) const;
+  /// The largest component of a place on `contact` along the axis turned by `tilt` [rad] [m]: what a
+  /// tilted plane touches first.
+  double reach(double tilt) const;
+  bool contains(const Vector2& point) const;
+  bool contains(const Vector3& w) const;
+  /// Where the boundary meets the height z, from the largest r; the rubber lies between the first
+  /// and the second, the third and the fourth ...; within the last one of an odd number. For
+  /// heights that are no corner's.
+  std::vector<double> radii(double z) const;
+  const std::vector<MonotonePart>& parts() const { return parts_; }
+
+  double volume() const;                      ///< [m³]
+  double area(ProfileSurface surface) const;  ///< [m²]
+  double pole() const { return pole_; }       ///< largest z of `contact`
+  double lowest() const { return lowest_; }
+  double largest_radius() const { return radius_; }
+  /// Largest z of `bond`.
+  double bond_top() const { return bond_top_; }
+  /// The thinnest wall: from `contact` along the normal to itself or a surface that it does not
+  /// meet; at most
+  /// the height of the pole over the bond.
+  double wall() const;
+
+ private:
+  void check_crossings() const;
+  void measure();
+
+  std::vector<MeridianPiece> pieces_;
+  std::vector<MonotonePart> parts_;
+  double pole_ = 0.0, lowest_ = 0.0, radius_ = 0.0, bond_top_ = 0.0;
+};
+
+}  // namespace fingertip::meshes

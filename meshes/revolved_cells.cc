@@ -1,0 +1,143 @@
+#include "meshes/revolved_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "meshes/smoothed_gauss.h"
+
+namespace fingertip::meshes {
+namespace {
+
+/// Integrals of chi xi^i eta^j, [i + 2 j].
+using SliceMoments = std::array<double, 4>;
+
+/// A rectangle in the plane of a slice, from its lowest corner, and unit coordinates in it.
+struct Rectangle {
+  Vector2 low, high;
+};
+
+/// The disc x² + y² <= radius² within the rectangle: strips along y between the x at which its rim
+/// reaches the upper or lower edge.
+SliceMoments disc_moments(const Rectangle& cell, double radius) {
+  SliceMoments sum{};
+  const Vector2 size = cell.high - cell.low;
+  const double square = radius * radius;
+  const double from = std::max(cell.low.x(), -radius), to = std::min(cell.high.x(), radius);
+  if (from >= to) return sum;
+  const auto rim_at = [&](double y) { return std::sqrt(std::max(0.0, square - y * y)); };
+  const double lower = rim_at(cell.low.y()), upper = rim_at(cell.high.y());
+  const double near = std::min(lower, upper), far = std::max(lower, upper);
+  std::array<double, 6> events{from};
+  std::size_t count = 1;
+  for (const double event : {-far, -near, near, far})
+    if (event > events[count - 1] && event < to) events[count++] = event;
+  events[count++] = to;
+  // Integrals of s = sqrt(radius² - x²) and of x s, in closed form.
+  const auto s_of = [&](double x) { return std::sqrt(std::max(0.0, square - x * x)); };
+  const auto area = [&](double x) {
+    return 0.5 * (x * s_of(x) + square * std::asin(std::clamp(x / radius, -1.0, 1.0)));
+  };
+  const auto lever = [&](double x) { return -std::pow(std::max(0.0, square - x * x), 1.5) / 3.0; };
+  for (std::size_t e = 1; e < count; ++e) {
+    const double a = events[e - 1], b = events[e], middle = 0.5 * (a + b);
+    if (b <= a) continue;
+    const double s = s_of(middle);
+    // y runs from the larger of low and -s to the smaller of high and s.
+    const bool top_is_rim = s<cell.high.y(), bottom_is_rim = -s> cell.low.y();
+    if (std::min(s, cell.high.y()) <= std::max(-s, cell.low.y())) continue;
+    const double x0 = b - a, x1 = 0.5 * (b - a) * (b + a), x2 = (b * b * b - a * a * a) / 3.0,
+                 x3 = 0.25 * (b * b * b * b - a * a * a * a);
+    const double s0 = area(b) - area(a), s1 = lever(b) - lever(a);
+    // Integrals over the strip of 1, x, y, x y, as those of (top - bottom), x (...), (top² -
+    // bottom²)/2, x (...).
+    std::array<double, 4> strip{};
+    const auto add = [&](double sign, bool rim, double edge) {
+      const double rim_sign = sign;  // the rim is +s above, -s below
+      strip[0] += rim ? s0 * rim_sign * sign : sign * edge * x0;
+      strip[1] += rim ? s1 * rim_sign * sign : sign * edge * x1;
+      strip[2] += 0.5 * sign * (rim ? square * x0 - x2 : edge * edge * x0);
+      strip[3] += 0.5 * sign * (rim ? square * x1 - x3 : edge * edge * x1);
+    };
+    add(1.0, top_is_rim, cell.high.y());
+    add(-1.0, bottom_is_rim, cell.low.y());
+    const double h = size.x() * size.y(), lx = cell.low.x(), ly = cell.low.y();
+    sum[0] += strip[0] / h;
+    sum[1] += (strip[1] - lx * strip[0]) / (h * size.x());
+    sum[2] += (strip[2] - ly * strip[0]) / (h * size.y());
+    sum[3] += (strip[3] - lx * strip[2] - ly * strip[1] + lx * ly * strip[0]) / (h * h);
+  }
+  return sum;
+}
+
+/// The radii at which a disc's integrals over the rectangle are not smooth.
+std::vector<double> critical_radii(const Rectangle& cell) {
+  std::vector<double> radii;
+  for (const double x : {cell.low.x(), cell.high.x()}) {
+    radii.push_back(std::abs(x));
+    for (const double y : {cell.low.y(), cell.high.y()}) radii.push_back(std::hypot(x, y));
+  }
+  for (const double y : {cell.low.y(), cell.high.y()}) radii.push_back(std::abs(y));
+  return radii;
+}
+
+}  // namespace
+
+bool along_axes(const CubicGrid& grid) {
+  for (Eigen::Index d = 0; d < 3; ++d)
+    if (grid.axes.col(d).maxCoeff() != 1.0 || grid.axes.col(d).cwiseAbs().sum() != 1.0)
+      return false;
+  return true;
+}
+
+std::array<double, 8> revolved_moments(const Meridian& meridian, const CubicGrid& grid, int i,
+                                       int j, int k) {
+  constexpr double same_height = 1e-12;
+  const Vector3 low = grid.position(i, j, k), high = low + Vector3::Constant(grid.spacing);
+  const Rectangle cell{low.head<2>(), high.head<2>()};
+  const std::vector<double> critical = critical_radii(cell);
+  std::vector<double> heights{low.z(), high.z()};
+  const auto add = [&](double z) {
+    if (z > low.z() && z < high.z()) heights.push_back(z);
+  };
+  for (const MonotonePart& part : meridian.parts()) {
+    if (part.lowest() >= high.z() || part.highest() <= low.z()) continue;
+    add(part.lowest());
+    add(part.highest());
+    for (const double radius : critical)
+      if (part.crosses_radius(radius)) add(part.height_at(radius));
+  }
+  std::ranges::sort(heights);
+  std::array<double, 8> moments{};
+  for (std::size_t e = 1; e < heights.size(); ++e) {
+    const double width = heights[e] - heights[e - 1];
+    if (width < same_height * grid.spacing) continue;
+    for (const QuadratureNode& node : smoothed_gauss_rule()) {
+      const double z = heights[e - 1] + width * node.at;
+      const double weight = width * node.weight / grid.spacing, zeta = (z - low.z()) / grid.spacing;
+      double sign = 1.0;
+      for (const double radius : meridian.radii(z)) {
+        const SliceMoments disc = disc_moments(cell, radius);
+        for (std::size_t ij = 0; ij < 4; ++ij) {
+          moments[ij] += sign * weight * disc[ij];
+          moments[ij + 4] += sign * weight * zeta * disc[ij];
+        }
+        sign = -sign;
+      }
+    }
+  }
+  // [x + 2 y + 4 z] of the tip to those of the grid's own directions.
+  std::array<double, 8> own{};
+  for (std::size_t place = 0; place < 8; ++place) {
+    std::size_t turned = 0;
+    for (Eigen::Index d = 0; d < 3; ++d) {
+      Eigen::Index axis = 0;
+      grid.axes.col(d).maxCoeff(&axis);
+      if (place >> axis & 1) turned |= std::size_t(1) << d;
+    }
+    own[turned] = moments[place];
+  }
+  return own;
+}
+
+}  // namespace fingertip::meshes

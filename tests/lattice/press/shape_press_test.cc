@@ -1,0 +1,126 @@
+// Presses of other shapes than the dome: a profile in every kind of press.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lattice/press/press.h"
+#include "lattice/press/static_press.h"
+#include "meshes/meridian.h"
+
+using namespace fingertip;
+using lattice::Kinematics;
+using lattice::ModelKind;
+using lattice::PressSetup;
+using meshes::ContactMode;
+using meshes::DriveMode;
+using meshes::Geometry;
+using meshes::ProfileCorner;
+
+namespace {
+
+using enum meshes::ProfileSurface;
+using enum meshes::ProfileCurve;
+
+/// The paper's finger written as a profile, lifted by `height`.
+Geometry dome_as_profile(double height = 0.0) {
+  const Geometry g;
+  const double R = g.tip_radius, r = g.rod_radius, end = height - g.sleeve_length;
+  return Geometry::of_profile({{r, end, free, straight},
+                               {R, end, contact, straight},
+                               {R, height, contact, arc, 0.0, height},
+                               {0.0, height + R, axis, straight},
+                               {0.0, height + r, bond, arc, 0.0, height},
+                               {r, height, bond, straight}},
+                              height - g.rod_length);
+}
+
+/// Cylinder with a hemisphere, 25 mm high, 25 mm wide, glued at its base.
+Geometry solid_finger() {
+  const double R = 0.0125;
+  return Geometry::of_profile({{R, 0.0, contact, straight},
+                               {R, R, contact, arc, 0.0, R},
+                               {0.0, 2 * R, axis, straight},
+                               {0.0, 0.0, bond, straight}});
+}
+
+PressSetup press_of(const Geometry& geometry, ModelKind model, Kinematics kinematics,
+                    ContactMode contact, double per_radius = 8) {
+  PressSetup setup;
+  setup.geometry = geometry;
+  setup.lattice.model = model;
+  setup.lattice.kinematics = kinematics;
+  setup.lattice.spacing = geometry.tip_radius / per_radius;
+  setup.lattice.constants = model == ModelKind::published
+                                ? lattice::published_constants(setup.rubber, setup.lattice.spacing)
+                                : lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  setup.protocol.contact = contact;
+  setup.protocol.samples = {5e-4, 1e-3, 2e-3};
+  setup.protocol.depth = 2e-3;
+  return setup;
+}
+
+TEST(ShapePress, ProfileOfTheDomeIsTheDomeAtRest) {
+  for (const double tilt : {0.0, 0.2}) {
+    for (const auto& [model, kinematics] : {std::pair(ModelKind::hookean, Kinematics::small),
+                                            std::pair(ModelKind::network, Kinematics::finite)}) {
+      PressSetup dome = press_of(Geometry{}, model, kinematics, ContactMode::stick);
+      dome.protocol.mode = DriveMode::equilibrium;
+      dome.protocol.tilt = tilt;
+      if (kinematics == Kinematics::finite) dome.protocol.samples = {dome.protocol.depth = 5e-4};
+      PressSetup profile = dome;
+      // Tilted, the plane turns about the origin: the profile's is the dome's only at its height.
+      profile.geometry = dome_as_profile(tilt == 0.0 ? 0.02 : 0.0);
+      const auto expected = lattice::run_static_press(dome).response.samples();
+      const auto found = lattice::run_static_press(profile).response.samples();
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        const double force = expected[i].normal_force;
+        EXPECT_NEAR(found[i].normal_force, force, 1e-6 * force);
+        EXPECT_NEAR(found[i].contact_radius, expected[i].contact_radius, 1e-8);
+        EXPECT_NEAR(found[i].torque_y, expected[i].torque_y, 1e-6 * force * 0.03);
+      }
+    }
+  }
+}
+
+TEST(ShapePress, ProfileOfTheDomeIsTheDomeInMotion) {
+  for (const auto& [model, kinematics] : {std::pair(ModelKind::hookean, Kinematics::small),
+                                          std::pair(ModelKind::published, Kinematics::finite)}) {
+    PressSetup dome = press_of(Geometry{}, model, kinematics, ContactMode::stick);
+    dome.protocol.mode = DriveMode::quasi_static;
+    PressSetup profile = dome;
+    profile.geometry = dome_as_profile();
+    const auto expected = lattice::run_press(dome);
+    const auto found = lattice::run_press(profile);
+    EXPECT_EQ(found.census.particles, expected.census.particles);
+    for (const double depth : dome.protocol.samples) {
+      const double force = expected.response.normal_force_at(depth);
+      EXPECT_NEAR(found.response.normal_force_at(depth), force, 1e-5 * force) << name(model);
+    }
+  }
+}
+
+/// A base-held finger: what pushes the plane pushes the hand, whatever holds it, and the force
+/// does not depend on where on the axis the origin lies.
+TEST(ShapePress, SolidFingerBalances) {
+  PressSetup setup =
+      press_of(solid_finger(), ModelKind::hookean, Kinematics::small, ContactMode::frictionless, 6);
+  // So much rubber sways at 12 Hz where it is as soft as the paper's: a stiff one, pressed slowly.
+  setup.rubber.youngs_modulus *= 25.0;
+  setup.rubber.shear_modulus *= 25.0;
+  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  setup.protocol.speed = 4e-3;
+  setup.protocol.mode = DriveMode::pid;
+  const auto moving = lattice::run_press(setup);
+  EXPECT_LT(moving.momentum_defect, 1e-9);
+  setup.protocol.mode = DriveMode::equilibrium;
+  const auto at_rest = lattice::run_static_press(setup);
+  for (const auto& sample : at_rest.response.samples()) {
+    const double force = sample.normal_force;
+    EXPECT_GT(force, 0.0);
+    EXPECT_NEAR(moving.response.normal_force_at(sample.indentation), force, 0.01 * force);
+    EXPECT_NEAR(sample.lateral_force_x, 0.0, 1e-9 * force);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,272 @@
+#include "meshes/meridian.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "meshes/cut_cells.h"
+#include "meshes/surface_points.h"
+
+namespace fingertip::meshes {
+namespace {
+
+using std::numbers::pi;
+using enum ProfileSurface;
+using enum ProfileCurve;
+
+/// The dome written as a profile, its first corner anywhere, either way round.
+std::vector<ProfileCorner> dome_profile(const Geometry& g) {
+  const double R = g.tip_radius, r = g.rod_radius, L = g.sleeve_length;
+  return {{0.0, R, axis, straight}, {0.0, r, bond, arc},        {r, 0.0, bond, straight},
+          {r, -L, free, straight},  {R, -L, contact, straight}, {R, 0.0, contact, arc}};
+}
+
+/// A solid ellipsoid of half axes a (across) and b (up) cut at its middle, as a spline through n
+/// corners a quarter, held at its base.
+std::vector<ProfileCorner> half_ellipsoid(double a, double b, int n) {
+  std::vector<ProfileCorner> corners;
+  for (int i = 0; i < n; ++i) {
+    const double t = 0.5 * pi * i / n;
+    corners.push_back({a * std::cos(t), b * std::sin(t), contact, spline});
+  }
+  corners.push_back({0.0, b, axis, straight});
+  corners.push_back({0.0, 0.0, bond, straight});
+  return corners;
+}
+
+/// A hollow finger: cylinder and hemisphere with a wall, glued at its rim.
+std::vector<ProfileCorner> hollow(double R, double wall, double height) {
+  const double r = R - wall, z = height - R;
+  return {{R, 0.0, contact, straight},   {R, z, contact, arc, 0.0, z},
+          {0.0, height, axis, straight}, {0.0, height - wall, free, arc, 0.0, z},
+          {r, z, free, straight},        {r, 0.0, bond, straight}};
+}
+
+void expect_refused(std::vector<ProfileCorner> corners, const std::string& rule) {
+  try {
+    Geometry::of_profile(std::move(corners));
+    ADD_FAILURE() << "accepted, though " << rule;
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find(rule), std::string::npos) << error.what();
+  }
+}
+
+TEST(Meridian, OfTheDomeIsTheDome) {
+  const Geometry dome, profile = Geometry::of_profile(dome_profile(dome), -dome.rod_length);
+  EXPECT_NEAR(profile.tip_radius, dome.tip_radius, 1e-15);
+  EXPECT_NEAR(profile.rod_radius, dome.rod_radius, 1e-15);
+  EXPECT_NEAR(profile.sleeve_length, dome.sleeve_length, 1e-15);
+  EXPECT_EQ(profile.rod_length, dome.rod_length);
+  EXPECT_NEAR(profile.pole(), dome.pole(), 1e-15);
+  EXPECT_NEAR(profile.thickness(), dome.thickness(), 1e-15);
+  EXPECT_NEAR(profile.tip_volume() / dome.tip_volume(), 1.0, 1e-14);
+  const Meridian meridian(profile);
+  EXPECT_NEAR(meridian.wall(), dome.thickness(), 1e-12);
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> place(-0.02, 0.02);
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3 w(place(generator), place(generator), place(generator));
+    EXPECT_NEAR(meridian.signed_distance(w), dome.signed_distance(w), 1e-14) << w.transpose();
+  }
+}
+
+TEST(Meridian, MayBeginAtAnyCornerEitherWayRound) {
+  const Geometry dome;
+  const double volume = dome.tip_volume();
+  const std::vector<ProfileCorner> corners = dome_profile(dome);
+  for (std::size_t first = 0; first < corners.size(); ++first) {
+    std::vector<ProfileCorner> turned = corners;
+    std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(first), turned.end());
+    EXPECT_NEAR(Geometry::of_profile(turned).tip_volume() / volume, 1.0, 1e-14);
+    // Backward: each piece keeps its surface and curve, now named at its other end.
+    std::vector<ProfileCorner> backward;
+    for (std::size_t i = corners.size(); i-- > 0;) {
+      ProfileCorner corner = turned[(i + corners.size() - 1) % corners.size()];
+      corner.r = turned[i].r, corner.z = turned[i].z;
+      backward.push_back(corner);
+    }
+    const Geometry geometry = Geometry::of_profile(backward);
+    EXPECT_NEAR(geometry.tip_volume() / volume, 1.0, 1e-14);
+    EXPECT_NEAR(Meridian(geometry).area(bond), surface_area(dome, Surface::bond), 1e-14);
+  }
+}
+
+TEST(Meridian, SplinesRunThroughTheirCornersAndMeetTheAxisSquarely) {
+  const double a = 0.012, b = 0.006;
+  double last = 0.0;
+  for (const int n : {4, 8, 16}) {
+    const Geometry geometry = Geometry::of_profile(half_ellipsoid(a, b, n));
+    const double error = std::abs(geometry.tip_volume() / (2.0 / 3.0 * pi * a * a * b) - 1.0);
+    // Natural at the base, so of lower order there than the cubic's fourth.
+    if (last > 0.0) {
+      EXPECT_LT(error, last / 3.5) << n;
+    }
+    last = error;
+    const Meridian meridian(geometry);
+    const MeridianPiece* top = nullptr;
+    for (const MeridianPiece& piece : meridian.pieces())
+      if (piece.surface() == contact && piece.to().x() == 0.0) top = &piece;
+    ASSERT_NE(top, nullptr);
+    EXPECT_NEAR(top->normal(1.0).x(), 0.0, 1e-12);
+    EXPECT_EQ(geometry.pole(), b);
+    EXPECT_NEAR(meridian.wall(), b, 1e-3 * b);
+  }
+  EXPECT_LT(last, 1e-4);
+}
+
+TEST(Meridian, DistanceToASplineIsThatToItsPoints) {
+  const Geometry geometry = Geometry::of_profile(half_ellipsoid(0.012, 0.006, 8));
+  const Meridian meridian(geometry);
+  std::mt19937 generator(2);
+  std::uniform_real_distribution<double> place(0.0, 0.015);
+  for (int i = 0; i < 200; ++i) {
+    const Vector2 p(place(generator), place(generator) - 0.004);
+    double nearest = 1.0;
+    for (const MeridianPiece& piece : meridian.pieces())
+      if (piece.surface() != axis)
+        for (int k = 0; k <= 2000; ++k)
+          nearest = std::min(nearest, (piece.at(k / 2000.0) - p).norm());
+    const double distance = std::abs(meridian.signed_distance(p));
+    EXPECT_LE(distance, nearest);
+    EXPECT_GE(distance, nearest - 1e-6);  // 2000 points a piece
+    const bool inside =
+        p.y() > 0.0 && std::pow(p.x() / 0.012, 2) + std::pow(p.y() / 0.006, 2) < 0.999;
+    if (inside) {
+      EXPECT_LT(meridian.signed_distance(p), 0.0);
+    }
+  }
+}
+
+TEST(Meridian, WallOfAHollowFinger) {
+  const Geometry geometry = Geometry::of_profile(hollow(0.0125, 0.0025, 0.025));
+  EXPECT_NEAR(Meridian(geometry).wall(), 0.0025, 1e-9);
+  EXPECT_NEAR(geometry.thickness(), 0.025, 1e-15);
+  EXPECT_NEAR(geometry.coarsest_spacing(), 0.0025 / 4, 1e-9);
+  EXPECT_EQ(geometry.rod_length, 0.0);
+}
+
+/// Cells, whatever the grid's place: volume, centroid and second moments of bodies known in closed
+/// form.
+TEST(Meridian, CutCellsAddUpToTheBody) {
+  struct Body {
+    const char* what;
+    Geometry geometry;
+    double volume, first;  ///< closed form: integrals of 1 and z
+  };
+  const double a = 0.012, b = 0.006, R = 0.0125, wall = 0.0025, H = 0.025, r = R - wall;
+  const double z0 = H - R;
+  const auto ball = [](double q) { return 2.0 / 3.0 * pi * q * q * q; };
+  const auto lever = [&](double q) { return ball(q) * z0 + pi / 4 * std::pow(q, 4); };
+  const Geometry spline_body = Geometry::of_profile(half_ellipsoid(a, b, 24));
+  const std::vector<Body> bodies = {
+      {"hollow", Geometry::of_profile(hollow(R, wall, H)),
+       pi * (R * R - r * r) * z0 + ball(R) - ball(r),
+       pi * (R * R - r * r) * z0 * z0 / 2 + lever(R) - lever(r)},
+      {"cone",
+       Geometry::of_profile({{0.01, 0.0, contact, straight},
+                             {0.0, 0.02, axis, straight},
+                             {0.0, 0.0, bond, straight}}),
+       pi / 3 * 0.01 * 0.01 * 0.02, pi / 12 * 0.01 * 0.01 * 0.02 * 0.02},
+      {"spline", spline_body, spline_body.tip_volume(), 0.0},
+      {"torus rim",  // a flat disc with a rounded rim: off-axis arcs
+       Geometry::of_profile({{0.01, 0.0, contact, arc, 0.01, 0.002},
+                             {0.012, 0.002, contact, arc, 0.01, 0.002},
+                             {0.01, 0.004, contact, straight},
+                             {0.0, 0.004, axis, straight},
+                             {0.0, 0.0, bond, straight}}),
+       pi * 0.01 * 0.01 * 0.004 + pi * pi * 0.002 * 0.002 * 0.01 +
+           4.0 / 3.0 * pi * std::pow(0.002, 3),
+       0.0}};
+  for (const Body& body : bodies)
+    for (const Vector3& offset : {Vector3(0, 0, 0), Vector3(0.3, -0.2, 0.7)})
+      for (const bool renamed : {false, true}) {
+        Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+        if (renamed) axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+        const double spacing = std::min(0.9 * body.geometry.coarsest_spacing(), 0.001);
+        const CubicGrid grid = covering_grid(body.geometry, spacing, offset, 1, axes);
+        double volume = 0.0, first = 0.0;
+        for (const CutCell& cell : cut_cells(body.geometry, grid, 0.0)) {
+          const auto& m = cell.moments;
+          const Vector3 corner = grid.position(cell.index[0], cell.index[1], cell.index[2]);
+          volume += m[0];
+          first +=
+              corner.z() * m[0] + spacing * axes.row(2).dot(Eigen::RowVector3d(m[1], m[2], m[4]));
+        }
+        volume *= std::pow(spacing, 3), first *= std::pow(spacing, 3);
+        EXPECT_NEAR(volume / body.volume, 1.0, 1e-8) << body.what;
+        if (body.first > 0.0) {
+          EXPECT_NEAR(first / body.first, 1.0, 1e-8) << body.what;
+        }
+      }
+}
+
+TEST(Meridian, SurfacePointsCarryAreaAndCloseTheBody) {
+  for (const auto& corners : {hollow(0.0125, 0.0025, 0.025), half_ellipsoid(0.012, 0.006, 12),
+                              dome_profile(Geometry{})}) {
+    const Geometry geometry = Geometry::of_profile(corners);
+    double flux = 0.0, push = 0.0, whole = 0.0;
+    for (const Surface surface : {Surface::outer, Surface::bond, Surface::end}) {
+      double area = 0.0;
+      for (const SurfacePoint& point : surface_points(geometry, surface, 2e-4)) {
+        area += point.area;
+        flux += point.area * point.normal.dot(point.position) / 3.0;
+        push += point.area * point.normal.z();
+      }
+      const double exact = surface_area(geometry, surface);
+      EXPECT_NEAR(area, exact, 1e-11 * exact);
+      whole += area;
+    }
+    EXPECT_NEAR(flux / geometry.tip_volume(), 1.0, 3e-4);  // Gauss
+    EXPECT_NEAR(push / whole, 0.0, 2e-5);
+  }
+}
+
+TEST(Meridian, RefusesWhatIsNoFinger) {
+  const auto with = [](auto&& change) {
+    std::vector<ProfileCorner> corners = dome_profile(Geometry{});
+    change(corners);
+    return corners;
+  };
+  expect_refused({{0, 0, axis, straight}, {0.01, 0, contact, straight}}, "at least three");
+  expect_refused(with([](auto& c) { c[2].r = -0.005; }), "must not be negative");
+  expect_refused(with([](auto& c) {
+                   for (auto& corner : c) corner.r *= 1000, corner.z *= 1000;
+                 }),
+                 "0.5 mm to 0.5 m");
+  expect_refused(with([](auto& c) { c[1].r = 0.001; }), "a piece of the axis runs from r = 0");
+  expect_refused(with([](auto& c) { c[5].centre_r = 0.001; }), "equally far from its centre");
+  expect_refused(with([](auto& c) { c[4].surface = c[5].surface = free; }),
+                 "name at least one piece contact");
+  expect_refused(with([](auto& c) { c[1].surface = c[2].surface = free; }),
+                 "name at least one piece bond");
+  expect_refused(with([](auto& c) { c.insert(c.begin() + 3, c[3]); }), "must differ from the next");
+  expect_refused({{0.01, 0, contact, straight},
+                  {0.0, 0.02, axis, straight},
+                  {0.0, 0.0, bond, straight},
+                  {0.012, 0.01, free, straight}},
+                 "must not cross or touch itself");
+  expect_refused({{0.005, 0, contact, straight},
+                  {0.01, 0.01, contact, straight},
+                  {0.005, 0.0, bond, straight}},
+                 "");
+  // Upside down: what touches is not the highest.
+  expect_refused(with([](auto& c) {
+                   for (auto& corner : c) corner.z *= -1;
+                 }),
+                 "lie on the axis");
+  expect_refused(
+      {{0.0, 0.0, axis, straight}, {0.0, 0.01, bond, straight}, {0.01, 0.0, contact, straight}},
+      "");
+}
+
+TEST(Meridian, RefusesATurnedGridWithTheReason) {
+  const Geometry geometry = Geometry::of_profile(dome_profile(Geometry{}));
+  CubicGrid grid = covering_grid(geometry, 1e-3, Vector3::Zero(), 1);
+  grid.axes << 0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1;
+  EXPECT_THROW(cut_cells(geometry, grid, 0.0), InvalidInput);
+}
+
+}  // namespace
+}  // namespace fingertip::meshes
