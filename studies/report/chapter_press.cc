@@ -85,8 +85,8 @@ Range error_axis(const RunData& run, const std::vector<Series>& curves) {
       most = std::fmax(most, curve.y[i]);
     }
   }
-  const double room = 0.08 * (most - least);
-  return {least - room, most + room};
+  const double padding = 0.08 * (most - least);
+  return {least - padding, most + padding};
 }
 
 Table response_table(const RunData& run) {

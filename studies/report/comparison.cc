@@ -190,7 +190,7 @@ std::string lateral_text(const std::vector<ComparedCurve>& curves) {
     if (!curve.response.sliding().empty()) sliding.push_back(&curve);
   if (sliding.size() < 2) return {};
   std::string text = shown_units().force.label("lateral force at full depth") + "\n" +
-                     fmt::format("{:>12}", shown_units().length.label("aside"));
+                     fmt::format("{:>12}", shown_units().length.label("lateral"));
   for (const ComparedCurve* curve : sliding)
     text += fmt::format("{:>24}", curve->label.substr(0, 23));
   text += "\n";
