@@ -1,4 +1,4 @@
-#include "studies/live/guard.h"
+#include "studies/live/access.h"
 
 #include <gtest/gtest.h>
 
