@@ -50,7 +50,7 @@ void print_samples(std::span<const meshes::PressSample> samples, const char* ord
   for (const Sample& sample : samples) {
     for (const Column& column : columns) {
       const double value = sample.*column.value;
-      fmt::print("{:>14}", std::isnan(value) ? "" : fmt::format("{:.4f}", column.unit(value)));
+      fmt::print("{:>14}", std::isnan(value) ? "" : column.unit.decimals(value));
     }
     fmt::print("\n");
   }

@@ -44,7 +44,7 @@ Key problem_key() {
       {{"moduli", "spring constants to Young's and shear modulus"},
        {"curve", "spring constants, bond and contact to the continuum's forces"},
        {"experiment", "Young's and shear modulus to measured forces"},
-       {"finite-strain", "law A to measured stress and stretch, or shear"},
+       {"finite-strain", "the neo-Hookean law (law A) to measured stress and stretch, or shear"},
        {"damping", "the retardation time to loss factors, creep, a held ramp or a press"}},
       "what is fitted to what", at(&Config::calibration, &CalibrationSettings::problem));
 }
