@@ -88,7 +88,7 @@ void Reader::read_section(const std::string& section, const toml::node& node,
   const auto* table = node.as_table();
   if (!known || table == nullptr) {
     std::vector<std::string> names;
-    for (const Section& section : sections()) names.push_back(section.name);
+    for (const Section& candidate : sections()) names.push_back(candidate.name);
     problems_.push_back({place(node), section, "", known ? "must be a section" : "unknown section",
                          "the nearest valid section is [" + nearest_word(section, names) + "]"});
     return;

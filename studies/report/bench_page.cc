@@ -136,9 +136,9 @@ Table ratio_table(const JsonEntry& bench) {
   const JsonEntry missing = object_if_any(bench, "missing_ratios");
   for (const auto& [name, value] : values.members()) {
     double low = meshes::unknown, high = meshes::unknown;
-    for (const double value : numbers_if_any(rounds, name)) {
-      low = std::fmin(low, value);
-      high = std::fmax(high, value);
+    for (const double ratio : numbers_if_any(rounds, name)) {
+      low = std::fmin(low, ratio);
+      high = std::fmax(high, ratio);
     }
     Cell remark = plain(text_if_any(missing, name));
     remark.words = true;

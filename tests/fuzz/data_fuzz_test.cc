@@ -41,19 +41,19 @@ bool increasing(const std::vector<double>& values) {
 }
 
 calibration::Material material(lattice::ModelKind model) {
-  calibration::Material material;
-  material.model = model;
-  material.spacing = 1e-3;
-  material.rubber = {3.4e5, 1.2e5, 1070.0, 1e-4};
-  material.constants = lattice::hookean_constants(material.rubber, material.spacing);
-  material.kinematics = lattice::Kinematics::finite;
-  material.validity.largest_indentation = 2e-3;
-  material.validity.thickness = 5e-3;
-  material.validity.contacts = {meshes::ContactMode::stick, meshes::ContactMode::frictionless};
-  material.provenance = "moduli";
-  material.program = "fingertip";
-  material.statement = "Both moduli are met.";
-  return material;
+  calibration::Material result;
+  result.model = model;
+  result.spacing = 1e-3;
+  result.rubber = {3.4e5, 1.2e5, 1070.0, 1e-4};
+  result.constants = lattice::hookean_constants(result.rubber, result.spacing);
+  result.kinematics = lattice::Kinematics::finite;
+  result.validity.largest_indentation = 2e-3;
+  result.validity.thickness = 5e-3;
+  result.validity.contacts = {meshes::ContactMode::stick, meshes::ContactMode::frictionless};
+  result.provenance = "moduli";
+  result.program = "fingertip";
+  result.statement = "Both moduli are met.";
+  return result;
 }
 
 }  // namespace
@@ -197,9 +197,9 @@ TEST(FuzzData, Responses) {
   fuzz::attack({{read_text(file), "normal_force [N], indentation [m]\r\n0.5, 1e-3\r\n"}, words},
                fuzz::refusing<InvalidInput>([&](const std::string& input) {
                  write_text(file, input);
-                 const meshes::PressResponse response = meshes::PressResponse::read_csv(file);
+                 const meshes::PressResponse found = meshes::PressResponse::read_csv(file);
                  double before = -INFINITY;
-                 for (const meshes::PressSample& sample : response.samples()) {
+                 for (const meshes::PressSample& sample : found.samples()) {
                    EXPECT_TRUE(std::isfinite(sample.indentation));
                    EXPECT_TRUE(std::isfinite(sample.normal_force));
                    EXPECT_GT(sample.indentation, before);
@@ -254,10 +254,10 @@ TEST(FuzzData, OrdersForTheContinuum) {
                              "\"samples\": [],", "\"verification\""});
   fuzz::attack({seeds, words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
                  write_text(file, input);
-                 const fem_reference::ReferenceJob job = fem_reference::read_job(file);
-                 EXPECT_TRUE(job.violations().empty());
-                 EXPECT_TRUE(all_finite(job.protocol.samples));
-                 write_job(job, file);
+                 const fem_reference::ReferenceJob found = fem_reference::read_job(file);
+                 EXPECT_TRUE(found.violations().empty());
+                 EXPECT_TRUE(all_finite(found.protocol.samples));
+                 write_job(found, file);
                  const std::string text = read_text(file);
                  write_job(fem_reference::read_job(file), file);
                  EXPECT_EQ(read_text(file), text);
