@@ -298,10 +298,11 @@ std::string material_toml(Material material) {
   std::string text =
       "# Calibrated lattice constants, SI. Use: lattice.constants = \"<path of this file>\"\n";
   const std::vector<Quantity> all = quantities(material);
-  const auto unknown = [&](const Quantity& one) {
-    return (one.maybe != nullptr && !*one.maybe) ||
-           (one.value == &material.rubber.density && !material.density_known) ||
-           (one.value == &material.rubber.retardation_time && !material.retardation_time_known);
+  const auto unknown = [&](const Quantity& quantity) {
+    return (quantity.maybe != nullptr && !*quantity.maybe) ||
+           (quantity.value == &material.rubber.density && !material.density_known) ||
+           (quantity.value == &material.rubber.retardation_time &&
+            !material.retardation_time_known);
   };
   for (const std::string_view section :
        {"lattice", "constants", "rubber", "geometry", "validity"}) {

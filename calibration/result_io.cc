@@ -38,8 +38,9 @@ void write_calibration_json(const ModuliFit& fit, const std::filesystem::path& f
   content.damping = {fit.target.retardation_time};
   content.target = rubber_entry(fit.target);
   content.achieved = achieved_entry(fit.achieved);
-  for (const Eigen::Vector4d& one : fit.unidentifiable)
-    content.unidentifiable.push_back({one(0), one(1), one(2), one(3), describe_direction(one)});
+  for (const Eigen::Vector4d& direction : fit.unidentifiable)
+    content.unidentifiable.push_back(
+        {direction(0), direction(1), direction(2), direction(3), describe_direction(direction)});
   for (std::size_t i = 0; i < fit.residual_names.size(); ++i)
     content.residuals[fit.residual_names[i]] = fit.residuals(Eigen::Index(i));
   content.statement = fit.statement;

@@ -4,12 +4,12 @@
 #include <deal.II/base/work_stream.h>
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/grid/filtered_iterator.h>
-#include <dlfcn.h>
 
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
 
+#include "meshes/blas_threads.h"
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {
@@ -70,37 +70,6 @@ struct Contribution {
 
   explicit Contribution(std::size_t unknowns)
       : matrix(unsigned(unknowns), unsigned(unknowns)), force(unsigned(unknowns)) {}
-};
-
-/// While elements keep all threads busy, products of their small matrices must not ask for more.
-class OneBlasThread {
- public:
-  OneBlasThread() {
-    if (set_threads() && get_threads()) {
-      before_ = get_threads()();
-      set_threads()(1);
-    }
-  }
-  ~OneBlasThread() {
-    if (before_ > 0) set_threads()(before_);
-  }
-  OneBlasThread(const OneBlasThread&) = delete;
-  OneBlasThread& operator=(const OneBlasThread&) = delete;
-
- private:
-  // Looked up by name: which BLAS serves the program is the system's choice.
-  static void (*set_threads())(int) {
-    static const auto found =
-        reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
-    return found;
-  }
-  static int (*get_threads())() {
-    static const auto found =
-        reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
-    return found;
-  }
-
-  int before_ = 0;
 };
 
 void start_sums(LinearSystem& system) {
@@ -165,7 +134,7 @@ void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const V
     if (failure.empty()) take(result.cell, result.matrix, result.force, result.element);
   };
   const dealii::IteratorFilters::LocallyOwnedCell owned;
-  const OneBlasThread one_blas_thread;
+  const meshes::OneBlasThread one_blas_thread;
   dealii::WorkStream::run(Owned(owned).set_to_next_positive(body.fine.dofs.begin_active()),
                           Owned(owned, body.fine.dofs.end()), integrate, hand_over,
                           Work<dim>(body, kernel), Contribution<dim>(order.size()));

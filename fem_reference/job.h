@@ -1,4 +1,4 @@
-/// The order slip between the two programs: `fingertip` writes it, `fingertip-fem` carries it out.
+/// The job file between the two programs: `fingertip` writes it, `fingertip-fem` carries it out.
 /// Free of deal.II, so that the application does not link it.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// The three ways a computation can end other than well. Every room throws these, and the
+/// The three ways a computation can end other than well. Every library throws these, and the
 /// programs map them to exit codes: InvalidInput 2, NotConverged 3, Interrupted 130.
 #pragma once
 

@@ -85,11 +85,11 @@ Json json_of(const Value& value) {
     return value ? json_of<Json>(*value) : Json();
   } else if constexpr (is_list<Value>) {
     Json list = Json::array();
-    for (const auto& one : value) list.push_back(json_of<Json>(one));
+    for (const auto& element : value) list.push_back(json_of<Json>(element));
     return list;
   } else if constexpr (is_map<Value>) {
     Json object = Json::object();
-    for (const auto& [name, one] : value) object[name] = json_of<Json>(one);
+    for (const auto& [name, member] : value) object[name] = json_of<Json>(member);
     return object;
   } else if constexpr (requires { value.derived(); }) {  // of Eigen
     return std::vector<double>(value.data(), value.data() + value.size());

@@ -63,12 +63,12 @@ constexpr auto named(std::string_view names, Member... members) {
 /// The same fields, all of them newer, or there if known.
 template <typename... Member>
 constexpr auto newer(std::tuple<Field<Member>...> fields) {
-  std::apply([](auto&... one) { ((one.presence = Presence::newer), ...); }, fields);
+  std::apply([](auto&... field) { ((field.presence = Presence::newer), ...); }, fields);
   return fields;
 }
 template <typename... Member>
 constexpr auto if_known(std::tuple<Field<Member>...> fields) {
-  std::apply([](auto&... one) { ((one.presence = Presence::if_known), ...); }, fields);
+  std::apply([](auto&... field) { ((field.presence = Presence::if_known), ...); }, fields);
   return fields;
 }
 
@@ -77,8 +77,8 @@ constexpr auto if_known(std::tuple<Field<Member>...> fields) {
 template <typename When, typename... Member>
 constexpr auto only(When when, std::tuple<Field<Member>...> fields) {
   return std::apply(
-      [&](const auto&... one) {
-        return std::tuple{Field<Member, When>{one.name, one.member, one.presence, when}...};
+      [&](const auto&... field) {
+        return std::tuple{Field<Member, When>{field.name, field.member, field.presence, when}...};
       },
       fields);
 }
@@ -121,8 +121,8 @@ void for_each_field(const Use& use) {
 /// The enumerator whose name(...) is `text`, among its values(...).
 template <typename Enum>
 std::optional<Enum> enumerator(std::string_view text) {
-  for (const Enum one : values(Enum()))
-    if (name(one) == text) return one;
+  for (const Enum value : values(Enum()))
+    if (name(value) == text) return value;
   return {};
 }
 

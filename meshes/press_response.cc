@@ -91,11 +91,11 @@ double PressResponse::normal_force_at(double indentation) const {
 }
 
 void PressResponse::write_csv(const std::filesystem::path& file) const {
-  const bool aside = std::ranges::any_of(samples_, [](const PressSample& sample) {
+  const bool moves_laterally = std::ranges::any_of(samples_, [](const PressSample& sample) {
     return std::abs(sample.lateral_displacement) > 0.0;
   });
   std::vector<PressSample> rows = samples_;
-  if (!aside)
+  if (!moves_laterally)
     for (PressSample& row : rows) row.lateral_displacement = unknown;
   write_rows(rows, file);
 }

@@ -16,6 +16,12 @@ struct Rubber {
 
   std::vector<Violation> violations() const;
 
+  /// E and G from Lamé's constants G and lambda [Pa].
+  void set_lame(double shear, double lambda) {
+    youngs_modulus = shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear);
+    shear_modulus = shear;
+  }
+
   double poissons_ratio() const { return youngs_modulus / (2.0 * shear_modulus) - 1.0; }
   /// K = E G / (3 (3G - E)) [Pa]
   double bulk_modulus() const {

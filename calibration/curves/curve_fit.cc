@@ -52,8 +52,8 @@ const Minimum& best_of(const std::vector<Minimum>& minima, const CurveResiduals&
   const Minimum& least = *std::ranges::min_element(minima, {}, &Minimum::loss);
   const double close = least.loss + 0.01 * residuals.loss_of_standard_error(least.loss);
   const Minimum* best = &least;
-  for (const Minimum& one : minima)
-    if (!best->converged && one.converged && one.loss <= close) best = &one;
+  for (const Minimum& minimum : minima)
+    if (!best->converged && minimum.converged && minimum.loss <= close) best = &minimum;
   return *best;
 }
 

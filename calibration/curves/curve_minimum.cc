@@ -263,7 +263,7 @@ Walk descend(const Problem& problem, const std::vector<bool>& held, VectorXd& x)
 /// From `start`, adding to `minimum` as it goes. Whether a minimum was found.
 bool seek(const Problem& problem, VectorXd x, Minimum& minimum) {
   std::vector<bool> held(problem.options.free.size(), false);
-  // More often, which parameters lie at their bounds does not settle.
+  // More often, the set of parameters at their bounds does not converge.
   for (std::size_t round = 0; round <= 2 * held.size(); ++round) {
     const Walk walk = descend(problem, held, x);
     minimum.iterations += walk.iterations;

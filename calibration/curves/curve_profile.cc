@@ -88,10 +88,10 @@ class Valley {
 
   /// Holds the two; the others go where the covariance expects them, within their bounds.
   void set(double first, double second) {
-    const std::vector<Index> two = {first_, second_};
+    const std::vector<Index> profiled = {first_, second_};
     const Eigen::Vector2d step(first - fit_.estimates(first_), second - fit_.estimates(second_));
-    const Eigen::Matrix2d own = fit_.covariance(two, two);
-    const Eigen::MatrixXd cross = fit_.covariance(others_, two);
+    const Eigen::Matrix2d own = fit_.covariance(profiled, profiled);
+    const Eigen::MatrixXd cross = fit_.covariance(others_, profiled);
     at_ = fit_.estimates;
     const VectorXd shift = cross * own.fullPivLu().solve(step);
     for (std::size_t k = 0; k < others_.size(); ++k) {

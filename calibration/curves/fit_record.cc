@@ -56,11 +56,12 @@ ParameterEntry parameter_entry(const FitRecord& record, std::size_t i) {
 std::vector<DirectionEntry> directions(const FitRecord& record,
                                        const std::vector<Direction>& found) {
   std::vector<DirectionEntry> result;
-  for (const Direction& one : found) {
+  for (const Direction& direction : found) {
     meshes::Entries<double> changes;
     for (std::size_t i = 0; i < record.fit.parameters.size(); ++i)
-      changes[std::string(name(record.fit.parameters[i]))] = one.changes(Index(i));
-    result.push_back({changes, one.relative_singular_value, one.interval, one.statement});
+      changes[std::string(name(record.fit.parameters[i]))] = direction.changes(Index(i));
+    result.push_back(
+        {changes, direction.relative_singular_value, direction.interval, direction.statement});
   }
   return result;
 }
@@ -125,8 +126,9 @@ ValidityEntry validity_entry(const Material& material) {
 
 std::vector<MinimumEntry> minima(const CurveFit& fit) {
   std::vector<MinimumEntry> result;
-  for (const Minimum& one : fit.minima)
-    result.push_back({list(one.estimates), one.loss, one.iterations, one.converged});
+  for (const Minimum& minimum : fit.minima)
+    result.push_back(
+        {list(minimum.estimates), minimum.loss, minimum.iterations, minimum.converged});
   return result;
 }
 
@@ -206,9 +208,9 @@ ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
   }
   VectorXd all(count);
   count = 0;
-  for (const VectorXd& one : residuals) {
-    all.segment(count, one.size()) = one;
-    count += one.size();
+  for (const VectorXd& part : residuals) {
+    all.segment(count, part.size()) = part;
+    count += part.size();
   }
   return residual_structure(
       VectorXd((record.fit.whitening * all).segment(first, residuals[curve].size())));

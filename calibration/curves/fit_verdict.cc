@@ -74,8 +74,8 @@ void judge_identifiability(Sentences& found, const FitRecord& record) {
 }
 
 void judge_material(Sentences& found, const FitRecord& record) {
-  for (const meshes::Violation& one : record.material.violations())
-    found.push_back("the estimates are no rubber: " + to_string(one));
+  for (const meshes::Violation& violation : record.material.violations())
+    found.push_back("the estimates are no rubber: " + to_string(violation));
   const double e = record.material.rubber.youngs_modulus;
   if (record.problem != "damping" && !(e >= softest && e <= hardest))
     found.push_back("E = " + rounded(e, 3) +

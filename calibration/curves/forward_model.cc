@@ -95,10 +95,6 @@ bool is_of_the_rubber(MaterialParameter parameter) {
 
 meshes::Rubber with_moduli(meshes::Rubber rubber, const std::vector<MaterialParameter>& parameters,
                            const Eigen::VectorXd& values) {
-  const auto set_lame = [&](double g, double lambda) {
-    rubber.shear_modulus = g;
-    rubber.youngs_modulus = g * (3.0 * lambda + 2.0 * g) / (lambda + g);
-  };
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const double value = values(Eigen::Index(i));
     switch (parameters[i]) {
@@ -108,8 +104,8 @@ meshes::Rubber with_moduli(meshes::Rubber rubber, const std::vector<MaterialPara
         rubber.shear_modulus *= value / rubber.youngs_modulus;
         rubber.youngs_modulus = value;
         break;
-      case MaterialParameter::lame_shear: set_lame(value, rubber.lame_lambda()); break;
-      case MaterialParameter::lambda: set_lame(rubber.shear_modulus, value); break;
+      case MaterialParameter::lame_shear: rubber.set_lame(value, rubber.lame_lambda()); break;
+      case MaterialParameter::lambda: rubber.set_lame(rubber.shear_modulus, value); break;
       default: break;
     }
   }

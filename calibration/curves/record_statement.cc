@@ -22,8 +22,8 @@ std::string with_unit(double value, MaterialParameter parameter) {
 }
 
 std::string ratio_text(const CurveFit& fit) {
-  const auto estimate = [&](MaterialParameter one) {
-    return fit.estimates(std::ranges::find(fit.parameters, one) - fit.parameters.begin());
+  const auto estimate = [&](MaterialParameter parameter) {
+    return fit.estimates(std::ranges::find(fit.parameters, parameter) - fit.parameters.begin());
   };
   const double ratio = estimate(MaterialParameter::youngs_modulus) /
                            (2.0 * estimate(MaterialParameter::shear_modulus)) -
@@ -83,24 +83,24 @@ std::string misfit(const FitRecord& record) {
 
 std::string open_directions(const CurveFit& fit) {
   std::string text;
-  for (const Direction& one : fit.unidentifiable)
-    text += " Not determined by the data: " + one.statement + ".";
-  for (const Direction& one : fit.only_from_priors)
-    text += " Known from the prior, not from the data: " + one.statement + ".";
+  for (const Direction& direction : fit.unidentifiable)
+    text += " Not determined by the data: " + direction.statement + ".";
+  for (const Direction& direction : fit.only_from_priors)
+    text += " Known from the prior, not from the data: " + direction.statement + ".";
   return text;
 }
 
 std::string other_minima(const CurveFit& fit) {
   const auto best = std::ranges::min_element(fit.minima, {}, &Minimum::loss);
-  for (const Minimum& one : fit.minima) {
+  for (const Minimum& minimum : fit.minima) {
     const bool same =
-        (one.estimates - best->estimates).cwiseQuotient(best->estimates).cwiseAbs().maxCoeff() <
+        (minimum.estimates - best->estimates).cwiseQuotient(best->estimates).cwiseAbs().maxCoeff() <
         0.01;
-    if (same || 2.0 * (one.loss - best->loss) > as_good || !fit.chi_square) continue;
+    if (same || 2.0 * (minimum.loss - best->loss) > as_good || !fit.chi_square) continue;
     std::string text = " Another answer describes the data as well:";
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
       text += " " + std::string(name(fit.parameters[i])) + " = " +
-              with_unit(one.estimates(Index(i)), fit.parameters[i]);
+              with_unit(minimum.estimates(Index(i)), fit.parameters[i]);
     return text + ".";
   }
   return "";

@@ -32,8 +32,9 @@ void check_parameters(const std::vector<MaterialParameter>& parameters,
                       const meshes::Rubber& held) {
   using enum MaterialParameter;
   const auto are_of = [&](std::initializer_list<MaterialParameter> ways) {
-    return std::ranges::all_of(parameters, [&](MaterialParameter one) {
-      return std::ranges::count(parameters, one) == 1 && std::ranges::find(ways, one) != ways.end();
+    return std::ranges::all_of(parameters, [&](MaterialParameter parameter) {
+      return std::ranges::count(parameters, parameter) == 1 &&
+             std::ranges::find(ways, parameter) != ways.end();
     });
   };
   if (parameters.empty() || !(are_of({youngs_modulus, shear_modulus}) ||

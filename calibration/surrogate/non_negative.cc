@@ -75,7 +75,7 @@ VectorXd non_negative_least_squares(const MatrixXd& matrix, const VectorXd& righ
     free[std::size_t(next)] = true;
     x = stride(matrix, right, x, free);
   }
-  throw meshes::NotConverged("non-negative least squares: the active set does not settle");
+  throw meshes::NotConverged("non-negative least squares: the active set does not converge");
 }
 
 }  // namespace fingertip::calibration

@@ -89,18 +89,18 @@ std::vector<Check> check_press(const std::filesystem::path& folder) {
     return normal_force;
   };
   write_mesh_once(job.geometry, quarter, folder / verification_mesh);
-  ContinuumPress one(job, folder / verification_mesh);
-  const double of_quarter = force(one, "quarter", 4.0);
+  ContinuumPress quarter_press(job, folder / verification_mesh);
+  const double of_quarter = force(quarter_press, "quarter", 4.0);
   // Twice by a half of the estimated error: hanging nodes come to stand beside the bond, too.
-  one.refine(0.5);
-  force(one, "quarter, refined once", 4.0);
-  one.refine(0.5);
-  force(one, "quarter, refined twice", 4.0);
+  quarter_press.refine(0.5);
+  force(quarter_press, "quarter, refined once", 4.0);
+  quarter_press.refine(0.5);
+  force(quarter_press, "quarter, refined twice", 4.0);
   // A tilt that changes nothing but makes the press take the half.
   job.protocol.tilt = 1e-12;
   write_mesh_once(job.geometry, half, folder / verification_mesh);
-  ContinuumPress two(job, folder / verification_mesh);
-  const double of_half = force(two, "half", 2.0);
+  ContinuumPress half_press(job, folder / verification_mesh);
+  const double of_half = force(half_press, "half", 2.0);
   checks.push_back(compare("symmetry", "force of the half against four quarters [N]",
                            "mirror planes of the press", of_half, of_quarter, 1e-6));
   return checks;

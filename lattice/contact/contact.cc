@@ -63,18 +63,18 @@ bool PlaneContact::gives(Candidate& c, const Vector3& sticking, const Vector3& n
   given = sticking;
   if (law_.mode == ContactMode::stick) return true;
   const double push = std::max(normal.dot(sticking), 0.0);
-  const Vector3 aside = sticking - push * normal;
+  const Vector3 tangential = sticking - push * normal;
   given = push * normal;
   if (law_.mode == ContactMode::frictionless) return false;
-  const double limit = law_.friction * push, needed = aside.norm();
+  const double limit = law_.friction * push, needed = tangential.norm();
   c.sliding = needed > limit;
   if (c.sliding) ++sliding_;
-  given += c.sliding ? Vector3(limit / needed * aside) : aside;
+  given += c.sliding ? Vector3(limit / needed * tangential) : tangential;
   return !c.sliding;
 }
 
-void PlaneContact::settle(Candidate& c, State& state, const Vector3& displacement,
-                          const Vector3& velocity) {
+void PlaneContact::set_state(Candidate& c, State& state, const Vector3& displacement,
+                             const Vector3& velocity) {
   state.displacement.set(c.particle, displacement);
   state.velocity.set(c.particle, velocity);
   c.displacement = displacement;
@@ -97,14 +97,14 @@ Wrench PlaneContact::hold(Candidate& c, State& state, const VectorField& force,
   }
   Vector3 given;
   if (gives(c, sticking, normal, given)) {
-    settle(c, state, c.displacement + carried, with_plane);
+    set_state(c, state, c.displacement + carried, with_plane);
     return {given, start.cross(given)};
   }
   Vector3 moved = state.displacement.at(c.particle) + sweep.step / mass * given;
   const Vector3 back = -sweep.end.gap(place(c, moved)) * normal;  // on a plane that turns
   moved += back;
   given += mass / sweep.step * back;
-  settle(c, state, moved, state.velocity.at(c.particle) + given / mass);
+  set_state(c, state, moved, state.velocity.at(c.particle) + given / mass);
   return {given, start.cross(given)};
 }
 
@@ -123,7 +123,7 @@ Wrench PlaneContact::touch(Candidate& c, State& state, const Sweep& sweep) {
   c.held = true;
   ++anchored_;
   const Vector3 stopped = velocity + given / mass;
-  settle(c, state, crossing + left * stopped, stopped);
+  set_state(c, state, crossing + left * stopped, stopped);
   return {given, at.cross(given)};
 }
 

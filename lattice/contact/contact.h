@@ -65,8 +65,8 @@ class PlaneContact {
   Wrench touch(Candidate& c, State& state, const Sweep& sweep);
   bool gives(Candidate& c, const meshes::Vector3& sticking, const meshes::Vector3& normal,
              meshes::Vector3& given);
-  void settle(Candidate& c, State& state, const meshes::Vector3& displacement,
-              const meshes::Vector3& velocity);
+  void set_state(Candidate& c, State& state, const meshes::Vector3& displacement,
+                 const meshes::Vector3& velocity);
 
   const LatticeModel* model_;
   Plane plane_;  ///< as it was at the end of the last step

@@ -11,7 +11,7 @@
 
 namespace fingertip::lattice {
 
-/// Elastic ties to the rod (tied_bond.h) and to the plane (penalty_contact.h).
+/// Tied bond to the rod (tied_bond.h) and penalty contact with the plane (penalty_contact.h).
 class CutSurfaces : public Surfaces {
  public:
   CutSurfaces(const LatticeModel& model, const Plane& plane, const ContactLaw& law, Team& team);

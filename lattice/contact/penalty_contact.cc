@@ -166,7 +166,7 @@ kernel::ContactLoad PenaltyContact::load_on(std::uint32_t particle, bool& touche
     const kernel::ContactLoad& load = loads_[place.group].corner[place.corner];
     for (std::size_t c = 0; c < 3; ++c) sum.force[c] += load.force[c];
     sum.stiffness += load.stiffness;
-    sum.aside += load.aside;
+    sum.tangential += load.tangential;
   }
   return sum;
 }
@@ -181,16 +181,16 @@ Wrench PenaltyContact::unload_portion(std::size_t number, const State& state, do
   for (std::size_t n = number * near_portion; n < last; ++n) {
     const std::uint32_t particle = near_particles_[n], i = shape_->particles[particle];
     const kernel::ContactLoad load = load_on(particle, on_particle_[n].acts);
-    on_particle_[n].held = {particle, load.stiffness, load.aside};
+    on_particle_[n].held = {particle, load.stiffness, load.tangential};
     if (!on_particle_[n].acts) continue;
     const Vector3 others = force.at(i);
     Vector3 taken = others + Eigen::Map<const Vector3>(load.force);
     if (!shares || shape_->bonded[particle] == 0) {
       const double mass = model_->mass[i];
       const double share = mass / (mass + square * load.stiffness);
-      const double share_aside = mass / (mass + square * load.aside);
+      const double tangential_share = mass / (mass + square * load.tangential);
       const Vector3 along = normal.dot(taken) * normal;
-      taken = share * along + share_aside * (taken - along);
+      taken = share * along + tangential_share * (taken - along);
     }
     force.set(i, taken);
     const Vector3 given = taken - others;
@@ -227,9 +227,10 @@ void PenaltyContact::list_held(std::vector<SharedLoad>* shared) {
     const Held& held = on_particle_[n].held;
     held_.push_back(held);
     if (shared == nullptr || shape_->bonded[held.particle] == 0) continue;
-    shared->push_back({shape_->particles[held.particle],
-                       held.stiffness * along + held.aside * (Eigen::Matrix3d::Identity() - along),
-                       Vector3::Zero()});
+    shared->push_back(
+        {shape_->particles[held.particle],
+         held.stiffness * along + held.tangential * (Eigen::Matrix3d::Identity() - along),
+         Vector3::Zero()});
   }
 }
 
@@ -237,8 +238,8 @@ void PenaltyContact::list_inertia(double step, std::vector<ContactInertia>& ties
   const double square = step * step;
   ties.clear();
   for (const Held& held : held_) {
-    ties.push_back({shape_->particles[held.particle], square * held.stiffness, square * held.aside,
-                    shape_->rest[held.particle]});
+    ties.push_back({shape_->particles[held.particle], square * held.stiffness,
+                    square * held.tangential, shape_->rest[held.particle]});
   }
 }
 

@@ -122,7 +122,7 @@ class PenaltyContact {
   std::vector<Wrench> given_;                  ///< of fixed portions of the near particles
   struct Held {
     std::uint32_t particle = 0;  ///< contact particle
-    double stiffness = 0.0, aside = 0.0;
+    double stiffness = 0.0, tangential = 0.0;
   };
   struct Load {
     Held held;

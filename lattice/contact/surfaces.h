@@ -63,8 +63,8 @@ class Surfaces {
   virtual std::vector<std::uint8_t> held() const = 0;
 };
 
-/// Ligaments and anchored particles for the published model, tied surfaces for the others. Model
-/// and team must outlive them; the finger must start clear of the plane.
+/// Ligaments and anchored particles for the published model, bond and penalty contact for the
+/// others. Model and team must outlive them; the finger must start clear of the plane.
 std::unique_ptr<Surfaces> make_surfaces(const LatticeModel& model, const Plane& plane,
                                         const ContactLaw& law, Team& team);
 

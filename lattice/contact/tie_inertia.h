@@ -17,8 +17,8 @@ struct BondInertia {
 
 /// What ties to the plane add to a particle's inertia (penalty_contact.h).
 struct ContactInertia {
-  std::uint32_t particle = 0;       ///< grid index
-  double along = 0.0, aside = 0.0;  ///< along the plane's normal, and in the plane [kg]
+  std::uint32_t particle = 0;            ///< grid index
+  double along = 0.0, tangential = 0.0;  ///< along the plane's normal, and in the plane [kg]
   meshes::Vector3 rest = meshes::Vector3::Zero();  ///< of the particle, along the grid's axes [m]
 };
 
@@ -32,7 +32,8 @@ struct PlaneHold {
 
   /// What it takes for that acceleration of a particle [N].
   meshes::Vector3 taken(const ContactInertia& tie, const meshes::Vector3& acceleration) const {
-    return tie.aside * acceleration + (tie.along - tie.aside) * normal.dot(acceleration) * normal;
+    return tie.tangential * acceleration +
+           (tie.along - tie.tangential) * normal.dot(acceleration) * normal;
   }
 };
 

@@ -28,8 +28,8 @@ SpectralBounds spectral_bounds(const LatticeModel& model, const RodBody* rod);
 SpectralBounds rod_bounds(const LatticeModel& model, const RodBody& rod);
 
 /// Largest eigenvalues at rest by the Lanczos method with the rod held, from below; converged to a
-/// few parts in 10⁴. Tied surfaces are left out: they do not limit the step (tied_bond.h).
-/// Retardation times as in spectral_bounds.
+/// few parts in 10⁴. Bond and penalty contact are left out: they do not limit the step
+/// (tied_bond.h). Retardation times as in spectral_bounds.
 SpectralBounds spectral_estimate(const LatticeModel& model);
 
 /// The same about another state, its velocity included, with `steps` Lanczos steps; 30 are good to

@@ -48,7 +48,7 @@ class SpectrumSearch {
 
   /// Searches at rest until the vectors to start from are good.
   void finish(Memory& memory);
-  /// Begins a search about a state; it is copied. Once settled, neither this nor advance()
+  /// Begins a search about a state; it is copied. Once converged, neither this nor advance()
   /// allocates.
   void begin(Memory& memory, const State& at);
   /// A portion of an active search, at most one force evaluation; it is no longer active when

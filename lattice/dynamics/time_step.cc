@@ -14,7 +14,7 @@ namespace {
 /// Largest change of a cell's volume within a step.
 constexpr double volume_change_of_a_step = 0.1;
 
-/// Growth of the cells' extremes that the step leaves room for.
+/// Growth of the cells' extremes that the step allows for.
 constexpr double allowance = 1.2;
 
 /// Of mass_scaled [s]: a quarter of the usual control period.
@@ -29,12 +29,12 @@ constexpr double margin = 1.05;
 
 /// Of a tie's energy the particles' part is taken care of (tied_bond.h), the rod has the other. Its
 /// ties act as after the step, lambda dt² + 2 (lambda dt) dt <= 4.
-double tied_rod(const LatticeModel& model, const RodBody* rod) {
+double bonded_rod(const LatticeModel& model, const RodBody* rod) {
   return rod != nullptr ? 3.0 * rod_bounds(model, *rod).stiffness : 0.0;
 }
 
 /// Of a lattice with true surfaces, from what Lanczos found.
-SpectralBounds tied_bounds(SpectralBounds held, double growth, double rod) {
+SpectralBounds bonded_bounds(SpectralBounds held, double growth, double rod) {
   held.stiffness = std::max(growth * held.stiffness, rod);
   held.damping *= growth;
   return held;
@@ -101,7 +101,8 @@ double paper_frequency(const LatticeModel& model) {
 
 SpectralBounds tightest_bounds(const LatticeModel& model, const RodBody* rod) {
   const SpectralBounds held = spectral_estimate(model);
-  if (model.kind != ModelKind::published) return tied_bounds(held, margin, tied_rod(model, rod));
+  if (model.kind != ModelKind::published)
+    return bonded_bounds(held, margin, bonded_rod(model, rod));
   const SpectralBounds own = rod != nullptr ? rod_bounds(model, *rod) : SpectralBounds{};
   SpectralBounds bounds = spectral_bounds(model, rod);
   // The largest eigenvalue of a positive matrix is at most the sum of those of its diagonal blocks.
@@ -115,7 +116,7 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
     : model_(&model),
       integrator_(integrator),
       safety_(safety_factor(model)),
-      rod_stiffness_(tied_rod(model, rod)) {
+      rod_stiffness_(bonded_rod(model, rod)) {
   const bool scaled = integrator == Integrator::mass_scaled;
   const SpectralBounds bounds = scaled ? scaled_bounds() : tightest_bounds(model, rod);
   if (scaled && !wanted) wanted = usual_step;
@@ -154,7 +155,7 @@ bool StepController::outdated(const CellExtremes& now) const {
 }
 
 void StepController::adopt(const SpectralBounds& estimate, const CellExtremes& at) {
-  const SpectralBounds bounds = tied_bounds(estimate, allowance * margin, rod_stiffness_);
+  const SpectralBounds bounds = bonded_bounds(estimate, allowance * margin, rod_stiffness_);
   now_.present = std::min(largest_, safety_ * largest_stable_step(bounds, integrator_));
   now_.reference = at;
 }

@@ -12,7 +12,8 @@
 
 namespace fingertip::lattice {
 
-/// The complete order. The rods' motion is prescribed: `hand.finger.prescribed` does not matter.
+/// All that a grasp needs. The rods' motion is prescribed: `hand.finger.prescribed` does not
+/// matter.
 struct GraspSetup {
   HandSetup hand;
   GripSettings grip;

@@ -86,8 +86,8 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   [[gnu::always_inline]] static Modes bend(const CellMaterial& m, const Pack& area,
                                            const Modes& q) {
     if constexpr (Whole) {
-      const Pack one = area * Pack(m.bending), bilinear = Pack(2.0) * one,
-                 trilinear = Pack(3.0) * one;
+      const Pack linear = area * Pack(m.bending), bilinear = Pack(2.0) * linear,
+                 trilinear = Pack(3.0) * linear;
       return {bilinear * q.yz, bilinear * q.zx, bilinear * q.xy, trilinear * q.xyz};
     } else {
       return q;

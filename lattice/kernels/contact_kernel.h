@@ -10,9 +10,9 @@ namespace fingertip::lattice::kernel {
 
 /// What ties of the plane do to one particle.
 struct ContactLoad {
-  double force[3];   ///< along the grid's axes [N]
-  double stiffness;  ///< Σ_j |K_ij| of the ties that act, along the normal [N/m]
-  double aside;      ///< and in the plane
+  double force[3];    ///< along the grid's axes [N]
+  double stiffness;   ///< Σ_j |K_ij| of the ties that act, along the normal [N/m]
+  double tangential;  ///< and in the plane
 };
 
 /// What the ties of a group do to the corners of its cell.

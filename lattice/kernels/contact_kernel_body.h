@@ -24,7 +24,7 @@ struct ContactBody : Packs<Pack> {
   /// along the normal and in the plane [N/m].
   struct Pulls {
     double force[3][lanes];
-    double stiffness[lanes], aside[lanes];
+    double stiffness[lanes], tangential[lanes];
   };
 
   static Vector load(const Lanes* field, std::size_t lane) {
@@ -143,14 +143,14 @@ struct ContactBody : Packs<Pack> {
 
   /// The part of a tie in the plane, not longer than `longest`; its share of what it was.
   struct Clipped {
-    Vector aside;
+    Vector tangential;
     Pack share;
   };
   static Clipped clip(const Vector& stretch, const Vector& normal, const Pack& longest) {
-    const Vector aside = stretch - dot(stretch, normal) * normal;
-    const Pack length = std::experimental::sqrt(dot(aside, aside));
+    const Vector tangential = stretch - dot(stretch, normal) * normal;
+    const Pack length = std::experimental::sqrt(dot(tangential, tangential));
     const Pack share = choose(length > longest, longest / length, Pack(1.0));
-    return {share * aside, share};
+    return {share * tangential, share};
   }
 
   /// Brings anchors to where slip has left them by the start of the step.
@@ -163,7 +163,7 @@ struct ContactBody : Packs<Pack> {
     // Points not yet there are anchored where they will be.
     const Mask anchored = load(memory.anchored, lane) != 0.0;
     const Mask slips = anchored && depth > 0.0 && kept.share < 1.0;
-    const Vector dragged = place + dot(stretch, normal) * normal + kept.aside;
+    const Vector dragged = place + dot(stretch, normal) * normal + kept.tangential;
     store(memory.anchor, lane, choose(slips, dragged, anchor));
     store(memory.sliding, lane, choose(slips, Pack(1.0), Pack(0.0)));
   }
@@ -196,18 +196,19 @@ struct ContactBody : Packs<Pack> {
     const Vector nothing{0.0, 0.0, 0.0};
     Clipped result{load(memory.anchor, lane) - place, 1.0};
     if constexpr (grip == Grip::coulomb) {
-      const Clipped kept = clip(result.aside, normal, a.friction * depth);
+      const Clipped kept = clip(result.tangential, normal, a.friction * depth);
       result.share = kept.share;
-      result.aside = choose(kept.share < 1.0, depth * normal + kept.aside, result.aside);
+      result.tangential =
+          choose(kept.share < 1.0, depth * normal + kept.tangential, result.tangential);
     }
-    result.aside = choose(anchored, result.aside, nothing);
+    result.tangential = choose(anchored, result.tangential, nothing);
     return result;
   }
 
   static void note(const ContactArrays& a, const ContactGroup& group, const Clipped& tie,
                    std::size_t lane, ContactMemory& memory, Pulls& pulls, GroupFindings& found) {
     const Pack stiffness = load(group.stiffness, lane);
-    const Vector& s = tie.aside;
+    const Vector& s = tie.tangential;
     const Vector force = stiffness * s;
     const double* t = a.then.turn;
     Base::store(pulls.force[0] + lane, t[0] * force.x + t[3] * force.y + t[6] * force.z);
@@ -216,7 +217,7 @@ struct ContactBody : Packs<Pack> {
     const Mask acts = force.x != 0.0 || force.y != 0.0 || force.z != 0.0;
     const Pack inertia = choose(acts, load(group.inertia, lane), Pack(0.0));
     Base::store(pulls.stiffness + lane, inertia);
-    Base::store(pulls.aside + lane, tie.share * inertia);
+    Base::store(pulls.tangential + lane, tie.share * inertia);
     store(memory.push, lane, dot(force, broadcast(a.normal)));
     store(memory.force, lane, force);
     found.touching += popcount(acts);
@@ -254,17 +255,17 @@ struct ContactBody : Packs<Pack> {
   static void load_corners(const ContactGroup& group, const Pulls& pulls, GroupLoads& loads) {
     for (std::size_t corner = 0; corner < lanes; corner += width) {
       Vector force{0.0, 0.0, 0.0};
-      Pack stiffness = 0.0, aside = 0.0;
+      Pack stiffness = 0.0, tangential = 0.0;
       for (std::size_t p = 0; p < lanes; ++p) {
         const Pack share = load(group.share[p], corner);
         const Pack size = std::experimental::abs(share);
         force += share * Vector{pulls.force[0][p], pulls.force[1][p], pulls.force[2][p]};
         stiffness += pulls.stiffness[p] * size;
-        aside += pulls.aside[p] * size;
+        tangential += pulls.tangential[p] * size;
       }
       for (std::size_t lane = 0; lane < width; ++lane) {
         loads.corner[corner + lane] = {
-            {force.x[lane], force.y[lane], force.z[lane]}, stiffness[lane], aside[lane]};
+            {force.x[lane], force.y[lane], force.z[lane]}, stiffness[lane], tangential[lane]};
       }
     }
   }

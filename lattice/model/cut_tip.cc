@@ -76,20 +76,20 @@ void keep_sector(const CubicGrid& grid, int sectors, std::vector<CutCell>& cells
   });
 }
 
-/// Points of a surface above `lowest` [m], in the sector, tied with `stiffness` [Pa/m].
-std::vector<EmbeddedPoint> tied_surface(const GridCells& cells, const Geometry& geometry,
-                                        Surface surface, double lowest, int sectors,
-                                        double stiffness) {
-  std::vector<EmbeddedPoint> tied;
+/// Points of a surface above `lowest` [m], in the sector, embedded with `stiffness` [Pa/m].
+std::vector<EmbeddedPoint> embedded_surface(const GridCells& cells, const Geometry& geometry,
+                                            Surface surface, double lowest, int sectors,
+                                            double stiffness) {
+  std::vector<EmbeddedPoint> embedded;
   const double apart = cells.grid().spacing / points_per_spacing;
   for (const SurfacePoint& point : meshes::surface_points(geometry, surface, apart)) {
     const Vector3& at = point.position;
     if (at.z() < lowest || (sectors > 1 && at.y() < 0.0) || (sectors == 4 && at.x() < 0.0)) {
       continue;
     }
-    tied.push_back(tie(cells, point, stiffness));
+    embedded.push_back(tie(cells, point, stiffness));
   }
-  return tied;
+  return embedded;
 }
 
 }  // namespace
@@ -103,10 +103,17 @@ CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   keep_sector(grid, sectors, cut);
   CutTip tip{GridCells(grid, largest_piece(grid, cut)), formulation_for(rubber, settings), {}, {}};
   const double stiffness = tie_stiffness * tip.formulation.shear / grid.spacing;
+<<<<<<< HEAD
   tip.bond = tied_surface(tip.cells, geometry, Surface::bond, geometry.lowest(), sectors,
                           stiffness * settings.ligament_stiffness);
   tip.outer = tied_surface(tip.cells, geometry, Surface::outer, lowest_contact(geometry), sectors,
                            stiffness * settings.contact_stiffness);
+=======
+  tip.bond = embedded_surface(tip.cells, geometry, Surface::bond, -geometry.sleeve_length, sectors,
+                              stiffness * settings.ligament_stiffness);
+  tip.outer = embedded_surface(tip.cells, geometry, Surface::outer, lowest_contact(geometry),
+                               sectors, stiffness * settings.contact_stiffness);
+>>>>>>> words
   return tip;
 }
 

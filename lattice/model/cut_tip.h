@@ -1,5 +1,5 @@
-/// The tip cut out of a cubic grid along its true surfaces: cells, and points of the surfaces tied
-/// to them. What statics and the moving lattice have in common.
+/// The tip cut out of a cubic grid along its true surfaces: cells, and points of the surfaces
+/// embedded to them. What statics and the moving lattice have in common.
 #pragma once
 
 #include <vector>
@@ -19,9 +19,10 @@ inline constexpr double tie_stiffness = 160.0;
 /// Cells with less rubber than this are left out.
 inline constexpr double smallest_fraction = 1e-6;
 
-/// Immutable. Corners of tied points are particle numbers of `cells`. Bond and outer points lie at
-/// most a/3 apart; the outer ones cover the hemisphere and R - r of the sleeve. Ties: tie_stiffness
-/// C44/a per area, the bond's times ligament_stiffness, the outer ones times contact_stiffness.
+/// Immutable. Corners of embedded points are particle numbers of `cells`. Bond and outer points lie
+/// at most a/3 apart; the outer ones cover the hemisphere and R - r of the sleeve. Ties:
+/// tie_stiffness C44/a per area, the bond's times ligament_stiffness, the outer ones times
+/// contact_stiffness.
 struct CutTip {
   GridCells cells;
   Formulation formulation;

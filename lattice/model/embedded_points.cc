@@ -51,13 +51,14 @@ EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, dou
   }
   const meshes::CutCell& cell = cells.cells()[nearest];
   const Vector3 local = at - Vector3(cell.index[0], cell.index[1], cell.index[2]);
-  EmbeddedPoint tied;
-  tied.corners = cells.corners(cell);
+  EmbeddedPoint embedded;
+  embedded.corners = cells.corners(cell);
   for (int c = 0; c < 8; ++c) {
-    double& weight = tied.weights[std::size_t(c)];
+    double& weight = embedded.weights[std::size_t(c)];
     weight = 1.0;
     for (int d = 0; d < 3; ++d) weight *= (c >> d & 1) != 0 ? local[d] : 1.0 - local[d];
   }
+<<<<<<< HEAD
   tied.rest = point.position;
   tied.normal = point.normal;
   tied.area = point.area;
@@ -75,6 +76,23 @@ EmbeddedPoint tie_to_particle(std::uint32_t particle, const Vector3& rest, const
   tied.area = area;
   tied.stiffness = stiffness;
   return tied;
+=======
+  embedded.rest = point.position;
+  embedded.area = point.area;
+  embedded.stiffness = stiffness * point.area;
+  return embedded;
+}
+
+EmbeddedPoint tie_to_particle(std::uint32_t particle, const Vector3& rest, double area,
+                              double stiffness) {
+  EmbeddedPoint embedded;
+  embedded.corners.fill(particle);
+  embedded.weights[0] = 1.0;
+  embedded.rest = rest;
+  embedded.area = area;
+  embedded.stiffness = stiffness;
+  return embedded;
+>>>>>>> words
 }
 
 }  // namespace fingertip::lattice

@@ -58,7 +58,7 @@ void add_ties(std::vector<Violation>& found, const LatticeSettings& l,
                      "1 is the standard tie"});
   if (l.contact_stiffness != 1.0 && l.model == ModelKind::published)
     found.push_back({"lattice.contact_stiffness", meshes::to_text(l.contact_stiffness),
-                     "only lattices with true surfaces are tied to the plane",
+                     "only lattices with true surfaces have penalty contact with the plane",
                      "take another model, or leave it at 1"});
   // The bond's area shrinks with the rod; a thread through a cell holds nothing.
   if (l.model != ModelKind::published && geometry.is_dome() &&

@@ -21,7 +21,7 @@ struct LatticeSettings {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   SpringConstants constants;        ///< for this spacing
   double ligament_stiffness = 1.0;  ///< multiplies the stiffness of the bond to the rod
-  double contact_stiffness = 1.0;   ///< multiplies the ties of true surfaces to the plane
+  double contact_stiffness = 1.0;   ///< multiplies the penalty stiffness of true surfaces
 
   /// What this geometry and this rubber cannot be built of.
   std::vector<meshes::Violation> violations(const meshes::Geometry& geometry,

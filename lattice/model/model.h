@@ -36,7 +36,7 @@ struct Ligament {
 ///
 /// The published model consists of springs, ligaments and boundary particles; the others of springs
 /// (central, hookean at finite strain), cells with a law (all but central), and points of the true
-/// surfaces tied to the corners of their cells.
+/// surfaces embedded between the corners of their cells.
 struct LatticeModel {
   ModelKind kind = ModelKind::hookean;
   Kinematics kinematics = Kinematics::small;

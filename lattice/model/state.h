@@ -38,8 +38,8 @@ struct State {
       : displacement(model.points()), velocity(model.points()) {}
 };
 
-/// Displacement of a point tied to particles (corners are grid indices), along the grid's axes,
-/// after `ahead` seconds at the present velocities [m].
+/// Displacement of a point embedded among particles (corners are grid indices), along the grid's
+/// axes, after `ahead` seconds at the present velocities [m].
 inline meshes::Vector3 shift(const EmbeddedPoint& tie, const State& state, double ahead) {
   meshes::Vector3 sum = meshes::Vector3::Zero();
   for (std::size_t c = 0; c < 8; ++c) {

@@ -88,10 +88,10 @@ Swing swing_of(double mass, double w, double s, double tau, const Approach& appr
 
 /// Largest difference that the two come to about `time`: once they have come apart by half a turn,
 /// it counts no more that they meet again.
-double largest_difference(const Swing& one, const Swing& other, double time) {
-  const double apart = std::abs(one.frequency - other.frequency) * time;
-  if (apart > std::numbers::pi) return std::abs(one.amplitude) + std::abs(other.amplitude);
-  return std::abs(one.amplitude - other.amplitude);
+double largest_difference(const Swing& a, const Swing& b, double time) {
+  const double apart = std::abs(a.frequency - b.frequency) * time;
+  if (apart > std::numbers::pi) return std::abs(a.amplitude) + std::abs(b.amplitude);
+  return std::abs(a.amplitude - b.amplitude);
 }
 
 double sway_deviation(const Sway& sway, const PressSetup& setup, double step, double time) {
@@ -148,8 +148,8 @@ std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup, double s
 
 ForceDeviation worst_of(const std::vector<ForceDeviation>& deviations, double from) {
   ForceDeviation worst;
-  for (const ForceDeviation& one : deviations) {
-    if (one.indentation >= from && one.relative > worst.relative) worst = one;
+  for (const ForceDeviation& deviation : deviations) {
+    if (deviation.indentation >= from && deviation.relative > worst.relative) worst = deviation;
   }
   return worst;
 }

@@ -135,17 +135,14 @@ double value_of(PressParameter parameter, const PressSetup& setup) {
 
 void set_value(PressParameter parameter, double value, PressSetup& setup) {
   LatticeSettings& lattice = setup.lattice;
-  const auto set_rubber = [&](double shear, double lambda) {
-    setup.rubber.shear_modulus = shear;
-    setup.rubber.youngs_modulus = shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear);
-  };
+  meshes::Rubber& rubber = setup.rubber;
   switch (parameter) {
     case PressParameter::k1: lattice.constants.k1 = value; break;
     case PressParameter::k2: lattice.constants.k2 = value; break;
     case PressParameter::k3: lattice.constants.k3 = value; break;
     case PressParameter::kappa: lattice.constants.kappa = value; break;
-    case PressParameter::shear_modulus: set_rubber(value, setup.rubber.lame_lambda()); break;
-    case PressParameter::lambda: set_rubber(setup.rubber.shear_modulus, value); break;
+    case PressParameter::shear_modulus: rubber.set_lame(value, rubber.lame_lambda()); break;
+    case PressParameter::lambda: rubber.set_lame(rubber.shear_modulus, value); break;
     case PressParameter::bond: lattice.ligament_stiffness = value; break;
     case PressParameter::contact: lattice.contact_stiffness = value; break;
   }

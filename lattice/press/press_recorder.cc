@@ -15,7 +15,10 @@ constexpr int even_depths = 60;
 
 PressRecorder::PressRecorder(const meshes::PressProtocol& protocol, const Plane& plane,
                              const Finger& finger, PressOutcome& outcome)
-    : normal_(plane.normal), aside_(protocol.lateral != 0.0), finger_(&finger), outcome_(&outcome) {
+    : normal_(plane.normal),
+      lateral_(protocol.lateral != 0.0),
+      finger_(&finger),
+      outcome_(&outcome) {
   const auto samples =
       protocol.samples.empty() ? meshes::default_samples(protocol.depth) : protocol.samples;
   depths_ = samples;
@@ -54,7 +57,7 @@ meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
   sample.contact_radius = patch.radius;
   sample.max_pressure = patch.max_pressure;
   sample.time = between(previous_.time, end.time);
-  if (aside_) sample.lateral_displacement = between(previous_.lateral, end.lateral);
+  if (lateral_) sample.lateral_displacement = between(previous_.lateral, end.lateral);
   return sample;
 }
 

@@ -43,7 +43,7 @@ class PressRecorder {
   meshes::PressSample sample_between(const PressInstant& end, double indentation) const;
 
   meshes::Vector3 normal_;
-  bool aside_;  ///< whether the plane is asked to move along itself
+  bool lateral_;  ///< whether the plane is asked to move along itself
   const Finger* finger_;
   PressOutcome* outcome_;
   std::vector<double> depths_;           ///< increasing [m]

@@ -18,7 +18,7 @@
 
 namespace fingertip::lattice {
 
-/// The complete order for one press.
+/// All that one press needs.
 struct PressSetup {
   meshes::Geometry geometry;
   meshes::Rubber rubber;
@@ -45,7 +45,7 @@ struct PressSetup {
   std::vector<meshes::Violation> violations() const;
 };
 
-/// What of a valid order the lattice cannot do: Coulomb friction in equilibrium; a lateral motion
+/// What of a valid setup the lattice cannot do: Coulomb friction in equilibrium; a lateral motion
 /// after the press while the rod moves; the published model, moving, is pressed straight and needs
 /// an Euler step; explicit Euler is for it alone; under a controller the rod weighs at least as
 /// much as the rubber.

@@ -182,17 +182,17 @@ bool StaticPress::step_to(double place) {
   next.contact.begin_step();
   const bool stick = setup_.protocol.contact == ContactMode::stick;
   double tolerance = stick ? search_tolerance_ : tolerance_;
-  bool settled = false;
-  for (int round = 0; round < most_rounds && !settled; ++round) {
+  bool converged = false;
+  for (int round = 0; round < most_rounds && !converged; ++round) {
     if (!solver_.solve(next.contact, next.displacement, tolerance)) return false;
     if (stick && slope_system_)
       slope_system_->respond(solver_, next.contact, next.displacement, next.slopes);
     if (anchor(next)) continue;
     if (next.contact.release_pulled(next.displacement) > 0) continue;
-    settled = tolerance == tolerance_;
+    converged = tolerance == tolerance_;
     tolerance = tolerance_;
   }
-  if (!settled) return false;
+  if (!converged) return false;
   previous_place_ = from;
   previous_displacement_.swap(now_.displacement);
   now_ = std::move(next);

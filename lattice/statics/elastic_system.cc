@@ -35,7 +35,7 @@ Matrix3d cell_gradient(const MeanCell& cell, const VectorXd& displacement) {
 
 namespace {
 
-/// Particles joined by springs, cells and tied points.
+/// Particles joined by springs, cells and embedded points.
 std::vector<std::vector<std::uint32_t>> groups_of(const LatticeBody& body) {
   std::vector<std::vector<std::uint32_t>> groups;
   for (const auto* springs : {&body.fibres, &body.springs})
@@ -77,7 +77,7 @@ struct ElasticSystem::Implementation {
   explicit Implementation(const LatticeBody& lattice_body);
 
   void add_spring(const Spring& spring, const Matrix3d& block, double* values) const;
-  void add_tied(const EmbeddedPoint& point, const Matrix3d& block, double* values) const;
+  void add_embedded(const EmbeddedPoint& point, const Matrix3d& block, double* values) const;
   void add_cell(std::size_t cell, const Eigen::Matrix<double, 9, 9>& tangent, double* values) const;
   void assemble_springs(const VectorXd& displacement, VectorXd& force, double* values) const;
   void assemble_cells(const VectorXd& displacement, VectorXd& force, double* values) const;
@@ -103,7 +103,7 @@ ElasticSystem::Implementation::Implementation(const LatticeBody& lattice_body)
     rest_force.segment<3>(3 * fibre.ends[1]) -= pull;
   }
   for (const EmbeddedPoint& point : body.bond)
-    add_tied(point, point.stiffness * Matrix3d::Identity(), values);
+    add_embedded(point, point.stiffness * Matrix3d::Identity(), values);
   if (!body.finite) {
     for (const Spring& spring : body.springs) {
       const Vector3 d = (body.rest[spring.ends[1]] - body.rest[spring.ends[0]]).normalized();
@@ -125,8 +125,8 @@ void ElasticSystem::Implementation::add_spring(const Spring& spring, const Matri
   pattern.add(low, pattern.rank(high, low), -block, values);
 }
 
-void ElasticSystem::Implementation::add_tied(const EmbeddedPoint& point, const Matrix3d& block,
-                                             double* values) const {
+void ElasticSystem::Implementation::add_embedded(const EmbeddedPoint& point, const Matrix3d& block,
+                                                 double* values) const {
   for (std::size_t c = 0; c < 8; ++c) {
     if (point.weights[c] == 0.0) continue;
     for (std::size_t d = 0; d < 8; ++d) {
@@ -246,9 +246,9 @@ Tangent ElasticSystem::empty_tangent() const {
   return implementation_->pattern.empty();
 }
 
-void ElasticSystem::add_tied(const EmbeddedPoint& point, const Matrix3d& block,
-                             Tangent& tangent) const {
-  implementation_->add_tied(point, block, tangent.valuePtr());
+void ElasticSystem::add_embedded(const EmbeddedPoint& point, const Matrix3d& block,
+                                 Tangent& tangent) const {
+  implementation_->add_embedded(point, block, tangent.valuePtr());
 }
 
 double ElasticSystem::smallest_jacobian(const VectorXd& displacement) const {

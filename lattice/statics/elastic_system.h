@@ -14,7 +14,7 @@ using Tangent = Eigen::SparseMatrix<double>;
 
 /// Adds up a LatticeBody's fibres, springs, cells and bond at a displacement. Unknown 3 p + i is
 /// component i of particle p. The tangent's pattern is fixed at construction and holds every pair
-/// of particles of a cell, of a spring or of a tied point, so that contact adds to existing
+/// of particles of a cell, of a spring or of an embedded point, so that contact adds to existing
 /// entries. What is linear in the displacement is summed once, at construction: fibres and bond
 /// always, the rest at small strain.
 class ElasticSystem {
@@ -34,9 +34,10 @@ class ElasticSystem {
   bool linear() const;
   /// A zero matrix with the pattern.
   Tangent empty_tangent() const;
-  /// Adds weight_a weight_b block to the entries of a tied point's corners (lower triangle).
+  /// Adds weight_a weight_b block to the entries of an embedded point's corners (lower triangle).
   /// `block` is symmetric; the point must be one of the body's bond or outer points.
-  void add_tied(const EmbeddedPoint& point, const Eigen::Matrix3d& block, Tangent& tangent) const;
+  void add_embedded(const EmbeddedPoint& point, const Eigen::Matrix3d& block,
+                    Tangent& tangent) const;
   /// Smallest det(1 + H) over the cells; 1 without cells.
   double smallest_jacobian(const Eigen::VectorXd& displacement) const;
 
@@ -47,10 +48,10 @@ class ElasticSystem {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Displacement of a tied point [m].
+/// Displacement of an embedded point [m].
 meshes::Vector3 shift(const EmbeddedPoint& point, const Eigen::VectorXd& displacement);
 
-/// Position of a tied point at a displacement [m].
+/// Position of an embedded point at a displacement [m].
 meshes::Vector3 position(const EmbeddedPoint& point, const Eigen::VectorXd& displacement);
 
 /// Mean displacement gradient of a cell.

@@ -67,7 +67,7 @@ double StaticContact::add(const VectorXd& displacement, const ElasticSystem& sys
     sum += push.norm();
     for (std::size_t c = 0; c < 8; ++c)
       force.segment<3>(3 * Eigen::Index(outer.corners[c])) += outer.weights[c] * push;
-    if (tangent) system.add_tied(outer, outer.stiffness * shape, *tangent);
+    if (tangent) system.add_embedded(outer, outer.stiffness * shape, *tangent);
   }
   return sum;
 }

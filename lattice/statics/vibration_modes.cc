@@ -161,7 +161,7 @@ std::vector<VibrationMode> vibration_modes(const LatticeBody& body, int count,
   std::mt19937 generator;
   const auto before = [](const Found& a, const Found& b) { return a.nu > b.nu; };
   std::vector<Found> kept = largest(inverse, count, generator);
-  for (const Found& one : kept) inverse.project_out(one.v);
+  for (const Found& mode : kept) inverse.project_out(mode.v);
   // A mode whose twin has been found may have been passed over.
   for (;;) {
     Found next = largest(inverse, 1, generator).front();
@@ -171,10 +171,10 @@ std::vector<VibrationMode> vibration_modes(const LatticeBody& body, int count,
     kept.pop_back();
   }
   std::vector<VibrationMode> modes;
-  for (const Found& one : kept) {
+  for (const Found& mode : kept) {
     // Round-off may turn the zero of a rigid motion negative.
-    const double square = std::max(inverse.eigenvalue(one.nu), 0.0);
-    modes.push_back({std::sqrt(square) / (2.0 * std::numbers::pi), inverse.shape(one.v)});
+    const double square = std::max(inverse.eigenvalue(mode.nu), 0.0);
+    modes.push_back({std::sqrt(square) / (2.0 * std::numbers::pi), inverse.shape(mode.v)});
   }
   return modes;
 }

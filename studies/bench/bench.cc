@@ -91,7 +91,7 @@ PressResponse run_truth(Session& session, const LoadedConfig& loaded, const Benc
 /// Force error of the same lattice at rest, against law A: what the press would have without
 /// viscosity, inertia and steps. Null beyond plan.static_finest, and where no equilibrium is found.
 ordered_json static_error(Session& session, const LoadedConfig& loaded, const BenchPlan& plan,
-                          const PressPlan& press, const Truth& truth) {
+                          const PressedLattice& press, const Truth& truth) {
   if (press.per_radius > plan.static_finest) return {};
   const PlannedJob planned{
       fmt::format("static_{}_R{}", lattice::name(press.model), press.per_radius),
@@ -102,7 +102,7 @@ ordered_json static_error(Session& session, const LoadedConfig& loaded, const Be
 }
 
 ordered_json press_entry(Session& session, const LoadedConfig& loaded, const BenchPlan& plan,
-                         const PressPlan& press, const Truth& truth) {
+                         const PressedLattice& press, const Truth& truth) {
   const PlannedJob planned{"press_" + press_name(press), pace_job(loaded, press, plan.depth),
                            false};
   session.run(planned);
@@ -164,15 +164,15 @@ ordered_json run_bench(Session& session, const LoadedConfig& loaded, const Bench
   ordered_json times = ordered_json::array();
   Truth truth{run_truth(session, loaded, plan, true, times), {}};
   if (plan.small_strain) truth.small = run_truth(session, loaded, plan, false, times);
-  for (const PressPlan& press : plan.presses)
+  for (const PressedLattice& press : plan.presses)
     bench["press"].push_back(press_entry(session, loaded, plan, press, truth));
   const double period = loaded.config.press.controller.period;
-  for (const ContinuumPlan& one : plan.continua) {
-    const PlannedJob planned{"continuum_" + continuum_name(one), continuum_job(loaded, plan, one),
+  for (const ContinuumMesh& mesh : plan.continua) {
+    const PlannedJob planned{"continuum_" + continuum_name(mesh), continuum_job(loaded, plan, mesh),
                              false};
     session.run(planned);
     bench["continua"].push_back(
-        continuum_entry(session.path_of(planned), one, truth.finite, plan, period));
+        continuum_entry(session.path_of(planned), mesh, truth.finite, plan, period));
   }
   if (plan.times) add_times(session, loaded, times);
   bench["times"] = times;

@@ -17,10 +17,10 @@ std::vector<double> even(double from, double to, int count) {
   return values;
 }
 
-fem_reference::ReferenceJob order_for(const LoadedConfig& loaded, bool finite,
+fem_reference::ReferenceJob setup_for(const LoadedConfig& loaded, bool finite,
                                       const std::vector<double>& depths, int degree,
                                       double refinement) {
-  return continuum_job(
+  return continuum_setup(
       loaded.with({"press.contact=stick", samples_setting(depths),
                    fmt::format("reference.strain={}", finite ? "finite" : "linear"),
                    fmt::format("reference.degree={}", degree),
@@ -44,27 +44,27 @@ std::vector<double> truth_depths(const BenchPlan& plan) {
 }
 
 Job truth_job(const LoadedConfig& loaded, const BenchPlan& plan, bool finite) {
-  fem_reference::ReferenceJob order = order_for(loaded, finite, truth_depths(plan),
-                                                plan.reference_degree, plan.reference_refinement);
-  order.tolerance = plan.reference_tolerance;
-  order.estimate_error = plan.reference_error;
-  return reference_job(order);
+  fem_reference::ReferenceJob reference = setup_for(
+      loaded, finite, truth_depths(plan), plan.reference_degree, plan.reference_refinement);
+  reference.tolerance = plan.reference_tolerance;
+  reference.estimate_error = plan.reference_error;
+  return reference_job(reference);
 }
 
 Job continuum_job(const LoadedConfig& loaded, const BenchPlan& plan,
-                  const ContinuumPlan& continuum) {
+                  const ContinuumMesh& continuum) {
   const int solves = plan.continuum_solves;
-  fem_reference::ReferenceJob order =
-      order_for(loaded, true, even(plan.depth / solves, plan.depth, solves), continuum.degree,
+  fem_reference::ReferenceJob reference =
+      setup_for(loaded, true, even(plan.depth / solves, plan.depth, solves), continuum.degree,
                 continuum.refinement);
-  order.estimate_error = order.write_fields = false;
-  Job job = reference_job(order);
+  reference.estimate_error = reference.write_fields = false;
+  Job job = reference_job(reference);
   job.repeatable = false;
   return job;
 }
 
 nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
-                                       const ContinuumPlan& continuum,
+                                       const ContinuumMesh& continuum,
                                        const meshes::PressResponse& truth, const BenchPlan& plan,
                                        double period) {
   const auto summary = read_json(folder / "summary.json");
@@ -81,7 +81,7 @@ nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
            number_or_null(worst_force_error(response, truth, plan.error_from, plan.depth))}};
 }
 
-std::string continuum_name(const ContinuumPlan& continuum) {
+std::string continuum_name(const ContinuumMesh& continuum) {
   return fmt::format("degree{}_{:.3g}", continuum.degree, continuum.refinement);
 }
 

@@ -26,17 +26,17 @@ Job truth_job(const LoadedConfig& loaded, const BenchPlan& plan, bool finite);
 /// One mesh, no error estimate, `plan.continuum_solves` even equilibria to the plan's depth; never
 /// cached.
 Job continuum_job(const LoadedConfig& loaded, const BenchPlan& plan,
-                  const ContinuumPlan& continuum);
+                  const ContinuumMesh& continuum);
 
 /// {"degree", "refinement", "unknowns", "solves_per_second", "real_time_factor",
 /// "worst_force_error"} of its folder. Quasi-static simulation in real time means one equilibrium
 /// per control period: the factor is solves per second times the controller's `period` [s].
 nlohmann::ordered_json continuum_entry(const std::filesystem::path& folder,
-                                       const ContinuumPlan& continuum,
+                                       const ContinuumMesh& continuum,
                                        const meshes::PressResponse& truth, const BenchPlan& plan,
                                        double period);
 
 /// "degree2_0.5"
-std::string continuum_name(const ContinuumPlan& continuum);
+std::string continuum_name(const ContinuumMesh& continuum);
 
 }  // namespace fingertip::studies

@@ -11,11 +11,11 @@ using lattice::ModelKind;
 constexpr double scaled_step = 1e-3;
 
 /// `spacings`: R/a. Masses are scaled in the models that consist of cells.
-std::vector<PressPlan> presses(const std::vector<int>& spacings) {
-  std::vector<PressPlan> all;
+std::vector<PressedLattice> presses(const std::vector<int>& spacings) {
+  std::vector<PressedLattice> all;
   const auto add = [&](ModelKind model, int threads, bool scaled) {
     for (const int n : spacings) {
-      PressPlan press{model, n, threads};
+      PressedLattice press{model, n, threads};
       if (scaled) {
         press.integrator = Integrator::mass_scaled;
         press.time_step = scaled_step;

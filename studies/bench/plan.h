@@ -10,7 +10,7 @@
 namespace fingertip::studies {
 
 /// A lattice to press.
-struct PressPlan {
+struct PressedLattice {
   lattice::ModelKind model = lattice::ModelKind::network;
   int per_radius = 12;  ///< R/a
   int threads = 1;
@@ -19,7 +19,7 @@ struct PressPlan {
 };
 
 /// A continuum on one mesh.
-struct ContinuumPlan {
+struct ContinuumMesh {
   int degree = 1;
   double refinement = 0.5;
 };
@@ -36,7 +36,7 @@ struct BenchPlan {
   std::string lammps = "lmp";  ///< program; empty: leave it out
   bool bullet = true;
   // Presses.
-  std::vector<PressPlan> presses;
+  std::vector<PressedLattice> presses;
   int static_finest = 12;     ///< R/a up to which equilibria are computed beside presses
   double depth = 0.003;       ///< [m]
   double error_from = 0.001;  ///< force errors are taken from this indentation on [m]
@@ -45,7 +45,7 @@ struct BenchPlan {
   double reference_refinement = 0.5;
   bool reference_error = true;  ///< refine the reference until it meets the tolerance
   bool small_strain = true;     ///< a second reference, of small strain
-  std::vector<ContinuumPlan> continua;
+  std::vector<ContinuumMesh> continua;
   int continuum_solves = 30;  ///< equilibria per press of these
   bool times = true;          ///< of static press and calibration
 };

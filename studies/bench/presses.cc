@@ -76,7 +76,7 @@ void run_pace(lattice::PressSetup setup, int threads, const std::filesystem::pat
 
 }  // namespace
 
-LoadedConfig press_config(const LoadedConfig& loaded, const PressPlan& press, double depth) {
+LoadedConfig press_config(const LoadedConfig& loaded, const PressedLattice& press, double depth) {
   const std::string model(lattice::name(press.model));
   std::vector<std::string> sets = {
       "press.contact=stick", fmt::format("press.depth=\"{:.12g} m\"", depth),
@@ -86,16 +86,16 @@ LoadedConfig press_config(const LoadedConfig& loaded, const PressPlan& press, do
   return loaded.with(sets);
 }
 
-Job static_job(const LoadedConfig& loaded, const PressPlan& press,
+Job static_job(const LoadedConfig& loaded, const PressedLattice& press,
                const std::vector<double>& depths) {
-  PressPlan still = press;
+  PressedLattice still = press;
   still.integrator = lattice::Integrator::symplectic_euler;
   still.time_step.reset();
   return press_job(press_setup(press_config(loaded, still, depths.back())
                                    .with({"press.mode=static", samples_setting(depths)})));
 }
 
-Job pace_job(const LoadedConfig& loaded, const PressPlan& press, double depth) {
+Job pace_job(const LoadedConfig& loaded, const PressedLattice& press, double depth) {
   const lattice::PressSetup setup = press_setup(press_config(loaded, press, depth));
   Job job = press_job(setup);
   job.kind = "pace";
@@ -108,7 +108,7 @@ Job pace_job(const LoadedConfig& loaded, const PressPlan& press, double depth) {
   return job;
 }
 
-std::string press_name(const PressPlan& press) {
+std::string press_name(const PressedLattice& press) {
   const bool plain = press.integrator == lattice::Integrator::symplectic_euler;
   return fmt::format("{}{}{}_R{}_{}t", lattice::name(press.model), plain ? "" : "_",
                      plain ? "" : lattice::name(press.integrator), press.per_radius, press.threads);

@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 /// Whether the run has a setting of its own for the key.
 bool sets_key(const CaseRun& run, const std::string& key) {
-  return std::ranges::any_of(run.sets,
-                             [&](const std::string& one) { return one.starts_with(key + "="); });
+  return std::ranges::any_of(
+      run.sets, [&](const std::string& setting) { return setting.starts_with(key + "="); });
 }
 
 }  // namespace
@@ -60,44 +60,45 @@ fs::path find_case(const std::string& name) {
   if (fs::is_regular_file(fs::path(name) / "case.toml")) return fs::path(name) / "case.toml";
   std::string known;
   for (const fs::path& file : all_cases()) {
-    const std::string one = file.parent_path().filename();
-    if (one.starts_with(name)) return file;
-    known += (known.empty() ? "" : ", ") + one;
+    const std::string folder = file.parent_path().filename();
+    if (folder.starts_with(name)) return file;
+    known += (known.empty() ? "" : ", ") + folder;
   }
   throw ConfigError({{"CASE " + name, "", "", "there is no such case",
                       "use a folder with a case.toml, or one of " + known}});
 }
 
 Case load_case(const fs::path& file, const ConfigSource& source) {
-  Case one;
-  one.name = file.filename() == "case.toml" ? fs::absolute(file).parent_path().filename().string()
-                                            : file.stem().string();
-  one.title = one.name;
+  Case study_case;
+  study_case.name = file.filename() == "case.toml"
+                        ? fs::absolute(file).parent_path().filename().string()
+                        : file.stem().string();
+  study_case.title = study_case.name;
   std::vector<Problem> problems;
   try {
     ConfigSource with_file = source;
     with_file.file = file;
-    one.loaded = load_config(with_file);
+    study_case.loaded = load_config(with_file);
   } catch (const ConfigError& error) {
     problems = error.problems();
   }
-  const std::vector<Problem> more = read_case_table(file, one);
+  const std::vector<Problem> more = read_case_table(file, study_case);
   problems.insert(problems.end(), more.begin(), more.end());
   if (!problems.empty()) throw ConfigError(problems);
-  one.text = case_toml(one);
-  return one;
+  study_case.text = case_toml(study_case);
+  return study_case;
 }
 
-LoadedConfig run_config(const Case& one, const CaseRun& run) {
+LoadedConfig run_config(const Case& study_case, const CaseRun& run) {
   std::vector<std::string> sets = run.sets;
   for (const auto& [key, factor] : run.times) {
-    const toml::table own = toml::parse("value = " + one.loaded.entries.at(key).literal);
+    const toml::table own = toml::parse("value = " + study_case.loaded.entries.at(key).literal);
     sets.push_back(fmt::format("{}={}", key, factor * own["value"].value_or(0.0)));
   }
   const auto kind = std::ranges::find(run_kinds(), run.kind, &RunKind::name);
   if (kind->at_rest) sets.emplace_back("press.mode=static");
   try {
-    return one.loaded.with(sets);
+    return study_case.loaded.with(sets);
   } catch (const ConfigError& error) {
     throw at_run(error, run);
   }

@@ -108,7 +108,7 @@ Case load_case(const std::filesystem::path& file, const ConfigSource& source);
 
 /// The case's configuration with the run's own settings, which come last. Throws ConfigError, see
 /// at_run.
-LoadedConfig run_config(const Case& one, const CaseRun& run);
+LoadedConfig run_config(const Case& study_case, const CaseRun& run);
 
 /// `error` as told to the author of the case: problems that the run's settings cause lie at its
 /// line, and all of them name it.
@@ -120,6 +120,6 @@ ConfigError at_run(const ConfigError& error, const CaseRun& run);
 std::vector<Problem> read_case_table(const std::filesystem::path& file, Case& target);
 
 /// The same as TOML text, which read_case_table understands.
-std::string case_toml(const Case& one);
+std::string case_toml(const Case& study_case);
 
 }  // namespace fingertip::studies

@@ -26,7 +26,7 @@ std::vector<std::string> judged_names(const RunResult& result, const std::string
 }
 
 /// NaN where nothing is known, so that every measure has its name.
-Measures all_measures_of(const Case& one, const RunResults& results) {
+Measures all_measures_of(const Case& study_case, const RunResults& results) {
   Measures all;
   for (const RunResult& result : results) {
     for (const std::string& measure : measures_meant(*result.run)) {
@@ -48,7 +48,7 @@ Measures all_measures_of(const Case& one, const RunResults& results) {
   }
   for (const std::string& series : series_names(results, "grasp"))
     all[series + ".limit_error"] = limit_error(members(results, "grasp", series));
-  for (const CaseBudget& budget : one.budgets)
+  for (const CaseBudget& budget : study_case.budgets)
     all[budget.name + ".rest"] = largest(take_budget(budget, results).rest);
   // The press of the core case whose error is known by this name.
   if (const auto found = all.find("equilibrium, hookean.max_force_error"); found != all.end())
@@ -58,14 +58,15 @@ Measures all_measures_of(const Case& one, const RunResults& results) {
 
 }  // namespace
 
-std::vector<std::string> measure_names(const Case& one) {
+std::vector<std::string> measure_names(const Case& study_case) {
   std::vector<std::string> names;
-  for (const auto& [name, value] : all_measures_of(one, blank_results(one))) names.push_back(name);
+  for (const auto& [name, value] : all_measures_of(study_case, blank_results(study_case)))
+    names.push_back(name);
   return names;
 }
 
-Measures take_measures(const Case& one, const RunResults& results) {
-  Measures taken = all_measures_of(one, results);
+Measures take_measures(const Case& study_case, const RunResults& results) {
+  Measures taken = all_measures_of(study_case, results);
   std::erase_if(taken, [](const auto& entry) { return std::isnan(entry.second); });
   return taken;
 }

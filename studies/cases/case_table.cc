@@ -99,16 +99,16 @@ class CaseReader {
  private:
   void take_core_runs() {
     static const Case core = [] {
-      Case one;
+      Case study_case;
       const fs::path file = fs::path(FINGERTIP_CASES_FOLDER) / core_case / "case.toml";
-      CaseReader reader(file, one);
+      CaseReader reader(file, study_case);
       reader.is_core_ = true;
       std::vector<Problem> problems = reader.read();
-      if (one.runs.empty())
+      if (study_case.runs.empty())
         problems.push_back({file.string(), "case.run", "", "the core case must say what is run",
                             "restore the file"});
       if (!problems.empty()) throw ConfigError(problems);
-      return one;
+      return study_case;
     }();
     target_.takes_core_runs = true;
     target_.runs = core.runs;
@@ -157,7 +157,7 @@ class CaseReader {
   std::vector<std::string> texts(const toml::table& entry, const char* name) {
     std::vector<std::string> list;
     if (const auto* found = entry[name].as_array())
-      for (const toml::node& one : *found) list.push_back(one.value_or(std::string()));
+      for (const toml::node& element : *found) list.push_back(element.value_or(std::string()));
     return list;
   }
 
@@ -318,7 +318,7 @@ std::string number(double value) {
 
 std::string texts_toml(const std::vector<std::string>& texts) {
   std::string list;
-  for (const std::string& one : texts) list += (list.empty() ? "" : ", ") + quoted(one);
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + quoted(text);
   return "[" + list + "]";
 }
 
@@ -333,10 +333,10 @@ std::string run_toml(const CaseRun& run) {
     if (run.*member && kind.entries.contains(name)) text += name + " = true\n";
   if (std::isfinite(run.x)) text += "x = " + number(run.x) + "\n";
   std::string settings, factors;
-  for (const std::string& one : run.sets) {
-    const auto equals = one.find('=');
+  for (const std::string& setting : run.sets) {
+    const auto equals = setting.find('=');
     settings += fmt::format("{}{} = {}", settings.empty() ? "" : ", ",
-                            quoted(one.substr(0, equals)), one.substr(equals + 1));
+                            quoted(setting.substr(0, equals)), setting.substr(equals + 1));
   }
   for (const auto& [key, factor] : run.times)
     factors += (factors.empty() ? "" : ", ") + quoted(key) + " = " + number(factor);
@@ -350,20 +350,20 @@ std::vector<Problem> read_case_table(const fs::path& file, Case& target) {
   return CaseReader(file, target).read();
 }
 
-std::string case_toml(const Case& one) {
-  std::string text = fmt::format("\n[case]\ntitle = {}\ndescription = {}\n", quoted(one.title),
-                                 quoted(one.description));
-  if (!one.abscissa.empty()) text += "x = " + quoted(one.abscissa) + "\n";
-  if (!one.takes_core_runs) {
-    for (const CaseRun& run : one.runs) text += run_toml(run);
-    for (const CaseTable& table : one.tables)
+std::string case_toml(const Case& study_case) {
+  std::string text = fmt::format("\n[case]\ntitle = {}\ndescription = {}\n",
+                                 quoted(study_case.title), quoted(study_case.description));
+  if (!study_case.abscissa.empty()) text += "x = " + quoted(study_case.abscissa) + "\n";
+  if (!study_case.takes_core_runs) {
+    for (const CaseRun& run : study_case.runs) text += run_toml(run);
+    for (const CaseTable& table : study_case.tables)
       text += fmt::format("\n[[case.table]]\nfile = {}\nseries = {}\ncolumns = {}\n",
                           quoted(table.file), quoted(table.series), texts_toml(table.columns));
   }
-  for (const CaseBudget& budget : one.budgets)
+  for (const CaseBudget& budget : study_case.budgets)
     text += fmt::format("\n[[case.budget]]\nname = {}\nparts = {}\n", quoted(budget.name),
                         texts_toml(budget.parts));
-  for (const CaseCriterion& criterion : one.criteria) {
+  for (const CaseCriterion& criterion : study_case.criteria) {
     text += fmt::format("\n[[case.criteria]]\nname = {}\nmeasure = {}\nlimit = {}\n",
                         quoted(criterion.name), quoted(criterion.measure), number(criterion.limit));
   }

@@ -11,16 +11,16 @@ std::vector<std::string> measures_meant(const CaseRun& run);
 
 /// Their values, from what the run left in `place`; what could not be taken is absent. What an
 /// incomplete press in time or grasp did so far must not pass for what it did: it has none.
-Measures measures_of_run(const Case& one, const RunResult& result,
+Measures measures_of_run(const Case& study_case, const RunResult& result,
                          const std::filesystem::path& place);
 
 /// All measures a criterion of this case may name: of every run by its full name, of a series the
 /// largest of its runs, and those of the whole case.
-std::vector<std::string> measure_names(const Case& one);
+std::vector<std::string> measure_names(const Case& study_case);
 
 /// Their values; what could not be taken is absent. A series has a measure when all of its runs
 /// have that are meant to have it.
-Measures take_measures(const Case& one, const RunResults& results);
+Measures take_measures(const Case& study_case, const RunResults& results);
 
 using Members = std::vector<const RunResult*>;
 

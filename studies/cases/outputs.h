@@ -11,10 +11,11 @@ std::vector<std::string> table_columns();
 
 /// Writes variants.csv, transfer.csv and the tables that the case asks for into `folder`, those
 /// that have rows. Cells are empty where a press did not get that far.
-void write_tables(const Case& one, const RunResults& results, const std::filesystem::path& folder);
+void write_tables(const Case& study_case, const RunResults& results,
+                  const std::filesystem::path& folder);
 
 /// What summary.json says: a section for each kind of the case's runs, and the verdict.
-CaseSummary summary_of(const Case& one, const Planner& planner, const RunResults& results,
+CaseSummary summary_of(const Case& study_case, const Planner& planner, const RunResults& results,
                        const std::filesystem::path& folder);
 
 /// Writes it, with the measures of presses and grasps beside their own entries.

@@ -30,19 +30,20 @@ bool is_wanted(const CaseRun& run, const LoadedConfig& loaded, const LoadedConfi
 
 /// The continuum pressed as `loaded` says, in time.
 fem_reference::ReferenceJob continuum_at_speed(LoadedConfig loaded) {
-  fem_reference::ReferenceJob& order = loaded.config.reference;
-  order.analysis = fem_reference::Analysis::transient;
-  order.strain = fem_reference::Strain::linear;
-  order.write_fields = false;
-  return continuum_job(loaded);
+  fem_reference::ReferenceJob& reference = loaded.config.reference;
+  reference.analysis = fem_reference::Analysis::transient;
+  reference.strain = fem_reference::Strain::linear;
+  reference.write_fields = false;
+  return continuum_setup(loaded);
 }
 
 /// The case with the fit's settings, then the prediction's.
-LoadedConfig predicted_config(const Case& one, const CaseRun& fit, const CaseRun& prediction) {
+LoadedConfig predicted_config(const Case& study_case, const CaseRun& fit,
+                              const CaseRun& prediction) {
   CaseRun both = prediction;
   both.sets.insert(both.sets.begin(), fit.sets.begin(), fit.sets.end());
   both.name = fit.name + " predicts " + prediction.name;
-  return run_config(one, both);
+  return run_config(study_case, both);
 }
 
 calibration::FitFile fit_in(const JsonEntry& file) {
@@ -64,18 +65,18 @@ void read_summary(const fs::path& place, RunResult& result) {
 
 /// Continua first, then the longest, so that the lanes end together.
 void sort(std::vector<PlannedJob>& jobs) {
-  std::ranges::stable_sort(jobs, std::greater(), [](const PlannedJob& one) {
-    return std::pair(one.job.kind == "reference", one.job.weight);
+  std::ranges::stable_sort(jobs, std::greater(), [](const PlannedJob& planned) {
+    return std::pair(planned.job.kind == "reference", planned.job.weight);
   });
 }
 
 }  // namespace
 
-RunResults blank_results(const Case& one) {
+RunResults blank_results(const Case& study_case) {
   RunResults results;
-  for (const CaseRun& run : one.runs) {
+  for (const CaseRun& run : study_case.runs) {
     if (!run.is("prediction")) results.push_back({.run = &run});
-    for (const CaseRun& prediction : one.runs)
+    for (const CaseRun& prediction : study_case.runs)
       if (is_asked(prediction, run)) results.push_back({.run = &prediction, .fit = &run});
   }
   return results;
@@ -96,17 +97,17 @@ const std::vector<std::string>& run_verbs() {
   return verbs;
 }
 
-Planner::Planner(const Case& one) : case_(one) {
+Planner::Planner(const Case& study_case) : case_(study_case) {
   for (const RunKind& kind : run_kinds()) folders_.insert(kind.folder);
   folders_.insert("continuum");
   // What runs below a run would be cleared away with it.
-  for (const CaseRun& run : one.runs)
+  for (const CaseRun& run : study_case.runs)
     if (run.is("run") && !run.series.empty()) folders_.insert(as_folder(run.series));
   // The core case's models: the published one can do least.
-  const auto core = std::ranges::find(one.runs, "published", full_name);
-  if (core != one.runs.end() && core->is_verdict()) check_validation(one.loaded);
+  const auto core = std::ranges::find(study_case.runs, "published", full_name);
+  if (core != study_case.runs.end() && core->is_verdict()) check_validation(study_case.loaded);
   std::vector<Problem> problems;
-  for (const CaseRun& run : one.runs) {
+  for (const CaseRun& run : study_case.runs) {
     try {
       add(run);
     } catch (const ConfigError& error) {
@@ -156,7 +157,7 @@ void Planner::add_fit(const LoadedConfig& loaded, RunResult result) {
   result.folder = free_folder(*result.run);
   try {
     // Criteria judge what comes of a fit, also of one that failed its own tests.
-    fits_.push_back({FitPlan(loaded, result.folder, FitPlan::Failed::kept)});
+    fits_.push_back({CalibrationStages(loaded, result.folder, CalibrationStages::Failed::kept)});
   } catch (const ConfigError& error) {
     throw at_run(error, *result.run);
   }
@@ -181,7 +182,7 @@ Job Planner::job_of(const LoadedConfig& loaded, RunResult& result) {
   const Config& config = loaded.config;
   if (verb == "press") return press_job(result.setup);
   if (verb == "grasp") return grasp_job(grasp_setup(loaded));
-  if (verb == "reference") return reference_job(continuum_job(loaded));
+  if (verb == "reference") return reference_job(continuum_setup(loaded));
   if (verb == "verification") return verification_job();
   if (verb == "moduli")
     return moduli_job(config.press.rubber, fit_options(loaded, config.press.lattice.model));
@@ -213,13 +214,13 @@ std::string Planner::free_folder(const CaseRun& run) {
   return folder;
 }
 
-std::string Planner::continuum_of(const fem_reference::ReferenceJob& order) {
-  const Job job = reference_job(order);
+std::string Planner::continuum_of(const fem_reference::ReferenceJob& reference) {
+  const Job job = reference_job(reference);
   const std::string key = job.key();
   const auto found = std::ranges::find(continua_, key, &Continuum::key);
   if (found != continua_.end()) return found->folder;
   const std::string folder = fmt::format("continuum/{}", continua_.size() + 1);
-  continua_.push_back({folder, order, key});
+  continua_.push_back({folder, reference, key});
   jobs_.push_back({folder, job, false});
   return folder;
 }
@@ -229,7 +230,7 @@ std::vector<PlannedJob> Planner::next(const fs::path& folder) {
   std::vector<PlannedJob> jobs = std::exchange(jobs_, {});
   for (Fit& fit : fits_) {
     if (fit.done) continue;
-    const std::vector<PlannedJob> more = fit.plan.next(folder);
+    const std::vector<PlannedJob> more = fit.stages.next(folder);
     fit.done = more.empty();
     jobs.insert(jobs.end(), more.begin(), more.end());
   }
@@ -240,7 +241,7 @@ std::vector<PlannedJob> Planner::next(const fs::path& folder) {
 
 double Planner::later_weight() const {
   double weight = 0.0;
-  for (const Fit& fit : fits_) weight += fit.plan.later_weight();
+  for (const Fit& fit : fits_) weight += fit.stages.later_weight();
   if (predicted_) return weight;
   for (const RunResult& result : results_)
     if (result.fit != nullptr)

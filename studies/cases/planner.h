@@ -14,7 +14,7 @@
 #include "studies/cases/force_comparison.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/files/press_summary.h"
-#include "studies/run/fit_plan.h"
+#include "studies/run/calibration_stages.h"
 #include "studies/run/session.h"
 
 namespace fingertip::studies {
@@ -44,7 +44,7 @@ struct RunResult {
 using RunResults = std::vector<RunResult>;
 
 /// Of the case's runs before anything is planned: nothing is known but which results there will be.
-RunResults blank_results(const Case& one);
+RunResults blank_results(const Case& study_case);
 
 /// Letters, digits, '-' and, but for the first place, '.'; anything else becomes '_'.
 std::string as_folder(std::string text);
@@ -55,14 +55,14 @@ const std::vector<std::string>& run_verbs();
 /// A continuum that presses are measured against. Lattice, offset and rotation do not matter to it.
 struct Continuum {
   std::string folder;
-  fem_reference::ReferenceJob order;
+  fem_reference::ReferenceJob reference;
   std::string key;  ///< of its job
 };
 
 class Planner {
  public:
-  /// `one` must outlive the planner. Throws ConfigError with every problem of every run.
-  explicit Planner(const Case& one);
+  /// `study_case` must outlive the planner. Throws ConfigError with every problem of every run.
+  explicit Planner(const Case& study_case);
 
   /// The jobs that may run now, given the results of those before in `folder`, in the order in
   /// which they should start. None: everything is computed.
@@ -78,7 +78,7 @@ class Planner {
 
  private:
   struct Fit {
-    FitPlan plan;
+    CalibrationStages stages;
     bool done = false;
   };
 
@@ -91,7 +91,7 @@ class Planner {
   std::string planned(const RunResult& result, Job job);
   std::string free_folder(const CaseRun& run);
   /// The folder of a continuum, which is planned unless an equal one is.
-  std::string continuum_of(const fem_reference::ReferenceJob& order);
+  std::string continuum_of(const fem_reference::ReferenceJob& reference);
   std::vector<PlannedJob> predictions(const std::filesystem::path& folder);
 
   const Case& case_;

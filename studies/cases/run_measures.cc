@@ -19,13 +19,13 @@ namespace fs = std::filesystem;
 
 /// What a measure may look at.
 struct Evidence {
-  const Case& one;
+  const Case& study_case;
   const RunResult& result;
   fs::path place;  ///< of the run
 
   const PressSummary& press() const { return result.press; }
   const GraspSummary& grasp() const { return result.grasp; }
-  const meshes::Rubber& rubber() const { return one.loaded.config.press.rubber; }
+  const meshes::Rubber& rubber() const { return study_case.loaded.config.press.rubber; }
   template <typename Row>
   std::vector<Row> rows(const char* name) const {
     return fs::exists(place / name) ? meshes::read_rows<Row>(place / name) : std::vector<Row>();
@@ -232,12 +232,12 @@ std::vector<std::string> measures_meant(const CaseRun& run) {
   return names;
 }
 
-Measures measures_of_run(const Case& one, const RunResult& result, const fs::path& place) {
+Measures measures_of_run(const Case& study_case, const RunResult& result, const fs::path& place) {
   Measures taken;
   const CaseRun& run = *result.run;
   if ((run.is("press") || run.is("grasp")) && !result.ok()) return taken;
   for (const RunMeasure& measure : meant(run)) {
-    const double value = measure.take({one, result, place});
+    const double value = measure.take({study_case, result, place});
     if (std::isfinite(value)) taken[measure.name] = value;
   }
   return taken;

@@ -27,12 +27,12 @@ std::vector<CriterionEntry> judged(const std::vector<CaseCriterion>& criteria,
 }
 
 /// The continuum that the presses of the verdict are measured against.
-void add_reference(const Case& one, const RunResult& run, const fs::path& folder,
+void add_reference(const Case& study_case, const RunResult& run, const fs::path& folder,
                    CaseSummary& summary) {
-  const meshes::Rubber& rubber = one.loaded.config.press.rubber;
+  const meshes::Rubber& rubber = study_case.loaded.config.press.rubber;
   const meshes::PressResponse response = response_in(folder / run.folder);
-  const ForceComparison itself =
-      compare_forces(response, response, verdict_depths(one.loaded.config.press.protocol.depth));
+  const ForceComparison itself = compare_forces(
+      response, response, verdict_depths(study_case.loaded.config.press.protocol.depth));
   summary.target = TargetEntry{rubber.youngs_modulus, rubber.shear_modulus, rubber.poissons_ratio(),
                                rubber.bulk_modulus()};
   summary.depths = itself.depth;
@@ -58,11 +58,11 @@ ModelEntry model_entry(const RunResult& result) {
 }
 
 /// Of [[case.run]].
-void add_verdict(const Case& one, const RunResults& results, const fs::path& folder,
+void add_verdict(const Case& study_case, const RunResults& results, const fs::path& folder,
                  CaseSummary& summary) {
   for (const RunResult* result : members(results, "run")) {
     const CaseRun& run = *result->run;
-    if (run.verb == "reference") add_reference(one, *result, folder, summary);
+    if (run.verb == "reference") add_reference(study_case, *result, folder, summary);
     if (run.verb == "verification") summary.verification = verification_entry(*result, folder);
     if (run.is_verdict() && run.series.empty()) summary.models[run.name] = model_entry(*result);
     if (full_name(run) == "equilibrium, hookean")
@@ -86,17 +86,17 @@ std::vector<ContinuumEntry> continuum_entries(const Planner& planner, const Memb
   for (const Continuum& continuum : planner.continua()) {
     if (std::ranges::find(variants, continuum.folder, &RunResult::against) == variants.end())
       continue;
-    const meshes::Rubber& rubber = continuum.order.rubber;
-    list.push_back({continuum.folder, std::string(fem_reference::name(continuum.order.strain)),
-                    std::string(meshes::name(continuum.order.protocol.contact)),
+    const meshes::Rubber& rubber = continuum.reference.rubber;
+    list.push_back({continuum.folder, std::string(fem_reference::name(continuum.reference.strain)),
+                    std::string(meshes::name(continuum.reference.protocol.contact)),
                     rubber.youngs_modulus, rubber.shear_modulus, rubber.poissons_ratio()});
   }
   return list;
 }
 
-std::vector<BudgetEntry> budget_entries(const Case& one, const RunResults& results) {
+std::vector<BudgetEntry> budget_entries(const Case& study_case, const RunResults& results) {
   std::vector<BudgetEntry> list;
-  for (const CaseBudget& budget : one.budgets) {
+  for (const CaseBudget& budget : study_case.budgets) {
     const Budget taken = take_budget(budget, results);
     BudgetEntry entry{budget.name, taken.depth, taken.total, {}, taken.rest};
     for (std::size_t i = 0; i < budget.parts.size(); ++i)
@@ -106,25 +106,25 @@ std::vector<BudgetEntry> budget_entries(const Case& one, const RunResults& resul
   return list;
 }
 
-StudyEntry study_entry(const Case& one, const Planner& planner, const RunResults& results) {
+StudyEntry study_entry(const Case& study_case, const Planner& planner, const RunResults& results) {
   const Members variants = members(results, "variant");
   const auto lost = std::size_t(std::ranges::count(variants, false, &RunResult::ok));
-  return {one.abscissa,
+  return {study_case.abscissa,
           variants.size(),
           lost,
           series_entries(results),
           continuum_entries(planner, variants),
-          budget_entries(one, results)};
+          budget_entries(study_case, results)};
 }
 
-TransferEntry transfer_entry(const Case& one, const RunResults& results) {
+TransferEntry transfer_entry(const Case& study_case, const RunResults& results) {
   TransferEntry entry;
-  for (const CaseRun& run : one.runs)
+  for (const CaseRun& run : study_case.runs)
     if (run.is("prediction")) entry.predictions.push_back({run.name});
   for (const RunResult* fit : members(results, "fit")) {
     entry.fits.push_back({fit->run->name, fit->folder, fit->found.model, fit->found.problem});
     std::vector<double>& row = entry.worst_error.emplace_back();
-    for (const CaseRun& run : one.runs) {
+    for (const CaseRun& run : study_case.runs) {
       if (!run.is("prediction")) continue;
       const auto press = std::ranges::find_if(results, [&](const RunResult& other) {
         return other.fit == fit->run && other.run == &run;
@@ -132,7 +132,7 @@ TransferEntry transfer_entry(const Case& one, const RunResults& results) {
       row.push_back(press == results.end() ? meshes::unknown : largest(press->forces.error));
     }
   }
-  const meshes::Rubber& rubber = one.loaded.config.press.rubber;
+  const meshes::Rubber& rubber = study_case.loaded.config.press.rubber;
   entry.truth.parameters = {{"youngs_modulus", rubber.youngs_modulus},
                             {"shear_modulus", rubber.shear_modulus},
                             {"lambda", rubber.lame_lambda()},
@@ -148,21 +148,22 @@ void add_measures(const Members& runs, ordered_json& list) {
 
 }  // namespace
 
-CaseSummary summary_of(const Case& one, const Planner& planner, const RunResults& results,
+CaseSummary summary_of(const Case& study_case, const Planner& planner, const RunResults& results,
                        const fs::path& folder) {
   CaseSummary summary;
-  summary.case_name = one.name;
-  summary.title = one.title;
-  summary.description = one.description;
-  add_verdict(one, results, folder, summary);
-  if (!members(results, "variant").empty()) summary.variants = study_entry(one, planner, results);
-  if (!members(results, "fit").empty()) summary.calibration = transfer_entry(one, results);
+  summary.case_name = study_case.name;
+  summary.title = study_case.title;
+  summary.description = study_case.description;
+  add_verdict(study_case, results, folder, summary);
+  if (!members(results, "variant").empty())
+    summary.variants = study_entry(study_case, planner, results);
+  if (!members(results, "fit").empty()) summary.calibration = transfer_entry(study_case, results);
   for (const RunResult* press : members(results, "press"))
     summary.presses.push_back({press->run->series, press->run->name, press->folder, press->against,
                                press->run->beside, press->run->snapshots, press->status});
   for (const RunResult* grasp : members(results, "grasp"))
     summary.grasps.push_back({grasp->run->series, grasp->run->name, grasp->folder, grasp->status});
-  summary.criteria = judged(one.criteria, take_measures(one, results));
+  summary.criteria = judged(study_case.criteria, take_measures(study_case, results));
   const bool passed = std::ranges::all_of(summary.criteria, &CriterionEntry::passed);
   summary.status = passed ? "ok" : "criteria failed";
   return summary;

@@ -105,12 +105,13 @@ std::vector<std::string> table_columns() {
   return names;
 }
 
-void write_tables(const Case& one, const RunResults& results, const std::filesystem::path& folder) {
+void write_tables(const Case& study_case, const RunResults& results,
+                  const std::filesystem::path& folder) {
   write_table(meshes::column_names<VariantRow>(), members(results, "variant"),
               folder / "variants.csv");
   write_table(meshes::column_names<TransferRow>(), members(results, "prediction"),
               folder / "transfer.csv");
-  for (const CaseTable& table : one.tables)
+  for (const CaseTable& table : study_case.tables)
     write_table(table.columns, members(results, "run", table.series), folder / table.file);
 }
 

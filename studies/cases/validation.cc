@@ -7,13 +7,13 @@ namespace fingertip::studies {
 
 namespace fs = std::filesystem;
 
-void check_case(const Case& one) {
-  Planner(one).next({});
+void check_case(const Case& study_case) {
+  Planner(study_case).next({});
 }
 
-Verdict validate(Session& session, const Case& one) {
+Verdict validate(Session& session, const Case& study_case) {
   const fs::path& folder = session.folder().path();
-  Planner planner(one);
+  Planner planner(study_case);
   std::vector<JobResult> jobs;
   for (auto planned = planner.next(folder); !planned.empty(); planned = planner.next(folder)) {
     session.expect_later(planner.later_weight());
@@ -25,8 +25,8 @@ Verdict validate(Session& session, const Case& one) {
   if (fs::exists(folder / "cubes/cubes.csv"))
     fs::copy_file(folder / "cubes/cubes.csv", folder / "cubes.csv",
                   fs::copy_options::overwrite_existing);
-  write_tables(one, results, folder);
-  const CaseSummary summary = summary_of(one, planner, results, folder);
+  write_tables(study_case, results, folder);
+  const CaseSummary summary = summary_of(study_case, planner, results, folder);
   write_summary(summary, results, folder / "summary.json");
   write_report(folder);
   return summary.status == "ok" ? Verdict::passed : Verdict::failed;

@@ -24,7 +24,7 @@ int run_bench(const CommandLine& line) {
   BenchPlan plan = line.quick ? quick_plan() : full_plan();
   plan.widest = width_of(line.isa);
   std::erase_if(plan.presses,
-                [&](const PressPlan& press) { return press.per_radius > line.finest; });
+                [&](const PressedLattice& press) { return press.per_radius > line.finest; });
   const std::filesystem::path history = history_file(line.history);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const nlohmann::ordered_json bench = run_bench(session, loaded, plan);

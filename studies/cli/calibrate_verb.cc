@@ -5,7 +5,7 @@
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/files/shown_units.h"
-#include "studies/run/fit_plan.h"
+#include "studies/run/calibration_stages.h"
 #include "studies/run/json_file.h"
 
 namespace fingertip::studies {
@@ -15,11 +15,11 @@ namespace {
 using nlohmann::ordered_json;
 
 /// Stage by stage; a job that is alone gets all threads. Whether anything was computed.
-bool run_stages(FitPlan& plan, Session& session) {
+bool run_stages(CalibrationStages& stages, Session& session) {
   bool computed = false;
   const std::filesystem::path& folder = session.folder().path();
-  for (auto jobs = plan.next(folder); !jobs.empty(); jobs = plan.next(folder)) {
-    session.expect_later(plan.later_weight());
+  for (auto jobs = stages.next(folder); !jobs.empty(); jobs = stages.next(folder)) {
+    session.expect_later(stages.later_weight());
     const auto results =
         jobs.size() == 1 ? std::vector{session.run(jobs.front())} : session.run_all(jobs);
     for (const JobResult& result : results) computed = computed || !result.reused;
@@ -57,18 +57,18 @@ std::pair<double, std::string> as_shown(double value, const std::string& si) {
 void print_parameters(const ordered_json& content) {
   fmt::print("{:<24}{:>14}{:>14}{:>14}  {}\n", "", "estimate", "95 % from", "to", "unit");
   const bool ratio_bound = !content.value("poissons_ratio_bound", ordered_json()).is_null();
-  for (const ordered_json& one : content["parameters"]) {
-    const std::string si = one["unit"];
-    const auto [value, unit] = as_shown(number_of(one["estimate"]), si);
-    const double lower = as_shown(number_of(one["lower"]), si).first,
-                 upper = as_shown(number_of(one["upper"]), si).first;
+  for (const ordered_json& parameter : content["parameters"]) {
+    const std::string si = parameter["unit"];
+    const auto [value, unit] = as_shown(number_of(parameter["estimate"]), si);
+    const double lower = as_shown(number_of(parameter["lower"]), si).first,
+                 upper = as_shown(number_of(parameter["upper"]), si).first;
     // Where Poisson's ratio has stopped at a bound neither modulus has an interval of its own.
     const bool open = !(upper - lower <= 2.0 * std::abs(value)) ||
-                      (ratio_bound && one["name"].get<std::string>() != "modulus");
+                      (ratio_bound && parameter["name"].get<std::string>() != "modulus");
     const auto end = [&](double number) {
       return open ? std::string("open") : fmt::format("{:.6g}", number);
     };
-    fmt::print("{:<24}{:>14.6g}{:>14}{:>14}  {}\n", one["name"].get<std::string>(), value,
+    fmt::print("{:<24}{:>14.6g}{:>14}{:>14}  {}\n", parameter["name"].get<std::string>(), value,
                end(lower), end(upper), unit);
   }
 }
@@ -107,8 +107,8 @@ void print_rubber(const ordered_json& content) {
 /// Exit code of a fit that failed its own tests, with what that means on stderr.
 int verdict(const ordered_json& content, bool written) {
   const ordered_json failed = content.value("failed", ordered_json::array());
-  for (const ordered_json& one : failed)
-    fmt::print(stderr, "fingertip: not accepted: {}\n", one.get<std::string>());
+  for (const ordered_json& reason : failed)
+    fmt::print(stderr, "fingertip: not accepted: {}\n", reason.get<std::string>());
   if (!failed.empty())
     fmt::print(stderr, "fingertip: {}\n",
                written ? "material.toml is written as --force asks, and says so"
@@ -121,12 +121,15 @@ int verdict(const ordered_json& content, bool written) {
 
 int run_calibrate(const CommandLine& line) {
   const LoadedConfig loaded = load_checked(line);
-  FitPlan plan(loaded, "", line.force ? FitPlan::Failed::kept : FitPlan::Failed::refused);
+  CalibrationStages stages(
+      loaded, "",
+      line.force ? CalibrationStages::Failed::kept : CalibrationStages::Failed::refused);
   if (!line.quiet)
-    for (const std::string& note : plan.notes()) fmt::print(stderr, "fingertip: note: {}\n", note);
+    for (const std::string& note : stages.notes())
+      fmt::print(stderr, "fingertip: note: {}\n", note);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
-    for (const std::string& note : plan.notes()) session.folder().log(note);
-    const bool computed = run_stages(plan, session);
+    for (const std::string& note : stages.notes()) session.folder().log(note);
+    const bool computed = run_stages(stages, session);
     const std::filesystem::path& folder = session.folder().path();
     const ordered_json content = read_json(folder / "calibration.json");
     const bool written = std::filesystem::exists(folder / "material.toml");

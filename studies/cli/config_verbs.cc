@@ -15,14 +15,14 @@ int run_check(const CommandLine& line) {
     throw ConfigError({{"check", "", "", "no file is given", "give a configuration file"}});
   }
   for (const std::string& file : files) {
-    const Case one = load_case(file, line.config);
-    check_all(one.loaded);
+    const Case study_case = load_case(file, line.config);
+    check_all(study_case.loaded);
     if (line.quiet) continue;
-    for (const std::string& note : with_material(one.loaded, LatticeUse::press).notes)
+    for (const std::string& note : with_material(study_case.loaded, LatticeUse::press).notes)
       fmt::print("{}: note: {}\n", file, note);
     // No error: the continuum can do it.
-    const auto limits = lattice::beyond_the_lattice(one.loaded.config.press);
-    const ConfigError located = one.loaded.locate(limits);
+    const auto limits = lattice::beyond_the_lattice(study_case.loaded.config.press);
+    const ConfigError located = study_case.loaded.locate(limits);
     for (const Problem& limit : located.problems()) {
       fmt::print("{}: note: for press and validate: {}\n", file, to_string(limit));
     }

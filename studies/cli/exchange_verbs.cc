@@ -82,10 +82,10 @@ int run_export(const CommandLine& line) {
   const UndampedBody body = undamped_body(loaded);
   const std::vector<meshes::Violation> beyond = beyond_lammps(body.model);
   if (!beyond.empty()) throw loaded.locate(beyond);
-  const ExchangeOrder& order = loaded.config.exchange;
+  const ExchangeSettings& settings = loaded.config.exchange;
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const fs::path& folder = session.folder().path();
-    const LammpsCensus census = write_lammps(body, {order.steps, order.every}, folder);
+    const LammpsCensus census = write_lammps(body, {settings.steps, settings.every}, folder);
     write_json(summary_of(body, census), folder / "summary.json");
     session.folder().log("dampers are left out: LAMMPS has none along bonds");
     if (line.quiet) return 0;

@@ -9,11 +9,11 @@
 #include <new>
 
 #include "lattice/control/controller.h"
+#include "meshes/blas_threads.h"
 #include "meshes/cannot_write.h"
 #include "meshes/errors.h"
 #include "studies/cli/standard_streams.h"
 #include "studies/cli/verbs.h"
-#include "studies/run/blas_threads.h"
 
 namespace {
 
@@ -87,7 +87,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  studies::keep_blas_to_one_thread();
+  meshes::keep_blas_to_one_thread();
   studies::StandardStreams streams;
   const int code = run(argc, argv);
   if (const int why = streams.lost(); why != 0) {

@@ -25,10 +25,10 @@ namespace fingertip::studies {
 
 namespace {
 
-/// A table of samples by `place`: force, error, contact and, with `aside`, lateral force; no column
-/// that nobody knows.
+/// A table of samples by `place`: force, error, contact and, with `lateral`, lateral force; no
+/// column that nobody knows.
 void print_samples(std::span<const meshes::PressSample> samples, const char* ordered_by,
-                   double meshes::PressSample::*place, bool aside) {
+                   double meshes::PressSample::*place, bool lateral) {
   using Sample = meshes::PressSample;
   struct Column {
     std::string title;
@@ -40,7 +40,7 @@ void print_samples(std::span<const meshes::PressSample> samples, const char* ord
                               {force.label("force"), &Sample::normal_force, force},
                               {force.label("error"), &Sample::force_error, force},
                               {length.label("contact"), &Sample::contact_radius, length}};
-  if (aside) columns.push_back({force.label("lateral"), &Sample::lateral_force_x, force});
+  if (lateral) columns.push_back({force.label("lateral"), &Sample::lateral_force_x, force});
   std::erase_if(columns, [&](const Column& column) {
     return std::ranges::all_of(
         samples, [&](const Sample& sample) { return std::isnan(sample.*column.value); });
@@ -50,7 +50,7 @@ void print_samples(std::span<const meshes::PressSample> samples, const char* ord
   for (const Sample& sample : samples) {
     for (const Column& column : columns) {
       const double value = sample.*column.value;
-      fmt::print("{:>14}", std::isnan(value) ? "" : fmt::format("{:.4f}", column.unit(value)));
+      fmt::print("{:>14}", std::isnan(value) ? "" : column.unit.decimals(value));
     }
     fmt::print("\n");
   }
@@ -93,13 +93,13 @@ void print_folder(const Session& session, const JobResult& result) {
 }
 
 /// "continuum, finite strain (law A), stick contact, static"
-std::string heading(const fem_reference::ReferenceJob& order) {
-  const bool finite = order.strain == fem_reference::Strain::finite;
-  std::string text = finite ? fmt::format("continuum, finite strain (law {})", name(order.law))
+std::string heading(const fem_reference::ReferenceJob& reference) {
+  const bool finite = reference.strain == fem_reference::Strain::finite;
+  std::string text = finite ? fmt::format("continuum, finite strain (law {})", name(reference.law))
                             : std::string("continuum, small strain");
-  if (order.analysis == fem_reference::Analysis::modes) return text + ", natural frequencies";
-  return fmt::format("{}, {} contact, {}", text, meshes::name(order.protocol.contact),
-                     fem_reference::name(order.analysis));
+  if (reference.analysis == fem_reference::Analysis::modes) return text + ", natural frequencies";
+  return fmt::format("{}, {} contact, {}", text, meshes::name(reference.protocol.contact),
+                     fem_reference::name(reference.analysis));
 }
 
 /// Frequencies and kinds of motion: the lattice tells these with the share of mass that moves along
@@ -133,12 +133,13 @@ WorstError worst_error(const std::filesystem::path& folder) {
 }
 
 /// How many meshes it took, and whether the error is as small as wanted.
-void print_accuracy(const std::filesystem::path& folder, const fem_reference::ReferenceJob& order) {
+void print_accuracy(const std::filesystem::path& folder,
+                    const fem_reference::ReferenceJob& reference) {
   const WorstError worst = worst_error(folder);
   if (std::isnan(worst.relative)) return;
-  const bool reached = worst.relative <= order.tolerance;
+  const bool reached = worst.relative <= reference.tolerance;
   fmt::print("estimated error of the force: at most {:.3g} % ({:.3g} % wanted{})",
-             100.0 * worst.relative, 100.0 * order.tolerance,
+             100.0 * worst.relative, 100.0 * reference.tolerance,
              reached ? "" : ", NOT REACHED at " + shown_units().length.text(worst.indentation));
   if (std::filesystem::exists(folder / "convergence.csv")) {
     std::size_t unknowns = 0;
@@ -267,18 +268,18 @@ int run_modes(const CommandLine& line) {
 
 int run_reference(const CommandLine& line) {
   const LoadedConfig loaded = load_checked(line);
-  const fem_reference::ReferenceJob order = continuum_job(loaded);
+  const fem_reference::ReferenceJob reference = continuum_setup(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
-    const JobResult result = session.run({"", reference_job(order), false});
+    const JobResult result = session.run({"", reference_job(reference), false});
     const std::filesystem::path& folder = session.folder().path();
-    const bool press = order.analysis != fem_reference::Analysis::modes;
-    const bool reached =
-        !press || !order.estimate_error || !(worst_error(folder).relative > order.tolerance);
+    const bool press = reference.analysis != fem_reference::Analysis::modes;
+    const bool reached = !press || !reference.estimate_error ||
+                         !(worst_error(folder).relative > reference.tolerance);
     if (!line.quiet) {
-      fmt::print("{}\n", heading(order));
+      fmt::print("{}\n", heading(reference));
       if (press) {
-        print_response(folder, order.protocol);
-        if (order.estimate_error) print_accuracy(folder, order);
+        print_response(folder, reference.protocol);
+        if (reference.estimate_error) print_accuracy(folder, reference);
       } else {
         print_frequencies(folder);
       }
@@ -289,8 +290,8 @@ int run_reference(const CommandLine& line) {
     fmt::print(stderr,
                "fingertip: not converged: the force may be off by more than reference.tolerance = "
                "{:.3g}; the run is kept, with its error bars{}\n",
-               order.tolerance,
-               order.analysis == fem_reference::Analysis::transient
+               reference.tolerance,
+               reference.analysis == fem_reference::Analysis::transient
                    ? ". In time the error is that of the steps, too, and most at small depths: ask "
                      "for deeper samples or a larger tolerance"
                    : "");

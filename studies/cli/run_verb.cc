@@ -33,7 +33,7 @@ bool holds_results(const std::filesystem::path& folder) {
   using Walk = std::filesystem::recursive_directory_iterator;
   for (Walk item(folder); item != Walk(); ++item) {
     if (item->path().filename() == marker_name) return true;
-    // What --force has set aside is hidden.
+    // What --force has moved out of the way is hidden.
     if (item->path().filename().string().starts_with('.')) item.disable_recursion_pending();
   }
   return false;

@@ -29,7 +29,7 @@ int collect_all(const fs::path& folder, bool quiet) {
 }
 
 /// A shard joins the others' folder; a whole sweep has its own unless it is to be resumed.
-void prepare(const SweepOrder& order, const CommandLine& line) {
+void prepare(const Sweep& sweep, const CommandLine& line) {
   if (line.out.empty()) {
     refuse("sweep", "needs a folder that shards can share", "say --out DIR");
   }
@@ -40,11 +40,11 @@ void prepare(const SweepOrder& order, const CommandLine& line) {
     refuse("--out " + line.out.string(), "the output folder exists already",
            "choose another folder, or say --resume auto to compute what is missing");
   }
-  claim_folder(order, line.out);
+  claim_folder(sweep, line.out);
 }
 
-int lanes(const SweepOrder& order) {
-  const int wanted = order.base.config.press.threads;
+int lanes(const Sweep& sweep) {
+  const int wanted = sweep.base.config.press.threads;
   return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
@@ -56,16 +56,15 @@ int run_sweep(const CommandLine& line) {
     return collect_all(line.out, line.quiet);
   }
   if (line.arguments.size() > 1) refuse("sweep", "takes one verb", "sweep one after the other");
-  const SweepOrder order =
-      read_sweep(line.config, line.arguments.empty() ? "" : line.arguments.front());
+  const Sweep sweep = read_sweep(line.config, line.arguments.empty() ? "" : line.arguments.front());
   const Shard shard = line.shard.empty() ? Shard{} : parse_shard(line.shard);
-  const std::vector<SweepPoint> points = points_of(order, shard);
+  const std::vector<SweepPoint> points = points_of(sweep, shard);
   if (line.list) {
     for (const SweepPoint& point : points) fmt::print("{}\t{}\n", point.id, settings_text(point));
     return 0;
   }
-  const std::vector<PlannedPoint> planned = plan(order, points);  // before a folder is made
-  prepare(order, line);
+  const std::vector<PlannedPoint> planned = plan(sweep, points);  // before a folder is made
+  prepare(sweep, line);
   watch_for_interrupts();
   std::size_t done = 0;
   const auto tell = [&](const PointResult& result) {
@@ -74,9 +73,9 @@ int run_sweep(const CommandLine& line) {
                result.reused ? " (earlier)" : "");
     std::fflush(stdout);
   };
-  const auto results = run_points(order, planned, line.out, lanes(order), line.words, tell);
+  const auto results = run_points(sweep, planned, line.out, lanes(sweep), line.words, tell);
   if (line.shard.empty()) return collect_all(line.out, line.quiet);
-  const auto ok = [](const PointResult& one) { return one.status == "finished"; };
+  const auto ok = [](const PointResult& result) { return result.status == "finished"; };
   return std::ranges::all_of(results, ok) ? 0 : 3;
 }
 

@@ -31,16 +31,16 @@ std::vector<fs::path> wanted_cases(const CommandLine& line) {
 }
 
 /// Where the case's run goes: a sub-folder of its own when there are several.
-CommandLine line_for(const CommandLine& line, const Case& one, bool several) {
+CommandLine line_for(const CommandLine& line, const Case& study_case, bool several) {
   CommandLine own = line;
-  if (several && !line.out.empty()) own.out = line.out / one.name;
-  if (several) own.folder_stem = line.verb + "-" + one.name;
+  if (several && !line.out.empty()) own.out = line.out / study_case.name;
+  if (several) own.folder_stem = line.verb + "-" + study_case.name;
   return own;
 }
 
-int validate_one(const CommandLine& line, const Case& one) {
-  return run_in_folder(line, one.loaded, one.text, [&](Session& session) {
-    const Verdict verdict = validate(session, one);
+int validate_one(const CommandLine& line, const Case& study_case) {
+  return run_in_folder(line, study_case.loaded, study_case.text, [&](Session& session) {
+    const Verdict verdict = validate(session, study_case);
     if (!line.quiet) {
       fmt::print("{}\nreport: {}\n", verdict_text(session.folder().path()),
                  (session.folder().path() / "report.html").string());
@@ -58,13 +58,14 @@ int run_validate(const CommandLine& line) {
     check_case(cases.back());
   }
   int worst = 0;
-  for (const Case& one : cases) {
+  for (const Case& study_case : cases) {
     try {
-      worst = std::max(worst, validate_one(line_for(line, one, cases.size() > 1), one));
+      worst =
+          std::max(worst, validate_one(line_for(line, study_case, cases.size() > 1), study_case));
     } catch (const meshes::NotConverged& error) {
       if (cases.size() == 1) throw;
       // The other cases still have something to say.
-      fmt::print(stderr, "fingertip: error: {}: {}\n", one.name, error.what());
+      fmt::print(stderr, "fingertip: error: {}: {}\n", study_case.name, error.what());
       worst = std::max(worst, 3);
     }
   }

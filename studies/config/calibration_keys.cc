@@ -35,9 +35,9 @@ std::string_view name(ForwardKind forward) {
 
 namespace {
 
-/// A key for a member of the order.
+/// A key for a member of the settings.
 template <typename T>
-Key entry(const char* name, Range range, const char* help, T CalibrationOrder::*member) {
+Key entry(const char* name, Range range, const char* help, T CalibrationSettings::*member) {
   return plain("calibration", name, range, help, at(&Config::calibration, member));
 }
 
@@ -48,14 +48,14 @@ Key problem_key() {
       {{"moduli", "spring constants to Young's and shear modulus"},
        {"curve", "spring constants, bond and contact to the continuum's forces"},
        {"experiment", "Young's and shear modulus to measured forces"},
-       {"finite-strain", "law A to measured stress and stretch, or shear"},
+       {"finite-strain", "the neo-Hookean law (law A) to measured stress and stretch, or shear"},
        {"damping", "the retardation time to loss factors, creep, a held ramp or a press"}},
-      "what is fitted to what", at(&Config::calibration, &CalibrationOrder::problem));
+      "what is fitted to what", at(&Config::calibration, &CalibrationSettings::problem));
 }
 
 Key data_key() {
   return with_rule(entry("data", any, "measured CSV files, a curve each, units in the header",
-                         &CalibrationOrder::data),
+                         &CalibrationSettings::data),
                    "for experiment, finite-strain and damping; paths are relative to this file",
                    {});
 }
@@ -66,20 +66,20 @@ Key forward_key() {
       {{"lattice", "the static lattice of [lattice], with exact derivatives"},
        {"continuum", "the continuum, run at the Poisson's ratios that the search comes near"}},
       "what answers for the press in an experiment",
-      at(&Config::calibration, &CalibrationOrder::forward));
+      at(&Config::calibration, &CalibrationSettings::forward));
 }
 
 Key range_key() {
   return with_rule(
       entry("poisson_range", {-0.99, 0.4999, true}, "Poisson's ratios between which is sought",
-            &CalibrationOrder::poisson_range),
+            &CalibrationSettings::poisson_range),
       "the lower one first; for experiment", {});
 }
 
 }  // namespace
 
 std::vector<Key> calibration_keys() {
-  using Order = CalibrationOrder;
+  using Order = CalibrationSettings;
   return {
       problem_key(),
       data_key(),
@@ -90,7 +90,7 @@ std::vector<Key> calibration_keys() {
           &Order::conditions),
       quantity("calibration", "depth", "cm", "m", positive,
                "largest indentation of the continuum's curves",
-               at(&Config::calibration, &CalibrationOrder::depth)),
+               at(&Config::calibration, &CalibrationSettings::depth)),
       entry("points", {2, 200, true}, "indentations of each of the continuum's curves",
             &Order::points),
       with_rule(entry("parameters", any, "what is free; none: what the problem usually frees",

@@ -1,4 +1,4 @@
-/// A complete, resolved order for every verb: what the key table's values add up to.
+/// Complete, resolved settings for every verb: what the key table's values add up to.
 #pragma once
 
 #include <array>
@@ -61,7 +61,7 @@ constexpr auto values(ForwardKind) {
 }
 
 /// Section [calibration]; the key table says what the entries mean.
-struct CalibrationOrder {
+struct CalibrationSettings {
   CalibrationProblem problem = CalibrationProblem::moduli;
   std::vector<std::filesystem::path> data;  ///< absolute
   std::vector<std::string> conditions;      ///< "section.key=value; ..." per curve
@@ -98,7 +98,7 @@ constexpr auto values(ControllerKind) {
 
 /// What of section [controller] goes beyond the PID. The stiffness schedules are empty here;
 /// studies/run/controller_choice.h reads the file.
-struct ControllerOrder {
+struct ControllerSettings {
   ControllerKind kind = ControllerKind::pid;
   lattice::AdaptiveSettings adaptive;
   lattice::ForceSettings force;
@@ -110,7 +110,7 @@ struct ControllerOrder {
 };
 
 /// Section [exchange]: what is handed to another program.
-struct ExchangeOrder {
+struct ExchangeSettings {
   bool cube = false;            ///< a free cube instead of the fingertip
   int cells = 8;                ///< along its edge
   bool is_free = false;         ///< else the tip hangs on its rod
@@ -125,10 +125,14 @@ struct ExchangeOrder {
 /// `studies/run/press_setup.h` resolves them.
 struct Config {
   lattice::PressSetup press;
+<<<<<<< HEAD
   ShapeKind shape = ShapeKind::dome;
   std::filesystem::path profile;   ///< absolute; only for ShapeKind::profile
   std::optional<double> endpoint;  ///< of a profile, on the axis [m]
   ControllerOrder controller;
+=======
+  ControllerSettings controller;
+>>>>>>> words
   ConstantsSource constants = ConstantsSource::automatic;
   std::filesystem::path constants_file;           ///< absolute; only for ConstantsSource::file
   std::optional<lattice::Kinematics> kinematics;  ///< as asked for; empty: the model's default
@@ -138,8 +142,8 @@ struct Config {
   std::optional<double> poissons_ratio;           ///< when given so; press.rubber has E and G
   std::optional<double> shore_hardness;           ///< Shore A, when given instead of E
   fem_reference::ReferenceJob reference;
-  CalibrationOrder calibration;
-  ExchangeOrder exchange;
+  CalibrationSettings calibration;
+  ExchangeSettings exchange;
   lattice::GripSettings grip;
   lattice::BlockSettings block;
   double grasp_gravity = 9.80665;  ///< [m/s²]

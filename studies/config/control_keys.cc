@@ -40,13 +40,13 @@ std::vector<Key> of_types(const std::vector<std::string>& types, std::vector<Key
 std::vector<Key> adaptation_keys() {
   using lattice::AdaptiveSettings;
   const auto member = [](auto value) {
-    return at(&Config::controller, &ControllerOrder::adaptive, value);
+    return at(&Config::controller, &ControllerSettings::adaptive, value);
   };
   Key schedule =
       choice("controller", "schedule", {{"none", "the contact's stiffness is only estimated"}},
              "stiffness of the contact over the indentation: a surrogate.json written "
              "by calibrate",
-             at(&Config::controller, &ControllerOrder::schedule));
+             at(&Config::controller, &ControllerSettings::schedule));
   std::vector<Key> keys = of_types(
       {"adaptive"},
       {
@@ -69,7 +69,7 @@ std::vector<Key> adaptation_keys() {
 std::vector<Key> force_keys() {
   using lattice::ForceSettings;
   const auto member = [](auto value) {
-    return at(&Config::controller, &ControllerOrder::force, value);
+    return at(&Config::controller, &ControllerSettings::force, value);
   };
   std::vector<Key> keys = of_types(
       {"force", "hybrid"},
@@ -103,19 +103,19 @@ std::vector<Key> external_keys() {
   const auto member = [](auto value) { return at(&Config::controller, value); };
   Key library = choice("controller", "library", {{"none", "no shared object"}},
                        "shared object with the functions of fingertip_controller.h",
-                       at(&Config::controller, &ControllerOrder::library));
+                       at(&Config::controller, &ControllerSettings::library));
   std::vector<Key> keys = of_types(
       {"socket"},
       {
           with_rule(plain("controller", "address", any, "where the program waits for a controller",
-                          member(&ControllerOrder::address)),
+                          member(&ControllerSettings::address)),
                     "unix:PATH, or tcp:127.0.0.1:PORT", {}),
           quantity("controller", "timeout", "s", "s", positive,
                    "how long the controller may take for an answer, or to come back",
-                   member(&ControllerOrder::timeout)),
+                   member(&ControllerSettings::timeout)),
           quantity("controller", "connect_timeout", "s", "s", positive,
                    "how long the program waits for the controller to connect",
-                   member(&ControllerOrder::connect_timeout)),
+                   member(&ControllerSettings::connect_timeout)),
       });
   keys.insert(keys.begin(), only_with("controller.type", {"library"}, library));
   return keys;
@@ -136,7 +136,7 @@ std::vector<Key> controller_keys() {
               {"hybrid", "approach, then contact force"},
               {"library", "one's own, in a shared object (studies/control)"},
               {"socket", "one's own, in a process that speaks JSON lines (studies/control)"}},
-             "control law", at(&Config::controller, &ControllerOrder::kind)),
+             "control law", at(&Config::controller, &ControllerSettings::kind)),
       quantity("controller", "period", "ms", "s", positive, "sampling period",
                pid(&PidSettings::period)),
       quantity("controller", "natural_frequency", "Hz", "Hz", positive,

@@ -7,7 +7,7 @@ namespace fingertip::studies {
 namespace {
 
 /// Members of what is handed over, as targets of keys.
-constexpr auto order = [](auto member) { return at(&Config::exchange, member); };
+constexpr auto exchange = [](auto member) { return at(&Config::exchange, member); };
 
 /// 350 million springs; the model alone takes some 10 GB then.
 constexpr double most_cells = 300;
@@ -21,34 +21,34 @@ std::vector<Key> exchange_keys() {
       choice("exchange", "body",
              {{"fingertip", "the tip of [geometry]"},
               {"cube", "a free cube of exchange.cells cells a side, for checks and benchmarks"}},
-             "which lattice is handed to another program", order(&ExchangeOrder::cube)),
+             "which lattice is handed to another program", exchange(&ExchangeSettings::cube)),
       plain("exchange", "cells", {1, most_cells, true}, "cells along an edge of the cube",
-            order(&ExchangeOrder::cells)),
+            exchange(&ExchangeSettings::cells)),
       with_rule(
           choice("exchange", "hold",
                  {{"rod", "ligaments to a rod at rest (published)"},
                   {"free", "nothing holds the lattice"}},
-                 "what holds the tip; a cube is always free", order(&ExchangeOrder::is_free)),
-          "the other models are tied to the rod at points of its surface, which bonds between "
+                 "what holds the tip; a cube is always free", exchange(&ExchangeSettings::is_free)),
+          "the other models are bonded to the rod at points of its surface, which bonds between "
           "masses cannot express",
           {"lattice.model"}),
       with_rule(choice("exchange", "plane",
                        {{"none", "no plane"},
                         {"wall", "an elastic wall that comes from press.clearance at press.speed"}},
-                       "what the tip is pressed against", order(&ExchangeOrder::has_wall)),
+                       "what the tip is pressed against", exchange(&ExchangeSettings::has_wall)),
                 "a wall needs press.contact = \"frictionless\" and the fingertip",
                 {"press.contact", "exchange.body"}),
       plain("exchange", "wall_stiffness", positive,
             "force of the wall per penetration of a mass, over the stiffness of an axis spring",
-            order(&ExchangeOrder::wall_stiffness)),
+            exchange(&ExchangeSettings::wall_stiffness)),
       plain("exchange", "steps", {1, most_steps, true}, "how many steps",
-            order(&ExchangeOrder::steps)),
+            exchange(&ExchangeSettings::steps)),
       plain("exchange", "every", {0, most_steps, true}, "steps between stored frames; 0: none",
-            order(&ExchangeOrder::every)),
+            exchange(&ExchangeSettings::every)),
       plain("exchange", "agitation", {0.0, most_agitation, true},
             "largest random displacement of a mass along an axis at the start, in spacings; "
             "velocities are as large, times the frequency of an axis spring",
-            order(&ExchangeOrder::agitation)),
+            exchange(&ExchangeSettings::agitation)),
   };
 }
 

@@ -71,7 +71,7 @@ std::string literal_of(const T& member) {
     return '"' + member + '"';
   } else {
     std::string list;
-    for (const auto& one : member) list += (list.empty() ? "" : ", ") + literal_of(one);
+    for (const auto& element : member) list += (list.empty() ? "" : ", ") + literal_of(element);
     return '[' + list + ']';
   }
 }
@@ -83,9 +83,10 @@ void store(const Value& value, T& member) {
     if (value.word == "auto") return member.reset();
     store(value, member.emplace());
   } else if constexpr (std::is_enum_v<T>) {
-    // Rooms give the names, so that a choice cannot mean one thing here, another in a job's file.
-    for (const T one : values(T()))
-      if (name(one) == value.word) member = one;
+    // The libraries give the names, so that a choice cannot mean one thing here, another in a job's
+    // file.
+    for (const T choice : values(T()))
+      if (name(choice) == value.word) member = choice;
   } else if constexpr (std::is_arithmetic_v<T>) {
     member = T(value.number);
   } else if constexpr (std::is_same_v<T, meshes::Vector3>) {

@@ -85,12 +85,12 @@ void Reader::read_section(const std::string& section, const toml::node& node,
   const auto place = [&](const toml::node& at) {
     return file.string() + ":" + std::to_string(at.source().begin.line);
   };
-  const bool known =
-      std::ranges::any_of(sections(), [&](const Section& one) { return one.name == section; });
+  const bool known = std::ranges::any_of(
+      sections(), [&](const Section& candidate) { return candidate.name == section; });
   const auto* table = node.as_table();
   if (!known || table == nullptr) {
     std::vector<std::string> names;
-    for (const Section& one : sections()) names.push_back(one.name);
+    for (const Section& candidate : sections()) names.push_back(candidate.name);
     problems_.push_back({place(node), section, "", known ? "must be a section" : "unknown section",
                          "the nearest valid section is [" + nearest_word(section, names) + "]"});
     return;

@@ -62,7 +62,7 @@ struct LoadedConfig {
   /// The same configuration with one more --set, e.g. for a series of runs. Throws ConfigError.
   LoadedConfig with(const std::vector<std::string>& further_sets) const;
 
-  /// Violations reported by a room as problems with their place and the user's own spelling.
+  /// Violations reported by a library as problems with their place and the user's own spelling.
   ConfigError locate(const std::vector<meshes::Violation>& violations) const;
 };
 

@@ -53,8 +53,8 @@ Unit parse_unit(const std::string& text) {
 
 /// Whether the two differ by an angle. UDUNITS counts the radian as a mere number, so that 5 %
 /// would pass for an angle and 377 rad/s for 377 Hz.
-bool differ_by_an_angle(const ut_unit* one, const ut_unit* other) {
-  const Unit quotient(ut_divide(one, other));
+bool differ_by_an_angle(const ut_unit* a, const ut_unit* b) {
+  const Unit quotient(ut_divide(a, b));
   std::array<char, 128> text{};
   ut_format(quotient.get(), text.data(), text.size(), UT_ASCII);
   return std::string_view(text.data()).find("rad") != std::string_view::npos;
@@ -71,10 +71,10 @@ std::optional<double> factor(const std::string& from, const std::string& to) {
       ut_get_converter(source.get(), target.get()), &cv_free);
   if (!converter) return {};
   // UDUNITS calls 1/s and s convertible, and degC and K: only a pure factor will do here.
-  const double one = cv_convert_double(converter.get(), 1.0);
-  const double two = cv_convert_double(converter.get(), 2.0);
-  if (!(std::abs(two - 2.0 * one) <= 1e-12 * std::abs(one))) return {};
-  return one;
+  const double image_of_one = cv_convert_double(converter.get(), 1.0);
+  const double image_of_two = cv_convert_double(converter.get(), 2.0);
+  if (!(std::abs(image_of_two - 2.0 * image_of_one) <= 1e-12 * std::abs(image_of_one))) return {};
+  return image_of_one;
 }
 
 /// The value to 15 digits: products of decimal factors leave round-off in the 16th, and the same

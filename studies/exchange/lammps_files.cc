@@ -209,7 +209,7 @@ std::vector<meshes::Violation> beyond_lammps(const LatticeModel& model) {
   if (!model.bond.empty()) {
     found.push_back({"exchange.hold", "rod",
                      "a " + kind +
-                         " tip is tied to the rod at points of its surface, which lie "
+                         " tip is bonded to the rod at points of its surface, which lie "
                          "between the masses",
                      "choose exchange.hold = \"free\", or lattice.model = \"published\", which "
                      "hangs on ligaments"});
@@ -217,7 +217,7 @@ std::vector<meshes::Violation> beyond_lammps(const LatticeModel& model) {
   return found;
 }
 
-LammpsCensus write_lammps(const UndampedBody& body, const LammpsOrder& order,
+LammpsCensus write_lammps(const UndampedBody& body, const LammpsSettings& settings,
                           const std::filesystem::path& folder) {
   const std::vector<meshes::Violation> beyond = beyond_lammps(body.model);
   if (!beyond.empty()) throw meshes::InvalidInput(beyond);
@@ -225,7 +225,7 @@ LammpsCensus write_lammps(const UndampedBody& body, const LammpsOrder& order,
   meshes::write_atomically(folder / lammps_data,
                            [&](std::ostream& out) { census = DataFile(body, out).write(); });
   meshes::write_atomically(folder / lammps_script,
-                           [&](std::ostream& out) { out << lammps_script_text(body, order); });
+                           [&](std::ostream& out) { out << lammps_script_text(body, settings); });
   return census;
 }
 

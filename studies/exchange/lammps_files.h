@@ -17,7 +17,7 @@ inline constexpr const char* lammps_log = "log.lammps";  ///< LAMMPS's own defau
 
 /// How long LAMMPS is to march, and how often it writes; both can be changed on its command line
 /// (-var steps 5000 -var every 0).
-struct LammpsOrder {
+struct LammpsSettings {
   long steps = 1000;
   long every = 100;  ///< 0: no dump
 };
@@ -37,7 +37,7 @@ std::vector<meshes::Violation> beyond_lammps(const lattice::LatticeModel& model)
 /// Writes lattice.data and lattice.in into `folder` (README: format). Atoms 1, 2, ... are
 /// model.particles in their order, anchors follow; velocities are those at the time of the
 /// positions. Throws InvalidInput for what is beyond_lammps.
-LammpsCensus write_lammps(const UndampedBody& body, const LammpsOrder& order,
+LammpsCensus write_lammps(const UndampedBody& body, const LammpsSettings& settings,
                           const std::filesystem::path& folder);
 
 }  // namespace fingertip::studies

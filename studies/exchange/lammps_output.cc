@@ -60,10 +60,10 @@ LammpsTiming read_lammps_log(const std::filesystem::path& file) {
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with("ERROR")) error = line;
     if (line.starts_with("LAMMPS (")) version = line.substr(8, line.rfind(')') - 8);
-    LammpsTiming one;
+    LammpsTiming loop;
     if (std::sscanf(line.c_str(), "Loop time of %lf on %d procs for %ld steps with %zu atoms",
-                    &one.loop_time, &one.ranks, &one.steps, &one.atoms) == 4) {
-      timing = one;
+                    &loop.loop_time, &loop.ranks, &loop.steps, &loop.atoms) == 4) {
+      timing = loop;
       found = true;
     }
     if (found && std::sscanf(line.c_str(), "%lf%% CPU use", &percent) == 1)

@@ -74,7 +74,7 @@ std::string weight(const UndampedBody& body) {
 
 }  // namespace
 
-std::string lammps_script_text(const UndampedBody& body, const LammpsOrder& order) {
+std::string lammps_script_text(const UndampedBody& body, const LammpsSettings& settings) {
   std::string text = head(body);
   if (!body.model.ligaments.empty()) {
     text +=
@@ -98,7 +98,7 @@ if "${{every}} > 0" then &
   "dump_modify frames sort id format float %.17g"
 run             ${{steps}}
 )",
-                            order.steps, order.every, body.step, lammps_dump);
+                            settings.steps, settings.every, body.step, lammps_dump);
 }
 
 }  // namespace fingertip::studies

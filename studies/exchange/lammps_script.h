@@ -10,6 +10,6 @@ namespace fingertip::studies {
 /// Name of the data file's section with the mass of every atom.
 inline constexpr const char* lammps_masses_section = "Particle_masses";
 
-std::string lammps_script_text(const UndampedBody& body, const LammpsOrder& order);
+std::string lammps_script_text(const UndampedBody& body, const LammpsSettings& settings);
 
 }  // namespace fingertip::studies

@@ -132,22 +132,22 @@ void add_outer_forces(const UndampedBody& body, const lattice::State& state, dou
 }
 
 UndampedBody undamped_body(const LoadedConfig& loaded) {
-  const ExchangeOrder& order = loaded.config.exchange;
-  if (order.has_wall) check_wall(loaded);
+  const ExchangeSettings& settings = loaded.config.exchange;
+  if (settings.has_wall) check_wall(loaded);
   const lattice::PressSetup setup = press_setup(loaded);
   UndampedBody body;
-  body.model = order.cube ? cube(setup, order.cells) : tip(setup, order.is_free);
+  body.model = settings.cube ? cube(setup, settings.cells) : tip(setup, settings.is_free);
   take_dampers_out(body.model);
   body.rod = lattice::rod_body(setup.geometry, setup.rod);
   body.gravity = -setup.gravity * lattice::press_plane(setup.protocol, setup.geometry).normal;
   body.step = lattice::StepController(body.model, nullptr, lattice::Integrator::symplectic_euler,
                                       setup.time_step)
                   .at_rest(setup.controller.period);
-  if (order.has_wall) {
-    body.wall = wall_of(setup, order.wall_stiffness * body.model.stiffness[0]);
+  if (settings.has_wall) {
+    body.wall = wall_of(setup, settings.wall_stiffness * body.model.stiffness[0]);
     if (!setup.time_step) body.step = with_wall(body.step, body.wall->stiffness, body.model);
   }
-  body.start = agitated(body.model, order.agitation);
+  body.start = agitated(body.model, settings.agitation);
   return body;
 }
 

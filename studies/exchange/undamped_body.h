@@ -28,7 +28,7 @@ struct SoftWall {
 
 /// What is marched: m a = springs + ligaments to the rod at rest + wall + m g.
 struct UndampedBody {
-  lattice::LatticeModel model;  ///< no dampers, no tied surfaces
+  lattice::LatticeModel model;  ///< no dampers, no bond or penalty contact of surfaces
   lattice::RodBody rod;         ///< at rest for ever; of use only to ligaments
   std::optional<SoftWall> wall;
   meshes::Vector3 gravity = meshes::Vector3::Zero();  ///< [m/s²]

@@ -53,11 +53,11 @@ void FolderReader::note_missing(const fs::path& folder) {
 }
 
 void FolderReader::note(const meshes::InvalidInput& error) {
-  for (const meshes::Violation& one : error.violations()) {
+  for (const meshes::Violation& violation : error.violations()) {
     const auto same = [&](const meshes::Violation& other) {
-      return to_string(other) == to_string(one);
+      return to_string(other) == to_string(violation);
     };
-    if (std::ranges::none_of(damage_, same)) damage_.push_back(one);
+    if (std::ranges::none_of(damage_, same)) damage_.push_back(violation);
   }
 }
 

@@ -31,7 +31,7 @@ class FolderReader {
     Struct result;
     std::vector<meshes::Violation> wrong;
     if (!entry.empty()) read_value(entry, result, wrong);
-    for (const meshes::Violation& one : wrong) note(meshes::InvalidInput(one));
+    for (const meshes::Violation& violation : wrong) note(meshes::InvalidInput(violation));
     return result;
   }
   /// A press's or continuum's response.csv. Missing columns are noted, the others read.

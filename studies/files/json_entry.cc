@@ -147,7 +147,7 @@ long long JsonEntry::whole_number() const {
 
 std::vector<double> JsonEntry::numbers() const {
   std::vector<double> values;
-  for (const JsonEntry& one : elements()) values.push_back(one.number());
+  for (const JsonEntry& element : elements()) values.push_back(element.number());
   return values;
 }
 

@@ -126,9 +126,9 @@ std::optional<ComparisonRemark> remark_on(const std::string& press_name,
   if (found.empty()) return {};
   ComparisonRemark remark;
   std::string list;
-  for (const ConditionDifference& one : found) {
-    list += (list.empty() ? "" : "; ") + one.what;
-    remark.meaningless = remark.meaningless || one.other_problem;
+  for (const ConditionDifference& difference : found) {
+    list += (list.empty() ? "" : "; ") + difference.what;
+    remark.meaningless = remark.meaningless || difference.other_problem;
   }
   remark.text =
       remark.meaningless

@@ -41,9 +41,10 @@ void read_value(const JsonEntry& entry, Value& value, std::vector<meshes::Violat
     value.reset();
     if (!entry.is_null()) read_value(entry, value.emplace(), wrong);
   } else if constexpr (is_list<Value>) {
-    for (const JsonEntry& one : entry.elements()) read_value(one, value.emplace_back(), wrong);
+    for (const JsonEntry& element : entry.elements())
+      read_value(element, value.emplace_back(), wrong);
   } else if constexpr (is_map<Value>) {
-    for (const auto& [name, one] : entry.members()) read_value(one, value[name], wrong);
+    for (const auto& [name, member] : entry.members()) read_value(member, value[name], wrong);
   } else if constexpr (std::is_enum_v<Value>) {
     const auto found = meshes::enumerator<Value>(entry.text());
     if (!found) entry.refuse("must be a word that the program writes");

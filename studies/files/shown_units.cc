@@ -47,6 +47,11 @@ std::string ShownUnit::text(double value) const {
   return fmt::format("{:.4g} {}", factor * value, name);
 }
 
+std::string ShownUnit::decimals(double value) const {
+  std::string text = fmt::format("{:.4f}", factor * value);
+  return text == "-0.0000" ? text.substr(1) : text;
+}
+
 std::array<const ShownUnit*, 6> ShownUnits::all() const {
   return {&length, &force, &stress, &stiffness, &torque, &speed};
 }

@@ -32,6 +32,8 @@ struct ShownUnit {
   std::string label(std::string_view what) const;
   /// "3 mm" of a value in SI, four digits.
   std::string text(double value) const;
+  /// "3.0000" of a value in SI, four decimals, without a sign where these are all zero.
+  std::string decimals(double value) const;
 };
 
 struct ShownUnits {

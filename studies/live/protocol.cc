@@ -186,10 +186,10 @@ namespace {
 Json units_json(UnitSystem first) {
   Json all = Json::array();
   for (const UnitSystem system : unit_systems) {
-    Json one = {{"system", std::string(name(system))}};
+    Json entry = {{"system", std::string(name(system))}};
     for (const ShownUnit* unit : units_of(system).all())
-      one[std::string(unit->quantity)] = {unit->factor, std::string(unit->name)};
-    all.insert(system == first ? all.begin() : all.end(), std::move(one));
+      entry[std::string(unit->quantity)] = {unit->factor, std::string(unit->name)};
+    all.insert(system == first ? all.begin() : all.end(), std::move(entry));
   }
   return all;
 }

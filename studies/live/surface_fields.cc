@@ -214,7 +214,7 @@ HexahedralField read_vtu(const std::filesystem::path& path) {
     refuse(file.name(), "the cells must be hexahedra");
   if (field.displacement.size() != field.points.size())
     refuse(file.name(), "every point needs a displacement");
-  const auto finite = [](const Vector3& one) { return one.allFinite(); };
+  const auto finite = [](const Vector3& vector) { return vector.allFinite(); };
   if (!std::ranges::all_of(field.points, finite) ||
       !std::ranges::all_of(field.displacement, finite))
     refuse(file.name(), "places and displacements must be finite");

@@ -89,11 +89,11 @@ void add_lattices(Panel& panel, const JsonEntry& bench) {
 /// Each point with its number of unknowns.
 void add_continua(Panel& panel, const JsonEntry& bench) {
   std::map<int, Series> by_degree;
-  for (const JsonEntry& one : array_if_any(bench, "continua")) {
-    const double error = 100.0 * number_if_any(one, "worst_force_error");
-    const double pace = number_if_any(one, "real_time_factor");
+  for (const JsonEntry& entry : array_if_any(bench, "continua")) {
+    const double error = 100.0 * number_if_any(entry, "worst_force_error");
+    const double pace = number_if_any(entry, "real_time_factor");
     if (!std::isfinite(error) || !std::isfinite(pace)) continue;
-    const int degree = int(number_if_any(one, "degree"));
+    const int degree = int(number_if_any(entry, "degree"));
     Series& series = by_degree[degree];
     series.label = fmt::format("quasi-static FEM, Q{}, unknowns", degree);
     series.style = model_style("reference");
@@ -102,7 +102,7 @@ void add_continua(Panel& panel, const JsonEntry& bench) {
     if (degree == 1) series.style.dash = "(6,3)";
     series.x.push_back(pace);
     series.y.push_back(error);
-    panel.texts.push_back({pace, 1.22 * error, count(number_if_any(one, "unknowns"))});
+    panel.texts.push_back({pace, 1.22 * error, count(number_if_any(entry, "unknowns"))});
   }
   for (auto& [degree, series] : by_degree) panel.series.push_back(std::move(series));
 }

@@ -62,12 +62,12 @@ Table continuum_table(const JsonEntry& bench) {
   Table table;
   table.header = {plain("Elements"), plain("Unknowns"), plain("Solves per second"),
                   plain("Real-time factor"), plain("Force error")};
-  for (const JsonEntry& one : array_if_any(bench, "continua")) {
-    const double error = number_if_any(one, "worst_force_error");
-    table.rows.push_back({plain(fmt::format("Q{}", number_if_any(one, "degree"))),
-                          plain(count(number_if_any(one, "unknowns"))),
-                          plain(number(number_if_any(one, "solves_per_second"), 3)),
-                          plain(number(number_if_any(one, "real_time_factor"), 3)),
+  for (const JsonEntry& entry : array_if_any(bench, "continua")) {
+    const double error = number_if_any(entry, "worst_force_error");
+    table.rows.push_back({plain(fmt::format("Q{}", number_if_any(entry, "degree"))),
+                          plain(count(number_if_any(entry, "unknowns"))),
+                          plain(number(number_if_any(entry, "solves_per_second"), 3)),
+                          plain(number(number_if_any(entry, "real_time_factor"), 3)),
                           {percent_magnitude(error), "", grade(error)}});
   }
   return table;
@@ -136,9 +136,9 @@ Table ratio_table(const JsonEntry& bench) {
   const JsonEntry missing = object_if_any(bench, "missing_ratios");
   for (const auto& [name, value] : values.members()) {
     double low = meshes::unknown, high = meshes::unknown;
-    for (const double one : numbers_if_any(rounds, name)) {
-      low = std::fmin(low, one);
-      high = std::fmax(high, one);
+    for (const double ratio : numbers_if_any(rounds, name)) {
+      low = std::fmin(low, ratio);
+      high = std::fmax(high, ratio);
     }
     Cell remark = plain(text_if_any(missing, name));
     remark.words = true;
@@ -194,10 +194,10 @@ Chapter time_chapter(const JsonEntry& bench) {
   ChapterData chapter("times");
   Table table;
   table.header = {plain("What"), plain("Time"), plain("Remark")};
-  for (const JsonEntry& one : array_if_any(bench, "times"))
-    table.rows.push_back({plain(text_if_any(one, "what")),
-                          plain(with_prefix(number_if_any(one, "seconds"), "s")),
-                          plain(one.at("from_cache").flag() ? "from an earlier run" : "")});
+  for (const JsonEntry& entry : array_if_any(bench, "times"))
+    table.rows.push_back({plain(text_if_any(entry, "what")),
+                          plain(with_prefix(number_if_any(entry, "seconds"), "s")),
+                          plain(entry.at("from_cache").flag() ? "from an earlier run" : "")});
   chapter.tables["times"] = std::move(table);
   return written(std::move(chapter));
 }

@@ -140,7 +140,8 @@ std::vector<Chapter> fit_chapters(const CalibrationData& data) {
 
 std::string fit_answer(const Fit& fit) {
   std::vector<std::string> estimates;
-  for (const FitParameter& one : fit.parameters) estimates.push_back(estimate_words(one));
+  for (const FitParameter& parameter : fit.parameters)
+    estimates.push_back(estimate_words(parameter));
   double worst = meshes::unknown, left_out = meshes::unknown;
   for (const FitCurve& curve : fit.curves) {
     worst = std::fmax(worst, curve.worst);

@@ -210,7 +210,9 @@ Cell iterations(const Sample& sample, bool finite) {
 std::vector<SampleColumn> force_columns(const RunData& run) {
   std::vector<SampleColumn> columns;
   columns.push_back({plain("Force", unit_name(shown_units().force)), [](const Sample& s) {
-                       return plain(number(shown_units().force(s.force), 5), si_note(s.force, "N"));
+                       return plain(number_with_error(shown_units().force(s.force),
+                                                      shown_units().force(s.error), 5),
+                                    si_note(s.force, "N"));
                      }});
   columns.push_back({plain("Error", "estimated"), [](const Sample& s) {
                        if (!std::isfinite(s.error)) return plain("–");

@@ -147,9 +147,9 @@ Table achieved_table(const RunData& run) {
 /// "(0.62, −0.62, 0.47, 0)" for each direction the tests leave open, "–" when there is none.
 std::string null_directions(const calibration::ModuliFile& calibration) {
   std::vector<std::string> directions;
-  for (const calibration::OpenConstants& one : calibration.unidentifiable) {
+  for (const calibration::OpenConstants& open : calibration.unidentifiable) {
     std::vector<std::string> parts;
-    for (const double value : {one.k1, one.k2, one.k3, one.kappa})
+    for (const double value : {open.k1, open.k2, open.k3, open.kappa})
       parts.push_back(std::abs(value) < 5e-4 ? "0" : number(value, 2));
     directions.push_back(fmt::format("({})", fmt::join(parts, ", ")));
   }

@@ -86,8 +86,8 @@ Figure error_figure(const std::vector<StaticLattice>& lattices, const RunData& r
     add("hookean, moving", run.depths, moving->force_error, {"#777777", "(4,3)", 2.2, 0, true});
   }
   panel.band = Band{-1.0, 1.0};
-  const double room = 0.6 * (most - least) + 1.0;
-  panel.y_range = Range{least - room, most + 0.1 * room};
+  const double padding = 0.6 * (most - least) + 1.0;
+  panel.y_range = Range{least - padding, most + 0.1 * padding};
   return {"equilibrium_error", 760, 430, 1, {panel}};
 }
 

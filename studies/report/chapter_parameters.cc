@@ -27,8 +27,8 @@ std::string in_si(const FitParameter& parameter, double value) {
 }
 
 /// An interval wider than the value on both sides tells that the data leave it open.
-bool is_open(const FitParameter& one) {
-  return one.upper - one.lower > 2.0 * std::abs(one.estimate);
+bool is_open(const FitParameter& parameter) {
+  return parameter.upper - parameter.lower > 2.0 * std::abs(parameter.estimate);
 }
 
 std::string interval(const FitParameter& parameter, double factor) {
@@ -44,53 +44,58 @@ struct ParameterColumn {
   Cell (*cell)(const FitParameter&);
 };
 
-Cell value_cell(const FitParameter& one, double value) {
-  return plain(std::isfinite(value) ? number(one.factor * value) : "–", in_si(one, value));
+Cell value_cell(const FitParameter& parameter, double value) {
+  return plain(std::isfinite(value) ? number(parameter.factor * value) : "–",
+               in_si(parameter, value));
 }
 
-Cell interval_cell(const FitParameter& one) {
-  if (one.at_bound) return plain(interval(one, one.factor), one.bounded + " at its bound");
-  if (is_open(one)) return plain(interval(one, one.factor));
-  const std::string lower = in_si(one, one.lower), upper = in_si(one, one.upper);
-  return plain(interval(one, one.factor),
+Cell interval_cell(const FitParameter& parameter) {
+  if (parameter.at_bound)
+    return plain(interval(parameter, parameter.factor), parameter.bounded + " at its bound");
+  if (is_open(parameter)) return plain(interval(parameter, parameter.factor));
+  const std::string lower = in_si(parameter, parameter.lower),
+                    upper = in_si(parameter, parameter.upper);
+  return plain(interval(parameter, parameter.factor),
                lower.empty() || upper.empty() ? "" : lower + " … " + upper);
 }
 
-Cell prior_cell(const FitParameter& one) {
-  if (!std::isfinite(one.prior_mean)) return plain("none");
-  return plain(
-      number(one.factor * one.prior_mean) + " ± " + number(one.factor * one.prior_deviation, 3),
-      in_si(one, one.prior_mean));
+Cell prior_cell(const FitParameter& parameter) {
+  if (!std::isfinite(parameter.prior_mean)) return plain("none");
+  return plain(number(parameter.factor * parameter.prior_mean) + " ± " +
+                   number(parameter.factor * parameter.prior_deviation, 3),
+               in_si(parameter, parameter.prior_mean));
 }
 
 constexpr ParameterColumn parameter_columns[] = {
     {"Estimate", "", [](const FitParameter&) { return true; },
-     [](const FitParameter& one) { return value_cell(one, one.estimate); }},
+     [](const FitParameter& parameter) { return value_cell(parameter, parameter.estimate); }},
     {"95 % interval", "", [](const FitParameter&) { return true; }, interval_cell},
     {"Standard error", "of the estimate",
-     [](const FitParameter& one) { return std::isfinite(one.standard_error); },
-     [](const FitParameter& one) {
-       return plain(is_open(one) ? "–"
-                                 : percent_magnitude(one.standard_error / std::abs(one.estimate)));
+     [](const FitParameter& parameter) { return std::isfinite(parameter.standard_error); },
+     [](const FitParameter& parameter) {
+       return plain(is_open(parameter) ? "–"
+                                       : percent_magnitude(parameter.standard_error /
+                                                           std::abs(parameter.estimate)));
      }},
-    {"Truth", "", [](const FitParameter& one) { return std::isfinite(one.truth); },
-     [](const FitParameter& one) {
-       const double error = one.estimate / one.truth - 1.0;
-       Cell cell = value_cell(one, one.truth);
+    {"Truth", "", [](const FitParameter& parameter) { return std::isfinite(parameter.truth); },
+     [](const FitParameter& parameter) {
+       const double error = parameter.estimate / parameter.truth - 1.0;
+       Cell cell = value_cell(parameter, parameter.truth);
        if (!std::isfinite(error)) return cell;
        cell.note +=
            (cell.note.empty() ? "" : ", ") + std::string("missed by ") + percent_magnitude(error);
        cell.grade = grade(error);
        return cell;
      }},
-    {"Start", "", [](const FitParameter& one) { return std::isfinite(one.start); },
-     [](const FitParameter& one) { return value_cell(one, one.start); }},
+    {"Start", "", [](const FitParameter& parameter) { return std::isfinite(parameter.start); },
+     [](const FitParameter& parameter) { return value_cell(parameter, parameter.start); }},
     {"Prior", "mean ± deviation",
-     [](const FitParameter& one) { return std::isfinite(one.prior_mean); }, prior_cell},
-    {"Bias", "of a model error", [](const FitParameter& one) { return std::isfinite(one.bias); },
-     [](const FitParameter& one) {
-       Cell cell = value_cell(one, one.bias);
-       cell.note = if_known(one.bias, percent(one.bias / one.estimate));
+     [](const FitParameter& parameter) { return std::isfinite(parameter.prior_mean); }, prior_cell},
+    {"Bias", "of a model error",
+     [](const FitParameter& parameter) { return std::isfinite(parameter.bias); },
+     [](const FitParameter& parameter) {
+       Cell cell = value_cell(parameter, parameter.bias);
+       cell.note = if_known(parameter.bias, percent(parameter.bias / parameter.estimate));
        return cell;
      }},
 };
@@ -101,16 +106,16 @@ bool any_parameter(const Fit& fit, bool (*there)(const FitParameter&)) {
 
 Table parameter_table(const Fit& fit) {
   Table table;
-  table.graded =
-      any_parameter(fit, [](const FitParameter& one) { return std::isfinite(one.truth); });
+  table.graded = any_parameter(
+      fit, [](const FitParameter& parameter) { return std::isfinite(parameter.truth); });
   table.header = {plain("Parameter")};
   for (const ParameterColumn& column : parameter_columns)
     if (any_parameter(fit, column.there)) table.header.push_back(plain(column.title, column.note));
-  for (const FitParameter& one : fit.parameters) {
-    const std::string unit = one.unit.empty() ? "1" : one.unit;
-    std::vector<Cell> row{plain(one.symbol + " [" + unit + "]", one.name)};
+  for (const FitParameter& parameter : fit.parameters) {
+    const std::string unit = parameter.unit.empty() ? "1" : parameter.unit;
+    std::vector<Cell> row{plain(parameter.symbol + " [" + unit + "]", parameter.name)};
     for (const ParameterColumn& column : parameter_columns)
-      if (any_parameter(fit, column.there)) row.push_back(column.cell(one));
+      if (any_parameter(fit, column.there)) row.push_back(column.cell(parameter));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -122,7 +127,8 @@ Table correlation_table(const Fit& fit) {
   Table table;
   if (correlation.size() < 2) return table;
   table.header = {plain("Correlation")};
-  for (const FitParameter& one : fit.parameters) table.header.push_back(plain(one.symbol));
+  for (const FitParameter& parameter : fit.parameters)
+    table.header.push_back(plain(parameter.symbol));
   for (std::size_t i = 0; i < correlation.size(); ++i) {
     std::vector<Cell> row{plain(fit.parameters[i].symbol)};
     for (const double value : correlation[i]) row.push_back(plain(number(value, 3)));
@@ -132,25 +138,25 @@ Table correlation_table(const Fit& fit) {
 }
 
 /// Estimates apart by more than a per cent are another minimum.
-bool same_place(const std::vector<double>& one, const std::vector<double>& other) {
-  for (std::size_t i = 0; i < std::min(one.size(), other.size()); ++i) {
-    const double size = std::fmax(std::abs(one[i]), std::abs(other[i]));
-    if (std::abs(one[i] - other[i]) > 0.01 * size) return false;
+bool same_place(const std::vector<double>& a, const std::vector<double>& b) {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    const double size = std::fmax(std::abs(a[i]), std::abs(b[i]));
+    if (std::abs(a[i] - b[i]) > 0.01 * size) return false;
   }
   return true;
 }
 
 const MinimumEntry& least_minimum(const Fit& fit) {
-  return *std::ranges::min_element(fit.file.minima, {}, [](const MinimumEntry& one) {
-    return std::isfinite(one.loss) ? one.loss : std::numeric_limits<double>::infinity();
+  return *std::ranges::min_element(fit.file.minima, {}, [](const MinimumEntry& minimum) {
+    return std::isfinite(minimum.loss) ? minimum.loss : std::numeric_limits<double>::infinity();
   });
 }
 
 /// Whether all of several starts ended at one place.
 bool is_same_minimum(const Fit& fit) {
   const std::vector<MinimumEntry>& minima = fit.file.minima;
-  return minima.size() > 1 && std::ranges::all_of(minima, [&](const MinimumEntry& one) {
-           return same_place(one.estimates, least_minimum(fit).estimates);
+  return minima.size() > 1 && std::ranges::all_of(minima, [&](const MinimumEntry& minimum) {
+           return same_place(minimum.estimates, least_minimum(fit).estimates);
          });
 }
 
@@ -159,18 +165,18 @@ Table minima_table(const Fit& fit) {
   Table table;
   if (fit.file.minima.size() < 2 || is_same_minimum(fit)) return table;
   table.header = {plain("Start")};
-  for (const FitParameter& one : fit.parameters)
-    table.header.push_back(plain(one.symbol, one.unit));
+  for (const FitParameter& parameter : fit.parameters)
+    table.header.push_back(plain(parameter.symbol, parameter.unit));
   table.header.insert(table.header.end(), {plain("Loss"), plain("Iterations")});
-  for (const MinimumEntry& one : fit.file.minima) {
-    const std::vector<double>& estimates = one.estimates;
+  for (const MinimumEntry& minimum : fit.file.minima) {
+    const std::vector<double>& estimates = minimum.estimates;
     std::vector<Cell> row{plain(std::to_string(table.rows.size() + 1),
-                                &one == &least_minimum(fit) ? "reported" : "")};
+                                &minimum == &least_minimum(fit) ? "reported" : "")};
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
       row.push_back(plain(number(i < estimates.size() ? fit.parameters[i].factor * estimates[i]
                                                       : meshes::unknown)));
-    row.push_back(plain(number(one.loss)));
-    row.push_back(plain(count(double(one.iterations))));
+    row.push_back(plain(number(minimum.loss)));
+    row.push_back(plain(count(double(minimum.iterations))));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -179,10 +185,10 @@ Table minima_table(const Fit& fit) {
 /// "E × 0.71 and κ × 0.7", the components of a direction.
 std::string components(const Fit& fit, const DirectionEntry& entry) {
   std::vector<std::string> parts;
-  for (const FitParameter& one : fit.parameters) {
-    const double* change = entry.direction.find(one.name);
+  for (const FitParameter& parameter : fit.parameters) {
+    const double* change = entry.direction.find(parameter.name);
     if (change && std::abs(*change) > 5e-4)
-      parts.push_back(one.symbol + " × " + number(*change, 2));
+      parts.push_back(parameter.symbol + " × " + number(*change, 2));
   }
   return enumerate(parts);
 }
@@ -192,13 +198,13 @@ void add_directions(WordList& words, const Fit& fit, const std::vector<Direction
                     bool open) {
   for (const DirectionEntry& entry : directions) {
     const double share = entry.relative_singular_value, width = entry.interval;
-    Words& one = words.emplace_back();
-    one["open"] = open;
-    one["statement"] = entry.statement;
-    one["direction"] = components(fit, entry);
-    one["share"] = if_known(share, percent_magnitude(share));
-    one["width"] = width <= 1.0 ? percent_magnitude(width) : "";
-    one["wide"] = std::isfinite(width) && width > 1.0;
+    Words& row = words.emplace_back();
+    row["open"] = open;
+    row["statement"] = entry.statement;
+    row["direction"] = components(fit, entry);
+    row["share"] = if_known(share, percent_magnitude(share));
+    row["width"] = width <= 1.0 ? percent_magnitude(width) : "";
+    row["wide"] = std::isfinite(width) && width > 1.0;
   }
 }
 
@@ -236,8 +242,8 @@ Chapter parameter_chapter(const Fit& fit, const std::string& prefix) {
   chapter.id = prefix + "-parameters";
   chapter["name"] = fit.name;
   chapter["starts"] = std::to_string(fit.file.minima.size());
-  chapter["bias"] =
-      any_parameter(fit, [](const FitParameter& one) { return std::isfinite(one.bias); });
+  chapter["bias"] = any_parameter(
+      fit, [](const FitParameter& parameter) { return std::isfinite(parameter.bias); });
   chapter["same_minimum"] = !fit.parameters.empty() && is_same_minimum(fit);
   chapter["checked"] = checked_for(fit);
   if (!fit.parameters.empty()) {
@@ -259,8 +265,8 @@ Chapter identifiability_chapter(const Fit& fit, const std::string& prefix) {
   add_directions(directions, fit, fit.file.only_from_priors, false);
   chapter["directions"] = std::move(directions);
   std::vector<std::string> bounded;
-  for (const FitParameter& one : fit.parameters)
-    if (one.at_bound) bounded.push_back(one.bounded);
+  for (const FitParameter& parameter : fit.parameters)
+    if (parameter.at_bound) bounded.push_back(parameter.bounded);
   chapter["bounded"] = enumerate(bounded);
   chapter["one"] = fit.parameters.size() == 1;
   chapter["below"] = fall_of_chi_square(fit);
@@ -269,12 +275,12 @@ Chapter identifiability_chapter(const Fit& fit, const std::string& prefix) {
   return written(std::move(chapter));
 }
 
-std::string estimate_words(const FitParameter& one) {
-  std::string text = one.symbol + " = " + shown(one, one.estimate);
-  if (one.at_bound) return text + " (" + one.bounded + " at its bound)";
-  if (std::isfinite(one.lower) && std::isfinite(one.upper))
-    text += is_open(one) ? " (" + interval(one, one.factor) + ")"
-                         : fmt::format(" (95 %: {})", interval(one, one.factor));
+std::string estimate_words(const FitParameter& parameter) {
+  std::string text = parameter.symbol + " = " + shown(parameter, parameter.estimate);
+  if (parameter.at_bound) return text + " (" + parameter.bounded + " at its bound)";
+  if (std::isfinite(parameter.lower) && std::isfinite(parameter.upper))
+    text += is_open(parameter) ? " (" + interval(parameter, parameter.factor) + ")"
+                               : fmt::format(" (95 %: {})", interval(parameter, parameter.factor));
   return text;
 }
 

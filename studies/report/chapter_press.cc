@@ -85,8 +85,8 @@ Range error_axis(const RunData& run, const std::vector<Series>& curves) {
       most = std::fmax(most, curve.y[i]);
     }
   }
-  const double room = 0.08 * (most - least);
-  return {least - room, most + room};
+  const double padding = 0.08 * (most - least);
+  return {least - padding, most + padding};
 }
 
 Table response_table(const RunData& run) {
@@ -109,8 +109,11 @@ Table response_table(const RunData& run) {
     row.push_back({"–", "", Grade::none});
     for (const meshes::PressSample& sample : run.reference.pressing()) {
       if (std::abs(sample.indentation - depth) > 1e-9) continue;
-      if (std::isfinite(sample.force_error))
-        row[1].text += " ± " + number(shown_units().force(sample.force_error), 2);
+      if (std::isfinite(sample.force_error)) {
+        const ShownUnit& force = shown_units().force;
+        row[1].text = number_with_error(force(sample.normal_force), force(sample.force_error)) +
+                      " ± " + number(force(sample.force_error), 2);
+      }
       row[2] = {number(shown_units().length(sample.contact_radius)),
                 si_note(sample.contact_radius, "m"), Grade::none};
       row[3] = {number(shown_units().stress(sample.max_pressure)),

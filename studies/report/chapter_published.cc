@@ -112,9 +112,9 @@ Figure study_figure(const std::vector<Variant>& variants) {
     series.push_back(std::move(curve));
   }
   // The same axis for all, with room for the legend below the curves.
-  const double room = 0.55 * (most - least) + 1.0;
+  const double padding = 0.55 * (most - least) + 1.0;
   for (Panel& panel : figure.panels) {
-    panel.y_range = Range{least - room, most + 0.1 * room};
+    panel.y_range = Range{least - padding, most + 0.1 * padding};
     std::replace(panel.title.begin(), panel.title.end(), '_', ' ');
   }
   figure.columns = int(figure.panels.size());

@@ -231,29 +231,29 @@ void frame(Figure& figure) {
   };
   for (const Panel& panel : figure.panels)
     for (const Series& series : panel.series) include(x, series.x), include(y, series.y);
-  const double room = 0.05 * (y.to - y.from);
+  const double padding = 0.05 * (y.to - y.from);
   for (Panel& panel : figure.panels) {
-    panel.x_range = Range{x.from - room, x.to + room};
-    panel.y_range = Range{y.from - 3.0 * room, y.to + room};
+    panel.x_range = Range{x.from - padding, x.to + padding};
+    panel.y_range = Range{y.from - 3.0 * padding, y.to + padding};
     panel.texts.front().x = 0.5 * (x.from + x.to);
-    panel.texts.front().y = y.from - 1.5 * room;
+    panel.texts.front().y = y.from - 1.5 * padding;
   }
 }
 
 void add_snapshots(const MovingPress& press, WordList& words, std::vector<Figure>& figures) {
   const std::vector<Snapshot> snapshots = snapshots_of(press);
   double largest_force = 0.0, largest_torque = 0.0;
-  for (const Snapshot& one : snapshots) {
-    largest_force = std::max(largest_force, one.force.norm());
-    largest_torque = std::max(largest_torque, one.torque.norm());
+  for (const Snapshot& snapshot : snapshots) {
+    largest_force = std::max(largest_force, snapshot.force.norm());
+    largest_torque = std::max(largest_torque, snapshot.torque.norm());
   }
   // Of a straight press there is nothing but round-off.
   if (largest_torque < 1e-6 * largest_force * 0.01) largest_torque = 0.0;
   const Drawing drawing(press, snapshots.front(), largest_force, largest_torque);
   Figure figure{fmt::format("snapshots_{}", figures.size() + 1), 900, 860, 2, {}};
-  for (const Snapshot& one : snapshots) {
-    figure.panels.push_back(drawing.panel(one));
-    figure.panels.back().texts.push_back({0.0, 0.0, wrench_text(one, largest_torque)});
+  for (const Snapshot& snapshot : snapshots) {
+    figure.panels.push_back(drawing.panel(snapshot));
+    figure.panels.back().texts.push_back({0.0, 0.0, wrench_text(snapshot, largest_torque)});
   }
   frame(figure);
   words.emplace_back()["figure"] = figure.name;

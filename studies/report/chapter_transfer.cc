@@ -98,18 +98,19 @@ std::string ascii(const std::string& text) {
 
 std::string parameter_lines(const Fit& fit) {
   std::string text;
-  for (const FitParameter& one : fit.parameters) {
+  for (const FitParameter& parameter : fit.parameters) {
     const auto value = [&](double si) {
-      return std::isfinite(si) ? fmt::format("{:.5g}", one.factor * si) : std::string("-");
+      return std::isfinite(si) ? fmt::format("{:.5g}", parameter.factor * si) : std::string("-");
     };
-    const ShownUnit* known = shown_units().of(one.si_unit);
-    const std::string unit = known ? std::string(known->ascii) : one.unit;
-    const bool open = one.upper - one.lower > 2.0 * std::abs(one.estimate);
-    text += fmt::format("  {:<18}{:>12} {:<8} 95 %: {}{}\n", ascii(one.name), value(one.estimate),
-                        ascii(unit),
-                        open ? std::string("not determined by these data")
-                             : value(one.lower) + " ... " + value(one.upper),
-                        one.at_bound ? fmt::format(" ({} at its bound)", ascii(one.bounded)) : "");
+    const ShownUnit* known = shown_units().of(parameter.si_unit);
+    const std::string unit = known ? std::string(known->ascii) : parameter.unit;
+    const bool open = parameter.upper - parameter.lower > 2.0 * std::abs(parameter.estimate);
+    text += fmt::format(
+        "  {:<18}{:>12} {:<8} 95 %: {}{}\n", ascii(parameter.name), value(parameter.estimate),
+        ascii(unit),
+        open ? std::string("not determined by these data")
+             : value(parameter.lower) + " ... " + value(parameter.upper),
+        parameter.at_bound ? fmt::format(" ({} at its bound)", ascii(parameter.bounded)) : "");
   }
   return text;
 }

@@ -168,8 +168,8 @@ std::string table_text(const Comparison& comparison) {
     text += fmt::format("{:>24}", curves[i].label.substr(0, shown));
   text += "\n";
   for (std::size_t d = 0; d < comparison.depths.size(); ++d) {
-    text += fmt::format("{:12.4f}{:26.4f}", shown_units().length(comparison.depths[d]),
-                        shown_units().force(comparison.rows[d].front().force.value));
+    text += fmt::format("{:>12}{:>26}", shown_units().length.decimals(comparison.depths[d]),
+                        shown_units().force.decimals(comparison.rows[d].front().force.value));
     for (std::size_t i = 1; i < curves.size(); ++i) {
       const ComparedForce& cell = comparison.rows[d][i];
       text +=
@@ -190,18 +190,18 @@ std::string lateral_text(const std::vector<ComparedCurve>& curves) {
     if (!curve.response.sliding().empty()) sliding.push_back(&curve);
   if (sliding.size() < 2) return {};
   std::string text = shown_units().force.label("lateral force at full depth") + "\n" +
-                     fmt::format("{:>12}", shown_units().length.label("aside"));
+                     fmt::format("{:>12}", shown_units().length.label("lateral"));
   for (const ComparedCurve* curve : sliding)
     text += fmt::format("{:>24}", curve->label.substr(0, 23));
   text += "\n";
   for (const meshes::PressSample& wanted : sliding.front()->response.sliding()) {
     const double place = wanted.lateral_displacement;
-    std::string row = fmt::format("{:12.4f}", shown_units().length(place));
+    std::string row = fmt::format("{:>12}", shown_units().length.decimals(place));
     std::size_t found = 0;
     for (const ComparedCurve* curve : sliding)
       for (const meshes::PressSample& sample : curve->response.sliding())
         if (std::abs(sample.lateral_displacement - place) <= rounding_of_depths * std::abs(place)) {
-          row += fmt::format("{:24.4f}", shown_units().force(sample.lateral_force_x));
+          row += fmt::format("{:>24}", shown_units().force.decimals(sample.lateral_force_x));
           ++found;
         }
     if (found == sliding.size()) text += row + "\n";

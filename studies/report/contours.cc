@@ -116,9 +116,9 @@ class LevelSearch {
     join(found[2], found[with_first_corner ? 3 : 1]);
   }
 
-  void join(const Edge& one, const Edge& other) {
-    joined_[one].push_back(other);
-    joined_[other].push_back(one);
+  void join(const Edge& a, const Edge& b) {
+    joined_[a].push_back(b);
+    joined_[b].push_back(a);
   }
 
   std::pair<double, double> point(const Edge& edge) const {

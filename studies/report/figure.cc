@@ -159,8 +159,8 @@ std::string axis(const Panel& panel, bool vertical) {
   if (base != 0) text += fmt::format("set logscale {} {}\n", name, base);
   if (base == 10) {
     const Range extent = positive_extent(panel, vertical);
-    const double room = std::pow(extent.to / extent.from, 0.06) * 1.1;
-    if (!range) range = Range{extent.from / room, extent.to * room};
+    const double padding = std::pow(extent.to / extent.from, 0.06) * 1.1;
+    if (!range) range = Range{extent.from / padding, extent.to * padding};
     text += decade_tics(name, extent);
   }
   if (!vertical && !panel.x_names.empty()) text += named_tics(panel.x_names);

@@ -36,6 +36,14 @@ std::string percent_digits(double fraction) {
 
 }  // namespace
 
+std::string number_with_error(double value, double error, int digits) {
+  if (!std::isfinite(value) || value == 0.0 || !(error > 0.0) || std::isinf(error))
+    return number(value, digits);
+  const auto exponent = [](double x) { return int(std::floor(std::log10(std::abs(x)))); };
+  const int known = exponent(value) - (exponent(error) - 1) + 1;
+  return known < 1 ? "0" : number(value, std::min(digits, known));
+}
+
 std::string power_of_ten(int exponent) {
   static const std::array<std::string, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text = exponent < 0 ? "10⁻" : "10";

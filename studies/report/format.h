@@ -13,6 +13,10 @@ inline constexpr double degree_per_radian = 57.29577951308232;
 /// of ten as "1.2×10⁻⁹" outside.
 std::string number(double value, int digits = 4);
 
+/// The same without the digits that `error` leaves open: none behind its second one. "0" for a
+/// value below that; all `digits` where the error is unknown or zero.
+std::string number_with_error(double value, double error, int digits = 4);
+
 /// "10⁻⁹"
 std::string power_of_ten(int exponent);
 

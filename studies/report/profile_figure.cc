@@ -36,13 +36,13 @@ struct Linearised {
 };
 
 Linearised linearised(const Fit& fit, std::size_t i, std::size_t j) {
-  const FitParameter &one = fit.parameters[i], &other = fit.parameters[j];
-  Linearised result{one.factor * one.estimate, other.factor * other.estimate};
+  const FitParameter &first = fit.parameters[i], &second = fit.parameters[j];
+  Linearised result{first.factor * first.estimate, second.factor * second.estimate};
   const auto covariance = fit.square(fit.file.covariance);
   if (covariance.empty()) return result;
-  result.first = covariance[i][i] * one.factor * one.factor;
-  result.mixed = covariance[i][j] * one.factor * other.factor;
-  result.second = covariance[j][j] * other.factor * other.factor;
+  result.first = covariance[i][i] * first.factor * first.factor;
+  result.mixed = covariance[i][j] * first.factor * second.factor;
+  result.second = covariance[j][j] * second.factor * second.factor;
   return result;
 }
 
@@ -120,8 +120,8 @@ bool resolved(const GridFunction& grid, const Linearised& fit) {
 /// All lines of one level as one curve with breaks.
 Series level_series(const GridFunction& grid, const Level& level) {
   Series series{level.label, level.label, {}, {}, {}, {level.colour, "", 2.2, 0, true}};
-  for (const Polyline& one : level_lines(grid, level.increase)) {
-    for (const auto& [x, y] : one) series.x.push_back(x), series.y.push_back(y);
+  for (const Polyline& line : level_lines(grid, level.increase)) {
+    for (const auto& [x, y] : line) series.x.push_back(x), series.y.push_back(y);
     series.x.push_back(meshes::unknown), series.y.push_back(meshes::unknown);
   }
   return series;
@@ -147,8 +147,8 @@ Range extent(const std::vector<double>& nodes, double truth) {
   return {std::fmin(nodes.front(), truth - margin), std::fmax(nodes.back(), truth + margin)};
 }
 
-std::string axis_label(const FitParameter& one) {
-  return one.unit.empty() ? one.symbol : one.symbol + " [" + one.unit + "]";
+std::string axis_label(const FitParameter& parameter) {
+  return parameter.unit.empty() ? parameter.symbol : parameter.symbol + " [" + parameter.unit + "]";
 }
 
 }  // namespace

@@ -283,8 +283,10 @@ class PageMaker {
 
 std::vector<Damaged> damaged_parts(const FolderReader& reader) {
   std::vector<Damaged> parts;
-  for (const meshes::Violation& one : reader.damage())
-    parts.push_back({one.key, one.value.empty() ? one.rule : one.value + ": " + one.rule});
+  for (const meshes::Violation& violation : reader.damage())
+    parts.push_back({violation.key, violation.value.empty()
+                                        ? violation.rule
+                                        : violation.value + ": " + violation.rule});
   return parts;
 }
 

@@ -65,7 +65,7 @@ std::vector<std::string> ordered_models(const meshes::Entries<ModelEntry>& model
 
 double largest_magnitude(const std::vector<double>& values) {
   double result = meshes::unknown;
-  for (const double one : values) result = std::fmax(result, std::abs(one));
+  for (const double value : values) result = std::fmax(result, std::abs(value));
   return result;
 }
 

@@ -114,15 +114,15 @@ void choose_library(const LoadedConfig& loaded, lattice::PressSetup& setup) {
 }
 
 void choose_socket(const LoadedConfig& loaded, lattice::PressSetup& setup) {
-  const ControllerOrder& order = loaded.config.controller;
+  const ControllerSettings& chosen = loaded.config.controller;
   SocketSettings settings;
   try {
-    settings.address = LocalAddress::parse(order.address);
+    settings.address = LocalAddress::parse(chosen.address);
   } catch (const meshes::InvalidInput& error) {
     throw loaded.locate(error.violations());
   }
-  settings.timeout = order.timeout;
-  settings.connect_timeout = order.connect_timeout;
+  settings.timeout = chosen.timeout;
+  settings.connect_timeout = chosen.connect_timeout;
   settings.go_on = [] { return !interrupted(); };
   settings.log = [](const std::string& line) { fmt::print(stderr, "fingertip: note: {}\n", line); };
   setup.controller_identity = socket_identity;

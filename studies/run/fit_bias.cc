@@ -27,11 +27,12 @@ std::string statement(const ordered_json& parameters) {
   std::string text =
       " The lattice's own error, measured by the continuum at the estimates, shifts them; with that"
       " the 95 % intervals are";
-  for (const ordered_json& one : parameters)
+  for (const ordered_json& parameter : parameters)
     text += fmt::format("{} {} {:.5g} to {:.5g} (shifted by {:+.2g} %)",
-                        &one == &parameters.front() ? "" : ",", one["name"].get<std::string>(),
-                        number_of(one["lower"]), number_of(one["upper"]),
-                        100.0 * number_of(one["bias"]) / number_of(one["estimate"]));
+                        &parameter == &parameters.front() ? "" : ",",
+                        parameter["name"].get<std::string>(), number_of(parameter["lower"]),
+                        number_of(parameter["upper"]),
+                        100.0 * number_of(parameter["bias"]) / number_of(parameter["estimate"]));
   return text + ".";
 }
 
@@ -58,10 +59,10 @@ void add_bias(const Eigen::VectorXd& error, ordered_json& calibration) {
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const auto row = calibration["influence"][p].get<std::vector<double>>();
     const double bias = -Eigen::Map<const Eigen::VectorXd>(row.data(), error.size()).dot(error);
-    ordered_json& one = parameters[p];
-    one["bias"] = bias;
-    one["lower"] = number_or_null(number_of(one["lower"]) - std::abs(bias));
-    one["upper"] = number_or_null(number_of(one["upper"]) + std::abs(bias));
+    ordered_json& parameter = parameters[p];
+    parameter["bias"] = bias;
+    parameter["lower"] = number_or_null(number_of(parameter["lower"]) - std::abs(bias));
+    parameter["upper"] = number_or_null(number_of(parameter["upper"]) + std::abs(bias));
   }
   calibration["statement"] = calibration["statement"].get<std::string>() + statement(parameters);
 }

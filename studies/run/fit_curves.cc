@@ -31,13 +31,13 @@ std::vector<std::string> settings_in(std::string_view condition) {
   std::size_t begin = 0;
   while (begin <= condition.size()) {
     const std::size_t end = std::min(condition.find(';', begin), condition.size());
-    const std::string_view one = trimmed(condition.substr(begin, end - begin));
-    const auto equals = one.find('=');
-    if (equals != one.npos)
-      sets.push_back(std::string(trimmed(one.substr(0, equals))) + "=" +
-                     std::string(trimmed(one.substr(equals + 1))));
-    else if (!one.empty())
-      sets.emplace_back(one);
+    const std::string_view setting = trimmed(condition.substr(begin, end - begin));
+    const auto equals = setting.find('=');
+    if (equals != setting.npos)
+      sets.push_back(std::string(trimmed(setting.substr(0, equals))) + "=" +
+                     std::string(trimmed(setting.substr(equals + 1))));
+    else if (!setting.empty())
+      sets.emplace_back(setting);
     begin = end + 1;
   }
   return sets;
@@ -53,10 +53,10 @@ std::string even_samples(double depth, int count) {
 
 /// A condition says how a press is done: what it is done with is common to all curves.
 void check_condition(const LoadedConfig& loaded, const std::vector<std::string>& sets) {
-  for (const std::string& one : sets) {
-    const std::string section = one.substr(0, one.find('.'));
+  for (const std::string& setting : sets) {
+    const std::string section = setting.substr(0, setting.find('.'));
     if (section != "press" && section != "geometry" && section != "reference")
-      throw refused(loaded, "calibration.conditions", one,
+      throw refused(loaded, "calibration.conditions", setting,
                     "a curve's condition sets keys of press, geometry and reference",
                     "set rubber, lattice and calibration for the whole fit");
   }
@@ -101,13 +101,13 @@ void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve cur
         {{"press.lateral_path", "after",
           "a fit takes forces against indentation, and a motion at full depth has none",
           "choose diagonal, or leave press.lateral at 0"}});
-  fit.order.conditions.push_back(described(press));
-  if (curve.name.empty()) curve.name = fit.order.conditions.back();
-  name_once(fit.order.curves, curve);
-  fit.order.curves.push_back(std::move(curve));
-  fit.order.kinds.push_back(kind);
-  fit.order.presses.push_back(press);
-  fit.order.continua.push_back(continuum_beside(own, press.lattice.kinematics));
+  fit.input.conditions.push_back(described(press));
+  if (curve.name.empty()) curve.name = fit.input.conditions.back();
+  name_once(fit.input.curves, curve);
+  fit.input.curves.push_back(std::move(curve));
+  fit.input.kinds.push_back(kind);
+  fit.input.presses.push_back(press);
+  fit.input.continua.push_back(continuum_beside(own, press.lattice.kinematics));
 }
 
 /// The start of a driven rod shakes the tip; this long a way dies the shaking out before touch.
@@ -117,25 +117,25 @@ constexpr double run_up = 0.1;  // [s]
 /// time a fit may try, twice the configuration's.
 void add_moving_press(FitSetup& fit, const LoadedConfig& own, Curve curve) {
   add_press(fit, own, CurveKind::moving_press, std::move(curve));
-  lattice::PressSetup& press = fit.order.presses.back();
+  lattice::PressSetup& press = fit.input.presses.back();
   press.protocol.clearance = run_up * press.protocol.speed;
   press.rubber.retardation_time *= 2.0;
-  fit.order.continua.back().analysis = fem_reference::Analysis::transient;
-  fit.order.continua.back().strain = fem_reference::Strain::linear;
+  fit.input.continua.back().analysis = fem_reference::Analysis::transient;
+  fit.input.continua.back().strain = fem_reference::Strain::linear;
 }
 
 }  // namespace
 
 void add_continuum_curves(FitSetup& fit, const LoadedConfig& loaded) {
-  const CalibrationOrder& order = loaded.config.calibration;
+  const CalibrationSettings& settings = loaded.config.calibration;
   fit.data_from_continuum = true;
-  fit.order.provenance = "forces of the continuum reference";
-  fit.order.rubber_known = true;
-  const bool moving = order.problem == CalibrationProblem::damping;
+  fit.input.provenance = "forces of the continuum reference";
+  fit.input.rubber_known = true;
+  const bool moving = settings.problem == CalibrationProblem::damping;
   for (const std::string& condition : conditions_of(loaded)) {
     const LoadedConfig own = under(loaded, settings_in(condition),
                                    {moving ? "press.mode=quasi-static" : "press.mode=static",
-                                    even_samples(order.depth, order.points)});
+                                    even_samples(settings.depth, settings.points)});
     Curve curve;
     curve.x = own.config.press.protocol.samples;
     if (moving) {
@@ -157,13 +157,13 @@ std::vector<CurveQuantities> quantities_of(CalibrationProblem problem) {
   }
 }
 
-CurveKind kind_of(const MeasuredFile& file, const CalibrationOrder& order) {
+CurveKind kind_of(const MeasuredFile& file, const CalibrationSettings& settings) {
   if (file.x_quantity == "stretch") return CurveKind::uniaxial;
   if (file.x_quantity == "shear") return CurveKind::simple_shear;
   if (file.x_quantity == "frequency") return CurveKind::loss_factor;
   if (file.y_quantity == "creep") return CurveKind::creep;
   if (file.x_quantity == "time") return CurveKind::ramp;
-  return order.forward == ForwardKind::continuum ? CurveKind::continuum : CurveKind::press;
+  return settings.forward == ForwardKind::continuum ? CurveKind::continuum : CurveKind::press;
 }
 
 std::string place_in(const std::filesystem::path& file, std::size_t line) {
@@ -174,12 +174,12 @@ std::string place_in(const std::filesystem::path& file, std::size_t line) {
 ConfigError placed_in(const std::filesystem::path& path, const MeasuredFile& file,
                       const ConfigError& error) {
   std::vector<Problem> problems = error.problems();
-  for (Problem& one : problems) {
-    const auto setting = std::ranges::find(file.settings, one.key, &MeasuredSetting::key);
-    if (setting != file.settings.end()) one.place = place_in(path, setting->line);
+  for (Problem& problem : problems) {
+    const auto setting = std::ranges::find(file.settings, problem.key, &MeasuredSetting::key);
+    if (setting != file.settings.end()) problem.place = place_in(path, setting->line);
     // Increasing indentations: the last one is what goes too deep.
-    if (one.key == "press.samples" || one.key == "press.depth")
-      one.place = place_in(path, file.lines.back());
+    if (problem.key == "press.samples" || problem.key == "press.depth")
+      problem.place = place_in(path, file.lines.back());
   }
   return ConfigError(std::move(problems));
 }
@@ -202,8 +202,8 @@ void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const Measure
 std::string with_unit(const std::string& quantity) {
   for (const CurveQuantities& pair : {measured::press, measured::uniaxial, measured::simple_shear,
                                       measured::vibration, measured::creep, measured::relaxation})
-    for (const Quantity& one : {pair.x, pair.y})
-      if (one.name == quantity) return quantity + " [" + std::string(one.unit) + "]";
+    for (const Quantity& axis : {pair.x, pair.y})
+      if (axis.name == quantity) return quantity + " [" + std::string(axis.unit) + "]";
   return quantity;
 }
 
@@ -225,24 +225,24 @@ void check_stretches(const std::filesystem::path& path, const MeasuredFile& file
 }
 
 /// What a fit refuses of its data as a whole is said of the files, before anything is computed.
-void check_curves(const LoadedConfig& loaded, const FitOrder& order) {
+void check_curves(const LoadedConfig& loaded, const FitInput& input) {
   const std::vector<std::filesystem::path>& files = loaded.config.calibration.data;
   try {
-    calibration::check_curve_fit(order.curves, order.options);
+    calibration::check_curve_fit(input.curves, input.options);
   } catch (const meshes::InvalidInput& error) {
     std::vector<Problem> problems;
-    for (const meshes::Violation& one : error.violations()) {
+    for (const meshes::Violation& violation : error.violations()) {
       std::string places;
       for (std::size_t i = 0; i < files.size(); ++i) {
         const std::string own = "curves[" + std::to_string(i) + "]";
-        if (one.key.starts_with("curves[") && !one.key.starts_with(own)) continue;
+        if (violation.key.starts_with("curves[") && !violation.key.starts_with(own)) continue;
         places += (places.empty() ? "" : ", ") + files[i].string();
       }
-      const bool of_data = one.key.starts_with("curves");
-      Problem problem = loaded.locate({one}).problems().front();
+      const bool of_data = violation.key.starts_with("curves");
+      Problem problem = loaded.locate({violation}).problems().front();
       if (of_data) {
         problem.place = places;
-        problem.key = one.key.ends_with(".sigma") ? "sigma" : "calibration.data";
+        problem.key = violation.key.ends_with(".sigma") ? "sigma" : "calibration.data";
       }
       problems.push_back(std::move(problem));
     }
@@ -253,50 +253,50 @@ void check_curves(const LoadedConfig& loaded, const FitOrder& order) {
 }  // namespace
 
 void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
-  const CalibrationOrder& order = loaded.config.calibration;
-  if (order.data.empty())
+  const CalibrationSettings& settings = loaded.config.calibration;
+  if (settings.data.empty())
     throw refused(loaded, "calibration.data", "[]",
-                  "the problem " + std::string(name(order.problem)) + " needs measured data",
+                  "the problem " + std::string(name(settings.problem)) + " needs measured data",
                   "name one CSV file per curve");
-  if (!order.conditions.empty() && order.conditions.size() != order.data.size())
+  if (!settings.conditions.empty() && settings.conditions.size() != settings.data.size())
     throw refused(loaded, "calibration.conditions", "",
                   "there must be one per file of calibration.data, or none", "complete the list");
-  fit.order.provenance = "measured data: ";
-  for (std::size_t i = 0; i < order.data.size(); ++i) {
-    MeasuredFile file = read_measured(order.data[i], quantities_of(order.problem));
-    const CurveKind kind = kind_of(file, order);
+  fit.input.provenance = "measured data: ";
+  for (std::size_t i = 0; i < settings.data.size(); ++i) {
+    MeasuredFile file = read_measured(settings.data[i], quantities_of(settings.problem));
+    const CurveKind kind = kind_of(file, settings);
     const bool press =
         kind == CurveKind::press || kind == CurveKind::continuum || kind == CurveKind::ramp;
-    if (i > 0 && press == fit.order.presses.empty())
-      throw refused(loaded, "calibration.data", order.data[i].string(),
+    if (i > 0 && press == fit.input.presses.empty())
+      throw refused(loaded, "calibration.data", settings.data[i].string(),
                     "forces of presses and other tests do not go into one fit",
                     "fit them one by one");
     file.curve.x_quantity = with_unit(file.x_quantity);
     file.curve.y_quantity = with_unit(file.y_quantity);
     fit.notes.insert(fit.notes.end(), file.notes.begin(), file.notes.end());
-    fit.order.provenance += (i > 0 ? ", " : "") + order.data[i].filename().string() + " (SHA-256 " +
-                            sha256(content_of(order.data[i])) + ")";
+    fit.input.provenance += (i > 0 ? ", " : "") + settings.data[i].filename().string() +
+                            " (SHA-256 " + sha256(content_of(settings.data[i])) + ")";
     if (press) {
-      const auto condition =
-          order.conditions.empty() ? std::vector<std::string>{} : settings_in(order.conditions[i]);
+      const auto condition = settings.conditions.empty() ? std::vector<std::string>{}
+                                                         : settings_in(settings.conditions[i]);
       try {
         add_measured_press(fit, loaded, file, kind, condition);
       } catch (const ConfigError& error) {
-        throw placed_in(order.data[i], file, error);
+        throw placed_in(settings.data[i], file, error);
       }
       continue;
     }
-    check_stretches(order.data[i], file);
-    if (!order.conditions.empty())
+    check_stretches(settings.data[i], file);
+    if (!settings.conditions.empty())
       throw refused(loaded, "calibration.conditions", "",
                     "conditions are those of presses; a test on a coupon has none",
                     "leave them out");
-    name_once(fit.order.curves, file.curve);
-    fit.order.curves.push_back(file.curve);
-    fit.order.conditions.push_back("");
-    fit.order.kinds.push_back(kind);
+    name_once(fit.input.curves, file.curve);
+    fit.input.curves.push_back(file.curve);
+    fit.input.conditions.push_back("");
+    fit.input.kinds.push_back(kind);
   }
-  check_curves(loaded, fit.order);
+  check_curves(loaded, fit.input);
 }
 
 }  // namespace fingertip::studies

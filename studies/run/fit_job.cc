@@ -30,20 +30,20 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What the answers for a curve depend on, and its data.
-ordered_json curve_inputs(const FitOrder& order, std::size_t i) {
-  const calibration::Curve& curve = order.curves[i];
+ordered_json curve_inputs(const FitInput& input, std::size_t i) {
+  const calibration::Curve& curve = input.curves[i];
   ordered_json inputs = {{"name", curve.name},
-                         {"condition", order.conditions[i]},
-                         {"kind", int(order.kinds[i])},
+                         {"condition", input.conditions[i]},
+                         {"kind", int(input.kinds[i])},
                          {"quantities", {curve.x_quantity, curve.y_quantity}},
                          {"x", curve.x},
                          {"y", curve.y},
                          {"sigma", curve.sigma}};
-  if (i < order.presses.size()) inputs["press"] = inputs_of(order.presses[i]);
-  if (order.kinds[i] == CurveKind::continuum)
-    inputs["continuum"] = reference_job(order.continua[i]).key();
+  if (i < input.presses.size()) inputs["press"] = inputs_of(input.presses[i]);
+  if (input.kinds[i] == CurveKind::continuum)
+    inputs["continuum"] = reference_job(input.continua[i]).key();
   // The ramp's lattice is static, its rubber's damping is not.
-  if (order.kinds[i] == CurveKind::ramp) inputs["speed"] = order.presses[i].protocol.speed;
+  if (input.kinds[i] == CurveKind::ramp) inputs["speed"] = input.presses[i].protocol.speed;
   return inputs;
 }
 
@@ -64,27 +64,27 @@ std::unique_ptr<ForwardModel> ramp_model(lattice::PressSetup setup, const std::v
       calibration::interpolated_force(press.response));
 }
 
-std::unique_ptr<ForwardModel> model_of(const FitOrder& order, std::size_t i,
+std::unique_ptr<ForwardModel> model_of(const FitInput& input, std::size_t i,
                                        const JobContext& context,
                                        const std::function<bool()>& go_on) {
-  const std::vector<double>& x = order.curves[i].x;
-  const std::vector<MaterialParameter> parameters = parameters_of(order);
-  switch (order.kinds[i]) {
+  const std::vector<double>& x = input.curves[i].x;
+  const std::vector<MaterialParameter> parameters = parameters_of(input);
+  switch (input.kinds[i]) {
     case CurveKind::press:
-      return std::make_unique<calibration::LatticeForwardModel>(order.presses[i], parameters,
+      return std::make_unique<calibration::LatticeForwardModel>(input.presses[i], parameters,
                                                                 go_on);
     case CurveKind::continuum:
       return std::make_unique<calibration::ScaledModel>(continuum_model(
-          order.continua[i], parameters, fmt::format("continuum_{}", i + 1), context));
+          input.continua[i], parameters, fmt::format("continuum_{}", i + 1), context));
     case CurveKind::uniaxial:
-      return std::make_unique<calibration::UniaxialModel>(x, parameters, order.base.rubber);
+      return std::make_unique<calibration::UniaxialModel>(x, parameters, input.base.rubber);
     case CurveKind::simple_shear:
-      return std::make_unique<calibration::SimpleShearModel>(x, parameters, order.base.rubber);
+      return std::make_unique<calibration::SimpleShearModel>(x, parameters, input.base.rubber);
     case CurveKind::loss_factor: return std::make_unique<calibration::LossFactorModel>(x);
     case CurveKind::creep: return std::make_unique<calibration::CreepModel>(x);
-    case CurveKind::ramp: return ramp_model(order.presses[i], x, go_on);
+    case CurveKind::ramp: return ramp_model(input.presses[i], x, go_on);
     case CurveKind::moving_press:
-      return std::make_unique<calibration::MovingPressModel>(order.presses[i], x);
+      return std::make_unique<calibration::MovingPressModel>(input.presses[i], x);
   }
   return nullptr;
 }
@@ -92,15 +92,15 @@ std::unique_ptr<ForwardModel> model_of(const FitOrder& order, std::size_t i,
 /// Models, and what remembers their answers in the folder's evaluations/.
 class Models {
  public:
-  Models(const FitOrder& order, const fs::path& folder, const JobContext& context,
+  Models(const FitInput& input, const fs::path& folder, const JobContext& context,
          const std::function<bool()>& go_on) {
     fs::create_directories(folder / "evaluations");
-    for (std::size_t i = 0; i < order.curves.size(); ++i) {
-      models_.push_back(model_of(order, i, context, go_on));
+    for (std::size_t i = 0; i < input.curves.size(); ++i) {
+      models_.push_back(model_of(input, i, context, go_on));
       remembering_.push_back(std::make_unique<calibration::RememberedModel>(
           *models_[i], folder / "evaluations" / fmt::format("curve_{}.jsonl", i + 1),
-          Eigen::Index(order.curves[i].x.size()), Eigen::Index(order.options.free.size()),
-          sha256(curve_inputs(order, i).dump())));
+          Eigen::Index(input.curves[i].x.size()), Eigen::Index(input.options.free.size()),
+          sha256(curve_inputs(input, i).dump())));
     }
   }
 
@@ -118,15 +118,15 @@ class Models {
 /// Points per parameter where an evaluation costs nothing: valleys are narrow.
 constexpr int fine_grid = 61;
 
-void add_profile(const FitOrder& order, const std::vector<ForwardModel*>& models,
+void add_profile(const FitInput& input, const std::vector<ForwardModel*>& models,
                  calibration::FitRecord& record) {
   const auto place = [&](const std::string& name) {
     const auto found = std::ranges::find(record.fit.parameters, name, calibration::name);
     return std::size_t(found - record.fit.parameters.begin());
   };
-  const std::size_t first = place(order.profile[0]), second = place(order.profile[1]);
+  const std::size_t first = place(input.profile[0]), second = place(input.profile[1]);
   calibration::ProfileOptions grid;
-  if (order.presses.empty() || by_continuum(order)) grid.points = fine_grid;
+  if (input.presses.empty() || by_continuum(input)) grid.points = fine_grid;
   record.profile = calibration::profile_likelihood(record.curves, models, record.options,
                                                    record.fit, first, second, grid);
   record.profile_first = record.fit.parameters[first];
@@ -139,8 +139,8 @@ void write(const calibration::FitRecord& record, const fs::path& folder) {
   calibration::write_fit_data(record, folder / "fit_data.csv");
   calibration::Material material = record.material;
   material.statement = calibration::fit_statement(record);
-  for (const std::string& one : failed)
-    material.rejected += (material.rejected.empty() ? "" : "; ") + one;
+  for (const std::string& reason : failed)
+    material.rejected += (material.rejected.empty() ? "" : "; ") + reason;
   if (material.violations().empty())
     calibration::write_material_toml(material, folder / estimates_name);
   write_json({{"problem", record.problem},
@@ -153,23 +153,23 @@ void write(const calibration::FitRecord& record, const fs::path& folder) {
              folder / "summary.json");
 }
 
-std::string model_error_words(const FitOrder& order) {
-  std::string words = order.with_lattice_error ? "the known error of the lattice" : "";
-  if (!order.theory_error.empty())
-    words += std::string(words.empty() ? "" : " and ") + order.theory_error_of;
+std::string model_error_words(const FitInput& input) {
+  std::string words = input.with_lattice_error ? "the known error of the lattice" : "";
+  if (!input.theory_error.empty())
+    words += std::string(words.empty() ? "" : " and ") + input.theory_error_of;
   return words;
 }
 
-calibration::FitRecord described(const FitOrder& order) {
+calibration::FitRecord described(const FitInput& input) {
   calibration::FitRecord record;
-  record.problem = name(order.problem);
-  record.forward = by_continuum(order)     ? "continuum"
-                   : order.presses.empty() ? "formula"
+  record.problem = name(input.problem);
+  record.forward = by_continuum(input)     ? "continuum"
+                   : input.presses.empty() ? "formula"
                                            : "lattice";
-  record.curves = order.curves;
-  record.conditions = order.conditions;
-  record.model_error = model_error_words(order);
-  if (order.rubber_known) record.target = order.base.rubber;
+  record.curves = input.curves;
+  record.conditions = input.conditions;
+  record.model_error = model_error_words(input);
+  if (input.rubber_known) record.target = input.base.rubber;
   return record;
 }
 
@@ -191,28 +191,28 @@ void start_at(const Eigen::VectorXd& start, CurveFitOptions& options) {
 }
 
 /// The search starts from the scale of the data, not from the configuration's rubber.
-void start_from_data(FitOrder& order, const std::vector<ForwardModel*>& models) {
-  CurveFitOptions& options = order.options;
-  if (!order.start_ratios.empty()) {
+void start_from_data(FitInput& input, const std::vector<ForwardModel*>& models) {
+  CurveFitOptions& options = input.options;
+  if (!input.start_ratios.empty()) {
     std::vector<Eigen::VectorXd> starts =
-        calibration::scaled_starts(order.curves, models, options, order.start_ratios);
+        calibration::scaled_starts(input.curves, models, options, input.start_ratios);
     if (starts.empty()) return;
     start_at(starts.front(), options);
     options.other_starts.assign(starts.begin() + 1, starts.end());
-  } else if (order.scale_to_data) {
-    if (const auto start = calibration::scaled_start(order.curves, models, options))
+  } else if (input.scale_to_data) {
+    if (const auto start = calibration::scaled_start(input.curves, models, options))
       start_at(*start, options);
   }
 }
 
 /// Relative errors of all values times `forces`.
-void put_model_error(FitOrder& order, const Eigen::VectorXd& forces) {
-  Eigen::MatrixXd& covariance = order.options.model_covariance;
+void put_model_error(FitInput& input, const Eigen::VectorXd& forces) {
+  Eigen::MatrixXd& covariance = input.options.model_covariance;
   const Eigen::Index count = forces.size();
-  covariance = order.with_lattice_error ? calibration::lattice_covariance(order.presses)
+  covariance = input.with_lattice_error ? calibration::lattice_covariance(input.presses)
                                         : Eigen::MatrixXd::Zero(count, count);
   std::vector<double> theory;
-  for (const std::vector<double>& curve : order.theory_error)
+  for (const std::vector<double>& curve : input.theory_error)
     theory.insert(theory.end(), curve.begin(), curve.end());
   if (!theory.empty()) {
     const auto excess = Eigen::VectorXd::Map(theory.data(), count);
@@ -220,21 +220,21 @@ void put_model_error(FitOrder& order, const Eigen::VectorXd& forces) {
   }
   covariance = forces.asDiagonal() * covariance * forces.asDiagonal();
   // What is known of the models stands in the covariance: intervals alone tell what is open.
-  order.options.relative_singular_value = 0.0;
+  input.options.relative_singular_value = 0.0;
 }
 
-Eigen::VectorXd measured_values(const FitOrder& order) {
+Eigen::VectorXd measured_values(const FitInput& input) {
   std::vector<double> all;
-  for (const calibration::Curve& curve : order.curves)
+  for (const calibration::Curve& curve : input.curves)
     all.insert(all.end(), curve.y.begin(), curve.y.end());
   return Eigen::VectorXd::Map(all.data(), Eigen::Index(all.size()));
 }
 
-Eigen::VectorXd values_at_start(const FitOrder& order, const std::vector<ForwardModel*>& models) {
-  Eigen::VectorXd start(Eigen::Index(order.options.free.size()));
+Eigen::VectorXd values_at_start(const FitInput& input, const std::vector<ForwardModel*>& models) {
+  Eigen::VectorXd start(Eigen::Index(input.options.free.size()));
   for (Eigen::Index i = 0; i < start.size(); ++i)
-    start(i) = order.options.free[std::size_t(i)].start;
-  Eigen::VectorXd all(measured_values(order).size());
+    start(i) = input.options.free[std::size_t(i)].start;
+  Eigen::VectorXd all(measured_values(input).size());
   Eigen::Index row = 0;
   for (ForwardModel* model : models) {
     const Eigen::VectorXd values = model->evaluate(start).value;
@@ -247,17 +247,17 @@ Eigen::VectorXd values_at_start(const FitOrder& order, const std::vector<Forward
 /// From starts at the data's scale, every force as uncertain as noise and the known errors of its
 /// model make it. Errors are relative to forces: at first to those measured, then, lest noise weigh
 /// itself, to those of the start.
-calibration::CurveFit search(FitOrder& order, const std::vector<ForwardModel*>& models) {
-  const bool errors = order.with_lattice_error || !order.theory_error.empty();
-  if (errors) put_model_error(order, measured_values(order));
-  start_from_data(order, models);
-  if (errors) put_model_error(order, values_at_start(order, models));
-  return calibration::fit_curves(order.curves, models, order.options);
+calibration::CurveFit search(FitInput& input, const std::vector<ForwardModel*>& models) {
+  const bool errors = input.with_lattice_error || !input.theory_error.empty();
+  if (errors) put_model_error(input, measured_values(input));
+  start_from_data(input, models);
+  if (errors) put_model_error(input, values_at_start(input, models));
+  return calibration::fit_curves(input.curves, models, input.options);
 }
 
-void run_fit(FitOrder order, const fs::path& folder, const JobContext& context) {
+void run_fit(FitInput input, const fs::path& folder, const JobContext& context) {
   const auto begin = std::chrono::steady_clock::now();
-  const int budget = order.options.max_evaluations;
+  const int budget = input.options.max_evaluations;
   std::string stage = "scan of starts";
   int evaluations = 0;
   const auto go_on = [&] {
@@ -265,51 +265,51 @@ void run_fit(FitOrder order, const fs::path& folder, const JobContext& context) 
         std::min(1.0, double(evaluations) / budget),
         fmt::format("{}: {} of at most {} evaluations", stage, evaluations, budget));
   };
-  const Models models(order, folder, context, go_on);
+  const Models models(input, folder, context, go_on);
   const std::vector<ForwardModel*> list = models.addresses();
-  order.options.threads = context.threads;
-  order.options.progress = [&](int count, double) {
+  input.options.threads = context.threads;
+  input.options.progress = [&](int count, double) {
     evaluations = count;
     return go_on();
   };
 
-  calibration::FitRecord record = described(order);
-  record.fit = search(order, list);
-  record.options = order.options;
+  calibration::FitRecord record = described(input);
+  record.fit = search(input, list);
+  record.options = input.options;
   stage = "curves left out";
-  if (order.curves.size() > 1)
-    record.left_out = calibration::leave_one_out(order.curves, list, record.options, record.fit);
+  if (input.curves.size() > 1)
+    record.left_out = calibration::leave_one_out(input.curves, list, record.options, record.fit);
   stage = "profile";
-  if (!order.profile.empty()) add_profile(order, list, record);
-  record.material = material_of(order, record);
+  if (!input.profile.empty()) add_profile(input, list, record);
+  record.material = material_of(input, record);
   record.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write(record, folder);
   context.log(calibration::fit_statement(record));
 }
 
-ordered_json inputs_of(const FitOrder& order) {
+ordered_json inputs_of(const FitInput& input) {
   ordered_json inputs = {
-      {"problem", name(order.problem)},
-      {"geometry", meshes::json_of(order.base.geometry)},
-      {"rubber", meshes::json_of(order.base.rubber)},
-      {"lattice", meshes::json_of(order.base.lattice)},
-      {"rubber_known", order.rubber_known},
-      {"robust_width", order.options.robust_width},
-      {"starts", order.start_ratios},
-      {"profile", order.profile},
-      {"scale_to_data", order.scale_to_data},
-      {"lattice_error", order.with_lattice_error},
-      {"theory_error", order.theory_error},
-      {"evaluations", order.options.max_evaluations},
+      {"problem", name(input.problem)},
+      {"geometry", meshes::json_of(input.base.geometry)},
+      {"rubber", meshes::json_of(input.base.rubber)},
+      {"lattice", meshes::json_of(input.base.lattice)},
+      {"rubber_known", input.rubber_known},
+      {"robust_width", input.options.robust_width},
+      {"starts", input.start_ratios},
+      {"profile", input.profile},
+      {"scale_to_data", input.scale_to_data},
+      {"lattice_error", input.with_lattice_error},
+      {"theory_error", input.theory_error},
+      {"evaluations", input.options.max_evaluations},
       {"poissons_ratios",
-       {order.options.lowest_poissons_ratio, order.options.highest_poissons_ratio}},
-      {"known", {order.density_known, order.retardation_time_known}},
-      {"provenance", order.provenance}};
+       {input.options.lowest_poissons_ratio, input.options.highest_poissons_ratio}},
+      {"known", {input.density_known, input.retardation_time_known}},
+      {"provenance", input.provenance}};
   inputs["curves"] = inputs["free"] = ordered_json::array();
-  for (std::size_t i = 0; i < order.curves.size(); ++i)
-    inputs["curves"].push_back(curve_inputs(order, i));
-  for (const calibration::FreeParameter& free : order.options.free)
+  for (std::size_t i = 0; i < input.curves.size(); ++i)
+    inputs["curves"].push_back(curve_inputs(input, i));
+  for (const calibration::FreeParameter& free : input.options.free)
     inputs["free"].push_back({{"name", calibration::name(free.parameter)},
                               {"start", free.start},
                               {"scale", free.scale},
@@ -321,25 +321,25 @@ ordered_json inputs_of(const FitOrder& order) {
 
 }  // namespace
 
-bool by_continuum(const FitOrder& order) {
-  return !order.kinds.empty() && order.kinds.front() == CurveKind::continuum;
+bool by_continuum(const FitInput& input) {
+  return !input.kinds.empty() && input.kinds.front() == CurveKind::continuum;
 }
 
-std::vector<MaterialParameter> parameters_of(const FitOrder& order) {
+std::vector<MaterialParameter> parameters_of(const FitInput& input) {
   std::vector<MaterialParameter> parameters;
-  for (const auto& free : order.options.free) parameters.push_back(free.parameter);
+  for (const auto& free : input.options.free) parameters.push_back(free.parameter);
   return parameters;
 }
 
-Job fit_job(const FitOrder& order) {
+Job fit_job(const FitInput& input) {
   Job job;
   job.kind = "fit";
-  job.inputs = inputs_of(order);
+  job.inputs = inputs_of(input);
   job.source_hash = source_hash::calibration;
   job.weight = fit_weight;
   job.resumable = true;
-  job.run = [order](const fs::path& folder, const JobContext& context) {
-    run_fit(order, folder, context);
+  job.run = [input](const fs::path& folder, const JobContext& context) {
+    run_fit(input, folder, context);
   };
   return job;
 }

@@ -22,37 +22,37 @@ void put_rubber(const meshes::Rubber& rubber, lattice::PressSetup& setup) {
 }
 
 /// The lattice and rubber that the estimates stand for.
-lattice::PressSetup fitted_setup(const FitOrder& order, const Eigen::VectorXd& estimates) {
-  lattice::PressSetup setup = order.base;
-  if (order.problem == CalibrationProblem::damping) {
+lattice::PressSetup fitted_setup(const FitInput& input, const Eigen::VectorXd& estimates) {
+  lattice::PressSetup setup = input.base;
+  if (input.problem == CalibrationProblem::damping) {
     setup.rubber.retardation_time = estimates(0);
-  } else if (order.problem == CalibrationProblem::finite_strain || by_continuum(order)) {
-    put_rubber(calibration::with_moduli(order.base.rubber, parameters_of(order), estimates), setup);
+  } else if (input.problem == CalibrationProblem::finite_strain || by_continuum(input)) {
+    put_rubber(calibration::with_moduli(input.base.rubber, parameters_of(input), estimates), setup);
   } else {
-    return calibration::LatticeForwardModel(setup, parameters_of(order)).setup_with(estimates);
+    return calibration::LatticeForwardModel(setup, parameters_of(input)).setup_with(estimates);
   }
   return setup;
 }
 
 /// The deepest press, if there was any.
-const lattice::PressSetup* deepest(const FitOrder& order) {
+const lattice::PressSetup* deepest(const FitInput& input) {
   const auto relative = [](const lattice::PressSetup& setup) {
     return setup.protocol.samples.back() / setup.geometry.thickness();
   };
-  const auto found = std::ranges::max_element(order.presses, {}, relative);
-  return found == order.presses.end() ? nullptr : &*found;
+  const auto found = std::ranges::max_element(input.presses, {}, relative);
+  return found == input.presses.end() ? nullptr : &*found;
 }
 
-calibration::Validity validity_of(const FitOrder& order, const calibration::FitRecord& record) {
+calibration::Validity validity_of(const FitInput& input, const calibration::FitRecord& record) {
   calibration::Validity validity;
-  const lattice::PressSetup* press = deepest(order);
+  const lattice::PressSetup* press = deepest(input);
   if (press == nullptr) return validity;
   validity.largest_indentation = press->protocol.samples.back();
   validity.thickness = press->geometry.thickness();
   validity.rod_ratio = press->geometry.rod_radius / press->geometry.tip_radius;
   validity.smallest_spacing = validity.largest_spacing = press->lattice.spacing;
   validity.model_error = calibration::worst_relative_residual(record);
-  for (const lattice::PressSetup& other : order.presses)
+  for (const lattice::PressSetup& other : input.presses)
     if (std::ranges::find(validity.contacts, other.protocol.contact) == validity.contacts.end())
       validity.contacts.push_back(other.protocol.contact);
   return validity;
@@ -60,8 +60,8 @@ calibration::Validity validity_of(const FitOrder& order, const calibration::FitR
 
 }  // namespace
 
-calibration::Material material_of(const FitOrder& order, const calibration::FitRecord& record) {
-  const lattice::PressSetup setup = fitted_setup(order, record.fit.estimates);
+calibration::Material material_of(const FitInput& input, const calibration::FitRecord& record) {
+  const lattice::PressSetup setup = fitted_setup(input, record.fit.estimates);
   calibration::Material material;
   material.model = setup.lattice.model;
   material.kinematics = setup.lattice.kinematics;
@@ -69,14 +69,14 @@ calibration::Material material_of(const FitOrder& order, const calibration::FitR
   material.constants = setup.lattice.constants;
   material.rubber = setup.rubber;
   if (setup.geometry.is_dome()) material.geometry = setup.geometry;
-  material.density_known = order.density_known;
+  material.density_known = input.density_known;
   material.retardation_time_known =
-      order.retardation_time_known || order.problem == CalibrationProblem::damping;
+      input.retardation_time_known || input.problem == CalibrationProblem::damping;
   material.ligament_stiffness = setup.lattice.ligament_stiffness;
   material.contact_stiffness = setup.lattice.contact_stiffness;
-  material.validity = validity_of(order, record);
-  material.provenance = order.provenance;
-  material.program = order.program;
+  material.validity = validity_of(input, record);
+  material.provenance = input.provenance;
+  material.program = input.program;
   return material;
 }
 

@@ -1,11 +1,11 @@
 /// What a fit hands on: a material.
 #pragma once
 
-#include "studies/run/fit_order.h"
+#include "studies/run/fit_input.h"
 
 namespace fingertip::studies {
 
 /// The lattice and rubber that the estimates of `record` stand for, and where they hold.
-calibration::Material material_of(const FitOrder& order, const calibration::FitRecord& record);
+calibration::Material material_of(const FitInput& input, const calibration::FitRecord& record);
 
 }  // namespace fingertip::studies

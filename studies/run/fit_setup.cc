@@ -35,16 +35,16 @@ constexpr double small_excess = 0.01;
 
 std::string words_of(const std::vector<MaterialParameter>& parameters) {
   std::string text;
-  for (const MaterialParameter one : parameters)
-    text += (text.empty() ? "" : ", ") + std::string(calibration::name(one));
+  for (const MaterialParameter parameter : parameters)
+    text += (text.empty() ? "" : ", ") + std::string(calibration::name(parameter));
   return text;
 }
 
 using enum MaterialParameter;
 
 /// What may be free in a problem, the usual ones first.
-std::vector<MaterialParameter> known_parameters(const CalibrationOrder& order) {
-  switch (order.problem) {
+std::vector<MaterialParameter> known_parameters(const CalibrationSettings& settings) {
+  switch (settings.problem) {
     case CalibrationProblem::damping: return {retardation_time};
     case CalibrationProblem::finite_strain:
       return {youngs_modulus, shear_modulus, modulus, lame_shear, lambda};
@@ -54,8 +54,9 @@ std::vector<MaterialParameter> known_parameters(const CalibrationOrder& order) {
   }
 }
 
-std::vector<MaterialParameter> usual_parameters(const CalibrationOrder& order, ModelKind model) {
-  switch (order.problem) {
+std::vector<MaterialParameter> usual_parameters(const CalibrationSettings& settings,
+                                                ModelKind model) {
+  switch (settings.problem) {
     case CalibrationProblem::damping: return {retardation_time};
     case CalibrationProblem::curve:
       if (model == ModelKind::network) return {lame_shear, lambda, bond, contact};
@@ -67,16 +68,17 @@ std::vector<MaterialParameter> usual_parameters(const CalibrationOrder& order, M
 }
 
 std::vector<MaterialParameter> free_parameters(const LoadedConfig& loaded) {
-  const CalibrationOrder& order = loaded.config.calibration;
-  if (order.parameters.empty()) return usual_parameters(order, loaded.config.press.lattice.model);
-  const std::vector<MaterialParameter> known = known_parameters(order);
+  const CalibrationSettings& settings = loaded.config.calibration;
+  if (settings.parameters.empty())
+    return usual_parameters(settings, loaded.config.press.lattice.model);
+  const std::vector<MaterialParameter> known = known_parameters(settings);
   std::vector<MaterialParameter> chosen;
-  for (const std::string& word : order.parameters) {
+  for (const std::string& word : settings.parameters) {
     const auto found = std::ranges::find(known, word, calibration::name);
     if (found == known.end())
       throw refused(
           loaded, "calibration.parameters", word,
-          "the problem " + std::string(name(order.problem)) + " can free " + words_of(known),
+          "the problem " + std::string(name(settings.problem)) + " can free " + words_of(known),
           "name some of them, or none for the usual ones");
     chosen.push_back(*found);
   }
@@ -96,10 +98,10 @@ double scale_of(MaterialParameter parameter, const lattice::PressSetup& base) {
 }
 
 std::vector<FreeParameter> free_list(const LoadedConfig& loaded, const lattice::PressSetup& base) {
-  const CalibrationOrder& order = loaded.config.calibration;
+  const CalibrationSettings& settings = loaded.config.calibration;
   // A measurement speaks for itself unless its owner says what is known besides.
-  const bool with_priors = order.prior > 0.0 && (order.problem == CalibrationProblem::curve ||
-                                                 loaded.entries.at("calibration.prior").given);
+  const bool with_priors = settings.prior > 0.0 && (settings.problem == CalibrationProblem::curve ||
+                                                    loaded.entries.at("calibration.prior").given);
   std::vector<FreeParameter> list;
   for (const MaterialParameter parameter : free_parameters(loaded)) {
     FreeParameter free;
@@ -111,23 +113,23 @@ std::vector<FreeParameter> free_list(const LoadedConfig& loaded, const lattice::
     // The energy of law A falls without bound for lambda < 0.
     if (parameter == lambda && base.lattice.kinematics == lattice::Kinematics::finite)
       free.lower = 0.0;
-    if (with_priors) free.prior = calibration::Prior{free.start, weight * order.prior * size};
+    if (with_priors) free.prior = calibration::Prior{free.start, weight * settings.prior * size};
     if (parameter == retardation_time) free.start = 0.7 * std::max(free.start, 1e-4);
     list.push_back(free);
   }
   return list;
 }
 
-bool frees(const FitOrder& order, MaterialParameter parameter) {
-  return std::ranges::find(order.options.free, parameter, &FreeParameter::parameter) !=
-         order.options.free.end();
+bool frees(const FitInput& input, MaterialParameter parameter) {
+  return std::ranges::find(input.options.free, parameter, &FreeParameter::parameter) !=
+         input.options.free.end();
 }
 
 /// E and G enter together: whatever is fitted, a second rubber may look alike (calibration/README).
-std::vector<double> start_ratios(const FitOrder& order) {
+std::vector<double> start_ratios(const FitInput& input) {
   std::vector<double> ratios;
-  const calibration::CurveFitOptions& options = order.options;
-  if (!order.scale_to_data || !frees(order, youngs_modulus) || !frees(order, shear_modulus))
+  const calibration::CurveFitOptions& options = input.options;
+  if (!input.scale_to_data || !frees(input, youngs_modulus) || !frees(input, shear_modulus))
     return ratios;
   for (const double ratio : scanned_ratios)
     if (ratio >= options.lowest_poissons_ratio && ratio <= options.highest_poissons_ratio)
@@ -137,23 +139,23 @@ std::vector<double> start_ratios(const FitOrder& order) {
   return ratios;
 }
 
-void check_profile(const LoadedConfig& loaded, const FitOrder& order) {
+void check_profile(const LoadedConfig& loaded, const FitInput& input) {
   const auto known = [&](const std::string& word) {
-    return std::ranges::any_of(order.options.free, [&](const FreeParameter& free) {
+    return std::ranges::any_of(input.options.free, [&](const FreeParameter& free) {
       return calibration::name(free.parameter) == word;
     });
   };
-  const std::vector<std::string>& two = order.profile;
-  if (two.empty()) return;
-  if (two.size() != 2 || two[0] == two[1] || !known(two[0]) || !known(two[1]))
+  const std::vector<std::string>& names = input.profile;
+  if (names.empty()) return;
+  if (names.size() != 2 || names[0] == names[1] || !known(names[0]) || !known(names[1]))
     throw refused(loaded, "calibration.profile", "",
                   "a profile is drawn over two different free parameters",
                   "name two of those that are free, or none");
 }
 
 void check_data(const LoadedConfig& loaded) {
-  const CalibrationOrder& order = loaded.config.calibration;
-  if (order.problem == CalibrationProblem::curve && !order.data.empty())
+  const CalibrationSettings& settings = loaded.config.calibration;
+  if (settings.problem == CalibrationProblem::curve && !settings.data.empty())
     throw refused(loaded, "calibration.data", "",
                   "the problem curve makes its data by the continuum",
                   "leave data out, or take the problem experiment");
@@ -167,10 +169,10 @@ void bound_modulus(FreeParameter& free, double lower, double upper) {
 }
 
 /// Law A knows no nu < 0, a rubber none outside of its range.
-void bound_poissons_ratio(const LoadedConfig& loaded, FitOrder& order) {
-  const CalibrationOrder& wanted = loaded.config.calibration;
-  calibration::CurveFitOptions& options = order.options;
-  const bool finite = order.base.lattice.kinematics == lattice::Kinematics::finite ||
+void bound_poissons_ratio(const LoadedConfig& loaded, FitInput& input) {
+  const CalibrationSettings& wanted = loaded.config.calibration;
+  calibration::CurveFitOptions& options = input.options;
+  const bool finite = input.base.lattice.kinematics == lattice::Kinematics::finite ||
                       wanted.problem == CalibrationProblem::finite_strain;
   if (finite) options.lowest_poissons_ratio = 0.0;
   if (wanted.problem != CalibrationProblem::experiment) return;
@@ -178,14 +180,14 @@ void bound_poissons_ratio(const LoadedConfig& loaded, FitOrder& order) {
   const double lowest = options.lowest_poissons_ratio =
                    std::max(range[0], options.lowest_poissons_ratio),
                highest = options.highest_poissons_ratio = range[1];
-  const meshes::Rubber& rubber = order.base.rubber;
-  if (options.free.size() > 0 && frees(order, modulus) &&
+  const meshes::Rubber& rubber = input.base.rubber;
+  if (options.free.size() > 0 && frees(input, modulus) &&
       (rubber.poissons_ratio() < lowest || rubber.poissons_ratio() > highest))
     throw refused(loaded, "calibration.poisson_range", "",
                   "the rubber's Poisson's ratio, which is held, is " +
                       meshes::to_text(rubber.poissons_ratio()) + ", outside of the range",
                   "widen the range, or give another rubber");
-  if (frees(order, youngs_modulus) == frees(order, shear_modulus)) return;
+  if (frees(input, youngs_modulus) == frees(input, shear_modulus)) return;
   for (FreeParameter& free : options.free) {
     const double e = rubber.youngs_modulus, g = rubber.shear_modulus;
     if (free.parameter == youngs_modulus)
@@ -196,19 +198,19 @@ void bound_poissons_ratio(const LoadedConfig& loaded, FitOrder& order) {
 }
 
 /// What a model would refuse is said before the continuum runs for it.
-void check_models(const LoadedConfig& loaded, const FitOrder& order) {
-  for (std::size_t i = 0; i < order.kinds.size(); ++i) {
-    const bool lattice = order.kinds[i] == CurveKind::press;
-    if (!lattice && order.kinds[i] != CurveKind::continuum) continue;
+void check_models(const LoadedConfig& loaded, const FitInput& input) {
+  for (std::size_t i = 0; i < input.kinds.size(); ++i) {
+    const bool lattice = input.kinds[i] == CurveKind::press;
+    if (!lattice && input.kinds[i] != CurveKind::continuum) continue;
     try {
       if (lattice)
-        calibration::LatticeForwardModel(order.presses[i], parameters_of(order));
+        calibration::LatticeForwardModel(input.presses[i], parameters_of(input));
       else
-        continuum_model(order.continua[i], parameters_of(order), "", {});
+        continuum_model(input.continua[i], parameters_of(input), "", {});
     } catch (const meshes::InvalidInput& error) {
       std::vector<meshes::Violation> broken = error.violations();
-      for (meshes::Violation& one : broken)
-        if (one.key == "parameters") one.key = "calibration.parameters";
+      for (meshes::Violation& violation : broken)
+        if (violation.key == "parameters") violation.key = "calibration.parameters";
       throw loaded.locate(broken);
     }
   }
@@ -220,10 +222,10 @@ lattice::PressSetup base_of(const LoadedConfig& loaded) {
 }
 
 void check_model(const LoadedConfig& loaded) {
-  const CalibrationOrder& order = loaded.config.calibration;
+  const CalibrationSettings& settings = loaded.config.calibration;
   const ModelKind model = loaded.config.press.lattice.model;
-  const bool by_press =
-      order.problem == CalibrationProblem::curve || order.problem == CalibrationProblem::experiment;
+  const bool by_press = settings.problem == CalibrationProblem::curve ||
+                        settings.problem == CalibrationProblem::experiment;
   if (by_press && model == ModelKind::published)
     throw refused(loaded, "lattice.model", "published",
                   "the published model has a rule for its constants and is not calibrated",
@@ -231,21 +233,21 @@ void check_model(const LoadedConfig& loaded) {
 }
 
 FitSetup assembled(const LoadedConfig& loaded) {
-  const CalibrationOrder& wanted = loaded.config.calibration;
+  const CalibrationSettings& wanted = loaded.config.calibration;
   check_model(loaded);
   check_data(loaded);
   FitSetup fit;
-  fit.order.problem = wanted.problem;
-  fit.order.base = base_of(loaded);
-  fit.order.options.free = free_list(loaded, fit.order.base);
-  fit.order.options.robust_width = wanted.robust_width;
-  fit.order.options.tolerance = search_tolerance;
-  fit.order.program = "fingertip " + program_version();
-  fit.order.profile = wanted.profile;
-  fit.order.density_known = loaded.entries.at("rubber.density").given;
-  fit.order.retardation_time_known = loaded.entries.at("rubber.retardation_time").given;
-  check_profile(loaded, fit.order);
-  bound_poissons_ratio(loaded, fit.order);
+  fit.input.problem = wanted.problem;
+  fit.input.base = base_of(loaded);
+  fit.input.options.free = free_list(loaded, fit.input.base);
+  fit.input.options.robust_width = wanted.robust_width;
+  fit.input.options.tolerance = search_tolerance;
+  fit.input.program = "fingertip " + program_version();
+  fit.input.profile = wanted.profile;
+  fit.input.density_known = loaded.entries.at("rubber.density").given;
+  fit.input.retardation_time_known = loaded.entries.at("rubber.retardation_time").given;
+  check_profile(loaded, fit.input);
+  bound_poissons_ratio(loaded, fit.input);
   const bool from_continuum =
       wanted.problem == CalibrationProblem::curve ||
       (wanted.problem == CalibrationProblem::damping && wanted.data.empty());
@@ -254,16 +256,16 @@ FitSetup assembled(const LoadedConfig& loaded) {
   } else {
     add_measured_curves(fit, loaded);
   }
-  fit.order.scale_to_data = wanted.problem == CalibrationProblem::experiment ||
+  fit.input.scale_to_data = wanted.problem == CalibrationProblem::experiment ||
                             wanted.problem == CalibrationProblem::finite_strain;
-  fit.order.start_ratios = start_ratios(fit.order);
-  check_models(loaded, fit.order);
+  fit.input.start_ratios = start_ratios(fit.input);
+  check_models(loaded, fit.input);
   // A reference ends where every force is known that well.
-  if (by_continuum(fit.order)) fit.order.theory_error_of = "the continuum's tolerance";
-  if (by_continuum(fit.order))
-    for (const calibration::Curve& curve : fit.order.curves)
-      fit.order.theory_error.emplace_back(curve.x.size(), loaded.config.reference.tolerance);
-  fit.order.with_lattice_error = std::ranges::all_of(fit.order.kinds, [](CurveKind kind) {
+  if (by_continuum(fit.input)) fit.input.theory_error_of = "the continuum's tolerance";
+  if (by_continuum(fit.input))
+    for (const calibration::Curve& curve : fit.input.curves)
+      fit.input.theory_error.emplace_back(curve.x.size(), loaded.config.reference.tolerance);
+  fit.input.with_lattice_error = std::ranges::all_of(fit.input.kinds, [](CurveKind kind) {
     return kind == CurveKind::press || kind == CurveKind::moving_press;
   });
   fit.loaded = loaded;
@@ -272,13 +274,13 @@ FitSetup assembled(const LoadedConfig& loaded) {
 
 /// Per press what finite strain adds to its forces, relative; empty where a theory of large strain
 /// is fitted, or where none could be pressed so far.
-std::vector<std::vector<double>> excess_of(const FitOrder& order) {
+std::vector<std::vector<double>> excess_of(const FitInput& input) {
   std::vector<std::vector<double>> excess;
-  if (order.problem != CalibrationProblem::experiment ||
-      order.base.lattice.kinematics == lattice::Kinematics::finite)
+  if (input.problem != CalibrationProblem::experiment ||
+      input.base.lattice.kinematics == lattice::Kinematics::finite)
     return excess;
   try {
-    for (const lattice::PressSetup& press : order.presses) {
+    for (const lattice::PressSetup& press : input.presses) {
       const Eigen::VectorXd own = calibration::excess_of_finite_strain(press);
       excess.emplace_back(own.begin(), own.end());
     }
@@ -291,23 +293,24 @@ std::vector<std::vector<double>> excess_of(const FitOrder& order) {
 }
 
 /// The finite law knows these, too, and nobody chose small strain.
-bool may_be_finite(const LoadedConfig& loaded, const FitOrder& order) {
+bool may_be_finite(const LoadedConfig& loaded, const FitInput& input) {
   const auto given = [&](const char* key) { return loaded.entries.at(key).given; };
   return !given("lattice.model") && !given("lattice.kinematics") && !given("lattice.constants") &&
-         std::ranges::all_of(parameters_of(order), [](MaterialParameter one) {
-           return calibration::is_of_the_rubber(one) || one == bond || one == contact;
+         std::ranges::all_of(parameters_of(input), [](MaterialParameter parameter) {
+           return calibration::is_of_the_rubber(parameter) || parameter == bond ||
+                  parameter == contact;
          });
 }
 
 /// Data beyond small strain are fitted by the finite law, or what it adds to the forces counts as
 /// uncertain; both are said before the fit.
 FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit) {
-  const auto excess = excess_of(fit.order);
+  const auto excess = excess_of(fit.input);
   double most = 0.0, depth = 0.0;
   for (std::size_t i = 0; i < excess.size(); ++i)
     if (std::abs(excess[i].back()) > most) {
       most = std::abs(excess[i].back());
-      const lattice::PressSetup& press = fit.order.presses[i];
+      const lattice::PressSetup& press = fit.input.presses[i];
       depth = press.protocol.depth / press.geometry.thickness();
     }
   if (most <= small_excess) return fit;
@@ -315,7 +318,7 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit) {
       "the data go to {:.0f} % of the rubber's thickness, where a neo-Hookean solid is "
       "{:.0f} % stiffer than small strain has it",
       100.0 * depth, 100.0 * most);
-  if (may_be_finite(loaded, fit.order)) {
+  if (may_be_finite(loaded, fit.input)) {
     FitSetup finite = assembled(loaded.with({"lattice.model=network"}));
     finite.notes.push_back(said +
                            ": the finite law is fitted, lattice.model = network (small "
@@ -326,8 +329,8 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit) {
     fit.notes.push_back(said + "; small strain is fitted as asked by lattice.kinematics");
     return fit;
   }
-  fit.order.theory_error = excess;
-  fit.order.theory_error_of = "what finite strain adds";
+  fit.input.theory_error = excess;
+  fit.input.theory_error_of = "what finite strain adds";
   fit.notes.push_back(said +
                       ": that difference counts as an error of the model, which widens the "
                       "intervals (the finite law: lattice.model = network)");
@@ -336,15 +339,15 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit) {
 
 /// How long the search may take is said before it begins.
 void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
-  const auto& kinds = fit.order.kinds;
+  const auto& kinds = fit.input.kinds;
   const bool pressed = std::ranges::find(kinds, CurveKind::press) != kinds.end() ||
                        std::ranges::find(kinds, CurveKind::moving_press) != kinds.end();
   if (!pressed && !loaded.entries.at("calibration.evaluations").given) return;
-  fit.order.options.max_evaluations = loaded.config.calibration.evaluations;
+  fit.input.options.max_evaluations = loaded.config.calibration.evaluations;
   fit.notes.push_back(
       fmt::format("the search may do {} evaluations (calibration.evaluations), each "
                   "a press of every curve",
-                  fit.order.options.max_evaluations));
+                  fit.input.options.max_evaluations));
 }
 
 }  // namespace
@@ -352,13 +355,13 @@ void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
 fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
                                              lattice::Kinematics kinematics) {
   LoadedConfig own = loaded;
-  fem_reference::ReferenceJob& order = own.config.reference;
-  order.analysis = fem_reference::Analysis::static_press;
-  order.strain = kinematics == lattice::Kinematics::finite ? fem_reference::Strain::finite
-                                                           : fem_reference::Strain::linear;
-  order.law = fem_reference::StrainEnergy::law_a;
-  order.write_fields = false;
-  return continuum_job(own);
+  fem_reference::ReferenceJob& reference = own.config.reference;
+  reference.analysis = fem_reference::Analysis::static_press;
+  reference.strain = kinematics == lattice::Kinematics::finite ? fem_reference::Strain::finite
+                                                               : fem_reference::Strain::linear;
+  reference.law = fem_reference::StrainEnergy::law_a;
+  reference.write_fields = false;
+  return continuum_setup(own);
 }
 
 FitSetup fit_setup(const LoadedConfig& loaded) {

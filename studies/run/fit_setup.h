@@ -1,19 +1,19 @@
-/// From a configuration to the order of a fit.
+/// From a configuration to the input of a fit.
 #pragma once
 
 #include <vector>
 
 #include "fem_reference/job.h"
 #include "studies/config/loader.h"
-#include "studies/run/fit_order.h"
+#include "studies/run/fit_input.h"
 
 namespace fingertip::studies {
 
-/// A fit's order as far as the configuration and measured files tell. The continuum of a curve
+/// A fit's input as far as the configuration and measured files tell. The continuum of a curve
 /// answers for it, makes its data (y is then still empty), or can judge the lattice.
 struct FitSetup {
   LoadedConfig loaded;  ///< what is fitted: the configuration, or that at finite strain
-  FitOrder order;
+  FitInput input;
   bool data_from_continuum = false;
   std::vector<std::string> notes;  ///< on measured files, strain and budget; for people
 };

@@ -41,7 +41,7 @@ inline constexpr double moduli_weight = 0.1, surrogate_weight = 5.0, fit_weight 
 struct Job {
   std::string kind;               ///< "press", "reference", "moduli", "cubes"
   nlohmann::ordered_json inputs;  ///< SI
-  std::string source_hash;        ///< of the rooms whose code makes the result
+  std::string source_hash;        ///< of the folders whose code makes the result
   std::function<void(const std::filesystem::path& folder, const JobContext& context)> run;
   double weight = 1.0;  ///< expected share of the work, for the progress bar
   /// `run` goes on from what an earlier attempt at the equal job left in the folder.

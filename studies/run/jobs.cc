@@ -79,18 +79,18 @@ ordered_json inputs_of(const meshes::PressProtocol& protocol, bool moves) {
 }
 
 /// Neither mass nor damping enters an equilibrium, no press enters the natural frequencies.
-ordered_json inputs_of(const fem_reference::ReferenceJob& order) {
+ordered_json inputs_of(const fem_reference::ReferenceJob& reference) {
   using fem_reference::Analysis;
-  ordered_json inputs = json_of(order);
-  inputs["protocol"] = inputs_of(order.protocol, order.analysis == Analysis::transient);
+  ordered_json inputs = json_of(reference);
+  inputs["protocol"] = inputs_of(reference.protocol, reference.analysis == Analysis::transient);
   drop(inputs["protocol"], {"mode", "clearance"});
-  if (order.strain != fem_reference::Strain::finite) drop(inputs, {"law"});
-  if (order.analysis != Analysis::modes) drop(inputs, {"modes"});
-  if (!order.axisymmetric() || !order.write_fields) drop(inputs, {"field_sectors"});
-  if (order.analysis == Analysis::static_press)
+  if (reference.strain != fem_reference::Strain::finite) drop(inputs, {"law"});
+  if (reference.analysis != Analysis::modes) drop(inputs, {"modes"});
+  if (!reference.axisymmetric() || !reference.write_fields) drop(inputs, {"field_sectors"});
+  if (reference.analysis == Analysis::static_press)
     drop(inputs["rubber"], {"density", "retardation_time"});
-  if (order.analysis == Analysis::modes) drop(inputs["rubber"], {"retardation_time"});
-  if (order.analysis == Analysis::modes || order.analysis == Analysis::verification)
+  if (reference.analysis == Analysis::modes) drop(inputs["rubber"], {"retardation_time"});
+  if (reference.analysis == Analysis::modes || reference.analysis == Analysis::verification)
     drop(inputs, {"protocol"});
   return inputs;
 }
@@ -115,20 +115,20 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
   return inputs;
 }
 
-Job reference_job(const fem_reference::ReferenceJob& order) {
+Job reference_job(const fem_reference::ReferenceJob& reference) {
   Job job;
   job.kind = "reference";
-  job.inputs = inputs_of(order);
+  job.inputs = inputs_of(reference);
   job.source_hash = source_hash::reference;
-  job.weight = order.axisymmetric() ? meridian_weight : reference_weight;
+  job.weight = reference.axisymmetric() ? meridian_weight : reference_weight;
   job.resumable = true;
-  job.run = [order](const fs::path& folder, const JobContext& context) {
-    fem_reference::write_job(order, folder / "job.json");
+  job.run = [reference](const fs::path& folder, const JobContext& context) {
+    fem_reference::write_job(reference, folder / "job.json");
     JobContext own = context;
-    if (order.axisymmetric() && own.ranks > 1)
+    if (reference.axisymmetric() && own.ranks > 1)
       own.log("a meridian is solved on one process: --ranks is not used");
     // Threads would wait for each other longer than its small fronts take.
-    if (order.axisymmetric()) own.ranks = own.threads = 1;
+    if (reference.axisymmetric()) own.ranks = own.threads = 1;
     run_fem_process(reference_program(), folder, own);
     fs::remove_all(folder / "checkpoint");  // of use to an unfinished job alone
   };
@@ -136,9 +136,9 @@ Job reference_job(const fem_reference::ReferenceJob& order) {
 }
 
 Job verification_job() {
-  fem_reference::ReferenceJob order;
-  order.analysis = fem_reference::Analysis::verification;
-  Job job = reference_job(order);
+  fem_reference::ReferenceJob reference;
+  reference.analysis = fem_reference::Analysis::verification;
+  Job job = reference_job(reference);
   job.kind = "verification";
   return job;
 }

@@ -27,7 +27,7 @@ Job modes_job(const lattice::PressSetup& setup, int count);
 /// section.csv, pressure.csv, fields/, and by analysis response.csv (static press), also
 /// transient.csv (transient), or modes.csv (modes). While it is unfinished, checkpoint/, from which
 /// it goes on when it is run again in the same folder.
-Job reference_job(const fem_reference::ReferenceJob& order);
+Job reference_job(const fem_reference::ReferenceJob& reference);
 
 /// The continuum's code against analytic solutions. Files: job.json, summary.json,
 /// verification.json.

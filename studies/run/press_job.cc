@@ -40,8 +40,8 @@ CensusEntry census_of(const lattice::LatticeCensus& census) {
 ScalingEntry scaling_of(const lattice::PressSetup& setup) {
   const lattice::ScalingChoice choice = lattice::choose_scaling(setup);
   ScalingEntry entry{choice.scaled, {}};
-  for (const lattice::ForceDeviation& one : choice.deviations)
-    entry.estimated_force_deviation.push_back({one.indentation, one.relative});
+  for (const lattice::ForceDeviation& deviation : choice.deviations)
+    entry.estimated_force_deviation.push_back({deviation.indentation, deviation.relative});
   return entry;
 }
 

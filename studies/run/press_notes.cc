@@ -45,8 +45,8 @@ std::string remedy(const PressSetup& setup) {
 std::string deviation_note(const PressSetup& setup, const ScalingChoice& choice) {
   const auto& all = choice.deviations;
   const ForceDeviation worst = lattice::worst_of(all);
-  const auto beyond = std::count_if(all.begin(), all.end(), [](const ForceDeviation& one) {
-    return one.relative > lattice::tolerated_deviation;
+  const auto beyond = std::count_if(all.begin(), all.end(), [](const ForceDeviation& deviation) {
+    return deviation.relative > lattice::tolerated_deviation;
   });
   std::string text = fmt::format(
       "scaled masses at steps of {}: the force is estimated to be off by {} at {}, and by more "

@@ -160,7 +160,7 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded) {
   return setup;
 }
 
-fem_reference::ReferenceJob continuum_job(const LoadedConfig& loaded) {
+fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded) {
   std::vector<meshes::Violation> broken = loaded.config.reference.violations();
   for (meshes::Violation& violation : broken) {
     // About E and G together: the key that asks for finite strain names both.
@@ -192,7 +192,7 @@ void check_all(const LoadedConfig& loaded) {
   if (!lattice::beyond_the_lattice(within_the_lattice.config.press).empty())
     protocol.mode = meshes::DriveMode::equilibrium;
   press_setup(within_the_lattice);
-  continuum_job(loaded);
+  continuum_setup(loaded);
 }
 
 void check_validation(const LoadedConfig& loaded) {

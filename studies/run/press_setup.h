@@ -23,13 +23,13 @@ LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use);
 /// go with the model, and for a material.toml that cannot be used; NotConverged when a fit fails.
 lattice::PressSetup press_setup(const LoadedConfig& loaded);
 
-/// The continuum's order. Throws ConfigError.
-fem_reference::ReferenceJob continuum_job(const LoadedConfig& loaded);
+/// The continuum's job. Throws ConfigError.
+fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded);
 
 /// Options of the fit for `model` at the configuration's spacing.
 calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::ModelKind model);
 
-/// Checks everything that does not depend on the verb: press_setup and continuum_job, but not
+/// Checks everything that does not depend on the verb: press_setup and continuum_setup, but not
 /// whether the lattice can do what the continuum is asked for. Throws ConfigError.
 void check_all(const LoadedConfig& loaded);
 

@@ -91,9 +91,9 @@ void Session::compute(const PlannedJob& planned, JobResult& result, int threads)
                            threads, ranks_,
                            [&](std::vector<PlannedJob> further) {
                              std::vector<fs::path> folders;
-                             for (PlannedJob& one : further) {
-                               one.name = fs::path(planned.name).parent_path() / one.name;
-                               folders.push_back(path_of(one));
+                             for (PlannedJob& follower : further) {
+                               follower.name = fs::path(planned.name).parent_path() / follower.name;
+                               folders.push_back(path_of(follower));
                              }
                              run_all(further);
                              return folders;
@@ -141,7 +141,7 @@ JobResult Session::run_with(const PlannedJob& planned, int threads) {
 }
 
 std::vector<JobResult> Session::run_all(const std::vector<PlannedJob>& planned) {
-  for (const PlannedJob& one : planned) progress_.expect(one.name, one.job.weight);
+  for (const PlannedJob& job : planned) progress_.expect(job.name, job.job.weight);
   std::vector<JobResult> results(planned.size());
   std::atomic<std::size_t> next = 0;
   std::mutex failure_mutex;

@@ -44,12 +44,13 @@ void write_snapshots(const lattice::PressOutcome& outcome, const fs::path& folde
   std::vector<SnapshotRow> rows;
   std::vector<SnapshotPointRow> points;
   for (std::size_t s = 0; s < snapshots.size(); ++s) {
-    const FingerPicture& one = snapshots[s];
-    rows.push_back({moment(s, snapshots.size()), one.time, one.indentation, one.endpoint,
-                    lattice::rotation_vector(one.rod.orientation), one.on_rod.force,
-                    one.on_rod.torque, one.plane.point, one.plane.normal});
-    for (std::size_t p = 0; p < one.boundary.size(); ++p)
-      points.push_back({s, rounded(one.boundary[p]), one.held[p] != 0});
+    const FingerPicture& picture = snapshots[s];
+    rows.push_back({moment(s, snapshots.size()), picture.time, picture.indentation,
+                    picture.endpoint, lattice::rotation_vector(picture.rod.orientation),
+                    picture.on_rod.force, picture.on_rod.torque, picture.plane.point,
+                    picture.plane.normal});
+    for (std::size_t p = 0; p < picture.boundary.size(); ++p)
+      points.push_back({s, rounded(picture.boundary[p]), picture.held[p] != 0});
   }
   meshes::write_rows(rows, folder / "snapshots.csv");
   meshes::write_rows(points, folder / "snapshot_points.csv");

@@ -68,11 +68,11 @@ void run_surrogate(const lattice::PressSetup& setup, const ForceUncertainty& unc
 
 }  // namespace
 
-Job surrogate_job(const lattice::PressSetup& order, const ForceUncertainty& uncertainty) {
-  const lattice::PressSetup setup = sampled(order);
+Job surrogate_job(const lattice::PressSetup& press, const ForceUncertainty& uncertainty) {
+  const lattice::PressSetup setup = sampled(press);
   std::vector<std::string> names;
-  for (const MaterialParameter one : uncertainty.parameters)
-    names.emplace_back(calibration::name(one));
+  for (const MaterialParameter parameter : uncertainty.parameters)
+    names.emplace_back(calibration::name(parameter));
   const Eigen::MatrixXd& covariance = uncertainty.covariance;
   Job job;
   job.kind = "surrogate";

@@ -25,22 +25,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-nlohmann::ordered_json content_of(const SweepOrder& order) {
+nlohmann::ordered_json content_of(const Sweep& sweep) {
   auto points = nlohmann::ordered_json::array();
-  for (const SweepPoint& point : order.points) {
+  for (const SweepPoint& point : sweep.points) {
     points.push_back({{"id", point.id}, {"settings", point.settings}});
   }
-  return {{"verb", order.verb}, {"axes", order.axes}, {"points", points}};
+  return {{"verb", sweep.verb}, {"axes", sweep.axes}, {"points", points}};
 }
 
-Job job_of(const SweepOrder& order, const SweepPoint& point) {
-  LoadedConfig loaded = config_of(order, point);
+Job job_of(const Sweep& sweep, const SweepPoint& point) {
+  LoadedConfig loaded = config_of(sweep, point);
   check_all(loaded);
-  if (order.verb == "reference") return reference_job(continuum_job(loaded));
-  const bool press = order.verb == "press";
+  if (sweep.verb == "reference") return reference_job(continuum_setup(loaded));
+  const bool press = sweep.verb == "press";
   loaded = with_material(loaded, press ? LatticeUse::press : LatticeUse::modes);
   if (press) return press_job(press_setup(loaded));
-  if (order.verb == "modes") return modes_job(press_setup(loaded), loaded.config.lattice_modes);
+  if (sweep.verb == "modes") return modes_job(press_setup(loaded), loaded.config.lattice_modes);
   return grasp_job(grasp_setup(loaded));
 }
 
@@ -50,12 +50,12 @@ void clear_fragment(const fs::path& folder) {
 }
 
 /// The job in a run folder of its own.
-PointResult compute(const SweepOrder& order, const PlannedPoint& planned, const fs::path& folder,
+PointResult compute(const Sweep& sweep, const PlannedPoint& planned, const fs::path& folder,
                     const std::vector<std::string>& command_line) {
   const auto& [point, job] = planned;
   clear_fragment(folder);
   Progress progress(ProgressStyle::off);
-  RunFolder run({order.verb, folder, false, true, command_line}, config_of(order, point));
+  RunFolder run({sweep.verb, folder, false, true, command_line}, config_of(sweep, point));
   Session session(run, progress, Cache(Cache::default_folder()), 1);
   const auto failed = [&](const char* status, const std::exception& error) {
     run.finish(status, 3, error.what());
@@ -77,7 +77,7 @@ PointResult compute(const SweepOrder& order, const PlannedPoint& planned, const 
   }
 }
 
-PointResult run_point(const SweepOrder& order, const PlannedPoint& planned, const fs::path& folder,
+PointResult run_point(const Sweep& sweep, const PlannedPoint& planned, const fs::path& folder,
                       const std::vector<std::string>& command_line) {
   const auto& [point, job] = planned;
   const FileLock lock(folder / "locks" / point.id);
@@ -87,22 +87,22 @@ PointResult run_point(const SweepOrder& order, const PlannedPoint& planned, cons
   remove_abandoned_parts(own, true);
   const std::string status = marked_status(job, own);
   if (!status.empty()) return {point.id, status, true};
-  return compute(order, planned, own, command_line);
+  return compute(sweep, planned, own, command_line);
 }
 
 }  // namespace
 
-std::vector<PlannedPoint> plan(const SweepOrder& order, const std::vector<SweepPoint>& points) {
+std::vector<PlannedPoint> plan(const Sweep& sweep, const std::vector<SweepPoint>& points) {
   std::vector<PlannedPoint> planned;
-  for (const SweepPoint& point : points) planned.push_back({point, job_of(order, point)});
+  for (const SweepPoint& point : points) planned.push_back({point, job_of(sweep, point)});
   return planned;
 }
 
-void claim_folder(const SweepOrder& order, const fs::path& folder) {
+void claim_folder(const Sweep& sweep, const fs::path& folder) {
   const auto refuse = [&](const char* rule) {
     throw ConfigError({{"--out " + folder.string(), "", "", rule, "choose another folder"}});
   };
-  const auto content = content_of(order);
+  const auto content = content_of(sweep);
   if (fs::exists(folder / sweep_file)) {
     if (read_json(folder / sweep_file) != content) refuse("the folder belongs to another sweep");
     return;
@@ -119,9 +119,9 @@ void claim_folder(const SweepOrder& order, const fs::path& folder) {
   write_json(content, folder / sweep_file);
 }
 
-std::vector<PointResult> run_points(const SweepOrder& order,
-                                    const std::vector<PlannedPoint>& points, const fs::path& folder,
-                                    int threads, const std::vector<std::string>& command_line,
+std::vector<PointResult> run_points(const Sweep& sweep, const std::vector<PlannedPoint>& points,
+                                    const fs::path& folder, int threads,
+                                    const std::vector<std::string>& command_line,
                                     const std::function<void(const PointResult&)>& tell) {
   Cache(Cache::default_folder()).tidy();
   std::vector<PointResult> results(points.size());
@@ -132,7 +132,7 @@ std::vector<PointResult> run_points(const SweepOrder& order,
     for (std::size_t p = next++; p < points.size(); p = next++) {
       try {
         if (interrupted()) throw meshes::Interrupted("the sweep was stopped");
-        results[p] = run_point(order, points[p], folder, command_line);
+        results[p] = run_point(sweep, points[p], folder, command_line);
         const std::lock_guard lock(mutex);
         tell(results[p]);
       } catch (...) {

@@ -34,7 +34,7 @@ struct Row {
 
 /// Of the last row of response.csv, at the end of the press; with those of a lateral motion.
 constexpr const char* end_columns[] = {"indentation [m]", "normal_force [N]", "contact_radius [m]"};
-constexpr const char* aside_columns[] = {"lateral_displacement [m]", "lateral_force_x [N]"};
+constexpr const char* lateral_columns[] = {"lateral_displacement [m]", "lateral_force_x [N]"};
 constexpr const char* lowest_frequency = "lowest_frequency [Hz]";
 
 /// The columns in which some row has its answer, in the order in which they are shown.
@@ -45,7 +45,7 @@ std::vector<std::string> answer_columns(const std::vector<Row>& rows) {
       columns.emplace_back(name);
   };
   for (const char* name : end_columns) add_if_any(name);
-  for (const char* name : aside_columns) add_if_any(name);
+  for (const char* name : lateral_columns) add_if_any(name);
   add_if_any(lowest_frequency);
   return columns;
 }
@@ -80,8 +80,8 @@ void read_answer(const fs::path& folder, Row& row, FolderReader& reader) {
       if (row.curve.has(name)) row.answers[name] = row.curve.numbers(name).back();
     };
     for (const char* name : end_columns) take(name);
-    if (row.curve.has(aside_columns[0]))  // only where the plane moved along itself
-      for (const char* name : aside_columns) take(name);
+    if (row.curve.has(lateral_columns[0]))  // only where the plane moved along itself
+      for (const char* name : lateral_columns) take(name);
   }
   const meshes::CsvTable modes = reader.csv(folder / "modes.csv");
   if (!modes.empty()) row.answers[lowest_frequency] = vibration_modes(modes).front().frequency;

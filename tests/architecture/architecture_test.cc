@@ -29,15 +29,15 @@ constexpr Rule rules[] = {{"IncludeArrows", architecture::check_include_arrows},
                           {"Form", architecture::check_form},
                           {"Readmes", architecture::check_readmes}};
 
-class House : public testing::TestWithParam<Rule> {};
+class SourceRules : public testing::TestWithParam<Rule> {};
 
-TEST_P(House, Obeys) {
+TEST_P(SourceRules, Obeys) {
   const fs::path source = FINGERTIP_SOURCE_DIR;
   ASSERT_TRUE(fs::is_directory(source / "meshes")) << source;
   for (const auto& finding : GetParam().check(source)) ADD_FAILURE() << to_string(finding);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, House, testing::ValuesIn(rules),
+INSTANTIATE_TEST_SUITE_P(Rules, SourceRules, testing::ValuesIn(rules),
                          [](const auto& rule) { return rule.param.name; });
 
 /// A small tree that obeys every rule, in which tests plant one violation each.

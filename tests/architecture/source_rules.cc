@@ -38,7 +38,7 @@ const std::map<std::string, std::set<std::string>>& arrows() {
 }
 
 /// The outermost room: folder, namespace, library.
-std::string house_of(const std::string& room) {
+std::string library_of(const std::string& room) {
   return room.substr(0, room.find('/'));
 }
 
@@ -59,9 +59,9 @@ bool may_use(const std::string& from, const std::string& to) {
   const auto leads = [&](const std::string& allowed) {
     return to == allowed || to.starts_with(allowed + '/');
   };
-  const std::string house = house_of(from);
+  const std::string library = library_of(from);
   return from == to || std::ranges::any_of(arrows().at(from), leads) ||
-         (house != house_of(to) && std::ranges::any_of(arrows().at(house), leads));
+         (library != library_of(to) && std::ranges::any_of(arrows().at(library), leads));
 }
 
 /// A source text of one room, with its includes.
@@ -101,7 +101,7 @@ std::vector<fs::path> room_files(const fs::path& source,
                                  const std::function<bool(const fs::path&)>& wanted) {
   std::vector<fs::path> files;
   for (const auto& [room, uses] : arrows()) {
-    if (room != house_of(room) || !fs::is_directory(source / room)) continue;
+    if (room != library_of(room) || !fs::is_directory(source / room)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(source / room))
       if (entry.is_regular_file() && wanted(entry.path())) files.push_back(entry.path());
   }
@@ -127,7 +127,7 @@ std::set<std::string> public_headers(const std::vector<SourceFile>& files,
     for (const SourceFile& file : files)
       if (file.room != room || reached.count(file.path) != 0)
         for (const auto& include : file.includes)
-          if (house_of(room_of(include.target)) == room)
+          if (library_of(room_of(include.target)) == room)
             grown |= reached.insert(include.target).second;
   }
   return reached;
@@ -174,13 +174,13 @@ void check_namespaces(const SourceFile& file, Findings& findings) {
     has_none = has_none || std::regex_search(file.lines[i], program) ||
                std::regex_search(file.lines[i], interface);
     if (!std::regex_search(file.lines[i], match, opening)) continue;
-    if (match[1] == house_of(file.room))
+    if (match[1] == library_of(file.room))
       own = true;
     else
       findings.push_back({file.path, int(i) + 1, "opens the namespace of room " + match[1].str()});
   }
   if (!own && !has_none)
-    findings.push_back({file.path, 0, "lacks namespace fingertip::" + house_of(file.room)});
+    findings.push_back({file.path, 0, "lacks namespace fingertip::" + library_of(file.room)});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// The house rules that the compiler does not enforce, checked on the source text.
+/// The rules that the compiler does not enforce, checked on the source text.
 #pragma once
 
 #include <filesystem>

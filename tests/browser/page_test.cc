@@ -75,7 +75,7 @@ class LivePage : public testing::Test {
     return page_->evaluate("document.getElementById('" + id + "').textContent");
   }
   /// Waits until the page shows the simulation's last frame, both at rest.
-  void settle() {
+  void come_to_rest() {
     std::uint64_t before = 0, now = simulation_->frame()->number;
     do {
       before = now;
@@ -145,7 +145,7 @@ TEST_F(LivePage, ShowsWhatTheServerSays) {
   EXPECT_TRUE(page_->wait_for("parseFloat(document.getElementById('achieved').textContent) > 0"));
   page_->click("#run");
   ASSERT_TRUE(page_->wait_for(connected));
-  settle();
+  come_to_rest();
   const auto frame = simulation_->frame();
   const studies::LiveRow& row = frame->picture.row;
   EXPECT_GT(row.normal_force, 0.0);
@@ -172,7 +172,7 @@ TEST_F(LivePage, StepsResetsAndObeysSliders) {
   slide("depth", 0.8);
   slide("natural_frequency", 0.25);
   page_->click("#free");
-  settle();
+  come_to_rest();
   const studies::LiveState& state = simulation_->frame()->state;
   const studies::LiveLimits& limits = simulation_->rig().limits();
   EXPECT_NEAR(state.settings.depth,
@@ -238,7 +238,7 @@ TEST_F(LiveForcePage, SetsTheContactForce) {
   page_->click("#step");
   ASSERT_TRUE(page_->wait_for(
       "document.getElementById('contact_force-value').textContent.endsWith(' mN')"));
-  settle();
+  come_to_rest();
   const studies::Span span = *simulation_->rig().limits().contact_force;
   EXPECT_NEAR(simulation_->frame()->state.settings.contact_force, 0.5 * (span.least + span.most),
               1e-9);

@@ -182,7 +182,7 @@ TEST_F(MaterialFile, SaysWhatIsNotKnownAndWhatIsNotAccepted) {
   const auto said = warnings(got, setup);
   const auto tells = [&](const char* words) {
     return std::ranges::any_of(
-        said, [&](const std::string& one) { return one.find(words) != std::string::npos; });
+        said, [&](const std::string& text) { return text.find(words) != std::string::npos; });
   };
   EXPECT_TRUE(tells("failed its own tests: chi-square is 313"));
   EXPECT_FALSE(tells("density")) << "the press's own rules where the material's is not known";

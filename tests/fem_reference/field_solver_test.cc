@@ -139,17 +139,19 @@ TEST_P(FieldSolverTest, CondensedAgreesWithMultigrid) {
   }
   for (const auto& [radius, stick] : stages) {
     const Request wanted = request(problem.contact, radius, stick);
-    const ConstrainedSolution one =
+    const ConstrainedSolution by_factor =
         direct->solve_constrained(wanted.held, wanted.values, wanted.loads);
-    const ConstrainedSolution two =
+    const ConstrainedSolution by_iterations =
         iterative->solve_constrained(wanted.held, wanted.values, wanted.loads);
-    EXPECT_LT((one.displacement - two.displacement).norm(), 1e-7 * one.displacement.norm());
-    EXPECT_LT((one.reaction - two.reaction).norm(), 1e-7 * one.reaction.norm());
+    EXPECT_LT((by_factor.displacement - by_iterations.displacement).norm(),
+              1e-7 * by_factor.displacement.norm());
+    EXPECT_LT((by_factor.reaction - by_iterations.reaction).norm(),
+              1e-7 * by_factor.reaction.norm());
     Vector difference = direct->field();
     const double scale = difference.l2_norm();
     difference -= iterative->field();
     EXPECT_LT(difference.l2_norm(), 1e-7 * scale);
-    EXPECT_EQ(one.cg_iterations, 0);
+    EXPECT_EQ(by_factor.cg_iterations, 0);
   }
 }
 
@@ -171,20 +173,20 @@ TEST_P(FieldSolverTest, EliminatingAgreesWithAFreshOne) {
       const auto fresh = make_eliminating_solver(*problem.body, problem.contact.unknowns);
       fresh->set_matrix(stiffer);
       fresh->set_load(problem.load);
-      const ConstrainedSolution one =
+      const ConstrainedSolution anew =
           fresh->solve_constrained(wanted.held, wanted.values, wanted.loads);
       kept->set_matrix(stiffer);
       double before = std::numeric_limits<double>::infinity();
       for (int round = 0; round < 5; ++round) {  // each leaves a thousandth out of balance
         kept->set_load(problem.load);
-        const ConstrainedSolution two =
+        const ConstrainedSolution corrected =
             kept->solve_constrained(wanted.held, wanted.values, wanted.loads);
-        if (round == 0 && two.cg_iterations > 0) ++kept_its_factor;
-        const double difference = (one.displacement - two.displacement).norm();
-        EXPECT_LT(difference, std::max(0.05 * before, 1e-9 * one.displacement.norm()));
+        if (round == 0 && corrected.cg_iterations > 0) ++kept_its_factor;
+        const double difference = (anew.displacement - corrected.displacement).norm();
+        EXPECT_LT(difference, std::max(0.05 * before, 1e-9 * anew.displacement.norm()));
         before = difference;
         if (round == 4) {
-          EXPECT_LT((one.reaction - two.reaction).norm(), 1e-8 * one.reaction.norm());
+          EXPECT_LT((anew.reaction - corrected.reaction).norm(), 1e-8 * anew.reaction.norm());
         }
       }
     }

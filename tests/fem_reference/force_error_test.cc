@@ -238,9 +238,9 @@ TEST(ForceError, CoversTheModelWithoutBeingIdle) {
     EXPECT_GE(found.worst(), 95.0) << meshes;
     EXPECT_LE(found.median, 6.0) << meshes;
   }
-  const Score two = score(chosen, {2});
-  EXPECT_GE(two.worst(), 93.0);
-  EXPECT_LE(two.median, 10.0);
+  const Score of_two_meshes = score(chosen, {2});
+  EXPECT_GE(of_two_meshes.worst(), 93.0);
+  EXPECT_LE(of_two_meshes.median, 10.0);
   const double idle = score(chosen, {3, 4}).median;
   for (const Rule& rival : {Rule(range_of_three), Rule(largest_difference), Rule(last_difference),
                             Rule(roache), Rule(celik), Rule(least_squares)}) {
@@ -390,10 +390,10 @@ TEST(ForceError, NeedsTwoForces) {
   EXPECT_TRUE(std::isnan(estimate_force_error(at_ratio(1.4, {4, nan_value})).value));
   EXPECT_TRUE(std::isnan(estimate_force_error(at_ratio(1.4, {4, 3, nan_value})).value));
   EXPECT_TRUE(std::isnan(estimate_force_error(at_ratio(1.4, {nan_value, nan_value, 3})).value));
-  const ForceError two = estimate_force_error(at_ratio(1.4, {4, 3}));
-  EXPECT_EQ(two.convergence, MeshConvergence::unknown);
-  EXPECT_NEAR(two.value, 3 / (std::pow(1.4, 1.5) - 1), 1e-9);
-  EXPECT_EQ(estimate_force_error(at_ratio(1.4, {nan_value, 4, 3})).value, two.value);
+  const ForceError of_two_meshes = estimate_force_error(at_ratio(1.4, {4, 3}));
+  EXPECT_EQ(of_two_meshes.convergence, MeshConvergence::unknown);
+  EXPECT_NEAR(of_two_meshes.value, 3 / (std::pow(1.4, 1.5) - 1), 1e-9);
+  EXPECT_EQ(estimate_force_error(at_ratio(1.4, {nan_value, 4, 3})).value, of_two_meshes.value);
   EXPECT_EQ(estimate_force_error(at_ratio(1.4, {0, 0, 0})).value, 0.0);
 }
 

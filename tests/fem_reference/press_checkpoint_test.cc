@@ -13,20 +13,20 @@ using meshes::ContactMode;
 
 namespace {
 
-void expect_same(const PressState& one, const PressState& two, double tolerance) {
+void expect_same(const PressState& first, const PressState& second, double tolerance) {
   const auto near = [&](double a, double b, const char* what) {
     EXPECT_NEAR(a, b, tolerance * std::abs(a)) << what;
   };
-  near(one.sample.normal_force, two.sample.normal_force, "force");
-  near(one.sample.max_pressure, two.sample.max_pressure, "pressure");
-  near(one.sample.contact_radius, two.sample.contact_radius, "radius");
-  near(one.energy, two.energy, "energy");
-  EXPECT_NEAR(one.sample.lateral_force_x, two.sample.lateral_force_x,
-              tolerance * one.sample.normal_force);
-  EXPECT_NEAR(one.sample.torque_y, two.sample.torque_y, tolerance * one.sample.normal_force);
-  EXPECT_EQ(one.active_nodes, two.active_nodes);
-  EXPECT_EQ(one.sliding_nodes, two.sliding_nodes);
-  EXPECT_EQ(one.steps, two.steps);
+  near(first.sample.normal_force, second.sample.normal_force, "force");
+  near(first.sample.max_pressure, second.sample.max_pressure, "pressure");
+  near(first.sample.contact_radius, second.sample.contact_radius, "radius");
+  near(first.energy, second.energy, "energy");
+  EXPECT_NEAR(first.sample.lateral_force_x, second.sample.lateral_force_x,
+              tolerance * first.sample.normal_force);
+  EXPECT_NEAR(first.sample.torque_y, second.sample.torque_y, tolerance * first.sample.normal_force);
+  EXPECT_EQ(first.active_nodes, second.active_nodes);
+  EXPECT_EQ(first.sliding_nodes, second.sliding_nodes);
+  EXPECT_EQ(first.steps, second.steps);
 }
 
 /// Presses to a third, saves; presses on; restores into a new press of the same job and presses on.

@@ -65,12 +65,13 @@ TEST_P(ConstantStress, IsExactAtEveryNodeForBothStrains) {
       job.degree = GetParam();
       job.strain = strain;
       job.volumetric = volumetric;
-      const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+      const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
       const Eigen::Matrix3d wanted =
           strain == fem_reference::Strain::linear
-              ? Eigen::Matrix3d(job.rubber.lame_lambda() * gradient.trace() * one +
+              ? Eigen::Matrix3d(job.rubber.lame_lambda() * gradient.trace() * identity +
                                 job.rubber.shear_modulus * (gradient + gradient.transpose()))
-              : fem_reference::HyperelasticLaw(job.law, job.rubber).cauchy_stress(one + gradient);
+              : fem_reference::HyperelasticLaw(job.law, job.rubber)
+                    .cauchy_stress(identity + gradient);
       const StressField<3> field(*body, job, u);
       double worst = 0.0;
       for (const auto& cell : body->fine.dofs.active_cell_iterators())

@@ -169,15 +169,15 @@ TEST(ContinuumPress, MultigridAgreesWithTheFactorisation) {
     job.protocol.contact = mode;
     job.press_to({5e-4});
     job.solver = LinearSolver::condensed;
-    const PressState one = pressed(job, 0.05);
+    const PressState condensed = pressed(job, 0.05);
     job.solver = LinearSolver::multigrid;
-    const PressState two = pressed(job, 0.05);
-    EXPECT_EQ(one.cg_iterations, 0);
-    EXPECT_GT(two.cg_iterations, 0);
-    EXPECT_EQ(one.active_nodes, two.active_nodes);
-    EXPECT_NEAR(two.sample.normal_force / one.sample.normal_force, 1.0, 1e-7);
-    EXPECT_NEAR(two.energy / one.energy, 1.0, 1e-7);
-    EXPECT_NEAR(two.sample.max_pressure / one.sample.max_pressure, 1.0, 1e-6);
+    const PressState multigrid = pressed(job, 0.05);
+    EXPECT_EQ(condensed.cg_iterations, 0);
+    EXPECT_GT(multigrid.cg_iterations, 0);
+    EXPECT_EQ(condensed.active_nodes, multigrid.active_nodes);
+    EXPECT_NEAR(multigrid.sample.normal_force / condensed.sample.normal_force, 1.0, 1e-7);
+    EXPECT_NEAR(multigrid.energy / condensed.energy, 1.0, 1e-7);
+    EXPECT_NEAR(multigrid.sample.max_pressure / condensed.sample.max_pressure, 1.0, 1e-6);
   }
 }
 

@@ -235,12 +235,13 @@ TEST(FingertipFem, TwoProcessesAgreeWithOne) {
     job.solver = LinearSolver::multigrid;
     job.estimate_error = false;
     job.write_fields = false;
-    const fs::path one = run_folder(parent, "one", job), two = run_folder(parent, "two", job);
-    ASSERT_EQ(carry_out(one), 0);
-    ASSERT_EQ(carry_out(two, 2), 0);
-    EXPECT_EQ(summary_of(two).at("ranks"), 2);
+    const fs::path serial = run_folder(parent, "one", job),
+                   on_two_ranks = run_folder(parent, "two", job);
+    ASSERT_EQ(carry_out(serial), 0);
+    ASSERT_EQ(carry_out(on_two_ranks, 2), 0);
+    EXPECT_EQ(summary_of(on_two_ranks).at("ranks"), 2);
     for (std::size_t i = 0; i < job.protocol.samples.size(); ++i) {
-      const auto a = samples_of(one)[i], b = samples_of(two)[i];
+      const auto a = samples_of(serial)[i], b = samples_of(on_two_ranks)[i];
       EXPECT_NEAR(b.normal_force / a.normal_force, 1.0, 1e-8);
       EXPECT_NEAR(b.max_pressure / a.max_pressure, 1.0, 1e-6);
       EXPECT_NEAR(b.contact_radius / a.contact_radius, 1.0, 1e-6);
@@ -253,17 +254,18 @@ TEST(FingertipFem, TwoProcessesRefineAlike) {
   const TemporaryFolder parent;
   ReferenceJob job = small_job();
   job.protocol.contact = ContactMode::frictionless;
-  const fs::path one = run_folder(parent, "one", job), two = run_folder(parent, "two", job);
-  ASSERT_EQ(carry_out(one), 0);
-  ASSERT_EQ(carry_out(two, 2), 0);
+  const fs::path serial = run_folder(parent, "one", job),
+                 on_two_ranks = run_folder(parent, "two", job);
+  ASSERT_EQ(carry_out(serial), 0);
+  ASSERT_EQ(carry_out(on_two_ranks, 2), 0);
   for (std::size_t i = 0; i < job.protocol.samples.size(); ++i) {
-    const auto a = samples_of(one)[i], b = samples_of(two)[i];
+    const auto a = samples_of(serial)[i], b = samples_of(on_two_ranks)[i];
     EXPECT_NEAR(b.normal_force, a.normal_force, a.force_error);
   }
-  EXPECT_EQ(summary_of(two).at("meshes")[1].at("cells"),
-            summary_of(one).at("meshes")[1].at("cells"));
-  EXPECT_EQ(count_lines(two / "section.csv"), count_lines(one / "section.csv"));
-  EXPECT_TRUE(fs::exists(two / "fields/press_0002.vtu"));
+  EXPECT_EQ(summary_of(on_two_ranks).at("meshes")[1].at("cells"),
+            summary_of(serial).at("meshes")[1].at("cells"));
+  EXPECT_EQ(count_lines(on_two_ranks / "section.csv"), count_lines(serial / "section.csv"));
+  EXPECT_TRUE(fs::exists(on_two_ranks / "fields/press_0002.vtu"));
 }
 
 }  // namespace

@@ -38,14 +38,14 @@ TEST(TiltedPress, MirrorsWithItsTilt) {
     ReferenceJob job = small_press();
     job.protocol.contact = mode;
     job.protocol.tilt = 0.3;
-    const meshes::PressSample one = pressed(job, 0.05).sample;
+    const meshes::PressSample tilted = pressed(job, 0.05).sample;
     job.protocol.tilt = -0.3;
-    const meshes::PressSample two = pressed(job, 0.05).sample;
-    EXPECT_NEAR(two.normal_force / one.normal_force, 1.0, 1e-6);
-    EXPECT_NEAR(two.torque_y / one.torque_y, -1.0, 1e-6);
-    EXPECT_NEAR(two.lateral_force_x, -one.lateral_force_x, 1e-6 * one.normal_force);
+    const meshes::PressSample mirrored = pressed(job, 0.05).sample;
+    EXPECT_NEAR(mirrored.normal_force / tilted.normal_force, 1.0, 1e-6);
+    EXPECT_NEAR(mirrored.torque_y / tilted.torque_y, -1.0, 1e-6);
+    EXPECT_NEAR(mirrored.lateral_force_x, -tilted.lateral_force_x, 1e-6 * tilted.normal_force);
     if (mode == ContactMode::stick) {
-      EXPECT_GT(std::abs(one.lateral_force_x), 1e-4 * one.normal_force);
+      EXPECT_GT(std::abs(tilted.lateral_force_x), 1e-4 * tilted.normal_force);
     }
   }
 }
@@ -86,22 +86,22 @@ TEST(LateralPress, StickDragsTheTipAlong) {
   ReferenceJob job = small_press();
   job.protocol.contact = ContactMode::stick;
   job.protocol.lateral = 2e-4;
-  const meshes::PressSample one = pressed(job, 0.05).sample;
-  EXPECT_GT(one.lateral_force_x, 0.05 * one.normal_force);
+  const meshes::PressSample shifted = pressed(job, 0.05).sample;
+  EXPECT_GT(shifted.lateral_force_x, 0.05 * shifted.normal_force);
   // Its moment about the endpoint, but for the shift of the pressure.
   const double height = job.geometry.tip_radius + job.geometry.rod_length;
-  EXPECT_NEAR(one.torque_y, height * one.lateral_force_x,
-              0.5 * one.contact_radius * one.normal_force);
+  EXPECT_NEAR(shifted.torque_y, height * shifted.lateral_force_x,
+              0.5 * shifted.contact_radius * shifted.normal_force);
 
   job.protocol.lateral = -2e-4;
-  const meshes::PressSample two = pressed(job, 0.05).sample;
-  EXPECT_NEAR(two.lateral_force_x / one.lateral_force_x, -1.0, 1e-6);
-  EXPECT_NEAR(two.torque_y / one.torque_y, -1.0, 1e-6);
-  EXPECT_NEAR(two.normal_force / one.normal_force, 1.0, 1e-6);
+  const meshes::PressSample mirrored = pressed(job, 0.05).sample;
+  EXPECT_NEAR(mirrored.lateral_force_x / shifted.lateral_force_x, -1.0, 1e-6);
+  EXPECT_NEAR(mirrored.torque_y / shifted.torque_y, -1.0, 1e-6);
+  EXPECT_NEAR(mirrored.normal_force / shifted.normal_force, 1.0, 1e-6);
 
   // The force is linear in the motion while the same nodes touch.
   job.protocol.lateral = 1e-4;
-  EXPECT_NEAR(pressed(job, 0.05).sample.lateral_force_x / one.lateral_force_x, 0.5, 0.02);
+  EXPECT_NEAR(pressed(job, 0.05).sample.lateral_force_x / shifted.lateral_force_x, 0.5, 0.02);
 }
 
 TEST(LateralPress, FrictionlessFeelsNothing) {
@@ -152,9 +152,9 @@ TEST(PressAndSlide, FrictionlessFeelsNothing) {
   }
 }
 
-/// On one mesh the way down is that of a press that does not move aside. While the same nodes touch
-/// the tip is a linear spring aside, and what the plane does is stored in it: at constant depth 1/2
-/// F_x shift. A diagonal drags it less, for what touches late has moved less.
+/// On one mesh the way down is that of a press that does not move laterally. While the same nodes
+/// touch the tip is a linear spring laterally, and what the plane does is stored in it: at constant
+/// depth 1/2 F_x shift. A diagonal drags it less, for what touches late has moved less.
 TEST(PressAndSlide, StuckItIsALinearSpringThatStoresTheWork) {
   const ReferenceJob job = press_and_slide(ContactMode::stick, 2e-5);
   const auto states = states_along(job);
@@ -175,9 +175,9 @@ TEST(PressAndSlide, StuckItIsALinearSpringThatStoresTheWork) {
   EXPECT_LT(states_along(diagonal).back().sample.lateral_force_x, 0.9 * force);
 }
 
-/// Far aside the trailing edge is pulled off the plane. Nodes that neither hold where they are nor
-/// stay away take hold anew within the step: the contact settles, and the plane still pulls.
-TEST(PressAndSlide, StuckItSettlesFarAside) {
+/// Far off laterally the trailing edge is pulled off the plane. Nodes that neither hold where they
+/// are nor stay away stick anew within the step: the contact converges, and the plane still pulls.
+TEST(PressAndSlide, StuckItConvergesFarOffLaterally) {
   ReferenceJob job = press_and_slide(ContactMode::stick, 1.5e-3);
   job.protocol.lateral_samples = 3;
   const auto states = states_along(job);

@@ -12,7 +12,7 @@
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
 #include "studies/run/press_setup.h"
-#include "studies/sweep/sweep_order.h"
+#include "studies/sweep/sweep.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -187,16 +187,16 @@ TEST(FuzzConfiguration, Sweeps) {
   words.insert(words.end(), {"[sweep]\n", "sweep.", "verb = \"grasp\"\n", "[[\"1 cm\"]]", "[]"});
   fuzz::attack({seeds, words}, fuzz::refusing<ConfigError>([&](const std::string& input) {
                  write_text(file, input);
-                 const SweepOrder order = read_sweep({file, {}, {}}, "");
-                 EXPECT_FALSE(order.points.empty());
+                 const Sweep sweep = read_sweep({file, {}, {}}, "");
+                 EXPECT_FALSE(sweep.points.empty());
                  std::size_t whole = 0;
                  for (int number = 1; number <= 3; ++number)
-                   whole += points_of(order, {number, 3}).size();
-                 EXPECT_EQ(whole, order.points.size());
+                   whole += points_of(sweep, {number, 3}).size();
+                 EXPECT_EQ(whole, sweep.points.size());
                  std::set<std::string> names;
-                 for (const SweepPoint& point : order.points) names.insert(point.id);
-                 EXPECT_EQ(names.size(), order.points.size());
-                 expect_physical(config_of(order, order.points.front()));
+                 for (const SweepPoint& point : sweep.points) names.insert(point.id);
+                 EXPECT_EQ(names.size(), sweep.points.size());
+                 expect_physical(config_of(sweep, sweep.points.front()));
                }));
 }
 
@@ -212,11 +212,12 @@ TEST(FuzzConfiguration, Cases) {
                              "measure = \"hookean.tilt_deg\"\n", "name = \"\"\n", "[case]\n"});
   fuzz::attack({seeds, words}, fuzz::refusing<ConfigError>([&](const std::string& input) {
                  write_text(file, input);
-                 const Case one = load_case(file, {});
-                 expect_physical(one.loaded);
-                 for (const CaseCriterion& criterion : one.criteria)
+                 const Case study_case = load_case(file, {});
+                 expect_physical(study_case.loaded);
+                 for (const CaseCriterion& criterion : study_case.criteria)
                    EXPECT_TRUE(std::isfinite(criterion.limit));
-                 write_text(folder / "again.toml", parameters_toml(one.loaded, "") + one.text);
-                 EXPECT_EQ(load_case(folder / "again.toml", {}).text, one.text);
+                 write_text(folder / "again.toml",
+                            parameters_toml(study_case.loaded, "") + study_case.text);
+                 EXPECT_EQ(load_case(folder / "again.toml", {}).text, study_case.text);
                }));
 }

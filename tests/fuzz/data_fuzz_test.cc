@@ -41,19 +41,19 @@ bool increasing(const std::vector<double>& values) {
 }
 
 calibration::Material material(lattice::ModelKind model) {
-  calibration::Material one;
-  one.model = model;
-  one.spacing = 1e-3;
-  one.rubber = {3.4e5, 1.2e5, 1070.0, 1e-4};
-  one.constants = lattice::hookean_constants(one.rubber, one.spacing);
-  one.kinematics = lattice::Kinematics::finite;
-  one.validity.largest_indentation = 2e-3;
-  one.validity.thickness = 5e-3;
-  one.validity.contacts = {meshes::ContactMode::stick, meshes::ContactMode::frictionless};
-  one.provenance = "moduli";
-  one.program = "fingertip";
-  one.statement = "Both moduli are met.";
-  return one;
+  calibration::Material result;
+  result.model = model;
+  result.spacing = 1e-3;
+  result.rubber = {3.4e5, 1.2e5, 1070.0, 1e-4};
+  result.constants = lattice::hookean_constants(result.rubber, result.spacing);
+  result.kinematics = lattice::Kinematics::finite;
+  result.validity.largest_indentation = 2e-3;
+  result.validity.thickness = 5e-3;
+  result.validity.contacts = {meshes::ContactMode::stick, meshes::ContactMode::frictionless};
+  result.provenance = "moduli";
+  result.program = "fingertip";
+  result.statement = "Both moduli are met.";
+  return result;
 }
 
 }  // namespace
@@ -84,21 +84,22 @@ TEST(FuzzData, Materials) {
                                           "[[lattice]]\n",
                                           "{}",
                                           "smallest_spacing = \"1 m\"\n"};
-  fuzz::attack({seeds, words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
-                 write_text(file, input);
-                 const calibration::Material one = calibration::read_material_toml(file);
-                 EXPECT_TRUE(one.violations().empty());
-                 const double nu = one.rubber.poissons_ratio();
-                 EXPECT_TRUE(nu > -1.0 && nu < 0.5) << nu;
-                 EXPECT_TRUE(one.spacing > 0.0 && std::isfinite(one.spacing));
-                 for (const double k : {one.constants.k1, one.constants.k2, one.constants.k3})
-                   EXPECT_TRUE(std::isfinite(k) && k >= 0.0) << k;
-                 EXPECT_TRUE(std::isfinite(one.constants.kappa));
-                 calibration::write_material_toml(one, again);
-                 const std::string text = read_text(again);
-                 calibration::write_material_toml(calibration::read_material_toml(again), again);
-                 EXPECT_EQ(read_text(again), text);
-               }));
+  fuzz::attack(
+      {seeds, words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
+        write_text(file, input);
+        const calibration::Material material = calibration::read_material_toml(file);
+        EXPECT_TRUE(material.violations().empty());
+        const double nu = material.rubber.poissons_ratio();
+        EXPECT_TRUE(nu > -1.0 && nu < 0.5) << nu;
+        EXPECT_TRUE(material.spacing > 0.0 && std::isfinite(material.spacing));
+        for (const double k : {material.constants.k1, material.constants.k2, material.constants.k3})
+          EXPECT_TRUE(std::isfinite(k) && k >= 0.0) << k;
+        EXPECT_TRUE(std::isfinite(material.constants.kappa));
+        calibration::write_material_toml(material, again);
+        const std::string text = read_text(again);
+        calibration::write_material_toml(calibration::read_material_toml(again), again);
+        EXPECT_EQ(read_text(again), text);
+      }));
 }
 
 TEST(FuzzData, MeasuredCurves) {
@@ -141,8 +142,8 @@ TEST(FuzzData, MeasuredCurves) {
                                                 measured::creep,        measured::relaxation};
   fuzz::attack({seeds, words}, fuzz::refusing<ConfigError>([&](const std::string& input) {
                  write_text(file, input);
-                 const MeasuredFile one = read_measured(file, allowed);
-                 const calibration::Curve& curve = one.curve;
+                 const MeasuredFile measured = read_measured(file, allowed);
+                 const calibration::Curve& curve = measured.curve;
                  EXPECT_FALSE(curve.x.empty());
                  EXPECT_LE(curve.x.size(), 200U);
                  EXPECT_EQ(curve.y.size(), curve.x.size());
@@ -165,14 +166,14 @@ TEST(FuzzData, StiffnessSchedules) {
   fuzz::attack({{read_text(file)}, json_words},
                fuzz::refusing<InvalidInput>([&](const std::string& input) {
                  write_text(file, input);
-                 const calibration::Surrogate one = calibration::read_surrogate_json(file);
-                 EXPECT_TRUE(one.table().violations().empty());
-                 const double round_off = 1e-8 * one.table().force.back();
+                 const calibration::Surrogate surrogate = calibration::read_surrogate_json(file);
+                 EXPECT_TRUE(surrogate.table().violations().empty());
+                 const double round_off = 1e-8 * surrogate.table().force.back();
                  double before = 0.0;
                  for (const double part : {-1.0, 0.0, 0.3, 0.7, 1.0, 1.5}) {
-                   const double at = part * one.depth(), force = one.force(at);
+                   const double at = part * surrogate.depth(), force = surrogate.force(at);
                    EXPECT_TRUE(std::isfinite(force) && force >= before - round_off) << force;
-                   EXPECT_TRUE(one.stiffness(at) >= 0.0 && one.band(at) >= 0.0);
+                   EXPECT_TRUE(surrogate.stiffness(at) >= 0.0 && surrogate.band(at) >= 0.0);
                    before = force;
                  }
                }));
@@ -196,9 +197,9 @@ TEST(FuzzData, Responses) {
   fuzz::attack({{read_text(file), "normal_force [N], indentation [m]\r\n0.5, 1e-3\r\n"}, words},
                fuzz::refusing<InvalidInput>([&](const std::string& input) {
                  write_text(file, input);
-                 const meshes::PressResponse one = meshes::PressResponse::read_csv(file);
+                 const meshes::PressResponse found = meshes::PressResponse::read_csv(file);
                  double before = -INFINITY;
-                 for (const meshes::PressSample& sample : one.samples()) {
+                 for (const meshes::PressSample& sample : found.samples()) {
                    EXPECT_TRUE(std::isfinite(sample.indentation));
                    EXPECT_TRUE(std::isfinite(sample.normal_force));
                    EXPECT_GT(sample.indentation, before);
@@ -231,9 +232,9 @@ TEST(FuzzData, AnswersKeptByACalibration) {
                fuzz::refusing<InvalidInput, meshes::NotConverged>([&](const std::string& input) {
                  write_text(file, input);
                  calibration::RememberedModel model(plain, file, 2, 2, "a press");
-                 const calibration::CurveSlopes one = model.evaluate(Eigen::Vector2d(0.5, 0.5));
-                 EXPECT_EQ(one.value.size(), 2);
-                 EXPECT_TRUE(one.value.allFinite() && one.jacobian.allFinite());
+                 const calibration::CurveSlopes slopes = model.evaluate(Eigen::Vector2d(0.5, 0.5));
+                 EXPECT_EQ(slopes.value.size(), 2);
+                 EXPECT_TRUE(slopes.value.allFinite() && slopes.jacobian.allFinite());
                }));
 }
 
@@ -253,10 +254,10 @@ TEST(FuzzData, OrdersForTheContinuum) {
                              "\"samples\": [],", "\"verification\""});
   fuzz::attack({seeds, words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
                  write_text(file, input);
-                 const fem_reference::ReferenceJob one = fem_reference::read_job(file);
-                 EXPECT_TRUE(one.violations().empty());
-                 EXPECT_TRUE(all_finite(one.protocol.samples));
-                 write_job(one, file);
+                 const fem_reference::ReferenceJob found = fem_reference::read_job(file);
+                 EXPECT_TRUE(found.violations().empty());
+                 EXPECT_TRUE(all_finite(found.protocol.samples));
+                 write_job(found, file);
                  const std::string text = read_text(file);
                  write_job(fem_reference::read_job(file), file);
                  EXPECT_EQ(read_text(file), text);
@@ -270,11 +271,11 @@ TEST(FuzzData, JsonAndTablesOfRunFolders) {
   {"hookean": {"E_100": 4000.5, "status": "ok", "force_error": [0.01, null]}}})";
   fuzz::attack({{summary}, json_words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
                  write_text(file, input);
-                 const studies::JsonEntry one = studies::read_entry(file);
-                 EXPECT_TRUE(one.is_object());
-                 for (const double depth : studies::numbers_at(one, "depths"))
+                 const studies::JsonEntry entry = studies::read_entry(file);
+                 EXPECT_TRUE(entry.is_object());
+                 for (const double depth : studies::numbers_at(entry, "depths"))
                    EXPECT_FALSE(std::isinf(depth));
-                 studies::object_at(one, "models");
+                 studies::object_at(entry, "models");
                }));
   fuzz::attack({{summary}, json_words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
                  write_text(file, input);

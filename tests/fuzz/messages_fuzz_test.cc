@@ -125,7 +125,7 @@ TEST(FuzzExchange, DumpsOfLammps) {
                    EXPECT_GT(frame->step, before);
                    before = frame->step;
                    for (const auto* field : {&frame->position, &frame->velocity})
-                     for (const meshes::Vector3& one : *field) EXPECT_TRUE(one.allFinite());
+                     for (const meshes::Vector3& vector : *field) EXPECT_TRUE(vector.allFinite());
                  }
                }));
 }

@@ -107,11 +107,11 @@ class Surgeon {
         lines.emplace_back();
       else
         lines.back() += c;
-    const std::size_t one = below(lines.size()), other = below(lines.size());
+    const std::size_t a = below(lines.size()), b = below(lines.size());
     switch (below(3)) {
-      case 0: std::swap(lines[one], lines[other]); break;
-      case 1: lines[one] += '\n' + lines[one]; break;
-      default: lines.erase(lines.begin() + std::ptrdiff_t(one));
+      case 0: std::swap(lines[a], lines[b]); break;
+      case 1: lines[a] += '\n' + lines[a]; break;
+      default: lines.erase(lines.begin() + std::ptrdiff_t(a));
     }
     text_.clear();
     for (const std::string& line : lines) text_ += (&line == lines.data() ? "" : "\n") + line;

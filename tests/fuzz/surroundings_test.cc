@@ -219,8 +219,8 @@ TEST(Surroundings, OddNamesAreNamesAndNothingElse) {
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "pwned"));
   for (const char* dashed : {"-rf", "--force", "--"}) {
-    const ProgramResult one = run_program(folder.path(), static_press({"--out", dashed}));
-    EXPECT_TRUE(told(one.code)) << dashed << ": " << one.err;
+    const ProgramResult run = run_program(folder.path(), static_press({"--out", dashed}));
+    EXPECT_TRUE(told(run.code)) << dashed << ": " << run.err;
   }
 }
 

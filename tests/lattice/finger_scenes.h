@@ -75,13 +75,13 @@ inline Vector3 angular_momentum(const lattice::VirtualFinger& finger) {
 
 /// Whether two fingers are in the same state to the last bit.
 inline bool same_bits(const lattice::VirtualFinger& a, const lattice::VirtualFinger& b) {
-  const lattice::RodState &one = a.finger().rod(), &other = b.finger().rod();
+  const lattice::RodState &first = a.finger().rod(), &second = b.finger().rod();
   return a.time() == b.time() &&
          a.finger().state().displacement.component == b.finger().state().displacement.component &&
          a.finger().state().velocity.component == b.finger().state().velocity.component &&
-         one.centre() == other.centre() && one.momentum() == other.momentum() &&
-         one.pose().orientation.coeffs() == other.pose().orientation.coeffs() &&
-         one.angular_momentum() == other.angular_momentum() &&
+         first.centre() == second.centre() && first.momentum() == second.momentum() &&
+         first.pose().orientation.coeffs() == second.pose().orientation.coeffs() &&
+         first.angular_momentum() == second.angular_momentum() &&
          a.finger().bond().force == b.finger().bond().force &&
          a.finger().touching() == b.finger().touching() && a.finger().step() == b.finger().step();
 }

@@ -1,4 +1,4 @@
-/// Small lattices and states shared by the tests of this room.
+/// Small lattices and states shared by the tests of this folder.
 #pragma once
 
 #include <Eigen/Dense>

@@ -82,14 +82,14 @@ void measure(const std::string& what, const meshes::CubicGrid& grid,
   std::printf("%s: %zu cells\n", what.c_str(), cells.size());
   for (const Law& law : laws) {
     const lattice::CellLattice lattice = lay_out(grid, cells, material(law));
-    lattice::Team one(1), two(2);
+    lattice::Team single(1), pair(2);
     std::printf("  %-16s", law.name);
     for (int width = 2; width <= lattice::kernel::supported_width(); width *= 2) {
-      const lattice::CellForces forces(lattice, one, width);
+      const lattice::CellForces forces(lattice, single, width);
       std::printf(" %6.2f",
                   nanoseconds(processor_seconds, [&] { forces.add(u, v, force); }) / cells.size());
     }
-    const lattice::CellForces alone(lattice, one), together(lattice, two);
+    const lattice::CellForces alone(lattice, single), together(lattice, pair);
     std::printf(" ns per cell (2, 4, 8 lanes); two threads: %.2f times as fast\n",
                 nanoseconds(seconds, [&] { alone.add(u, v, force); }) /
                     nanoseconds(seconds, [&] { together.add(u, v, force); }));

@@ -61,11 +61,11 @@ void compare(double retardation_time) {
   setup.integrator = Integrator::runge_kutta;
   setup.tolerance = 1e-8;
   const Measured exact = run(setup);
-  const auto print = [&](double value, const Measured& one) {
-    const auto& o = one.outcome;
+  const auto print = [&](double value, const Measured& measured) {
+    const auto& o = measured.outcome;
     std::printf("%g,%s,%g,%ld,%ld,%ld,%.2f,%.3g\n", retardation_time, name(setup.integrator).data(),
                 value, o.force_evaluations, o.steps.accepted, o.steps.rejected,
-                one.time / euler.time, error(o, exact.outcome));
+                measured.time / euler.time, error(o, exact.outcome));
     std::fflush(stdout);
   };
   print(1e-8, exact);

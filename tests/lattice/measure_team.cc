@@ -97,13 +97,13 @@ void compare(const std::string& what, int threads, const Work& work) {
       times.push_back(microseconds_since(start));
     }
   };
-  std::vector<double> one, ours, theirs;
+  std::vector<double> serial, ours, theirs;
   for (int n = 0; n < turns; ++n) {
-    take_turn(alone, one);
+    take_turn(alone, serial);
     take_turn(team, ours);
     take_turn(tbb, theirs);
   }
-  const Statistics a = of(one), b = of(ours), c = of(theirs);
+  const Statistics a = of(serial), b = of(ours), c = of(theirs);
   std::printf("  %-34s %7.2f (%7.2f) %7.2f (%7.2f) %7.2f (%7.2f)  %5.2f (%4.2f) %5.2f (%4.2f)\n",
               what.c_str(), a.median, a.mean, b.median, b.mean, c.median, c.mean,
               a.median / b.median, a.mean / b.mean, a.median / c.median, a.mean / c.mean);

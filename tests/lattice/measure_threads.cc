@@ -55,22 +55,22 @@ double median(std::vector<double> values) {
 }
 
 void compare(int per_radius, lattice::Integrator integrator, int threads) {
-  Pressed one(pressed_finger(per_radius, integrator, 1));
+  Pressed serial(pressed_finger(per_radius, integrator, 1));
   Pressed several(pressed_finger(per_radius, integrator, threads));
   std::printf("%s, step at rest %.1f us\n", std::string(name(integrator)).c_str(),
-              1e6 * one.finger.step_report(1.0).step);
+              1e6 * serial.finger.step_report(1.0).step);
   constexpr double group = 2.5e-3;  // [s]
   std::vector<double> of_one, of_several;
   double next = 0.5e-3;
   for (double depth = 0.0; depth < 3e-3; depth += speed * group) {
-    of_one.push_back(one.advance(group));
+    of_one.push_back(serial.advance(group));
     of_several.push_back(several.advance(group));
     if (depth + speed * group < next) continue;
     const double a = median(of_one), b = median(of_several);
     std::printf(
         "  to %.1f mm: %5d points touch, step %7.1f us, %d threads %7.1f us, ratio %.2f%s\n",
-        1e3 * next, one.finger.finger().touching(), a, threads, b, a / b,
-        same_bits(one.finger, several.finger) ? "" : ", OTHER BITS");
+        1e3 * next, serial.finger.finger().touching(), a, threads, b, a / b,
+        same_bits(serial.finger, several.finger) ? "" : ", OTHER BITS");
     of_one.clear();
     of_several.clear();
     next += 0.5e-3;

@@ -21,9 +21,9 @@ TEST(Cases, EveryCaseOfTheProjectLoads) {
   const auto files = all_cases();
   ASSERT_FALSE(files.empty());
   for (const fs::path& file : files) {
-    const Case one = load_case(file, {});
-    EXPECT_FALSE(one.title.empty()) << file;
-    EXPECT_FALSE(one.criteria.empty()) << file;
+    const Case study_case = load_case(file, {});
+    EXPECT_FALSE(study_case.title.empty()) << file;
+    EXPECT_FALSE(study_case.criteria.empty()) << file;
   }
 }
 
@@ -126,20 +126,22 @@ TEST(Cases, FoldersStayBelowThatOfTheRun) {
     EXPECT_FALSE(as_folder(name).starts_with("."));
   }
   const TemporaryFolder folder;
-  const Case one = case_with(folder, "[[case.run]]\nverb = \"cubes\"\nname = \"variants\"\n");
-  EXPECT_EQ(planned_jobs(one).front().name, "variants_") << "that of other runs";
+  const Case study_case =
+      case_with(folder, "[[case.run]]\nverb = \"cubes\"\nname = \"variants\"\n");
+  EXPECT_EQ(planned_jobs(study_case).front().name, "variants_") << "that of other runs";
 }
 
 TEST(Measures, AreTakenFromTheSummaries) {
-  Case one;
-  meshes::Rubber& rubber = one.loaded.config.press.rubber;
+  Case study_case;
+  meshes::Rubber& rubber = study_case.loaded.config.press.rubber;
   rubber.youngs_modulus = 2.8;
   rubber.shear_modulus = 1.0;
   for (const char* name : {"cubes", "hookean"})
-    one.runs.push_back({.kind = "run", .verb = *name == 'c' ? "cubes" : "press", .name = name});
-  one.runs.back().continuum = true;
+    study_case.runs.push_back(
+        {.kind = "run", .verb = *name == 'c' ? "cubes" : "press", .name = name});
+  study_case.runs.back().continuum = true;
   RunResult press;
-  press.run = &one.runs.back();
+  press.run = &study_case.runs.back();
   press.press.moduli = {.E_100 = 2.8,
                         .E_110 = 2.8,
                         .E_111 = 2.828,
@@ -150,9 +152,9 @@ TEST(Measures, AreTakenFromTheSummaries) {
   press.forces.depth = {1e-3, 2e-3};
   press.forces.error = {0.01, -0.2};
   press.forces.reference_error = {0.001, std::nan("")};
-  press.measures = measures_of_run(one, press, {});
-  const auto taken =
-      take_measures(one, {finished_run(one.runs[0], {{"hookean_error", 1e-10}}), press});
+  press.measures = measures_of_run(study_case, press, {});
+  const auto taken = take_measures(
+      study_case, {finished_run(study_case.runs[0], {{"hookean_error", 1e-10}}), press});
   EXPECT_NEAR(taken.at("hookean.youngs_modulus_error"), 0.01, 1e-12);
   EXPECT_NEAR(taken.at("hookean.shear_modulus_error"), 0.1, 1e-12);
   EXPECT_NEAR(taken.at("hookean.poissons_ratio_error"), 0.25, 1e-12);

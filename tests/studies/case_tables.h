@@ -28,8 +28,8 @@ inline std::string refusal(const TemporaryFolder& folder, const std::string& tab
 
 /// The jobs of its first stage.
 inline std::vector<fingertip::studies::PlannedJob> planned_jobs(
-    const fingertip::studies::Case& one) {
-  return fingertip::studies::Planner(one).next({});
+    const fingertip::studies::Case& study_case) {
+  return fingertip::studies::Planner(study_case).next({});
 }
 
 /// A finished run with these measures.

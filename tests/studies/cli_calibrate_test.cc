@@ -87,8 +87,8 @@ TEST(Calibrate, FindsTheRubberOfMeasuredPresses) {
   ASSERT_EQ(fit["parameters"].size(), 2u);
   EXPECT_NEAR(fit["parameters"][0]["estimate"].get<double>(), 3922.66, 0.05 * 3922.66);
   EXPECT_NEAR(fit["parameters"][1]["estimate"].get<double>(), 1372.93, 0.05 * 1372.93);
-  for (const json& one : fit["parameters"])
-    EXPECT_LT(one["lower"].get<double>(), one["upper"].get<double>());
+  for (const json& parameter : fit["parameters"])
+    EXPECT_LT(parameter["lower"].get<double>(), parameter["upper"].get<double>());
   EXPECT_EQ(fit["curves"][0]["condition"], "frictionless");
   EXPECT_EQ(fit["curves"][1]["condition"], "stick");
   EXPECT_FALSE(fit["chi_square"].is_null());
@@ -289,7 +289,7 @@ TEST(Calibrate, ResumesAndDoesNotDependOnThreads) {
   ASSERT_EQ(whole.code, resumed.code) << whole.err;
   json first = read(folder / "killed/calibration.json"),
        second = read(folder / "whole/calibration.json");
-  for (json* one : {&first, &second}) one->erase("wall_time");
+  for (json* file : {&first, &second}) file->erase("wall_time");
   for (std::size_t p = 0; p < 2; ++p) {
     const double a = first["parameters"][p]["estimate"], b = second["parameters"][p]["estimate"];
     const double deviation = first["parameters"][p]["standard_error"];

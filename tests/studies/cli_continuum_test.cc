@@ -44,11 +44,11 @@ bool has_samples(const fs::path& run) {
   return fs::exists(run / "response.csv");
 }
 
-void expect_equal(const PressResponse& one, const PressResponse& other) {
-  ASSERT_EQ(one.samples().size(), other.samples().size());
-  for (std::size_t i = 0; i < one.samples().size(); ++i) {
-    const double force = one.samples()[i].normal_force;
-    EXPECT_EQ(one.samples()[i].indentation, other.samples()[i].indentation);
+void expect_equal(const PressResponse& a, const PressResponse& other) {
+  ASSERT_EQ(a.samples().size(), other.samples().size());
+  for (std::size_t i = 0; i < a.samples().size(); ++i) {
+    const double force = a.samples()[i].normal_force;
+    EXPECT_EQ(a.samples()[i].indentation, other.samples()[i].indentation);
     EXPECT_NEAR(other.samples()[i].normal_force, force, 1e-8 * force) << i;
   }
 }

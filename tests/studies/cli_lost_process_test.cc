@@ -104,10 +104,10 @@ TEST_F(LostProcess, ALostRankIsTold3AndGoesOnWithAnyNumberOfRanks) {
 }
 
 TEST_F(LostProcess, AContinuumThatDidNotConvergeGoesOn) {
-  ends_with("echo 'the contact did not settle' >&2; exit 3\n");
+  ends_with("echo 'the contact did not converge' >&2; exit 3\n");
   const ProgramResult result = run();
   EXPECT_EQ(result.code, 3);
-  EXPECT_NE(result.err.find("the contact did not settle"), std::string::npos);
+  EXPECT_NE(result.err.find("the contact did not converge"), std::string::npos);
   EXPECT_EQ(status(), "not converged");
   expect_it_goes_on(result, "run it with other settings");
 }

@@ -106,23 +106,23 @@ TEST(SweepVerb, ShardsAreDisjointAndMakeUpTheWholeInAnyOrderOfWriting) {
   EXPECT_EQ(first_words(turned.out), whole) << turned.err;
 }
 
-/// A press that moves aside has a column more than one that does not.
+/// A press that moves laterally has a column more than one that does not.
 TEST(SweepVerb, CurvesOfDifferentColumnsStandInOneTable) {
   const TemporaryFolder folder;
   const ProgramResult result =
       run_program(folder.path(),
-                  {"sweep", "--out", "aside", "--set", "press.mode=static", "--set",
+                  {"sweep", "--out", "lateral", "--set", "press.mode=static", "--set",
                    "lattice.spacing=tip_radius/4", "--set", "press.samples=[\"0.5 mm\", \"1 mm\"]",
                    "--set", "press.depth=1 mm", "--set", "press.lateral_path=after", "--set",
                    "press.lateral_samples=2", "--set", "press.lateral=[\"0 mm\", \"0.2 mm\"]"});
   EXPECT_EQ(result.code, 0) << result.err << result.out;
   EXPECT_NE(result.out.find("2 finished"), std::string::npos) << result.out;
-  const auto curves = fingertip::meshes::read_csv(folder / "aside/curves.csv");
+  const auto curves = fingertip::meshes::read_csv(folder / "lateral/curves.csv");
   const auto sideways = curves.texts("lateral_displacement [m]");
   ASSERT_EQ(sideways.size(), 2U + 4U);
   EXPECT_EQ(std::ranges::count(sideways, ""), 2);
   EXPECT_EQ(std::ranges::count(sideways, "2e-04"), 1);
-  const auto table = fingertip::meshes::read_csv(folder / "aside/table.csv");
+  const auto table = fingertip::meshes::read_csv(folder / "lateral/table.csv");
   for (const double force : table.numbers("normal_force [N]")) EXPECT_GT(force, 0.0);
 }
 
@@ -133,9 +133,9 @@ TEST(SweepVerb, TwoShardsAtATimeGiveTheTableOfTheWhole) {
   fs::create_directory(folder / "b");
   Program first(folder / "a", sweep({"--out", "../results", "--shard", "1/2", "--threads", "1"}));
   Program second(folder / "b", sweep({"--out", "../results", "--shard", "2/2", "--threads", "1"}));
-  const ProgramResult one = first.wait(), two = second.wait();
-  EXPECT_EQ(one.code, 0) << one.err;
-  EXPECT_EQ(two.code, 0) << two.err;
+  const ProgramResult of_first = first.wait(), of_second = second.wait();
+  EXPECT_EQ(of_first.code, 0) << of_first.err;
+  EXPECT_EQ(of_second.code, 0) << of_second.err;
   const ProgramResult table =
       run_program(folder.path(), {"sweep", "--collect", "--out", "results"});
   EXPECT_EQ(table.code, 0) << table.err << table.out;

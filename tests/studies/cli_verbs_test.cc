@@ -47,10 +47,10 @@ TEST(Verbs, InitWritesWhatCheckAccepts) {
 
 TEST(Verbs, ExplainKnowsEveryKey) {
   const TemporaryFolder folder;
-  const ProgramResult one = run_program(folder.path(), {"explain", "rubber.shear_modulus"});
-  EXPECT_EQ(one.code, 0);
-  EXPECT_NE(one.out.find("14 gf/cm^2"), std::string::npos);
-  EXPECT_NE(one.out.find("youngs_modulus/3"), std::string::npos);
+  const ProgramResult result = run_program(folder.path(), {"explain", "rubber.shear_modulus"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.out.find("14 gf/cm^2"), std::string::npos);
+  EXPECT_NE(result.out.find("youngs_modulus/3"), std::string::npos);
   EXPECT_NE(run_program(folder.path(), {"explain"}).out.find("press.depth"), std::string::npos);
   EXPECT_NO_THROW(nlohmann::json::parse(run_program(folder.path(), {"explain", "--schema"}).out));
   EXPECT_EQ(run_program(folder.path(), {"explain", "--markdown"}).out.rfind("# ", 0), 0U);

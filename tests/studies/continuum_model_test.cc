@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ReferenceJob order() {
+ReferenceJob reference() {
   ReferenceJob job;
   job.press_to({2e-4, 5e-4, 1e-3});
   job.protocol.tilt = 0.1;
@@ -83,13 +83,13 @@ class ContinuumModel : public testing::Test {
 }  // namespace
 
 TEST(ContinuumOrders, DifferInPoissonsRatioAlone) {
-  ReferenceJob other = order();
+  ReferenceJob other = reference();
   for (const double nu : {-0.3, 0.1, 0.45}) {
-    const ReferenceJob job = at_ratio(order(), nu);
+    const ReferenceJob job = at_ratio(reference(), nu);
     EXPECT_NEAR(job.rubber.poissons_ratio(), nu, 1e-14);
-    EXPECT_EQ(job.rubber.shear_modulus, order().rubber.shear_modulus);
-    EXPECT_EQ(job.protocol.samples, order().protocol.samples);
-    EXPECT_EQ(job.protocol.tilt, order().protocol.tilt);
+    EXPECT_EQ(job.rubber.shear_modulus, reference().rubber.shear_modulus);
+    EXPECT_EQ(job.protocol.samples, reference().protocol.samples);
+    EXPECT_EQ(job.protocol.tilt, reference().protocol.tilt);
     EXPECT_FALSE(job.write_fields);
     EXPECT_NE(reference_job(job).key(), reference_job(other).key());
     other = job;
@@ -97,29 +97,31 @@ TEST(ContinuumOrders, DifferInPoissonsRatioAlone) {
 }
 
 TEST(ContinuumOrders, ThatBreakARuleAreRefused) {
-  EXPECT_EQ(refusal([&] { at_ratio(order(), -0.3); }), "accepted");
-  ReferenceJob finite = order();
+  EXPECT_EQ(refusal([&] { at_ratio(reference(), -0.3); }), "accepted");
+  ReferenceJob finite = reference();
   finite.strain = fem_reference::Strain::finite;
   const std::string text = refusal([&] { at_ratio(finite, -0.3); });
   EXPECT_NE(text.find("nu >= 0"), std::string::npos) << text;
   EXPECT_NE(text.find("Poisson's ratio -0.3 of the fit"), std::string::npos) << text;
   EXPECT_EQ(refusal([&] { at_ratio(finite, lowest_ratio(finite)); }), "accepted");
-  EXPECT_EQ(refusal([&] { at_ratio(order(), lowest_ratio(order())); }), "accepted");
-  ReferenceJob moving = order();
+  EXPECT_EQ(refusal([&] { at_ratio(reference(), lowest_ratio(reference())); }), "accepted");
+  ReferenceJob moving = reference();
   moving.protocol.tilt = 0.0;
   moving.analysis = fem_reference::Analysis::transient;
   EXPECT_NE(refusal([&] { at_ratio(moving, 0.4); }).find("presses statically"), std::string::npos);
 }
 
 TEST_F(ContinuumModel, GivesTheForcesOfOtherModuli) {
-  auto model = continuum_model(order(), {youngs_modulus, shear_modulus}, "continuum_1", context());
+  auto model =
+      continuum_model(reference(), {youngs_modulus, shear_modulus}, "continuum_1", context());
   meshes::Rubber rubber;
   for (const double nu : {0.1, 0.2, 0.33, 0.44}) {
-    rubber.shear_modulus = 3.7 * order().rubber.shear_modulus;
+    rubber.shear_modulus = 3.7 * reference().rubber.shear_modulus;
     rubber.youngs_modulus = 2.0 * rubber.shear_modulus * (1.0 + nu);
     const auto forces = model.evaluate(Vector2d(rubber.youngs_modulus, rubber.shear_modulus)).value;
     for (int i = 0; i < 3; ++i)
-      EXPECT_NEAR(forces(i) / hertz(rubber, order().protocol.samples[std::size_t(i)]), 1.0, 1e-4);
+      EXPECT_NEAR(forces(i) / hertz(rubber, reference().protocol.samples[std::size_t(i)]), 1.0,
+                  1e-4);
   }
   ASSERT_GE(names_.size(), 4u);
   EXPECT_TRUE(names_.front().starts_with("continuum_1/-0.14")) << names_.front();
@@ -128,7 +130,7 @@ TEST_F(ContinuumModel, GivesTheForcesOfOtherModuli) {
 TEST_F(ContinuumModel, RefusesOtherOrUnfinishedRuns) {
   const auto said = [&](std::function<void(std::vector<PressSample>&)> spoil) {
     spoil_ = std::move(spoil);
-    auto model = continuum_model(order(), {modulus}, "continuum_1", context());
+    auto model = continuum_model(reference(), {modulus}, "continuum_1", context());
     return refusal([&] { model.evaluate(Eigen::VectorXd::Constant(1, 3000.0)); });
   };
   EXPECT_EQ(said({}), "accepted");

@@ -21,12 +21,12 @@ const std::string two_presses =
 
 TEST(ControlCase, PlansPressesAndTheContinuaAtTheirSpeeds) {
   const TemporaryFolder folder;
-  const Case one = case_with(folder, two_presses);
-  ASSERT_EQ(one.runs.size(), 2u);
-  EXPECT_TRUE(one.runs[0].continuum);
-  EXPECT_TRUE(one.runs[1].snapshots);
-  EXPECT_EQ(one.runs[1].beside, "s, a");
-  const std::vector<PlannedJob> jobs = planned_jobs(one);
+  const Case study_case = case_with(folder, two_presses);
+  ASSERT_EQ(study_case.runs.size(), 2u);
+  EXPECT_TRUE(study_case.runs[0].continuum);
+  EXPECT_TRUE(study_case.runs[1].snapshots);
+  EXPECT_EQ(study_case.runs[1].beside, "s, a");
+  const std::vector<PlannedJob> jobs = planned_jobs(study_case);
   ASSERT_EQ(jobs.size(), 3u);
   EXPECT_EQ(jobs[0].job.kind, "reference");
   EXPECT_EQ(jobs[0].job.inputs["analysis"], "transient");
@@ -34,8 +34,9 @@ TEST(ControlCase, PlansPressesAndTheContinuaAtTheirSpeeds) {
   for (std::size_t i : {1, 2}) EXPECT_EQ(jobs[i].job.kind, "press");
   // What is written into parameters.toml is the same case again.
   const TemporaryFolder other;
-  write_text(other / "case.toml", "[press]\nsamples = [\"0.1 cm\", \"0.2 cm\"]\n" + one.text);
-  EXPECT_EQ(load_case(other / "case.toml", {}).text, one.text);
+  write_text(other / "case.toml",
+             "[press]\nsamples = [\"0.1 cm\", \"0.2 cm\"]\n" + study_case.text);
+  EXPECT_EQ(load_case(other / "case.toml", {}).text, study_case.text);
 }
 
 TEST(ControlCase, RefusesWhatIsNoPressInTime) {
@@ -55,16 +56,16 @@ TEST(ControlCase, RefusesWhatIsNoPressInTime) {
 
 TEST(ControlCase, ASeriesIsJudgedByItsWorstPress) {
   const TemporaryFolder folder;
-  const Case one = case_with(folder, two_presses);
-  const std::vector<std::string> names = measure_names(one);
+  const Case study_case = case_with(folder, two_presses);
+  const std::vector<std::string> names = measure_names(study_case);
   for (const char* name : {"s.speed_deviation", "s, a.force_error", "s.force_error", "s, b.change"})
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
   EXPECT_EQ(std::ranges::find(names, "s, a.change"), names.end());
   RunResults results = {
-      finished_run(one.runs[0], {{"speed_deviation", 0.01}, {"force_error", 0.02}}),
-      finished_run(one.runs[1], {{"speed_deviation", 0.03}, {"change", 0.001}})};
+      finished_run(study_case.runs[0], {{"speed_deviation", 0.01}, {"force_error", 0.02}}),
+      finished_run(study_case.runs[1], {{"speed_deviation", 0.03}, {"change", 0.001}})};
   results[0].forces.reference_error = {0.004, 0.002};
-  Measures taken = take_measures(one, results);
+  Measures taken = take_measures(study_case, results);
   EXPECT_EQ(taken.at("s.speed_deviation"), 0.03);
   EXPECT_EQ(taken.at("s, a.speed_deviation"), 0.01);
   EXPECT_EQ(taken.at("s.force_error"), 0.02);  // b is not meant to have one
@@ -74,7 +75,7 @@ TEST(ControlCase, ASeriesIsJudgedByItsWorstPress) {
   // A press that did not finish leaves its series without a measure.
   results[1].status = "not converged: why";
   results[1].measures.clear();
-  taken = take_measures(one, results);
+  taken = take_measures(study_case, results);
   EXPECT_FALSE(taken.contains("s.speed_deviation"));
   EXPECT_EQ(taken.at("presses.not_converged"), 1.0);
 }

@@ -93,9 +93,9 @@ TEST(ControllerChoice, TheScheduleIsReadAndCounts) {
                                       "controller.schedule=" + file.string()};
   EXPECT_THROW(setup_of(sets), ConfigError);
   calibration::write_surrogate_json(hertz(1.0), file);
-  const std::string one = press_job(setup_of(sets)).key();
+  const std::string before = press_job(setup_of(sets)).key();
   calibration::write_surrogate_json(hertz(1.1), file);
-  EXPECT_NE(press_job(setup_of(sets)).key(), one);
+  EXPECT_NE(press_job(setup_of(sets)).key(), before);
 }
 
 TEST(ControllerChoice, BrokenRulesNameTheKeyAndItsPlace) {

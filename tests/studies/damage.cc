@@ -75,10 +75,10 @@ std::string reshaped(const std::string& text, std::string& how, std::mt19937& ra
     case 0: {
       const std::size_t column = below(split(lines.front(), ',').size(), random);
       how = "without column " + std::to_string(column);
-      for (std::string& one : lines) {
-        std::vector<std::string> cells = split(one, ',');
+      for (std::string& row : lines) {
+        std::vector<std::string> cells = split(row, ',');
         if (column < cells.size()) cells.erase(cells.begin() + std::ptrdiff_t(column));
-        one = joined(cells, ',');
+        row = joined(cells, ',');
       }
       break;
     }
@@ -97,9 +97,9 @@ std::string reshaped(const std::string& text, std::string& how, std::mt19937& ra
 
 /// All values of a JSON text below its root.
 void collect(json& value, std::vector<json*>& values) {
-  for (json& one : value) {
-    values.push_back(&one);
-    if (one.is_structured()) collect(one, values);
+  for (json& element : value) {
+    values.push_back(&element);
+    if (element.is_structured()) collect(element, values);
   }
 }
 

@@ -30,19 +30,20 @@ std::string refusal(std::vector<std::string> sets) {
 }  // namespace
 
 TEST(Elasticity, AnyTwoOfThreeGiveTheSameRubber) {
-  const Rubber two = rubber({"rubber.youngs_modulus=343 kPa", "rubber.shear_modulus=115 kPa"});
-  const std::string nu = "rubber.poissons_ratio=" + std::to_string(two.poissons_ratio());
-  for (const char* one : {"rubber.youngs_modulus=343 kPa", "rubber.shear_modulus=115 kPa"}) {
-    const Rubber other = rubber({one, nu});
-    EXPECT_NEAR(other.youngs_modulus, 343e3, 1.0) << one;
-    EXPECT_NEAR(other.shear_modulus, 115e3, 1.0) << one;
-    EXPECT_TRUE(with({one, nu}).notes.empty());
+  const Rubber by_moduli =
+      rubber({"rubber.youngs_modulus=343 kPa", "rubber.shear_modulus=115 kPa"});
+  const std::string nu = "rubber.poissons_ratio=" + std::to_string(by_moduli.poissons_ratio());
+  for (const char* modulus : {"rubber.youngs_modulus=343 kPa", "rubber.shear_modulus=115 kPa"}) {
+    const Rubber other = rubber({modulus, nu});
+    EXPECT_NEAR(other.youngs_modulus, 343e3, 1.0) << modulus;
+    EXPECT_NEAR(other.shear_modulus, 115e3, 1.0) << modulus;
+    EXPECT_TRUE(with({modulus, nu}).notes.empty());
   }
 }
 
 TEST(Elasticity, OneModulusTakesTheUsualPoissonsRatioAndSaysSo) {
-  for (const char* one : {"rubber.youngs_modulus=343 kPa", "rubber.shear_modulus=115 kPa"}) {
-    const LoadedConfig loaded = with({one});
+  for (const char* modulus : {"rubber.youngs_modulus=343 kPa", "rubber.shear_modulus=115 kPa"}) {
+    const LoadedConfig loaded = with({modulus});
     EXPECT_NEAR(loaded.config.press.rubber.poissons_ratio(), 0.49, 1e-12);
     ASSERT_EQ(loaded.notes.size(), 1U);
     EXPECT_NE(loaded.notes[0].find("0.49"), std::string::npos) << loaded.notes[0];

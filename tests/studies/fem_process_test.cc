@@ -83,10 +83,10 @@ TEST_F(FemProcess, ExitCodesBecomeExceptions) {
   EXPECT_THROW(run("exit 130"), meshes::Interrupted);
   EXPECT_THROW(run("exit 1"), std::runtime_error);
   try {
-    run("echo 'contact did not settle' >&2; exit 3");
+    run("echo 'contact did not converge' >&2; exit 3");
     FAIL();
   } catch (const meshes::NotConverged& error) {
-    EXPECT_NE(std::string(error.what()).find("contact did not settle"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("contact did not converge"), std::string::npos);
   }
 }
 
@@ -133,14 +133,14 @@ TEST_F(FemProcess, MoreRanksThanCoresAreAllowed) {
 
 TEST_F(FemProcess, ExitCodesComeThroughMpirunWithNothingButTheProgramsWords) {
   ranks_ = 2;
-  const std::string word = std::string("[ ") + rank + " = 0 ] && echo 'it did not settle' >&2\n";
+  const std::string word = std::string("[ ") + rank + " = 0 ] && echo 'it did not converge' >&2\n";
   try {
     run(word + "sleep 0.3; exit 3");
     FAIL();
   } catch (const ProcessLost& error) {
     FAIL() << error.what();
   } catch (const meshes::NotConverged& error) {
-    EXPECT_STREQ(error.what(), "it did not settle");
+    EXPECT_STREQ(error.what(), "it did not converge");
   }
   EXPECT_THROW(run("exit 2"), meshes::InvalidInput);
   EXPECT_THROW(run("exit 130"), meshes::Interrupted);

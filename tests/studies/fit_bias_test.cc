@@ -19,7 +19,7 @@ struct StraightLine {
   double estimate() const { return truth / (1.0 + error); }
   ordered_json calibration() const {
     ordered_json influence = ordered_json::array();
-    for (const double one : x) influence.push_back(one / (1.0 + error) / 30.0);
+    for (const double value : x) influence.push_back(value / (1.0 + error) / 30.0);
     return {{"statement", "Found."},
             {"influence", {influence}},
             {"parameters",

@@ -12,24 +12,24 @@ using fingertip::calibration::FitFile, fingertip::calibration::ParameterEntry;
 namespace {
 
 Case two_fits() {
-  Case one;
+  Case study_case;
   for (const char* name : {"good", "bad"})
-    one.runs.push_back({.kind = "fit", .verb = "fit", .name = name});
+    study_case.runs.push_back({.kind = "fit", .verb = "fit", .name = name});
   for (const char* name : {"deeper", "stick"})
-    one.runs.push_back({.kind = "prediction", .verb = "press", .name = name});
-  one.loaded.config.press.rubber.youngs_modulus = 4000.0;
-  return one;
+    study_case.runs.push_back({.kind = "prediction", .verb = "press", .name = name});
+  study_case.loaded.config.press.rubber.youngs_modulus = 4000.0;
+  return study_case;
 }
 
 FitFile fit_with(double estimate, double lower, double upper, bool open) {
   FitFile fit;
   fit.problem = "experiment";
   fit.parameters.resize(1);
-  ParameterEntry& one = fit.parameters.front();
-  one.name = "youngs_modulus";
-  one.estimate = estimate;
-  one.lower = lower;
-  one.upper = upper;
+  ParameterEntry& parameter = fit.parameters.front();
+  parameter.name = "youngs_modulus";
+  parameter.estimate = estimate;
+  parameter.lower = lower;
+  parameter.upper = upper;
   fit.unidentifiable.resize(open ? 1 : 0);
   return fit;
 }
@@ -38,30 +38,30 @@ const std::vector<FitFile> found = {fit_with(4040.0, 3990.0, 4090.0, false),
                                     fit_with(4400.0, 4200.0, 4600.0, true)};
 
 /// `errors` per fit and prediction; those that are not asked do not count.
-Measures measures_with(const Case& one, const std::vector<std::vector<double>>& errors) {
+Measures measures_with(const Case& study_case, const std::vector<std::vector<double>>& errors) {
   RunResults results;
   for (std::size_t f = 0; f < 2; ++f) {
-    RunResult fit = finished_run(one.runs[f], {});
+    RunResult fit = finished_run(study_case.runs[f], {});
     fit.found = found[f];
-    fit.measures = measures_of_run(one, fit, {});
+    fit.measures = measures_of_run(study_case, fit, {});
     results.push_back(fit);
     for (std::size_t p = 0; p < 2; ++p) {
-      if (!is_asked(one.runs[2 + p], one.runs[f])) continue;
-      RunResult press = finished_run(one.runs[2 + p], {});
-      press.fit = &one.runs[f];
+      if (!is_asked(study_case.runs[2 + p], study_case.runs[f])) continue;
+      RunResult press = finished_run(study_case.runs[2 + p], {});
+      press.fit = &study_case.runs[f];
       press.forces.error = {errors[f][p]};
-      press.measures = measures_of_run(one, press, {});
+      press.measures = measures_of_run(study_case, press, {});
       results.push_back(press);
     }
   }
-  return take_measures(one, results);
+  return take_measures(study_case, results);
 }
 
 }  // namespace
 
 TEST(FitMeasures, AreTakenPerFitAndPrediction) {
-  const Case one = two_fits();
-  const auto measures = measures_with(one, {{0.01, 0.02}, {0.05, 0.03}});
+  const Case study_case = two_fits();
+  const auto measures = measures_with(study_case, {{0.01, 0.02}, {0.05, 0.03}});
   EXPECT_DOUBLE_EQ(measures.at("good.deeper"), 0.01);
   EXPECT_DOUBLE_EQ(measures.at("bad.stick"), 0.03);
   EXPECT_DOUBLE_EQ(measures.at("good.worst_error"), 0.02);
@@ -76,9 +76,9 @@ TEST(FitMeasures, AreTakenPerFitAndPrediction) {
 
 /// A criterion on what is missing must fail, so the measure must not be there.
 TEST(FitMeasures, AGapIsNoSmallError) {
-  const Case one = two_fits();
+  const Case study_case = two_fits();
   const double gap = std::nan("");
-  const auto measures = measures_with(one, {{0.01, gap}, {0.05, 0.03}});
+  const auto measures = measures_with(study_case, {{0.01, gap}, {0.05, 0.03}});
   EXPECT_TRUE(measures.contains("good.deeper"));
   EXPECT_FALSE(measures.contains("good.stick"));
   EXPECT_FALSE(measures.contains("good.worst_error"));
@@ -86,18 +86,18 @@ TEST(FitMeasures, AGapIsNoSmallError) {
 }
 
 TEST(FitMeasures, APredictionOfASeriesIsAskedOfItsFitsAlone) {
-  Case one = two_fits();
-  one.runs[0].series = one.runs[3].series = "small strain";
+  Case study_case = two_fits();
+  study_case.runs[0].series = study_case.runs[3].series = "small strain";
   const double gap = std::nan("");
-  const auto measures = measures_with(one, {{0.01, 0.02}, {0.05, gap}});
+  const auto measures = measures_with(study_case, {{0.01, 0.02}, {0.05, gap}});
   EXPECT_DOUBLE_EQ(measures.at("bad.worst_error"), 0.05) << "not asked for stick";
   EXPECT_DOUBLE_EQ(measures.at("good.worst_error"), 0.02);
   EXPECT_FALSE(measures.contains("bad.stick"));
 }
 
 TEST(FitMeasures, EveryMeasureHasAName) {
-  const Case one = two_fits();
-  const std::vector<std::string> names = measure_names(one);
-  for (const auto& [name, value] : measures_with(one, {{0.0, 0.0}, {0.0, 0.0}}))
+  const Case study_case = two_fits();
+  const std::vector<std::string> names = measure_names(study_case);
+  for (const auto& [name, value] : measures_with(study_case, {{0.0, 0.0}, {0.0, 0.0}}))
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
 }

@@ -42,20 +42,20 @@ double limit_of(const std::vector<Measures>& grasps) {
 
 TEST(GraspCase, PlansAGraspEachOnce) {
   const TemporaryFolder folder;
-  const Case one = case_with(folder,
-                             two_grasps +
-                                 "[[case.grasp]]\nname = \"firm again\"\n"
-                                 "set = { \"grasp.force\" = \"0.06 N\" }\n",
-                             of_grasps);
-  ASSERT_EQ(one.runs.size(), 3u);
-  const std::vector<PlannedJob> jobs = planned_jobs(one);
+  const Case study_case = case_with(folder,
+                                    two_grasps +
+                                        "[[case.grasp]]\nname = \"firm again\"\n"
+                                        "set = { \"grasp.force\" = \"0.06 N\" }\n",
+                                    of_grasps);
+  ASSERT_EQ(study_case.runs.size(), 3u);
+  const std::vector<PlannedJob> jobs = planned_jobs(study_case);
   ASSERT_EQ(jobs.size(), 2u);
   for (const PlannedJob& job : jobs) EXPECT_EQ(job.job.kind, "grasp");
   EXPECT_NEAR(jobs[0].job.inputs["grip"]["force"].get<double>(), 0.04, 1e-15);
   // What is written into parameters.toml is the same case again.
   const TemporaryFolder other;
-  write_text(other / "case.toml", "[press]\ncontact = \"coulomb\"\n" + one.text);
-  EXPECT_EQ(load_case(other / "case.toml", {}).text, one.text);
+  write_text(other / "case.toml", "[press]\ncontact = \"coulomb\"\n" + study_case.text);
+  EXPECT_EQ(load_case(other / "case.toml", {}).text, study_case.text);
 }
 
 TEST(GraspCase, RefusesWhatCannotBeGraspedOrJudged) {
@@ -113,21 +113,22 @@ TEST(GraspCase, MeasuresComeFromTheSummary) {
 
 TEST(GraspCase, ASeriesIsJudgedByItsWorstGrasp) {
   const TemporaryFolder folder;
-  const Case one = case_with(folder, two_grasps, of_grasps);
-  const std::vector<std::string> names = measure_names(one);
+  const Case study_case = case_with(folder, two_grasps, of_grasps);
+  const std::vector<std::string> names = measure_names(study_case);
   for (const char* name : {"s.limit_error", "s.momentum_defect", "s, weak.slip_error"})
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
   Measures weak = grip(-0.02, false), firm = grip(0.01, true);
   weak["momentum_defect"] = 1e-13;
   firm["momentum_defect"] = 3e-13;
   weak["slip_error"] = 0.004;
-  const auto taken =
-      take_measures(one, {finished_run(one.runs[0], weak), finished_run(one.runs[1], firm)});
+  const auto taken = take_measures(
+      study_case, {finished_run(study_case.runs[0], weak), finished_run(study_case.runs[1], firm)});
   EXPECT_EQ(taken.at("s.limit_error"), 0.02);
   EXPECT_EQ(taken.at("s.momentum_defect"), 3e-13);
   EXPECT_EQ(taken.at("s, weak.slip_error"), 0.004);
   EXPECT_FALSE(taken.contains("s.slip_error"));
   EXPECT_EQ(taken.at("s.lost"), 1.0);
-  const RunResults halves = {finished_run(one.runs[0], weak), finished_run(one.runs[1], {})};
-  EXPECT_FALSE(take_measures(one, halves).contains("s.limit_error"));
+  const RunResults halves = {finished_run(study_case.runs[0], weak),
+                             finished_run(study_case.runs[1], {})};
+  EXPECT_FALSE(take_measures(study_case, halves).contains("s.limit_error"));
 }

@@ -14,7 +14,7 @@
 #include "meshes/press_response.h"
 #include "studies/config/key_table.h"
 #include "studies/config/value_reader.h"
-#include "studies/run/fit_plan.h"
+#include "studies/run/calibration_stages.h"
 #include "studies/run/grasp_job.h"
 #include "studies/run/jobs.h"
 #include "studies/run/press_setup.h"
@@ -39,7 +39,7 @@ std::string grasp(const LoadedConfig& loaded) {
   return grasp_job(grasp_setup(loaded)).key();
 }
 std::string continuum(const LoadedConfig& loaded) {
-  return reference_job(continuum_job(loaded)).key();
+  return reference_job(continuum_setup(loaded)).key();
 }
 
 /// What a continuum might have answered.
@@ -58,7 +58,7 @@ void answer(const PlannedJob& planned, const fs::path& folder) {
 /// The jobs of a calibration up to its fit.
 std::string calibration(const LoadedConfig& loaded) {
   const TemporaryFolder run;
-  FitPlan plan(loaded, "", FitPlan::Failed::refused);
+  CalibrationStages plan(loaded, "", CalibrationStages::Failed::refused);
   std::string keys;
   for (bool fitted = false; !fitted;)
     for (const PlannedJob& planned : plan.next(run.path())) {
@@ -86,8 +86,8 @@ Sets other_values(const Key& key, const std::string& literal) {
   switch (key.kind) {
     case Kind::choice:
     case Kind::source:
-      for (const Choice& one : key.choices)
-        if (one.word != text) values.push_back(one.word);
+      for (const Choice& choice : key.choices)
+        if (choice.word != text) values.push_back(choice.word);
       return values;
     case Kind::boolean: return {text == "true" ? "false" : "true"};
     case Kind::integer:
@@ -126,8 +126,8 @@ struct World {
 };
 
 bool lists(const Sets& list, const Key& key) {
-  return std::ranges::any_of(list, [&](const std::string& one) {
-    return one.ends_with('.') ? key.section + "." == one : key.full_name() == one;
+  return std::ranges::any_of(list, [&](const std::string& entry) {
+    return entry.ends_with('.') ? key.section + "." == entry : key.full_name() == entry;
   });
 }
 

@@ -120,7 +120,8 @@ TEST(Movie, FramesHoldTipRodAndPlaneAsVtkReadsThem) {
     for (const std::int32_t told : array_of<std::int32_t>(pieces[std::size_t(part)], "part"))
       EXPECT_EQ(told, part);
   int held = 0;
-  for (const std::uint8_t one : array_of<std::uint8_t>(pieces[0], "held")) held += one > 0 ? 1 : 0;
+  for (const std::uint8_t flag : array_of<std::uint8_t>(pieces[0], "held"))
+    held += flag > 0 ? 1 : 0;
   EXPECT_GT(held, 3);
 }
 

@@ -150,11 +150,11 @@ TEST(MaterialOfAPress, WhatTheUserSaysIsKeptAndWarnedOf) {
                {"press.depth=0.2 cm", "20 % only"},
                {"lattice.spacing=tip_radius/10", "calibrate at this spacing"},
                {"lattice.kinematics=finite", "used at finite strain"}};
-  for (const auto& one : cases) {
-    const auto found = notes(with(sets, one.set));
-    ASSERT_EQ(found.size(), 1U) << one.set;
+  for (const auto& expected : cases) {
+    const auto found = notes(with(sets, expected.set));
+    ASSERT_EQ(found.size(), 1U) << expected.set;
     EXPECT_EQ(found[0].find("material.toml: "), 0U) << found[0];
-    EXPECT_NE(found[0].find(one.says), std::string::npos) << found[0];
+    EXPECT_NE(found[0].find(expected.says), std::string::npos) << found[0];
   }
   EXPECT_TRUE(notes(with(sets, "press.depth=0.2 cm"), LatticeUse::modes).empty());
   EXPECT_EQ(notes(with(sets, "lattice.spacing=tip_radius/10"), LatticeUse::modes).size(), 1U);
@@ -194,13 +194,13 @@ TEST(PressSetup, ContactStiffnessScalesTheTiesToThePlaneAlone) {
                                  "lattice.contact_stiffness=" + factor});
     return lattice::static_body(setup, 4);
   };
-  const lattice::LatticeBody one = body_of("1.0"), three = body_of("3.0");
-  ASSERT_EQ(one.outer.size(), three.outer.size());
-  ASSERT_EQ(one.bond.size(), three.bond.size());
-  for (std::size_t i = 0; i < one.outer.size(); ++i)
-    EXPECT_NEAR(three.outer[i].stiffness / one.outer[i].stiffness, 3.0, 1e-12);
-  for (std::size_t i = 0; i < one.bond.size(); ++i)
-    EXPECT_EQ(three.bond[i].stiffness, one.bond[i].stiffness);
+  const lattice::LatticeBody soft = body_of("1.0"), three = body_of("3.0");
+  ASSERT_EQ(soft.outer.size(), three.outer.size());
+  ASSERT_EQ(soft.bond.size(), three.bond.size());
+  for (std::size_t i = 0; i < soft.outer.size(); ++i)
+    EXPECT_NEAR(three.outer[i].stiffness / soft.outer[i].stiffness, 3.0, 1e-12);
+  for (std::size_t i = 0; i < soft.bond.size(); ++i)
+    EXPECT_EQ(three.bond[i].stiffness, soft.bond[i].stiffness);
   const auto key = [](const std::string& factor) {
     return press_job(setup_of({"press.mode=static", "lattice.contact_stiffness=" + factor})).key();
   };
@@ -239,7 +239,7 @@ TEST(Checks, WhatAPressCannotDoIsRefusedToTheValidationAlone) {
        {"press.tilt=5 deg", "press.lateral=1 mm",
         "lattice.rotation=[\"10 deg\", \"0 deg\", \"5 deg\"]", "lattice.contact_stiffness=2"}) {
     EXPECT_EQ(refusal(check_all, {set}), "") << set;
-    EXPECT_NO_THROW(continuum_job(load_config({{}, {set}, {}}))) << set;
+    EXPECT_NO_THROW(continuum_setup(load_config({{}, {set}, {}}))) << set;
     EXPECT_EQ(refusal(check_validation, {set}).find("--set " + std::string(set)), 0U) << set;
     EXPECT_THROW(setup_of({set, "lattice.model=published"}), ConfigError) << set;
   }
@@ -338,7 +338,7 @@ TEST(Jobs, StaticPressesDependOnWhatIsStatic) {
 
 TEST(Jobs, TheLateralPathMattersWhereThereIsLateralMotion) {
   const std::string after = "press.lateral_path=after", lateral = "press.lateral=1 mm",
-                    one = "press.lateral_samples=1";
+                    single_sample = "press.lateral_samples=1";
   const auto differ = [](const auto& key) {
     const auto [still, path, diagonal, moved, end, idle] = key;
     EXPECT_EQ(still, path);
@@ -351,15 +351,15 @@ TEST(Jobs, TheLateralPathMattersWhereThereIsLateralMotion) {
                                       key({after}),
                                       key({lateral}),
                                       key({after, lateral}),
-                                      key({after, lateral, one}),
-                                      key({lateral, one})};
+                                      key({after, lateral, single_sample}),
+                                      key({lateral, single_sample})};
   };
   differ(keys([](std::vector<std::string> sets) {
     sets.emplace_back("press.mode=static");
     return press_job(setup_of(std::move(sets))).key();
   }));
   differ(keys([](std::vector<std::string> sets) {
-    return reference_job(continuum_job(load_config({{}, std::move(sets), {}}))).key();
+    return reference_job(continuum_setup(load_config({{}, std::move(sets), {}}))).key();
   }));
 }
 
@@ -396,7 +396,7 @@ TEST(Jobs, KeysDependOnWhatMattersAndOnNothingElse) {
   EXPECT_EQ(key({"press.mode=quasi-static"}),
             key({"press.mode=quasi-static", "controller.natural_frequency=50 Hz"}));
   const auto continuum = [](std::vector<std::string> sets) {
-    return reference_job(continuum_job(load_config({{}, std::move(sets), {}}))).key();
+    return reference_job(continuum_setup(load_config({{}, std::move(sets), {}}))).key();
   };
   EXPECT_EQ(continuum({}), continuum({"rubber.density=1 g/cm^3"}));
   EXPECT_EQ(continuum({}), continuum({"lattice.spacing=0.2 cm"}));
@@ -428,7 +428,7 @@ TEST(Jobs, TheContinuumsOwnVerificationIsAJob) {
   EXPECT_TRUE(job.resumable);
   EXPECT_EQ(job.inputs["analysis"], "verification");
   EXPECT_FALSE(job.inputs.contains("samples"));
-  fingertip::fem_reference::ReferenceJob order;
-  order.analysis = fingertip::fem_reference::Analysis::verification;
-  EXPECT_TRUE(order.violations().empty()) << "fingertip-fem would refuse it";
+  fingertip::fem_reference::ReferenceJob reference;
+  reference.analysis = fingertip::fem_reference::Analysis::verification;
+  EXPECT_TRUE(reference.violations().empty()) << "fingertip-fem would refuse it";
 }

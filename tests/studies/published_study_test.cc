@@ -13,7 +13,8 @@ using namespace fingertip::studies;
 
 TEST(PublishedStudy, VariesOneThingAtATimeAndNeverTheRubber) {
   std::vector<PlannedJob> jobs = planned_jobs(load_case(find_case("01"), {}));
-  std::erase_if(jobs, [](const PlannedJob& one) { return !one.name.starts_with("published_"); });
+  std::erase_if(jobs,
+                [](const PlannedJob& planned) { return !planned.name.starts_with("published_"); });
   EXPECT_EQ(jobs.size(), 3U + 4U + 2U);
   std::set<std::string> names;
   for (const PlannedJob& planned : jobs) {

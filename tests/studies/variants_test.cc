@@ -16,9 +16,9 @@ namespace {
 
 /// How many continua and presses a case of the project plans.
 std::pair<std::size_t, std::size_t> planned(const std::string& name) {
-  const Case one = load_case(find_case(name), {});
+  const Case study_case = load_case(find_case(name), {});
   std::pair<std::size_t, std::size_t> counts{0, 0};
-  for (const PlannedJob& job : planned_jobs(one))
+  for (const PlannedJob& job : planned_jobs(study_case))
     ++(job.job.kind == "reference" ? counts.first : counts.second);
   return counts;
 }
@@ -40,10 +40,11 @@ SeriesMeasures measure(const RunResults& results) {
 
 /// Variants of one series at the given x.
 Case series_at(const std::vector<double>& x) {
-  Case one;
+  Case study_case;
   for (const double at : x)
-    one.runs.push_back({.kind = "variant", .name = std::to_string(at), .series = "s", .x = at});
-  return one;
+    study_case.runs.push_back(
+        {.kind = "variant", .name = std::to_string(at), .series = "s", .x = at});
+  return study_case;
 }
 
 }  // namespace
@@ -65,14 +66,14 @@ TEST(Variants, LatticesOfTheSameSpecimenAndContactShareAContinuum) {
 
 TEST(Variants, AreStaticPressesAgainstTheContinuumOfTheirKinematics) {
   const TemporaryFolder folder;
-  const Case one =
+  const Case study_case =
       case_with(folder,
                 "variant = [\n"
                 "{ name = \"a\", set = {} },\n"
                 "{ name = \"b\", set = { \"lattice.model\" = \"network\" } },\n"
                 "{ name = \"c\", set = { \"lattice.offset\" = [0.5, 0.0, 0.0] } } ]\n");
   std::set<std::string> strains;
-  for (const PlannedJob& job : planned_jobs(one)) {
+  for (const PlannedJob& job : planned_jobs(study_case)) {
     const auto& inputs = job.job.inputs;
     EXPECT_EQ(job.exhibit, job.job.kind == "press") << job.name;
     if (job.job.kind == "press") {
@@ -104,31 +105,35 @@ TEST(Variants, ParametersOfARunAreTheStudyAgain) {
 
 TEST(Variants, ProblemsAreToldWithTheLineOfTheVariant) {
   const TemporaryFolder folder;
-  const auto one = [](const std::string& set) {
+  const auto variant_with = [](const std::string& set) {
     return "[[case.variant]]\nname = \"odd\"\nset = { " + set + " }\n";
   };
-  EXPECT_TRUE(has(refusal(folder, one("\"lattice.spacin\" = \"1 mm\"")), "lattice.spacing"));
-  const std::string coarse = refusal(folder, one("\"lattice.spacing\" = \"0.3 cm\""));
-  EXPECT_TRUE(has(coarse, "case.toml:5 (variant odd): lattice.spacing = 0.3 cm")) << coarse;
-  const std::string unknown = refusal(folder, one("\"lattice.spacing\" = \"1 furlongg\""));
-  EXPECT_TRUE(has(unknown, "case.toml:5 (variant odd)")) << unknown;
-  EXPECT_TRUE(has(refusal(folder, one("\"press.mode\" = \"pid\"")), "static press"));
-  EXPECT_TRUE(has(refusal(folder, one("\"reference.strain\" = \"finite\"")), "kinematics"));
-  EXPECT_TRUE(has(refusal(folder, one("lattice = { spacing = \"1 mm\" }")), "in quotes"));
-  EXPECT_TRUE(has(refusal(folder, one("\"press.contact\" = \"coulomb\"")), "press.contact"));
-  EXPECT_TRUE(has(refusal(folder, one("") + one("")), "once in a series"));
   EXPECT_TRUE(
-      has(refusal(folder, one("") + "[[case.budget]]\nname = \"b\"\nparts = [\"s\"]\n"), "x = 1"));
-  EXPECT_TRUE(has(refusal(folder, one("") + "[[case.criteria]]\nname = \"c\"\nmeasure = "
-                                            "\"variants.worst_eror\"\nlimit = 1\n"),
+      has(refusal(folder, variant_with("\"lattice.spacin\" = \"1 mm\"")), "lattice.spacing"));
+  const std::string coarse = refusal(folder, variant_with("\"lattice.spacing\" = \"0.3 cm\""));
+  EXPECT_TRUE(has(coarse, "case.toml:5 (variant odd): lattice.spacing = 0.3 cm")) << coarse;
+  const std::string unknown = refusal(folder, variant_with("\"lattice.spacing\" = \"1 furlongg\""));
+  EXPECT_TRUE(has(unknown, "case.toml:5 (variant odd)")) << unknown;
+  EXPECT_TRUE(has(refusal(folder, variant_with("\"press.mode\" = \"pid\"")), "static press"));
+  EXPECT_TRUE(
+      has(refusal(folder, variant_with("\"reference.strain\" = \"finite\"")), "kinematics"));
+  EXPECT_TRUE(has(refusal(folder, variant_with("lattice = { spacing = \"1 mm\" }")), "in quotes"));
+  EXPECT_TRUE(
+      has(refusal(folder, variant_with("\"press.contact\" = \"coulomb\"")), "press.contact"));
+  EXPECT_TRUE(has(refusal(folder, variant_with("") + variant_with("")), "once in a series"));
+  EXPECT_TRUE(
+      has(refusal(folder, variant_with("") + "[[case.budget]]\nname = \"b\"\nparts = [\"s\"]\n"),
+          "x = 1"));
+  EXPECT_TRUE(has(refusal(folder, variant_with("") + "[[case.criteria]]\nname = \"c\"\nmeasure = "
+                                                     "\"variants.worst_eror\"\nlimit = 1\n"),
                   "variants.worst_error"));
-  EXPECT_EQ(refusal(folder, one("\"lattice.spacing\" = \"tip_radius/7\"")), "");
+  EXPECT_EQ(refusal(folder, variant_with("\"lattice.spacing\" = \"tip_radius/7\"")), "");
 }
 
 TEST(VariantMeasures, OrderIsTheSlopeInLogarithms) {
-  const Case one = series_at({6, 8, 12, 16});
+  const Case study_case = series_at({6, 8, 12, 16});
   RunResults results;
-  for (const CaseRun& variant : one.runs) {
+  for (const CaseRun& variant : study_case.runs) {
     const double a = 0.01 / variant.x;
     results.push_back(result_with(variant, a, {-300.0 * a * a, 900.0 * a * a}));
   }
@@ -142,13 +147,13 @@ TEST(VariantMeasures, OrderIsTheSlopeInLogarithms) {
 }
 
 TEST(VariantMeasures, WhatIsMissingIsNotJudged) {
-  const Case one = series_at({1, 2});
-  RunResults results = {result_with(one.runs[0], 1e-3, {0.1}),
-                        result_with(one.runs[1], 1e-3, {0.2})};
-  EXPECT_NEAR(take_measures(one, results).at("variants.worst_error"), 0.2, 1e-15);
-  results[0] = result_with(one.runs[0], 1e-3, {std::nan("")});
+  const Case study_case = series_at({1, 2});
+  RunResults results = {result_with(study_case.runs[0], 1e-3, {0.1}),
+                        result_with(study_case.runs[1], 1e-3, {0.2})};
+  EXPECT_NEAR(take_measures(study_case, results).at("variants.worst_error"), 0.2, 1e-15);
+  results[0] = result_with(study_case.runs[0], 1e-3, {std::nan("")});
   results[0].status = "not converged: why";
-  const auto taken = take_measures(one, results);
+  const auto taken = take_measures(study_case, results);
   EXPECT_EQ(taken.at("variants.not_converged"), 1.0);
   for (const char* name : {"variants.worst_error", "s.worst_error", "s.spread"})
     EXPECT_EQ(taken.count(name), 0U) << name;
@@ -157,27 +162,27 @@ TEST(VariantMeasures, WhatIsMissingIsNotJudged) {
 // Two compliances in a row: the error is linear in one and quadratic in the other; what is left
 // without either is the rest.
 TEST(VariantMeasures, BudgetSeparatesWhatAddsUp) {
-  Case one;
+  Case study_case;
   RunResults results;
   const auto error = [](double bond, double contact) {
     return 0.004 - 0.010 * bond - 0.006 * contact + 0.001 * contact * contact;
   };
   for (const std::string series : {"bond", "contact"})
     for (const double x : {4.0, 0.25, 1.0, 2.0})
-      one.runs.push_back({.kind = "variant", .series = series, .x = x});
-  for (const CaseRun& run : one.runs) {
+      study_case.runs.push_back({.kind = "variant", .series = series, .x = x});
+  for (const CaseRun& run : study_case.runs) {
     // Stiffer ties lock: they must not enter.
     const double locked = run.x < 1.0 ? 0.5 : 0.0;
     const bool bond = run.series == "bond";
     results.push_back(
         result_with(run, 1e-3, {locked + (bond ? error(run.x, 1.0) : error(1.0, run.x))}));
   }
-  one.budgets.push_back({"b", {"bond", "contact"}});
-  const Budget budget = take_budget(one.budgets[0], results);
+  study_case.budgets.push_back({"b", {"bond", "contact"}});
+  const Budget budget = take_budget(study_case.budgets[0], results);
   ASSERT_EQ(budget.parts.size(), 2U);
   EXPECT_NEAR(budget.total[0], error(1.0, 1.0), 1e-15);
   EXPECT_NEAR(budget.parts[0][0], -0.010, 1e-12);
   EXPECT_NEAR(budget.parts[1][0], -0.005, 1e-12);
   EXPECT_NEAR(budget.rest[0], 0.004, 1e-12);
-  EXPECT_NEAR(take_measures(one, results).at("b.rest"), 0.004, 1e-12);
+  EXPECT_NEAR(take_measures(study_case, results).at("b.rest"), 0.004, 1e-12);
 }

@@ -23,7 +23,7 @@ bool serves(double then, double now) {
 
 bool serves(const Restraint::Ground& then, const Restraint::Ground& now, double spacing) {
   constexpr double turned = 0.99;  // cosine
-  return serves(then.along, now.along) && serves(then.aside, now.aside) &&
+  return serves(then.along, now.along) && serves(then.tangential, now.tangential) &&
          serves(then.edges, now.edges) && (then.patch - now.patch).norm() < spacing &&
          then.normal.dot(now.normal) > turned;
 }
@@ -49,22 +49,22 @@ MassScaling::MassScaling(std::shared_ptr<ScalingGround> ground)
       inertia_(ground_->model->mass),
       gain_(ground_->model->is_particle.begin(), ground_->model->is_particle.end()),
       grids_(ground_->hierarchy) {
-  tied_.reserve(ground_->model->particles.size());
+  bonded_.reserve(ground_->model->particles.size());
 }
 
 void MassScaling::make(const State& state, std::span<const BondInertia> bond, double step,
                        Team& team, double allowance) {
   const LatticeModel& model = *ground_->model;
-  for (const std::uint32_t p : tied_) {
+  for (const std::uint32_t p : bonded_) {
     inertia_[p] = model.mass[p];
     gain_[p] = 1.0;
   }
-  tied_.clear();
+  bonded_.clear();
   for (const BondInertia& tie : bond) {
     inertia_[tie.particle] += tie.inertia;
-    tied_.push_back(tie.particle);
+    bonded_.push_back(tie.particle);
   }
-  for (const std::uint32_t p : tied_) gain_[p] = inertia_[p] * model.inverse_mass[p];
+  for (const std::uint32_t p : bonded_) gain_[p] = inertia_[p] * model.inverse_mass[p];
   step_ = step;
   sum_of_edges_ = ground_->rule.find(state, step, allowance, team, grids_.finest_edges());
   grids_.set(inertia_, team);
@@ -83,7 +83,7 @@ Restraint MassScaling::restraint() const {
 void MassScaling::set_contact(const PlaneHold& plane, MultigridFields::Level& finest) const {
   finest.contact.clear();
   for (const ContactInertia& tie : plane.ties)
-    finest.contact.push_back({tie.particle, Single(tie.along), Single(tie.aside)});
+    finest.contact.push_back({tie.particle, Single(tie.along), Single(tie.tangential)});
 }
 
 void MassScaling::restrain(const State& state, const PlaneHold& plane, Team& team,
@@ -91,7 +91,7 @@ void MassScaling::restrain(const State& state, const PlaneHold& plane, Team& tea
   Restraint::Ground now;
   for (const ContactInertia& tie : plane.ties) {
     now.along += tie.along;
-    now.aside += tie.aside;
+    now.tangential += tie.tangential;
     now.patch += tie.along * tie.rest;
   }
   restraint.holds = now.along > 0.0;
@@ -125,7 +125,7 @@ void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFi
     for (const ContactInertia& tie : plane.ties) {
       Vector3 taken = Vector3::Zero();
       for (std::size_t n = first; n < last; ++n)
-        taken += (n == 0 ? tie.along : tie.aside) * restraint.directions[n];
+        taken += (n == 0 ? tie.along : tie.tangential) * restraint.directions[n];
       for (std::size_t c = 0; c < 3; ++c)
         finest.load[c][tie.particle] = Single(taken[Eigen::Index(c)]);
     }
@@ -149,7 +149,7 @@ void MassScaling::find_inertia(const State& state, const PlaneHold& plane,
   restraint.centre.setZero();
   double sum = 0.0;
   for (const ContactInertia& tie : plane.ties) {
-    const double inertia[3] = {tie.along, tie.aside, tie.aside};
+    const double inertia[3] = {tie.along, tie.tangential, tie.tangential};
     for (std::size_t n = 0; n < 3; ++n)
       left[Eigen::Index(n)] += inertia[n] * (1.0 - double(restraint.share[n][tie.particle]));
     restraint.centre += tie.along * (tie.rest + state.displacement.at(tie.particle));
@@ -163,8 +163,9 @@ void MassScaling::find_inertia(const State& state, const PlaneHold& plane,
   for (const ContactInertia& tie : plane.ties) {
     const Vector3 arm = tie.rest + state.displacement.at(tie.particle) - restraint.centre,
                   tilt = arm.cross(plane.normal);  // the normal part of w x arm is w . tilt
-    turned += tie.aside * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
-    turned += (tie.along - tie.aside) * tilt * tilt.transpose();
+    turned +=
+        tie.tangential * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    turned += (tie.along - tie.tangential) * tilt * tilt.transpose();
   }
   restraint.inertia.bottomRightCorner<3, 3>() += turned;
 }

@@ -130,9 +130,9 @@ class MassScaling {
                 const PlaneHold& plane, Team& team, MultigridFields::Level& finest) const;
 
   std::shared_ptr<ScalingGround> ground_;
-  std::vector<double> inertia_;      ///< per point: mass and bond [kg]
-  std::vector<double> gain_;         ///< that over the mass; 0 where no particle is
-  std::vector<std::uint32_t> tied_;  ///< particles of the bond
+  std::vector<double> inertia_;        ///< per point: mass and bond [kg]
+  std::vector<double> gain_;           ///< that over the mass; 0 where no particle is
+  std::vector<std::uint32_t> bonded_;  ///< particles of the bond
   Multigrid grids_;
   double step_ = 0.0, sum_of_edges_ = 0.0;
 };

@@ -42,10 +42,10 @@ void put(MultigridFields::Field& field, std::size_t point, const std::array<Sing
 /// Shares of a level's contact go to the points around.
 void share_contact(const GridLevel& fine, const GridLevel& coarse,
                    const std::vector<PointTie>& from, MultigridFields::Level& to) {
-  for (const PointTie& one : to.contact) to.contact_at[one.point] = -1;
+  for (const PointTie& tie : to.contact) to.contact_at[tie.point] = -1;
   to.contact.clear();
-  for (const PointTie& one : from) {
-    const CoarsePoints points = coarse_points(fine, coarse, one.point);
+  for (const PointTie& tie : from) {
+    const CoarsePoints points = coarse_points(fine, coarse, tie.point);
     const Single share = 1.0F / Single(points.count);
     for (std::size_t n = 0; n < std::size_t(points.count); ++n) {
       std::int32_t& place = to.contact_at[points.point[n]];
@@ -54,8 +54,8 @@ void share_contact(const GridLevel& fine, const GridLevel& coarse,
         to.contact.push_back({points.point[n], 0.0F, 0.0F});
       }
       PointTie& sum = to.contact[std::size_t(place)];
-      sum.along += share * one.along;
-      sum.aside += share * one.aside;
+      sum.along += share * tie.along;
+      sum.tangential += share * tie.tangential;
     }
   }
 }
@@ -203,19 +203,20 @@ class Multigrid::Cycle {
   }
 
   /// A damped Jacobi step at a contact's point, the same for all directions of the rubber.
-  std::array<Single, 3> relaxed(const Matrix& matrix, const PointTie& one,
+  std::array<Single, 3> relaxed(const Matrix& matrix, const PointTie& tie,
                                 const std::array<Single, 3>& residual) const {
-    const auto share = at(matrix.relaxation, one.point);
+    const auto share = at(matrix.relaxation, tie.point);
     const Single rubber = 1.0F / std::min({share[0], share[1], share[2]});
-    return product(residual, 1.0F / (rubber + one.along), 1.0F / (rubber + one.aside));
+    return product(residual, 1.0F / (rubber + tie.along), 1.0F / (rubber + tie.tangential));
   }
 
-  /// along n nᵀ u + aside (1 - n nᵀ) u
-  std::array<Single, 3> product(const std::array<Single, 3>& u, Single along, Single aside) const {
+  /// along n nᵀ u + tangential (1 - n nᵀ) u
+  std::array<Single, 3> product(const std::array<Single, 3>& u, Single along,
+                                Single tangential) const {
     const Single towards = normal_[0] * u[0] + normal_[1] * u[1] + normal_[2] * u[2];
     std::array<Single, 3> result{};
     for (std::size_t c = 0; c < 3; ++c)
-      result[c] = aside * u[c] + (along - aside) * towards * normal_[c];
+      result[c] = tangential * u[c] + (along - tangential) * towards * normal_[c];
     return result;
   }
 
@@ -224,8 +225,8 @@ class Multigrid::Cycle {
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
       loops().first_sweep(a, grid.blocks.data() + from, to - from);
     });
-    over_contact(fields, [&](const PointTie& one) {
-      put(fields.solution, one.point, relaxed(matrix, one, at(fields.load, one.point)));
+    over_contact(fields, [&](const PointTie& tie) {
+      put(fields.solution, tie.point, relaxed(matrix, tie, at(fields.load, tie.point)));
     });
   }
 
@@ -234,9 +235,9 @@ class Multigrid::Cycle {
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
       loops().find_residual(a, grid.blocks.data() + from, to - from);
     });
-    over_contact(fields, [&](const PointTie& one) {
-      const auto taken = product(at(fields.solution, one.point), one.along, one.aside);
-      for (std::size_t c = 0; c < 3; ++c) fields.residual[c][one.point] -= taken[c];
+    over_contact(fields, [&](const PointTie& tie) {
+      const auto taken = product(at(fields.solution, tie.point), tie.along, tie.tangential);
+      for (std::size_t c = 0; c < 3; ++c) fields.residual[c][tie.point] -= taken[c];
     });
   }
 
@@ -245,14 +246,14 @@ class Multigrid::Cycle {
     over(grid.blocks.size(), [&](std::size_t from, std::size_t to) {
       loops().smooth(a, grid.blocks.data() + from, to - from);
     });
-    over_contact(fields, [&](const PointTie& one) {
-      const auto before = at(fields.solution, one.point), plain = at(fields.residual, one.point);
-      const auto taken = product(before, one.along, one.aside);
+    over_contact(fields, [&](const PointTie& tie) {
+      const auto before = at(fields.solution, tie.point), plain = at(fields.residual, tie.point);
+      const auto taken = product(before, tie.along, tie.tangential);
       std::array<Single, 3> residual{};
       for (std::size_t c = 0; c < 3; ++c)
-        residual[c] = (plain[c] - before[c]) / matrix.relaxation[c][one.point] - taken[c];
-      const auto step = relaxed(matrix, one, residual);
-      put(fields.residual, one.point,
+        residual[c] = (plain[c] - before[c]) / matrix.relaxation[c][tie.point] - taken[c];
+      const auto step = relaxed(matrix, tie, residual);
+      put(fields.residual, tie.point,
           {before[0] + step[0], before[1] + step[1], before[2] + step[2]});
     });
     std::swap(fields.solution, fields.residual);

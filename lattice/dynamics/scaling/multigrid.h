@@ -15,10 +15,10 @@ namespace fingertip::lattice {
 
 using sweeps::Single;
 
-/// Inertia of a point against a plane [kg]: `along` its normal, `aside` in it.
+/// Inertia of a point against a plane [kg]: `along` its normal, `tangential` in it.
 struct PointTie {
   std::uint32_t point = 0;
-  Single along = 0.0F, aside = 0.0F;
+  Single along = 0.0F, tangential = 0.0F;
 };
 
 /// What Multigrid::solve works with.

@@ -29,8 +29,8 @@ struct Restraint {
 
   /// What the shares were found for.
   struct Ground {
-    double along = 0.0, aside = 0.0;  ///< sums of the plane's inertia [kg]
-    double edges = 0.0;               ///< a measure of S [kg]
+    double along = 0.0, tangential = 0.0;  ///< sums of the plane's inertia [kg]
+    double edges = 0.0;                    ///< a measure of S [kg]
     meshes::Vector3 patch = meshes::Vector3::Zero(), normal = meshes::Vector3::Zero();  ///< at rest
   };
   Ground found;

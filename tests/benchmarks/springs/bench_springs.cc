@@ -126,24 +126,25 @@ void add_engines(const std::string& body, const SpringProblem& problem, bool all
 /// Times the edge list and the engine on 1 and 2 threads in turns, so that what the machine does
 /// besides meets all alike, and prints how their fastest steps compare.
 void print_ratios(const std::string& name, const SpringProblem& problem) {
-  Fastest list(edge_list(problem)), one(engine(problem, Precision::float64, 0, 1)),
-      two(engine(problem, Precision::float64, 0, 2));
+  Fastest list(edge_list(problem)), serial(engine(problem, Precision::float64, 0, 1)),
+      parallel(engine(problem, Precision::float64, 0, 2));
   double rate = 0.0;
   for (int round = 0; round < 200; ++round) {
     list.measure();
-    one.measure();
-    two.measure();
+    serial.measure();
+    parallel.measure();
     if (round % 20 == 0)
       rate = std::max(rate,
                       spring_peers::multiply_rate(lattice::springs::widest(), Precision::float64));
   }
   std::printf("%-9s ns per spring: edge list %.3f, 1 thread %.4f, 2 threads %.4f\n", name.c_str(),
-              1e9 * list.spring(), 1e9 * one.spring(), 1e9 * two.spring());
+              1e9 * list.spring(), 1e9 * serial.spring(), 1e9 * parallel.spring());
   std::printf(
       "%-9s edge list over 1 thread %.2f, 2 threads %.2f; 1 over 2 threads %.3f; "
       "roofline fraction %.3f\n",
-      "", list.step() / one.step(), list.step() / two.step(), one.step() / two.step(),
-      spring_peers::multiply_operations_per_spring / (one.spring() * rate));
+      "", list.step() / serial.step(), list.step() / parallel.step(),
+      serial.step() / parallel.step(),
+      spring_peers::multiply_operations_per_spring / (serial.spring() * rate));
   std::fflush(stdout);
 }
 

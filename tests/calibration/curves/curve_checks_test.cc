@@ -89,11 +89,11 @@ TEST(CurveChecks, LeaveOneOutMeetsTheNormalEquations) {
 
 /// What is left may be too little for a fit; the others still are done.
 TEST(CurveChecks, LeaveOneOutSaysWhereNoFitIsLeft) {
-  const std::vector<double> one = {1.0};
-  FormulaModel many = linear(powers(abscissae, 2)), single = linear(powers(one, 2));
+  const std::vector<double> abscissa = {1.0};
+  FormulaModel many = linear(powers(abscissae, 2)), single = linear(powers(abscissa, 2));
   const std::vector<Curve> curves = {
       curve_of(abscissae, powers(abscissae, 2) * Eigen::Vector2d(2.0, 0.5), 0.1),
-      curve_of(one, VectorXd::Constant(1, 2.6), 0.1)};
+      curve_of(abscissa, VectorXd::Constant(1, 2.6), 0.1)};
   const CurveFitOptions options = free_parameters({kappa, lambda});
   const CurveFit fit = fit_curves(curves, {&many, &single}, options);
   const auto left = leave_one_out(curves, {&many, &single}, options, fit);
@@ -116,8 +116,8 @@ TEST(CurveChecks, ProfileOfALinearModelIsItsEllipse) {
     const Profile profile =
         profile_likelihood({curve}, {&model}, options, fit, 2, 0, {.points = 5, .half_width = 2.0});
     EXPECT_NEAR(profile.first_values(4), fit.estimates(2) + 2.0 * fit.standard_errors(2), 1e-12);
-    const std::vector<Index> two = {2, 0};
-    const Eigen::Matrix2d covariance = fit.covariance(two, two);
+    const std::vector<Index> reversed = {2, 0};
+    const Eigen::Matrix2d covariance = fit.covariance(reversed, reversed);
     for (Index i = 0; i < 5; ++i)
       for (Index j = 0; j < 5; ++j) {
         const Eigen::Vector2d step(profile.first_values(i) - fit.estimates(2),
@@ -238,8 +238,9 @@ TEST(CurveChecks, AStartTakesTheScaleOfTheData) {
   const auto start_of = [&](const std::vector<MaterialParameter>& parameters) {
     LatticeForwardModel model(condition, parameters);
     CurveFitOptions options;
-    for (const MaterialParameter one : parameters)
-      options.free.push_back({.parameter = one, .start = value_of(one, condition), .scale = 1.0});
+    for (const MaterialParameter parameter : parameters)
+      options.free.push_back(
+          {.parameter = parameter, .start = value_of(parameter, condition), .scale = 1.0});
     return scaled_start({curve}, {&model}, options);
   };
   const auto scale = start_of({modulus});

@@ -299,12 +299,12 @@ TEST(CurveFit, ThreadsDoNotChangeAnything) {
                                               press(ContactMode::stick),
                                               press(ContactMode::frictionless)};
   CurveFitOptions options = e_and_g();
-  const CurveFit one = fit_presses(curves, conditions, options);
+  const CurveFit serial = fit_presses(curves, conditions, options);
   options.threads = 3;
   const CurveFit three = fit_presses(curves, conditions, options);
-  EXPECT_EQ(one.estimates, three.estimates);
-  EXPECT_EQ(one.covariance, three.covariance);
-  EXPECT_EQ(one.evaluations, three.evaluations);
+  EXPECT_EQ(serial.estimates, three.estimates);
+  EXPECT_EQ(serial.covariance, three.covariance);
+  EXPECT_EQ(serial.evaluations, three.evaluations);
 }
 
 /// One model of two curves is evaluated once per point; of errors the first curve's is told.

@@ -29,16 +29,16 @@ using meshes::Vector3;
 
 namespace {
 
-VectorXd one(double value) {
+VectorXd vector_of(double value) {
   return VectorXd::Constant(1, value);
 }
 
 void expect_slopes_of_differences(ForwardModel& model, double tau) {
   const double step = 1e-4 * tau;
   const VectorXd slope =
-      (model.evaluate(one(tau + step)).value - model.evaluate(one(tau - step)).value) /
+      (model.evaluate(vector_of(tau + step)).value - model.evaluate(vector_of(tau - step)).value) /
       (2.0 * step);
-  const VectorXd found = model.evaluate(one(tau)).jacobian;
+  const VectorXd found = model.evaluate(vector_of(tau)).jacobian;
   EXPECT_LT((found - slope).cwiseAbs().maxCoeff(), 1e-7 * found.cwiseAbs().maxCoeff());
 }
 
@@ -47,7 +47,7 @@ Curve measured(ForwardModel& model, double tau, const std::vector<double>& x, do
   std::mt19937 generator(seed);
   std::normal_distribution<double> normal(0.0, sigma);
   Curve curve{.name = "", .x = x, .y = {}, .sigma = std::vector<double>(x.size(), sigma)};
-  for (const double value : model.evaluate(one(tau)).value)
+  for (const double value : model.evaluate(vector_of(tau)).value)
     curve.y.push_back(value + normal(generator));
   return curve;
 }
@@ -113,7 +113,7 @@ VectorXd ramp_and_hold(const lattice::PressSetup& setup, double duration,
 TEST(DampingModels, AreKelvinsAndVoigtsElement) {
   const double tau = 2e-3, dt = 1e-7;
   CreepModel creep({tau, 3.0 * tau});
-  const VectorXd expected = creep.evaluate(one(tau)).value;
+  const VectorXd expected = creep.evaluate(vector_of(tau)).value;
   double strain = 0.0;
   for (int n = 1; n <= 60000; ++n) {
     const double middle = strain + 0.5 * dt * (1.0 - strain) / tau;
@@ -134,7 +134,7 @@ TEST(DampingModels, AreKelvinsAndVoigtsElement) {
     largest = std::max(largest, stress);
   }
   const double lag = std::asin(loss / (std::numbers::pi * largest));
-  EXPECT_NEAR(LossFactorModel({f}).evaluate(one(tau)).value(0), std::tan(lag), 1e-6);
+  EXPECT_NEAR(LossFactorModel({f}).evaluate(vector_of(tau)).value(0), std::tan(lag), 1e-6);
 }
 
 TEST(DampingModels, SlopesEqualDifferences) {
@@ -149,9 +149,9 @@ TEST(DampingModels, SlopesEqualDifferences) {
   RampModel ramp({0.02, 0.1, 0.11}, {.speed = 0.01, .duration = 0.1}, hertz);
   expect_slopes_of_differences(ramp, tau);
   // At tau = 0 creep is at its end at once.
-  EXPECT_EQ(creep.evaluate(one(0.0)).value, VectorXd::Ones(5));
-  EXPECT_EQ(creep.evaluate(one(0.0)).jacobian.norm(), 0.0);
-  EXPECT_TRUE(creep.evaluate(one(1e-300)).jacobian.allFinite());
+  EXPECT_EQ(creep.evaluate(vector_of(0.0)).value, VectorXd::Ones(5));
+  EXPECT_EQ(creep.evaluate(vector_of(0.0)).jacobian.norm(), 0.0);
+  EXPECT_TRUE(creep.evaluate(vector_of(1e-300)).jacobian.allFinite());
 }
 
 TEST(RampModel, JumpsWhereThePlaneStopsAndDoesNotRelax) {
@@ -159,8 +159,9 @@ TEST(RampModel, JumpsWhereThePlaneStopsAndDoesNotRelax) {
     return ForceAndStiffness{3e3 * std::pow(d, 1.5), 4.5e3 * std::sqrt(d)};
   };
   const double tau = 2e-3, v = 0.01, end = 0.1, depth = v * end;
-  const VectorXd force =
-      RampModel({0.5 * end, end, 1.0001 * end, 5.0}, {v, end}, hertz).evaluate(one(tau)).value;
+  const VectorXd force = RampModel({0.5 * end, end, 1.0001 * end, 5.0}, {v, end}, hertz)
+                             .evaluate(vector_of(tau))
+                             .value;
   EXPECT_DOUBLE_EQ(force(0),
                    3e3 * std::pow(0.5 * depth, 1.5) + tau * v * 4.5e3 * std::sqrt(0.5 * depth));
   EXPECT_DOUBLE_EQ(force(1), 3e3 * std::pow(depth, 1.5) + tau * v * 4.5e3 * std::sqrt(depth));
@@ -253,7 +254,7 @@ TEST(RampModel, IsWhatTheMovingLatticeDoes) {
     const std::vector<double> times = {0.04, 0.06, 0.08, 0.0999, 0.14, 0.15};
     const Ramp ramp{setup.protocol.speed, 0.1};
     const StaticForce elastic = interpolated_force(static_press(setup, evenly(1e-3, 50)));
-    const CurveSlopes model = RampModel(times, ramp, elastic).evaluate(one(3e-3));
+    const CurveSlopes model = RampModel(times, ramp, elastic).evaluate(vector_of(3e-3));
     const VectorXd moving = ramp_and_hold(setup, ramp.duration, times);
     for (Index i = 0; i < moving.size(); ++i) {
       EXPECT_NEAR(moving(i) / model.value(i), 1.0, 0.01) << name(contact) << " " << i;
@@ -273,7 +274,7 @@ TEST(MovingPressModel, SlopeConvergesWithTheSquareOfTheStep) {
   setup.rubber.retardation_time = 5e-4;
   const std::vector<double> depths = {4e-4, 7e-4, 10e-4};
   const auto slope = [&](double step) {
-    return VectorXd(MovingPressModel(setup, depths, step).evaluate(one(3e-4)).jacobian);
+    return VectorXd(MovingPressModel(setup, depths, step).evaluate(vector_of(3e-4)).jacobian);
   };
   const VectorXd wide = slope(0.4), middle = slope(0.2), narrow = slope(0.1),
                  usual = slope(MovingPressModel::default_step);
@@ -292,7 +293,7 @@ TEST(MovingPressModel, DrivesTheRodLikeTheTransientContinuum) {
     lattice::PressSetup setup = press(ContactMode::frictionless, 6, speed);
     setup.protocol.clearance = 0.1 * speed;
     const VectorXd moving =
-        MovingPressModel(setup, depths).evaluate(one(setup.rubber.retardation_time)).value;
+        MovingPressModel(setup, depths).evaluate(vector_of(setup.rubber.retardation_time)).value;
     const auto rest = static_press(setup, depths);
     EXPECT_NEAR(moving(0) / rest.samples()[0].normal_force, shallow, 0.015) << speed;
     EXPECT_NEAR(moving(1) / rest.samples()[1].normal_force, deep, 0.012) << speed;
@@ -311,10 +312,10 @@ TEST(DampingFit, AMovingPressGivesTheTimeOfAnother) {
   EXPECT_GT(fit.upper(0), tau);
   EXPECT_LT(fit.standard_errors(0), 0.15 * tau);
   // Without noise, by Gauss and Newton's steps from afar.
-  const VectorXd exact = model.evaluate(one(tau)).value;
+  const VectorXd exact = model.evaluate(vector_of(tau)).value;
   double found = 2e-4;
   for (int i = 0; i < 4; ++i) {
-    const CurveSlopes now = model.evaluate(one(found));
+    const CurveSlopes now = model.evaluate(vector_of(found));
     const VectorXd slope = now.jacobian.col(0);
     found += slope.dot(exact - now.value) / slope.squaredNorm();
   }
@@ -329,7 +330,7 @@ TEST(DampingModels, RefuseWhatTheyCannotBe) {
   says([] { LossFactorModel({0.0}); }, "positive");
   says([] { CreepModel({std::nan("")}); }, "positive");
   LossFactorModel loss({1.0});
-  says([&] { loss.evaluate(one(-1e-3)); }, "not negative");
+  says([&] { loss.evaluate(vector_of(-1e-3)); }, "not negative");
   says([&] { loss.evaluate(VectorXd::Ones(2)); }, "one parameter");
   meshes::PressResponse response;
   response.append({1e-3, 1.0});

@@ -132,12 +132,12 @@ TEST(ModelError, IsAParameterNobodyAskedFor) {
   }
   VectorXd shape(9);
   for (Index i = 0; i < 9; ++i) shape(i) = 0.04 * std::pow(data.x[std::size_t(i)], 3);
-  FormulaModel two = parabola(data.x);
+  FormulaModel linear_model = parabola(data.x);
   CurveFitOptions options;
   options.free = {{.parameter = kappa, .start = 1.0},
                   {.parameter = lambda, .start = 0.0, .scale = 1.0}};
   options.model_covariance = shape * shape.transpose();
-  const CurveFit fit = fit_curves({data}, {&two}, options);
+  const CurveFit fit = fit_curves({data}, {&linear_model}, options);
 
   FormulaModel three([&](const VectorXd& p) {
     MatrixXd design(9, 3);
@@ -160,9 +160,9 @@ TEST(ModelError, IsAParameterNobodyAskedFor) {
 
   // Without sigma the estimates know nothing of it, and it comes through.
   data.sigma.clear();
-  const CurveFit through = fit_curves({data}, {&two}, options);
+  const CurveFit through = fit_curves({data}, {&linear_model}, options);
   options.model_covariance.resize(0, 0);
-  const CurveFit plain = fit_curves({data}, {&two}, options);
+  const CurveFit plain = fit_curves({data}, {&linear_model}, options);
   EXPECT_LT((through.estimates - plain.estimates).norm(), 1e-12);
   const VectorXd shift = plain.influence * shape;
   EXPECT_LT((through.covariance - plain.covariance - shift * shift.transpose()).norm(),
@@ -225,9 +225,9 @@ FitRecord record_of(const Curve& curve, FormulaModel& model, const CurveFitOptio
 }
 
 bool says(const FitRecord& record, const char* words) {
-  for (const std::string& one : failed_tests(record))
-    if (one.find(words) != std::string::npos)
-      return fit_statement(record).find(one) != std::string::npos;
+  for (const std::string& failure : failed_tests(record))
+    if (failure.find(words) != std::string::npos)
+      return fit_statement(record).find(failure) != std::string::npos;
   return false;
 }
 

@@ -174,8 +174,8 @@ TEST(ScaledModel, KnowsTheConstantsOfTheLaw) {
     VectorXd constants(Index(free.size()));
     for (std::size_t i = 0; i < free.size(); ++i)
       constants(Index(i)) = free[i] == lambda ? 9100.0 : 1700.0;
-    const auto is_free = [&](MaterialParameter one) {
-      return std::ranges::find(free, one) != free.end();
+    const auto is_free = [&](MaterialParameter parameter) {
+      return std::ranges::find(free, parameter) != free.end();
     };
     const double g = is_free(lame_shear) ? 1700.0 : rubber.shear_modulus;
     const double l = is_free(lambda) ? 9100.0 : rubber.lame_lambda();
@@ -284,9 +284,9 @@ VectorXd forces(double e, double g, meshes::ContactMode contact) {
 
 TEST(ScaledModel, ForcesOfAPressAreHomogeneousInTheModuli) {
   for (const auto contact : {meshes::ContactMode::frictionless, meshes::ContactMode::stick}) {
-    const VectorXd one = forces(3922.66, 1372.931, contact);
+    const VectorXd plain = forces(3922.66, 1372.931, contact);
     const VectorXd scaled = forces(7.3 * 3922.66, 7.3 * 1372.931, contact) / 7.3;
-    EXPECT_LT(((one - scaled).array() / one.array()).abs().maxCoeff(), 1e-9);
+    EXPECT_LT(((plain - scaled).array() / plain.array()).abs().maxCoeff(), 1e-9);
   }
 }
 

@@ -177,9 +177,9 @@ TEST(UniaxialModel, SlopesEqualDifferences) {
     UniaxialModel by_law(stretches, {lame_shear, lambda});
     expect_slopes_of_differences(by_law, Vector2d(14.0, l));
   }
-  UniaxialModel one(stretches, {youngs_modulus}, rubber);
-  expect_slopes_of_differences(one, VectorXd::Constant(1, rubber.youngs_modulus));
-  EXPECT_EQ(one.evaluate(moduli.head<1>()).value,
+  UniaxialModel uniaxial(stretches, {youngs_modulus}, rubber);
+  expect_slopes_of_differences(uniaxial, VectorXd::Constant(1, rubber.youngs_modulus));
+  EXPECT_EQ(uniaxial.evaluate(moduli.head<1>()).value,
             UniaxialModel(stretches, {youngs_modulus, shear_modulus}).evaluate(moduli).value);
   SimpleShearModel shear({0.1, 0.7, 2.0}, {lame_shear, lambda});
   expect_slopes_of_differences(shear, Vector2d(14.0, 84.0));

@@ -136,10 +136,10 @@ TEST(Surrogate, BandContainsTheSamplesAndTheirUncertainty) {
   // 1.96 * 5 % of the force at the next knot, 1 % of roughness: not everything.
   EXPECT_LT(widest, 0.25);
   // An uncertain sample tells where.
-  Samples one = hertz_samples(40);
-  one[20].deviation = hertz(one[20].indentation);
-  const Surrogate local = fit_surrogate(one);
-  EXPECT_GT(local.band(one[20].indentation), 1.95 * one[20].deviation);
+  Samples uncertain = hertz_samples(40);
+  uncertain[20].deviation = hertz(uncertain[20].indentation);
+  const Surrogate local = fit_surrogate(uncertain);
+  EXPECT_GT(local.band(uncertain[20].indentation), 1.95 * uncertain[20].deviation);
   EXPECT_LT(local.band(depth), 0.01 * hertz(depth));
 }
 

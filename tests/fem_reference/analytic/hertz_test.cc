@@ -89,18 +89,18 @@ TEST(Hertz, StiffnessIsTheSlopeOfTheForce) {
 }
 
 TEST(Hertz, ScalesWithIndentationRadiusAndModulus) {
-  const Hertz one(rubber(3.0, 0.4), 2.0), larger(rubber(3.0, 0.4), 8.0);
+  const Hertz reference(rubber(3.0, 0.4), 2.0), larger(rubber(3.0, 0.4), 8.0);
   const Hertz harder(rubber(30.0, 0.4), 2.0);
   const double d = 0.003;
-  EXPECT_NEAR(one.force(4.0 * d), 8.0 * one.force(d), 1e-14);
-  EXPECT_NEAR(one.contact_radius(4.0 * d), 2.0 * one.contact_radius(d), 1e-15);
-  EXPECT_NEAR(one.max_pressure(4.0 * d), 2.0 * one.max_pressure(d), 1e-14);
-  EXPECT_NEAR(larger.force(d), 2.0 * one.force(d), 1e-14);
-  EXPECT_NEAR(larger.max_pressure(d), 0.5 * one.max_pressure(d), 1e-14);
-  EXPECT_NEAR(harder.force(d), 10.0 * one.force(d), 1e-13);
-  EXPECT_NEAR(harder.contact_radius(d), one.contact_radius(d), 1e-16);
-  EXPECT_EQ(one.force(0.0), 0.0);
-  EXPECT_EQ(one.pressure(0.0, 0.0), 0.0);
+  EXPECT_NEAR(reference.force(4.0 * d), 8.0 * reference.force(d), 1e-14);
+  EXPECT_NEAR(reference.contact_radius(4.0 * d), 2.0 * reference.contact_radius(d), 1e-15);
+  EXPECT_NEAR(reference.max_pressure(4.0 * d), 2.0 * reference.max_pressure(d), 1e-14);
+  EXPECT_NEAR(larger.force(d), 2.0 * reference.force(d), 1e-14);
+  EXPECT_NEAR(larger.max_pressure(d), 0.5 * reference.max_pressure(d), 1e-14);
+  EXPECT_NEAR(harder.force(d), 10.0 * reference.force(d), 1e-13);
+  EXPECT_NEAR(harder.contact_radius(d), reference.contact_radius(d), 1e-16);
+  EXPECT_EQ(reference.force(0.0), 0.0);
+  EXPECT_EQ(reference.pressure(0.0, 0.0), 0.0);
 }
 
 TEST(Hertz, KnownNumber) {

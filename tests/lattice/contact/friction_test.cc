@@ -88,7 +88,7 @@ struct Experiment {
   }
 };
 
-double aside(const Vector3& force) {
+double tangential(const Vector3& force) {
   return std::hypot(force.x(), force.y());
 }
 
@@ -100,7 +100,7 @@ TEST(CoulombPoint, SticksUpToMuTimesThePushAndSlidesUnderExactlyThat) {
   RigidTip tip(mu);
   tip.force(Vector3::Zero());
   Vector3 force = tip.force(push * Vector3::UnitZ());
-  EXPECT_LT(aside(force), 1e-12 * force.norm());
+  EXPECT_LT(tangential(force), 1e-12 * force.norm());
   EXPECT_EQ(tip.contact.sliding(), 0);
   for (const double way : {0.5e-5, 2e-5, 5e-5, 8.9e-5, 9.1e-5, 5e-4}) {
     force = tip.force(push * Vector3::UnitZ() + way * along);
@@ -119,7 +119,7 @@ TEST(CoulombPoint, SticksUpToMuTimesThePushAndSlidesUnderExactlyThat) {
     EXPECT_NEAR(tip.contact.energy(), energy, 1e-10 * energy);
   }
   EXPECT_EQ(tip.contact.sliding(), tip.contact.touching());
-  EXPECT_NEAR(aside(force), mu * -force.z(), 1e-10 * mu * -force.z());
+  EXPECT_NEAR(tangential(force), mu * -force.z(), 1e-10 * mu * -force.z());
 }
 
 TEST(CoulombPoint, ToAndFroDissipatesMuTimesThePushTimesTheWay) {
@@ -163,11 +163,11 @@ TEST(CoulombPress, GrossSlidingTakesMuTimesThePushAgainstTheSlip) {
     Vector3 force;
     for (int n = 0; n < 40; ++n) {
       force = e.move(-sense * slip, 0.005);
-      most = std::max(most, aside(force) / -force.z());
+      most = std::max(most, tangential(force) / -force.z());
     }
     EXPECT_EQ(e.finger->finger().sliding(), e.finger->finger().touching());
     EXPECT_NEAR(most, mu, 0.01 * mu);  // never beyond, and it slides when it is there
-    EXPECT_NEAR(aside(force), mu * -force.z(), 0.01 * mu * -force.z());
+    EXPECT_NEAR(tangential(force), mu * -force.z(), 0.01 * mu * -force.z());
     const Vector3 expected = -sense * mu * -force.z() * slip.normalized();
     EXPECT_LT((force - force.z() * Vector3::UnitZ() - expected).norm(), 0.01 * expected.norm());
   }
@@ -199,7 +199,7 @@ TEST(CoulombPress, GoesFromNoFrictionToStick) {
     return e.move(0.02 * Vector3::UnitX(), 0.05);
   };
   const Vector3 stick = path(ContactMode::stick), free = path(ContactMode::frictionless);
-  EXPECT_GT(aside(stick), 0.2 * -stick.z());
+  EXPECT_GT(tangential(stick), 0.2 * -stick.z());
   EXPECT_GT((stick - free).norm(), 0.2 * stick.norm());
   EXPECT_LT((path({ContactMode::coulomb, 1e12}) - stick).norm(), 1e-9 * stick.norm());
   EXPECT_LT((path({ContactMode::coulomb, 1e-9}) - free).norm(), 1e-6 * free.norm());

@@ -149,7 +149,7 @@ TEST(PenaltyContact, HasTheEnergyAndForcesOfTheStaticContact) {
     StaticContact resting(body, s.press, mode);
     resting.move_to(-clearance);
     VectorField force;
-    Eigen::VectorXd before = Eigen::VectorXd::Zero(body.unknowns()), u, tied;
+    Eigen::VectorXd before = Eigen::VectorXd::Zero(body.unknowns()), u, in_statics;
     const int steps = 200;
     for (int n = 1; n <= steps; ++n) {
       const State state = s.pressed(double(n) / steps);
@@ -158,13 +158,14 @@ TEST(PenaltyContact, HasTheEnergyAndForcesOfTheStaticContact) {
       if (mode == ContactMode::stick) resting.anchor_touching(before, -clearance, u);
       before = u;
     }
-    tied = Eigen::VectorXd::Zero(body.unknowns());
-    resting.add(u, system, tied, nullptr);
+    in_statics = Eigen::VectorXd::Zero(body.unknowns());
+    resting.add(u, system, in_statics, nullptr);
     const double scale = largest(s.model, force);
     EXPECT_GT(scale, 0.0);
     for (std::size_t p = 0; p < body.rest.size(); ++p) {
       const Vector3 at = s.model.grid.axes * force.at(s.model.particles[p]);
-      EXPECT_LT((at - tied.segment<3>(3 * Eigen::Index(p))).norm(), 1e-9 * scale) << name(mode);
+      EXPECT_LT((at - in_statics.segment<3>(3 * Eigen::Index(p))).norm(), 1e-9 * scale)
+          << name(mode);
     }
     EXPECT_NEAR(moving.energy(), resting.energy(u), 1e-9 * moving.energy()) << name(mode);
     const lattice::ContactPatch patch = moving.patch(),
@@ -179,8 +180,8 @@ TEST(PenaltyContact, AnchorsWhereThePlaneWasCrossedAndLetsGoWhenPulled) {
   const Scene s;
   PenaltyContact contact(s.model, s.plane, ContactMode::stick, s.team);
   // Toward the plane and along it at once: a point with the gap g crosses after g/depth of the way.
-  const double depth = 0.3e-3, aside = 0.2e-3;
-  const Vector3 along = s.press.t1, end = -depth * s.plane.normal + aside * along;
+  const double depth = 0.3e-3, tangential = 0.2e-3;
+  const Vector3 along = s.press.t1, end = -depth * s.plane.normal + tangential * along;
   forces(s, contact, State(s.model));
   VectorField force = forces(s, contact, s.moved(end)), expected(s.model.points());
   int crossed = 0;
@@ -205,8 +206,8 @@ TEST(PenaltyContact, AnchorsWhereThePlaneWasCrossedAndLetsGoWhenPulled) {
   EXPECT_EQ(contact.touching(), 0);
 
   // And they are anchored anew where they touch again: straight down, there is no drag.
-  forces(s, contact, s.moved(aside * along));
-  force = forces(s, contact, s.moved(-depth * s.plane.normal + aside * along));
+  forces(s, contact, s.moved(tangential * along));
+  force = forces(s, contact, s.moved(-depth * s.plane.normal + tangential * along));
   EXPECT_EQ(contact.touching(), crossed);
   for (const std::size_t i : s.model.particles) {
     EXPECT_NEAR((s.model.grid.axes * force.at(i)).dot(along), 0.0, 1e-12 * largest(s.model, force));
@@ -232,13 +233,13 @@ TEST(PenaltyContact, FindsPointsThatComeNearLateAndAgain) {
 TEST(PenaltyContact, DoesNotDependOnWhoseTurnItIs) {
   for (const ContactMode mode : both_modes) {
     const Scene s;
-    PenaltyContact one(s.model, s.plane, mode, s.team), other(s.model, s.plane, mode, s.team);
-    forces(s, other, State(s.model), 5);  // five turns ahead
+    PenaltyContact in_turn(s.model, s.plane, mode, s.team), ahead(s.model, s.plane, mode, s.team);
+    forces(s, ahead, State(s.model), 5);  // five turns ahead
     VectorField a, b;
     for (int n = 1; n <= 200; ++n) {
       const State state = s.pressed(n / 200.0);
-      a = forces(s, one, state);
-      b = forces(s, other, state);
+      a = forces(s, in_turn, state);
+      b = forces(s, ahead, state);
       EXPECT_LT(difference(s.model, a, b), 1e-12 * (largest(s.model, a) + 1e-9)) << n;
     }
     EXPECT_GT(largest(s.model, a), 0.0);
@@ -258,16 +259,17 @@ TEST(PenaltyContact, ThePlaneReceivesWhatTheParticlesLose) {
       VectorField force = others;
       const Vector3 plane_force = contact.add(state, s.plane, step, force).force;
       Vector3 sum = Vector3::Zero();
-      double aside = 0.0, magnitude = 0.0;
+      double tangential = 0.0, magnitude = 0.0;
       for (const std::size_t i : s.model.particles) {
         const Vector3 change = s.model.grid.axes * (force.at(i) - others.at(i));
         sum += change;
         magnitude += change.norm();
-        aside = std::max(aside, (change - change.dot(s.plane.normal) * s.plane.normal).norm());
+        tangential =
+            std::max(tangential, (change - change.dot(s.plane.normal) * s.plane.normal).norm());
       }
       EXPECT_GT(magnitude, 0.0);
       EXPECT_LT((sum - plane_force).norm(), 1e-12 * magnitude) << name(mode) << step;
-      EXPECT_EQ(aside < 1e-13 * magnitude, mode == ContactMode::frictionless);
+      EXPECT_EQ(tangential < 1e-13 * magnitude, mode == ContactMode::frictionless);
     }
   }
 }

@@ -252,12 +252,12 @@ TEST(TiedBond, ActsAsItWillBeAtTheEndOfTheStep) {
 
 TEST(TiedBond, TwoThreadsGiveTheSameBits) {
   Scene s;
-  lattice::Team two(2);
-  TiedBond shared(s.model, two);
-  VectorField one = s.field(6), other = one;
-  const Wrench a = s.bond.add(s.state, s.rod, 1e-4, one);
-  const Wrench b = shared.add(s.state, s.rod, 1e-4, other);
-  EXPECT_EQ(difference(s.model, one, other), 0.0);
+  lattice::Team two_threads(2);
+  TiedBond shared(s.model, two_threads);
+  VectorField by_one = s.field(6), by_two = by_one;
+  const Wrench a = s.bond.add(s.state, s.rod, 1e-4, by_one);
+  const Wrench b = shared.add(s.state, s.rod, 1e-4, by_two);
+  EXPECT_EQ(difference(s.model, by_one, by_two), 0.0);
   EXPECT_EQ(a.force, b.force);
   EXPECT_EQ(a.torque, b.torque);
 }

@@ -17,7 +17,8 @@ using lattice::StiffnessEstimator;
 namespace {
 
 RelayResult relay_on(const Slider& slider) {
-  return lattice::relay_experiment(with_rehearsal(task_for(slider, 0.01), slider), 1.0).value();
+  return lattice::relay_experiment(with_identification(task_for(slider, 0.01), slider), 1.0)
+      .value();
 }
 
 PidSettings feedback_only() {
@@ -132,7 +133,7 @@ TEST(AdaptivePid, TunesItselfToTheLatency) {
     Slider slider;
     slider.latency = latency;
     slider.clearance = 5e-3;
-    const ControlTask task = with_rehearsal(task_for(slider, 0.01), slider);
+    const ControlTask task = with_identification(task_for(slider, 0.01), slider);
     AdaptivePid controller(feedback_only(), {}, task);
     const double omega = lattice::tuned_delay_angle(2.0) / ((latency + 0.5) * 1e-3);
     EXPECT_NEAR(controller.natural_frequency(), omega / (2.0 * std::numbers::pi), 1e-3 * omega);
@@ -145,7 +146,7 @@ TEST(AdaptivePid, LearnsTheStiffnessWithoutMeasuringForce) {
     Slider slider;
     slider.latency = latency;
     slider.spring = [](double depth) { return 150.0 * depth; };
-    const ControlTask task = with_rehearsal(task_for(slider, 0.01), slider);
+    const ControlTask task = with_identification(task_for(slider, 0.01), slider);
     AdaptivePid controller(feedback_only(), {}, task);
     while (slider.time < 0.25) slider.cycle(controller, task.period);
     EXPECT_NEAR(controller.stiffness(), 150.0, 0.02 * 150.0) << latency;
@@ -157,7 +158,7 @@ TEST(AdaptivePid, ScheduleAndEstimateKeepTheSpeedThroughAStiffeningContact) {
   Slider slider;
   const double K = 1300.0;
   slider.spring = [K](double depth) { return K * std::pow(depth, 1.5); };
-  const ControlTask task = with_rehearsal(task_for(slider, 0.05), slider);
+  const ControlTask task = with_identification(task_for(slider, 0.05), slider);
   const double touch = lattice::Approach(0.05, slider.clearance).time_at(slider.clearance);
   const auto error = [&](bool scheduled, bool estimated) {
     AdaptiveSettings settings;
@@ -181,7 +182,7 @@ TEST(AdaptivePid, DoesNotNeedToBeToldTheMass) {
   slider.clearance = 5e-3;
   ControlTask task = task_for(slider, 0.01);
   task.inertia *= 0.5;
-  const ControlTask deceived = with_rehearsal(task, slider);
+  const ControlTask deceived = with_identification(task, slider);
   AdaptivePid controller(feedback_only(), {}, deceived);
   EXPECT_NEAR(controller.relay()->mass, slider.mass, 1e-6);
   EXPECT_LT(speed_error(controller, slider, deceived, 0.06, 0.4), 2e-3);

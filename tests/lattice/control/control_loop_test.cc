@@ -147,21 +147,21 @@ TEST(ControlLoop, WhatIsNoNumberEndsTheRun) {
 }
 
 TEST(ControlLoop, ASetPointGoesThroughThePidOfTheServo) {
-  VirtualFinger one(coarse_finger(0.2e-3)), other(coarse_finger(0.2e-3));
+  VirtualFinger with_servo(coarse_finger(0.2e-3)), with_pid(coarse_finger(0.2e-3));
   const PidSettings settings;
-  const auto target = way(one, 0.02, 0.2e-3);
+  const auto target = way(with_servo, 0.02, 0.2e-3);
   Scripted set_points([&](const Measurement& m, int) { return target(m.time); });
-  lattice::PidController pid(settings, other.rod_body().inertia_at_endpoint(), target);
-  ControlLoop by_servo(one, set_points, {}, settings, period);
-  ControlLoop by_pid(other, pid, {}, settings, period);
+  lattice::PidController pid(settings, with_pid.rod_body().inertia_at_endpoint(), target);
+  ControlLoop by_servo(with_servo, set_points, {}, settings, period);
+  ControlLoop by_pid(with_pid, pid, {}, settings, period);
   for (int cycle = 0; cycle < 40; ++cycle) {
     run(by_servo, 1);
     run(by_pid, 1);
     EXPECT_EQ(by_servo.commanded().force, by_pid.commanded().force);
     EXPECT_EQ(by_servo.commanded().torque, by_pid.commanded().torque);
   }
-  EXPECT_GT(one.finger().touching(), 0);
-  EXPECT_TRUE(same_bits(one, other));
+  EXPECT_GT(with_servo.finger().touching(), 0);
+  EXPECT_TRUE(same_bits(with_servo, with_pid));
 }
 
 TEST(ControlLoop, ResetMakesTheSameRunAgain) {

@@ -148,12 +148,12 @@ TEST(Hardware, TheSeedDecidesTheNoise) {
     }
     return values;
   };
-  Hardware one(settings, 20.0, 1.0), same(settings, 20.0, 1.0);
-  const auto first = readings(one);
+  Hardware hardware(settings, 20.0, 1.0), same(settings, 20.0, 1.0);
+  const auto first = readings(hardware);
   EXPECT_EQ(first, readings(same));
-  EXPECT_NE(first, readings(one));  // it goes on
-  one.reset();
-  EXPECT_EQ(first, readings(one));
+  EXPECT_NE(first, readings(hardware));  // it goes on
+  hardware.reset();
+  EXPECT_EQ(first, readings(hardware));
   settings.seed = 2;
   Hardware other(settings, 20.0, 1.0);
   EXPECT_NE(first, readings(other));

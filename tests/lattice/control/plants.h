@@ -91,7 +91,7 @@ inline ControlTask task_for(const Slider& slider, double speed) {
 }
 
 /// The task with a plant of the same kind to try.
-inline ControlTask with_rehearsal(ControlTask task, const Slider& slider) {
+inline ControlTask with_identification(ControlTask task, const Slider& slider) {
   task.identify = [slider, period = task.period](
                       Controller& trial, const std::function<bool()>& done, double longest) {
     Slider copy = slider;

@@ -84,9 +84,9 @@ TEST(VirtualFinger, AStepInTwoPartsIsTheSameButForTheStepSize) {
   parts.do_step(0.0021);
   parts.do_step(0.0029);
   EXPECT_NEAR(whole.time(), parts.time(), 1e-12);
-  const Vector3 one = whole.read().pose.position, other = parts.read().pose.position;
-  const double travel = (one - whole.rod_body().endpoint).norm();
-  EXPECT_LT((one - other).norm(), 1e-3 * travel);
+  const Vector3 in_one_step = whole.read().pose.position, in_parts = parts.read().pose.position;
+  const double travel = (in_one_step - whole.rod_body().endpoint).norm();
+  EXPECT_LT((in_one_step - in_parts).norm(), 1e-3 * travel);
   EXPECT_GT(travel, 0.5e-3);
 }
 

@@ -98,8 +98,8 @@ TEST(Allocation, IsCounted) {
     return allocations - before;
   };
   EXPECT_EQ(counts([] {
-              int* volatile one = new int(1);  // volatile: not optimised away
-              delete one;
+              int* volatile number = new int(1);  // volatile: not optimised away
+              delete number;
             }),
             1);
   EXPECT_EQ(counts([] { EXPECT_EQ(Eigen::VectorXd::Zero(50).eval().size(), 50); }), 1);

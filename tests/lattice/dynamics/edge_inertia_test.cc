@@ -18,7 +18,7 @@ using lattice::State;
 
 namespace {
 
-constexpr double step = 1e-3, room = 1.2;
+constexpr double step = 1e-3, margin = 1.2;
 
 /// A tip in which some particle lies among whole cells.
 LatticeModel rubber(ModelKind kind) {
@@ -47,14 +47,14 @@ EdgeInertia edges_of(const LatticeModel& model, const State& state) {
   EdgeInertia edges;
   for (auto& component : edges) component.fill(std::vector<float>(model.points(), 0.0F));
   lattice::Team team(2);
-  lattice::EdgeInertiaRule(model).find(state, step, room, team, edges);
+  lattice::EdgeInertiaRule(model).find(state, step, margin, team, edges);
   return edges;
 }
 
-/// dt²/4 + dt tau/2, times a and the room for later.
+/// dt²/4 + dt tau/2, times a and the margin for later.
 double unit(const LatticeModel& model) {
   const double tau = model.cell_lattice.material.retardation_time;
-  return room * model.spacing() * (0.25 * step * step + 0.5 * step * tau);
+  return margin * model.spacing() * (0.25 * step * step + 0.5 * step * tau);
 }
 
 /// x = F X.
@@ -115,7 +115,7 @@ TEST(EdgeInertia, IsNotBelowTheTangentOfDeformedCells) {
       const double h = 1e-6;
       const Eigen::Matrix3d slope = (stress(F + h * change) - stress(F - h * change)) / (2.0 * h);
       const Eigen::Matrix3d all =
-          model.spacing() * room *
+          model.spacing() * margin *
           (0.25 * step * step * slope + 0.5 * step * m.retardation_time * viscous(change));
       for (Eigen::Index k = 0; k < 9; ++k) excess(k, n) -= all(k / 3, k % 3);
       excess(n, n) +=

@@ -216,10 +216,10 @@ TEST(Surfaces, RememberNothingOfWhatIsTried) {
   setup.contact = meshes::ContactMode::stick;
   VirtualFinger finger(setup);
   lattice::Finger& f = finger.finger();
-  const auto moved = [&](double down, double aside) {
+  const auto moved = [&](double down, double tangential) {
     lattice::State state(f.model());
     for (const std::uint32_t i : f.model().particles) {
-      state.displacement.set(i, f.model().grid.axes.transpose() * Vector3(aside, 0.0, down));
+      state.displacement.set(i, f.model().grid.axes.transpose() * Vector3(tangential, 0.0, down));
     }
     return state;
   };
@@ -230,7 +230,7 @@ TEST(Surfaces, RememberNothingOfWhatIsTried) {
   const Vector3 first = plane_force(moved(2.0 * clearance, 0.0));
   EXPECT_LT(first.z(), 0.0);
   EXPECT_EQ(plane_force(moved(0.9 * clearance, 0.0)), Vector3::Zero());
-  // Anchored there, going aside would be held; untouched, it is not.
+  // Anchored there, going laterally would be held; untouched, it is not.
   plane_force(moved(2.0 * clearance, 5.0 * clearance));
   EXPECT_EQ(plane_force(moved(2.0 * clearance, 0.0)), first);
   EXPECT_EQ(f.touching(), 0);

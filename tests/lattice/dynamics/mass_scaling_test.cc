@@ -35,11 +35,11 @@ LatticeModel coarse(ModelKind kind) {
   return lattice::build_tip({}, {}, settings);
 }
 
-MassScaling scaling_of(const LatticeModel& model, const State& state, double room = 1.1,
+MassScaling scaling_of(const LatticeModel& model, const State& state, double margin = 1.1,
                        std::span<const lattice::BondInertia> bond = {}) {
   MassScaling scaling(std::make_shared<lattice::ScalingGround>(model));
   lattice::Team team(1);
-  scaling.make(state, bond, step, team, room);
+  scaling.make(state, bond, step, team, margin);
   return scaling;
 }
 
@@ -287,7 +287,7 @@ class FreeRodOnATipThatSticks : public testing::TestWithParam<HeavyHold> {};
 }  // namespace
 
 /// A free rod pushed into the plane by a force that grows, kept upright by a soft hand, pushed
-/// aside for a moment, and left to come to rest.
+/// laterally for a moment, and left to come to rest.
 TEST_P(FreeRodOnATipThatSticks, ComesToRest) {
   lattice::FingerSetup setup = free_finger();
   setup.plane = {.point = {0.0, 0.0, 0.01 + 1e-5}};
@@ -308,13 +308,13 @@ TEST_P(FreeRodOnATipThatSticks, ComesToRest) {
   double fastest = 0.0;
   for (int n = 0; n < 1500; ++n) {
     const double share = std::min(1.0, n / 300.0);
-    const double aside = n >= 400 && n < 410 ? 0.1 * weight : 0.0;
+    const double tangential = n >= 400 && n < 410 ? 0.1 * weight : 0.0;
     const lattice::RodState& rod = finger.finger().rod();
     const Vector3 drag = -70.0 * rod.body().mass * rod.velocity_at(rod.endpoint());
     const Vector3 upright =
         -frequency * inertia *
         (frequency * lattice::rotation_vector(rod.pose().orientation) + rod.angular_velocity());
-    finger.write(lattice::Wrench{Vector3(aside, 0.0, share * weight) + drag, upright});
+    finger.write(lattice::Wrench{Vector3(tangential, 0.0, share * weight) + drag, upright});
     finger.do_step(1e-3);
     if (n >= 1400) fastest = std::max(fastest, rod.velocity().norm());
   }

@@ -80,7 +80,8 @@ Wrench momenta(const lattice::Finger& finger) {
 }  // namespace
 
 TEST(MovingPlane, GivesTheForceOfTheRodThatMovesInstead) {
-  // Galilei: to the rod a plane that comes nearer and aside is the press with that lateral motion.
+  // Galilei: to the rod a plane that comes nearer and laterally is the press with that lateral
+  // motion.
   for (const ContactLaw& law :
        {ContactLaw{ContactMode::frictionless}, ContactLaw{ContactMode::stick},
         ContactLaw{ContactMode::coulomb, 0.3}}) {

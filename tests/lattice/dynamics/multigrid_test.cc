@@ -56,9 +56,9 @@ struct Scene {
         result.add(other, -pull);
       }
     }
-    for (const lattice::PointTie& one : contact) {
-      const Vector3 v = u.at(one.point), along = normal.dot(v) * normal;
-      result.add(one.point, double(one.along) * along + double(one.aside) * (v - along));
+    for (const lattice::PointTie& tie : contact) {
+      const Vector3 v = u.at(tie.point), along = normal.dot(v) * normal;
+      result.add(tie.point, double(tie.along) * along + double(tie.tangential) * (v - along));
     }
     return result;
   }

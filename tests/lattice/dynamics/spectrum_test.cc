@@ -39,12 +39,12 @@ struct Bloch {
 /// Largest growth factor of a Bloch wave in one step.
 double growth(const Bloch& wave, Integrator integrator, double dt) {
   Eigen::Matrix<double, 6, 6> step;
-  const auto one = Eigen::Matrix3d::Identity();
+  const auto identity = Eigen::Matrix3d::Identity();
   if (integrator == Integrator::explicit_euler) {
-    step << one, dt * one, -dt * wave.stiffness, one - dt * wave.damping;
+    step << identity, dt * identity, -dt * wave.stiffness, identity - dt * wave.damping;
   } else {
-    step << one - dt * dt * wave.stiffness, dt * (one - dt * wave.damping), -dt * wave.stiffness,
-        one - dt * wave.damping;
+    step << identity - dt * dt * wave.stiffness, dt * (identity - dt * wave.damping),
+        -dt * wave.stiffness, identity - dt * wave.damping;
   }
   return step.eigenvalues().cwiseAbs().maxCoeff();
 }

@@ -70,13 +70,14 @@ TEST(CellForces, EnergyIsThatOfTheCellsOneByOneWithTheSameBitsAtAnyWidth) {
       for (auto& component : u.component) {
         for (double& value : component) value *= size;
       }
-      const double wanted = cell_energy(cells, u), two = lattice::cell_energy(cells, u, alone, 2);
-      EXPECT_NEAR(two, wanted, 1e-7 * wanted);  // what log J loses at small strain
+      const double wanted = cell_energy(cells, u),
+                   at_width_two = lattice::cell_energy(cells, u, alone, 2);
+      EXPECT_NEAR(at_width_two, wanted, 1e-7 * wanted);  // what log J loses at small strain
       if (size == 1.0) {
-        EXPECT_NEAR(two, wanted, 1e-12 * wanted);
+        EXPECT_NEAR(at_width_two, wanted, 1e-12 * wanted);
       }
-      EXPECT_EQ(lattice::cell_energy(cells, u, alone), two);
-      EXPECT_EQ(lattice::cell_energy(cells, u, pair), two);
+      EXPECT_EQ(lattice::cell_energy(cells, u, alone), at_width_two);
+      EXPECT_EQ(lattice::cell_energy(cells, u, pair), at_width_two);
     }
   });
 }

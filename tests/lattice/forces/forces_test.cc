@@ -84,9 +84,9 @@ TEST(Forces, TheTipsKernelMatchesTheEdgeListOnAnyNumberOfThreads) {
     // Little enough that no sliver is turned inside out.
     const State state = random_state(model, 0.1, 0.5, 3);
     const VectorField expected = reference::forces(model, state);
-    const VectorField one = kernel_forces(model, state, 1);
-    EXPECT_LT(difference(model, one, expected), 1e-13 * largest(model, expected));
-    EXPECT_EQ(difference(model, one, kernel_forces(model, state, 3)), 0.0);
+    const VectorField serial = kernel_forces(model, state, 1);
+    EXPECT_LT(difference(model, serial, expected), 1e-13 * largest(model, expected));
+    EXPECT_EQ(difference(model, serial, kernel_forces(model, state, 3)), 0.0);
   }
 }
 

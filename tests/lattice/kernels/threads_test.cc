@@ -28,10 +28,10 @@ std::unique_ptr<lattice::VirtualFinger> pressed(const PressCase& c, int threads)
 }
 
 void expect_same_bits(const PressCase& c) {
-  const auto one = pressed(c, 1);
-  EXPECT_GT(one->finger().touching(), 0);
+  const auto serial = pressed(c, 1);
+  EXPECT_GT(serial->finger().touching(), 0);
   for (const int threads : {2, 3}) {
-    EXPECT_TRUE(same_bits(*one, *pressed(c, threads)))
+    EXPECT_TRUE(same_bits(*serial, *pressed(c, threads)))
         << label(c.model, c.kinematics) << ", " << name(c.integrator) << ", " << threads;
   }
 }
@@ -60,9 +60,9 @@ TEST(Threads, DoNotChangeTheBitsOfAFreeRodThatCarriesItsRubber) {
     for (int period = 0; period < 40; ++period) finger->do_step(1e-3);
     return finger;
   };
-  const auto one = pushed(1);
-  EXPECT_GT(one->finger().touching(), 0);
-  for (const int threads : {2, 3}) EXPECT_TRUE(same_bits(*one, *pushed(threads))) << threads;
+  const auto serial = pushed(1);
+  EXPECT_GT(serial->finger().touching(), 0);
+  for (const int threads : {2, 3}) EXPECT_TRUE(same_bits(*serial, *pushed(threads))) << threads;
 }
 
 TEST(Threads, DoNotChangeTheBitsOfExplicitEuler) {

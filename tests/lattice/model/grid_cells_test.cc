@@ -148,19 +148,19 @@ TEST(EmbeddedPoints, WeightsReproduceAffineFields) {
   const Vector3 places[] = {{1.2, 1.7, 1.4}, {2.0, 1.5, 1.1}, {2.4, 2.01, 1.5}, {3.9, 0.2, 2.8}};
   for (const Vector3& place : places) {
     const Vector3 at = grid.axes * (grid.origin + grid.spacing * place);
-    const auto tied = lattice::tie(cells, {at, Vector3::UnitZ(), 2.0}, 3.0);
+    const auto embedded = lattice::tie(cells, {at, Vector3::UnitZ(), 2.0}, 3.0);
     double sum = 0.0;
     Vector3 position = Vector3::Zero();
     for (std::size_t c = 0; c < 8; ++c) {
-      sum += tied.weights[c];
-      position += tied.weights[c] * cells.rest_position(tied.corners[c]);
-      EXPECT_LE(std::abs(tied.weights[c]), 8.0);
+      sum += embedded.weights[c];
+      position += embedded.weights[c] * cells.rest_position(embedded.corners[c]);
+      EXPECT_LE(std::abs(embedded.weights[c]), 8.0);
     }
     EXPECT_NEAR(sum, 1.0, 1e-14);
     EXPECT_LT((position - at).norm(), 1e-14);
-    EXPECT_EQ(tied.rest, at);
-    EXPECT_EQ(tied.area, 2.0);
-    EXPECT_EQ(tied.stiffness, 6.0);
+    EXPECT_EQ(embedded.rest, at);
+    EXPECT_EQ(embedded.area, 2.0);
+    EXPECT_EQ(embedded.stiffness, 6.0);
   }
   // Just above either cell that one is the nearest.
   for (const std::size_t cell : {0u, 1u}) {

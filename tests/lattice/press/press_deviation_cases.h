@@ -46,8 +46,8 @@ inline void expect_told(const lattice::PressSetup& setup, const meshes::PressRes
   for (std::size_t n = 0; n < off.size(); ++n) {
     if (off[n] <= lattice::tolerated_deviation) continue;
     double estimate = 0.0;
-    for (const auto& one : choice.deviations) {
-      if (one.indentation == setup.protocol.samples[n]) estimate = one.relative;
+    for (const auto& deviation : choice.deviations) {
+      if (deviation.indentation == setup.protocol.samples[n]) estimate = deviation.relative;
     }
     EXPECT_GT(estimate, lattice::tolerated_deviation)
         << setup.protocol.speed << " m/s, " << setup.time_step.value_or(0.0) << " s, "

@@ -76,8 +76,8 @@ TEST(PressDeviation, SlowPressesOfFineLatticesTakeScaledOnes) {
 TEST(PressDeviation, HeavilyDampedRubberHasAnEstimateToo) {
   PressSetup setup = press(ModelKind::hookean, 6, 0.05);
   setup.rubber.retardation_time = 0.05;  // sways no more
-  for (const auto& one : lattice::scaling_deviations(setup, 1e-4)) {
-    EXPECT_TRUE(std::isfinite(one.relative));
-    EXPECT_GE(one.relative, 0.0);
+  for (const auto& deviation : lattice::scaling_deviations(setup, 1e-4)) {
+    EXPECT_TRUE(std::isfinite(deviation.relative));
+    EXPECT_GE(deviation.relative, 0.0);
   }
 }

@@ -124,15 +124,16 @@ TEST(Press, ResultDoesNotDependOnTheNumberOfThreads) {
     setup.protocol.depth = 1.5e-3;
     setup.protocol.speed = 2e-2;
     setup.threads = 1;
-    const PressOutcome one = lattice::run_press(setup);
+    const PressOutcome first = lattice::run_press(setup);
     setup.threads = 2;
-    const PressOutcome two = lattice::run_press(setup);
-    ASSERT_EQ(one.trace.size(), two.trace.size());
-    for (std::size_t i = 0; i < one.response.samples().size(); ++i) {
-      EXPECT_EQ(one.response.samples()[i].normal_force, two.response.samples()[i].normal_force);
+    const PressOutcome second = lattice::run_press(setup);
+    ASSERT_EQ(first.trace.size(), second.trace.size());
+    for (std::size_t i = 0; i < first.response.samples().size(); ++i) {
+      EXPECT_EQ(first.response.samples()[i].normal_force,
+                second.response.samples()[i].normal_force);
     }
-    for (std::size_t b = 0; b < one.boundary_deformed.size(); ++b) {
-      EXPECT_EQ(one.boundary_deformed[b], two.boundary_deformed[b]);
+    for (std::size_t b = 0; b < first.boundary_deformed.size(); ++b) {
+      EXPECT_EQ(first.boundary_deformed[b], second.boundary_deformed[b]);
     }
   }
 }

@@ -177,14 +177,14 @@ TEST(StaticPress, MirrorsWithTiltAndLateralMotion) {
   PressSetup setup = press_at(5, {0.1}, ContactMode::stick);
   setup.protocol.tilt = 0.3;
   setup.protocol.lateral = 2e-4;
-  const PressSample one = last_sample(setup);
+  const PressSample tilted = last_sample(setup);
   setup.protocol.tilt = -0.3;
   setup.protocol.lateral = -2e-4;
-  PressSample two = last_sample(setup);
-  EXPECT_GT(std::abs(one.lateral_force_x), 1e-3 * one.normal_force);
-  two.lateral_force_x *= -1.0;
-  two.torque_y *= -1.0;
-  expect_same(two, one, 1e-6, setup.geometry.rod_length);
+  PressSample mirrored = last_sample(setup);
+  EXPECT_GT(std::abs(tilted.lateral_force_x), 1e-3 * tilted.normal_force);
+  mirrored.lateral_force_x *= -1.0;
+  mirrored.torque_y *= -1.0;
+  expect_same(mirrored, tilted, 1e-6, setup.geometry.rod_length);
 }
 
 /// The rod takes what the plane gives: force, and moment about the endpoint, at rest positions at
@@ -231,7 +231,7 @@ TEST(StaticPress, LateralMotionDragsOnlyWhatSticks) {
               0.5 * stuck.contact_radius * stuck.normal_force);
 }
 
-/// Down and then aside, or both at once: a frictionless plane is the same everywhere.
+/// Down and then laterally, or both at once: a frictionless plane is the same everywhere.
 TEST(StaticPress, WithoutFrictionAPlaneMovesOnUnnoticed) {
   for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
     PressSetup setup =
@@ -276,8 +276,8 @@ TEST(StaticPress, WhatFollowsThePressDoesNotChangeIt) {
   }
 }
 
-/// A tip that sticks is a linear spring aside while the same points touch; sheared from first touch
-/// on, the same place of the plane drags it less, for what touches late has moved less.
+/// A tip that sticks is a linear spring laterally while the same points touch; sheared from first
+/// touch on, the same place of the plane drags it less, for what touches late has moved less.
 TEST(StaticPress, StuckItIsALinearSpringAside) {
   PressSetup setup = press_at(6, {0.1, 0.2}, ContactMode::stick);
   setup.protocol.lateral = 2e-6;

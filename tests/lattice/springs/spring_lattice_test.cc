@@ -66,11 +66,11 @@ TEST(SpringLattice, GivesTheSameBitsForEveryNumberOfThreads) {
   for (const SpringProblem& problem : bodies()) {
     for (const Precision precision : {Precision::float64, Precision::float32}) {
       for (const int width : widths()) {
-        const Motion one = after(problem, {precision, width, 1}, {37});
+        const Motion serial = after(problem, {precision, width, 1}, {37});
         for (const int threads : {2, 3}) {
           const Motion several = after(problem, {precision, width, threads}, {20, 1, 0, 16});
-          EXPECT_EQ(one.positions, several.positions) << threads << " threads";
-          EXPECT_EQ(one.velocities, several.velocities) << threads << " threads";
+          EXPECT_EQ(serial.positions, several.positions) << threads << " threads";
+          EXPECT_EQ(serial.velocities, several.velocities) << threads << " threads";
         }
       }
     }

@@ -185,7 +185,7 @@ TEST(ElasticSystem, EmbeddedPointsAddTheirBlockToTheTangent) {
   double expected = 0.0;
   const VectorXd d = random_displacement(body, 1.0, 7);
   for (const EmbeddedPoint& point : body.outer) {
-    system.add_tied(point, block, tangent);
+    system.add_embedded(point, block, tangent);
     const Vector3 shift = displacement(point, d);
     expected += shift.dot(block * shift);
     EXPECT_EQ(lattice::shift(point, d), shift);

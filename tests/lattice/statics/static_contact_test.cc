@@ -270,7 +270,8 @@ TEST(ContactPatch, SectorsAreMirrored) {
 TEST(ContactPatch, NothingAndASinglePoint) {
   EXPECT_EQ(contact_patch(std::vector<LoadedPoint>{}, 4).radius, 0.0);
   EXPECT_EQ(contact_patch(std::vector<LoadedPoint>{{{0.0, 0.0}, 0.0, 1.0}}).max_pressure, 0.0);
-  const auto one = contact_patch(std::vector<LoadedPoint>{{{0.2, 0.1}, 3.0, 2.0}});
-  EXPECT_NEAR(one.radius, std::sqrt(5.0 * 2.0 / (4.0 * std::numbers::pi)), 1e-14);
-  EXPECT_NEAR(one.max_pressure, 1.5 * 3.0 / (std::numbers::pi * one.radius * one.radius), 1e-14);
+  const auto single = contact_patch(std::vector<LoadedPoint>{{{0.2, 0.1}, 3.0, 2.0}});
+  EXPECT_NEAR(single.radius, std::sqrt(5.0 * 2.0 / (4.0 * std::numbers::pi)), 1e-14);
+  EXPECT_NEAR(single.max_pressure, 1.5 * 3.0 / (std::numbers::pi * single.radius * single.radius),
+              1e-14);
 }

@@ -96,7 +96,8 @@ TEST(Ratios, WithoutAvx512AllAreNullAndSayWhy) {
 TEST(Ratios, AMissingPeerCostsItsRatiosOnly) {
   KernelRounds rounds;
   rounds.rounds.push_back(round_with(1.0));
-  std::erase_if(rounds.rounds[0], [](const auto& one) { return one.first.starts_with("lammps"); });
+  std::erase_if(rounds.rounds[0],
+                [](const auto& time) { return time.first.starts_with("lammps"); });
   rounds.missing["lammps"] = "lmp is not on the PATH";
   const Ratios ratios = ratios_of(rounds);
   EXPECT_TRUE(ratios.values.at("lammps_48_1t").is_null());

@@ -1,4 +1,4 @@
-// One control law behind every door: the same trajectory.
+// One control law through every interface: the same trajectory.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -43,7 +43,7 @@ class PidLaw final : public lattice::Controller {
   pid_law pid_{};
 };
 
-lattice::PressSetup order(const lattice::ControllerFactory& factory) {
+lattice::PressSetup press_with(const lattice::ControllerFactory& factory) {
   lattice::PressSetup setup;
   setup.lattice.spacing = setup.geometry.tip_radius / 6.0;
   setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
@@ -55,14 +55,14 @@ lattice::PressSetup order(const lattice::ControllerFactory& factory) {
 }
 
 lattice::PressOutcome press(const lattice::ControllerFactory& factory) {
-  return lattice::run_press(order(factory));
+  return lattice::run_press(press_with(factory));
 }
 
 /// What the force on the rod changes by when the rod's centre is elsewhere by one unit in the last
 /// place: the stiffness of the bond times that [N]. Two laws that are equal but for round-off meet
 /// no closer.
 double resolution_of_force() {
-  const lattice::PressSetup setup = order({});
+  const lattice::PressSetup setup = press_with({});
   const lattice::LatticeModel model =
       lattice::build_tip(setup.geometry, setup.rubber, setup.lattice);
   double stiffness = 0.0;
@@ -94,7 +94,7 @@ double largest_difference(const lattice::PressOutcome& a, const lattice::PressOu
   return largest;
 }
 
-class Doors : public testing::Test {
+class Interfaces : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     subclass_ = new lattice::PressOutcome(
@@ -105,17 +105,17 @@ class Doors : public testing::Test {
   static lattice::PressOutcome* subclass_;
   TemporaryFolder place_;
 };
-lattice::PressOutcome* Doors::subclass_ = nullptr;
+lattice::PressOutcome* Interfaces::subclass_ = nullptr;
 
 }  // namespace
 
-TEST_F(Doors, TheExampleIsTheBuiltInPid) {
+TEST_F(Interfaces, TheExampleIsTheBuiltInPid) {
   EXPECT_GT(subclass_->trace.back().normal_force, 0.005);  // it presses
   EXPECT_LT(largest_difference(*subclass_, press({}), resolution_of_force()), 1e-12);
   EXPECT_LT(resolution_of_force(), 1e-10 * subclass_->trace.back().normal_force);
 }
 
-TEST_F(Doors, ASharedObjectBuiltOutOfTreeGivesTheSameTrajectory) {
+TEST_F(Interfaces, ASharedObjectBuiltOutOfTreeGivesTheSameTrajectory) {
   const std::string build = (place_ / "build").string();
   const std::string cmake = FINGERTIP_CMAKE, folder = FINGERTIP_CONTROL_FOLDER;
   const std::string log = " >> " + (place_ / "log").string() + " 2>&1";
@@ -132,7 +132,7 @@ TEST_F(Doors, ASharedObjectBuiltOutOfTreeGivesTheSameTrajectory) {
   EXPECT_LT(largest_difference(*subclass_, outcome), 1e-12);
 }
 
-TEST_F(Doors, AnotherProcessGivesTheSameTrajectory) {
+TEST_F(Interfaces, AnotherProcessGivesTheSameTrajectory) {
   for (const std::string& address :
        {"unix:" + (place_ / "socket").string(), std::string("tcp:127.0.0.1:0")}) {
     pid_t client = -1;

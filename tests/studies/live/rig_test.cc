@@ -171,15 +171,15 @@ TEST(LiveRig, AContactForceIsHeldAndChangedOnTheWay) {
   LiveRig rig(setup);
   ASSERT_TRUE(rig.limits().contact_force);
   EXPECT_EQ(rig.settings().contact_force, 0.05);
-  const auto settle = [&] {
+  const auto steady_force = [&] {
     for (int i = 0; i < 400; ++i) rig.advance();  // twelve time constants of 5 Hz
     return rig.row().normal_force;
   };
-  EXPECT_NEAR(settle(), 0.05, 5e-4);
+  EXPECT_NEAR(steady_force(), 0.05, 5e-4);
   LiveSettings settings = rig.settings();
   settings.contact_force = 0.08;
   rig.set(settings);
-  EXPECT_NEAR(settle(), 0.08, 8e-4);
+  EXPECT_NEAR(steady_force(), 0.08, 8e-4);
   settings.contact_force = 1e5;
   rig.set(settings);
   EXPECT_EQ(rig.settings().contact_force, rig.limits().contact_force->most);

@@ -33,7 +33,7 @@ std::string damage_of(const fs::path& run) {
   reporting::read_calibration(data, reader);
   if (fs::exists(run / "grasp.csv")) reporting::read_grasp(run, "", "grasp", reader);
   std::string text;
-  for (const meshes::Violation& one : reader.damage()) text += to_string(one) + "\n";
+  for (const meshes::Violation& violation : reader.damage()) text += to_string(violation) + "\n";
   return text;
 }
 
@@ -290,7 +290,7 @@ void field_names(std::set<std::string>& names) {
 
 }  // namespace
 
-/// The reference of fields knows them all: the manual, and the READMEs of rooms it points to.
+/// The reference of fields knows them all: the manual, and the READMEs of folders it points to.
 TEST(FieldReference, NamesEveryField) {
   std::string text;
   for (const char* page :

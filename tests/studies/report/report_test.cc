@@ -219,7 +219,8 @@ TEST(Report, RefusesAFolderThatIsNoRun) {
 /// "places: rules" of everything that is wrong with the run.
 std::string damage_of(const fs::path& run) {
   std::string text;
-  for (const meshes::Violation& one : studies::write_report(run)) text += to_string(one) + "\n";
+  for (const meshes::Violation& violation : studies::write_report(run))
+    text += to_string(violation) + "\n";
   return text;
 }
 

@@ -150,14 +150,14 @@ void write_transfer_study(const fs::path& folder) {
     const char *fit, *asked;
     double worst;
   };
-  for (const Prediction& one : {Prediction{"alone", "stick", 0.03},
-                                {"alone", "tilted", 0.25},
-                                {"both", "stick", -0.01},
-                                {"both", "tilted", 0.04}}) {
+  for (const Prediction& prediction : {Prediction{"alone", "stick", 0.03},
+                                       {"alone", "tilted", 0.25},
+                                       {"both", "stick", -0.01},
+                                       {"both", "tilted", 0.04}}) {
     for (const double depth : {0.001, 0.002}) {
-      const double error = one.worst * depth / 0.002, force = 50.0 * depth;
-      rows += fmt::format("{},{},hookean,{},{},{},0.004,{},finished\n", one.fit, one.asked, depth,
-                          force * (1.0 + error), force, error);
+      const double error = prediction.worst * depth / 0.002, force = 50.0 * depth;
+      rows += fmt::format("{},{},hookean,{},{},{},0.004,{},finished\n", prediction.fit,
+                          prediction.asked, depth, force * (1.0 + error), force, error);
     }
   }
   write_file(folder / "transfer.csv", rows);

@@ -140,9 +140,9 @@ TEST(Words, EveryNameInATemplateIsInTheCode) {
     ++templates;
     const std::string text = read_text(entry.path()), name = entry.path().stem().string();
     EXPECT_TRUE(in_code(name)) << "nothing uses " << entry.path();
-    for (const std::string& one : caught(text, R"(\{\{[#^/]?([^}]*)\}\})"))
-      EXPECT_TRUE(std::regex_match(one, std::regex("[a-z_0-9]+")) && in_code(one))
-          << entry.path() << ": " << one;
+    for (const std::string& variable : caught(text, R"(\{\{[#^/]?([^}]*)\}\})"))
+      EXPECT_TRUE(std::regex_match(variable, std::regex("[a-z_0-9]+")) && in_code(variable))
+          << entry.path() << ": " << variable;
     for (const std::string& id : caught(text, R"((?:^|\n)\[[a-z]+ ([^\]]*)\])"))
       EXPECT_TRUE(id.starts_with("{{") || in_code(id)) << entry.path() << ": " << id;
   }

@@ -17,7 +17,7 @@ struct SweepPoint {
   std::map<std::string, std::string> settings;  ///< key: TOML literal, the axes' values
 };
 
-struct SweepOrder {
+struct Sweep {
   std::string verb;                ///< press, modes, reference or grasp
   LoadedConfig base;               ///< what all points share
   std::vector<std::string> axes;   ///< keys that vary, sorted
@@ -36,14 +36,14 @@ Shard parse_shard(const std::string& text);
 /// (a list of lists where the key takes a list): in the table [sweep] of the file, or by --set,
 /// which replaces an axis of the file. `verb` empty: sweep.verb of the file, else press. Throws
 /// ConfigError with all problems: no axis, an empty one, unknown keys, values that cannot be read.
-SweepOrder read_sweep(const ConfigSource& source, const std::string& verb);
+Sweep read_sweep(const ConfigSource& source, const std::string& verb);
 
 /// Every of-th point from the number-th on, in the order of identities: shards are disjoint, make
 /// up the whole, differ by at most one point, and do not depend on how axes were written.
-std::vector<SweepPoint> points_of(const SweepOrder& order, const Shard& shard);
+std::vector<SweepPoint> points_of(const Sweep& sweep, const Shard& shard);
 
 /// The point's own configuration. Throws ConfigError naming the point's settings.
-LoadedConfig config_of(const SweepOrder& order, const SweepPoint& point);
+LoadedConfig config_of(const Sweep& sweep, const SweepPoint& point);
 
 /// "lattice.spacing=tip_radius/6; press.speed=\"1 cm/s\""
 std::string settings_text(const SweepPoint& point);

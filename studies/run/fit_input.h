@@ -24,13 +24,13 @@ enum class CurveKind {
   simple_shear,  ///< law A
   loss_factor,
   creep,
-  ramp,          ///< a press to a depth, held: FitOrder::presses' static lattice, damped
+  ramp,          ///< a press to a depth, held: FitInput::presses' static lattice, damped
   moving_press,  ///< the moving lattice
 };
 
 /// SI. `curves`, `conditions` and `kinds` have an entry per curve; `presses` and `continua` too
 /// where these are presses.
-struct FitOrder {
+struct FitInput {
   CalibrationProblem problem = CalibrationProblem::curve;
   std::vector<calibration::Curve> curves;
   std::vector<std::string> conditions;
@@ -59,14 +59,14 @@ struct FitOrder {
 inline constexpr const char* estimates_name = "estimates.toml";
 
 /// Whether the continuum answers for the curves.
-bool by_continuum(const FitOrder& order);
+bool by_continuum(const FitInput& input);
 
-/// Of `order.options.free`.
-std::vector<calibration::MaterialParameter> parameters_of(const FitOrder& order);
+/// Of `input.options.free`.
+std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input);
 
 /// The fit. Files: calibration.json, estimates.toml (a material.toml, which says so where the fit
 /// failed its own tests; none where the estimates are no material), fit_data.csv, summary.json;
 /// while it runs, evaluations/, from which it goes on when it is run again in the same folder.
-Job fit_job(const FitOrder& order);
+Job fit_job(const FitInput& input);
 
 }  // namespace fingertip::studies

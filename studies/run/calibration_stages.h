@@ -21,7 +21,7 @@ namespace fingertip::studies {
 ///   surrogate/     the calibrated lattice's press, smoothed
 /// In the folder itself: calibration.json, material.toml, fit_data.csv, summary.json, surrogate.csv
 /// and .json.
-class FitPlan {
+class CalibrationStages {
  public:
   /// What becomes of a fit that failed its own tests: no material.toml, bias and surrogate, or all
   /// the same, the file saying so.
@@ -29,7 +29,7 @@ class FitPlan {
 
   /// `folder` below the run's, empty for the run's own. Reads measured files. Throws ConfigError
   /// for what cannot be carried out.
-  FitPlan(LoadedConfig loaded, std::string folder, Failed failed);
+  CalibrationStages(LoadedConfig loaded, std::string folder, Failed failed);
 
   /// The jobs that may run now. None: the files are written, the calibration is complete.
   std::vector<PlannedJob> next(const std::filesystem::path& run);

@@ -1,4 +1,4 @@
-#include "studies/run/fit_plan.h"
+#include "studies/run/calibration_stages.h"
 
 #include <fmt/format.h>
 
@@ -37,8 +37,8 @@ std::vector<double> thinned(const std::vector<double>& x, std::size_t count) {
 
 /// A static run has exactly the samples it was asked for, a transient one has more.
 const meshes::PressSample& sample_near(const PressResponse& response, double depth) {
-  return *std::ranges::min_element(response.samples(), {}, [&](const meshes::PressSample& one) {
-    return std::abs(one.indentation - depth);
+  return *std::ranges::min_element(response.samples(), {}, [&](const meshes::PressSample& sample) {
+    return std::abs(sample.indentation - depth);
   });
 }
 
@@ -70,7 +70,7 @@ void check_moduli(const LoadedConfig& loaded) {
 
 }  // namespace
 
-FitPlan::FitPlan(LoadedConfig loaded, std::string folder, Failed failed)
+CalibrationStages::CalibrationStages(LoadedConfig loaded, std::string folder, Failed failed)
     : loaded_(std::move(loaded)), folder_(std::move(folder)), failed_(failed) {
   if (loaded_.config.calibration.problem == CalibrationProblem::moduli) {
     check_moduli(loaded_);
@@ -80,15 +80,15 @@ FitPlan::FitPlan(LoadedConfig loaded, std::string folder, Failed failed)
   }
 }
 
-std::string FitPlan::place(const std::string& name) const {
+std::string CalibrationStages::place(const std::string& name) const {
   return folder_.empty() || name.empty() ? folder_ + name : folder_ + "/" + name;
 }
 
-bool FitPlan::by_moduli() const {
+bool CalibrationStages::by_moduli() const {
   return loaded_.config.calibration.problem == CalibrationProblem::moduli;
 }
 
-std::vector<PlannedJob> FitPlan::next(const fs::path& run) {
+std::vector<PlannedJob> CalibrationStages::next(const fs::path& run) {
   std::vector<PlannedJob> jobs;
   while (jobs.empty() && stage_ != Stage::done) {
     if (stage_ == Stage::data) jobs = data_jobs();
@@ -100,31 +100,32 @@ std::vector<PlannedJob> FitPlan::next(const fs::path& run) {
   return jobs;
 }
 
-double FitPlan::later_weight() const {
+double CalibrationStages::later_weight() const {
   double weight = 0.0;
   if (stage_ <= Stage::fit) weight += by_moduli() ? moduli_weight : fit_weight;
   if (stage_ > Stage::follow_up) return weight;
   if (loaded_.config.calibration.surrogate) weight += surrogate_weight;
   if (measures_bias())
-    for (const auto& order : setup_.order.continua) weight += reference_job(order).weight;
+    for (const auto& reference : setup_.input.continua) weight += reference_job(reference).weight;
   return weight;
 }
 
-std::vector<PlannedJob> FitPlan::data_jobs() {
+std::vector<PlannedJob> CalibrationStages::data_jobs() {
   std::vector<PlannedJob> jobs;
   if (by_moduli()) return jobs;
   if (!setup_.data_from_continuum) return jobs;
-  for (const fem_reference::ReferenceJob& order : setup_.order.continua)
-    jobs.push_back({place("reference_" + std::to_string(jobs.size() + 1)), reference_job(order)});
+  for (const fem_reference::ReferenceJob& reference : setup_.input.continua)
+    jobs.push_back(
+        {place("reference_" + std::to_string(jobs.size() + 1)), reference_job(reference)});
   return jobs;
 }
 
 /// Forces of the continuum become data; their deviation is its own error and what the model of a
 /// curve may miss.
-void FitPlan::take_continuum_data(const fs::path& run) {
+void CalibrationStages::take_continuum_data(const fs::path& run) {
   const double model_error = std::max(loaded_.config.calibration.model_error, 1e-6);
-  for (std::size_t i = 0; i < setup_.order.curves.size(); ++i) {
-    calibration::Curve& curve = setup_.order.curves[i];
+  for (std::size_t i = 0; i < setup_.input.curves.size(); ++i) {
+    calibration::Curve& curve = setup_.input.curves[i];
     const PressResponse response =
         PressResponse::read_csv(run / place("reference_" + std::to_string(i + 1)) / "response.csv");
     for (const double depth : curve.x) {
@@ -136,43 +137,43 @@ void FitPlan::take_continuum_data(const fs::path& run) {
   }
 }
 
-PlannedJob FitPlan::fit(const fs::path& run) {
+PlannedJob CalibrationStages::fit(const fs::path& run) {
   if (by_moduli())
     return {folder_,
             moduli_job(loaded_.config.press.rubber,
                        fit_options(loaded_, loaded_.config.press.lattice.model)),
             false};
   if (setup_.data_from_continuum) take_continuum_data(run);
-  return {place("fit"), fit_job(setup_.order), false};
+  return {place("fit"), fit_job(setup_.input), false};
 }
 
 /// Of a lattice that answered for measured forces: the continuum at the estimates tells its error.
-bool FitPlan::measures_bias() const {
+bool CalibrationStages::measures_bias() const {
   return loaded_.config.calibration.problem == CalibrationProblem::experiment &&
-         loaded_.config.calibration.bias && !by_continuum(setup_.order) &&
-         std::ranges::all_of(parameters_of(setup_.order), calibration::is_of_the_rubber);
+         loaded_.config.calibration.bias && !by_continuum(setup_.input) &&
+         std::ranges::all_of(parameters_of(setup_.input), calibration::is_of_the_rubber);
 }
 
-PlannedJob FitPlan::bias(const fs::path& run, std::size_t curve) const {
-  fem_reference::ReferenceJob order = setup_.order.continua[curve];
+PlannedJob CalibrationStages::bias(const fs::path& run, std::size_t curve) const {
+  fem_reference::ReferenceJob reference = setup_.input.continua[curve];
   const calibration::Material found = material(run);
-  order.rubber.youngs_modulus = found.rubber.youngs_modulus;
-  order.rubber.shear_modulus = found.rubber.shear_modulus;
-  order.press_to(thinned(order.protocol.samples, bias_samples));
-  return {place("bias_" + std::to_string(curve + 1)), reference_job(order), false};
+  reference.rubber.youngs_modulus = found.rubber.youngs_modulus;
+  reference.rubber.shear_modulus = found.rubber.shear_modulus;
+  reference.press_to(thinned(reference.protocol.samples, bias_samples));
+  return {place("bias_" + std::to_string(curve + 1)), reference_job(reference), false};
 }
 
-std::vector<PlannedJob> FitPlan::follow_up_jobs(const fs::path& run) {
+std::vector<PlannedJob> CalibrationStages::follow_up_jobs(const fs::path& run) {
   std::vector<PlannedJob> jobs;
   if (!usable(run)) return jobs;
   if (loaded_.config.calibration.surrogate) jobs.push_back(surrogate(run));
   if (measures_bias())
-    for (std::size_t i = 0; i < setup_.order.continua.size(); ++i) jobs.push_back(bias(run, i));
+    for (std::size_t i = 0; i < setup_.input.continua.size(); ++i) jobs.push_back(bias(run, i));
   return jobs;
 }
 
 /// The press of the configuration with what was found.
-PlannedJob FitPlan::surrogate(const fs::path& run) const {
+PlannedJob CalibrationStages::surrogate(const fs::path& run) const {
   const calibration::Material found = material(run);
   lattice::PressSetup setup = press_setup(loaded_.with({"press.mode=static"}));
   setup.rubber = found.rubber;
@@ -181,11 +182,11 @@ PlannedJob FitPlan::surrogate(const fs::path& run) const {
   setup.lattice.contact_stiffness = found.contact_stiffness;
   ForceUncertainty uncertainty;
   uncertainty.model_error = loaded_.config.calibration.model_error;
-  const bool by_press = !by_moduli() && !setup_.order.presses.empty() &&
-                        setup_.order.problem != CalibrationProblem::damping;
+  const bool by_press = !by_moduli() && !setup_.input.presses.empty() &&
+                        setup_.input.problem != CalibrationProblem::damping;
   if (by_press) {
     const ordered_json fit = read_json(run / place("fit") / "calibration.json");
-    uncertainty.parameters = parameters_of(setup_.order);
+    uncertainty.parameters = parameters_of(setup_.input);
     // As wide as the intervals.
     uncertainty.covariance =
         std::pow(fit.at("birge_ratio").get<double>(), 2) * matrix_of(fit.at("covariance"));
@@ -193,25 +194,25 @@ PlannedJob FitPlan::surrogate(const fs::path& run) const {
   return {place("surrogate"), surrogate_job(setup, uncertainty), false};
 }
 
-calibration::Material FitPlan::material(const fs::path& run) const {
+calibration::Material CalibrationStages::material(const fs::path& run) const {
   return calibration::read_material_toml(by_moduli() ? run / folder_ / "material.toml"
                                                      : run / place("fit") / estimates_name);
 }
 
-bool FitPlan::usable(const fs::path& run) const {
+bool CalibrationStages::usable(const fs::path& run) const {
   if (by_moduli()) return true;
   const fs::path estimates = run / place("fit") / estimates_name;
   return fs::exists(estimates) &&
          (failed_ == Failed::kept || calibration::read_material_toml(estimates).rejected.empty());
 }
 
-nlohmann::ordered_json FitPlan::with_bias(nlohmann::ordered_json calibration,
-                                          const fs::path& run) const {
+nlohmann::ordered_json CalibrationStages::with_bias(nlohmann::ordered_json calibration,
+                                                    const fs::path& run) const {
   std::vector<double> error;
-  for (std::size_t i = 0; i < setup_.order.curves.size(); ++i) {
+  for (std::size_t i = 0; i < setup_.input.curves.size(); ++i) {
     const fs::path folder = run / place("bias_" + std::to_string(i + 1));
     const Eigen::VectorXd own = lattice_error(
-        setup_.order.curves[i], calibration["residuals"][i].get<std::vector<double>>(),
+        setup_.input.curves[i], calibration["residuals"][i].get<std::vector<double>>(),
         PressResponse::read_csv(folder / "response.csv"));
     error.insert(error.end(), own.begin(), own.end());
   }
@@ -221,7 +222,7 @@ nlohmann::ordered_json FitPlan::with_bias(nlohmann::ordered_json calibration,
 }
 
 /// The fit to moduli knows neither the finger nor what of the rubber is only a default.
-void FitPlan::complete_moduli(const fs::path& file) const {
+void CalibrationStages::complete_moduli(const fs::path& file) const {
   calibration::Material found = calibration::read_material_toml(file);
   found.geometry = loaded_.config.press.geometry;
   found.density_known = loaded_.entries.at("rubber.density").given;
@@ -229,7 +230,7 @@ void FitPlan::complete_moduli(const fs::path& file) const {
   calibration::write_material_toml(found, file);
 }
 
-void FitPlan::finish(const fs::path& run) const {
+void CalibrationStages::finish(const fs::path& run) const {
   const fs::path target = run / folder_;
   const auto copy = [&](const std::string& from, const char* file, const char* as) {
     fs::copy_file(run / place(from) / file, target / as, fs::copy_options::overwrite_existing);

@@ -1,4 +1,4 @@
-#include "studies/sweep/sweep_order.h"
+#include "studies/sweep/sweep.h"
 
 #include <algorithm>
 #include <charconv>
@@ -112,14 +112,15 @@ class SweepReader {
     }
     std::vector<std::string>& values = axes[name];
     values.clear();
-    for (const toml::node& one : *node.as_array()) {
+    for (const toml::node& element : *node.as_array()) {
       try {
-        Value value = read_value(key, one);
+        Value value = read_value(key, element);
         locate_files(key, base, value);
-        const std::string literal = located_literal(key, value, toml_literal(one));
+        const std::string literal = located_literal(key, value, toml_literal(element));
         if (std::ranges::find(values, literal) == values.end()) values.push_back(literal);
       } catch (const UnitError& error) {
-        problems.push_back({place, name, unquoted(toml_literal(one)), error.rule, error.remedy});
+        problems.push_back(
+            {place, name, unquoted(toml_literal(element)), error.rule, error.remedy});
       }
     }
   }
@@ -188,39 +189,39 @@ Shard parse_shard(const std::string& text) {
   return shard;
 }
 
-SweepOrder read_sweep(const ConfigSource& source, const std::string& verb) {
+Sweep read_sweep(const ConfigSource& source, const std::string& verb) {
   SweepReader reader;
   if (!source.file.empty()) reader.read_file(source.file);
   ConfigSource shared = source;
   shared.sets = reader.read_sets(source.sets);
-  SweepOrder order;
-  order.verb = !verb.empty() ? verb : reader.verb.empty() ? "press" : reader.verb;
-  check(reader, order.verb);
-  order.base = load_config(shared);
-  for (const auto& [key, values] : reader.axes) order.axes.push_back(key);
-  order.points = combinations(reader);
+  Sweep sweep;
+  sweep.verb = !verb.empty() ? verb : reader.verb.empty() ? "press" : reader.verb;
+  check(reader, sweep.verb);
+  sweep.base = load_config(shared);
+  for (const auto& [key, values] : reader.axes) sweep.axes.push_back(key);
+  sweep.points = combinations(reader);
   const std::string common =
-      common_text(order.verb, order.base, {order.axes.begin(), order.axes.end()});
-  for (SweepPoint& point : order.points) {
+      common_text(sweep.verb, sweep.base, {sweep.axes.begin(), sweep.axes.end()});
+  for (SweepPoint& point : sweep.points) {
     point.id = sha256(common + settings_text(point)).substr(0, id_digits);
   }
-  std::ranges::sort(order.points, {}, &SweepPoint::id);
-  return order;
+  std::ranges::sort(sweep.points, {}, &SweepPoint::id);
+  return sweep;
 }
 
-std::vector<SweepPoint> points_of(const SweepOrder& order, const Shard& shard) {
+std::vector<SweepPoint> points_of(const Sweep& sweep, const Shard& shard) {
   std::vector<SweepPoint> points;
-  for (std::size_t p = std::size_t(shard.number - 1); p < order.points.size();
+  for (std::size_t p = std::size_t(shard.number - 1); p < sweep.points.size();
        p += std::size_t(shard.of)) {
-    points.push_back(order.points[p]);
+    points.push_back(sweep.points[p]);
   }
   return points;
 }
 
-LoadedConfig config_of(const SweepOrder& order, const SweepPoint& point) {
+LoadedConfig config_of(const Sweep& sweep, const SweepPoint& point) {
   std::vector<std::string> sets;
   for (const auto& [key, value] : point.settings) sets.push_back(key + "=" + value);
-  return order.base.with(sets);
+  return sweep.base.with(sets);
 }
 
 std::string settings_text(const SweepPoint& point) {
