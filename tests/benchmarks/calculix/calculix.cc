@@ -1,6 +1,7 @@
 #include "calculix.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -12,9 +13,9 @@ std::vector<double> read_total_forces(const std::filesystem::path& file) {
   std::vector<double> forces;
   for (std::string line; std::getline(in, line);) {
     if (line.find("total force") == std::string::npos) continue;
-    double fx = 0.0, fy = 0.0, fz = 0.0;
+    std::string fx, fy, fz;
     if (!(in >> fx >> fy >> fz)) throw std::runtime_error(file.string() + " ends within an entry");
-    forces.push_back(fy);
+    forces.push_back(std::strtod(fy.c_str(), nullptr));  // "NaN", too
   }
   return forces;
 }
@@ -49,8 +50,10 @@ CalculixRun run_calculix(const std::string& ccx, Problem problem, meshes::TipMes
                        {"OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1"}, limit, folder / "log.txt");
   run.iterations = read_iterations(folder / "press.sta");
   if (!std::filesystem::exists(folder / "press.dat")) return run;
-  for (const double force : read_total_forces(folder / "press.dat"))
+  for (const double force : read_total_forces(folder / "press.dat")) {
+    if (!std::isfinite(force)) break;  // which CalculiX takes for converged
     run.forces.push_back(sectors * std::abs(force) / millinewtons);
+  }
   return run;
 }
 

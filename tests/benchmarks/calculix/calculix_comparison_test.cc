@@ -186,8 +186,12 @@ class Programs : public testing::Test {
     ASSERT_EQ(fem.forces.size(), truth_.depths.size());
     EXPECT_GT(fem.unknowns, 1000u);
     if (problem != Problem::small_strain) truth_.forces = fem.forces;
-    const CalculixRun run = run_calculix(ccx_, problem, meridian(2.0), truth_.depths,
-                                         {Element::cax8r, Contact::node, Solver::spooles, 1e6, 0.0},
+    // A moderate mesh; thinner elements at the surface diverge at large strain.
+    auto mesh = meridian(2.0);
+    mesh.radial_elements = mesh.sleeve_elements = 4;
+    mesh.cap_grading = 4.0;
+    const CalculixRun run = run_calculix(ccx_, problem, mesh, truth_.depths,
+                                         {Element::cax8r, Contact::node, Solver::spooles, 1e7, 0.0},
                                          240.0, folder_ / "calculix");
     ASSERT_TRUE(run.cost.finished) << read_text(folder_ / "calculix/log.txt");
     EXPECT_GT(run.iterations, 10);
