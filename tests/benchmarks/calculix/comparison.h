@@ -24,7 +24,7 @@ Truth read_truth(const std::filesystem::path& file);
 
 /// One program on one mesh.
 struct Measurement {
-  double mesh = 0.0;  ///< CalculiX: refinement of its one mesh; fingertip-fem: max_unknowns
+  double mesh = 0.0;  ///< CalculiX: refinement of its one mesh; fingertip-fem: its tolerance
   std::size_t unknowns = 0;
   int iterations = 0;  ///< CalculiX only
   Cost cost;

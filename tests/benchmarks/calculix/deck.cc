@@ -1,11 +1,8 @@
 #include "deck.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <iomanip>
 #include <ostream>
-#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -14,33 +11,41 @@
 namespace fingertip::benchmarks {
 namespace {
 
-using meshes::Vector3;
+/// Edges of the surface further below the pole than this many times the largest depth can never be
+/// reached and are left out of the contact search.
+constexpr double reach = 1.2;
 
-/// Surface nodes and faces further below the pole than this many times the largest depth can
-/// never be reached and are left out of the contact search.
-constexpr double reach = 1.1;
+/// K/2 (ln J)² is the limit for b -> 0 of a pair of *HYPERFOAM terms of modulus K/4b and -K/4b,
+/// alpha 2, beta b and -b, which sum to K/4b² (cosh(2b ln J) - 1), plus b² (ln J)²/3 of itself.
+constexpr double pair_exponent = 0.02;
+
+/// beta of the term that gives G/2 (I1 - 3 - 2 ln J) in the limit 0.
+constexpr double logarithm_exponent = 1e-5;
+
+/// Over the tip's radius: how near to a surface or the axis counts as on it.
+constexpr double on_surface = 1e-9;
 
 class Deck {
  public:
-  Deck(const SolidMesh& mesh, const meshes::Geometry& geometry, const meshes::Rubber& rubber,
-       const std::vector<double>& depths, const DeckOptions& options, std::ostream& out)
+  Deck(const MeridianMesh& mesh, const meshes::Geometry& geometry, const meshes::Rubber& rubber,
+       Problem problem, const std::vector<double>& depths, const DeckOptions& options,
+       std::ostream& out)
       : mesh_(mesh),
         geometry_(geometry),
         rubber_(rubber),
+        problem_(problem),
         depths_(depths),
         options_(options),
-        out_(out),
-        lowest_(geometry.tip_radius - reach * depths.back()) {}
+        out_(out) {}
 
   void write() {
-    out_ << std::setprecision(12);
-    solid();
-    bond();
-    if (options_.contact == Contact::gap)
-      gaps();
-    else
-      plane_and_pair();
-    symmetry();
+    // Hyperfoam terms cancel each other: all digits count.
+    out_ << std::setprecision(15) << "*NODE, NSET=TIPNODES\n";
+    for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
+      out_ << number(i) << ", " << mesh_.nodes[i].x() * millimetres << ", "
+           << mesh_.nodes[i].y() * millimetres << '\n';
+    rubber();
+    plane_and_pair();
     fixed();
     for (std::size_t step = 0; step < depths_.size(); ++step) press(step);
   }
@@ -49,9 +54,82 @@ class Deck {
   /// CalculiX numbers from 1.
   static std::size_t number(std::size_t index) { return index + 1; }
 
-  void node(std::size_t index, const Vector3& w) {
-    const Vector3 scaled = w * millimetres;
-    out_ << number(index) << ", " << scaled.x() << ", " << scaled.y() << ", " << scaled.z() << '\n';
+  /// All elements as the set `set` of the material of the same name, whose cards are to follow.
+  void body(const char* set) {
+    out_ << "*ELEMENT, TYPE=" << name(options_.element) << ", ELSET=" << set << '\n';
+    for (const auto& element : mesh_.elements) {
+      out_ << number(elements_++);
+      for (std::size_t i = 0; i < mesh_.nodes_per_element(); ++i)
+        out_ << ", " << number(element[i]);
+      out_ << '\n';
+    }
+    out_ << "*SOLID SECTION, ELSET=" << set << ", MATERIAL=" << set << "\n*MATERIAL, NAME=" << set
+         << '\n';
+  }
+
+  void rubber() {
+    const double G = rubber_.shear_modulus * kilopascals;
+    const double lambda = rubber_.lame_lambda() * kilopascals, K = lambda + 2.0 / 3.0 * G;
+    // CalculiX asks for nu instead of beta.
+    const auto nu = [](double beta) { return beta / (1.0 + 2.0 * beta); };
+    const auto pair = [this](double modulus) {
+      const double term = modulus / (4.0 * pair_exponent);
+      out_ << term << ", 2., " << -term << ", 2., ";
+    };
+    body("TIP");
+    switch (problem_) {
+      case Problem::small_strain:
+        out_ << "*ELASTIC\n"
+             << rubber_.youngs_modulus * kilopascals << ", " << rubber_.poissons_ratio() << '\n';
+        break;
+      case Problem::law_a:
+        out_ << "*HYPERFOAM, N=3\n";
+        pair(lambda);
+        out_ << G << ", 2., " << nu(pair_exponent) << ", " << nu(-pair_exponent) << ",\n"
+             << nu(logarithm_exponent) << '\n';
+        break;
+      case Problem::law_c:
+        // A compressibility beyond any leaves the shape; the volume has elements of its own.
+        out_ << "*HYPERELASTIC, NEO HOOKE\n" << G / 2.0 << ", 1e20\n";
+        body("VOLUME");
+        out_ << "*HYPERFOAM, N=2\n";
+        pair(K);
+        out_ << nu(pair_exponent) << ", " << nu(-pair_exponent) << '\n';
+        break;
+      case Problem::neo_hooke:
+        out_ << "*HYPERELASTIC, NEO HOOKE\n" << G / 2.0 << ", " << 2.0 / K << '\n';
+        break;
+    }
+  }
+
+  /// The plane as the lower face of one prescribed hexahedron, and the contact pair. CalculiX turns
+  /// axisymmetric elements into solids within one degree of the plane z = 0; a hexahedron that
+  /// reaches further has no edge near the axis, where a sector's face narrows to nothing.
+  void plane_and_pair() {
+    const double R = geometry_.tip_radius * millimetres, side = 0.3 * R;
+    static constexpr std::array<std::array<double, 2>, 4> corners{
+        {{-1, 1}, {5, 1}, {5, -1}, {-1, -1}}};
+    out_ << "*NODE, NSET=PLANE\n";
+    for (std::size_t i = 0; i < 8; ++i)
+      out_ << number(mesh_.nodes.size() + i) << ", " << side * corners[i % 4][0] << ", "
+           << (i < 4 ? R : 1.5 * R) << ", " << side * corners[i % 4][1] << '\n';
+    out_ << "*ELEMENT, TYPE=C3D8, ELSET=PLATE\n" << number(elements_);
+    for (std::size_t i = 0; i < 8; ++i) out_ << ", " << number(mesh_.nodes.size() + i);
+    out_ << "\n*MATERIAL, NAME=PLATE\n*ELASTIC\n1., 0.3\n"
+         << "*SOLID SECTION, ELSET=PLATE, MATERIAL=PLATE\n"
+         << "*SURFACE, NAME=PLANEFACE\n"
+         << number(elements_) << ", S1\n*SURFACE, NAME=TIPFACE\n";
+    const double lowest = geometry_.tip_radius - reach * depths_.back();
+    for (const auto& [element, edge] : outer_edges(mesh_, geometry_, lowest))
+      out_ << number(element) << ", S" << edge << '\n';
+    out_ << "*SURFACE INTERACTION, NAME=TOUCH\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=";
+    if (options_.stiffness > 0.0)
+      out_ << "LINEAR\n"
+           << options_.stiffness * rubber_.youngs_modulus * kilopascals / millimetres << ", 1e-6\n";
+    else
+      out_ << "HARD\n";
+    out_ << "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=" << name(options_.contact)
+         << "\nTIPFACE, PLANEFACE\n";
   }
 
   void node_set(const char* set, const std::vector<std::size_t>& nodes) {
@@ -59,183 +137,61 @@ class Deck {
     for (const std::size_t index : nodes) out_ << number(index) << ",\n";
   }
 
-  void solid() {
-    out_ << "*NODE, NSET=TIPNODES\n";
-    for (std::size_t i = 0; i < mesh_.nodes.size(); ++i) node(i, mesh_.nodes[i]);
-    out_ << "*ELEMENT, TYPE=" << name(options_.element) << ", ELSET=TIP\n";
-    const std::size_t count = mesh_.nodes_per_element();
-    for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
-      out_ << number(e);
-      for (std::size_t i = 0; i < count; ++i) {
-        // A line holds at most 16 entries.
-        out_ << ", " << (i == 10 ? "\n" : "") << number(mesh_.elements[e][i]);
-      }
-      out_ << '\n';
-    }
-    out_ << "*MATERIAL, NAME=RUBBER\n*ELASTIC\n"
-         << rubber_.youngs_modulus * kilopascals << ", " << rubber_.poissons_ratio() << '\n'
-         << "*SOLID SECTION, ELSET=TIP, MATERIAL=RUBBER\n";
-  }
-
-  void bond() {
-    const double tolerance = 1e-9 * geometry_.tip_radius;
-    node_set("BOND", mesh_.nodes_where([&](const Vector3& w) {
-      return meshes::Geometry::radial_distance(w) < geometry_.rod_radius + tolerance;
+  void fixed() {
+    const double tolerance = on_surface * geometry_.tip_radius;
+    node_set("BOND", mesh_.nodes_where([&](const MeridianPoint& point) {
+      return distance_from_core(point) < geometry_.rod_radius + tolerance;
     }));
+    node_set("AXIS", mesh_.nodes_where([&](const MeridianPoint& point) {
+      return point.x() < tolerance && point.y() > geometry_.rod_radius + tolerance;
+    }));
+    out_ << "*BOUNDARY\nBOND, 1, 2\nAXIS, 1\nPLANE, 1\nPLANE, 3\n";
   }
-
-  std::vector<std::size_t> reachable_nodes() const {
-    const double tolerance = 1e-9 * geometry_.tip_radius;
-    return mesh_.nodes_where([&](const Vector3& w) {
-      return w.z() > lowest_ && w.norm() > geometry_.tip_radius - tolerance;
-    });
-  }
-
-  /// One gap element per surface node; its clearance is the node's distance from the plane.
-  void gaps() {
-    const auto nodes = reachable_nodes();
-    const std::size_t first = mesh_.nodes.size();
-    out_ << "*NODE, NSET=PLANE\n";
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      Vector3 above = mesh_.nodes[nodes[i]];
-      above.z() = geometry_.tip_radius;
-      node(first + i, above);
-    }
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const std::size_t element = number(mesh_.elements.size() + i);
-      const double clearance = geometry_.tip_radius - mesh_.nodes[nodes[i]].z();
-      out_ << "*ELEMENT, TYPE=GAPUNI, ELSET=GAP" << i << '\n'
-           << element << ", " << number(nodes[i]) << ", " << number(first + i) << '\n'
-           << "*GAP, ELSET=GAP" << i << '\n'
-           << std::max(clearance, 0.0) * millimetres << ", 0., 0., 1.";
-      if (options_.stiffness > 0.0) {
-        const double spring = options_.stiffness * rubber_.youngs_modulus;  // N/m = mN/mm
-        out_ << ", , " << spring << ", 1e-6";
-      }
-      out_ << '\n';
-    }
-  }
-
-  /// The plane as the lower face of one prescribed hexahedron, and the contact pair.
-  void plane_and_pair() {
-    const double r = geometry_.tip_radius;
-    const std::size_t first = mesh_.nodes.size();
-    const std::array<double, 2> side{-0.3 * r, 1.3 * r};
-    out_ << "*NODE, NSET=PLANE\n";
-    for (std::size_t i = 0; i < 8; ++i) {
-      const std::size_t corner = i % 4;
-      node(first + i, {side[corner == 1 || corner == 2], side[corner >= 2], i < 4 ? r : 1.5 * r});
-    }
-    out_ << "*ELEMENT, TYPE=C3D8, ELSET=PLATE\n" << number(mesh_.elements.size());
-    for (std::size_t i = 0; i < 8; ++i) out_ << ", " << number(first + i);
-    out_ << "\n*SOLID SECTION, ELSET=PLATE, MATERIAL=RUBBER\n"
-         << "*SURFACE, NAME=PLANEFACE\n"
-         << number(mesh_.elements.size()) << ", S1\n";
-    if (options_.contact == Contact::node && !mesh_.quadratic) {
-      node_set("REACH", reachable_nodes());
-      out_ << "*SURFACE, NAME=TIPFACE, TYPE=NODE\nREACH\n";
-    } else {
-      out_ << "*SURFACE, NAME=TIPFACE\n";
-      for (const auto& [element, face] : outer_faces(mesh_, geometry_, lowest_))
-        out_ << number(element) << ", S" << face << '\n';
-    }
-    interaction();
-  }
-
-  void interaction() {
-    const bool penalty = options_.contact == Contact::node || options_.contact == Contact::surface;
-    out_ << "*SURFACE INTERACTION, NAME=TOUCH\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=";
-    if (penalty && options_.stiffness > 0.0) {
-      const double stiffness =
-          options_.stiffness * rubber_.youngs_modulus * kilopascals / millimetres;
-      out_ << "LINEAR\n" << stiffness << ", 1e-6\n";
-    } else {
-      out_ << "HARD\n";
-    }
-    out_ << "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=" << name(options_.contact)
-         << "\nTIPFACE, PLANEFACE\n";
-  }
-
-  /// The symmetry planes. CalculiX 2.20 ends without a word when mortar contact meets a fixed
-  /// degree of freedom on the slave surface; there stiff springs to the ground stand in.
-  void symmetry() {
-    const double tolerance = 1e-9 * geometry_.tip_radius;
-    const bool springs = options_.contact == Contact::mortar;
-    const std::set<std::size_t> slaves = springs ? nodes_of_outer_faces() : std::set<std::size_t>{};
-    std::size_t element = mesh_.elements.size() + 1;  // after the plate
-    for (int axis = 0; axis < 2; ++axis) {
-      const std::string letter = axis == 0 ? "X" : "Y";
-      const auto on_plane =
-          mesh_.nodes_where([&](const Vector3& w) { return w[axis] < tolerance; });
-      out_ << "*NSET, NSET=SYM" << letter << '\n';
-      for (const std::size_t index : on_plane)
-        if (!slaves.contains(index)) out_ << number(index) << ",\n";
-      if (!springs) continue;
-      out_ << "*ELEMENT, TYPE=SPRING1, ELSET=SPRING" << letter << '\n';
-      for (const std::size_t index : on_plane)
-        if (slaves.contains(index)) out_ << number(element++) << ", " << number(index) << '\n';
-      // CalculiX tells a stiffness from a degree of freedom by its decimal point.
-      out_ << "*SPRING, ELSET=SPRING" << letter << '\n' << axis + 1 << "\n1000000.\n";
-    }
-  }
-
-  std::set<std::size_t> nodes_of_outer_faces() const {
-    const double tolerance = 1e-9 * geometry_.tip_radius;
-    std::set<std::size_t> nodes;
-    for (const auto& [element, face] : outer_faces(mesh_, geometry_, lowest_))
-      for (std::size_t i = 0; i < mesh_.nodes_per_element(); ++i) {
-        const std::size_t index = mesh_.elements[element][i];
-        if (meshes::Geometry::radial_distance(mesh_.nodes[index]) >
-            geometry_.tip_radius - tolerance)
-          nodes.insert(index);
-      }
-    return nodes;
-  }
-
-  void fixed() { out_ << "*BOUNDARY\nBOND, 1, 3\nSYMX, 1\nSYMY, 2\nPLANE, 1, 2\n"; }
 
   void press(std::size_t step) {
-    // GAPUNI is a nonlinear spring, but does not by itself make CalculiX iterate. NLGEOM does, and
-    // NLGEOM=NO after it takes large strain back while the iterations stay (ccx' steps.f).
-    const bool gaps = options_.contact == Contact::gap;
-    out_ << "*STEP, INC=1000" << (gaps ? ", NLGEOM, NLGEOM=NO" : "")
+    out_ << "*STEP, INC=1000" << (problem_ == Problem::small_strain ? "" : ", NLGEOM")
          << "\n*STATIC, SOLVER=" << name(options_.solver) << "\n1., 1.\n";
     if (options_.contact_change > 0.0 && step == 0)
       out_ << "*CONTROLS, PARAMETERS=CONTACT\n" << options_.contact_change << ", 0.1, 100, 60\n";
-    out_ << "*BOUNDARY\nPLANE, 3, 3, " << -depths_[step] * millimetres << '\n';
+    out_ << "*BOUNDARY\nPLANE, 2, 2, " << -depths_[step] * millimetres << '\n';
     if (step == 0) out_ << "*NODE PRINT, NSET=BOND, TOTALS=ONLY, FREQUENCY=1000\nRF\n";
     out_ << "*END STEP\n";
   }
 
-  const SolidMesh& mesh_;
+  const MeridianMesh& mesh_;
   const meshes::Geometry& geometry_;
   const meshes::Rubber& rubber_;
+  Problem problem_;
   const std::vector<double>& depths_;
   const DeckOptions& options_;
   std::ostream& out_;
-  double lowest_;
+  std::size_t elements_ = 0;  ///< written so far
 };
 
 }  // namespace
 
+std::string_view name(Problem problem) {
+  switch (problem) {
+    case Problem::small_strain: return "small strain";
+    case Problem::law_a: return "law A";
+    case Problem::law_c: return "law C";
+    case Problem::neo_hooke: return "NEO HOOKE";
+  }
+  return "";
+}
+
 std::string_view name(Element element) {
   switch (element) {
-    case Element::c3d8: return "C3D8";
-    case Element::c3d8i: return "C3D8I";
-    case Element::c3d20: return "C3D20";
-    case Element::c3d20r: return "C3D20R";
+    case Element::cax4: return "CAX4";
+    case Element::cax4r: return "CAX4R";
+    case Element::cax8: return "CAX8";
+    case Element::cax8r: return "CAX8R";
   }
   return "";
 }
 
 std::string_view name(Contact contact) {
-  switch (contact) {
-    case Contact::gap: return "GAPUNI";
-    case Contact::node: return "NODE TO SURFACE";
-    case Contact::surface: return "SURFACE TO SURFACE";
-    case Contact::mortar: return "MORTAR";
-  }
-  return "";
+  return contact == Contact::node ? "NODE TO SURFACE" : "SURFACE TO SURFACE";
 }
 
 std::string_view name(Solver solver) {
@@ -248,16 +204,17 @@ std::string_view name(Solver solver) {
 }
 
 bool is_quadratic(Element element) {
-  return element == Element::c3d20 || element == Element::c3d20r;
+  return element == Element::cax8 || element == Element::cax8r;
 }
 
-void write_deck(const SolidMesh& mesh, const meshes::Geometry& geometry,
-                const meshes::Rubber& rubber, const std::vector<double>& depths,
+void write_deck(const MeridianMesh& mesh, const meshes::Geometry& geometry,
+                const meshes::Rubber& rubber, Problem problem, const std::vector<double>& depths,
                 const DeckOptions& options, const std::filesystem::path& file) {
   if (mesh.quadratic != is_quadratic(options.element))
     throw std::invalid_argument("the mesh and the element must be of the same degree");
-  meshes::write_atomically(
-      file, [&](std::ostream& out) { Deck(mesh, geometry, rubber, depths, options, out).write(); });
+  meshes::write_atomically(file, [&](std::ostream& out) {
+    Deck(mesh, geometry, rubber, problem, depths, options, out).write();
+  });
 }
 
 }  // namespace fingertip::benchmarks

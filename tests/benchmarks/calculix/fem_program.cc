@@ -14,22 +14,23 @@ constexpr int tolerance_not_met = 3;
 
 }  // namespace
 
-FemRun run_fem(const std::string& program, double max_unknowns, const std::vector<double>& depths,
-               int threads, double limit, const std::filesystem::path& folder) {
+FemRun run_fem(const std::string& program, Problem problem, const FemOptions& options,
+               const std::vector<double>& depths, double limit,
+               const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  // A tolerance that these meshes do not meet, so that `max_unknowns` ends the sequence.
   const nlohmann::json job{
       {"protocol", {{"contact", "frictionless"}, {"depth", depths.back()}, {"samples", depths}}},
-      {"tolerance", 1e-4},
-      {"max_unknowns", max_unknowns},
+      {"strain", problem == Problem::small_strain ? "linear" : "finite"},
+      {"law", problem == Problem::law_a ? "A" : "C"},
+      {"symmetry", "axisymmetric"},
+      {"degree", options.degree},
+      {"tolerance", options.tolerance},
       {"write_fields", false}};
   meshes::write_atomically(folder / "job.json", [&](std::ostream& out) { out << job.dump(2); });
-  const std::string count = std::to_string(threads);
   FemRun run;
-  run.cost = run_child(
-      {program, folder.string()}, folder,
-      {"OMP_NUM_THREADS=" + count, "OPENBLAS_NUM_THREADS=" + count, "DEAL_II_NUM_THREADS=" + count},
-      limit, folder / "output.txt");
+  run.cost = run_child({program, folder.string()}, folder,
+                       {"OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1", "DEAL_II_NUM_THREADS=1"},
+                       limit, folder / "output.txt");
   run.cost.finished = run.cost.exit_code == 0 || run.cost.exit_code == tolerance_not_met;
   if (std::filesystem::exists(folder / "response.csv")) {
     const auto response = meshes::PressResponse::read_csv(folder / "response.csv");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "child_process.h"
+#include "deck.h"
 
 namespace fingertip::benchmarks {
 
@@ -15,11 +16,18 @@ struct FemRun {
   std::vector<double> forces;  ///< per depth on the last mesh [N]; fewer when it stopped short
 };
 
-/// Presses the default tip frictionlessly to `depths` [m], with `program` on `threads` threads in
-/// the folder `folder`, which is made: on the program's own first mesh, then on adaptively refined
-/// ones, as long as they have at most `max_unknowns`; the cost is that of all of them. A run that
-/// fails or exceeds `limit` seconds comes back with `cost.finished` false.
-FemRun run_fem(const std::string& program, double max_unknowns, const std::vector<double>& depths,
-               int threads, double limit, const std::filesystem::path& folder);
+struct FemOptions {
+  double tolerance = 5e-3;  ///< of the force's estimated error
+  int degree = 2;           ///< of the elements
+};
+
+/// Presses the default tip's meridian frictionlessly to `depths` [m] (`Problem::neo_hooke`: with
+/// law C), with `program` on one thread in the folder `folder`, which is made: on the program's own
+/// first mesh, then on adaptively refined ones until its error estimate meets the tolerance; the
+/// cost is that of all of them. A run that fails or exceeds `limit` seconds comes back with
+/// `cost.finished` false.
+FemRun run_fem(const std::string& program, Problem problem, const FemOptions& options,
+               const std::vector<double>& depths, double limit,
+               const std::filesystem::path& folder);
 
 }  // namespace fingertip::benchmarks

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <utility>
@@ -13,6 +14,8 @@ using Json = nlohmann::json;
 
 constexpr double megabyte = 1e6;
 constexpr double centimetre = 0.01;
+constexpr std::array clocks{std::pair{"wall", &Cost::wall_seconds},
+                            std::pair{"cpu", &Cost::cpu_seconds}};
 
 std::string state(const Cost& cost) {
   if (cost.finished) return "ok";
@@ -51,10 +54,14 @@ Json to_json(const ProgramRuns& program) {
                     {"cpu_seconds", run.cost.cpu_seconds},
                     {"peak_memory", run.cost.peak_memory}});
   }
-  return {{"program", program.name},
-          {"settings", program.settings},
-          {"threads", program.threads},
-          {"runs", runs}};
+  return {{"program", program.name}, {"settings", program.settings}, {"runs", runs}};
+}
+
+/// The times of both programs to `target` by one clock.
+auto times(const ProgramRuns& first, const ProgramRuns& second, double Cost::*clock,
+           double target) {
+  return std::pair{time_to_error(first.errors_and_times(clock), target),
+                   time_to_error(second.errors_and_times(clock), target)};
 }
 
 }  // namespace
@@ -68,17 +75,17 @@ std::vector<ErrorAndTime> ProgramRuns::errors_and_times(double Cost::*time) cons
 }
 
 void print_runs(std::ostream& out, const ProgramRuns& program, const Truth& truth) {
-  out << fmt::format("{}: {}, threads {}\n", program.name, program.settings, program.threads)
+  out << fmt::format("{}: {}\n", program.name, program.settings)
       << fmt::format("{:>6} {:>9} {:>6} |", "mesh", "unknowns", "iter.");
   for (const double depth : truth.depths) out << fmt::format(" {:>6.3f}", depth / centimetre);
   out << fmt::format(" cm | {:>7} {:>9} {:>9} {:>7}\n", "worst", "wall", "cpu", "memory");
   for (const Measurement& run : program.runs) {
     out << fmt::format("{:>6} {:>9} {:>6} |", run.mesh, run.unknowns, run.iterations);
-    for (const double error : run.errors) out << fmt::format(" {:>+6.2f}", 100.0 * error);
+    for (const double error : run.errors) out << fmt::format(" {:>+6.3f}", 100.0 * error);
     if (run.errors.empty()) out << fmt::format(" {:<{}}", "", 7 * truth.depths.size() - 1);
     const auto worst = run.worst_error();
     out << fmt::format("  % | {:>7} {:>7.2f} s {:>7.2f} s {:>4.0f} MB  {}\n",
-                       worst ? fmt::format("{:.2f} %", 100.0 * *worst) : "-", run.cost.wall_seconds,
+                       worst ? fmt::format("{:.3f} %", 100.0 * *worst) : "-", run.cost.wall_seconds,
                        run.cost.cpu_seconds, double(run.cost.peak_memory) / megabyte,
                        state(run.cost));
   }
@@ -86,32 +93,30 @@ void print_runs(std::ostream& out, const ProgramRuns& program, const Truth& trut
 }
 
 void print_times_to_error(std::ostream& out, const ProgramRuns& first, const ProgramRuns& second,
-                          double target) {
-  out << fmt::format("time to a worst error of {:g} %\n", 100.0 * target);
-  for (const auto& [label, time] :
-       {std::pair{"wall", &Cost::wall_seconds}, std::pair{"cpu", &Cost::cpu_seconds}}) {
-    const auto a = time_to_error(first.errors_and_times(time), target);
-    const auto b = time_to_error(second.errors_and_times(time), target);
-    out << fmt::format("  {:<5} {} {}, {} {}, ratio {}\n", label, first.name, text(a), second.name,
-                       text(b), ratio_text(a, b));
-  }
+                          const std::vector<double>& targets) {
+  for (const double target : targets)
+    for (const auto& [label, time] : clocks) {
+      const auto [a, b] = times(first, second, time, target);
+      out << fmt::format("time to {:g} %, {:<4}: {} {}, {} {}, ratio {}\n", 100.0 * target, label,
+                         first.name, text(a), second.name, text(b), ratio_text(a, b));
+    }
 }
 
 Json to_json(const ProgramRuns& first, const ProgramRuns& second, const Truth& truth,
-             double target) {
+             const std::vector<double>& targets) {
   Json result{{"depths", truth.depths},
               {"true_forces", truth.forces},
-              {"target_error", target},
               {"programs", Json::array({to_json(first), to_json(second)})}};
-  for (const auto& [label, time] :
-       {std::pair{"wall", &Cost::wall_seconds}, std::pair{"cpu", &Cost::cpu_seconds}}) {
-    const auto a = time_to_error(first.errors_and_times(time), target);
-    const auto b = time_to_error(second.errors_and_times(time), target);
-    result["time_to_target"][label] = {
-        {first.name, to_json(a)},
-        {second.name, to_json(b)},
-        {"ratio", a && b ? Json(a->seconds / b->seconds) : Json(nullptr)}};
-  }
+  for (const double target : targets)
+    for (const auto& [label, time] : clocks) {
+      const auto [a, b] = times(first, second, time, target);
+      result["times"].push_back(
+          {{"target", target},
+           {"clock", label},
+           {first.name, to_json(a)},
+           {second.name, to_json(b)},
+           {"ratio", a && b ? Json(a->seconds / b->seconds) : Json(nullptr)}});
+    }
   return result;
 }
 

@@ -14,7 +14,6 @@ namespace fingertip::benchmarks {
 struct ProgramRuns {
   std::string name;
   std::string settings;  ///< as a person reads it
-  int threads = 1;
   std::vector<Measurement> runs;
 
   /// Worst error against wall or processor time of the runs that reached every depth.
@@ -24,12 +23,12 @@ struct ProgramRuns {
 /// One line per mesh: unknowns, error at each depth, worst error, times, memory.
 void print_runs(std::ostream& out, const ProgramRuns& program, const Truth& truth);
 
-/// The times to `target` of both, wall and processor, and the ratio first over second.
+/// Per target: the times of both, wall and processor, and the ratio first over second.
 void print_times_to_error(std::ostream& out, const ProgramRuns& first, const ProgramRuns& second,
-                          double target);
+                          const std::vector<double>& targets);
 
 /// The same, with every number in SI; a time that was not reached is null.
 nlohmann::json to_json(const ProgramRuns& first, const ProgramRuns& second, const Truth& truth,
-                       double target);
+                       const std::vector<double>& targets);
 
 }  // namespace fingertip::benchmarks
