@@ -95,7 +95,7 @@ void build_meridian(const Geometry& geometry, const TipMeshOptions& options) {
   const int face = geo::addPlaneSurface({geo::addCurveLoop(loop)});
   geo::mesh::setRecombine(2, face);
   geo::synchronize();
-  gmsh::option::setNumber("Mesh.Algorithm", 8);  // for quadrilaterals
+  gmsh::option::setNumber("Mesh.Algorithm", 6);  // those for quadrilaterals crash in gmsh 4.8
   gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
   name_group(2, {face}, PhysicalTag::tip, "tip");
   name_group(1, curves[ProfileSurface::contact], PhysicalTag::outer, "outer");

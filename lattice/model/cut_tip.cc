@@ -103,17 +103,10 @@ CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   keep_sector(grid, sectors, cut);
   CutTip tip{GridCells(grid, largest_piece(grid, cut)), formulation_for(rubber, settings), {}, {}};
   const double stiffness = tie_stiffness * tip.formulation.shear / grid.spacing;
-<<<<<<< HEAD
-  tip.bond = tied_surface(tip.cells, geometry, Surface::bond, geometry.lowest(), sectors,
-                          stiffness * settings.ligament_stiffness);
-  tip.outer = tied_surface(tip.cells, geometry, Surface::outer, lowest_contact(geometry), sectors,
-                           stiffness * settings.contact_stiffness);
-=======
-  tip.bond = embedded_surface(tip.cells, geometry, Surface::bond, -geometry.sleeve_length, sectors,
+  tip.bond = embedded_surface(tip.cells, geometry, Surface::bond, geometry.lowest(), sectors,
                               stiffness * settings.ligament_stiffness);
   tip.outer = embedded_surface(tip.cells, geometry, Surface::outer, lowest_contact(geometry),
                                sectors, stiffness * settings.contact_stiffness);
->>>>>>> words
   return tip;
 }
 

@@ -58,41 +58,23 @@ EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, dou
     weight = 1.0;
     for (int d = 0; d < 3; ++d) weight *= (c >> d & 1) != 0 ? local[d] : 1.0 - local[d];
   }
-<<<<<<< HEAD
-  tied.rest = point.position;
-  tied.normal = point.normal;
-  tied.area = point.area;
-  tied.stiffness = stiffness * point.area;
-  return tied;
-}
-
-EmbeddedPoint tie_to_particle(std::uint32_t particle, const Vector3& rest, const Vector3& normal,
-                              double area, double stiffness) {
-  EmbeddedPoint tied;
-  tied.corners.fill(particle);
-  tied.weights[0] = 1.0;
-  tied.rest = rest;
-  tied.normal = normal;
-  tied.area = area;
-  tied.stiffness = stiffness;
-  return tied;
-=======
   embedded.rest = point.position;
+  embedded.normal = point.normal;
   embedded.area = point.area;
   embedded.stiffness = stiffness * point.area;
   return embedded;
 }
 
-EmbeddedPoint tie_to_particle(std::uint32_t particle, const Vector3& rest, double area,
-                              double stiffness) {
+EmbeddedPoint tie_to_particle(std::uint32_t particle, const Vector3& rest, const Vector3& normal,
+                              double area, double stiffness) {
   EmbeddedPoint embedded;
   embedded.corners.fill(particle);
   embedded.weights[0] = 1.0;
   embedded.rest = rest;
+  embedded.normal = normal;
   embedded.area = area;
   embedded.stiffness = stiffness;
   return embedded;
->>>>>>> words
 }
 
 }  // namespace fingertip::lattice

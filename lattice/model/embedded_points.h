@@ -19,20 +19,6 @@ struct EmbeddedPoint {
   double stiffness = 0.0;                            ///< of its tie to rod or plane [N/m]
 };
 
-<<<<<<< HEAD
-/// The surface point tied to the eight corners of its cell by trilinear weights, its stiffness
-/// `stiffness` [Pa/m] times its area. A point whose cell was left out is tied to the nearest of the
-/// 26 cells around that: the weights then extrapolate, and none exceeds 8 in magnitude.
-/// Throws InvalidInput when none of them exists either.
-EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, double stiffness);
-
-/// `particle` itself as a tied point.
-EmbeddedPoint tie_to_particle(std::uint32_t particle, const meshes::Vector3& rest,
-                              const meshes::Vector3& normal, double area, double stiffness);
-=======
-/// Unit normal out of the rubber where the outer surface is nearest to `rest`.
-meshes::Vector3 outer_normal(const meshes::Vector3& rest);
-
 /// The surface point embedded in the eight corners of its cell by trilinear weights, its stiffness
 /// `stiffness` [Pa/m] times its area. A point whose cell was left out is embedded in the nearest of
 /// the 26 cells around that: the weights then extrapolate, and none exceeds 8 in magnitude. Throws
@@ -40,8 +26,7 @@ meshes::Vector3 outer_normal(const meshes::Vector3& rest);
 EmbeddedPoint tie(const GridCells& cells, const meshes::SurfacePoint& point, double stiffness);
 
 /// `particle` itself as an embedded point.
-EmbeddedPoint tie_to_particle(std::uint32_t particle, const meshes::Vector3& rest, double area,
-                              double stiffness);
->>>>>>> words
+EmbeddedPoint tie_to_particle(std::uint32_t particle, const meshes::Vector3& rest,
+                              const meshes::Vector3& normal, double area, double stiffness);
 
 }  // namespace fingertip::lattice

@@ -125,14 +125,10 @@ struct ExchangeSettings {
 /// `studies/run/press_setup.h` resolves them.
 struct Config {
   lattice::PressSetup press;
-<<<<<<< HEAD
   ShapeKind shape = ShapeKind::dome;
   std::filesystem::path profile;   ///< absolute; only for ShapeKind::profile
   std::optional<double> endpoint;  ///< of a profile, on the axis [m]
-  ControllerOrder controller;
-=======
   ControllerSettings controller;
->>>>>>> words
   ConstantsSource constants = ConstantsSource::automatic;
   std::filesystem::path constants_file;           ///< absolute; only for ConstantsSource::file
   std::optional<lattice::Kinematics> kinematics;  ///< as asked for; empty: the model's default
