@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "meshes/files.h"
@@ -97,10 +99,13 @@ Violation too_coarse(const Geometry& geometry, double spacing) {
             "the spacing must be positive and at most (R - r)/2, two cells through the rubber",
             "choose a finer lattice"};
   const double coarsest = geometry.coarsest_spacing();
+  char wall[32], length[32];
+  std::snprintf(wall, sizeof wall, "%.4g m", 4.0 * coarsest);
+  std::snprintf(length, sizeof length, "%.4g m", 0.999 * coarsest);
   return {"lattice.spacing", to_text(spacing) + " m",
-          "the spacing must be positive and at most a quarter of the thinnest wall, " +
-              to_text(4.0 * coarsest) + " m",
-          "choose at most " + to_text(coarsest) + " m"};
+          std::string("the spacing must be positive and at most a quarter of the thinnest wall, ") +
+              wall,
+          std::string("choose at most ") + length};
 }
 
 double Geometry::radial_distance(const Vector3& w) {

@@ -604,7 +604,8 @@ double Meridian::reach(double tilt) const {
     double best = 0.0;
     for (int i = 1; i <= chords; ++i)
       if (along(double(i) / chords) > along(best)) best = double(i) / chords;
-    const double low = std::max(0.0, best - 1.0 / chords), high = std::min(1.0, best + 1.0 / chords);
+    const double low = std::max(0.0, best - 1.0 / chords),
+                 high = std::min(1.0, best + 1.0 / chords);
     const auto [at, least] = boost::math::tools::brent_find_minima(
         [&](double t) { return -along(t); }, low, high, std::numeric_limits<double>::digits);
     farthest = std::max({farthest, along(best), -least});
@@ -646,6 +647,30 @@ double Meridian::area(ProfileSurface surface) const {
   for (const MeridianPiece& piece : pieces_)
     if (piece.surface() == surface) sum += piece.area();
   return sum;
+}
+
+std::vector<std::vector<Vector2>> held_outlines(const Geometry& geometry, int points) {
+  const double r = geometry.rod_radius;
+  if (geometry.is_dome()) {
+    std::vector<Vector2> rod{{0.0, -geometry.rod_length}, {r, -geometry.rod_length}};
+    for (int i = 0; i < points; ++i) {
+      const double latitude = 0.5 * pi * i / points;
+      rod.emplace_back(r * std::cos(latitude), r * std::sin(latitude));
+    }
+    rod.emplace_back(0.0, r);
+    return {rod};
+  }
+  const double low = geometry.lowest();
+  std::vector<std::vector<Vector2>> outlines{
+      {{0.0, low - 2.0 * r}, {r, low - 2.0 * r}, {r, low}, {0.0, low}}};
+  const Meridian meridian(geometry);
+  for (const MeridianPiece& piece : meridian.pieces()) {
+    if (piece.surface() != ProfileSurface::bond) continue;
+    const int count = piece.curve() == ProfileCurve::straight ? 1 : points;
+    std::vector<Vector2>& outline = outlines.emplace_back();
+    for (int i = count; i >= 0; --i) outline.push_back(piece.at(double(i) / count));
+  }
+  return outlines;
 }
 
 }  // namespace fingertip::meshes

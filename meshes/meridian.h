@@ -98,8 +98,8 @@ class Meridian {
   double signed_distance(const Vector3& w) const;
   /// The point of a surface that is nearest to `w`.
   NearestPoint nearest(ProfileSurface surface, const Vector3& w) const;
-  /// The largest component of a place on `contact` along the axis turned by `tilt` [rad] [m]: what a
-  /// tilted plane touches first.
+  /// The largest component of a place on `contact` along the axis turned by `tilt` [rad] [m]: what
+  /// a tilted plane touches first.
   double reach(double tilt) const;
   bool contains(const Vector2& point) const;
   bool contains(const Vector3& w) const;
@@ -129,5 +129,9 @@ class Meridian {
   std::vector<MonotonePart> parts_;
   double pole_ = 0.0, lowest_ = 0.0, radius_ = 0.0, bond_top_ = 0.0;
 };
+
+/// What the hand holds, for pictures: curves (r, z) from below upward that sweep the dome's rod, or
+/// a block below a profile and its bond; `points` on each curved piece.
+std::vector<std::vector<Vector2>> held_outlines(const Geometry& geometry, int points);
 
 }  // namespace fingertip::meshes

@@ -24,7 +24,7 @@ bool is_wanted(const CaseRun& run, const LoadedConfig& loaded, const LoadedConfi
   if (run.when.empty()) return true;
   const meshes::Geometry& geometry = loaded.config.press.geometry;
   const double ratio = loaded.config.press.lattice.spacing / own.config.press.lattice.spacing;
-  const bool allowed = loaded.config.press.lattice.spacing <= 0.5 * geometry.thickness();
+  const bool allowed = loaded.config.press.lattice.spacing <= geometry.coarsest_spacing();
   return allowed && (run.when == "coarser" ? ratio > 1.0 + 1e-9 : std::abs(ratio - 1.0) >= 1e-9);
 }
 

@@ -49,6 +49,8 @@ constexpr Verb verbs[] = {
     {"import", "take back what LAMMPS made of it: table, deviation, time, frames", "RUN",
      "folder of an export", 0U},
     {"check", "check a configuration file", "FILE", "the file", config_options},
+    {"shape", "check the meridian of a finger, tell its measures, draw it", "FILE",
+     "CSV files, columns r [mm],z [mm],surface,curve", out_options},
     {"explain", "explain a configuration key, or list all", "KEY", "section.key", 0U},
     {"init", "write a commented configuration with every key", "FILE",
      "the file (default: standard output)", out_options},
@@ -131,8 +133,7 @@ void add_import(CLI::App& sub, CommandLine& line) {
 void add_bench(CLI::App& sub, CommandLine& line) {
   sub.add_option("--json", line.json, "write what was measured to this file, too")
       ->type_name("FILE");
-  sub.add_flag("--quick", line.quick,
-               "coarse lattices, few repeats: below three minutes");
+  sub.add_flag("--quick", line.quick, "coarse lattices, few repeats: below three minutes");
   sub.add_option("--history", line.history,
                  "folder of history.jsonl, which gets a line (default: in the cache)")
       ->type_name("DIR");

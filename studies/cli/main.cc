@@ -29,7 +29,7 @@ int dispatch(const studies::CommandLine& line) {
       {"report", studies::run_report},       {"check", studies::run_check},
       {"explain", studies::run_explain},     {"init", studies::run_init},
       {"doctor", studies::run_doctor},       {"bench", studies::run_bench},
-      {"sweep", studies::run_sweep}};
+      {"sweep", studies::run_sweep},         {"shape", studies::run_shape}};
   return verbs.at(line.verb)(line);
 }
 

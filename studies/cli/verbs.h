@@ -25,6 +25,7 @@ int run_export(const CommandLine& line);
 int run_import(const CommandLine& line);
 int run_sweep(const CommandLine& line);
 int run_check(const CommandLine& line);
+int run_shape(const CommandLine& line);
 int run_explain(const CommandLine& line);
 int run_init(const CommandLine& line);
 int run_doctor(const CommandLine& line);

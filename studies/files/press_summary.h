@@ -15,12 +15,17 @@ namespace fingertip::studies {
 struct GeometryEntry {
   double tip_radius = meshes::unknown, rod_radius = meshes::unknown,
          sleeve_length = meshes::unknown, rod_length = meshes::unknown;
+  std::string shape;  ///< empty: the dome
+
+  bool is_dome() const { return shape.empty(); }
 };
 constexpr auto fields_of(const GeometryEntry*) {
   using meshes::named;
   using Whole = GeometryEntry;
-  return named("tip_radius rod_radius sleeve_length rod_length", &Whole::tip_radius,
-               &Whole::rod_radius, &Whole::sleeve_length, &Whole::rod_length);
+  return std::tuple_cat(
+      named("tip_radius rod_radius sleeve_length rod_length", &Whole::tip_radius,
+            &Whole::rod_radius, &Whole::sleeve_length, &Whole::rod_length),
+      meshes::if_known(named("shape", &Whole::shape)));
 }
 
 /// Spring constants [N/m] and volume constant [Pa].

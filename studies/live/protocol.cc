@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "meshes/meridian.h"
+
 namespace fingertip::studies {
 
 namespace {
@@ -194,6 +196,18 @@ Json units_json(UnitSystem first) {
   return all;
 }
 
+/// Outlines of what the hand holds, (r, z).
+Json held_json(const meshes::Geometry& geometry) {
+  Json outlines = Json::array();
+  for (const auto& outline : meshes::held_outlines(geometry, 16)) {
+    Json points = Json::array();
+    for (const meshes::Vector2& place : outline)
+      points.push_back(Json::array({place.x(), place.y()}));
+    outlines.push_back(std::move(points));
+  }
+  return outlines;
+}
+
 }  // namespace
 
 std::string encode_scene(const LiveScene& scene) {
@@ -204,7 +218,9 @@ std::string encode_scene(const LiveScene& scene) {
                    {{"tip_radius", scene.geometry.tip_radius},
                     {"rod_radius", scene.geometry.rod_radius},
                     {"sleeve_length", scene.geometry.sleeve_length},
-                    {"rod_length", scene.geometry.rod_length}}},
+                    {"rod_length", scene.geometry.rod_length},
+                    {"dome", scene.geometry.is_dome()},
+                    {"held", held_json(scene.geometry)}}},
                   {"limits", limits_json(scene.limits)},
                   {"masses", scene.masses},
                   {"springs", scene.springs},

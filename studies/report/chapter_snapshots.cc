@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "meshes/geometry.h"
@@ -66,9 +67,10 @@ std::vector<Snapshot> snapshots_of(const MovingPress& press) {
   return result;
 }
 
-/// Where the outer surface faces, of a place at rest on it.
-Vector3 outer_normal(const Vector3& rest) {
-  return Vector3(rest.x(), rest.y(), std::max(rest.z(), 0.0)).normalized();
+/// Where the outer surface faces, of a place at rest on it; roughly, of another shape than the
+/// dome: from the axis below `centre`, away from it above.
+Vector3 outer_normal(const Vector3& rest, double centre) {
+  return Vector3(rest.x(), rest.y(), std::max(rest.z() - centre, 0.0)).normalized();
 }
 
 class Drawing {
@@ -81,6 +83,10 @@ class Drawing {
         largest_torque_(largest_torque),
         springs_(press.boundary_springs) {
     for (const BoundaryRow& row : press.boundary) rest_.push_back(row.rest);
+    if (shape_.is_dome()) return;
+    double top = -std::numeric_limits<double>::infinity();
+    for (const Vector3& rest : rest_) top = std::max(top, rest.z());
+    centre_ = top - shape_.tip_radius;
   }
 
   Panel panel(const Snapshot& snapshot) const {
@@ -90,7 +96,7 @@ class Drawing {
     panel.key = "";
     panel.bare = true;
     add_plane(panel, snapshot);
-    add_rod(panel, snapshot);
+    if (shape_.is_dome()) add_rod(panel, snapshot);
     add_tip(panel, snapshot);
     add_arrow(panel, snapshot, snapshot.force, largest_force_, force_colour, "force");
     add_arrow(panel, snapshot, snapshot.torque, largest_torque_, torque_colour, "torque");
@@ -175,7 +181,7 @@ class Drawing {
   void add_tip(Panel& panel, const Snapshot& snapshot) const {
     Series springs{"", "springs", {}, {}, {}, thin("#3f7f6f", 0.6)};
     const auto visible = [&](std::size_t i) {
-      return camera_.faces(snapshot.turned * outer_normal(rest_[i]));
+      return camera_.faces(snapshot.turned * outer_normal(rest_[i], centre_));
     };
     const std::size_t count = std::min(rest_.size(), snapshot.points.size());
     for (const auto& [i, j] : springs_) {
@@ -207,6 +213,7 @@ class Drawing {
   GeometryEntry shape_;
   double largest_force_, largest_torque_;
   std::vector<Vector3> rest_;
+  double centre_ = 0.0;  ///< of the outer surface, on the axis [m]
   std::vector<BoundarySpringRow> springs_;
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "meshes/files.h"
+#include "meshes/meridian.h"
 #include "studies/run/vtk_text.h"
 
 namespace fingertip::studies {
@@ -18,8 +19,8 @@ using meshes::Vector3;
 
 namespace {
 
-constexpr std::size_t around = 32;    ///< points around the rod
-constexpr std::size_t latitudes = 8;  ///< rings of its hemisphere
+constexpr std::size_t around = 32;  ///< points around the rod
+constexpr int latitudes = 8;        ///< rings of its hemisphere
 
 std::vector<double> list(const Vector3& value) {
   return {value.x(), value.y(), value.z()};
@@ -72,33 +73,31 @@ MoviePiece Movie::tip_piece(const BoundaryView& view, const FingerPicture& pictu
   return piece;
 }
 
-/// The end's centre, a ring at the end, one at z = 0 and those of the hemisphere, the pole.
+/// Rings about the axis, joined along each outline; one point where it meets the axis.
 MoviePiece Movie::rod_piece(const FingerPicture& picture) const {
   MoviePiece piece;
   piece.part = MoviePiece::rod;
-  const double r = geometry_.rod_radius;
-  piece.points.push_back(picture.rod * Vector3(0.0, 0.0, -geometry_.rod_length));
-  for (std::size_t ring = 0; ring <= latitudes; ++ring) {
-    const double latitude = 0.5 * std::numbers::pi * (double(ring) - 1.0) / double(latitudes);
-    const double radius = ring == 0 ? r : r * std::cos(latitude);
-    const double height = ring == 0 ? -geometry_.rod_length : r * std::sin(latitude);
-    for (std::size_t k = 0; k < around; ++k) {
-      const double angle = 2.0 * std::numbers::pi * double(k) / double(around);
-      piece.points.push_back(picture.rod *
-                             Vector3(radius * std::cos(angle), radius * std::sin(angle), height));
+  for (const auto& outline : meshes::held_outlines(geometry_, latitudes)) {
+    std::vector<std::size_t> below, above;
+    for (const meshes::Vector2& place : outline) {
+      above.clear();
+      for (std::size_t k = 0; k < (place.x() > 0.0 ? around : 1); ++k) {
+        const double angle = 2.0 * std::numbers::pi * double(k) / double(around);
+        above.push_back(piece.points.size());
+        piece.points.push_back(picture.rod * Vector3(place.x() * std::cos(angle),
+                                                     place.x() * std::sin(angle), place.y()));
+      }
+      for (std::size_t k = 0; k < around && !below.empty(); ++k) {
+        const std::size_t next = (k + 1) % around;
+        if (below.size() == around && above.size() == around)
+          piece.add_cell(vtk::quadrangle, {below[k], below[next], above[next], above[k]});
+        else if (above.size() == around)
+          piece.add_cell(vtk::triangle, {below[0], above[next], above[k]});
+        else if (below.size() == around)
+          piece.add_cell(vtk::triangle, {below[k], below[next], above[0]});
+      }
+      below = above;
     }
-  }
-  const std::size_t pole = piece.points.size();
-  piece.points.push_back(picture.rod * Vector3(0.0, 0.0, r));
-  for (std::size_t k = 0; k < around; ++k) {
-    const std::size_t next = (k + 1) % around;
-    piece.add_cell(vtk::triangle, {0, 1 + next, 1 + k});
-    for (std::size_t ring = 0; ring < latitudes; ++ring) {
-      const std::size_t below = 1 + ring * around, above = below + around;
-      piece.add_cell(vtk::quadrangle, {below + k, below + next, above + next, above + k});
-    }
-    const std::size_t last = 1 + latitudes * around;
-    piece.add_cell(vtk::triangle, {last + k, last + next, pole});
   }
   piece.held.assign(piece.points.size(), 0);
   return piece;

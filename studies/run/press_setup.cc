@@ -110,13 +110,16 @@ void check_spacing(const LoadedConfig& loaded) {
   const auto divided = [](double by) { return "tip_radius/" + calibration::rounded(by, 6); };
   const std::string value = calibration::rounded(spacing) + " m";
   std::vector<meshes::Violation> broken;
-  if (!(spacing <= 0.5 * geometry.thickness())) {
-    broken.push_back({"lattice.spacing", value,
-                      "the spacing must be at most (R - r)/2 = " +
-                          calibration::rounded(0.5 * geometry.thickness()) +
-                          " m, two cells through the rubber",
-                      "choose a finer lattice, for instance " +
-                          divided(std::ceil(3.0 * radius / geometry.thickness()))});
+  const double coarsest = geometry.coarsest_spacing();
+  if (!(spacing <= coarsest)) {
+    broken.push_back(
+        {"lattice.spacing", value,
+         (geometry.is_dome() ? "the spacing must be at most (R - r)/2 = "
+                             : "the spacing must be at most a quarter of the thinnest wall, ") +
+             calibration::rounded(coarsest, 6) +
+             (geometry.is_dome() ? " m, two cells through the rubber" : " m"),
+         "choose a finer lattice, for instance " +
+             divided(std::ceil((geometry.is_dome() ? 1.5 : 1.0) * radius / coarsest))});
   } else if (meshes::expected_particle_count(geometry, spacing) > most_particles) {
     const double finest = std::cbrt(geometry.tip_volume() / most_particles);
     broken.push_back({"lattice.spacing", value,
@@ -192,7 +195,13 @@ void check_all(const LoadedConfig& loaded) {
   if (!lattice::beyond_the_lattice(within_the_lattice.config.press).empty())
     protocol.mode = meshes::DriveMode::equilibrium;
   press_setup(within_the_lattice);
-  continuum_setup(loaded);
+  LoadedConfig within_the_continuum = loaded;
+  if (!loaded.config.press.geometry.is_dome()) {  // what it cannot press, the lattice can
+    meshes::PressProtocol& straightened = within_the_continuum.config.reference.protocol;
+    straightened.tilt = straight.tilt;
+    straightened.lateral = straight.lateral;
+  }
+  continuum_setup(within_the_continuum);
 }
 
 void check_validation(const LoadedConfig& loaded) {

@@ -64,7 +64,8 @@ void run_static_job(const lattice::PressSetup& setup, const fs::path& folder,
 }  // namespace
 
 GeometryEntry geometry_entry(const meshes::Geometry& geometry) {
-  return {geometry.tip_radius, geometry.rod_radius, geometry.sleeve_length, geometry.rod_length};
+  return {geometry.tip_radius, geometry.rod_radius, geometry.sleeve_length, geometry.rod_length,
+          geometry.is_dome() ? "" : "profile"};
 }
 
 ConstantsEntry constants_entry(const lattice::SpringConstants& constants) {

@@ -91,6 +91,34 @@ TEST(Meridian, GivesTheForcesOfAnotherProgram) {
   }
 }
 
+/// The dome written as a profile, on gmsh's unstructured mesh: within both bars.
+TEST(Meridian, ProfileOfTheDomeIsTheDome) {
+  using enum meshes::ProfileSurface;
+  using enum meshes::ProfileCurve;
+  const meshes::Geometry g;
+  const double R = g.tip_radius, r = g.rod_radius, L = g.sleeve_length, up = 0.004;
+  for (const Strain strain : {Strain::linear, Strain::finite}) {
+    ReferenceJob dome = meridian_press(ContactMode::stick, strain);
+    dome.refinement = 1.0;
+    dome.tolerance = 0.003;
+    dome.press_to({5e-4, 1e-3});
+    ReferenceJob profile = dome;
+    profile.geometry = meshes::Geometry::of_profile({{r, up - L, free, straight},
+                                                     {R, up - L, contact, straight},
+                                                     {R, up, contact, arc, 0.0, up},
+                                                     {0.0, up + R, axis, straight},
+                                                     {0.0, up + r, bond, arc, 0.0, up},
+                                                     {r, up, bond, straight}});
+    const auto expected = converged(dome), found = converged(profile);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const auto &a = expected[i].sample, &b = found[i].sample;
+      EXPECT_LE(std::abs(a.normal_force - b.normal_force), a.force_error + b.force_error);
+      EXPECT_NEAR(a.contact_radius, b.contact_radius,
+                  expected[i].node_spacing + found[i].node_spacing);
+    }
+  }
+}
+
 /// Nothing but its neighbours holds the pole of the meridian down: left to itself it rises through
 /// the plane, and beyond some 0.6 of the thickness no step converges.
 TEST(Meridian, GoesDeepWithoutFriction) {

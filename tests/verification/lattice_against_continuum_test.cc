@@ -76,6 +76,35 @@ TEST(LatticeAgainstContinuum, AgreesWithoutFriction) {
   EXPECT_LT(error_of_lattice({}, 0.25, ContactMode::frictionless), coarseness);
 }
 
+/// Base-held fingers: solid, and hollow with a wall of 2.5 mm, 25 mm high and wide; at rest.
+TEST(LatticeAgainstContinuum, AgreesOnProfiles) {
+  using enum meshes::ProfileSurface;
+  using enum meshes::ProfileCurve;
+  const double R = 0.0125, r = 0.010, H = 0.025;
+  const auto solid = meshes::Geometry::of_profile({{R, 0.0, contact, straight},
+                                                   {R, R, contact, arc, 0.0, R},
+                                                   {0.0, H, axis, straight},
+                                                   {0.0, 0.0, bond, straight}});
+  const auto hollow = meshes::Geometry::of_profile({{R, 0.0, contact, straight},
+                                                    {R, R, contact, arc, 0.0, R},
+                                                    {0.0, H, axis, straight},
+                                                    {0.0, R + r, free, arc, 0.0, R},
+                                                    {r, R, free, straight},
+                                                    {r, 0.0, bond, straight}});
+  const meshes::Rubber rubber = rubber_with(0.4);
+  for (const auto& [geometry, cells] : {std::pair(solid, 12.0), std::pair(hollow, 20.0)}) {
+    ReferenceJob job = continuum_job(geometry, rubber, ContactMode::frictionless, 2e-3);
+    job.refinement = 3.0;
+    auto press =
+        lattice_press(geometry, rubber, ContactMode::frictionless, job.protocol.depth, cells);
+    press.protocol.mode = meshes::DriveMode::equilibrium;
+    press.protocol.samples = job.protocol.samples;
+    EXPECT_LT(meshes::relative_l2_force_error(lattice::run_static_press(press).response,
+                                              press_continuum(job), 5e-4, 2e-3),
+              coarseness);
+  }
+}
+
 TEST(LatticeAgainstContinuum, AgreesWhenItSticks) {
   EXPECT_LT(error_of_lattice({}, 0.25, ContactMode::stick), coarseness);
   EXPECT_LT(error_of_lattice({}, 3.0 / 7.0, ContactMode::stick), coarseness);

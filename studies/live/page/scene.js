@@ -64,15 +64,14 @@ class FingerScene {
   }
 
   buildRod() {
-    const r = this.geometry.rod_radius * this.scale, l = this.geometry.rod_length * this.scale;
-    this.rodMaterial = new THREE.MeshPhongMaterial({ shininess: 40, transparent: true, opacity: 0.8, depthWrite: false });
-    const barrel = new THREE.Mesh(new THREE.CylinderBufferGeometry(r, r, l, 48), this.rodMaterial);
-    barrel.rotation.x = Math.PI / 2;
-    barrel.position.z = -l / 2;
-    const dome = new THREE.Mesh(new THREE.SphereBufferGeometry(r, 48, 24, 0, 2 * Math.PI, 0, Math.PI / 2), this.rodMaterial);
-    dome.rotation.x = Math.PI / 2;
+    this.rodMaterial = new THREE.MeshPhongMaterial({ shininess: 40, transparent: true, opacity: 0.8, depthWrite: false, side: THREE.DoubleSide });
     this.rod = new THREE.Group();
-    this.rod.add(barrel, dome);
+    for (const outline of this.geometry.held) {
+      const points = outline.map(([r, z]) => new THREE.Vector2(r * this.scale, z * this.scale));
+      const part = new THREE.Mesh(new THREE.LatheBufferGeometry(points, 48), this.rodMaterial);
+      part.rotation.x = Math.PI / 2;  // it turns about y
+      this.rod.add(part);
+    }
     this.scene.add(this.rod);
   }
 
@@ -243,11 +242,11 @@ class FingerScene {
   onRod(x, y) {
     const ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2(2 * x / this.canvas.clientWidth - 1, 1 - 2 * y / this.canvas.clientHeight), this.camera);
-    const l = this.geometry.rod_length * this.scale, sleeve = this.geometry.sleeve_length * this.scale;
-    const hit = ray.intersectObjects(this.rod.children.slice(0, 2))[0];
+    const sleeve = this.geometry.sleeve_length * this.scale;
+    const hit = ray.intersectObjects(this.rod.children.slice(0, this.geometry.held.length))[0];
     if (!hit) return false;
     const inRod = this.rod.worldToLocal(hit.point.clone());
-    return inRod.z < -sleeve && inRod.z >= -l - 0.01;  // what the rubber does not cover
+    return inRod.z < -sleeve;  // what the rubber does not cover
   }
 
   draw() {

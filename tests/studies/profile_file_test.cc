@@ -1,0 +1,125 @@
+#include "studies/config/profile_file.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "meshes/errors.h"
+#include "studies/config/loader.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip;
+using namespace fingertip::studies;
+
+namespace {
+
+const std::string solid_finger =
+    "r [mm],z [mm],surface,curve\n"
+    "12.5,0,contact,\n"
+    "12.5,12.5,contact,arc 0 12.5\n"
+    "0,25,axis,\n"
+    "0,0,bond,\n";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// What the loader says of a configuration with this meridian; empty when it is fine.
+std::string refusal_of(const std::string& profile) {
+  const TemporaryFolder folder;
+  write_text(folder / "finger.csv", profile);
+  write_text(
+      folder / "case.toml",
+      "[geometry]\nshape = \"profile\"\nprofile = \"finger.csv\"\n[press]\ndepth = \"1 mm\"\n");
+  try {
+    load_config({folder / "case.toml", {}, {}});
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void expect_refused(const std::string& profile, const std::vector<std::string>& parts) {
+  const std::string refusal = refusal_of(profile);
+  for (const std::string& part : parts)
+    EXPECT_NE(refusal.find(part), std::string::npos) << part << "\nnot in: " << refusal;
+}
+
+TEST(ProfileFile, TakesAnyUnitOfLength) {
+  const TemporaryFolder folder;
+  write_text(folder / "mm.csv", solid_finger);
+  write_text(folder / "cm.csv",
+             "curve,surface,z [m],r [cm]\n,contact,0,1.25\narc 1e-99 0.0125,contact,0.0125,1.25\n"
+             ",axis,0.025,0\n,bond,0,0\n");
+  const auto mm = read_profile(folder / "mm.csv"), cm = read_profile(folder / "cm.csv");
+  ASSERT_EQ(mm.size(), 4u);
+  ASSERT_EQ(cm.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(mm[i].r, cm[i].r, 1e-15);
+    EXPECT_NEAR(mm[i].z, cm[i].z, 1e-15);
+    EXPECT_EQ(mm[i].surface, cm[i].surface);
+    EXPECT_EQ(mm[i].curve, cm[i].curve);
+  }
+  EXPECT_NEAR(mm[1].centre_z, 0.0125, 1e-15);
+}
+
+TEST(ProfileFile, MakesTheFingerOfAConfiguration) {
+  const TemporaryFolder folder;
+  write_text(folder / "finger.csv", solid_finger);
+  write_text(folder / "case.toml",
+             "[geometry]\nshape = \"profile\"\nprofile = \"finger.csv\"\nendpoint = \"-1 mm\"\n");
+  const Config config = load_config({folder / "case.toml", {}, {}}).config;
+  EXPECT_NEAR(config.press.geometry.tip_radius, 0.0125, 1e-15);
+  EXPECT_NEAR(config.press.geometry.rod_endpoint().z(), -0.001, 1e-15);
+  EXPECT_NEAR(config.press.lattice.spacing, 0.0125 / 12, 1e-15);
+  EXPECT_EQ(config.reference.geometry.profile.size(), 4u);
+}
+
+TEST(ProfileFile, RefusesWithPlaceAndRemedy) {
+  expect_refused("", {"finger.csv"});
+  expect_refused(with(solid_finger, "r [mm]", "r"), {"finger.csv", "r [mm],z [mm],surface,curve"});
+  expect_refused(with(solid_finger, "z [mm]", "z [kg]"), {"finger.csv", "z [kg]"});
+  expect_refused(with(solid_finger, "[mm],z [mm]", "[m],z [m]"), {"check the unit"});
+  expect_refused(with(solid_finger, "0,25,axis", "0,25,axle"), {"finger.csv:4", "axle", "axis"});
+  expect_refused(with(solid_finger, "arc 0 12.5", "arc 12.5"), {"finger.csv:3", "arc R C"});
+  expect_refused(with(solid_finger, "arc 0 12.5", "bow"), {"finger.csv:3", "bow"});
+  expect_refused(with(solid_finger, "arc 0 12.5", "arc 0 11"), {"corner 2", "equally far"});
+  expect_refused(with(solid_finger, "0,25,axis", "1,25,axis"), {"corner", "axis"});
+  expect_refused(with(solid_finger, "bond", "free"), {"name at least one piece bond"});
+  expect_refused("r [mm],z [mm],surface,curve\n0,0,axis,\n0,9,contact,\n5,0,bond,\n3,12,free,\n",
+                 {"cross or touch itself"});
+  EXPECT_EQ(refusal_of(solid_finger), "");
+}
+
+/// Whatever is done to the text: a finger or a refusal.
+TEST(ProfileFile, SurvivesDamage) {
+  std::mt19937 generator(7);
+  const TemporaryFolder folder;
+  const std::string letters = "0123456789.,-e \nracbond[]m\"#splineaxis";
+  int accepted = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string text = solid_finger;
+    const int changes = 1 + int(generator() % 4);
+    for (int c = 0; c < changes; ++c) {
+      const std::size_t place = generator() % text.size();
+      switch (generator() % 3) {
+        case 0: text[place] = letters[generator() % letters.size()]; break;
+        case 1: text.erase(place, 1 + generator() % 5); break;
+        default: text.insert(place, 1, letters[generator() % letters.size()]);
+      }
+      if (text.empty()) text = "r";
+    }
+    write_text(folder / "damaged.csv", text);
+    try {
+      const auto geometry = meshes::Geometry::of_profile(read_profile(folder / "damaged.csv"));
+      EXPECT_GT(geometry.tip_volume(), 0.0) << text;
+      EXPECT_GT(geometry.coarsest_spacing(), 0.0) << text;
+      ++accepted;
+    } catch (const meshes::InvalidInput&) {
+    }
+  }
+  EXPECT_GT(accepted, 100);
+}
+
+}  // namespace
