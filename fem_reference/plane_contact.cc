@@ -18,8 +18,9 @@ constexpr int max_rounds = 400;
 constexpr int patience = 8;
 /// Penetration below this length [m] is round-off: a picometre.
 constexpr double gap_noise = 1e-12;
-/// Friction forces have settled when a round changes none by more than this, over the largest push.
-constexpr double friction_settled = 1e-9;
+/// Friction forces have converged when a round changes none by more than this, over the largest
+/// push.
+constexpr double friction_converged = 1e-9;
 /// Rounds after which friction forces are changed by half of what they should be.
 constexpr int friction_patience = 60;
 
@@ -199,7 +200,7 @@ double PlaneContact::update_friction(const ConstrainedSolution& solution, double
                           (c == 0 ? trial_.pose.shift : 0.0);
       if (sliding) wanted[Eigen::Index(c)] -= rho * slip;
     }
-    if (wanted.norm() <= friction_ * push * (1.0 + friction_settled)) {
+    if (wanted.norm() <= friction_ * push * (1.0 + friction_converged)) {
       if (sliding) largest_change = std::numeric_limits<double>::infinity();
       trial_.status[node] = NodeStatus::stick;
       continue;
@@ -232,7 +233,7 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
         mode_ == ContactMode::coulomb
             ? update_friction(solution, effort.rounds > friction_patience ? 0.5 : 1.0)
             : 0.0;
-    if (wrong.empty() && change <= std::max(friction_settled, solver.noise())) {
+    if (wrong.empty() && change <= std::max(friction_converged, solver.noise())) {
       trial_.displacement = solution.displacement;
       trial_.reaction = solution.reaction;
       return effort;
@@ -242,7 +243,7 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
     if (stalled > patience && wrong.size() > 1) wrong.resize(1);
     for (const std::size_t node : wrong) this->change(node, solution);
   }
-  throw meshes::NotConverged("the contact state did not settle within " +
+  throw meshes::NotConverged("the contact state did not converge within " +
                              std::to_string(max_rounds) + " rounds");
 }
 

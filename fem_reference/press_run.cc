@@ -83,7 +83,7 @@ std::string sample_text(const meshes::PressSample& sample) {
   std::string text =
       "F = " + to_text(sample.normal_force) + " N at " + to_text(sample.indentation) + " m";
   if (sample.lateral_displacement != 0.0)
-    text += ", " + to_text(sample.lateral_force_x) + " N aside at " +
+    text += ", " + to_text(sample.lateral_force_x) + " N laterally at " +
             to_text(sample.lateral_displacement) + " m";
   return text;
 }

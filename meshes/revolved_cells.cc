@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "meshes/smoothed_gauss.h"
@@ -25,7 +26,10 @@ SliceMoments disc_moments(const Rectangle& cell, double radius) {
   const double square = radius * radius;
   const double from = std::max(cell.low.x(), -radius), to = std::min(cell.high.x(), radius);
   if (from >= to) return sum;
-  const auto rim_at = [&](double y) { return std::sqrt(std::max(0.0, square - y * y)); };
+  // By factors: where the rim is tangent to an edge, radius² - x² would be all round-off.
+  const auto rim_at = [&](double x) {
+    return std::sqrt(std::max(0.0, (radius - x) * (radius + x)));
+  };
   const double lower = rim_at(cell.low.y()), upper = rim_at(cell.high.y());
   const double near = std::min(lower, upper), far = std::max(lower, upper);
   std::array<double, 6> events{from};
@@ -34,15 +38,14 @@ SliceMoments disc_moments(const Rectangle& cell, double radius) {
     if (event > events[count - 1] && event < to) events[count++] = event;
   events[count++] = to;
   // Integrals of s = sqrt(radius² - x²) and of x s, in closed form.
-  const auto s_of = [&](double x) { return std::sqrt(std::max(0.0, square - x * x)); };
   const auto area = [&](double x) {
-    return 0.5 * (x * s_of(x) + square * std::asin(std::clamp(x / radius, -1.0, 1.0)));
+    return 0.5 * (x * rim_at(x) + square * std::atan2(x, rim_at(x)));
   };
-  const auto lever = [&](double x) { return -std::pow(std::max(0.0, square - x * x), 1.5) / 3.0; };
+  const auto lever = [&](double x) { return -std::pow(rim_at(x), 3) / 3.0; };
   for (std::size_t e = 1; e < count; ++e) {
     const double a = events[e - 1], b = events[e], middle = 0.5 * (a + b);
     if (b <= a) continue;
-    const double s = s_of(middle);
+    const double s = rim_at(middle);
     // y runs from the larger of low and -s to the smaller of high and s.
     const bool top_is_rim = s<cell.high.y(), bottom_is_rim = -s> cell.low.y();
     if (std::min(s, cell.high.y()) <= std::max(-s, cell.low.y())) continue;
@@ -84,16 +87,26 @@ std::vector<double> critical_radii(const Rectangle& cell) {
 }  // namespace
 
 bool along_axes(const CubicGrid& grid) {
-  for (Eigen::Index d = 0; d < 3; ++d)
-    if (grid.axes.col(d).maxCoeff() != 1.0 || grid.axes.col(d).cwiseAbs().sum() != 1.0)
-      return false;
-  return true;
+  constexpr double round_off = 1e-12;  // right angles by sine and cosine
+  const Eigen::Matrix3d size = grid.axes.cwiseAbs();
+  return ((size.colwise().sum() - size.colwise().maxCoeff()).array() < round_off).all();
 }
 
 std::array<double, 8> revolved_moments(const Meridian& meridian, const CubicGrid& grid, int i,
                                        int j, int k) {
   constexpr double same_height = 1e-12;
-  const Vector3 low = grid.position(i, j, k), high = low + Vector3::Constant(grid.spacing);
+  const Vector3 corner = grid.position(i, j, k), opposite = grid.position(i + 1, j + 1, k + 1);
+  // Mirror images are computed as one and the same cell, so that round-off keeps their symmetry.
+  const double grain = 1e-12 * grid.spacing;
+  const auto rounded = [&](double x) { return std::nearbyint(x / grain) * grain; };
+  Vector3 low = corner.cwiseMin(opposite).unaryExpr(rounded),
+          high = corner.cwiseMax(opposite).unaryExpr(rounded);
+  std::array<bool, 3> backward{};
+  for (const int axis : {0, 1})
+    if (low[axis] + high[axis] < -1e-9 * grid.spacing) {
+      backward[std::size_t(axis)] = true;
+      low[axis] = std::exchange(high[axis], -low[axis]) * -1.0;
+    }
   const Rectangle cell{low.head<2>(), high.head<2>()};
   const std::vector<double> critical = critical_radii(cell);
   std::vector<double> heights{low.z(), high.z()};
@@ -127,14 +140,22 @@ std::array<double, 8> revolved_moments(const Meridian& meridian, const CubicGrid
     }
   }
   // [x + 2 y + 4 z] of the tip to those of the grid's own directions.
+  std::array<std::size_t, 3> axis_of{};
+  for (Eigen::Index d = 0; d < 3; ++d) {
+    Eigen::Index along = 0;
+    grid.axes.col(d).cwiseAbs().maxCoeff(&along);
+    axis_of[std::size_t(d)] = std::size_t(along);
+    if (grid.axes(along, d) < 0.0) backward[std::size_t(along)] = !backward[std::size_t(along)];
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t place = 0; place < 8 && backward[axis]; ++place)
+      if (place >> axis & 1)
+        moments[place] = moments[place ^ (std::size_t(1) << axis)] - moments[place];
   std::array<double, 8> own{};
   for (std::size_t place = 0; place < 8; ++place) {
     std::size_t turned = 0;
-    for (Eigen::Index d = 0; d < 3; ++d) {
-      Eigen::Index axis = 0;
-      grid.axes.col(d).maxCoeff(&axis);
-      if (place >> axis & 1) turned |= std::size_t(1) << d;
-    }
+    for (std::size_t d = 0; d < 3; ++d)
+      if (place >> axis_of[d] & 1) turned |= std::size_t(1) << d;
     own[turned] = moments[place];
   }
   return own;

@@ -8,7 +8,8 @@
 
 namespace fingertip::meshes {
 
-/// Whether every direction of the grid is x, y or z of the tip, so that `revolved_moments` holds.
+/// Whether every direction of the grid is along x, y or z of the tip, either way, so that
+/// `revolved_moments` holds.
 bool along_axes(const CubicGrid& grid);
 
 /// CutCell::moments of the cell with the lowest corner (i, j, k), good to 1e-9. A slice across the

@@ -17,7 +17,7 @@ using meshes::Geometry;
 using meshes::Rubber;
 
 constexpr double sway_factor = 43.0;      // of (w dt)², measured
-constexpr double contact_factor = 5.5;    // chi, with the room that S leaves for stiffening
+constexpr double contact_factor = 5.5;    // chi, with the margin that S leaves for stiffening
 constexpr double resolved_patch = 1.25;   // spacings
 constexpr double longest_usual = 2.5e-4;  // [s]
 constexpr double cost = 2.0;              // of a scaled step, in plain ones

@@ -267,7 +267,10 @@ int run_modes(const CommandLine& line) {
 }
 
 int run_reference(const CommandLine& line) {
-  const LoadedConfig loaded = load_config(line.config);  // the lattice need not be possible
+  const LoadedConfig loaded = load_config(line.config);
+  // The usual spacing may be too coarse for a profile, which is nothing to the continuum.
+  const bool asked = loaded.entries.at("lattice.spacing").given;
+  if (loaded.config.press.geometry.is_dome() || asked) check_all(loaded);
   const fem_reference::ReferenceJob reference = continuum_setup(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const JobResult result = session.run({"", reference_job(reference), false});

@@ -20,8 +20,9 @@ using meshes::MeridianPiece;
 using meshes::ProfileSurface;
 
 constexpr double mm = 1e-3;
-/// Memory of a press in motion per mass [B], measured on the dome at R/24 and R/32.
-constexpr double memory_per_mass = 1.1e3;
+/// Memory of a press in motion, at all and per V/a³ [MB]: measured on the dome at R/12, R/24, R/32
+/// (network; 77, 339 and 691 MB).
+constexpr double least_memory = 40.0, memory_per_mass = 3.7e-3;
 
 struct Look {
   ProfileSurface surface;
@@ -86,9 +87,10 @@ int run_shape(const CommandLine& line) {
                                  std::min(0.5 * coarsest, geometry.tip_radius / 16)}) {
       const double masses = meshes::expected_particle_count(geometry, spacing);
       fmt::print(
-          "  lattice           tip_radius/{:.3g} = {:.3g} mm: about {:.2g} masses, {:.0f} MB\n",
+          "  lattice           tip_radius/{:.3g} = {:.3g} mm: about {:.2g} masses, {:.0f} MB in "
+          "motion\n",
           std::ceil(10.0 * geometry.tip_radius / spacing) / 10.0, spacing / mm, masses,
-          std::max(1.0, masses * memory_per_mass * 1e-6));
+          least_memory + masses * memory_per_mass);
     }
     const fs::path folder = line.out.empty() ? file.parent_path() : line.out;
     if (!folder.empty()) fs::create_directories(folder);

@@ -153,12 +153,13 @@ TEST_P(MeridianAndSolid, AgreeWithinTheSolidsBar) {
   job.tolerance = 0.003;
   const auto flat = converged(job), full = converged(solid);
   for (std::size_t i = 0; i < flat.size(); ++i) {
-    const auto &one = flat[i].sample, &other = full[i].sample;
-    EXPECT_LE(std::abs(one.normal_force - other.normal_force), one.force_error + other.force_error);
-    EXPECT_NEAR(one.contact_radius, other.contact_radius,
+    const auto &meridian = flat[i].sample, &solid_sample = full[i].sample;
+    EXPECT_LE(std::abs(meridian.normal_force - solid_sample.normal_force),
+              meridian.force_error + solid_sample.force_error);
+    EXPECT_NEAR(meridian.contact_radius, solid_sample.contact_radius,
                 flat[i].node_spacing + full[i].node_spacing);
-    EXPECT_EQ(one.lateral_force_x, 0.0);
-    EXPECT_EQ(one.torque_y, 0.0);
+    EXPECT_EQ(meridian.lateral_force_x, 0.0);
+    EXPECT_EQ(meridian.torque_y, 0.0);
   }
 }
 

@@ -258,14 +258,15 @@ TEST(PlaneContact, GoesOnFromARestoredState) {
   for (const ContactMode mode : {ContactMode::stick, ContactMode::coulomb}) {
     DenseBody body(dragging_springs());
     const ContactUnknowns unknowns = nodes_at({1.0, 0.9}, true);
-    PlaneContact one(unknowns, mode, start, 0.2, 0.2), two(unknowns, mode, start, 0.2, 0.2);
-    press(one, body, 0.2, 0.02);
-    two.restore(one.committed());
-    EXPECT_EQ(two.reactions(), one.reactions());
-    press(one, body, 0.3, 0.2);
-    press(two, body, 0.3, 0.2);
-    EXPECT_EQ(two.reactions(), one.reactions());
-    EXPECT_EQ(two.status(), one.status());
+    PlaneContact pressed(unknowns, mode, start, 0.2, 0.2),
+        restored(unknowns, mode, start, 0.2, 0.2);
+    press(pressed, body, 0.2, 0.02);
+    restored.restore(pressed.committed());
+    EXPECT_EQ(restored.reactions(), pressed.reactions());
+    press(pressed, body, 0.3, 0.2);
+    press(restored, body, 0.3, 0.2);
+    EXPECT_EQ(restored.reactions(), pressed.reactions());
+    EXPECT_EQ(restored.status(), pressed.status());
   }
 }
 

@@ -181,9 +181,10 @@ TEST(Meridian, CutCellsAddUpToTheBody) {
        0.0}};
   for (const Body& body : bodies)
     for (const Vector3& offset : {Vector3(0, 0, 0), Vector3(0.3, -0.2, 0.7)})
-      for (const bool renamed : {false, true}) {
+      for (const int turn : {0, 1, 2}) {
         Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-        if (renamed) axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+        if (turn == 1) axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+        if (turn == 2) axes << 0, -1, 0, 0, 0, 1, -1, 0, 0;
         const double spacing = std::min(0.9 * body.geometry.coarsest_spacing(), 0.001);
         const CubicGrid grid = covering_grid(body.geometry, spacing, offset, 1, axes);
         double volume = 0.0, first = 0.0;

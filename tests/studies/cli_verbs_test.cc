@@ -13,13 +13,31 @@ TEST(Verbs, HelpAndVersion) {
   const ProgramResult help = run_program(folder.path(), {"--help"});
   EXPECT_EQ(help.code, 0);
   for (const char* verb : {"validate", "press", "reference", "calibrate", "compare", "report",
-                           "check", "explain", "init", "doctor", "test"}) {
+                           "check", "shape", "explain", "init", "doctor", "test"}) {
     EXPECT_NE(help.out.find(verb), std::string::npos) << verb;
   }
   const ProgramResult version = run_program(folder.path(), {"--version"});
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.out.rfind("fingertip ", 0), 0U);
   EXPECT_EQ(run_program(folder.path(), {"press", "--help"}).code, 0);
+}
+
+TEST(Verbs, ShapeTellsMeasuresAndDraws) {
+  const TemporaryFolder folder;
+  write_text(folder / "finger.csv",
+             "r [mm],z [mm],surface,curve\n12.5,0,contact,\n12.5,12.5,contact,arc 0 12.5\n"
+             "0,25,axis,\n0,22.5,free,arc 0 12.5\n10,12.5,free,\n10,0,bond,\n");
+  const ProgramResult good = run_program(folder.path(), {"shape", "finger.csv", "--out", "drawn"});
+  EXPECT_EQ(good.code, 0);
+  for (const char* part : {"thinnest wall     2.5 mm", "rubber            4205.2 mm^3",
+                           "pole above bond   25 mm", "tip_radius/20"})
+    EXPECT_NE(good.out.find(part), std::string::npos) << part << "\n" << good.out;
+  EXPECT_TRUE(std::filesystem::exists(folder / "drawn/finger_section.svg"));
+
+  write_text(folder / "open.csv", "r [mm],z [mm],surface,curve\n5,0,contact,\n0,9,axis,\n");
+  const ProgramResult bad = run_program(folder.path(), {"shape", "open.csv"});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_NE(bad.err.find("at least three"), std::string::npos) << bad.err;
 }
 
 TEST(Verbs, StartsInMilliseconds) {

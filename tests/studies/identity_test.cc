@@ -160,9 +160,11 @@ Sets joined(std::initializer_list<Sets> parts) {
 
 /// No result depends on these: screens and threads, what verbs without a cache do, what is asked of
 /// another process, files whose content counts and not their name (controller_choice_test).
-const Sets nowhere = {"run.threads",        "run.units",          "exchange.",
-                      "controller.address", "controller.timeout", "controller.connect_timeout",
-                      "controller.library", "controller.schedule"};
+const Sets nowhere = {"run.threads", "run.units", "exchange.", "controller.address",
+                      "controller.timeout", "controller.connect_timeout", "controller.library",
+                      "controller.schedule",
+                      // Of a profile, see below.
+                      "geometry.shape", "geometry.profile", "geometry.endpoint"};
 /// Of the fit of constants to moduli, which a hookean lattice has in closed form.
 const Sets moduli_fit = {"calibration.starts", "calibration.seed", "calibration.isotropy_weight",
                          "calibration.bulk_weight"};
@@ -389,6 +391,29 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
   // How fast the plane comes is all that the elastic press does not know.
   EXPECT_TRUE(differs(ramp, "press.speed=2 cm/s"));
   EXPECT_FALSE(differs(ramp, "press.clearance=1 mm"));
+}
+
+/// What a profile is counts, not what its file is called.
+TEST(IdentityOfAJob, KnowsAProfileByItsContent) {
+  const TemporaryFolder folder;
+  const std::string finger = "12.5,12.5,contact,arc 0 12.5\n0,25,axis,\n0,0,bond,\n";
+  write_text(folder / "a.csv", "r [mm],z [mm],surface,curve\n12.5,0,contact,\n" + finger);
+  write_text(folder / "same.csv", "r [mm],z [mm],surface,curve\n12.5,0,contact,\n" + finger);
+  write_text(folder / "other.csv", "r [mm],z [mm],surface,curve\n12.4,0,contact,\n" + finger);
+  const auto sets = [&](const char* file) {
+    return Sets{"geometry.shape=profile", "geometry.profile=" + (folder / file).string(),
+                "press.mode=static"};
+  };
+  for (const Identity& identity : {Identity(press), Identity(continuum)}) {
+    const auto base = identity_of(identity, sets("a.csv"));
+    EXPECT_TRUE(base);
+    EXPECT_EQ(identity_of(identity, sets("same.csv")), base);
+    EXPECT_NE(identity_of(identity, sets("other.csv")), base);
+    Sets held = sets("a.csv");
+    held.emplace_back("geometry.endpoint=-1 mm");
+    EXPECT_NE(identity_of(identity, held), base);
+    EXPECT_NE(identity_of(identity, {"press.mode=static"}), base);
+  }
 }
 
 }  // namespace

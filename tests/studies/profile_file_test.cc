@@ -85,7 +85,7 @@ TEST(ProfileFile, RefusesWithPlaceAndRemedy) {
   expect_refused(with(solid_finger, "arc 0 12.5", "arc 12.5"), {"finger.csv:3", "arc R C"});
   expect_refused(with(solid_finger, "arc 0 12.5", "bow"), {"finger.csv:3", "bow"});
   expect_refused(with(solid_finger, "arc 0 12.5", "arc 0 11"), {"corner 2", "equally far"});
-  expect_refused(with(solid_finger, "0,25,axis", "1,25,axis"), {"corner", "axis"});
+  expect_refused(with(solid_finger, "0,0,bond", "1,0,bond"), {"corner 3", "axis"});
   expect_refused(with(solid_finger, "bond", "free"), {"name at least one piece bond"});
   expect_refused("r [mm],z [mm],surface,curve\n0,0,axis,\n0,9,contact,\n5,0,bond,\n3,12,free,\n",
                  {"cross or touch itself"});

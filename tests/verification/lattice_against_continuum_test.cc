@@ -134,7 +134,7 @@ TEST(LatticeAgainstContinuum, CentralSpringsAloneMissAsCauchysRelationPredicts) 
   EXPECT_LT(meshes::relative_force_error(lattice, continuum, depth), -0.06);
 }
 
-/// Pressed and then moved aside, stuck: the tip's stiffness in shear under a load.
+/// Pressed and then moved laterally, stuck: the tip's stiffness in shear under a load.
 TEST(LatticeAgainstContinuum, PullsAsHardWhenItIsMovedAside) {
   const meshes::Rubber rubber;
   const double depth = 2e-3;

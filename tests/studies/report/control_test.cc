@@ -77,7 +77,7 @@ void write_press(const fs::path& folder, double speed, bool force_control) {
   summary.model = "hookean";
   summary.mode = "pid";
   summary.status = "finished";
-  summary.geometry = {0.01, 0.005, 0.015, 0.03};
+  summary.geometry = {0.01, 0.005, 0.015, 0.03, ""};
   summary.first_touch_time = 0.1;
   summary.tracking.speed_deviation = 0.004;
   summary.tracking.speed_deviation_at_touch = 0.021;
