@@ -24,9 +24,12 @@ constexpr double round_arc = 1e-4;
 /// Smallest and largest extent of a finger [m].
 constexpr double smallest_finger = 0.5e-3, largest_finger = 0.5;
 /// Straight pieces by which a curve is replaced to find where the meridian crosses itself.
-constexpr int chords = 24;
+constexpr int chords = 24, most_chords = 600;
 /// Points per piece from which the thickness of the wall is measured.
 constexpr int wall_points = 16;
+/// Two places are of one wall when the way between them along the boundary is this many times
+/// longer than through the rubber.
+constexpr double wedge = 4.0;
 /// A length over the finger's extent that is round-off.
 constexpr double no_length = 1e-9;
 
@@ -141,7 +144,7 @@ void check(const std::vector<ProfileCorner>& corners) {
              "both ends of an arc are equally far from its centre; they are " + to_text(1e3 * a) +
                  " and " + to_text(1e3 * b) + " mm from it",
              "write arc R C with the centre's coordinates");
-    if (cross(at - centre, to - centre) == 0.0)
+    if (std::abs(cross(at - centre, to - centre)) <= 1e-6 * a * b)
       refuse(i, at, "an arc must be shorter than half a circle", "split it by a corner");
   }
 }
@@ -228,6 +231,12 @@ bool meet(const std::array<Vector2, 2>& a, const std::array<Vector2, 2>& b) {
 
 }  // namespace
 
+/// Straight pieces in place of a curve: fewer where the meridian has many.
+int Meridian::chords_of(const MeridianPiece& piece) const {
+  if (piece.curve() == ProfileCurve::straight) return 1;
+  return std::clamp(most_chords / int(pieces_.size()), 2, chords);
+}
+
 Meridian::Meridian(const Geometry& geometry) {
   std::vector<ProfileCorner> corners = geometry.profile;
   if (corners.empty()) {
@@ -258,7 +267,7 @@ void Meridian::check_crossings() const {
   };
   std::vector<Chord> all;
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
-    const int count = pieces_[p].curve() == ProfileCurve::straight ? 1 : chords;
+    const int count = chords_of(pieces_[p]);
     for (int i = 0; i < count; ++i)
       all.push_back({{pieces_[p].at(double(i) / count), pieces_[p].at(double(i + 1) / count)}, p});
   }
@@ -315,42 +324,95 @@ void Meridian::measure() {
            "turn the finger so that it points along +z");
 }
 
-double Meridian::wall() const {
-  // Toward a surface that `contact` meets rubber runs out in a wedge, which is no wall.
-  const auto meets_contact = [&](ProfileSurface surface) {
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      const ProfileSurface a = pieces_[i].surface(),
-                           b = pieces_[(i + 1) % pieces_.size()].surface();
-      if ((a == surface && b == ProfileSurface::contact) ||
-          (b == surface && a == ProfileSurface::contact))
-        return true;
-    }
-    return false;
-  };
-  double wall = pole_ - bond_top_;
+double Meridian::pole_radius() const {
   for (const MeridianPiece& piece : pieces_) {
-    if (piece.surface() != ProfileSurface::contact) continue;
-    for (int i = 0; i < wall_points; ++i) {
-      const double t = (i + 0.5) / wall_points;
+    const bool ends = piece.to().x() == 0.0 && piece.to().y() == pole_;
+    if (piece.surface() != ProfileSurface::contact || !ends) continue;
+    if (piece.curve() == ProfileCurve::arc) return (piece.to() - piece.centre()).norm();
+    if (piece.curve() == ProfileCurve::straight) break;
+    const Vector2 along = piece.slope(1.0),
+                  bend = 6.0 * (piece.to() - 2.0 * piece.control2() + piece.control1());
+    const double curvature = std::abs(cross(along, bend)) / std::pow(along.norm(), 3);
+    return curvature > 0.0 ? 1.0 / curvature : radius_;
+  }
+  return radius_;
+}
+
+double Meridian::wall() const {
+  // The whole section as chords, each with its place along the boundary. The axis joins the right
+  // half to its mirror image: a chain of pieces and its image are one loop.
+  struct Chord {
+    Vector2 from, to;
+    double start, length;  ///< along its chain
+    int chain;
+  };
+  std::size_t first = 0;  // a chain begins behind a piece of the axis
+  while (first < pieces_.size() && pieces_[first].surface() != ProfileSurface::axis) ++first;
+  const bool annular = first == pieces_.size();
+  std::vector<Chord> chords_there;
+  std::vector<double> lengths{0.0};
+  for (std::size_t k = 1; k <= pieces_.size(); ++k) {
+    const MeridianPiece& piece = pieces_[(first + k) % pieces_.size()];
+    if (piece.surface() == ProfileSurface::axis) {
+      lengths.push_back(0.0);
+      continue;
+    }
+    const int count =
+        piece.curve() == ProfileCurve::straight ? wall_points : std::max(4, chords_of(piece));
+    for (int i = 0; i < count; ++i) {
+      const Vector2 a = piece.at(double(i) / count), b = piece.at(double(i + 1) / count);
+      chords_there.push_back({a, b, lengths.back(), (b - a).norm(), int(lengths.size()) - 1});
+      lengths.back() += (b - a).norm();
+    }
+  }
+  double wall = pole_ - bond_top_;
+  std::size_t next = 0;
+  for (std::size_t k = 1; k <= pieces_.size(); ++k) {
+    const MeridianPiece& piece = pieces_[(first + k) % pieces_.size()];
+    if (piece.surface() == ProfileSurface::axis) continue;
+    const int count =
+        piece.curve() == ProfileCurve::straight ? wall_points : std::max(4, chords_of(piece));
+    for (int i = 0; i < count; ++i) {
+      const Chord own = chords_there[next++];
+      if (piece.surface() != ProfileSurface::contact) continue;
+      const double t = (i + 0.5) / count;
       const Vector2 start = piece.at(t), inward = -piece.normal(t);
-      const auto place = [&](double depth) {
-        const Vector2 at = start + depth * inward;
-        return Vector2(std::abs(at.x()), at.y());
+      // Where the ray first leaves the rubber; what lies just behind its start is its own chord.
+      double depth = wall, along_boundary = 0.0;
+      for (const Chord& chord : chords_there)
+        for (const double side : {1.0, -1.0}) {
+          const Vector2 a(side * chord.from.x(), chord.from.y()),
+              b(side * chord.to.x(), chord.to.y());
+          const double turned = cross(inward, b - a);
+          if (turned == 0.0) continue;
+          const double at = cross(a - start, b - a) / turned;
+          const double share = cross(a - start, inward) / turned;
+          const bool own_chord = side > 0.0 && chord.start == own.start && chord.chain == own.chain;
+          if (own_chord || at <= 0.0 || at >= depth || share < 0.0 || share > 1.0) continue;
+          const double loop = (annular ? 1.0 : 2.0) * lengths[std::size_t(chord.chain)];
+          const double there = chord.start + share * chord.length;
+          const double place = side > 0.0 ? there : loop - there;
+          const double apart = std::abs(place - own.start - 0.5 * own.length);
+          depth = at;
+          along_boundary = chord.chain != own.chain || (annular && side < 0.0)
+                               ? std::numeric_limits<double>::infinity()
+                               : std::min(apart, loop - apart);
+        }
+      // Near a corner or a rounded end rubber runs out in a wedge, which is no wall.
+      if (!(depth < wall && along_boundary > wedge * depth)) continue;
+      const auto in_rubber = [&](double at) {
+        const Vector2 place = start + at * inward;
+        return contains(Vector2(std::abs(place.x()), place.y()));
       };
-      double inside = 0.0, outside = 1e-3 * radius_;
-      while (outside < wall && contains(place(outside)))
-        inside = std::exchange(outside, 1.1 * outside);
-      if (outside >= wall) continue;
-      for (int halving = 0; halving < 40; ++halving) {
-        const double middle = 0.5 * (inside + outside);
-        (contains(place(middle)) ? inside : outside) = middle;
+      double inside = 0.98 * depth, outside = 1.02 * depth;  // chords are not the curve
+      if (in_rubber(inside) && !in_rubber(outside)) {
+        for (int halving = 0; halving < 40; ++halving) {
+          const double middle = 0.5 * (inside + outside);
+          (in_rubber(middle) ? inside : outside) = middle;
+        }
+        depth = outside;
       }
-      const Vector2 end = place(outside);
-      const MeridianPiece& far = *std::ranges::min_element(pieces_, {}, [&](const auto& other) {
-        return (other.at(other.nearest(end)) - end).norm();
-      });
-      if (far.surface() == ProfileSurface::contact || !meets_contact(far.surface()))
-        wall = std::min(wall, outside);
+      wall = std::min(wall, depth);
     }
   }
   return wall;

@@ -51,12 +51,14 @@ class Meridian {
   double largest_radius() const { return radius_; }
   /// Largest z of `bond`.
   double bond_top() const { return bond_top_; }
-  /// The thinnest wall: from `contact` along the normal to itself or a surface that it does not
-  /// meet; at most
-  /// the height of the pole over the bond.
+  /// Radius of curvature at the pole; of a flat or pointed one the largest radius.
+  double pole_radius() const;
+  /// The thinnest wall: from `contact` along the normal to a boundary that is far along the
+  /// surface; at most the height of the pole over the bond.
   double wall() const;
 
  private:
+  int chords_of(const MeridianPiece& piece) const;
   void check_crossings() const;
   void measure();
 

@@ -19,11 +19,11 @@ struct Rectangle {
 };
 
 /// The disc x² + y² <= radius² within the rectangle: strips along y between the x at which its rim
-/// reaches the upper or lower edge.
+/// reaches the upper or lower edge. In coordinates of the rectangle, lest fine cells be differences
+/// of large numbers.
 SliceMoments disc_moments(const Rectangle& cell, double radius) {
   SliceMoments sum{};
-  const Vector2 size = cell.high - cell.low;
-  const double square = radius * radius;
+  const double size = cell.high.x() - cell.low.x();
   const double from = std::max(cell.low.x(), -radius), to = std::min(cell.high.x(), radius);
   if (from >= to) return sum;
   // By factors: where the rim is tangent to an edge, radius² - x² would be all round-off.
@@ -37,38 +37,31 @@ SliceMoments disc_moments(const Rectangle& cell, double radius) {
   for (const double event : {-far, -near, near, far})
     if (event > events[count - 1] && event < to) events[count++] = event;
   events[count++] = to;
-  // Integrals of s = sqrt(radius² - x²) and of x s, in closed form.
-  const auto area = [&](double x) {
-    return 0.5 * (x * rim_at(x) + square * std::atan2(x, rim_at(x)));
-  };
-  const auto lever = [&](double x) { return -std::pow(rim_at(x), 3) / 3.0; };
   for (std::size_t e = 1; e < count; ++e) {
-    const double a = events[e - 1], b = events[e], middle = 0.5 * (a + b);
-    if (b <= a) continue;
+    const double a = events[e - 1], width = events[e] - a, middle = a + 0.5 * width;
+    if (width <= 0.0) continue;
     const double s = rim_at(middle);
-    // y runs from the larger of low and -s to the smaller of high and s.
-    const bool top_is_rim = s<cell.high.y(), bottom_is_rim = -s> cell.low.y();
     if (std::min(s, cell.high.y()) <= std::max(-s, cell.low.y())) continue;
-    const double x0 = b - a, x1 = 0.5 * (b - a) * (b + a), x2 = (b * b * b - a * a * a) / 3.0,
-                 x3 = 0.25 * (b * b * b * b - a * a * a * a);
-    const double s0 = area(b) - area(a), s1 = lever(b) - lever(a);
-    // Integrals over the strip of 1, x, y, x y, as those of (top - bottom), x (...), (top² -
-    // bottom²)/2, x (...).
-    std::array<double, 4> strip{};
-    const auto add = [&](double sign, bool rim, double edge) {
-      const double rim_sign = sign;  // the rim is +s above, -s below
-      strip[0] += rim ? s0 * rim_sign * sign : sign * edge * x0;
-      strip[1] += rim ? s1 * rim_sign * sign : sign * edge * x1;
-      strip[2] += 0.5 * sign * (rim ? square * x0 - x2 : edge * edge * x0);
-      strip[3] += 0.5 * sign * (rim ? square * x1 - x3 : edge * edge * x1);
+    const auto add = [&](double x, double weight, double bottom, double top) {
+      const double xi = (x - cell.low.x()) / size, first = weight * (top - bottom),
+                   second = 0.5 * weight * (top - bottom) * (top + bottom);
+      sum[0] += first;
+      sum[1] += xi * first;
+      sum[2] += second;
+      sum[3] += xi * second;
     };
-    add(1.0, top_is_rim, cell.high.y());
-    add(-1.0, bottom_is_rim, cell.low.y());
-    const double h = size.x() * size.y(), lx = cell.low.x(), ly = cell.low.y();
-    sum[0] += strip[0] / h;
-    sum[1] += (strip[1] - lx * strip[0]) / (h * size.x());
-    sum[2] += (strip[2] - ly * strip[0]) / (h * size.y());
-    sum[3] += (strip[3] - lx * strip[2] - ly * strip[1] + lx * ly * strip[0]) / (h * h);
+    // y runs from the larger of low and -s to the smaller of high and s.
+    if (s >= cell.high.y() && -s <= cell.low.y()) {
+      add(middle, width / size, 0.0, 1.0);  // a rectangle: its middle is exact
+      continue;
+    }
+    for (const double half : {0.0, 0.5})
+      for (const QuadratureNode& node : smoothed_gauss_rule()) {
+        const double x = a + width * (half + 0.5 * node.at), rim = rim_at(x);
+        add(x, 0.5 * width * node.weight / size,
+            (std::max(-rim, cell.low.y()) - cell.low.y()) / size,
+            (std::min(rim, cell.high.y()) - cell.low.y()) / size);
+      }
   }
   return sum;
 }

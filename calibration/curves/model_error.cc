@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lattice/model/constants.h"
 #include "lattice/press/static_press.h"
+#include "meshes/meridian.h"
 
 namespace fingertip::calibration {
 
@@ -21,20 +23,23 @@ constexpr double inside_error = 0.57, inside_power = 3.0;
 constexpr double tie_error = 0.003;
 constexpr double large_strain_error = 0.02;
 
+/// The thinnest layer of rubber [m].
+double wall(const meshes::Geometry& geometry) {
+  return geometry.is_dome() ? geometry.thickness() : meshes::Meridian(geometry).wall();
+}
+
 /// One force and where it is taken.
 struct Place {
   const PressSetup* press = nullptr;
   double depth = 0.0;
+  double pole_radius = 0.0, wall = 0.0;  ///< of the finger [m]
 
-  double cells() const {
-    return std::sqrt(press->geometry.tip_radius * depth) / press->lattice.spacing;
-  }
+  double cells() const { return std::sqrt(pole_radius * depth) / press->lattice.spacing; }
   double contact() const {
     return contact_error * std::min(1.0, std::pow(cells(), -contact_power));
   }
   double inside() const {
-    return inside_error *
-           std::pow(press->lattice.spacing / press->geometry.thickness(), inside_power);
+    return inside_error * std::pow(press->lattice.spacing / wall, inside_power);
   }
   double large_strain() const {
     if (press->lattice.kinematics == Kinematics::small) return 0.0;
@@ -43,9 +48,13 @@ struct Place {
 };
 
 bool same_cells(const PressSetup& a, const PressSetup& b) {
+  const auto place = [](const meshes::ProfileCorner& corner) {
+    return std::pair(corner.r, corner.z);
+  };
   return a.lattice.spacing == b.lattice.spacing && a.lattice.offset == b.lattice.offset &&
          a.lattice.axes == b.lattice.axes && a.protocol.tilt == b.protocol.tilt &&
-         a.geometry.tip_radius == b.geometry.tip_radius;
+         a.geometry.tip_radius == b.geometry.tip_radius &&
+         std::ranges::equal(a.geometry.profile, b.geometry.profile, {}, place, place);
 }
 
 double covariance(const Place& a, const Place& b) {
@@ -85,8 +94,12 @@ double between(const std::vector<double>& xs, const std::vector<double>& ys, dou
 
 Eigen::MatrixXd lattice_covariance(const std::vector<PressSetup>& presses) {
   std::vector<Place> places;
-  for (const PressSetup& press : presses)
-    for (const double depth : press.protocol.samples) places.push_back({&press, depth});
+  for (const PressSetup& press : presses) {
+    const double pole_radius = meshes::Meridian(press.geometry).pole_radius(),
+                 thinnest = wall(press.geometry);
+    for (const double depth : press.protocol.samples)
+      places.push_back({&press, depth, pole_radius, thinnest});
+  }
   const Index count = Index(places.size());
   Eigen::MatrixXd result(count, count);
   for (Index i = 0; i < count; ++i)
@@ -97,7 +110,8 @@ Eigen::MatrixXd lattice_covariance(const std::vector<PressSetup>& presses) {
 
 Eigen::VectorXd excess_of_finite_strain(PressSetup press) {
   const std::vector<double> wanted = press.protocol.samples;
-  press.lattice.spacing = press.geometry.thickness() / coarse_cells;
+  press.lattice.spacing =
+      std::min(press.geometry.thickness() / coarse_cells, press.geometry.coarsest_spacing());
   press.rubber.youngs_modulus =
       std::max(press.rubber.youngs_modulus, 2.0 * press.rubber.shear_modulus);
   press.protocol.samples.clear();

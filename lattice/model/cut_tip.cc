@@ -1,7 +1,9 @@
 #include "lattice/model/cut_tip.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "meshes/errors.h"
 #include "meshes/files.h"
@@ -103,10 +105,14 @@ CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   keep_sector(grid, sectors, cut);
   CutTip tip{GridCells(grid, largest_piece(grid, cut)), formulation_for(rubber, settings), {}, {}};
   const double stiffness = tie_stiffness * tip.formulation.shear / grid.spacing;
-  tip.bond = embedded_surface(tip.cells, geometry, Surface::bond, geometry.lowest(), sectors,
+  // All of the bond holds, wherever it lies; of a profile's contact what round-off may put below.
+  constexpr double everywhere = -std::numeric_limits<double>::infinity();
+  const double slack = geometry.is_dome() ? 0.0 : 1e-9 * geometry.tip_radius;
+  tip.bond = embedded_surface(tip.cells, geometry, Surface::bond, everywhere, sectors,
                               stiffness * settings.ligament_stiffness);
-  tip.outer = embedded_surface(tip.cells, geometry, Surface::outer, lowest_contact(geometry),
-                               sectors, stiffness * settings.contact_stiffness);
+  tip.outer =
+      embedded_surface(tip.cells, geometry, Surface::outer, lowest_contact(geometry) - slack,
+                       sectors, stiffness * settings.contact_stiffness);
   return tip;
 }
 

@@ -7,6 +7,7 @@
 
 #include "lattice/control/approach.h"
 #include "lattice/dynamics/time_step.h"
+#include "meshes/meridian.h"
 
 namespace fingertip::lattice {
 
@@ -27,10 +28,11 @@ struct RoughForce {
   double factor = 0.0, layer = 0.0;
 
   RoughForce(const Geometry& geometry, const Rubber& rubber) {
-    const double nu = rubber.poissons_ratio(), radius = std::sqrt(geometry.tip_radius),
+    const meshes::Meridian meridian(geometry);
+    const double nu = rubber.poissons_ratio(), radius = std::sqrt(meridian.pole_radius()),
                  alpha = (1.2876 - 1.4678 * nu + 1.3442 * nu * nu) / (1.0 - nu);
     factor = 4.0 / 3.0 * rubber.youngs_modulus / (1.0 - nu * nu) * radius;
-    layer = 2.0 / std::numbers::pi * alpha * radius / geometry.thickness();
+    layer = 2.0 / std::numbers::pi * alpha * radius / meridian.wall();
   }
   double value(double d) const { return factor * (std::pow(d, 1.5) + layer * d * d); }
   double slope(double d) const { return factor * (1.5 * std::sqrt(d) + 2.0 * layer * d); }
@@ -128,6 +130,7 @@ std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup, double s
   const RoughForce force(setup.geometry, setup.rubber);
   const Sway sway(setup.geometry, setup.rubber);
   const Approach approach(protocol.speed, protocol.clearance);
+  const double pole_radius = meshes::Meridian(setup.geometry).pole_radius();
   const double v = protocol.speed, spacing = setup.lattice.spacing,
                filter = contact_factor *
                         (0.25 * step * step + 0.5 * step * setup.rubber.retardation_time);
@@ -135,7 +138,7 @@ std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup, double s
   const auto depths =
       protocol.samples.empty() ? meshes::default_samples(protocol.depth) : protocol.samples;
   for (const double depth : depths) {
-    const double patch = std::sqrt(setup.geometry.tip_radius * depth);
+    const double patch = std::sqrt(pole_radius * depth);
     if (patch < resolved_patch * spacing) continue;
     const double time = approach.time_at(protocol.clearance + depth);
     const double contact = filter * v * v * force.curvature(depth) +

@@ -250,7 +250,7 @@ std::vector<Key> press_keys() {
                    &meshes::PressProtocol::lateral_samples))),
       with_rule(quantity("press", "depth", "cm", "m", positive, "final indentation",
                          protocol(&PressProtocol::depth)),
-                "less than tip_radius - rod_radius",
+                "less than tip_radius - rod_radius, of a profile than the pole is above the bond",
                 {"press.samples", "geometry.tip_radius", "geometry.rod_radius"}),
       quantity("press", "speed", "cm/s", "m/s", positive,
                "approach speed of the rod; the continuum's, too, when reference.mode is transient",

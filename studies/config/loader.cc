@@ -233,10 +233,11 @@ LoadedConfig Reader::finish() {
   config.reference.rubber = press.rubber;
   config.reference.protocol = protocol;
 
-  std::vector<meshes::Violation> broken = press.geometry.violations();
-  for (const auto& more : {press.rubber.violations(), protocol.violations(press.geometry)}) {
-    broken.insert(broken.end(), more.begin(), more.end());
-  }
+  std::vector<meshes::Violation> broken = press.rubber.violations();
+  // Without its profile the finger is still the dome: rules about it mean nothing.
+  if (config.shape == ShapeKind::dome || !press.geometry.is_dome())
+    for (const auto& more : {press.geometry.violations(), protocol.violations(press.geometry)})
+      broken.insert(broken.end(), more.begin(), more.end());
   const ConfigError located = loaded_.locate(broken);
   for (const Problem& problem : located.problems()) {
     // A value that could not be read still holds its default: rules about it mean nothing.

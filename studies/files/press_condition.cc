@@ -64,6 +64,7 @@ PressCondition condition_of(const JsonEntry& inputs) {
   condition.rod_radius = number_if_any(geometry, "rod_radius");
   condition.sleeve_length = number_if_any(geometry, "sleeve_length");
   condition.rod_length = number_if_any(geometry, "rod_length");
+  if (geometry.contains("profile")) condition.profile = geometry.at("profile").content().dump();
   condition.youngs_modulus = number_if_any(rubber, "youngs_modulus");
   condition.shear_modulus = number_if_any(rubber, "shear_modulus");
   const bool lattice = inputs.contains("lattice");
@@ -99,6 +100,7 @@ std::vector<ConditionDifference> differences(const PressCondition& press,
   std::vector<ConditionDifference> found;
   if (differ(press.contact, other.contact))
     found.push_back({fmt::format("contact: {}, not {}", press.contact, other.contact), true});
+  if (differ(press.profile, other.profile)) found.push_back({"another shape", true});
   for (const Number& number : numbers) {
     const double a = press.*number.value, b = other.*number.value;
     if (!differ(a, b)) continue;

@@ -4,8 +4,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "meshes/fields_json.h"
 #include "studies/live/server.h"
 
 namespace fingertip::studies {
@@ -30,6 +32,8 @@ PressCondition condition_of(const lattice::PressSetup& setup) {
   condition.rod_radius = setup.geometry.rod_radius;
   condition.sleeve_length = setup.geometry.sleeve_length;
   condition.rod_length = setup.geometry.rod_length;
+  if (!setup.geometry.is_dome())
+    condition.profile = meshes::json_of<nlohmann::json>(setup.geometry.profile).dump();
   condition.youngs_modulus = setup.rubber.youngs_modulus;
   condition.shear_modulus = setup.rubber.shear_modulus;
   condition.tilt = setup.protocol.tilt;

@@ -74,7 +74,9 @@ Reference read_reference(const fs::path& file) {
   reference.condition = read_condition(curve.parent_path(), reader);
   reader.throw_if_damaged();
   const fs::path series = curve.parent_path() / "fields" / "press.pvd";
-  if (fs::is_regular_file(series)) reference.overlays = read_overlays(series);
+  // The outer surface is told by its distance from the dome's core, so there is none of a profile.
+  const bool dome = !reference.condition || reference.condition->profile == "dome";
+  if (dome && fs::is_regular_file(series)) reference.overlays = read_overlays(series);
   // Of a lateral motion that follows the press there is no picture here.
   const double depth = reference.response.depth() * (1.0 + file_rounding);
   std::erase_if(reference.overlays,

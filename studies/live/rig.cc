@@ -86,7 +86,10 @@ void LiveRig::check_sanity() const {
   const double largest = 1e3 * setup_.rubber.longitudinal_modulus() * setup_.geometry.tip_volume();
   const Vector3 travel = finger_.finger().rod().endpoint() - finger_.rod_body().endpoint;
   if (!(energy < largest)) throw meshes::NotConverged("the lattice blew up");
-  if (!(travel.norm() < 10.0 * setup_.geometry.rod_length)) {
+  const meshes::Geometry& finger = setup_.geometry;
+  const double size =
+      finger.is_dome() ? finger.rod_length : finger.tip_radius + finger.pole() - finger.lowest();
+  if (!(travel.norm() < 10.0 * size)) {
     throw meshes::NotConverged("the rod flew away");
   }
 }

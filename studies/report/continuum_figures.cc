@@ -230,7 +230,9 @@ std::optional<fem_reference::analytic::Hertz> hertz_contact(const RunData& run) 
                                    std::pair{"shear_modulus", &rubber.shear_modulus}}) {
     if (std::isfinite(number_if_any(given, key))) *value = number_if_any(given, key);
   }
-  if (!(radius > 0.0) || !rubber.violations().empty()) return std::nullopt;
+  // Of a profile the radius at the pole is not told.
+  const bool dome = !object_if_any(run.reference_job, "geometry").contains("profile");
+  if (!dome || !(radius > 0.0) || !rubber.violations().empty()) return std::nullopt;
   return fem_reference::analytic::Hertz(rubber, radius);
 }
 

@@ -224,7 +224,7 @@ nlohmann::ordered_json CalibrationStages::with_bias(nlohmann::ordered_json calib
 /// The fit to moduli knows neither the finger nor what of the rubber is only a default.
 void CalibrationStages::complete_moduli(const fs::path& file) const {
   calibration::Material found = calibration::read_material_toml(file);
-  found.geometry = loaded_.config.press.geometry;
+  if (loaded_.config.press.geometry.is_dome()) found.geometry = loaded_.config.press.geometry;
   found.density_known = loaded_.entries.at("rubber.density").given;
   found.retardation_time_known = loaded_.entries.at("rubber.retardation_time").given;
   calibration::write_material_toml(found, file);

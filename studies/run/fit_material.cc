@@ -49,7 +49,8 @@ calibration::Validity validity_of(const FitInput& input, const calibration::FitR
   if (press == nullptr) return validity;
   validity.largest_indentation = press->protocol.samples.back();
   validity.thickness = press->geometry.thickness();
-  validity.rod_ratio = press->geometry.rod_radius / press->geometry.tip_radius;
+  if (press->geometry.is_dome())
+    validity.rod_ratio = press->geometry.rod_radius / press->geometry.tip_radius;
   validity.smallest_spacing = validity.largest_spacing = press->lattice.spacing;
   validity.model_error = calibration::worst_relative_residual(record);
   for (const lattice::PressSetup& other : input.presses)

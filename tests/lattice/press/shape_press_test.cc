@@ -100,6 +100,26 @@ TEST(ShapePress, ProfileOfTheDomeIsTheDomeInMotion) {
   }
 }
 
+/// A base-held finger holds by all of its base, at whatever height that lies.
+TEST(ShapePress, TheBaseHoldsAtAnyHeight) {
+  const double R = 0.0125;
+  double first = 0.0;
+  for (const double up : {0.0, 0.005, -0.0153}) {
+    const Geometry geometry = Geometry::of_profile({{R, up, contact, straight},
+                                                    {R, up + R, contact, arc, 0.0, up + R},
+                                                    {0.0, up + 2 * R, axis, straight},
+                                                    {0.0, up, bond, straight}});
+    PressSetup setup =
+        press_of(geometry, ModelKind::hookean, Kinematics::small, ContactMode::frictionless, 6);
+    setup.protocol.mode = DriveMode::equilibrium;
+    setup.protocol.samples = {1e-3};
+    setup.protocol.depth = 1e-3;
+    const double force = lattice::run_static_press(setup).response.samples().back().normal_force;
+    if (first == 0.0) first = force;
+    EXPECT_NEAR(force, first, 1e-9 * first) << up;
+  }
+}
+
 /// A base-held finger: what pushes the plane pushes the hand, whatever holds it, and the force
 /// does not depend on where on the axis the origin lies.
 TEST(ShapePress, SolidFingerBalances) {
