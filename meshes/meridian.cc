@@ -33,10 +33,6 @@ constexpr double wedge = 4.0;
 /// A length over the finger's extent that is round-off.
 constexpr double no_length = 1e-9;
 
-double cross(const Vector2& a, const Vector2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 std::string place(const Vector2& corner) {
   return "(r, z) = (" + to_text(1e3 * corner.x()) + ", " + to_text(1e3 * corner.y()) + ") mm";
 }
@@ -342,6 +338,8 @@ double Meridian::wall() const {
   // The whole section as chords, each with its place along the boundary. The axis joins the right
   // half to its mirror image: a chain of pieces and its image are one loop.
   struct Chord {
+    const MeridianPiece* piece;
+    double middle;  ///< its parameter on the piece
     Vector2 from, to;
     double start, length;  ///< along its chain
     int chain;
@@ -349,7 +347,7 @@ double Meridian::wall() const {
   std::size_t first = 0;  // a chain begins behind a piece of the axis
   while (first < pieces_.size() && pieces_[first].surface() != ProfileSurface::axis) ++first;
   const bool annular = first == pieces_.size();
-  std::vector<Chord> chords_there;
+  std::vector<Chord> section;
   std::vector<double> lengths{0.0};
   for (std::size_t k = 1; k <= pieces_.size(); ++k) {
     const MeridianPiece& piece = pieces_[(first + k) % pieces_.size()];
@@ -361,59 +359,50 @@ double Meridian::wall() const {
         piece.curve() == ProfileCurve::straight ? wall_points : std::max(4, chords_of(piece));
     for (int i = 0; i < count; ++i) {
       const Vector2 a = piece.at(double(i) / count), b = piece.at(double(i + 1) / count);
-      chords_there.push_back({a, b, lengths.back(), (b - a).norm(), int(lengths.size()) - 1});
+      section.push_back({&piece, (i + 0.5) / count, a, b, lengths.back(), (b - a).norm(),
+                         int(lengths.size()) - 1});
       lengths.back() += (b - a).norm();
     }
   }
   double wall = pole_ - bond_top_;
-  std::size_t next = 0;
-  for (std::size_t k = 1; k <= pieces_.size(); ++k) {
-    const MeridianPiece& piece = pieces_[(first + k) % pieces_.size()];
-    if (piece.surface() == ProfileSurface::axis) continue;
-    const int count =
-        piece.curve() == ProfileCurve::straight ? wall_points : std::max(4, chords_of(piece));
-    for (int i = 0; i < count; ++i) {
-      const Chord own = chords_there[next++];
-      if (piece.surface() != ProfileSurface::contact) continue;
-      const double t = (i + 0.5) / count;
-      const Vector2 start = piece.at(t), inward = -piece.normal(t);
-      // Where the ray first leaves the rubber; what lies just behind its start is its own chord.
-      double depth = wall, along_boundary = 0.0;
-      for (const Chord& chord : chords_there)
-        for (const double side : {1.0, -1.0}) {
-          const Vector2 a(side * chord.from.x(), chord.from.y()),
-              b(side * chord.to.x(), chord.to.y());
-          const double turned = cross(inward, b - a);
-          if (turned == 0.0) continue;
-          const double at = cross(a - start, b - a) / turned;
-          const double share = cross(a - start, inward) / turned;
-          const bool own_chord = side > 0.0 && chord.start == own.start && chord.chain == own.chain;
-          if (own_chord || at <= 0.0 || at >= depth || share < 0.0 || share > 1.0) continue;
-          const double loop = (annular ? 1.0 : 2.0) * lengths[std::size_t(chord.chain)];
-          const double there = chord.start + share * chord.length;
-          const double place = side > 0.0 ? there : loop - there;
-          const double apart = std::abs(place - own.start - 0.5 * own.length);
-          depth = at;
-          along_boundary = chord.chain != own.chain || (annular && side < 0.0)
-                               ? std::numeric_limits<double>::infinity()
-                               : std::min(apart, loop - apart);
-        }
-      // Near a corner or a rounded end rubber runs out in a wedge, which is no wall.
-      if (!(depth < wall && along_boundary > wedge * depth)) continue;
-      const auto in_rubber = [&](double at) {
-        const Vector2 place = start + at * inward;
-        return contains(Vector2(std::abs(place.x()), place.y()));
-      };
-      double inside = 0.98 * depth, outside = 1.02 * depth;  // chords are not the curve
-      if (in_rubber(inside) && !in_rubber(outside)) {
-        for (int halving = 0; halving < 40; ++halving) {
-          const double middle = 0.5 * (inside + outside);
-          (in_rubber(middle) ? inside : outside) = middle;
-        }
-        depth = outside;
+  for (const Chord& own : section) {
+    if (own.piece->surface() != ProfileSurface::contact) continue;
+    const Vector2 start = own.piece->at(own.middle), inward = -own.piece->normal(own.middle);
+    // Where the ray first leaves the rubber; what lies just behind its start is its own chord.
+    double depth = wall, along_boundary = 0.0;
+    for (const Chord& chord : section)
+      for (const double side : {1.0, -1.0}) {
+        const Vector2 a(side * chord.from.x(), chord.from.y()),
+            b(side * chord.to.x(), chord.to.y());
+        const double turned = cross(inward, b - a);
+        if (turned == 0.0 || (side > 0.0 && &chord == &own)) continue;
+        const double at = cross(a - start, b - a) / turned;
+        const double share = cross(a - start, inward) / turned;
+        if (at <= 0.0 || at >= depth || share < 0.0 || share > 1.0) continue;
+        const double loop = (annular ? 1.0 : 2.0) * lengths[std::size_t(chord.chain)];
+        const double there = chord.start + share * chord.length;
+        const double place = side > 0.0 ? there : loop - there;
+        const double apart = std::abs(place - own.start - 0.5 * own.length);
+        depth = at;
+        along_boundary = chord.chain != own.chain || (annular && side < 0.0)
+                             ? std::numeric_limits<double>::infinity()
+                             : std::min(apart, loop - apart);
       }
-      wall = std::min(wall, depth);
+    // Near a corner or a rounded end rubber runs out in a wedge, which is no wall.
+    if (!(depth < wall && along_boundary > wedge * depth)) continue;
+    const auto in_rubber = [&](double at) {
+      const Vector2 place = start + at * inward;
+      return contains(Vector2(std::abs(place.x()), place.y()));
+    };
+    double inside = 0.98 * depth, outside = 1.02 * depth;  // chords are not the curve
+    if (in_rubber(inside) && !in_rubber(outside)) {
+      for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (inside + outside);
+        (in_rubber(middle) ? inside : outside) = middle;
+      }
+      depth = outside;
     }
+    wall = std::min(wall, depth);
   }
   return wall;
 }

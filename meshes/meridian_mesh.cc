@@ -11,15 +11,12 @@
 #include "meshes/meridian.h"
 
 namespace fingertip::meshes {
-namespace {
 
 void name_group(int dimension, const std::vector<int>& tags, PhysicalTag tag, const char* name) {
   if (tags.empty()) return;
   gmsh::model::addPhysicalGroup(dimension, tags, int(tag));
   gmsh::model::setPhysicalName(dimension, int(tag), name);
 }
-
-}  // namespace
 
 void build_dome_meridian(const Geometry& geometry, const TipMeshOptions& options) {
   namespace geo = gmsh::model::geo;

@@ -15,10 +15,6 @@ namespace {
 using std::numbers::pi;
 using PieceGauss = boost::math::quadrature::gauss<double, 15>;
 
-double turn(const Vector2& a, const Vector2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 }  // namespace
 
 std::string_view name(ProfileSurface surface) {
@@ -57,7 +53,7 @@ MeridianPiece MeridianPiece::arc(const Vector2& from, const Vector2& to, const V
   const Vector2 a = from - centre, b = to - centre;
   piece.radius_ = 0.5 * (a.norm() + b.norm());
   piece.angle_ = std::atan2(a.y(), a.x());
-  piece.sweep_ = std::atan2(turn(a, b), a.dot(b));
+  piece.sweep_ = std::atan2(cross(a, b), a.dot(b));
   piece.low_ = centre.array() - piece.radius_, piece.high_ = centre.array() + piece.radius_;
   return piece;
 }
@@ -118,7 +114,7 @@ double MeridianPiece::nearest(const Vector2& point) const {
     }
     case ProfileCurve::arc: {
       const Vector2 middle = at(0.5) - control1_, d = point - control1_;
-      const double turned = std::atan2(turn(middle, d), middle.dot(d));  // from the middle
+      const double turned = std::atan2(cross(middle, d), middle.dot(d));  // from the middle
       return clamped(0.5 + turned / sweep_);
     }
     case ProfileCurve::spline: break;
@@ -184,50 +180,30 @@ MonotonePart::MonotonePart(const MeridianPiece& piece, double from, double to)
   z_ = {std::min(a.y(), b.y()), std::max(a.y(), b.y())};
 }
 
-double MonotonePart::parameter_at(int axis, double value) const {
+double MonotonePart::other_at(int axis, double value) const {
+  const int other = 1 - axis;
+  switch (piece_.curve()) {
+    case ProfileCurve::straight: {
+      const Vector2 along = piece_.to() - piece_.from();
+      return piece_.from()[other] + (value - piece_.from()[axis]) / along[axis] * along[other];
+    }
+    case ProfileCurve::arc: {
+      const Vector2& centre = piece_.centre();
+      const double radius = (piece_.at(0.5) - centre).norm(), off = value - centre[axis];
+      const double across = std::sqrt(std::max(0.0, (radius - off) * (radius + off)));
+      const bool beyond = piece_.at(0.5 * (from_ + to_))[other] >= centre[other];
+      return centre[other] + (beyond ? across : -across);
+    }
+    case ProfileCurve::spline: break;
+  }
   const auto off = [&](double t) { return piece_.at(t)[axis] - value; };
   const double a = off(from_), b = off(to_);
-  if (a == 0.0 || b == 0.0 || a * b > 0.0) return std::abs(a) <= std::abs(b) ? from_ : to_;
+  if (a == 0.0 || b == 0.0 || a * b > 0.0)
+    return piece_.at(std::abs(a) <= std::abs(b) ? from_ : to_)[other];
   std::uintmax_t rounds = 100;
   const auto [low, high] = boost::math::tools::toms748_solve(
       off, from_, to_, a, b, boost::math::tools::eps_tolerance<double>(52), rounds);
-  return 0.5 * (low + high);
-}
-
-double MonotonePart::radius_at(double z) const {
-  switch (piece_.curve()) {
-    case ProfileCurve::straight: {
-      const Vector2 along = piece_.to() - piece_.from();
-      return piece_.from().x() + (z - piece_.from().y()) / along.y() * along.x();
-    }
-    case ProfileCurve::arc: {
-      const Vector2& centre = piece_.centre();
-      const double radius = (piece_.at(0.5) - centre).norm(), up = z - centre.y();
-      const double across = std::sqrt(std::max(0.0, (radius - up) * (radius + up)));
-      const bool right = piece_.at(0.5 * (from_ + to_)).x() >= centre.x();
-      return std::max(0.0, centre.x() + (right ? across : -across));
-    }
-    case ProfileCurve::spline: break;
-  }
-  return piece_.at(parameter_at(1, z)).x();
-}
-
-double MonotonePart::height_at(double r) const {
-  switch (piece_.curve()) {
-    case ProfileCurve::straight: {
-      const Vector2 along = piece_.to() - piece_.from();
-      return piece_.from().y() + (r - piece_.from().x()) / along.x() * along.y();
-    }
-    case ProfileCurve::arc: {
-      const Vector2& centre = piece_.centre();
-      const double radius = (piece_.at(0.5) - centre).norm(), out = r - centre.x();
-      const double up = std::sqrt(std::max(0.0, (radius - out) * (radius + out)));
-      const bool above = piece_.at(0.5 * (from_ + to_)).y() >= centre.y();
-      return centre.y() + (above ? up : -up);
-    }
-    case ProfileCurve::spline: break;
-  }
-  return piece_.at(parameter_at(0, r)).y();
+  return piece_.at(0.5 * (low + high))[other];
 }
 
 }  // namespace fingertip::meshes

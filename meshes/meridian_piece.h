@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -10,6 +11,11 @@
 namespace fingertip::meshes {
 
 using Vector2 = Eigen::Vector2d;
+
+/// a x b: positive where b lies to the left of a.
+inline double cross(const Vector2& a, const Vector2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// A piece of the curve, x(t) = (r, z) for t in [0, 1]; rubber lies to its left.
 class MeridianPiece {
@@ -63,12 +69,13 @@ class MonotonePart {
   double highest() const { return z_[1]; }
   /// r at a height within the part, and the height at an r within it; `crosses_radius` tells
   /// whether it is.
-  double radius_at(double z) const;
-  double height_at(double r) const;
+  double radius_at(double z) const { return std::max(0.0, other_at(1, z)); }
+  double height_at(double r) const { return other_at(0, r); }
   bool crosses_radius(double r) const { return r > r_[0] && r < r_[1]; }
 
  private:
-  double parameter_at(int axis, double value) const;
+  /// The other coordinate of the point whose coordinate `axis` (0: r, 1: z) has this value.
+  double other_at(int axis, double value) const;
 
   MeridianPiece piece_;
   double from_, to_;             ///< parameters

@@ -192,29 +192,24 @@ void add_quarter(BlockStructure& blocks, int first_azimuth, bool sleeve) {
 }
 
 void name_groups(const BlockStructure& blocks, bool sleeve, Sector sector) {
-  const auto group = [](int dimension, const std::vector<int>& tags, PhysicalTag tag,
-                        const char* group_name) {
-    gmsh::model::addPhysicalGroup(dimension, tags, int(tag));
-    gmsh::model::setPhysicalName(dimension, int(tag), group_name);
-  };
-  group(3, blocks.volumes(), PhysicalTag::tip, "tip");
-  group(2, blocks.surfaces_where([](const Corner& c) { return c.layer == outer_layer; }),
-        PhysicalTag::outer, "outer");
-  group(2, blocks.surfaces_where([](const Corner& c) { return c.layer == inner; }),
-        PhysicalTag::bond, "bond");
+  name_group(3, blocks.volumes(), PhysicalTag::tip, "tip");
+  name_group(2, blocks.surfaces_where([](const Corner& c) { return c.layer == outer_layer; }),
+             PhysicalTag::outer, "outer");
+  name_group(2, blocks.surfaces_where([](const Corner& c) { return c.layer == inner; }),
+             PhysicalTag::bond, "bond");
   const int last = sleeve ? end_ring : equator;
-  group(2, blocks.surfaces_where([last](const Corner& c) { return c.ring == last; }),
-        PhysicalTag::end, "end");
+  name_group(2, blocks.surfaces_where([last](const Corner& c) { return c.ring == last; }),
+             PhysicalTag::end, "end");
   if (sector == Sector::full) return;
   const bool half = sector == Sector::half;
   if (!half)
-    group(2,
-          blocks.surfaces_where([](const Corner& c) { return c.ring == pole || c.azimuth == 2; }),
-          PhysicalTag::symmetry_x, "symmetry_x");
-  group(2, blocks.surfaces_where([half](const Corner& c) {
+    name_group(
+        2, blocks.surfaces_where([](const Corner& c) { return c.ring == pole || c.azimuth == 2; }),
+        PhysicalTag::symmetry_x, "symmetry_x");
+  name_group(2, blocks.surfaces_where([half](const Corner& c) {
     return c.ring == pole || c.azimuth == 0 || (half && c.azimuth == 4);
   }),
-        PhysicalTag::symmetry_y, "symmetry_y");
+             PhysicalTag::symmetry_y, "symmetry_y");
 }
 
 /// Moves the nodes of `surface` that gmsh left off the sphere or cylinder onto it.

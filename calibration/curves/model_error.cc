@@ -23,11 +23,6 @@ constexpr double inside_error = 0.57, inside_power = 3.0;
 constexpr double tie_error = 0.003;
 constexpr double large_strain_error = 0.02;
 
-/// The thinnest layer of rubber [m].
-double wall(const meshes::Geometry& geometry) {
-  return geometry.is_dome() ? geometry.thickness() : meshes::Meridian(geometry).wall();
-}
-
 /// One force and where it is taken.
 struct Place {
   const PressSetup* press = nullptr;
@@ -95,10 +90,10 @@ double between(const std::vector<double>& xs, const std::vector<double>& ys, dou
 Eigen::MatrixXd lattice_covariance(const std::vector<PressSetup>& presses) {
   std::vector<Place> places;
   for (const PressSetup& press : presses) {
-    const double pole_radius = meshes::Meridian(press.geometry).pole_radius(),
-                 thinnest = wall(press.geometry);
+    const meshes::Meridian meridian(press.geometry);
+    const double pole_radius = meridian.pole_radius(), wall = meridian.wall();
     for (const double depth : press.protocol.samples)
-      places.push_back({&press, depth, pole_radius, thinnest});
+      places.push_back({&press, depth, pole_radius, wall});
   }
   const Index count = Index(places.size());
   Eigen::MatrixXd result(count, count);

@@ -25,11 +25,12 @@ constexpr double cost = 2.0;              // of a scaled step, in plain ones
 
 /// F = factor (delta^3/2 + layer delta²).
 struct RoughForce {
-  double factor = 0.0, layer = 0.0;
+  double factor = 0.0, layer = 0.0, pole_radius = 0.0;
 
   RoughForce(const Geometry& geometry, const Rubber& rubber) {
     const meshes::Meridian meridian(geometry);
-    const double nu = rubber.poissons_ratio(), radius = std::sqrt(meridian.pole_radius()),
+    pole_radius = meridian.pole_radius();
+    const double nu = rubber.poissons_ratio(), radius = std::sqrt(pole_radius),
                  alpha = (1.2876 - 1.4678 * nu + 1.3442 * nu * nu) / (1.0 - nu);
     factor = 4.0 / 3.0 * rubber.youngs_modulus / (1.0 - nu * nu) * radius;
     layer = 2.0 / std::numbers::pi * alpha * radius / meridian.wall();
@@ -130,7 +131,6 @@ std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup, double s
   const RoughForce force(setup.geometry, setup.rubber);
   const Sway sway(setup.geometry, setup.rubber);
   const Approach approach(protocol.speed, protocol.clearance);
-  const double pole_radius = meshes::Meridian(setup.geometry).pole_radius();
   const double v = protocol.speed, spacing = setup.lattice.spacing,
                filter = contact_factor *
                         (0.25 * step * step + 0.5 * step * setup.rubber.retardation_time);
@@ -138,7 +138,7 @@ std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup, double s
   const auto depths =
       protocol.samples.empty() ? meshes::default_samples(protocol.depth) : protocol.samples;
   for (const double depth : depths) {
-    const double patch = std::sqrt(pole_radius * depth);
+    const double patch = std::sqrt(force.pole_radius * depth);
     if (patch < resolved_patch * spacing) continue;
     const double time = approach.time_at(protocol.clearance + depth);
     const double contact = filter * v * v * force.curvature(depth) +
