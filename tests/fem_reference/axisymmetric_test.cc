@@ -13,6 +13,7 @@
 #include "fem_reference/transient.h"
 #include "meshes/errors.h"
 #include "tests/fem_reference/pressing.h"
+#include "tests/fingers.h"
 
 using namespace fingertip;
 using fem_reference::PressState;
@@ -93,22 +94,13 @@ TEST(Meridian, GivesTheForcesOfAnotherProgram) {
 
 /// The dome written as a profile, on gmsh's unstructured mesh: within both bars.
 TEST(Meridian, ProfileOfTheDomeIsTheDome) {
-  using enum meshes::ProfileSurface;
-  using enum meshes::ProfileCurve;
-  const meshes::Geometry g;
-  const double R = g.tip_radius, r = g.rod_radius, L = g.sleeve_length, up = 0.004;
   for (const Strain strain : {Strain::linear, Strain::finite}) {
     ReferenceJob dome = meridian_press(ContactMode::stick, strain);
     dome.refinement = 1.0;
     dome.tolerance = 0.003;
     dome.press_to({5e-4, 1e-3});
     ReferenceJob profile = dome;
-    profile.geometry = meshes::Geometry::of_profile({{r, up - L, free, straight},
-                                                     {R, up - L, contact, straight},
-                                                     {R, up, contact, arc, 0.0, up},
-                                                     {0.0, up + R, axis, straight},
-                                                     {0.0, up + r, bond, arc, 0.0, up},
-                                                     {r, up, bond, straight}});
+    profile.geometry = meshes::Geometry::of_profile(fingers::dome({}, 0.004));
     const auto expected = converged(dome), found = converged(profile);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const auto &a = expected[i].sample, &b = found[i].sample;

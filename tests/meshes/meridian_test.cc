@@ -9,6 +9,7 @@
 #include "meshes/cut_cells.h"
 #include "meshes/revolved_cells.h"
 #include "meshes/surface_points.h"
+#include "tests/fingers.h"
 
 namespace fingertip::meshes {
 namespace {
@@ -16,13 +17,6 @@ namespace {
 using std::numbers::pi;
 using enum ProfileSurface;
 using enum ProfileCurve;
-
-/// The dome written as a profile, its first corner anywhere, either way round.
-std::vector<ProfileCorner> dome_profile(const Geometry& g) {
-  const double R = g.tip_radius, r = g.rod_radius, L = g.sleeve_length;
-  return {{0.0, R, axis, straight}, {0.0, r, bond, arc},        {r, 0.0, bond, straight},
-          {r, -L, free, straight},  {R, -L, contact, straight}, {R, 0.0, contact, arc}};
-}
 
 /// A solid ellipsoid of half axes a (across) and b (up) cut at its middle, as a spline through n
 /// corners a quarter, held at its base.
@@ -37,14 +31,6 @@ std::vector<ProfileCorner> half_ellipsoid(double a, double b, int n) {
   return corners;
 }
 
-/// A hollow finger: cylinder and hemisphere with a wall, glued at its rim.
-std::vector<ProfileCorner> hollow(double R, double wall, double height) {
-  const double r = R - wall, z = height - R;
-  return {{R, 0.0, contact, straight},   {R, z, contact, arc, 0.0, z},
-          {0.0, height, axis, straight}, {0.0, height - wall, free, arc, 0.0, z},
-          {r, z, free, straight},        {r, 0.0, bond, straight}};
-}
-
 void expect_refused(std::vector<ProfileCorner> corners, const std::string& rule) {
   try {
     Geometry::of_profile(std::move(corners));
@@ -55,7 +41,7 @@ void expect_refused(std::vector<ProfileCorner> corners, const std::string& rule)
 }
 
 TEST(Meridian, OfTheDomeIsTheDome) {
-  const Geometry dome, profile = Geometry::of_profile(dome_profile(dome), -dome.rod_length);
+  const Geometry dome, profile = Geometry::of_profile(fingers::dome(dome), -dome.rod_length);
   EXPECT_NEAR(profile.tip_radius, dome.tip_radius, 1e-15);
   EXPECT_NEAR(profile.rod_radius, dome.rod_radius, 1e-15);
   EXPECT_NEAR(profile.sleeve_length, dome.sleeve_length, 1e-15);
@@ -76,7 +62,7 @@ TEST(Meridian, OfTheDomeIsTheDome) {
 TEST(Meridian, MayBeginAtAnyCornerEitherWayRound) {
   const Geometry dome;
   const double volume = dome.tip_volume();
-  const std::vector<ProfileCorner> corners = dome_profile(dome);
+  const std::vector<ProfileCorner> corners = fingers::dome(dome);
   for (std::size_t first = 0; first < corners.size(); ++first) {
     std::vector<ProfileCorner> turned = corners;
     std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(first), turned.end());
@@ -141,7 +127,7 @@ TEST(Meridian, DistanceToASplineIsThatToItsPoints) {
 }
 
 TEST(Meridian, WallOfAHollowFinger) {
-  const Geometry geometry = Geometry::of_profile(hollow(0.0125, 0.0025, 0.025));
+  const Geometry geometry = Geometry::of_profile(fingers::hollow());
   EXPECT_NEAR(Meridian(geometry).wall(), 0.0025, 1e-9);
   EXPECT_NEAR(geometry.thickness(), 0.025, 1e-15);
   EXPECT_NEAR(geometry.coarsest_spacing(), 0.0025 / 4, 1e-9);
@@ -214,7 +200,7 @@ TEST(Meridian, CutCellsAddUpToTheBody) {
   const auto lever = [&](double q) { return ball(q) * z0 + pi / 4 * std::pow(q, 4); };
   const Geometry spline_body = Geometry::of_profile(half_ellipsoid(a, b, 24));
   const std::vector<Body> bodies = {
-      {"hollow", Geometry::of_profile(hollow(R, wall, H)),
+      {"hollow", Geometry::of_profile(fingers::hollow(R, wall)),
        pi * (R * R - r * r) * z0 + ball(R) - ball(r),
        pi * (R * R - r * r) * z0 * z0 / 2 + lever(R) - lever(r)},
       {"cone",
@@ -282,8 +268,8 @@ TEST(Meridian, FineCellsAddUp) {
 }
 
 TEST(Meridian, SurfacePointsCarryAreaAndCloseTheBody) {
-  for (const auto& corners : {hollow(0.0125, 0.0025, 0.025), half_ellipsoid(0.012, 0.006, 12),
-                              dome_profile(Geometry{})}) {
+  for (const auto& corners :
+       {fingers::hollow(), half_ellipsoid(0.012, 0.006, 12), fingers::dome(Geometry{})}) {
     const Geometry geometry = Geometry::of_profile(corners);
     double flux = 0.0, push = 0.0, whole = 0.0;
     for (const Surface surface : {Surface::outer, Surface::bond, Surface::end}) {
@@ -304,7 +290,7 @@ TEST(Meridian, SurfacePointsCarryAreaAndCloseTheBody) {
 
 TEST(Meridian, RefusesWhatIsNoFinger) {
   const auto with = [](auto&& change) {
-    std::vector<ProfileCorner> corners = dome_profile(Geometry{});
+    std::vector<ProfileCorner> corners = fingers::dome(Geometry{});
     change(corners);
     return corners;
   };
@@ -341,7 +327,7 @@ TEST(Meridian, RefusesWhatIsNoFinger) {
 }
 
 TEST(Meridian, RefusesATurnedGridWithTheReason) {
-  const Geometry geometry = Geometry::of_profile(dome_profile(Geometry{}));
+  const Geometry geometry = Geometry::of_profile(fingers::dome(Geometry{}));
   CubicGrid grid = covering_grid(geometry, 1e-3, Vector3::Zero(), 1);
   grid.axes << 0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1;
   EXPECT_THROW(cut_cells(geometry, grid, 0.0), InvalidInput);

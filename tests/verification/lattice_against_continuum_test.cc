@@ -7,6 +7,7 @@
 #include "lattice/press/press.h"
 #include "lattice/press/static_press.h"
 #include "tests/fem_reference/pressing.h"
+#include "tests/fingers.h"
 
 using namespace fingertip;
 using fem_reference::ReferenceJob;
@@ -78,19 +79,8 @@ TEST(LatticeAgainstContinuum, AgreesWithoutFriction) {
 
 /// Base-held fingers: solid, and hollow with a wall of 2.5 mm, 25 mm high and wide; at rest.
 TEST(LatticeAgainstContinuum, AgreesOnProfiles) {
-  using enum meshes::ProfileSurface;
-  using enum meshes::ProfileCurve;
-  const double R = 0.0125, r = 0.010, H = 0.025;
-  const auto solid = meshes::Geometry::of_profile({{R, 0.0, contact, straight},
-                                                   {R, R, contact, arc, 0.0, R},
-                                                   {0.0, H, axis, straight},
-                                                   {0.0, 0.0, bond, straight}});
-  const auto hollow = meshes::Geometry::of_profile({{R, 0.0, contact, straight},
-                                                    {R, R, contact, arc, 0.0, R},
-                                                    {0.0, H, axis, straight},
-                                                    {0.0, R + r, free, arc, 0.0, R},
-                                                    {r, R, free, straight},
-                                                    {r, 0.0, bond, straight}});
+  const auto solid = meshes::Geometry::of_profile(fingers::solid());
+  const auto hollow = meshes::Geometry::of_profile(fingers::hollow());
   const meshes::Rubber rubber = rubber_with(0.4);
   for (const auto& [geometry, cells] : {std::pair(solid, 12.0), std::pair(hollow, 20.0)}) {
     ReferenceJob job = continuum_job(geometry, rubber, ContactMode::frictionless, 2e-3);

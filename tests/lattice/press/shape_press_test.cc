@@ -5,7 +5,7 @@
 
 #include "lattice/press/press.h"
 #include "lattice/press/static_press.h"
-#include "meshes/meridian.h"
+#include "tests/fingers.h"
 
 using namespace fingertip;
 using lattice::Kinematics;
@@ -14,33 +14,12 @@ using lattice::PressSetup;
 using meshes::ContactMode;
 using meshes::DriveMode;
 using meshes::Geometry;
-using meshes::ProfileCorner;
 
 namespace {
 
-using enum meshes::ProfileSurface;
-using enum meshes::ProfileCurve;
-
 /// The paper's finger written as a profile, lifted by `height`.
 Geometry dome_as_profile(double height = 0.0) {
-  const Geometry g;
-  const double R = g.tip_radius, r = g.rod_radius, end = height - g.sleeve_length;
-  return Geometry::of_profile({{r, end, free, straight},
-                               {R, end, contact, straight},
-                               {R, height, contact, arc, 0.0, height},
-                               {0.0, height + R, axis, straight},
-                               {0.0, height + r, bond, arc, 0.0, height},
-                               {r, height, bond, straight}},
-                              height - g.rod_length);
-}
-
-/// Cylinder with a hemisphere, 25 mm high, 25 mm wide, glued at its base.
-Geometry solid_finger() {
-  const double R = 0.0125;
-  return Geometry::of_profile({{R, 0.0, contact, straight},
-                               {R, R, contact, arc, 0.0, R},
-                               {0.0, 2 * R, axis, straight},
-                               {0.0, 0.0, bond, straight}});
+  return Geometry::of_profile(fingers::dome({}, height), height - Geometry{}.rod_length);
 }
 
 PressSetup press_of(const Geometry& geometry, ModelKind model, Kinematics kinematics,
@@ -105,10 +84,7 @@ TEST(ShapePress, TheBaseHoldsAtAnyHeight) {
   const double R = 0.0125;
   double first = 0.0;
   for (const double up : {0.0, 0.005, -0.0153}) {
-    const Geometry geometry = Geometry::of_profile({{R, up, contact, straight},
-                                                    {R, up + R, contact, arc, 0.0, up + R},
-                                                    {0.0, up + 2 * R, axis, straight},
-                                                    {0.0, up, bond, straight}});
+    const Geometry geometry = Geometry::of_profile(fingers::solid(R, up));
     PressSetup setup =
         press_of(geometry, ModelKind::hookean, Kinematics::small, ContactMode::frictionless, 6);
     setup.protocol.mode = DriveMode::equilibrium;
@@ -123,8 +99,8 @@ TEST(ShapePress, TheBaseHoldsAtAnyHeight) {
 /// A base-held finger: what pushes the plane pushes the hand, whatever holds it, and the force
 /// does not depend on where on the axis the origin lies.
 TEST(ShapePress, SolidFingerBalances) {
-  PressSetup setup =
-      press_of(solid_finger(), ModelKind::hookean, Kinematics::small, ContactMode::frictionless, 6);
+  PressSetup setup = press_of(Geometry::of_profile(fingers::solid()), ModelKind::hookean,
+                              Kinematics::small, ContactMode::frictionless, 6);
   // So much rubber sways at 12 Hz where it is as soft as the paper's: a stiff one, pressed slowly.
   setup.rubber.youngs_modulus *= 25.0;
   setup.rubber.shear_modulus *= 25.0;
