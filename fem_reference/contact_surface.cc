@@ -1,12 +1,26 @@
 #include "fem_reference/contact_surface.h"
 
+#include <algorithm>
+
 namespace fingertip::fem_reference {
 
-ContactUnknowns contact_unknowns(const std::vector<SurfaceNode>& nodes, bool lateral,
-                                 double lowest) {
+std::vector<SurfaceNode> within_reach(const std::vector<SurfaceNode>& nodes,
+                                      const meshes::PressProtocol& protocol, double height,
+                                      double reach) {
+  // An obstacle is highest at its top: the place of its path where that is nearest counts.
+  const auto [low, high] = std::minmax(0.0, protocol.lateral);
+  std::vector<SurfaceNode> result;
+  for (const SurfaceNode& node : nodes) {
+    meshes::Vector3 at = node.position;
+    at.x() -= std::clamp(at.x() - protocol.obstacle.offset, low, high);
+    if (at.z() + meshes::height(protocol.obstacle, at) >= height - reach) result.push_back(node);
+  }
+  return result;
+}
+
+ContactUnknowns contact_unknowns(const std::vector<SurfaceNode>& nodes, bool lateral) {
   ContactUnknowns result;
   for (const SurfaceNode& node : nodes) {
-    if (node.position.z() < lowest) continue;
     std::array<int, 3> positions{-1, -1, -1};
     for (std::size_t c = lateral ? 0 : 2; c < 3; ++c) {
       if (!node.free[c]) continue;

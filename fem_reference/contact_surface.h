@@ -2,10 +2,12 @@
 /// holds all of it, in the same order whatever their number.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <vector>
 
 #include "meshes/geometry.h"
+#include "meshes/press_protocol.h"
 
 namespace fingertip::fem_reference {
 
@@ -29,9 +31,20 @@ struct ContactUnknowns {
   std::vector<std::array<int, 3>> of_node;  ///< per node: position in `unknowns`, -1 if none
 };
 
-/// Frictionless contact (`lateral` false) needs the z unknowns only; friction all that are free.
-/// Candidates are the nodes above `lowest` [m].
-ContactUnknowns contact_unknowns(const std::vector<SurfaceNode>& nodes, bool lateral,
-                                 double lowest);
+/// The unit vectors, as rows, along which the unknowns of a node count.
+struct NodeAxes {
+  std::array<long, 3> unknown{-1, -1, -1};  ///< of its displacement along x, y, z; -1 if none
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+/// The nodes that the obstacle of a press would come to, were it to go on by `reach` [m] from where
+/// it first touches, whatever its place along the lateral motion. `height` is that of its top then.
+std::vector<SurfaceNode> within_reach(const std::vector<SurfaceNode>& nodes,
+                                      const meshes::PressProtocol& protocol, double height,
+                                      double reach);
+
+/// All nodes given. Frictionless contact (`lateral` false) with what is flat needs the z unknowns
+/// only; other contact all that are free.
+ContactUnknowns contact_unknowns(const std::vector<SurfaceNode>& nodes, bool lateral);
 
 }  // namespace fingertip::fem_reference

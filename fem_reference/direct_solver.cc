@@ -1,6 +1,7 @@
 #include "fem_reference/direct_solver.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -72,17 +73,68 @@ void FreeUnknowns::restrict(const SparseMatrix& matrix, SymmetricMatrix& result)
     const long place = place_[entry++];
     if (place >= 0) result.valuePtr()[place] = value;
   });
+  turn(result);
+}
+
+void FreeUnknowns::for_each_turn(auto&& take) const {
+  for (const NodeAxes& node : axes_) {
+    std::vector<long> numbers;
+    std::vector<Eigen::Index> components;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const long number = node.unknown[c] < 0 ? -1 : number_[std::size_t(node.unknown[c])];
+      if (number < 0) continue;
+      numbers.push_back(number);
+      components.push_back(Eigen::Index(c));
+    }
+    take(numbers, Eigen::MatrixXd(node.axes(components, components)));
+  }
+}
+
+/// Q A Q^T. The unknowns of a node have the same neighbours, so that the pattern stays.
+void FreeUnknowns::turn(SymmetricMatrix& matrix) const {
+  for_each_turn([&](const std::vector<long>& numbers, const Eigen::MatrixXd& axes) {
+    if (numbers.empty()) return;
+    const long* start = matrix.outerIndexPtr();
+    const long entries = start[numbers[0] + 1] - start[numbers[0]];
+    Eigen::MatrixXd rows(Eigen::Index(numbers.size()), entries);
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      if (start[numbers[k] + 1] - start[numbers[k]] != entries)
+        throw std::logic_error("the unknowns of a node on the contact surface differ in neighbours");
+      rows.row(Eigen::Index(k)) =
+          Eigen::Map<Eigen::RowVectorXd>(matrix.valuePtr() + start[numbers[k]], entries);
+    }
+    rows = axes * rows;
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      Eigen::Map<Eigen::RowVectorXd>(matrix.valuePtr() + start[numbers[k]], entries) =
+          rows.row(Eigen::Index(k));
+    Eigen::VectorXd across(Eigen::Index(numbers.size()));
+    for (long e = start[numbers[0]]; e < start[numbers[0] + 1]; ++e) {
+      const long row = matrix.innerIndexPtr()[e];
+      for (std::size_t k = 0; k < numbers.size(); ++k)
+        across[Eigen::Index(k)] = matrix.coeff(row, numbers[k]);
+      across = (axes * across).eval();
+      for (std::size_t k = 0; k < numbers.size(); ++k)
+        matrix.coeffRef(row, numbers[k]) = across[Eigen::Index(k)];
+    }
+  });
 }
 
 Eigen::VectorXd FreeUnknowns::restrict(const Vector& v) const {
   Eigen::VectorXd result(size());
   for (std::size_t i = 0; i < number_.size(); ++i)
     if (number_[i] >= 0) result[number_[i]] = v[unsigned(i)];
+  for_each_turn([&](const std::vector<long>& numbers, const Eigen::MatrixXd& axes) {
+    result(numbers) = (axes * result(numbers)).eval();
+  });
   return result;
 }
 
-Vector FreeUnknowns::extend(const Eigen::VectorXd& v) const {
+Vector FreeUnknowns::extend(const Eigen::VectorXd& turned) const {
   Vector result = zero_;
+  Eigen::VectorXd v = turned;
+  for_each_turn([&](const std::vector<long>& numbers, const Eigen::MatrixXd& axes) {
+    v(numbers) = (axes.transpose() * v(numbers)).eval();
+  });
   for (std::size_t i = 0; i < number_.size(); ++i)
     if (number_[i] >= 0) result[unsigned(i)] = v[number_[i]];
   result.compress(dealii::VectorOperation::insert);

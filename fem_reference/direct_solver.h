@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem_reference/assembly.h"
+#include "fem_reference/contact_surface.h"
 #include "fem_reference/sparse_factor.h"
 
 namespace fingertip::fem_reference {
@@ -26,16 +27,23 @@ class FreeUnknowns {
   /// The node (named by one of its unknowns) to which every free unknown belongs.
   const std::vector<long>& node() const { return node_; }
 
+  /// From now on the unknowns of these nodes count along axes of their own on this side.
+  void set_axes(const std::vector<NodeAxes>& nodes) { axes_ = nodes; }
+
   /// Every matrix must have the pattern of the first.
   void restrict(const SparseMatrix& matrix, SymmetricMatrix& result);
   Eigen::VectorXd restrict(const Vector& v) const;
   Vector extend(const Eigen::VectorXd& v) const;
 
  private:
+  /// Calls with the free numbers of a node's unknowns that are free, and the turn of these.
+  void for_each_turn(auto&& take) const;
+  void turn(SymmetricMatrix& matrix) const;
   Vector zero_;  ///< of the whole space
   std::vector<long> number_, node_;
   SymmetricMatrix pattern_;
   std::vector<long> place_;  ///< of every entry of a matrix in the pattern's values, or -1
+  std::vector<NodeAxes> axes_;
 };
 
 }  // namespace fingertip::fem_reference

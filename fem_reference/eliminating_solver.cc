@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "fem_reference/direct_solver.h"
@@ -107,6 +108,12 @@ class EliminatingSolver : public FieldSolver {
     set_load(Eigen::VectorXd::Zero(free_.size()));
   }
 
+  void set_axes(const std::vector<NodeAxes>& nodes) override {
+    const Vector before = field();
+    free_.set_axes(nodes);
+    displacement_ = free_.restrict(before);
+  }
+
   void set_load(const Vector& load) override { set_load(free_.restrict(load)); }
 
   ConstrainedSolution solve_constrained(const std::vector<char>& held,
@@ -200,6 +207,10 @@ class EliminatingSolver : public FieldSolver {
 };
 
 }  // namespace
+
+void FieldSolver::set_axes(const std::vector<NodeAxes>& /*nodes*/) {
+  throw std::logic_error("this solver knows the axes of the body alone");
+}
 
 template <int dim>
 std::unique_ptr<FieldSolver> make_eliminating_solver(const Body<dim>& body,

@@ -6,6 +6,7 @@
 
 #include "fem_reference/assembly.h"
 #include "fem_reference/contact_solver.h"
+#include "fem_reference/contact_surface.h"
 
 namespace fingertip::fem_reference {
 
@@ -14,6 +15,9 @@ class FieldSolver : public ContactSolver {
   /// Takes over a (new) matrix; it must stay alive and unchanged until the next call. Throws
   /// NotConverged when it cannot be factorised.
   virtual void set_matrix(const LinearSystem& system) = 0;
+  /// From the next matrix on the contact unknowns of these nodes count along axes of their own, in
+  /// all that a ContactSolver is asked. The eliminating solver can.
+  virtual void set_axes(const std::vector<NodeAxes>& nodes);
   /// f [N]; zero at first. Constrained entries are ignored.
   virtual void set_load(const Vector& load) = 0;
   /// Forgets what it learnt from the matrices and solutions before, as a press that is resumed has:

@@ -135,7 +135,8 @@ std::string_view name(Symmetry symmetry) {
 
 bool ReferenceJob::axisymmetric() const {
   const bool press = analysis == Analysis::static_press || analysis == Analysis::transient;
-  return symmetry != Symmetry::none && press && protocol.tilt == 0.0 && protocol.lateral == 0.0;
+  return symmetry != Symmetry::none && press && protocol.tilt == 0.0 && protocol.lateral == 0.0 &&
+         protocol.obstacle.on_axis();
 }
 
 std::vector<Violation> ReferenceJob::violations() const {
@@ -174,19 +175,21 @@ std::vector<Violation> ReferenceJob::violations() const {
   if (symmetry == Symmetry::axisymmetric && !axisymmetric())
     broken.push_back(
         {"reference.symmetry", "axisymmetric",
-         press ? "a tilt or a lateral motion of the plane breaks the symmetry about the axis"
+         press ? "a tilt, a lateral motion or an obstacle that is not round about the axis breaks "
+                 "the symmetry"
                : "vibrations leave the meridian: they need the solid",
          "choose reference.symmetry = \"automatic\""});
   if (!geometry.is_dome() && !axisymmetric() && analysis != Analysis::verification)
     broken.push_back(
         {"geometry.shape", "profile",
          press && symmetry != Symmetry::none
-             ? "the continuum presses a profile along its axis: no tilt, no lateral motion"
+             ? "the continuum presses a profile along its axis: no tilt, no lateral motion, a plane "
+               "or a sphere on the axis"
              : "the continuum knows a profile by its meridian, not as a solid",
          "take the dome, or press along the axis with reference.symmetry = \"automatic\""});
   if (analysis == Analysis::transient)
     require(strain == Strain::linear && protocol.tilt == 0.0 && protocol.lateral == 0.0 &&
-                protocol.contact != meshes::ContactMode::coulomb,
+                protocol.obstacle.on_axis() && protocol.contact != meshes::ContactMode::coulomb,
             "reference.mode", 0.0,
             "a transient press is small-strain, along the axis, and frictionless or stick",
             "choose reference.strain = \"linear\", press.contact = \"stick\", no tilt");

@@ -1,5 +1,6 @@
 #include "fem_reference/plane_contact.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -45,22 +46,26 @@ std::vector<std::size_t> leaders_of(const std::vector<SurfaceNode>& nodes) {
 }  // namespace
 
 PlaneContact::PlaneContact(ContactUnknowns unknowns, ContactMode mode, const PlanePose& start,
-                           double friction, double shear_modulus)
+                           double friction, double shear_modulus, const meshes::Obstacle& obstacle,
+                           bool finite)
     : unknowns_(std::move(unknowns)),
       leaders_(leaders_of(unknowns_.nodes)),
       mode_(mode),
       friction_(friction),
-      shear_modulus_(shear_modulus) {
+      shear_modulus_(shear_modulus),
+      obstacle_(obstacle),
+      frames_(finite && !obstacle.is_plane() ? unknowns_.nodes.size() : 0) {
   const std::size_t nodes = unknowns_.nodes.size();
   const auto zero = Eigen::VectorXd::Zero(Eigen::Index(unknowns_.unknowns.size()));
   committed_ = {start, std::vector<NodeStatus>(nodes, NodeStatus::open),
-                std::vector<std::array<double, 2>>(nodes, {0.0, 0.0}), zero, zero};
+                std::vector<std::array<double, 3>>(nodes, {0.0, 0.0, 0.0}), zero, zero};
   trial_ = committed_;
 }
 
 void PlaneContact::restore(State state) {
   committed_ = std::move(state);
   trial_ = committed_;
+  if (curved()) linearise(committed_.displacement, committed_.pose);
 }
 
 void PlaneContact::commit() {
@@ -75,13 +80,88 @@ int PlaneContact::active_nodes() const {
   return int(trial_.status.size()) - int(std::ranges::count(trial_.status, NodeStatus::open));
 }
 
-meshes::Vector3 PlaneContact::reaction(std::size_t node) const {
-  meshes::Vector3 force = meshes::Vector3::Zero();
+meshes::Vector3 PlaneContact::of_node(std::size_t node, const Eigen::VectorXd& values) const {
+  meshes::Vector3 result = meshes::Vector3::Zero();
   for (int c = 0; c < 3; ++c) {
     const int position = unknowns_.of_node[node][std::size_t(c)];
-    if (position >= 0) force[c] = trial_.reaction[position];
+    if (position >= 0) result[c] = values[position];
   }
-  return force;
+  return result;
+}
+
+void PlaneContact::set_node(std::size_t node, const meshes::Vector3& value,
+                            Eigen::VectorXd& values) const {
+  for (int c = 0; c < 3; ++c) {
+    const int position = unknowns_.of_node[node][std::size_t(c)];
+    if (position >= 0) values[position] = value[c];
+  }
+}
+
+meshes::Vector3 PlaneContact::reaction(std::size_t node) const {
+  return axes(node).transpose() * own_reaction(node);
+}
+
+Eigen::VectorXd PlaneContact::in_plane_axes(const Eigen::VectorXd& values) const {
+  if (!curved()) return values;
+  Eigen::VectorXd result = values;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    set_node(node, axes(node).transpose() * of_node(node, values), result);
+  return result;
+}
+
+PlaneContact::Facing PlaneContact::facing(const meshes::Vector3& rest,
+                                          const meshes::Vector3& displacement,
+                                          const PlanePose& pose) const {
+  const meshes::Vector3 out(0.0, 0.0, -1.0);
+  const double over = pose.height - rest.z() - displacement.z();
+  if (!curved()) return {over - height(obstacle_, {rest.x() - pose.shift, rest.y(), 0.0}), out};
+  const auto found = hit(obstacle_, {rest.x() + displacement.x() - pose.shift,
+                                     rest.y() + displacement.y(), over});
+  return {found.gap, {found.normal[0], found.normal[1], -found.normal[2]}};
+}
+
+double PlaneContact::reach(std::size_t node) const {
+  if (curved()) return frames_[node].reach;
+  return facing(node, meshes::Vector3::Zero(), trial_.pose).gap;
+}
+
+double PlaneContact::linearise(const Eigen::VectorXd& displacement, const PlanePose& pose) {
+  double largest = 0.0;
+  for (std::size_t node = 0; node < frames_.size(); ++node) {
+    const meshes::Vector3 at = of_node(node, displacement);
+    const Facing now = facing(node, at, pose);
+    // The shortest turn: in a plane of symmetry, which holds the normal, it is about the axis
+    // across.
+    Frame& frame = frames_[node];
+    frame.axes = Eigen::Quaterniond::FromTwoVectors(-now.normal, meshes::Vector3::UnitZ())
+                     .toRotationMatrix();
+    frame.reach = now.gap + (frame.axes * at).z();
+    if (!is_open(node)) largest = std::max(largest, std::abs(now.gap));
+  }
+  return largest;
+}
+
+std::vector<NodeAxes> PlaneContact::axes() const {
+  std::vector<NodeAxes> result(frames_.size());
+  for (std::size_t node = 0; node < result.size(); ++node) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int position = unknowns_.of_node[node][c];
+      if (position >= 0) result[node].unknown[c] = unknowns_.unknowns[std::size_t(position)];
+    }
+    result[node].axes = frames_[node].axes;
+  }
+  return result;
+}
+
+Eigen::VectorXd PlaneContact::out_of_balance(const Eigen::VectorXd& force) const {
+  Eigen::VectorXd result = force;
+  for (std::size_t node = 0; curved() && node < frames_.size(); ++node)
+    set_node(node, axes(node) * of_node(node, force), result);
+  result -= trial_.reaction;
+  const std::vector<char> fixed = held();
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (fixed[i]) result[Eigen::Index(i)] = 0.0;
+  return result;
 }
 
 std::vector<char> PlaneContact::held() const {
@@ -96,10 +176,12 @@ std::vector<char> PlaneContact::held() const {
   return result;
 }
 
-double PlaneContact::gap(std::size_t node, const Eigen::VectorXd& displacement,
-                         const PlanePose& pose) const {
-  return pose.height - unknowns_.nodes[node].position.z() -
-         displacement[unknowns_.of_node[node][2]];
+meshes::Vector3 PlaneContact::held_at(std::size_t node) const {
+  const std::array<double, 3>& anchor = trial_.anchors[node];
+  meshes::Vector3 place = axes(node) * meshes::Vector3(anchor[0] + trial_.pose.shift, anchor[1],
+                                                       anchor[2] + trial_.pose.height);
+  if (obstacle_.is_plane()) place.z() = reach(node);
+  return place;
 }
 
 ConstrainedSolution PlaneContact::solve(ContactSolver& solver) const {
@@ -107,12 +189,14 @@ ConstrainedSolution PlaneContact::solve(ContactSolver& solver) const {
   Eigen::VectorXd loads = values;
   for (std::size_t node = 0; node < trial_.status.size(); ++node) {
     if (trial_.status[node] == NodeStatus::open) continue;
-    const auto& of_node = unknowns_.of_node[node];
-    values[of_node[2]] = trial_.pose.height - unknowns_.nodes[node].position.z();
-    for (std::size_t c = 0; c < 2; ++c) {
-      if (of_node[c] < 0) continue;
-      values[of_node[c]] = trial_.anchors[node][c] + (c == 0 ? trial_.pose.shift : 0.0);
-      if (trial_.status[node] == NodeStatus::slide) loads[of_node[c]] = trial_.reaction[of_node[c]];
+    const bool slides = trial_.status[node] == NodeStatus::slide;
+    meshes::Vector3 place = held_at(node);
+    if (slides) place.z() = reach(node);
+    set_node(node, place, values);
+    if (slides) {
+      meshes::Vector3 friction = own_reaction(node);
+      friction.z() = 0.0;
+      set_node(node, friction, loads);
     }
   }
   return solver.solve_constrained(held(), values, loads);
@@ -135,7 +219,7 @@ std::vector<std::size_t> PlaneContact::offenders(const ConstrainedSolution& solu
   }
   std::vector<std::size_t> result;
   for (std::size_t node = 0; node < trial_.status.size(); ++node) {
-    const bool penetrates = gap(node, solution.displacement, trial_.pose) < -depth;
+    const bool penetrates = gap_of_solution(node, solution.displacement) < -depth;
     bool wrong = is_open(node) ? penetrates : reactions[node] > pull;
     if (follows(node)) {
       const bool led = !is_open(leader(node));
@@ -147,13 +231,17 @@ std::vector<std::size_t> PlaneContact::offenders(const ConstrainedSolution& solu
 }
 
 void PlaneContact::anchor(std::size_t node, const Eigen::VectorXd& trial, double time) {
-  const double shift = (1.0 - time) * committed_.pose.shift + time * trial_.pose.shift;
-  for (std::size_t c = 0; c < 2; ++c) {
-    const int position = unknowns_.of_node[node][c];
-    if (position < 0) continue;
-    const double start = committed_.displacement[position];
-    trial_.anchors[node][c] = start + time * (trial[position] - start) - (c == 0 ? shift : 0.0);
-  }
+  const auto between = [time](const auto& start, const auto& end) {
+    return (1.0 - time) * start + time * end;
+  };
+  const PlanePose pose{between(committed_.pose.height, trial_.pose.height),
+                       between(committed_.pose.shift, trial_.pose.shift)};
+  const meshes::Vector3 start = of_node(node, committed_.displacement);
+  meshes::Vector3 place = start + time * (of_node(node, trial) - start);
+  // On the obstacle: of what is curved, the way there is not quite straight.
+  const Facing left = facing(node, place, pose);
+  place -= left.gap * left.normal;
+  trial_.anchors[node] = {place.x() - pose.shift, place.y(), place.z() - pose.height};
 }
 
 void PlaneContact::change(std::size_t node, const ConstrainedSolution& solution) {
@@ -167,9 +255,9 @@ void PlaneContact::change(std::size_t node, const ConstrainedSolution& solution)
     return;
   }
   const double before = std::max(0.0, gap(node, committed_.displacement, committed_.pose));
-  const double after = gap(node, solution.displacement, trial_.pose);
+  const double after = gap_of_solution(node, solution.displacement);
   const bool twice = mode_ == ContactMode::stick && releases_[node] > 1;
-  anchor(node, solution.displacement, twice ? 1.0 : before / (before - after));
+  anchor(node, in_plane_axes(solution.displacement), twice ? 1.0 : before / (before - after));
   status = mode_ == ContactMode::frictionless ? NodeStatus::slide : NodeStatus::stick;
 }
 
@@ -193,11 +281,11 @@ double PlaneContact::update_friction(const ConstrainedSolution& solution, double
     const bool sliding = trial_.status[node] == NodeStatus::slide;
     const double rho = shear_modulus_ * unknowns_.nodes[node].extent;
     Eigen::Vector2d force = Eigen::Vector2d::Zero(), wanted = force;
+    const meshes::Vector3 start = held_at(node);
     for (std::size_t c = 0; c < 2; ++c) {
       if (of_node[c] < 0) continue;
       force[Eigen::Index(c)] = wanted[Eigen::Index(c)] = solution.reaction[of_node[c]];
-      const double slip = solution.displacement[of_node[c]] - trial_.anchors[node][c] -
-                          (c == 0 ? trial_.pose.shift : 0.0);
+      const double slip = solution.displacement[of_node[c]] - start[Eigen::Index(c)];
       if (sliding) wanted[Eigen::Index(c)] -= rho * slip;
     }
     if (wanted.norm() <= friction_ * push * (1.0 + friction_converged)) {
@@ -234,7 +322,7 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
             ? update_friction(solution, effort.rounds > friction_patience ? 0.5 : 1.0)
             : 0.0;
     if (wrong.empty() && change <= std::max(friction_converged, solver.noise())) {
-      trial_.displacement = solution.displacement;
+      trial_.displacement = in_plane_axes(solution.displacement);
       trial_.reaction = solution.reaction;
       return effort;
     }

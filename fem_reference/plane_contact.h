@@ -1,5 +1,5 @@
-/// Contact of the tip with the rigid plane, node by node, by a primal-dual active set. Free of
-/// deal.II.
+/// Contact of the tip with the rigid plane or other obstacle, node by node, by a primal-dual active
+/// set. Free of deal.II.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,8 @@
 
 namespace fingertip::fem_reference {
 
-/// Where the plane is: z >= height is behind it; it has moved along x by `shift`. Plane axes [m].
+/// Where the plane is: z >= height is behind it; it has moved along x by `shift`. The obstacle's top
+/// lies in it. Plane axes [m].
 struct PlanePose {
   double height = 0.0;
   double shift = 0.0;
@@ -31,7 +32,10 @@ struct ContactEffort {
 
 /// Finds which nodes touch. The gap of a node is height - (reference z + u_z): small and large
 /// strain differ in the solver behind, not here, because the plane is flat and the gap is linear
-/// in u. A push, never a pull.
+/// in u. Another obstacle at small strain lowers the gap by its height at the reference place. At
+/// large strain the gap is the distance of the deformed place from the obstacle, linearised where
+/// `linearise` says: unknowns then count along axes of the node's own, the third into the obstacle,
+/// and what is said of z holds for that one. A push, never a pull.
 ///
 /// In a round every node is on the plane (its z held) or open. An open node that penetrates is put
 /// on the plane and one that is pulled comes off, all at once, until nothing changes (Hintermüller,
@@ -59,9 +63,20 @@ struct ContactEffort {
 class PlaneContact {
  public:
   /// The first step starts from the tip at rest under the plane at `start`. `friction` is mu
-  /// (contact coulomb only), `shear_modulus` [Pa] scales rho.
+  /// (contact coulomb only), `shear_modulus` [Pa] scales rho. `finite` asks for the distance from
+  /// an obstacle that is no plane.
   PlaneContact(ContactUnknowns unknowns, meshes::ContactMode mode, const PlanePose& start,
-               double friction, double shear_modulus);
+               double friction, double shear_modulus, const meshes::Obstacle& obstacle = {},
+               bool finite = false);
+
+  /// Whether gaps are linearised, and nodes have axes of their own.
+  bool curved() const { return !frames_.empty(); }
+  /// Of a curved obstacle: gaps are from now on those linearised at the displacement of the contact
+  /// unknowns (plane axes) under `pose`. Returns the largest distance from the obstacle of what
+  /// touches [m].
+  double linearise(const Eigen::VectorXd& displacement, const PlanePose& pose);
+  /// Of the nodes, for the solver; none unless the obstacle is curved.
+  std::vector<NodeAxes> axes() const;
 
   /// Finds the contact state under the plane at `pose` for the solver's present linear system.
   /// Newton's method calls it repeatedly, each time starting from the last answer; the state stays
@@ -76,28 +91,69 @@ class PlaneContact {
   /// Of the trial, one per candidate node.
   const std::vector<NodeStatus>& status() const { return trial_.status; }
   int active_nodes() const;
-  /// Force of the plane on a candidate node [N].
+  /// Force of the plane on a candidate node, plane axes [N].
   meshes::Vector3 reaction(std::size_t node) const;
+  /// Its part into the tip, against the third axis of the node [N], and the length of the rest.
+  double push(std::size_t node) const { return -own_reaction(node).z(); }
+  double shear(std::size_t node) const { return own_reaction(node).head<2>().norm(); }
+  /// What of the forces on the contact unknowns (plane axes) [N] neither contact nor what it holds
+  /// balances; along the axes of the nodes.
+  Eigen::VectorXd out_of_balance(const Eigen::VectorXd& force) const;
   /// The node whose pressure is this one's: itself, or the one that it follows.
   std::size_t leader(std::size_t node) const { return leaders_[node]; }
   /// One flag per contact unknown that the trial holds.
   std::vector<char> held() const;
-  /// Forces of the plane on all contact unknowns [N].
+  /// Forces of the plane on all contact unknowns, along the axes of the nodes [N].
   const Eigen::VectorXd& reactions() const { return trial_.reaction; }
   double gap(std::size_t node) const { return gap(node, trial_.displacement, trial_.pose); }
+  /// Of any place of the tip at a displacement, plane axes [m].
+  double gap(const meshes::Vector3& rest, const meshes::Vector3& displacement,
+             const PlanePose& pose) const {
+    return facing(rest, displacement, pose).gap;
+  }
 
   /// What a checkpoint needs to restore the committed state.
   struct State {
     PlanePose pose;
     std::vector<NodeStatus> status;
-    std::vector<std::array<double, 2>> anchors;  ///< lateral displacement relative to the plane [m]
-    Eigen::VectorXd displacement, reaction;      ///< of the contact unknowns
+    std::vector<std::array<double, 3>> anchors;  ///< displacement relative to the plane [m]
+    Eigen::VectorXd displacement;                ///< of the contact unknowns, plane axes [m]
+    Eigen::VectorXd reaction;                    ///< on them, along the axes of the nodes [N]
   };
   const State& committed() const { return committed_; }
   void restore(State state);
 
  private:
-  double gap(std::size_t node, const Eigen::VectorXd& displacement, const PlanePose& pose) const;
+  /// Gap of a node [m] and its gradient, at a displacement in plane axes.
+  struct Facing {
+    double gap;
+    meshes::Vector3 normal;
+  };
+  Facing facing(const meshes::Vector3& rest, const meshes::Vector3& displacement,
+                const PlanePose& pose) const;
+  Facing facing(std::size_t node, const meshes::Vector3& displacement,
+                const PlanePose& pose) const {
+    return facing(unknowns_.nodes[node].position, displacement, pose);
+  }
+  double gap(std::size_t node, const Eigen::VectorXd& displacement, const PlanePose& pose) const {
+    return facing(node, of_node(node, displacement), pose).gap;
+  }
+  /// The third component along the axes of a node at which it touches [m].
+  double reach(std::size_t node) const;
+  /// The linearised gap at a displacement along the axes of the nodes.
+  double gap_of_solution(std::size_t node, const Eigen::VectorXd& displacement) const {
+    return reach(node) - displacement[unknowns_.of_node[node][2]];
+  }
+  Eigen::Matrix3d axes(std::size_t node) const {
+    return curved() ? frames_[node].axes : Eigen::Matrix3d::Identity();
+  }
+  meshes::Vector3 of_node(std::size_t node, const Eigen::VectorXd& values) const;
+  void set_node(std::size_t node, const meshes::Vector3& value, Eigen::VectorXd& values) const;
+  meshes::Vector3 own_reaction(std::size_t node) const { return of_node(node, trial_.reaction); }
+  /// From the axes of the nodes to those of the plane.
+  Eigen::VectorXd in_plane_axes(const Eigen::VectorXd& values) const;
+  /// Where a node is held that sticks, along its axes [m].
+  meshes::Vector3 held_at(std::size_t node) const;
   ConstrainedSolution solve(ContactSolver& solver) const;
   void touch_at_start();
   bool is_open(std::size_t node) const { return trial_.status[node] == NodeStatus::open; }
@@ -113,6 +169,12 @@ class PlaneContact {
   std::vector<std::size_t> leaders_;  ///< of each node: itself, or the one that it follows
   meshes::ContactMode mode_;
   double friction_, shear_modulus_;
+  meshes::Obstacle obstacle_;
+  struct Frame {
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< as rows
+    double reach = 0.0;                                  ///< [m]
+  };
+  std::vector<Frame> frames_;  ///< of the nodes under a curved obstacle
   State committed_, trial_;
   std::vector<int> releases_;  ///< of each node, since `solve` began
 };

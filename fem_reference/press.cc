@@ -35,7 +35,8 @@ std::unique_ptr<PressModel> make_model(const ReferenceJob& job,
 }  // namespace
 
 bool has_two_symmetry_planes(const ReferenceJob& job) {
-  return job.protocol.tilt == 0.0 && job.protocol.lateral == 0.0;
+  return job.protocol.tilt == 0.0 && job.protocol.lateral == 0.0 &&
+         job.protocol.obstacle.mirrored();
 }
 
 meshes::Sector sector(const ReferenceJob& job) {

@@ -119,7 +119,8 @@ PressState TipPress<dim>::evaluate() {
 
 template <int dim>
 void TipPress<dim>::add_resultant(PressState& state) const {
-  const bool straight = has_two_symmetry_planes(job_);
+  const bool straight = has_two_symmetry_planes(job_),
+             round = straight && job_.protocol.obstacle.on_axis();
   const double sectors = copies();
   state.energy *= sectors;
   const std::vector<SurfaceNode>& nodes = contact_->unknowns().nodes;
@@ -142,7 +143,7 @@ void TipPress<dim>::add_resultant(PressState& state) const {
                l = job_.geometry.rod_length;
   const meshes::Vector3 endpoint(s * l, 0.0, -c * l);  // (0, 0, -l) in plane axes
   meshes::Vector3 force = meshes::Vector3::Zero(), torque = force;
-  double touched = 0.0, edge = 0.0;
+  double touched = 0.0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (contact_->status()[i] == NodeStatus::open) continue;
     meshes::Vector3 position = nodes[i].position;
@@ -152,8 +153,7 @@ void TipPress<dim>::add_resultant(PressState& state) const {
     force += push;
     torque += (position - endpoint).cross(push);
     touched += area;
-    edge = std::max(edge, radius(nodes[i].position));
-    if (nodes[i].area > 0.0) state.contact.push_back({radius(position), -push.z() / area});
+    if (nodes[i].area > 0.0) state.contact.push_back({radius(position), contact_->push(i) / area});
   }
   std::ranges::sort(state.contact, {}, &ContactPoint::radius);
 
@@ -165,12 +165,38 @@ void TipPress<dim>::add_resultant(PressState& state) const {
   sample.lateral_force_y = sample.torque_x = sample.torque_z = 0.0;
   if (state.contact.empty()) return;
   sample.max_pressure = std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
-  state.node_spacing = spacing_around(outer_nodes_, edge);
-  if (straight) {
+  state.node_spacing = spacing_around(outer_nodes_, outermost());
+  if (round) {
     sample.contact_radius = contact_edge(state.contact, state.node_spacing, dim == 2 ? 1 : 4);
   } else {
     sample.contact_radius = std::sqrt(sectors * touched / std::numbers::pi);
   }
+}
+
+template <int dim>
+double TipPress<dim>::outermost() const {
+  double result = 0.0;
+  for (std::size_t i = 0; i < contact_->status().size(); ++i)
+    if (contact_->status()[i] != NodeStatus::open)
+      result = std::max(result, radius(contact_->unknowns().nodes[i].position));
+  return result;
+}
+
+template <int dim>
+double TipPress<dim>::half_width() const {
+  if (job_.protocol.obstacle.on_axis()) return outermost();
+  meshes::Vector3 low = meshes::Vector3::Constant(std::numeric_limits<double>::infinity()),
+                  high = -low;
+  for (std::size_t i = 0; i < contact_->status().size(); ++i) {
+    if (contact_->status()[i] == NodeStatus::open) continue;
+    // With its images in the planes of symmetry.
+    meshes::Vector3 at = contact_->unknowns().nodes[i].position, image = at;
+    image.y() = -at.y();
+    if (has_two_symmetry_planes(job_)) image.x() = -at.x();
+    low = low.cwiseMin(at).cwiseMin(image);
+    high = high.cwiseMax(at).cwiseMax(image);
+  }
+  return std::max(0.0, 0.5 * (high - low).head<2>().minCoeff());
 }
 
 template <int dim>
@@ -193,13 +219,10 @@ void TipPress<dim>::note_indicators(PressState& state) {
   state.indicator = excess_energy<dim> * copies() * job_.rubber.shear_modulus * sum;
 
   std::map<long, bool> touches;
-  double edge = 0.0;
-  for (std::size_t i = 0; i < contact_->status().size(); ++i) {
-    const SurfaceNode& node = contact_->unknowns().nodes[i];
-    const bool active = contact_->status()[i] != NodeStatus::open;
-    touches[node.unknown[2]] = active;
-    if (active) edge = std::max(edge, radius(node.position));
-  }
+  for (std::size_t i = 0; i < contact_->status().size(); ++i)
+    touches[contact_->unknowns().nodes[i].unknown[2]] =
+        contact_->status()[i] != NodeStatus::open;
+  const double edge = half_width();
   std::vector<dealii::types::global_dof_index> indices(body_->fine.element.n_dofs_per_cell());
   for (const auto& cell : body_->fine.dofs.active_cell_iterators()) {
     if (!cell->is_locally_owned() || !cell->at_boundary()) continue;
@@ -247,6 +270,10 @@ bool TipPress<dim>::refine(double share, const std::vector<char>& wanted) {
 
 template PressState TipPress<2>::evaluate();
 template PressState TipPress<3>::evaluate();
+template double TipPress<2>::outermost() const;
+template double TipPress<3>::outermost() const;
+template double TipPress<2>::half_width() const;
+template double TipPress<3>::half_width() const;
 template bool TipPress<2>::refine(double, const std::vector<char>&);
 template bool TipPress<3>::refine(double, const std::vector<char>&);
 

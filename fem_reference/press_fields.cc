@@ -327,8 +327,8 @@ ContactField<dim>::ContactField(const Body<dim>& body, const PlaneContact& conta
   const std::vector<double> areas = body.fine.gather(area, unknowns);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::size_t shown = contact.leader(i);
-    const meshes::Vector3 traction = contact.reaction(shown) / areas[shown];
-    const double values[] = {-traction.z(), traction.head<2>().norm(), double(contact.status()[i])};
+    const double values[] = {contact.push(shown) / areas[shown],
+                             contact.shear(shown) / areas[shown], double(contact.status()[i])};
     for (std::size_t f = 0; f < contact_fields.size(); ++f) {
       const auto unknown = unsigned(nodes[i].unknown[Kinematics<dim>::axis[f % dim]]);
       if (body.fine.owned.is_element(unknown)) own[f / dim][unknown] = values[f];

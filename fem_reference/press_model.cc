@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "fem_reference/kinematics.h"
 #include "fem_reference/solver_choice.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
@@ -28,6 +29,8 @@ constexpr double chord_progress = 0.05;
 constexpr int most_backtracks = 6;
 /// Equilibrium: out-of-balance forces over the contact forces, at a sample and on the way to it.
 constexpr double balanced = 1e-7, nearly_balanced = 1e-4;
+/// What touches may be this many R off a curved obstacle.
+constexpr double on_surface = 1e-8;
 /// Contact forces below this many G R² are not resolved to the full tolerance.
 constexpr double least_force = 1e-4;
 
@@ -45,6 +48,7 @@ template <int dim>
 TipPress<dim>::TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file)
     : PressModel(job),
       path_(job.protocol),
+      touch_(meshes::first_touch(job.geometry, job.protocol.tilt, job.protocol.obstacle)),
       body_(read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, job.protocol.tilt, job.geometry)),
       kernel_(make_kernel<dim>(job)) {
   body_->number(tip_supports<dim>());
@@ -65,16 +69,21 @@ void TipPress<dim>::prepare() {
   solver_kind_ = choose_solver(job_, double(body_->unknowns()));
   outer_nodes_ = outer_nodes(*body_);
   const double bulge = job_.strain == Strain::finite ? finite_bulge : linear_bulge;
-  ContactUnknowns candidates =
-      contact_unknowns(outer_nodes_, job_.protocol.contact != ContactMode::frictionless,
-                       job_.geometry.pole() - bulge * job_.protocol.samples.back());
+  const bool curved = job_.strain == Strain::finite && !job_.protocol.obstacle.is_plane();
+  ContactUnknowns candidates = contact_unknowns(
+      within_reach(outer_nodes_, job_.protocol, touch_, bulge * job_.protocol.samples.back()),
+      curved || job_.protocol.contact != ContactMode::frictionless);
   solver_ = make_solver(candidates.unknowns);
-  contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.protocol.contact, pose(0.0),
-                                            job_.protocol.friction, job_.rubber.shear_modulus);
+  contact_ = std::make_unique<PlaneContact>(
+      std::move(candidates), job_.protocol.contact, pose(0.0), job_.protocol.friction,
+      job_.rubber.shear_modulus, job_.protocol.obstacle, job_.strain == Strain::finite);
   place_ = 0.0;
   displacement_.reinit(body_->fine.vector());
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);
-  if (job_.strain == Strain::linear) linearise(displacement_);
+  if (job_.strain == Strain::linear) {
+    assemble(*body_, *kernel_, displacement_, *system_);
+    solver_->set_matrix(*system_);
+  }
   marks_.clear();
 }
 
@@ -87,7 +96,7 @@ MeshSummary TipPress<dim>::mesh() const {
 template <int dim>
 PlanePose TipPress<dim>::pose(double place) const {
   const meshes::PressPose pose = path_.at(place);
-  return {job_.geometry.pole() - pose.indentation, pose.lateral};
+  return {touch_ - pose.indentation, pose.lateral};
 }
 
 template <int dim>
@@ -122,22 +131,23 @@ void TipPress<dim>::linear_step(const PlanePose& target, PressState& effort) {
 }
 
 template <int dim>
-void TipPress<dim>::linearise(const Vector& displacement) {
-  assemble(*body_, *kernel_, displacement, *system_);
-  solver_->set_matrix(*system_);
+Eigen::VectorXd TipPress<dim>::at_contact(const Vector& field) const {
+  const std::vector<double> values = body_->fine.gather(field, contact_->unknowns().unknowns);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(values.size()));
 }
 
 template <int dim>
-double TipPress<dim>::residual(const Vector& displacement) {
+double TipPress<dim>::residual(const Vector& displacement, const PlanePose& target) {
   assemble_force(*body_, *kernel_, displacement, *system_);
+  off_surface_ =
+      contact_->curved() ? contact_->linearise(at_contact(displacement), target) : 0.0;
   Vector out_of_balance = system_->force;
-  const std::vector<char> held = contact_->held();
+  const Eigen::VectorXd left = contact_->out_of_balance(at_contact(system_->force));
   const std::vector<long>& unknowns = contact_->unknowns().unknowns;
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     if (!body_->fine.owned.is_element(unsigned(unknowns[i]))) continue;
-    double& entry =
-        out_of_balance.begin()[body_->fine.owned.index_within_set(unsigned(unknowns[i]))];
-    entry = held[i] ? 0.0 : entry - contact_->reactions()[Eigen::Index(i)];
+    out_of_balance.begin()[body_->fine.owned.index_within_set(unsigned(unknowns[i]))] =
+        left[Eigen::Index(i)];
   }
   // Round-off of the stresses, some 1e-16 G R² a node, must stay below the tolerance.
   const double floor =
@@ -158,7 +168,12 @@ void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressStat
   for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
     ++effort.newton_iterations;
     const bool new_tangent = std::exchange(stale, false);
-    if (new_tangent) linearise(u);
+    if (new_tangent) assemble(*body_, *kernel_, u, *system_);
+    if (contact_->curved()) {
+      contact_->linearise(at_contact(u), target);
+      solver_->set_axes(contact_->axes());
+    }
+    if (new_tangent || contact_->curved()) solver_->set_matrix(*system_);
     Vector load = u;  // of the system linearised at u, for the whole displacement
     system_->matrix.vmult(load, u);
     load -= system_->force;
@@ -181,7 +196,7 @@ void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressStat
       u = start;
       u.add(factor, full_step);
       try {
-        norm = residual(u);
+        norm = residual(u, target);
         if (!same_contact || norm < last || norm < enough) break;
       } catch (const meshes::NotConverged&) {  // an element turned inside out
       }
@@ -191,7 +206,8 @@ void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressStat
       break;
     }
     if (stale) continue;
-    if (factor == 1.0 && norm < enough) {
+    const bool touching = off_surface_ < on_surface * job_.geometry.tip_radius;
+    if (factor == 1.0 && norm < enough && touching) {
       displacement_ = u;
       return;
     }
@@ -203,16 +219,29 @@ void TipPress<dim>::newton_step(const PlanePose& target, bool sampled, PressStat
 }
 
 template <int dim>
+std::vector<meshes::Vector3> TipPress<dim>::displacements(
+    const std::vector<SurfaceNode>& nodes) const {
+  std::vector<meshes::Vector3> result(nodes.size(), meshes::Vector3::Zero());
+  for (const int c : Kinematics<dim>::axis) {
+    std::vector<long> unknowns;
+    for (const SurfaceNode& node : nodes) unknowns.push_back(node.unknown[std::size_t(c)]);
+    const std::vector<double> values = body_->fine.gather(displacement_, unknowns);
+    for (std::size_t i = 0; i < nodes.size(); ++i) result[i][c] = values[i];
+  }
+  return result;
+}
+
+template <int dim>
 void TipPress<dim>::check_other_nodes(double place) const {
-  std::vector<long> unknowns;
-  for (const SurfaceNode& node : outer_nodes_) unknowns.push_back(node.unknown[2]);
-  const std::vector<double> lift = body_->fine.gather(displacement_, unknowns);
+  const PlanePose plane = pose(place);
   const meshes::PressPose at = path_.at(place);
-  const double plane = pose(place).height + 1e-6 * job_.geometry.tip_radius;
-  for (std::size_t i = 0; i < lift.size(); ++i)
-    if (outer_nodes_[i].position.z() + lift[i] > plane)
+  const double deep = -1e-6 * job_.geometry.tip_radius;
+  const std::vector<meshes::Vector3> moved = displacements(outer_nodes_);
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (contact_->gap(outer_nodes_[i].position, moved[i], plane) < deep)
       throw meshes::NotConverged(
-          "the rubber rises through the plane far beside the contact at an indentation of " +
+          "the rubber rises through the " + std::string(name(job_.protocol.obstacle.shape)) +
+              " far beside the contact at an indentation of " +
           meshes::to_text(at.indentation) + " m and a lateral displacement of " +
           meshes::to_text(at.lateral) + " m; press less deep or move less far");
 }

@@ -79,19 +79,22 @@ class TipPress final : public PressModel {
   PlanePose pose(double place) const;
   void linear_step(const PlanePose& target, PressState& effort);
   void newton_step(const PlanePose& target, bool sampled, PressState& effort);
-  /// Assembles the tangent at `displacement` and hands it to the solver.
-  void linearise(const Vector& displacement);
+  Eigen::VectorXd at_contact(const Vector& field) const;
   /// Assembles the force at `displacement`; force of the system minus the plane's forces, where
-  /// nothing is held, over the largest nodal force.
-  double residual(const Vector& displacement);
+  /// nothing is held, over the largest nodal force. Notes how far what touches is off the obstacle.
+  double residual(const Vector& displacement, const PlanePose& target);
+  std::vector<meshes::Vector3> displacements(const std::vector<SurfaceNode>& nodes) const;
   void check_other_nodes(double place) const;
   /// How many of the mesh make the tip.
   double copies() const { return dim == 2 ? 1.0 : has_two_symmetry_planes(job_) ? 4.0 : 2.0; }
   void add_resultant(PressState& state) const;
+  double outermost() const;   ///< reference radius of the farthest node that touches [m]
+  double half_width() const;  ///< of the contact where it is narrowest, in the reference [m]
   void note_indicators(PressState& state);
   void load_marks(std::size_t samples);
 
   meshes::PressPath path_;
+  double touch_;  ///< height of the obstacle's top at first touch [m]
   std::unique_ptr<Body<dim>> body_;
   std::unique_ptr<ElementKernel<dim>> kernel_;
   std::unique_ptr<LinearSystem> system_;
@@ -100,6 +103,7 @@ class TipPress final : public PressModel {
   std::vector<SurfaceNode> outer_nodes_;
   LinearSolver solver_kind_ = LinearSolver::automatic;
   Vector displacement_;  ///< of the last converged step
+  double off_surface_ = 0.0;  ///< [m]
   /// Where a sample asks for smaller elements, per local cell.
   struct Marks {
     dealii::Vector<float> indicators;  ///< squared error indicators over their sum

@@ -202,7 +202,7 @@ void TipPress<dim>::load(const std::filesystem::path& folder) {
   state.pose = pose(place_);
   for (const int node : json.at("status").get<std::vector<int>>())
     state.status.push_back(NodeStatus(node));
-  state.anchors = json.at("anchors").get<std::vector<std::array<double, 2>>>();
+  state.anchors = json.at("anchors").get<std::vector<std::array<double, 3>>>();
   state.displacement = vector_from(json.at("displacement"));
   state.reaction = vector_from(json.at("reaction"));
   if (state.status.size() != contact_->unknowns().nodes.size() ||

@@ -26,6 +26,13 @@ LinearSolver choose_solver(const ReferenceJob& job, double unknowns) {
                                   "start one process, or choose reference.symmetry = \"none\""});
     return LinearSolver::condensed;
   }
+  const bool curved = job.strain == Strain::finite && !job.protocol.obstacle.is_plane();
+  if (curved && (processes > 1 || wanted == LinearSolver::multigrid))
+    throw meshes::InvalidInput({"obstacle.shape", std::string(name(job.protocol.obstacle.shape)),
+                                "at large strain the contact with what is curved needs the direct "
+                                "solver, on one process",
+                                "choose reference.solver = \"condensed\" and --ranks 1"});
+  if (curved) return LinearSolver::condensed;
   if (wanted == LinearSolver::condensed && processes > 1)
     throw meshes::InvalidInput({"reference.solver", "condensed",
                                 "the condensed solver runs on one process",

@@ -84,12 +84,14 @@ class TipInMotion final : public TransientModel {
         solver_kind(choose_solver(job, double(body->unknowns()))),
         motion(*body, stiffness, mass, job.rubber.retardation_time,
                solver_kind == LinearSolver::multigrid) {
-    ContactUnknowns candidates = contact_unknowns(
-        outer_nodes(*body), job.protocol.contact != meshes::ContactMode::frictionless,
-        job.geometry.pole() - bulge * job.protocol.samples.back());
+    ContactUnknowns candidates =
+        contact_unknowns(within_reach(outer_nodes(*body), job.protocol, touch(),
+                                      bulge * job.protocol.samples.back()),
+                         job.protocol.contact != meshes::ContactMode::frictionless);
     solver = make_solver(candidates.unknowns);
     contact = std::make_unique<PlaneContact>(std::move(candidates), job.protocol.contact, pose(0.0),
-                                             job.protocol.friction, job.rubber.shear_modulus);
+                                             job.protocol.friction, job.rubber.shear_modulus,
+                                             job.protocol.obstacle);
   }
 
   MeshSummary mesh() const override {
@@ -182,7 +184,8 @@ class TipInMotion final : public TransientModel {
     return make_condensed_solver(*body, unknowns);
   }
 
-  PlanePose pose(double indentation) const { return {job.geometry.pole() - indentation, 0.0}; }
+  double touch() const { return meshes::first_touch(job.geometry, 0.0, job.protocol.obstacle); }
+  PlanePose pose(double indentation) const { return {touch() - indentation, 0.0}; }
 
   void record(double indentation, double work, double dissipated) {
     double push = 0.0;

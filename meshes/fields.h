@@ -51,7 +51,7 @@ void visit_fields(T& rubber, auto&& visit) {
 template <Fields<PressProtocol> T>
 void visit_fields(T& protocol, auto&& visit) {
   auto& [mode, contact, friction, tilt, lateral, lateral_path, lateral_samples, depth, speed,
-         clearance, samples] = protocol;
+         clearance, samples, obstacle] = protocol;
   visit("mode", mode, "");
   visit("contact", contact, "");
   visit("friction", friction, "");
@@ -63,6 +63,17 @@ void visit_fields(T& protocol, auto&& visit) {
   visit("speed", speed, "m/s");
   visit("clearance", clearance, "m");
   visit("samples", samples, "m");
+  // Files of a press on a plane need not name what it has not.
+  if (!std::is_const_v<T> || !obstacle.is_plane()) visit("obstacle", obstacle, "");
+}
+
+template <Fields<Obstacle> T>
+void visit_fields(T& obstacle, auto&& visit) {
+  auto& [shape, radius, along, offset] = obstacle;
+  visit("shape", shape, "");
+  visit("radius", radius, "m");
+  visit("along", along, "");
+  visit("offset", offset, "m");
 }
 
 /// All values of an enumeration; name() tells how each is written.
@@ -75,6 +86,13 @@ constexpr auto values(ProfileSurface) {
 }
 constexpr auto values(ProfileCurve) {
   return std::array{ProfileCurve::straight, ProfileCurve::arc, ProfileCurve::spline};
+}
+constexpr auto values(ObstacleShape) {
+  return std::array{ObstacleShape::plane, ObstacleShape::sphere, ObstacleShape::cylinder,
+                    ObstacleShape::edge};
+}
+constexpr auto values(ObstacleAxis) {
+  return std::array{ObstacleAxis::x, ObstacleAxis::y};
 }
 constexpr auto values(DriveMode) {
   return std::array{DriveMode::pid, DriveMode::quasi_static, DriveMode::equilibrium};

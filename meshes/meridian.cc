@@ -37,6 +37,24 @@ std::string place(const Vector2& corner) {
   return "(r, z) = (" + to_text(1e3 * corner.x()) + ", " + to_text(1e3 * corner.y()) + ") mm";
 }
 
+struct Peak {
+  double at, value;
+};
+
+/// The largest of the values on an interval, found from equal steps and then between them.
+Peak peak(double low, double high, int steps, auto&& value) {
+  Peak best{low, value(low)};
+  const double step = (high - low) / steps;
+  for (int i = 1; i <= steps; ++i) {
+    const double at = low + i * step, found = value(at);
+    if (found > best.value) best = {at, found};
+  }
+  const auto [at, least] = boost::math::tools::brent_find_minima(
+      [&](double t) { return -value(t); }, std::max(low, best.at - step),
+      std::min(high, best.at + step), std::numeric_limits<double>::digits);
+  return -least > best.value ? Peak{at, -least} : best;
+}
+
 [[noreturn]] void refuse(std::size_t corner, const Vector2& at, const std::string& rule,
                          const std::string& remedy) {
   throw InvalidInput({"geometry.profile",
@@ -438,21 +456,31 @@ NearestPoint Meridian::nearest(ProfileSurface surface, const Vector3& w) const {
 
 double Meridian::reach(double tilt) const {
   if (tilt == 0.0) return pole_;
-  const Vector2 axis(std::abs(std::sin(tilt)), std::cos(tilt));
-  double farthest = -std::numeric_limits<double>::infinity();
+  const double across = std::sin(tilt), up = std::cos(tilt);
+  return highest(ProfileSurface::contact, false, [&](const Vector3& w) {
+           return across * w.x() + up * w.z();
+         }).height;
+}
+
+HighestPlace Meridian::highest(ProfileSurface surface, bool revolved,
+                               const std::function<double(const Vector3&)>& height) const {
+  HighestPlace best;
   for (const MeridianPiece& piece : pieces_) {
-    if (piece.surface() != ProfileSurface::contact) continue;
-    const auto along = [&](double t) { return axis.dot(piece.at(t)); };
-    double best = 0.0;
-    for (int i = 1; i <= chords; ++i)
-      if (along(double(i) / chords) > along(best)) best = double(i) / chords;
-    const double low = std::max(0.0, best - 1.0 / chords),
-                 high = std::min(1.0, best + 1.0 / chords);
-    const auto [at, least] = boost::math::tools::brent_find_minima(
-        [&](double t) { return -along(t); }, low, high, std::numeric_limits<double>::digits);
-    farthest = std::max({farthest, along(best), -least});
+    if (piece.surface() != surface) continue;
+    const auto place = [&](double t, double angle) {
+      const Vector2 at = piece.at(t);
+      return Vector3(at.x() * std::cos(angle), at.x() * std::sin(angle), at.y());
+    };
+    const auto along = [&](double angle) {
+      return peak(0.0, 1.0, chords, [&](double t) { return height(place(t, angle)); });
+    };
+    const Peak around = revolved ? Peak{0.0, 0.0} : peak(0.0, pi, chords, [&](double angle) {
+      return along(angle).value;
+    });
+    const Peak found = along(around.at);
+    if (found.value > best.height) best = {found.value, place(found.at, around.at)};
   }
-  return farthest;
+  return best;
 }
 
 bool Meridian::contains(const Vector2& point) const {

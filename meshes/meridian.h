@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +18,11 @@ namespace fingertip::meshes {
 struct NearestPoint {
   double distance = 0.0;  ///< to the point asked for [m]
   Vector3 position = Vector3::Zero(), normal = Vector3::Zero();
+};
+
+struct HighestPlace {
+  double height = -std::numeric_limits<double>::infinity();  ///< [m]
+  Vector3 place = Vector3::Zero();
 };
 
 /// Immutable. Lengths in metres.
@@ -36,6 +43,11 @@ class Meridian {
   /// The largest component of a place on `contact` along the axis turned by `tilt` [rad] [m]: what
   /// a tilted plane touches first.
   double reach(double tilt) const;
+  /// The largest value of `height` on a surface; it is symmetric under y -> -y, and does not change
+  /// about the axis where it is `revolved`. Minus infinity where
+  /// there is no such surface.
+  HighestPlace highest(ProfileSurface surface, bool revolved,
+                       const std::function<double(const Vector3&)>& height) const;
   bool contains(const Vector2& point) const;
   bool contains(const Vector3& w) const;
   /// Where the boundary meets the height z, from the largest r; the rubber lies between the first

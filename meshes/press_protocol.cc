@@ -84,6 +84,8 @@ std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const
           "the lateral motion must not exceed the tip's radius", "move less far");
   require(lateral_samples > 0, "press.lateral_samples", std::to_string(lateral_samples),
           "a lateral motion needs at least one output", "1 gives its end alone");
+  for (Violation& violation : obstacle.violations(geometry, tilt))
+    found.push_back(std::move(violation));
   bool increasing = true;
   double previous = 0.0;
   for (const double sample : samples) {

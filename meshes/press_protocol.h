@@ -1,4 +1,5 @@
-/// What is done to the specimen: the rod carries the tip against a rigid plane to a given depth.
+/// What is done to the specimen: the rod carries the tip against a rigid obstacle, by default a
+/// plane, to a given depth.
 #pragma once
 
 #include <limits>
@@ -7,6 +8,7 @@
 
 #include "meshes/errors.h"
 #include "meshes/geometry.h"
+#include "meshes/obstacle.h"
 
 namespace fingertip::meshes {
 
@@ -40,8 +42,9 @@ struct PressPose {
   double lateral = 0.0;  ///< displacement along t1
 };
 
-/// The press. Indentation is geometric: the distance the rod has travelled along the plane normal
-/// since the sphere |w| = R touched the plane.
+/// The press. Indentation is geometric: the distance the rod has travelled along the plane's normal
+/// since the tip first touched; of an obstacle that is no plane, "the plane" is the one that touches
+/// it at its top.
 struct PressProtocol {
   DriveMode mode = DriveMode::pid;
   ContactMode contact = ContactMode::stick;
@@ -54,6 +57,7 @@ struct PressProtocol {
   double speed = 1.0e-2;        ///< approach speed [m/s], > 0
   double clearance = 0.5e-3;    ///< initial gap between pole and plane [m], > 0; starts at rest
   std::vector<double> samples;  ///< output indentations [m], increasing, last one = depth
+  Obstacle obstacle = {};
 
   /// Whether a second phase follows the press: a lateral motion at full depth.
   bool slides_after() const { return lateral_path == LateralPath::after && lateral != 0.0; }

@@ -84,8 +84,8 @@ void PlaneContact::set_state(Candidate& c, State& state, const Vector3& displace
 Wrench PlaneContact::hold(Candidate& c, State& state, const VectorField& force,
                           const Sweep& sweep) {
   const double mass = model_->mass[c.particle];
-  const Vector3& normal = sweep.end.normal;
-  const Vector3 start = place(c, c.displacement), fixed = sweep.start.fixed(start);
+  const Vector3 start = place(c, c.displacement), normal = sweep.end.normal_at(start);
+  const Vector3 fixed = sweep.start.fixed(start);
   const Vector3 carried = sweep.end.place(fixed) - sweep.start.place(fixed);
   const Vector3 with_plane = carried / sweep.step;
   const Vector3 sticking = mass * (with_plane - c.velocity) - sweep.step * force.at(c.particle);
@@ -101,7 +101,7 @@ Wrench PlaneContact::hold(Candidate& c, State& state, const VectorField& force,
     return {given, start.cross(given)};
   }
   Vector3 moved = state.displacement.at(c.particle) + sweep.step / mass * given;
-  const Vector3 back = -sweep.end.gap(place(c, moved)) * normal;  // on a plane that turns
+  const Vector3 back = -sweep.end.gap(place(c, moved)) * normal;  // on what turns or is curved
   moved += back;
   given += mass / sweep.step * back;
   set_state(c, state, moved, state.velocity.at(c.particle) + given / mass);
@@ -119,7 +119,7 @@ Wrench PlaneContact::touch(Candidate& c, State& state, const Sweep& sweep) {
   const Vector3 at = place(c, crossing);
   const Vector3 sticking = mass * (sweep.end.velocity_at(at) - velocity);
   Vector3 given;
-  gives(c, sticking, sweep.end.normal, given);
+  gives(c, sticking, sweep.end.normal_at(at), given);
   c.held = true;
   ++anchored_;
   const Vector3 stopped = velocity + given / mass;

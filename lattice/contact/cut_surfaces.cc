@@ -30,7 +30,7 @@ CutSurfaces::Trial CutSurfaces::attempt(const State& state, const RodState& rod,
 Wrench CutSurfaces::hold_with(PenaltyContact& contact, const State& state, const RodState& rod,
                               const Plane& plane, double step, VectorField& force, Wrench& on_tip) {
   shared_.clear();
-  on_tip = contact.add(state, plane, step, force, &shared_);
+  on_tip = contact.add(state, plane, step, force, &shared_, rod.pose());
   const Wrench on_rod = bond_.add(state, rod, step, force, &shared_);
   for (const SharedLoad& load : shared_) {
     const meshes::Vector3 held_back = model_->grid.axes * load.held_back;

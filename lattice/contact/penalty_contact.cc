@@ -68,10 +68,17 @@ PenaltyContact::PenaltyContact(const LatticeModel& model, const Plane& plane, co
   near_particles_.reserve(shape_->particles.size());
   held_.reserve(shape_->particles.size());
   const State rest(model);
-  look_around(arrays(rest, plane, 0.0), shape_->groups.size());
+  look_around(arrays(rest, plane, 0.0, {}), shape_->groups.size());
 }
 
-kernel::ContactArrays PenaltyContact::arrays(const State& state, const Plane& now, double step) {
+kernel::GapKind PenaltyContact::gap_kind() const {
+  if (plane_.obstacle.is_plane()) return kernel::GapKind::flat;
+  return model_->kinematics == Kinematics::finite ? kernel::GapKind::exact
+                                                  : kernel::GapKind::projected;
+}
+
+kernel::ContactArrays PenaltyContact::arrays(const State& state, const Plane& now, double step,
+                                             const Pose& rod) {
   kernel::ContactArrays a{};
   const Vector3 normal = plane_.turned.conjugate() * plane_.normal;  // the same at any time
   for (std::size_t c = 0; c < 3; ++c) {
@@ -86,6 +93,15 @@ kernel::ContactArrays PenaltyContact::arrays(const State& state, const Plane& no
   a.then = frame_of(plane_, model_->grid.axes);
   a.ahead = step;
   a.friction = law_.friction;
+  a.gap_kind = gap_kind();
+  if (a.gap_kind == kernel::GapKind::flat) return a;
+  a.obstacle = plane_.obstacle.form();
+  const Eigen::Matrix3d axes = plane_.turned.conjugate() * plane_.axes();
+  Vector3::Map(a.tangent[0]) = axes.col(0);
+  Vector3::Map(a.tangent[1]) = axes.col(1);
+  // rest -> rod.position + rod.orientation rest, seen from the plane.
+  a.carried = frame_of(plane_, rod.orientation.toRotationMatrix() * model_->grid.axes);
+  Vector3::Map(a.carried.shift) += plane_.turned.conjugate() * rod.position;
   return a;
 }
 
@@ -262,6 +278,8 @@ double PenaltyContact::closing_speed(const State& state) {
 /// So many that every group has its turn before the fastest particle has come half the margin
 /// nearer; all, if that is less than a step's way or nobody knows.
 std::size_t PenaltyContact::looks_per_step(const State& state, double step) {
+  // What moves along a plane can come nearer to another obstacle.
+  if (gap_kind() != kernel::GapKind::flat) step = 0.0;
   double closing = closing_speed(state);
   // Of a moving plane toward any point: its velocity is linear in the place.
   const double turning = plane_.normal.cross(plane_.angular_velocity).norm();
@@ -283,10 +301,10 @@ double PenaltyContact::distance(const Plane& plane) const {
 }
 
 Wrench PenaltyContact::add(const State& state, const Plane& plane, double step, VectorField& force,
-                           std::vector<SharedLoad>* shared) {
+                           std::vector<SharedLoad>* shared, const Pose& rod) {
   strayed_ += distance(plane);
   plane_ = plane.after(step);
-  const kernel::ContactArrays all = arrays(state, plane, step);
+  const kernel::ContactArrays all = arrays(state, plane, step, rod);
   if (!is_trial_) look_around(all, looks_per_step(state, step));
   apply_near(all);
   return unload(state, step, force, shared);

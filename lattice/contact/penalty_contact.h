@@ -14,6 +14,7 @@
 #include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
 #include "lattice/model/plane.h"
+#include "lattice/model/rod.h"
 #include "lattice/model/state.h"
 #include "meshes/press_protocol.h"
 
@@ -43,6 +44,9 @@ namespace fingertip::lattice {
 /// Euler with diagonal inertia stable. A tie that slides steadily feels none of it, its force is mu
 /// n.
 ///
+/// Against an obstacle that is no plane g is that of statics/static_contact.h, and so is its
+/// gradient, along which the ties push.
+///
 /// Points of a cell hang on the same eight particles and are treated together, eight at a time
 /// (contact_kernel.h); then every particle collects what the groups of its cells do to it, always
 /// in the same order. Only cells with a point near the plane are looked at in every step, the
@@ -60,8 +64,9 @@ class PenaltyContact {
   /// the ties as they are. Particles of the bond that touch as well are appended to `shared`
   /// (unless null): they get the plain forces, and the bond takes both inertias into account at
   /// once.
+  /// `rod` carries the places of rest, at which small strain asks for an obstacle's height.
   Wrench add(const State& state, const Plane& plane, double step, VectorField& force,
-             std::vector<SharedLoad>* shared = nullptr);
+             std::vector<SharedLoad>* shared = nullptr, const Pose& rod = {});
 
   /// From now on this is a trial of `accepted`, a contact of the same finger: add() starts from
   /// what that one remembers and looks only at the points that are near to it. Cheap.
@@ -84,7 +89,8 @@ class PenaltyContact {
   std::vector<std::uint8_t> held() const;
 
  private:
-  kernel::ContactArrays arrays(const State& state, const Plane& now, double step);
+  kernel::GapKind gap_kind() const;
+  kernel::ContactArrays arrays(const State& state, const Plane& now, double step, const Pose& rod);
   void look_around(const kernel::ContactArrays& arrays, std::size_t looks);
   void enter(std::uint32_t group);
   void forget_near();

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "lattice/kernels/lanes.h"
+#include "meshes/obstacle_surface.h"
 
 namespace fingertip::lattice::kernel {
 
@@ -51,6 +52,13 @@ struct PlaneFrame {
   double shift[3];
 };
 
+/// How a point's gap is told (statics/static_contact.h has the same three).
+enum class GapKind {
+  flat,       ///< distance from the plane
+  projected,  ///< less the obstacle's height at the place of rest
+  exact,      ///< distance from the obstacle
+};
+
 struct ContactArrays {
   const double* displacement[3];  ///< per grid point, along the grid's axes [m]
   const double* velocity[3];      ///< [m/s]
@@ -61,6 +69,10 @@ struct ContactArrays {
   double normal[3];       ///< of the plane, in its own axes
   double ahead;           ///< length of the step [s]
   double friction;        ///< Coulomb's coefficient
+  GapKind gap_kind;
+  meshes::ObstacleForm obstacle;
+  double tangent[2][3];  ///< t1 and t2 of the obstacle, in the plane's own axes
+  PlaneFrame carried;    ///< of a point at rest as the rod carries it (projected)
 };
 
 enum class Grip { frictionless, stick, coulomb };

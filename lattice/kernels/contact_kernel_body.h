@@ -42,9 +42,7 @@ struct ContactBody : Packs<Pack> {
   }
   static Vector broadcast(const double* v) { return {v[0], v[1], v[2]}; }
   static Pack choose(const Mask& mask, const Pack& yes, const Pack& no) {
-    Pack result = no;
-    where(mask, result) = yes;
-    return result;
+    return meshes::choose(mask, yes, no);
   }
   static Vector choose(const Mask& mask, const Vector& yes, const Vector& no) {
     return {choose(mask, yes.x, no.x), choose(mask, yes.y, no.y), choose(mask, yes.z, no.z)};
@@ -89,13 +87,38 @@ struct ContactBody : Packs<Pack> {
       const Pack weight = load(group.weight[c], lane);
       x += weight * Vector{corners.at[0][c], corners.at[1][c], corners.at[2][c]};
     }
+    return in_frame(frame, x);
+  }
+  static Vector in_frame(const PlaneFrame& frame, const Vector& x) {
     const double* t = frame.turn;
     return broadcast(frame.shift) + Vector{t[0] * x.x + t[1] * x.y + t[2] * x.z,
                                            t[3] * x.x + t[4] * x.y + t[5] * x.z,
                                            t[6] * x.x + t[7] * x.y + t[8] * x.z};
   }
 
-  static double look(const ContactArrays& a, double margin, std::size_t number) {
+  /// The gap of points at `place`, and its gradient.
+  struct Facing {
+    Pack gap;
+    Vector normal;
+  };
+  template <GapKind kind>
+  static Facing facing(const ContactArrays& a, const ContactGroup& group, const Vector& place,
+                       std::size_t lane) {
+    const Vector n = broadcast(a.normal);
+    const Pack over = dot(n, place);
+    if constexpr (kind == GapKind::flat) return {over, n};
+    const Vector t1 = broadcast(a.tangent[0]), t2 = broadcast(a.tangent[1]);
+    if constexpr (kind == GapKind::projected) {
+      const Vector rest = in_frame(a.carried, load(group.rest, lane));
+      const Pack height = meshes::obstacle_height(a.obstacle, dot(t1, rest), dot(t2, rest));
+      return {over - height, n};
+    }
+    const auto hit = meshes::obstacle_hit(a.obstacle, dot(t1, place), dot(t2, place), over);
+    return {hit.gap, hit.normal[0] * t1 + hit.normal[1] * t2 + hit.normal[2] * n};
+  }
+
+  template <GapKind kind>
+  static double look_for(const ContactArrays& a, double margin, std::size_t number) {
     const ContactGroup& group = a.groups[number];
     const Corners then = corners(a, group, a.ahead);
     std::array<Vector, parts> place;
@@ -103,7 +126,7 @@ struct ContactBody : Packs<Pack> {
     double least = 1e300;
     for (std::size_t part = 0; part < parts; ++part) {
       place[part] = places(group, then, a.then, part * width);
-      gap[part] = dot(broadcast(a.normal), place[part]);
+      gap[part] = facing<kind>(a, group, place[part], part * width).gap;
       const double smallest = std::experimental::hmin(gap[part]);
       least = smallest < least ? smallest : least;
     }
@@ -154,28 +177,33 @@ struct ContactBody : Packs<Pack> {
   }
 
   /// Brings anchors to where slip has left them by the start of the step.
-  static void drag(const ContactArrays& a, const Vector& place, std::size_t lane,
+  static void drag(const ContactArrays& a, const Vector& place, const Facing& now, std::size_t lane,
                    ContactMemory& memory) {
-    const Vector normal = broadcast(a.normal), anchor = load(memory.anchor, lane);
-    const Pack depth = -dot(normal, place);
+    const Vector anchor = load(memory.anchor, lane);
+    const Pack depth = -now.gap;
     const Vector stretch = anchor - place;
-    const Clipped kept = clip(stretch, normal, a.friction * depth);
+    const Clipped kept = clip(stretch, now.normal, a.friction * depth);
     // Points not yet there are anchored where they will be.
     const Mask anchored = load(memory.anchored, lane) != 0.0;
     const Mask slips = anchored && depth > 0.0 && kept.share < 1.0;
-    const Vector dragged = place + dot(stretch, normal) * normal + kept.tangential;
+    const Vector dragged = place + dot(stretch, now.normal) * now.normal + kept.tangential;
     store(memory.anchor, lane, choose(slips, dragged, anchor));
     store(memory.sliding, lane, choose(slips, Pack(1.0), Pack(0.0)));
   }
 
   /// Anchors what crossed the plane in this step, linearly interpolated, and lets go what left it.
-  static void look_at(const Vector& place, const Pack& gap, std::size_t lane,
-                      ContactMemory& memory) {
+  template <GapKind kind>
+  static void look_at(const ContactArrays& a, const ContactGroup& group, const Vector& place,
+                      const Pack& gap, std::size_t lane, ContactMemory& memory) {
     const Pack before = std::experimental::max(load(memory.gap, lane), Pack(0.0));
     const Mask was = load(memory.anchored, lane) != 0.0;
     const Mask crosses = !was && gap < 0.0, leaves = was && gap > 0.0;
     const Pack fraction = choose(crosses, before / (before - gap), Pack(0.0));
-    const Vector crossing = (1.0 - fraction) * load(memory.place, lane) + fraction * place;
+    Vector crossing = (1.0 - fraction) * load(memory.place, lane) + fraction * place;
+    if constexpr (kind == GapKind::exact) {  // not quite on a surface that is curved
+      const Facing left = facing<kind>(a, group, crossing, lane);
+      crossing += -left.gap * left.normal;
+    }
     store(memory.anchor, lane, choose(crosses, crossing, load(memory.anchor, lane)));
     Pack anchored = load(memory.anchored, lane), sliding = load(memory.sliding, lane);
     where(crosses, anchored) = 1.0;
@@ -187,19 +215,18 @@ struct ContactBody : Packs<Pack> {
 
   /// How far the ties pull, and what share of the stiffness acts in the plane.
   template <Grip grip>
-  static Clipped stretches(const ContactArrays& a, const Vector& place, const Pack& gap,
+  static Clipped stretches(const ContactArrays& a, const Vector& place, const Facing& then,
                            const ContactMemory& memory, std::size_t lane) {
-    const Vector normal = broadcast(a.normal);
-    const Pack depth = std::experimental::max(-gap, Pack(0.0));
-    if constexpr (grip == Grip::frictionless) return {depth * normal, 0.0};
+    const Pack depth = std::experimental::max(-then.gap, Pack(0.0));
+    if constexpr (grip == Grip::frictionless) return {depth * then.normal, 0.0};
     const Mask anchored = load(memory.anchored, lane) != 0.0;
     const Vector nothing{0.0, 0.0, 0.0};
     Clipped result{load(memory.anchor, lane) - place, 1.0};
     if constexpr (grip == Grip::coulomb) {
-      const Clipped kept = clip(result.tangential, normal, a.friction * depth);
+      const Clipped kept = clip(result.tangential, then.normal, a.friction * depth);
       result.share = kept.share;
       result.tangential =
-          choose(kept.share < 1.0, depth * normal + kept.tangential, result.tangential);
+          choose(kept.share < 1.0, depth * then.normal + kept.tangential, result.tangential);
     }
     result.tangential = choose(anchored, result.tangential, nothing);
     return result;
@@ -227,7 +254,7 @@ struct ContactBody : Packs<Pack> {
     for (const double e : energy) found.energy += e;
   }
 
-  template <Grip grip>
+  template <Grip grip, GapKind kind>
   static GroupFindings apply_law(const ContactArrays& a, std::size_t number) {
     const ContactGroup& group = a.groups[number];
     ContactMemory& memory = a.memory[number];
@@ -237,14 +264,21 @@ struct ContactBody : Packs<Pack> {
     Pulls pulls;
     GroupFindings found{.smallest_gap = 1e300};
     for (std::size_t lane = 0; lane < lanes; lane += width) {
-      if constexpr (grip == Grip::coulomb) drag(a, places(group, now, a.now, lane), lane, memory);
+      if constexpr (grip == Grip::coulomb) {
+        const Vector place = places(group, now, a.now, lane);
+        drag(a, place, facing<kind>(a, group, place, lane), lane, memory);
+      }
       const Vector place = places(group, then, a.then, lane);
-      const Pack gap = dot(broadcast(a.normal), place);
-      if constexpr (grip != Grip::frictionless) look_at(place, gap, lane, memory);
+      const Facing ahead = facing<kind>(a, group, place, lane);
+      if constexpr (grip != Grip::frictionless)
+        look_at<kind>(a, group, place, ahead.gap, lane, memory);
       store(memory.place, lane, place);
-      store(memory.gap, lane, gap);
-      note(a, group, stretches<grip>(a, place, gap, memory, lane), lane, memory, pulls, found);
-      const double least = std::experimental::hmin(gap);
+      store(memory.gap, lane, ahead.gap);
+      Clipped tie = stretches<grip>(a, place, ahead, memory, lane);
+      // Particles know one normal, the plane's: across another one a tie counts in full.
+      if constexpr (kind == GapKind::exact) tie.share = 1.0;
+      note(a, group, tie, lane, memory, pulls, found);
+      const double least = std::experimental::hmin(ahead.gap);
       found.smallest_gap = least < found.smallest_gap ? least : found.smallest_gap;
       found.anchored = found.anchored || any_of(load(memory.anchored, lane) != 0.0);
     }
@@ -270,11 +304,26 @@ struct ContactBody : Packs<Pack> {
     }
   }
 
-  static GroupFindings apply(const ContactArrays& a, Grip grip, std::size_t group) {
+  template <GapKind kind>
+  static GroupFindings apply_to(const ContactArrays& a, Grip grip, std::size_t group) {
     switch (grip) {
-      case Grip::frictionless: return apply_law<Grip::frictionless>(a, group);
-      case Grip::stick: return apply_law<Grip::stick>(a, group);
-      default: return apply_law<Grip::coulomb>(a, group);
+      case Grip::frictionless: return apply_law<Grip::frictionless, kind>(a, group);
+      case Grip::stick: return apply_law<Grip::stick, kind>(a, group);
+      default: return apply_law<Grip::coulomb, kind>(a, group);
+    }
+  }
+  static GroupFindings apply(const ContactArrays& a, Grip grip, std::size_t group) {
+    switch (a.gap_kind) {
+      case GapKind::flat: return apply_to<GapKind::flat>(a, grip, group);
+      case GapKind::projected: return apply_to<GapKind::projected>(a, grip, group);
+      default: return apply_to<GapKind::exact>(a, grip, group);
+    }
+  }
+  static double look(const ContactArrays& a, double margin, std::size_t group) {
+    switch (a.gap_kind) {
+      case GapKind::flat: return look_for<GapKind::flat>(a, margin, group);
+      case GapKind::projected: return look_for<GapKind::projected>(a, margin, group);
+      default: return look_for<GapKind::exact>(a, margin, group);
     }
   }
 

@@ -1,4 +1,4 @@
-/// The plane that the finger is pressed against.
+/// The plane, or other obstacle, that the finger is pressed against.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,11 +10,13 @@ namespace fingertip::lattice {
 
 /// The plane in rod axes and how it moves when the rod is taken to stand still. The normal points
 /// from the plane toward the rod: n = (-sin tilt, 0, -cos tilt); t1 is the rod's x axis projected
-/// on the plane and t2 = t1 x n the rod's y axis.
+/// on the plane and t2 = t1 x n the rod's y axis. The obstacle lies behind the plane and touches it
+/// at its top.
 struct PressPlane {
   meshes::Vector3 normal = -meshes::Vector3::UnitZ(), t1 = meshes::Vector3::UnitX(),
                   t2 = meshes::Vector3::UnitY();
   double height = 0.0;  ///< distance from the origin at indentation 0, R of the dome [m]
+  meshes::Obstacle obstacle;
   meshes::PressPath path;
 
   /// The point of the plane that lies below the tip's centre at indentation 0, when the plane is at
@@ -22,6 +24,10 @@ struct PressPlane {
   meshes::Vector3 point(double s) const {
     const meshes::PressPose pose = path.at(s);
     return (pose.indentation - height) * normal + pose.lateral * t1;
+  }
+  /// Its axes t1, t2 and n as columns.
+  Eigen::Matrix3d axes() const {
+    return (Eigen::Matrix3d() << t1, t2, normal).finished();
   }
 };
 
@@ -36,16 +42,25 @@ struct ContactLaw {
       : mode(contact), friction(coefficient) {}
 };
 
-/// A rigid plane as a body in motion; `normal` (unit) points from the plane toward the finger.
+/// A rigid plane as a body in motion, or the obstacle that it touches at `point`; `normal` (unit)
+/// points from the plane toward the finger.
 struct Plane {
   meshes::Vector3 point = meshes::Vector3::Zero();             ///< fixed to the plane [m]
   meshes::Vector3 normal = -meshes::Vector3::UnitZ();          ///< at this moment
   meshes::Vector3 velocity = meshes::Vector3::Zero();          ///< of `point` [m/s]
   meshes::Vector3 angular_velocity = meshes::Vector3::Zero();  ///< [rad/s]
   Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();  ///< since the start
+  meshes::Obstacle obstacle = {};
 
-  /// Distance of a place from the plane, negative behind it [m].
-  double gap(const meshes::Vector3& place) const { return normal.dot(place - point); }
+  /// Distance of a place from plane or obstacle, negative behind it [m].
+  double gap(const meshes::Vector3& place) const {
+    if (obstacle.is_plane()) return normal.dot(place - point);
+    return hit(obstacle, axes().transpose() * (place - point)).gap;
+  }
+  /// The gradient of the gap.
+  meshes::Vector3 normal_at(const meshes::Vector3& place) const;
+  /// The obstacle's axes t1, t2 and n as columns.
+  Eigen::Matrix3d axes() const;
   /// A place carried along by the plane: fixed(x) stays the same while the plane moves [m].
   meshes::Vector3 fixed(const meshes::Vector3& place) const {
     return turned.conjugate() * (place - point);

@@ -19,16 +19,16 @@ Vector3 pull(const std::vector<EmbeddedPoint>& bond, const VectorXd& displacemen
   return sum;
 }
 
-/// d(anchor)/dp of a point that touched at a share s = before/(before - after) of its way.
-Vector3 anchor_slope(const FirstTouch& touch, const Vector3& normal, const Vector3& first,
-                     const Vector3& last) {
+/// d(anchor)/dp of a point that touched at a share s = before/(before - after) of its way, from
+/// those of its places at start and end of the step.
+Vector3 anchor_slope(const FirstTouch& touch, const Vector3& first, const Vector3& last) {
   const double share = touch.share(), closing = touch.before - touch.after;
   // At the start the gap of a point within the plane by round-off counts as zero.
-  const double before = touch.before > 0.0 ? first.dot(normal) : 0.0, after = last.dot(normal);
+  const double before = touch.before > 0.0 ? first.dot(touch.first_normal) : 0.0,
+               after = last.dot(touch.last_normal);
   const double share_slope = (touch.before * after - touch.after * before) / (closing * closing);
-  const Vector3 place =
-      (1.0 - share) * first + share * last + share_slope * (touch.last - touch.first);
-  return place - place.dot(normal) * normal;
+  return touch.projection *
+         ((1.0 - share) * first + share * last + share_slope * (touch.last - touch.first));
 }
 
 }  // namespace
@@ -80,14 +80,14 @@ void SlopeSystem::respond(EquilibriumSolver& solver, const StaticContact& contac
                              " m, where the lattice's tangent stiffness is not positive definite");
 }
 
-void SlopeSystem::anchor(const std::vector<FirstTouch>& touches, const Vector3& normal,
-                         const StateSlopes& start, StateSlopes& end) const {
+void SlopeSystem::anchor(const std::vector<FirstTouch>& touches, const StateSlopes& start,
+                         StateSlopes& end) const {
   for (Index j = 0; j < end.anchors.cols() && !touches.empty(); ++j) {
     const VectorXd first = start.displacement.col(j), last = end.displacement.col(j);
     for (const FirstTouch& touch : touches) {
       const EmbeddedPoint& outer = body_->outer[touch.point];
       end.anchors.col(j).segment<3>(3 * Index(touch.point)) =
-          anchor_slope(touch, normal, shift(outer, first), shift(outer, last));
+          anchor_slope(touch, shift(outer, first), shift(outer, last));
     }
   }
 }

@@ -48,9 +48,9 @@ class SlopeSystem {
   void respond(EquilibriumSolver& solver, const StaticContact& contact,
                const Eigen::VectorXd& displacement, StateSlopes& slopes) const;
   /// Sets in `end` the slopes of the anchors of points that touch first on the way from `start` to
-  /// there; `normal` is the plane's.
-  void anchor(const std::vector<FirstTouch>& touches, const meshes::Vector3& normal,
-              const StateSlopes& start, StateSlopes& end) const;
+  /// there.
+  void anchor(const std::vector<FirstTouch>& touches, const StateSlopes& start,
+              StateSlopes& end) const;
   /// Of the force on the rod, whole tip; a column per parameter [N per unit].
   Eigen::Matrix3Xd force(const Eigen::VectorXd& displacement, const StateSlopes& slopes) const;
 

@@ -19,7 +19,9 @@ FingerSetup finger_setup(const PressSetup& setup, const PressWay& way) {
   finger.lattice = setup.lattice;
   finger.rod = setup.rod;
   finger.contact = {setup.protocol.contact, setup.protocol.friction};
-  finger.plane = {way.plane.point(-setup.protocol.clearance), way.plane.normal};
+  finger.plane.point = way.plane.point(-setup.protocol.clearance);
+  finger.plane.normal = way.plane.normal;
+  finger.plane.obstacle = way.plane.obstacle;
   finger.gravity = -setup.gravity * way.plane.normal;
   finger.prescribed = setup.protocol.mode == meshes::DriveMode::quasi_static;
   finger.integrator = setup.integrator;

@@ -207,7 +207,7 @@ bool StaticPress::anchor(State& next) const {
   const double from = now_.contact.place();
   if (slope_system_) {
     slope_system_->anchor(next.contact.first_touches(now_.displacement, from, next.displacement),
-                          next.contact.plane().normal, now_.slopes, next.slopes);
+                          now_.slopes, next.slopes);
   }
   return next.contact.anchor_touching(now_.displacement, from, next.displacement) > 0;
 }

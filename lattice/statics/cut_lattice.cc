@@ -155,7 +155,7 @@ int largest_symmetry(const LatticeSettings& settings, const meshes::PressProtoco
   if (settings.model == ModelKind::published) return 1;
   const int sectors = grid_symmetry(settings);
   const bool straight = protocol.tilt == 0.0 && protocol.lateral == 0.0;
-  return straight ? sectors : std::min(sectors, 2);
+  return straight && protocol.obstacle.mirrored() ? sectors : std::min(sectors, 2);
 }
 
 }  // namespace fingertip::lattice

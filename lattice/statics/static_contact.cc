@@ -21,31 +21,51 @@ StaticContact::StaticContact(const LatticeBody& body, const PressPlane& plane,
                              meshes::ContactMode mode)
     : body_(&body),
       plane_(plane),
+      axes_(plane.axes()),
       stick_(mode == meshes::ContactMode::stick),
       anchored_(body.outer.size(), 0),
       released_(body.outer.size(), 0),
-      anchor_(body.outer.size(), Vector3::Zero()) {}
+      anchor_(body.outer.size(), Vector3::Zero()),
+      anchor_normal_(body.outer.size(), plane.normal) {}
 
-double StaticContact::gap(std::size_t point, const VectorXd& displacement, double place) const {
-  return (position(body_->outer[point], displacement) - plane_.point(place)).dot(plane_.normal);
+StaticContact::Relative StaticContact::relative(std::size_t point, const VectorXd& displacement,
+                                                double place) const {
+  const EmbeddedPoint& outer = body_->outer[point];
+  const Vector3 top = plane_.point(place);
+  return {position(outer, displacement) - top, outer.rest - top};
+}
+
+StaticContact::Facing StaticContact::facing(const Relative& point) const {
+  const double over = point.now.dot(plane_.normal);
+  if (plane_.obstacle.is_plane()) return {over, plane_.normal};
+  if (!body_->finite)
+    return {over - height(plane_.obstacle, axes_.transpose() * point.rest), plane_.normal};
+  const auto found = hit(plane_.obstacle, axes_.transpose() * point.now);
+  return {found.gap, axes_ * Vector3(found.normal)};
+}
+
+Matrix3d StaticContact::bend(const Relative& point) const {
+  if (plane_.obstacle.is_plane() || !body_->finite) return Matrix3d::Zero();
+  return axes_ * curvature(plane_.obstacle, axes_.transpose() * point.now) * axes_.transpose();
 }
 
 bool StaticContact::touches(std::size_t point, const VectorXd& displacement) const {
-  return stick_ ? anchored_[point] != 0 : gap(point, displacement, place_) < 0.0;
+  return stick_ ? anchored_[point] != 0 : facing(point, displacement).gap < 0.0;
 }
 
 Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement) const {
   const EmbeddedPoint& outer = body_->outer[point];
   if (!stick_) {
-    const double g = gap(point, displacement, place_);
-    return -outer.stiffness * std::min(g, 0.0) * plane_.normal;
+    const Facing now = facing(point, displacement);
+    return -outer.stiffness * std::min(now.gap, 0.0) * now.normal;
   }
   if (!anchored_[point]) return Vector3::Zero();
   return outer.stiffness * (plane_.point(place_) + anchor_[point] - position(outer, displacement));
 }
 
 double StaticContact::pressure(std::size_t point, const VectorXd& displacement) const {
-  return tie_force(point, displacement).dot(plane_.normal) / body_->outer[point].area;
+  const Vector3 normal = stick_ ? anchor_normal_[point] : facing(point, displacement).normal;
+  return tie_force(point, displacement).dot(normal) / body_->outer[point].area;
 }
 
 double StaticContact::energy(const VectorXd& displacement) const {
@@ -57,8 +77,6 @@ double StaticContact::energy(const VectorXd& displacement) const {
 
 double StaticContact::add(const VectorXd& displacement, const ElasticSystem& system,
                           VectorXd& force, Tangent* tangent) const {
-  const Matrix3d shape =
-      stick_ ? Matrix3d(Matrix3d::Identity()) : Matrix3d(plane_.normal * plane_.normal.transpose());
   double sum = 0.0;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (!touches(i, displacement)) continue;
@@ -67,7 +85,14 @@ double StaticContact::add(const VectorXd& displacement, const ElasticSystem& sys
     sum += push.norm();
     for (std::size_t c = 0; c < 8; ++c)
       force.segment<3>(3 * Eigen::Index(outer.corners[c])) += outer.weights[c] * push;
-    if (tangent) system.add_embedded(outer, outer.stiffness * shape, *tangent);
+    if (!tangent) continue;
+    Matrix3d shape = Matrix3d::Identity();
+    if (!stick_) {
+      const Relative at = relative(i, displacement, place_);
+      const Facing now = facing(at);
+      shape = now.normal * now.normal.transpose() + now.gap * bend(at);
+    }
+    system.add_embedded(outer, outer.stiffness * shape, *tangent);
   }
   return sum;
 }
@@ -78,11 +103,29 @@ std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, doub
   if (!stick_) return touches;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (anchored_[i]) continue;
-    const double after = gap(i, end, place_);
-    if (after >= -gap_noise) continue;
-    touches.push_back({i, std::max(gap(i, start, from), 0.0), after,
-                       position(body_->outer[i], start) - plane_.point(from),
-                       position(body_->outer[i], end) - plane_.point(place_)});
+    const Relative last = relative(i, end, place_);
+    const Facing after = facing(last);
+    if (after.gap >= -gap_noise) continue;
+    const Relative first = relative(i, start, from);
+    const Facing before = facing(first);
+    FirstTouch touch{.point = i,
+                     .before = std::max(before.gap, 0.0),
+                     .after = after.gap,
+                     .first = first.now,
+                     .last = last.now,
+                     .first_normal = before.normal,
+                     .last_normal = after.normal,
+                     .anchor = {},
+                     .projection = {}};
+    // The gap is linear in the place for a plane and at small strain; else nearly so within a step.
+    const double share = touch.share();
+    const Relative there{(1.0 - share) * first.now + share * last.now,
+                         (1.0 - share) * first.rest + share * last.rest};
+    const Facing left = facing(there);
+    touch.anchor = there.now - left.gap * left.normal;
+    touch.projection = Matrix3d::Identity() - left.normal * left.normal.transpose() -
+                       left.gap * bend(there);
+    touches.push_back(touch);
   }
   return touches;
 }
@@ -90,9 +133,10 @@ std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, doub
 int StaticContact::anchor_touching(const VectorXd& start, double from, const VectorXd& end) {
   const std::vector<FirstTouch> touches = first_touches(start, from, end);
   for (const FirstTouch& touch : touches) {
-    const Vector3 place = (1.0 - touch.share()) * touch.first + touch.share() * touch.last;
-    anchor_[touch.point] = place - place.dot(plane_.normal) * plane_.normal;
-    anchored_[touch.point] = 1;
+    const std::size_t i = touch.point;
+    anchor_[i] = touch.anchor;
+    anchored_[i] = 1;
+    if (body_->finite) anchor_normal_[i] = facing({touch.anchor, touch.anchor}).normal;
   }
   return int(touches.size());
 }
@@ -101,7 +145,9 @@ int StaticContact::release_pulled(const VectorXd& displacement) {
   int count = 0;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (!anchored_[i] || released_[i]) continue;
-    if (gap(i, displacement, place_) <= gap_noise) continue;
+    const Vector3 stretch =
+        position(body_->outer[i], displacement) - plane_.point(place_) - anchor_[i];
+    if (stretch.dot(anchor_normal_[i]) <= gap_noise) continue;
     anchored_[i] = 0;
     released_[i] = 1;
     ++count;

@@ -1,4 +1,4 @@
-/// Contact of a lattice body with a rigid plane by one-sided elastic ties.
+/// Contact of a lattice body with a rigid plane or other obstacle by one-sided elastic ties.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,17 +25,23 @@ struct FirstTouch {
   std::size_t point = 0;             ///< among the outer ones
   double before = 0.0, after = 0.0;  ///< gap at start and end of the step, >= 0 and < 0 [m]
   meshes::Vector3 first, last;       ///< places at start and end of the step [m]
+  meshes::Vector3 first_normal, last_normal;  ///< gradients of the gap there
+  meshes::Vector3 anchor;                     ///< where it touches [m]
+  /// Derivative of the anchor with respect to the place at `share` of the way.
+  Eigen::Matrix3d projection;
 
   /// Of the step until the gap closes.
   double share() const { return before / (before - after); }
 };
 
-/// The ties between a body's outer points and the plane. With gap g = (x - plane point)·n, an
-/// energy per point, k its stiffness:
+/// The ties between a body's outer points and the obstacle. With the gap g, an energy per point, k
+/// its stiffness:
 ///   frictionless  ½ k min(g, 0)²
 ///   stick         ½ k |x - anchor|² where anchored, else nothing; the anchor is the place of first
-///                 touch, lies in the plane and moves with it
-/// The gap is that of rest + u, also at small strain; the plane's normal is fixed.
+///                 touch, lies on the obstacle and moves with it
+/// Of a plane g = (x - plane point)·n, x = rest + u, also at small strain. Of another obstacle at
+/// small strain it is less by the obstacle's height at the place of rest, with the plane's normal;
+/// at finite strain the distance of x from the obstacle, with its normal there.
 class StaticContact {
  public:
   /// Keeps a reference to `body`. `mode` is stick or frictionless.
@@ -69,7 +75,7 @@ class StaticContact {
 
   /// Force of the plane on an outer point [N].
   meshes::Vector3 tie_force(std::size_t point, const Eigen::VectorXd& displacement) const;
-  /// Force of the plane along its normal on an outer point per its area at rest [Pa].
+  /// Force of the obstacle along its normal on an outer point per its area at rest [Pa].
   double pressure(std::size_t point, const Eigen::VectorXd& displacement) const;
   /// Sum of the ties' forces; moments at positions of rest at small strain, at present ones at
   /// finite strain.
@@ -79,15 +85,32 @@ class StaticContact {
   std::vector<LoadedPoint> loaded_points(const Eigen::VectorXd& displacement) const;
 
  private:
-  double gap(std::size_t point, const Eigen::VectorXd& displacement, double place) const;
+  /// Where a point is [m]: from the plane's point, itself and at rest.
+  struct Relative {
+    meshes::Vector3 now, rest;
+  };
+  /// Its gap [m] and the gradient of that.
+  struct Facing {
+    double gap;
+    meshes::Vector3 normal;
+  };
+  Relative relative(std::size_t point, const Eigen::VectorXd& displacement, double place) const;
+  Facing facing(const Relative& point) const;
+  Facing facing(std::size_t point, const Eigen::VectorXd& displacement) const {
+    return facing(relative(point, displacement, place_));
+  }
+  /// Derivative of the normal with respect to the place [1/m].
+  Eigen::Matrix3d bend(const Relative& point) const;
   bool touches(std::size_t point, const Eigen::VectorXd& displacement) const;
 
   const LatticeBody* body_;
   PressPlane plane_;
+  Eigen::Matrix3d axes_;  ///< of the obstacle, as columns
   bool stick_;
   double place_ = 0.0;  ///< of the plane on its path [m]
   std::vector<std::uint8_t> anchored_, released_;
-  std::vector<meshes::Vector3> anchor_;  ///< from plane_.point [m]
+  std::vector<meshes::Vector3> anchor_;         ///< from plane_.point [m]
+  std::vector<meshes::Vector3> anchor_normal_;  ///< of the obstacle there
 };
 
 }  // namespace fingertip::lattice

@@ -41,6 +41,7 @@ const std::vector<Section>& sections() {
       {"rod", "The rigid rod"},
       {"lattice", "The mass-spring model of the tip"},
       {"press", "What is done to the finger"},
+      {"obstacle", "The rigid obstacle that the finger is pressed against"},
       {"controller", "The 6-degree-of-freedom controller that moves the rod in mode pid"},
       {"hardware", "Sensors and actuators between controller and rod; the defaults are perfect"},
       {"grasp", "Two fingers that lift a rigid block, with press.contact, press.friction"},
@@ -189,6 +190,34 @@ std::vector<Key> lattice_keys() {
       plain("lattice", "modes", {1, 1000, true},
             "how many natural frequencies, lowest first, for the verb modes",
             at(&Config::lattice_modes)),
+  };
+}
+
+std::vector<Key> obstacle_keys() {
+  using meshes::Obstacle;
+  const auto obstacle = [](auto member) {
+    return at(&Config::press, &lattice::PressSetup::protocol, &meshes::PressProtocol::obstacle,
+              member);
+  };
+  return {
+      choice("obstacle", "shape",
+             {{"plane", "a plane"},
+              {"sphere", "a ball"},
+              {"cylinder", "an endless cylinder"},
+              {"edge", "an endless wedge of 90 degrees, rounded"}},
+             "what the finger is pressed against", obstacle(&Obstacle::shape)),
+      only_with("obstacle.shape", {"sphere", "cylinder", "edge"},
+                quantity("obstacle", "radius", "cm", "m", positive,
+                         "radius of sphere or cylinder, of an edge that of its rounding",
+                         obstacle(&Obstacle::radius))),
+      only_with("obstacle.shape", {"cylinder", "edge"},
+                choice("obstacle", "along", {{"x", "along t1"}, {"y", "along t2"}},
+                       "axis of cylinder and edge", obstacle(&Obstacle::along))),
+      with_rule(only_with("obstacle.shape", {"sphere", "cylinder", "edge"},
+                          quantity("obstacle", "offset", "cm", "m", any,
+                                   "place of its top along t1, from the finger's axis",
+                                   obstacle(&Obstacle::offset))),
+                "where it touches first, the finger may touch", {"geometry.shape"}),
   };
 }
 

@@ -10,6 +10,7 @@ namespace fingertip::studies {
 std::vector<Key> specimen_keys();     ///< [geometry] [rubber] [rod]
 std::vector<Key> lattice_keys();      ///< [lattice]
 std::vector<Key> press_keys();        ///< [press]
+std::vector<Key> obstacle_keys();     ///< [obstacle]
 std::vector<Key> controller_keys();   ///< [controller]
 std::vector<Key> hardware_keys();     ///< [hardware]
 std::vector<Key> grasp_keys();        ///< [grasp]

@@ -77,6 +77,7 @@ PressCondition condition_of(const JsonEntry& inputs) {
   condition.contact = text_if_any(press, "contact");
   condition.friction = number_if_any(press, "friction");
   condition.tilt = number_if_any(press, "tilt");
+  if (press.contains("obstacle")) condition.obstacle = press.at("obstacle").content().dump();
   condition.lateral =
       text_if_any(press, "lateral_path") == "after" ? 0.0 : number_if_any(press, "lateral");
   const double speed = number_if_any(press, "speed");
@@ -101,6 +102,7 @@ std::vector<ConditionDifference> differences(const PressCondition& press,
   if (differ(press.contact, other.contact))
     found.push_back({fmt::format("contact: {}, not {}", press.contact, other.contact), true});
   if (differ(press.profile, other.profile)) found.push_back({"another shape", true});
+  if (press.obstacle != other.obstacle) found.push_back({"another obstacle", true});
   for (const Number& number : numbers) {
     const double a = press.*number.value, b = other.*number.value;
     if (!differ(a, b)) continue;

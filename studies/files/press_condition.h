@@ -19,6 +19,7 @@ struct PressCondition {
   double tip_radius = meshes::unknown, rod_radius = meshes::unknown;
   double sleeve_length = meshes::unknown, rod_length = meshes::unknown;
   std::string profile = "dome";  ///< or the corners of a profile, as JSON
+  std::string obstacle = {};     ///< empty: a plane, or an obstacle as JSON
   double youngs_modulus = meshes::unknown, shear_modulus = meshes::unknown;
   double tilt = meshes::unknown;
   double lateral = meshes::unknown;  ///< on the way down; what follows at full depth is no matter

@@ -40,7 +40,8 @@ struct Tip {
     system = std::make_unique<LinearSystem>(*body, !serial);
     assemble(*body, kernel, body->fine.vector(), *system);
     auto unknowns =
-        contact_unknowns(outer_nodes(*body), mode != ContactMode::frictionless, 0.8 * R);
+        contact_unknowns(within_reach(outer_nodes(*body), {}, R, 0.2 * R),
+                         mode != ContactMode::frictionless);
     solver = serial ? make_condensed_solver(*body, unknowns.unknowns)
                     : make_multigrid_solver(*body, unknowns.unknowns, 1e-12);
     solver->set_matrix(*system);

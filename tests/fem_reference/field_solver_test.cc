@@ -41,7 +41,7 @@ struct Problem {
     HookeKernel<3> kernel(meshes::Rubber{}, Volumetric::projected);
     system = std::make_unique<LinearSystem>(*body, true);
     assemble(*body, kernel, body->fine.vector(), *system);
-    contact = contact_unknowns(outer_nodes(*body), true, 6e-3);
+    contact = contact_unknowns(within_reach(outer_nodes(*body), {}, 6e-3, 0.0), true);
     load = body->fine.vector();
     for (const auto i : body->fine.owned) load[i] = 1e-6 * std::sin(0.1 * double(i));
     load.compress(dealii::VectorOperation::insert);

@@ -101,10 +101,10 @@ TEST(ContactUnknowns, TakesNodesAboveTheLowestAndWhatIsFree) {
     nodes[i].unknown = {long(10 * i), long(10 * i + 1), long(10 * i + 2)};
     nodes[i].free = {i != 0, true, true};
   }
-  const ContactUnknowns normal = contact_unknowns(nodes, false, 0.7);
+  const ContactUnknowns normal = contact_unknowns(within_reach(nodes, {}, 0.9, 0.2), false);
   EXPECT_EQ(normal.unknowns, (std::vector<long>{2, 12}));
   EXPECT_EQ(normal.of_node[1], (std::array{-1, -1, 1}));
-  const ContactUnknowns all = contact_unknowns(nodes, true, 0.7);
+  const ContactUnknowns all = contact_unknowns(within_reach(nodes, {}, 0.9, 0.2), true);
   EXPECT_EQ(all.unknowns, (std::vector<long>{1, 2, 10, 11, 12}));
   EXPECT_EQ(all.of_node[0], (std::array{-1, 0, 1}));
   EXPECT_EQ(all.nodes.size(), 2u);
