@@ -271,8 +271,14 @@ void PlaneContact::touch_at_start() {
     }
 }
 
-double PlaneContact::update_friction(const ConstrainedSolution& solution, double relaxation) {
+double PlaneContact::update_friction(const ConstrainedSolution& solution, double relaxation,
+                                     double noise) {
   double largest_push = 0.0, largest_change = 0.0;
+  // A node that the solver's noise alone puts beyond Coulomb's limit, or below, stays what it is.
+  double slack = 0.0;
+  for (std::size_t node = 0; node < trial_.status.size(); ++node)
+    if (!is_open(node))
+      slack = std::max(slack, -noise * friction_ * solution.reaction[unknowns_.of_node[node][2]]);
   for (std::size_t node = 0; node < trial_.status.size(); ++node) {
     if (trial_.status[node] == NodeStatus::open) continue;
     const auto& of_node = unknowns_.of_node[node];
@@ -288,7 +294,8 @@ double PlaneContact::update_friction(const ConstrainedSolution& solution, double
       const double slip = solution.displacement[of_node[c]] - start[Eigen::Index(c)];
       if (sliding) wanted[Eigen::Index(c)] -= rho * slip;
     }
-    if (wanted.norm() <= friction_ * push * (1.0 + friction_converged)) {
+    const double margin = std::max(slack, friction_converged * friction_ * push);
+    if (wanted.norm() <= friction_ * push + (sliding ? -margin : margin)) {
       if (sliding) largest_change = std::numeric_limits<double>::infinity();
       trial_.status[node] = NodeStatus::stick;
       continue;
@@ -319,7 +326,8 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
     std::vector<std::size_t> wrong = offenders(solution, solver.noise());
     const double change =
         mode_ == ContactMode::coulomb
-            ? update_friction(solution, effort.rounds > friction_patience ? 0.5 : 1.0)
+            ? update_friction(solution, effort.rounds > friction_patience ? 0.5 : 1.0,
+                              solver.noise())
             : 0.0;
     if (wrong.empty() && change <= std::max(friction_converged, solver.noise())) {
       trial_.displacement = in_plane_axes(solution.displacement);

@@ -163,7 +163,7 @@ class PlaneContact {
   /// Anchors a node where it was at `time`, 0 ... 1, between the start of the step and `trial`.
   void anchor(std::size_t node, const Eigen::VectorXd& trial, double time);
   /// One round of Coulomb's law; the largest change of a friction force over the largest push.
-  double update_friction(const ConstrainedSolution& solution, double relaxation);
+  double update_friction(const ConstrainedSolution& solution, double relaxation, double noise);
 
   ContactUnknowns unknowns_;
   std::vector<std::size_t> leaders_;  ///< of each node: itself, or the one that it follows

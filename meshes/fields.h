@@ -70,10 +70,12 @@ void visit_fields(T& protocol, auto&& visit) {
 template <Fields<Obstacle> T>
 void visit_fields(T& obstacle, auto&& visit) {
   auto& [shape, radius, along, offset] = obstacle;
+  // What says nothing of a shape is not written, so that equal obstacles are written alike.
+  const bool read = !std::is_const_v<T>, sphere = obstacle.shape == ObstacleShape::sphere;
   visit("shape", shape, "");
   visit("radius", radius, "m");
-  visit("along", along, "");
-  visit("offset", offset, "m");
+  if (read || !sphere) visit("along", along, "");
+  if (read || !obstacle.along_x()) visit("offset", offset, "m");
 }
 
 /// All values of an enumeration; name() tells how each is written.

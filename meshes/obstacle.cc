@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include "meshes/files.h"
 #include "meshes/meridian.h"
@@ -75,6 +78,42 @@ double height(const Obstacle& obstacle, const Vector3& place) {
   return obstacle_height(obstacle.form(), place.x(), place.y());
 }
 
+ObstacleMesh obstacle_mesh(const Obstacle& obstacle, double half) {
+  // Rows of points, each joined to the next.
+  const bool sphere = obstacle.shape == ObstacleShape::sphere;
+  const double offset = obstacle.along_x() ? 0.0 : obstacle.offset;
+  const double reach = obstacle.is_plane() ? half : std::min(half, obstacle.radius);
+  const std::size_t rows = obstacle.is_plane() ? 1 : 12, columns = sphere ? 32 : 1;
+  ObstacleMesh mesh;
+  for (std::size_t row = 0; row <= rows; ++row) {
+    const double share = double(row) / double(rows);
+    for (std::size_t column = 0; column <= columns; ++column) {
+      const double turn = double(column) / double(columns);
+      if (sphere) {
+        const double down = share * std::asin(reach / obstacle.radius), r = obstacle.radius;
+        const double angle = 2.0 * std::numbers::pi * turn;
+        mesh.points.emplace_back(offset + r * std::sin(down) * std::cos(angle),
+                                 r * std::sin(down) * std::sin(angle), r * (std::cos(down) - 1.0));
+        continue;
+      }
+      // Denser where a cylinder is steep; an edge goes on to the end of the picture.
+      const double wide = obstacle.shape == ObstacleShape::edge ? half : reach;
+      const double across = wide * std::sin(std::numbers::pi * (share - 0.5));
+      Vector3 place(offset + across, half * (2.0 * turn - 1.0), 0.0);
+      if (obstacle.along_x()) std::swap(place.x(), place.y());
+      place.z() = height(obstacle, place);
+      mesh.points.push_back(place);
+    }
+  }
+  const std::size_t width = columns + 1;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const std::size_t first = row * width + column;
+      mesh.quadrangles.push_back({first, first + 1, first + width + 1, first + width});
+    }
+  return mesh;
+}
+
 double first_touch(const Geometry& geometry, double tilt, const Obstacle& obstacle) {
   if (obstacle.is_plane()) return geometry.reach(tilt);
   return first_place(Meridian(geometry), ProfileSurface::contact, tilt, obstacle).height;
@@ -91,24 +130,26 @@ std::vector<Violation> Obstacle::violations(const Geometry& geometry, double til
                      "give the place of the obstacle's top along t1"});
   if (!found.empty() || !geometry.violations().empty()) return found;
   const Meridian meridian(geometry);
-  const HighestPlace touch = first_place(meridian, ProfileSurface::contact, tilt, *this);
-  if (shape != ObstacleShape::edge && !(height(*this, seen(touch.place, tilt)) > -radius)) {
-    found.push_back({"obstacle.offset", to_text(offset) + " m", "the obstacle misses the finger",
-                     "bring it nearer to the axis, or make it larger"});
-    return found;
-  }
+  // Beside a ball or a cylinder there is none.
+  const auto touch_of = [&](ProfileSurface surface) {
+    const HighestPlace touch = first_place(meridian, surface, tilt, *this);
+    const bool misses = shape != ObstacleShape::edge &&
+                        !(meshes::height(*this, seen(touch.place, tilt)) > -radius);
+    return misses ? -std::numeric_limits<double>::infinity() : touch.height;
+  };
+  const double touch = touch_of(ProfileSurface::contact);
   for (const ProfileSurface surface : {ProfileSurface::bond, ProfileSurface::free}) {
     // Where both meet they are touched together.
-    const double other = first_place(meridian, surface, tilt, *this).height;
-    if (!(other > touch.height + 1e-9 * geometry.tip_radius)) continue;
+    if (!(touch_of(surface) > touch + 1e-9 * geometry.tip_radius)) continue;
     found.push_back({"obstacle.offset", to_text(offset) + " m",
-                     "the obstacle starts inside the finger: when it comes to what may touch, it "
-                     "lies " +
-                         to_text(other - touch.height) + " m deep in its surface \"" +
-                         std::string(name(surface)) + "\"",
+                     "the obstacle starts inside the finger: it meets the surface \"" +
+                         std::string(meshes::name(surface)) + "\" before what may touch",
                      "move the obstacle, or mark that surface \"contact\""});
-    break;
+    return found;
   }
+  if (!std::isfinite(touch))
+    found.push_back({"obstacle.offset", to_text(offset) + " m", "the obstacle misses the finger",
+                     "bring it nearer to the axis, or make it larger"});
   return found;
 }
 

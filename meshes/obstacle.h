@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -59,6 +60,14 @@ ObstacleHit<double> hit(const Obstacle& obstacle, const Vector3& place);
 Eigen::Matrix3d curvature(const Obstacle& obstacle, const Vector3& place);
 /// Height at a place, 0 at the top; where there is no obstacle it falls steeply away from it [m].
 double height(const Obstacle& obstacle, const Vector3& place);
+
+/// Its surface near the top for pictures: quadrangles, in its axes. What lies within `half` [m] of
+/// the top along t1 and t2; of a sphere its upper half at most.
+struct ObstacleMesh {
+  std::vector<Vector3> points;
+  std::vector<std::array<std::size_t, 4>> quadrangles;
+};
+ObstacleMesh obstacle_mesh(const Obstacle& obstacle, double half);
 
 /// How far the top's plane is from the origin, along the normal, when the obstacle first touches
 /// what may touch of a finger tilted by `tilt` [rad] against it [m].

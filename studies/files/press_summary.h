@@ -28,6 +28,20 @@ constexpr auto fields_of(const GeometryEntry*) {
       meshes::if_known(named("shape", &Whole::shape)));
 }
 
+/// What the finger was pressed against, if no plane [m].
+struct ObstacleEntry {
+  std::string shape;
+  double radius = meshes::unknown;
+  std::string along;
+  double offset = meshes::unknown;
+};
+constexpr auto fields_of(const ObstacleEntry*) {
+  using meshes::named;
+  using Whole = ObstacleEntry;
+  return named("shape radius along offset", &Whole::shape, &Whole::radius, &Whole::along,
+               &Whole::offset);
+}
+
 /// Spring constants [N/m] and volume constant [Pa].
 struct ConstantsEntry {
   double k1 = meshes::unknown, k2 = meshes::unknown, k3 = meshes::unknown, kappa = meshes::unknown;
@@ -191,6 +205,7 @@ struct PressSummary {
   double spacing = meshes::unknown;
   ConstantsEntry constants;
   GeometryEntry geometry;
+  std::optional<ObstacleEntry> obstacle;
   ModuliEntry moduli;
   StepEntry step;
   CensusEntry census;
@@ -218,6 +233,7 @@ constexpr auto fields_of(const PressSummary*) {
       named("model kinematics mode contact status spacing constants", &Whole::model,
             &Whole::kinematics, &Whole::mode, &Whole::contact, &Whole::status, &Whole::spacing,
             &Whole::constants),
+      if_known(named("obstacle", &Whole::obstacle)),
       only(&Whole::moves, named("geometry moduli step census steps", &Whole::geometry,
                                 &Whole::moduli, &Whole::step, &Whole::census, &Whole::steps)),
       only(&Whole::rests, named("census effort smallest_jacobian", &Whole::static_census,

@@ -38,6 +38,8 @@ PressCondition condition_of(const lattice::PressSetup& setup) {
   condition.shear_modulus = setup.rubber.shear_modulus;
   condition.tilt = setup.protocol.tilt;
   condition.lateral = setup.protocol.lateral;
+  if (!setup.protocol.obstacle.is_plane())
+    condition.obstacle = meshes::json_of<nlohmann::json>(setup.protocol.obstacle).dump();
   condition.speed = meshes::unknown;
   return condition;
 }

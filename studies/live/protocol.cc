@@ -208,6 +208,16 @@ Json held_json(const meshes::Geometry& geometry) {
   return outlines;
 }
 
+/// Null for a plane.
+Json obstacle_json(const LiveScene& scene) {
+  if (scene.obstacle.is_plane()) return nullptr;
+  const auto mesh = meshes::obstacle_mesh(scene.obstacle, 1.75 * scene.geometry.tip_radius);
+  Json points = Json::array();
+  for (const meshes::Vector3& point : mesh.points)
+    points.push_back(Json::array({point.x(), point.y(), point.z()}));
+  return {{"points", points}, {"quadrangles", mesh.quadrangles}};
+}
+
 }  // namespace
 
 std::string encode_scene(const LiveScene& scene) {
@@ -221,6 +231,7 @@ std::string encode_scene(const LiveScene& scene) {
                     {"rod_length", scene.geometry.rod_length},
                     {"dome", scene.geometry.is_dome()},
                     {"held", held_json(scene.geometry)}}},
+                  {"obstacle", obstacle_json(scene)},
                   {"limits", limits_json(scene.limits)},
                   {"masses", scene.masses},
                   {"springs", scene.springs},

@@ -42,6 +42,7 @@ std::variant<LiveMessage, std::string> parse_message(std::string_view text);
 struct LiveScene {
   std::string title;
   meshes::Geometry geometry;
+  meshes::Obstacle obstacle;
   LiveLimits limits;
   std::vector<std::array<int, 2>> springs;
   std::size_t masses = 0;

@@ -113,6 +113,7 @@ LiveServer::Implementation::Implementation(Simulation& simulation, const Referen
   scene.title = title;
   scene.units = shown_units().system;
   scene.geometry = rig.setup().geometry;
+  scene.obstacle = rig.setup().protocol.obstacle;
   scene.limits = rig.limits();
   scene.springs = rig.boundary().springs();
   scene.masses = rig.boundary().size();

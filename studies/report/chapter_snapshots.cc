@@ -7,7 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "meshes/fields.h"
 #include "meshes/geometry.h"
+#include "meshes/obstacle.h"
 #include "studies/report/chapters.h"
 #include "studies/report/continuum_figures.h"
 #include "studies/report/moving_press.h"
@@ -83,6 +85,15 @@ class Drawing {
         largest_torque_(largest_torque),
         springs_(press.boundary_springs) {
     for (const BoundaryRow& row : press.boundary) rest_.push_back(row.rest);
+    if (press.summary.obstacle) {
+      const ObstacleEntry& entry = *press.summary.obstacle;
+      for (const auto shape : values(meshes::ObstacleShape()))
+        if (name(shape) == entry.shape) obstacle_.shape = shape;
+      for (const auto axis : values(meshes::ObstacleAxis()))
+        if (name(axis) == entry.along) obstacle_.along = axis;
+      obstacle_.radius = entry.radius;
+      obstacle_.offset = entry.offset;
+    }
     if (shape_.is_dome()) return;
     double top = -std::numeric_limits<double>::infinity();
     for (const Vector3& rest : rest_) top = std::max(top, rest.z());
@@ -115,10 +126,25 @@ class Drawing {
   void add_plane(Panel& panel, const Snapshot& snapshot) const {
     Series square{"", "plane", {}, {}, {}, thin("#999999", 1.0)};
     const Vector3& n = snapshot.normal;
-    const Vector3 t1 = (Vector3::UnitX() - n * n.x()).normalized(), t2 = n.cross(t1);
-    const double half = 1.5 * shape_.tip_radius;
-    for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}})
-      add(square, snapshot.plane + half * (a * t1 + b * t2));
+    const Vector3 t1 = (Vector3::UnitX() - n * n.x()).normalized();
+    const Eigen::Matrix3d axes = (Eigen::Matrix3d() << t1, t1.cross(n), n).finished();
+    const auto mesh = meshes::obstacle_mesh(obstacle_, 1.5 * shape_.tip_radius);
+    const auto place = [&](std::size_t point) -> Vector3 {
+      return snapshot.plane + axes * mesh.points[point];
+    };
+    if (!obstacle_.is_plane()) {  // as a net of lines
+      square.key = name(obstacle_.shape);
+      square.style = thin("#999999", 0.6);
+      for (const auto& [a, b, c, d] : mesh.quadrangles) {
+        join(square, place(a), place(b));
+        join(square, place(b), place(c));
+        join(square, place(c), place(d));
+        join(square, place(d), place(a));
+      }
+      panel.series.push_back(std::move(square));
+      return;
+    }
+    for (const std::size_t corner : {0U, 1U, 3U, 2U, 0U}) add(square, place(corner));
     Series area = square;
     area.filled = true;
     panel.series.push_back(std::move(area));
@@ -211,6 +237,7 @@ class Drawing {
 
   Camera camera_;
   GeometryEntry shape_;
+  meshes::Obstacle obstacle_;
   double largest_force_, largest_torque_;
   std::vector<Vector3> rest_;
   double centre_ = 0.0;  ///< of the outer surface, on the axis [m]

@@ -75,8 +75,6 @@ ordered_json inputs_of(const meshes::PressProtocol& protocol, bool moves) {
   if (!protocol.slides_after()) drop(inputs, {"lateral_path", "lateral_samples"});
   if (protocol.contact != meshes::ContactMode::coulomb) drop(inputs, {"friction"});
   if (!moves) drop(inputs, {"speed", "clearance"});
-  if (protocol.obstacle.shape == meshes::ObstacleShape::sphere) drop(inputs["obstacle"], {"along"});
-  if (protocol.obstacle.along_x()) drop(inputs["obstacle"], {"offset"});
   return inputs;
 }
 

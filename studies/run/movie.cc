@@ -106,12 +106,11 @@ MoviePiece Movie::rod_piece(const FingerPicture& picture) const {
 MoviePiece Movie::plane_piece(const FingerPicture& picture) const {
   MoviePiece piece;
   piece.part = MoviePiece::plane;
-  const Vector3 start = picture.plane.turned.conjugate() * picture.plane.normal;
-  const Vector3 t1 = lattice::first_tangent(start), t2 = t1.cross(start);
-  const double half = 1.5 * geometry_.tip_radius;
-  for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
-    piece.points.push_back(picture.plane.place(half * (a * t1 + b * t2)));
-  piece.add_cell(vtk::quadrangle, {0, 1, 2, 3});
+  const lattice::Plane& plane = picture.plane;
+  const Eigen::Matrix3d axes = plane.axes();
+  const auto mesh = meshes::obstacle_mesh(plane.obstacle, 1.5 * geometry_.tip_radius);
+  for (const Vector3& point : mesh.points) piece.points.emplace_back(plane.point + axes * point);
+  for (const auto& [a, b, c, d] : mesh.quadrangles) piece.add_cell(vtk::quadrangle, {a, b, c, d});
   piece.held.assign(piece.points.size(), 0);
   return piece;
 }

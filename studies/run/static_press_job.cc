@@ -84,6 +84,10 @@ PressSummary press_summary_head(const lattice::PressSetup& setup, const std::str
   summary.kinematics = lattice::name(setup.lattice.kinematics);
   summary.mode = meshes::name(setup.protocol.mode);
   summary.contact = meshes::name(setup.protocol.contact);
+  const meshes::Obstacle& obstacle = setup.protocol.obstacle;
+  if (!obstacle.is_plane())
+    summary.obstacle = {std::string(name(obstacle.shape)), obstacle.radius,
+                        std::string(name(obstacle.along)), obstacle.offset};
   summary.status = status;
   summary.spacing = setup.lattice.spacing;
   summary.constants = constants_entry(setup.lattice.constants);

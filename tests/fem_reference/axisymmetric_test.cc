@@ -225,9 +225,101 @@ TEST(Meridian, ForceIsTheSlopeOfTheEnergy) {
   }
 }
 
+meshes::Obstacle ball(double radius) {
+  return {.shape = meshes::ObstacleShape::sphere, .radius = radius};
+}
+
+TEST(Meridian, PressesABallAsTheSolidDoes) {
+  for (const ContactMode contact :
+       {ContactMode::frictionless, ContactMode::stick, ContactMode::coulomb})
+    for (const Strain strain : {Strain::linear, Strain::finite}) {
+      ReferenceJob job = meridian_press(contact, strain);
+      job.protocol.obstacle = ball(4e-3);
+      job.protocol.friction = 0.1;
+      job.press_to({8e-4});
+      ReferenceJob solid = job;
+      solid.symmetry = Symmetry::none;
+      solid.tolerance = strain == Strain::finite ? 0.06 : 0.03;
+      job.tolerance = 0.003;
+      const auto flat = converged(job), full = converged(solid);
+      const auto &a = flat[0].sample, &b = full[0].sample;
+      EXPECT_LE(std::abs(a.normal_force - b.normal_force), a.force_error + b.force_error)
+          << meshes::name(contact) << int(strain);
+      EXPECT_NEAR(a.contact_radius, b.contact_radius,
+                  flat[0].node_spacing + full[0].node_spacing);
+    }
+}
+
+/// dE/d(delta) = F holds of any frictionless obstacle, and nothing stands inside the ball.
+TEST(Meridian, ForceOfABallIsTheSlopeOfTheEnergy) {
+  for (const double radius : {2e-3, 2e-2})
+    for (const Strain strain : {Strain::linear, Strain::finite}) {
+      ReferenceJob job = meridian_press(ContactMode::frictionless, strain);
+      job.protocol.obstacle = ball(radius);
+      job.refinement = 1.0;
+      job.press_to({1.98e-3, 2e-3, 2.02e-3});
+      Pressing pressing(job);
+      std::vector<PressState> states;
+      for (const double sample : job.protocol.samples)
+        states.push_back(pressing.press.advance(sample));
+      EXPECT_NEAR((states[2].energy - states[0].energy) / 4e-5, states[1].sample.normal_force,
+                  2e-3 * states[1].sample.normal_force)
+          << radius << int(strain);
+      if (strain == Strain::linear) continue;
+      const double centre = job.geometry.tip_radius - 2.02e-3 + radius;
+      for (const auto& edge : pressing.press.section(*pressing.press.snapshot()))
+        EXPECT_GT(std::hypot(edge.deformed[0], centre - edge.deformed[1]), 0.99 * radius);
+    }
+}
+
+/// Hertz (1882), F = 4/3 E/(1 - nu²) sqrt(radius) depth^(3/2): a ball on a block that is larger and
+/// larger beside the contact, extrapolated to one without end.
+TEST(Meridian, BallOnALargeBlockIsHertz) {
+  using enum meshes::ProfileSurface;
+  using enum meshes::ProfileCurve;
+  const double size = 0.02, radius = 0.05;
+  ReferenceJob job = meridian_press();
+  job.geometry = meshes::Geometry::of_profile({{size, 0.0, free, straight},
+                                               {size, size, contact, straight},
+                                               {0.0, size, axis, straight},
+                                               {0.0, 0.0, bond, straight}});
+  job.protocol.obstacle = ball(radius);
+  job.tolerance = 5e-4;
+  const double nu = job.rubber.poissons_ratio(),
+               modulus = job.rubber.youngs_modulus / (1.0 - nu * nu);
+  const auto ratio = [&](double reach) {  // contact radius over the block's size
+    const double depth = std::pow(reach * size, 2) / radius;
+    job.press_to({depth});
+    return converged(job)[0].sample.normal_force /
+           (4.0 / 3.0 * modulus * std::sqrt(radius) * std::pow(depth, 1.5));
+  };
+  const double near = ratio(0.05), far = ratio(0.025);
+  EXPECT_GT(near, far);
+  EXPECT_NEAR(2.0 * far - near, 1.0, 0.005);
+}
+
+TEST(Meridian, CoulombOnABallLiesBetweenItsLimits) {
+  const auto force = [](ContactMode contact, double friction) {
+    ReferenceJob job = meridian_press(contact, Strain::finite);
+    job.protocol.obstacle = ball(4e-3);
+    job.refinement = 1.0;
+    job.protocol.friction = friction;
+    job.press_to({1.5e-3});
+    return pressed(job).sample.normal_force;
+  };
+  const double free = force(ContactMode::frictionless, 0.5), stuck = force(ContactMode::stick, 0.5);
+  EXPECT_GT(stuck, 1.005 * free);
+  EXPECT_NEAR(force(ContactMode::coulomb, 10.0), stuck, 1e-6 * stuck);
+  EXPECT_NEAR(force(ContactMode::coulomb, 1e-6), free, 1e-4 * free);
+  const double between = force(ContactMode::coulomb, 0.1);
+  EXPECT_GT(between, free);
+  EXPECT_LT(between, stuck);
+}
+
 TEST(Meridian, BondCarriesWhatThePlanePushes) {
   for (const Strain strain : {Strain::linear, Strain::finite}) {
-    const ReferenceJob job = meridian_press(ContactMode::stick, strain);
+    ReferenceJob job = meridian_press(ContactMode::stick, strain);
+    if (strain == Strain::finite) job.protocol.obstacle = ball(4e-3);
     Pressing pressing(job);
     const PressState state = pressing.press.advance(1e-3);
     EXPECT_NEAR(pressing.press.bond_reaction().z(), state.sample.normal_force,

@@ -3,6 +3,8 @@
 /// where no published number exists: other Poisson's ratios, sticking contact, another geometry.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fem_reference/press.h"
 #include "lattice/press/press.h"
 #include "lattice/press/static_press.h"
@@ -69,6 +71,55 @@ double error_of_lattice(const meshes::Geometry& geometry, double poissons_ratio,
 // (lattice/MEASUREMENTS.md); a wrong Poisson's ratio, a wrong first-touch rule or a missing factor
 // costs more than ten.
 constexpr double coarseness = 0.02;
+
+meshes::Obstacle obstacle_of(meshes::ObstacleShape shape, double radius) {
+  return {.shape = shape, .radius = radius};
+}
+
+/// A ball on a block much larger than the contact, six cells across: the continuum's Hertz limit is
+/// Meridian.BallOnALargeBlockIsHertz.
+TEST(LatticeAgainstContinuum, AgreesUnderABallOnABlock) {
+  using enum meshes::ProfileSurface;
+  using enum meshes::ProfileCurve;
+  const double size = 0.02, radius = 0.1, spacing = size / 20.0;
+  const meshes::Geometry block =
+      meshes::Geometry::of_profile({{size, 0.0, free, straight},
+                                    {size, size, contact, straight},
+                                    {0.0, size, axis, straight},
+                                    {0.0, 0.0, bond, straight}});
+  const double depth = std::pow(6.0 * spacing, 2) / radius;
+  ReferenceJob job = continuum_job(block, {}, ContactMode::frictionless, depth);
+  job.press_to({depth});
+  job.protocol.obstacle = obstacle_of(meshes::ObstacleShape::sphere, radius);
+  lattice::PressSetup setup = lattice_press(block, {}, ContactMode::frictionless, depth, 20.0);
+  setup.protocol = job.protocol;
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
+  const double expected = press_continuum(job).samples()[0].normal_force,
+               found = lattice::run_static_press(setup).response.samples()[0].normal_force;
+  EXPECT_NEAR(found / expected, 1.0, 0.02);
+}
+
+/// The solid continuum and the lattice, under what is no body of revolution about the axis.
+TEST(LatticeAgainstContinuum, AgreesOnCylinderEdgeAndABallBesideTheAxis) {
+  for (const meshes::ObstacleShape shape :
+       {meshes::ObstacleShape::cylinder, meshes::ObstacleShape::edge,
+        meshes::ObstacleShape::sphere}) {
+    const double depth = 1.5e-3;
+    ReferenceJob job = continuum_job({}, {}, ContactMode::stick, depth);
+    job.press_to({depth});
+    job.protocol.obstacle = obstacle_of(shape, 5e-3);
+    if (shape == meshes::ObstacleShape::sphere) job.protocol.obstacle.offset = 2e-3;
+    lattice::PressSetup setup = lattice_press({}, {}, ContactMode::stick, depth, 10.0);
+    setup.protocol = job.protocol;
+    setup.protocol.mode = meshes::DriveMode::equilibrium;
+    const auto expected = press_continuum(job).samples()[0],
+               found = lattice::run_static_press(setup).response.samples()[0];
+    EXPECT_NEAR(found.normal_force / expected.normal_force, 1.0, coarseness) << name(shape);
+    EXPECT_NEAR(found.contact_radius / expected.contact_radius, 1.0, 0.15) << name(shape);
+    EXPECT_NEAR(found.torque_y, expected.torque_y,
+                coarseness * expected.normal_force * job.geometry.rod_length);
+  }
+}
 
 }  // namespace
 

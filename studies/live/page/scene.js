@@ -31,7 +31,7 @@ class FingerScene {
     this.geometry = scene.geometry;
     this.buildTip(scene);
     this.buildRod();
-    this.buildPlane();
+    this.buildPlane(scene.obstacle);
     this.forceArrow = FingerScene.arrow(1);
     this.torqueArrow = FingerScene.arrow(2);
     this.scene.add(this.forceArrow, this.torqueArrow);
@@ -75,8 +75,12 @@ class FingerScene {
     this.scene.add(this.rod);
   }
 
-  buildPlane() {
+  buildPlane(obstacle) {
     this.planeMaterial = new THREE.MeshPhongMaterial({ side: THREE.DoubleSide, shininess: 5 });
+    if (obstacle) {
+      this.buildObstacle(obstacle);
+      return;
+    }
     const slab = new THREE.Mesh(new THREE.CylinderBufferGeometry(1.75, 1.75, 0.06, 96), this.planeMaterial);
     slab.rotation.x = Math.PI / 2;
     slab.position.z = -0.03;
@@ -87,6 +91,21 @@ class FingerScene {
     this.grid.material.opacity = 0.35;
     this.plane = new THREE.Group();
     this.plane.add(slab, this.grid);
+    this.scene.add(this.plane);
+  }
+
+  // In the plane's frame: x along t1, z along the normal.
+  buildObstacle(obstacle) {
+    const surface = new THREE.BufferGeometry();
+    const places = obstacle.points.flat().map((x) => x * this.scale);
+    surface.setAttribute('position', new THREE.BufferAttribute(new Float32Array(places), 3));
+    surface.setIndex(obstacle.quadrangles.flatMap(([a, b, c, d]) => [a, b, c, a, c, d]));
+    surface.computeVertexNormals();
+    this.grid = new THREE.LineSegments(new THREE.EdgesGeometry(surface, 1), new THREE.LineBasicMaterial());
+    this.grid.material.transparent = true;
+    this.grid.material.opacity = 0.35;
+    this.plane = new THREE.Group();
+    this.plane.add(new THREE.Mesh(surface, this.planeMaterial), this.grid);
     this.scene.add(this.plane);
   }
 
@@ -205,7 +224,11 @@ class FingerScene {
     this.rod.position.copy(this.vector(frame.rod.position));
     this.rod.quaternion.fromArray(frame.rod.orientation);
     this.plane.position.copy(this.vector(frame.plane.point));
-    this.plane.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), new THREE.Vector3().fromArray(frame.plane.normal));
+    const normal = new THREE.Vector3().fromArray(frame.plane.normal);
+    const t1 = new THREE.Vector3(1, 0, 0).addScaledVector(normal, -normal.x).normalize();
+    const t2 = new THREE.Vector3().crossVectors(t1, normal);
+    // Mirrored like the obstacle's axes (t1, t2, n): its own image under t2 -> -t2.
+    this.plane.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(t1, t2.negate(), normal));
     this.endpoint = this.vector(frame.endpoint);
     this.forceTip = this.arrowTip(this.forceArrow, frame.wrench.force, this.forceUnit);
     this.torqueTip = this.arrowTip(this.torqueArrow, frame.wrench.torque, this.torqueUnit);

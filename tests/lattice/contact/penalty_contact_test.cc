@@ -38,20 +38,26 @@ const std::array all_laws{lattice::ContactLaw{ContactMode::frictionless},
 
 /// A tip on a grid that is aligned with nothing, and a tilted plane 0.1 mm from its surface.
 struct Scene {
-  LatticeSettings settings = settings_for(ModelKind::hookean, Kinematics::small, 6);
+  LatticeSettings settings;
   lattice::PressPlane press;
   LatticeModel model;
   Plane plane;
   mutable lattice::Team team{1};
 
-  Scene() {
+  explicit Scene(const meshes::Obstacle& obstacle = {}, Kinematics kinematics = Kinematics::small)
+      : settings(settings_for(kinematics == Kinematics::small ? ModelKind::hookean
+                                                              : ModelKind::network,
+                              kinematics, 6)) {
     settings.axes = Eigen::AngleAxisd(0.7, Vector3(1.0, -2.0, 0.5).normalized()).matrix();
     settings.offset = Vector3(0.3, -0.2, 0.1);
     model = lattice::build_cut_model({}, {}, settings);
     meshes::PressProtocol protocol;
     protocol.tilt = 0.25;
+    protocol.obstacle = obstacle;
     press = lattice::press_plane(protocol, {});
-    plane = {press.point(-clearance), press.normal};
+    plane.point = press.point(-clearance);
+    plane.normal = press.normal;
+    plane.obstacle = obstacle;
   }
   /// Every particle displaced by `shift` (tip's frame).
   State moved(const Vector3& shift) const {
@@ -132,8 +138,9 @@ TEST(PenaltyContact, FrictionlessPushesAlongTheNormalWhatPenetrates) {
   EXPECT_GT(contact.touching(), 20);
 }
 
-TEST(PenaltyContact, HasTheEnergyAndForcesOfTheStaticContact) {
-  const Scene s;
+namespace {
+
+void expect_static_contact(const Scene& s) {
   const lattice::LatticeBody body = lattice::build_cut_tip({}, {}, s.settings, 1);
   const lattice::ElasticSystem system(body);
   const auto unknowns = [&](const State& state) {
@@ -174,6 +181,18 @@ TEST(PenaltyContact, HasTheEnergyAndForcesOfTheStaticContact) {
     EXPECT_NEAR(patch.max_pressure, expected.max_pressure, 1e-9 * expected.max_pressure);
     EXPECT_GT(patch.max_pressure, 0.0);
   }
+}
+
+}  // namespace
+
+TEST(PenaltyContact, HasTheEnergyAndForcesOfTheStaticContact) {
+  expect_static_contact(Scene{});
+  for (const meshes::ObstacleShape shape :
+       {meshes::ObstacleShape::sphere, meshes::ObstacleShape::cylinder, meshes::ObstacleShape::edge})
+    for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
+      SCOPED_TRACE(std::string(name(shape)) + (kinematics == Kinematics::small ? " small" : ""));
+      expect_static_contact(Scene({.shape = shape, .radius = 3e-3, .offset = 1e-3}, kinematics));
+    }
 }
 
 TEST(PenaltyContact, AnchorsWhereThePlaneWasCrossedAndLetsGoWhenPulled) {
