@@ -320,6 +320,14 @@ void Meridian::measure() {
            "turn the finger so that it points along +z");
 }
 
+double Meridian::bond_radius() const {
+  double radius = 0.0;
+  for (const MeridianPiece& piece : pieces_)
+    if (piece.surface() == ProfileSurface::bond)
+      radius = std::max({radius, piece.from().x(), piece.to().x()});
+  return radius;
+}
+
 double Meridian::pole_radius() const {
   for (const MeridianPiece& piece : pieces_) {
     const bool ends = piece.to().x() == 0.0 && piece.to().y() == pole_;
@@ -505,6 +513,7 @@ std::vector<std::vector<Vector2>> held_outlines(const Geometry& geometry, int po
   const double low = geometry.lowest();
   std::vector<std::vector<Vector2>> outlines{
       {{0.0, low - 2.0 * r}, {r, low - 2.0 * r}, {r, low}, {0.0, low}}};
+  if (geometry.solid) return outlines;  // its bond is no curve
   const Meridian meridian(geometry);
   for (const MeridianPiece& piece : meridian.pieces()) {
     if (piece.surface() != ProfileSurface::bond) continue;
