@@ -70,19 +70,20 @@ inline fingertip::meshes::TriangleMesh revolved(const std::vector<std::array<dou
   return mesh;
 }
 
-/// The surface of the dome, by default of 20 000 facets.
-inline fingertip::meshes::TriangleMesh dome_surface(int sectors = 84, int layers = 26,
+/// The surface of the dome, by default of 20 000 facets, most of them on the outer hemisphere.
+inline fingertip::meshes::TriangleMesh dome_surface(int sectors = 96, int layers = 64,
                                                     const Geometry& g = {}) {
   std::vector<std::array<double, 2>> curve;
   const double R = g.tip_radius, r = g.rod_radius, end = -g.sleeve_length;
-  const auto arc = [&](double radius, int i) {
-    const double angle = 0.5 * std::numbers::pi * i / layers;
-    curve.push_back({i == layers ? 0.0 : radius * std::cos(angle), radius * std::sin(angle)});
+  const int inner = layers / 3, along = layers / 6;
+  const auto arc = [&](double radius, int i, int count) {
+    const double angle = 0.5 * std::numbers::pi * i / count;
+    curve.push_back({i == count ? 0.0 : radius * std::cos(angle), radius * std::sin(angle)});
   };
-  for (int i = layers; i >= 0; --i) arc(r, i);
-  for (int i = 1; i <= layers; ++i) curve.push_back({r, end * i / layers});
-  for (int i = 0; i < layers; ++i) curve.push_back({R, end * (layers - i) / layers});
-  for (int i = 0; i <= layers; ++i) arc(R, i);
+  for (int i = inner; i >= 0; --i) arc(r, i, inner);
+  for (int i = 1; i <= along; ++i) curve.push_back({r, end * i / along});
+  for (int i = 0; i < along; ++i) curve.push_back({R, end * (along - i) / along});
+  for (int i = 0; i <= layers; ++i) arc(R, i, layers);
   return revolved(curve, sectors);
 }
 
@@ -98,7 +99,7 @@ inline fingertip::meshes::Region dome_bond(const Geometry& g = {}) {
 }
 
 /// The dome as a solid.
-inline Geometry solid_dome(int sectors = 84, int layers = 26) {
+inline Geometry solid_dome(int sectors = 96, int layers = 64) {
   const Geometry g;
   return Geometry::of_solid(
       std::make_shared<fingertip::meshes::Solid>(dome_surface(sectors, layers), dome_bond()),
