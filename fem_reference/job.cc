@@ -177,7 +177,11 @@ std::vector<Violation> ReferenceJob::violations() const {
          press ? "a tilt or a lateral motion of the plane breaks the symmetry about the axis"
                : "vibrations leave the meridian: they need the solid",
          "choose reference.symmetry = \"automatic\""});
-  if (!geometry.is_dome() && !axisymmetric() && analysis != Analysis::verification)
+  if (geometry.solid && analysis != Analysis::verification)
+    broken.push_back({"geometry.shape", "solid",
+                      "the continuum does not know solids of any shape yet",
+                      "press it by the lattice, or describe a body of revolution by its profile"});
+  else if (!geometry.is_dome() && !axisymmetric() && analysis != Analysis::verification)
     broken.push_back(
         {"geometry.shape", "profile",
          press && symmetry != Symmetry::none
