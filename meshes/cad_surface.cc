@@ -17,7 +17,10 @@ namespace fingertip::meshes {
 namespace {
 
 /// Edges around a full circle: chords are within pi²/(2 n²) of its radius.
-constexpr double edges_around = 160.0;
+constexpr double edges_around = 120.0;
+/// At the top, which touches first: depth counts from the highest vertex, forces from the mean
+/// facet. Height and longest edge over the solid's width.
+constexpr double top_height = 0.2, top_edge = 0.01;
 /// Longest and shortest edge over the solid's extent.
 constexpr double longest_edge = 0.1, shortest_edge = 1.0 / 400.0;
 
@@ -70,6 +73,20 @@ std::vector<Facet> facets_of(const std::filesystem::path& cad) {
   std::array<double, 6> box{};
   gmsh::model::getBoundingBox(3, solids[0].second, box[0], box[1], box[2], box[3], box[4], box[5]);
   const double extent = std::max({box[3] - box[0], box[4] - box[1], box[5] - box[2]});
+  const double width = std::min(box[3] - box[0], box[4] - box[1]);
+  const int top = gmsh::model::mesh::field::add("Box");
+  for (const auto& [option, value] :
+       std::map<std::string, double>{{"VIn", top_edge * width},
+                                     {"VOut", longest_edge * extent},
+                                     {"XMin", box[0] - extent},
+                                     {"XMax", box[3] + extent},
+                                     {"YMin", box[1] - extent},
+                                     {"YMax", box[4] + extent},
+                                     {"ZMin", box[5] - top_height * width},
+                                     {"ZMax", box[5] + extent},
+                                     {"Thickness", top_height * width}})
+    gmsh::model::mesh::field::setNumber(top, option, value);
+  gmsh::model::mesh::field::setAsBackgroundMesh(top);
   for (const auto& [option, value] :
        std::map<std::string, double>{{"Mesh.MeshSizeFromCurvature", edges_around},
                                      {"Mesh.MeshSizeMax", longest_edge * extent},

@@ -82,10 +82,9 @@ TEST(SolidFile, MakesTheFingerOfAConfiguration) {
                    {}});
   EXPECT_EQ(again.config.press.geometry.solid->content(), geometry.solid->content());
   // Another unit of the same numbers.
-  const auto inches =
-      load_config({folder / "case.toml", {"geometry.unit=inch", "geometry.bond=z < 1 inch"}, {}});
-  EXPECT_NEAR(inches.config.press.geometry.tip_volume() / geometry.tip_volume(), std::pow(25.4, 3),
-              1e-6);
+  const auto centimetres =
+      load_config({folder / "case.toml", {"geometry.unit=cm", "geometry.bond=z < 1 cm"}, {}});
+  EXPECT_NEAR(centimetres.config.press.geometry.tip_volume() / geometry.tip_volume(), 1000.0, 1e-6);
 }
 
 TEST(SolidFile, ReadsHalfSpaces) {
