@@ -271,15 +271,30 @@ double Solid::reach(double tilt) const {
 }
 
 std::vector<SurfacePoint> Solid::points(ProfileSurface surface, double spacing) const {
-  std::vector<SurfacePoint> points;
+  // Patches in one cube of space that face the same way, within 55 degrees, are one.
+  struct Sum {
+    double area = 0.0;
+    Vector3 moment = Vector3::Zero(), vector = Vector3::Zero();
+  };
+  std::map<std::array<int, 5>, Sum> sums;
+  const Vector3 origin = spacing * Vector3::Constant(0.38);  // planes at round heights stay whole
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     const Vector3 vector = mesh_.area_vector(t);
-    const double area = vector.norm();
-    if (!is(surface, t) || area == 0.0) continue;
-    for_each_patch(corners_of(mesh_, t), spacing, area, [&](const Vector3& middle, double own) {
-      points.push_back({middle, vector / area, own});
+    const double whole = vector.norm();
+    if (!is(surface, t) || whole == 0.0) continue;
+    Eigen::Index axis = 0;
+    vector.cwiseAbs().maxCoeff(&axis);
+    for_each_patch(corners_of(mesh_, t), spacing, whole, [&](const Vector3& middle, double area) {
+      const Vector3 cube = ((middle - origin) / spacing).array().floor();
+      Sum& sum = sums[{int(cube.x()), int(cube.y()), int(cube.z()), int(axis), vector[axis] > 0.0}];
+      sum.area += area;
+      sum.moment += area * middle;
+      sum.vector += area / whole * vector;
     });
   }
+  std::vector<SurfacePoint> points;
+  for (const auto& [cube, sum] : sums)
+    points.push_back({sum.moment / sum.area, sum.vector.normalized(), sum.area});
   return points;
 }
 

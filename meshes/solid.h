@@ -34,7 +34,7 @@ class Solid final : public Shape {
   /// Tells solids apart: a digest of vertices, triangles and what is bonded.
   const std::string& content() const { return content_; }
   bool contains(const Vector3& w) const { return tree_->contains(w); }
-  /// surface_points() of one of its surfaces; areas and area normals add up exactly.
+  /// surface_points() of one of its surfaces; areas and their first moments add up exactly.
   std::vector<SurfacePoint> points(ProfileSurface surface, double spacing) const;
 
   double signed_distance(const Vector3& w) const override;

@@ -22,9 +22,10 @@ struct SurfacePoint {
 /// y, none on a mirror plane. Sums of areas are exact, and so are those of z and of the normal
 /// (arcs about the axis, cylinders) and of x² and y² (planes, cones); integrals of other smooth
 /// functions converge at second order. Points run ring by ring away from the pole (`end`: from the
-/// bond outward). Of a solid, facets with edges longer than `spacing` are halved until they are not
-/// and the others stand for themselves, by their middle: sums of areas and of the normal are exact,
-/// and points may lie anywhere. Throws InvalidInput for an invalid geometry and unless R/1000 <=
+/// bond outward). Of a solid, facets with edges longer than `spacing` are halved until they are
+/// not, and what lies in one cube of that size and faces the same way is one point, in its middle:
+/// sums of areas and of first moments are exact, that of the normal where facets are flat, and
+/// points may lie anywhere. Throws InvalidInput for an invalid geometry and unless R/1000 <=
 /// spacing <= R.
 std::vector<SurfacePoint> surface_points(const Geometry& geometry, Surface surface, double spacing);
 

@@ -188,28 +188,36 @@ TEST(SolidCells, SampleTheParticlesOfTheDome) {
   EXPECT_NEAR(count(found) / count(expected), 1.0, 0.02);
 }
 
-TEST(SolidPoints, AddUpToAreaAndNormal) {
-  const Geometry geometry = Geometry::of_solid(
-      std::make_shared<Solid>(joined(fingers::box(low, high), TriangleMesh{}), base));
-  for (const Geometry& body : {geometry, fingers::solid_dome(24, 12)})
+TEST(SolidPoints, AddUpToAreaMomentAndNormal) {
+  const Geometry block = Geometry::of_solid(std::make_shared<Solid>(fingers::box(low, high), base));
+  for (const Geometry& body : {block, fingers::solid_dome()})
     for (const auto surface : {Surface::outer, Surface::bond}) {
-      const double spacing = body.tip_radius / 10;
+      const bool flat = body.solid == block.solid;
+      const double spacing = body.tip_radius / 20;
       double area = 0.0;
-      Vector3 vector = Vector3::Zero(), own = Vector3::Zero();
-      for (const SurfacePoint& point : surface_points(body, surface, spacing)) {
-        EXPECT_LE(point.area, spacing * spacing);
+      Vector3 vector = Vector3::Zero(), own = Vector3::Zero(), moment = own, own_moment = own;
+      const auto points = surface_points(body, surface, spacing);
+      for (const SurfacePoint& point : points) {
+        EXPECT_LE(point.area, 2.0 * spacing * spacing);
         EXPECT_NEAR(point.normal.norm(), 1.0, 1e-12);
-        EXPECT_NEAR(body.solid->signed_distance(point.position), 0.0, 1e-9);
+        EXPECT_NEAR(body.solid->signed_distance(point.position), 0.0, flat ? 1e-9 : 0.05 * spacing);
         area += point.area;
+        moment += point.area * point.position;
         vector += point.area * point.normal;
       }
+      // About as many as of the dome, however many facets there are.
+      EXPECT_LT(double(points.size()), 2.0 * area / (spacing * spacing) + 20.0);
       const Solid& solid = *body.solid;
       for (std::size_t t = 0; t < solid.mesh().triangles.size(); ++t)
-        if (solid.is_bond(t) == (surface == Surface::bond)) own += solid.mesh().area_vector(t);
+        if (solid.is_bond(t) == (surface == Surface::bond)) {
+          own += solid.mesh().area_vector(t);
+          own_moment += solid.mesh().area_vector(t).norm() * solid.mesh().centroid(t);
+        }
       EXPECT_NEAR(area / surface_area(body, surface), 1.0, 1e-12);
-      EXPECT_LT((vector - own).norm(), 1e-12 * area);
+      EXPECT_LT((moment - own_moment).norm(), 1e-12 * area * body.tip_radius);
+      EXPECT_LT((vector - own).norm(), (flat ? 1e-12 : 1e-3) * area);
     }
-  EXPECT_TRUE(surface_points(geometry, Surface::end, 1e-3).empty());
+  EXPECT_TRUE(surface_points(block, Surface::end, 1e-3).empty());
 }
 
 TEST(Solid, FindsItsThinnestWall) {

@@ -415,7 +415,7 @@ TEST(IdentityOfAJob, KnowsASolidByItsContent) {
   EXPECT_TRUE(base);
   EXPECT_EQ(identity_of(press, sets("same.stl")), base);
   for (const Sets& other : {sets("other.stl"), sets("a.stl", {"geometry.bond=z < 2 mm"}),
-                            sets("a.stl", {"geometry.unit=inch", "geometry.bond=z < 1 inch"}),
+                            sets("a.stl", {"geometry.unit=cm", "geometry.bond=z < 1 cm"}),
                             sets("a.stl", {"geometry.endpoint=-1 mm"})}) {
     EXPECT_TRUE(identity_of(press, other)) << other.back();
     EXPECT_NE(identity_of(press, other), base) << other.back();
