@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <queue>
+#include <set>
 #include <utility>
 
 #include "meshes/files.h"
@@ -23,8 +24,11 @@ constexpr double in_plane = 1e-9;
 /// Two places are of one wall when the way between them along the surface is this many times
 /// longer than through the rubber (as of a Meridian).
 constexpr double far_along = 4.0;
-/// Rays that measure the wall start this share of the largest radius apart, or closer.
-constexpr double rays_apart = 0.125;
+/// A wall is measured once in each part of the surface, of this share of the largest radius; there
+/// are about so many parts at most, and with more facets ways along the surface lead over parts.
+constexpr double part_size = 0.125;
+constexpr double most_parts = 2000.0;
+constexpr std::size_t many_facets = 2000;
 /// The cap whose area tells the curvature at the pole, over the height of the pole above the bond.
 constexpr double cap_height = 0.05;
 
@@ -163,6 +167,80 @@ Vector3 crossing(const Vector3& a, const Vector3& b, const Vector3& from, const 
   return at(0.5 * (low + high));
 }
 
+/// Facets in one cube of space that face the same way, within 55 degrees.
+class SurfaceParts {
+ public:
+  SurfaceParts(const TriangleMesh& mesh, const std::vector<std::array<std::size_t, 3>>& neighbours,
+               double area, double radius)
+      : size_(std::max(part_size * radius, std::sqrt(area / most_parts))) {
+    std::vector<double> areas;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Vector3 vector = mesh.area_vector(t);
+      const double own = vector.norm();
+      part_of_.push_back(part_at(mesh.centroid(t), vector));
+      if (part_of_.back() >= areas.size()) {
+        areas.resize(part_of_.back() + 1, 0.0);
+        centres_.resize(areas.size(), Vector3::Zero());
+      }
+      areas[part_of_.back()] += own;
+      centres_[part_of_.back()] += own * mesh.centroid(t);
+    }
+    for (std::size_t p = 0; p < areas.size(); ++p)
+      if (areas[p] > 0.0) centres_[p] /= areas[p];
+    next_.resize(areas.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (const std::size_t other : neighbours[t])
+        if (part_of_[t] != part_of_[other]) next_[part_of_[t]].insert(part_of_[other]);
+  }
+
+  double size() const { return size_; }
+
+  /// The part of a place where the surface has this normal, numbered when it is asked for first.
+  std::size_t part_at(const Vector3& w, const Vector3& normal) {
+    return numbers_.try_emplace(key_of(w, normal, size_), numbers_.size()).first->second;
+  }
+
+  /// Length of the way along the surface, by the parts' middles, or a length beyond `enough` [m].
+  double way(std::size_t from, std::size_t to, const Vector3& start, const Vector3& end,
+             double enough) const {
+    using Place = std::pair<double, std::size_t>;  // with the least that is still to come
+    std::map<std::size_t, double> so_far{{part_of_[from], 0.0}};
+    std::priority_queue<Place, std::vector<Place>, std::greater<>> open;
+    open.emplace((start - end).norm(), part_of_[from]);
+    while (!open.empty()) {
+      const auto [least, part] = open.top();
+      open.pop();
+      if (least > enough || part == part_of_[to]) return least;
+      const Vector3& here = part == part_of_[from] ? start : centres_[part];
+      const double until = so_far.at(part);
+      for (const std::size_t other : next_[part]) {
+        const double further = until + (centres_[other] - here).norm();
+        const auto [known, is_new] = so_far.try_emplace(other, further);
+        if (!is_new && known->second <= further) continue;
+        known->second = further;
+        open.emplace(further + (centres_[other] - end).norm(), other);
+      }
+    }
+    return std::numeric_limits<double>::infinity();  // a cavity's wall
+  }
+
+  using Key = std::array<int, 5>;
+  static Key key_of(const Vector3& w, const Vector3& normal, double size) {
+    // Planes at round heights stay whole.
+    const Vector3 cube = (w / size - Vector3::Constant(0.38)).array().floor();
+    Eigen::Index axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    return {int(cube.x()), int(cube.y()), int(cube.z()), int(axis), normal[axis] > 0.0};
+  }
+
+ private:
+  double size_;
+  std::map<Key, std::size_t> numbers_;
+  std::vector<std::size_t> part_of_;
+  std::vector<Vector3> centres_;
+  std::vector<std::set<std::size_t>> next_;
+};
+
 /// Projected on the plane z = 0, of the part above a height: [m²], positive where it faces up.
 double shadow_above(const Triangle& corners, double height) {
   std::vector<Vector3> polygon;
@@ -271,29 +349,26 @@ double Solid::reach(double tilt) const {
 }
 
 std::vector<SurfacePoint> Solid::points(ProfileSurface surface, double spacing) const {
-  // Patches in one cube of space that face the same way, within 55 degrees, are one.
+  // Half the spacing: the middle of a bent patch lies within the rubber.
+  const double size = 0.5 * spacing;
   struct Sum {
     double area = 0.0;
     Vector3 moment = Vector3::Zero(), vector = Vector3::Zero();
   };
-  std::map<std::array<int, 5>, Sum> sums;
-  const Vector3 origin = spacing * Vector3::Constant(0.38);  // planes at round heights stay whole
+  std::map<SurfaceParts::Key, Sum> sums;
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     const Vector3 vector = mesh_.area_vector(t);
     const double whole = vector.norm();
     if (!is(surface, t) || whole == 0.0) continue;
-    Eigen::Index axis = 0;
-    vector.cwiseAbs().maxCoeff(&axis);
     for_each_patch(corners_of(mesh_, t), spacing, whole, [&](const Vector3& middle, double area) {
-      const Vector3 cube = ((middle - origin) / spacing).array().floor();
-      Sum& sum = sums[{int(cube.x()), int(cube.y()), int(cube.z()), int(axis), vector[axis] > 0.0}];
+      Sum& sum = sums[SurfaceParts::key_of(middle, vector, size)];
       sum.area += area;
       sum.moment += area * middle;
       sum.vector += area / whole * vector;
     });
   }
   std::vector<SurfacePoint> points;
-  for (const auto& [cube, sum] : sums)
+  for (const auto& [key, sum] : sums)
     points.push_back({sum.moment / sum.area, sum.vector.normalized(), sum.area});
   return points;
 }
@@ -305,22 +380,32 @@ double Solid::wall() const {
 
 double Solid::thinnest() const {
   const double bound = pole_ - bond_top_;
-  std::vector<WallRay> rays;
+  SurfaceParts parts(mesh_, neighbours_, contact_area_ + bond_area_, radius_);
+  // Of each part the shortest way through the rubber.
+  std::map<std::size_t, WallRay> shortest;
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     const Vector3 vector = mesh_.area_vector(t);
     if (is_bond(t) || vector.norm() == 0.0) continue;
     const Vector3 inward = -vector.normalized();
-    for_each_patch(corners_of(mesh_, t), rays_apart * radius_, 0.0,
-                   [&](const Vector3& start, double) {
-                     const auto hit = tree_->first_on_ray(start, inward, t);
-                     if (hit && hit->distance < bound)
-                       rays.push_back({hit->distance, t, hit->triangle, start, hit->position});
-                   });
+    for_each_patch(corners_of(mesh_, t), parts.size(), 0.0, [&](const Vector3& start, double) {
+      const auto hit = tree_->first_on_ray(start, inward, t);
+      if (!hit || hit->distance >= bound) return;
+      const WallRay ray{hit->distance, t, hit->triangle, start, hit->position};
+      const auto [known, is_new] = shortest.try_emplace(parts.part_at(start, vector), ray);
+      if (!is_new && ray.depth < known->second.depth) known->second = ray;
+    });
   }
+  std::vector<WallRay> rays;
+  for (const auto& [part, ray] : shortest) rays.push_back(ray);
   std::ranges::sort(rays, {}, &WallRay::depth);
   // Near an edge rubber runs out in a wedge, which is no wall.
+  const bool coarsely = mesh_.triangles.size() > many_facets;
   for (const WallRay& ray : rays)
-    if (apart(ray)) return ray.depth;
+    if (coarsely && ray.depth > parts.size()
+            ? parts.way(ray.from, ray.to, ray.start, ray.end, far_along * ray.depth) >
+                  far_along * ray.depth
+            : apart(ray))
+      return ray.depth;
   return bound;
 }
 

@@ -206,7 +206,7 @@ TEST(SolidPoints, AddUpToAreaMomentAndNormal) {
         vector += point.area * point.normal;
       }
       // About as many as of the dome, however many facets there are.
-      EXPECT_LT(double(points.size()), 2.0 * area / (spacing * spacing) + 20.0);
+      EXPECT_LT(double(points.size()), 8.0 * area / (spacing * spacing) + 20.0);
       const Solid& solid = *body.solid;
       for (std::size_t t = 0; t < solid.mesh().triangles.size(); ++t)
         if (solid.is_bond(t) == (surface == Surface::bond)) {
