@@ -70,8 +70,8 @@ TEST(CadFile, DomeOfAStepFileIsTheDome) {
   const auto expected = lattice::run_static_press(setup).response.samples();
   setup.geometry = geometry;
   const auto found = lattice::run_static_press(setup).response.samples();
-  // Measured: 0.12 % to 0.18 % low. Of that the chords make little (174 000 facets: 0.12 % at 1 mm);
-  // where in the few touching cells the points lie makes the rest.
+  // Measured: 0.12 % to 0.18 % low. Of that the chords make little (174 000 facets: 0.12 % at 1
+  // mm); where in the few touching cells the points lie makes the rest.
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i].normal_force / expected[i].normal_force, 1.0, 2e-3)
         << geometry.solid->mesh().triangles.size() << " facets";
