@@ -99,7 +99,8 @@ void FreeUnknowns::turn(SymmetricMatrix& matrix) const {
     Eigen::MatrixXd rows(Eigen::Index(numbers.size()), entries);
     for (std::size_t k = 0; k < numbers.size(); ++k) {
       if (start[numbers[k] + 1] - start[numbers[k]] != entries)
-        throw std::logic_error("the unknowns of a node on the contact surface differ in neighbours");
+        throw std::logic_error(
+            "the unknowns of a node on the contact surface differ in neighbours");
       rows.row(Eigen::Index(k)) =
           Eigen::Map<Eigen::RowVectorXd>(matrix.valuePtr() + start[numbers[k]], entries);
     }

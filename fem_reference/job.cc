@@ -179,11 +179,16 @@ std::vector<Violation> ReferenceJob::violations() const {
                  "the symmetry"
                : "vibrations leave the meridian: they need the solid",
          "choose reference.symmetry = \"automatic\""});
-  if (!geometry.is_dome() && !axisymmetric() && analysis != Analysis::verification)
+  if (geometry.solid && analysis != Analysis::verification)
+    broken.push_back({"geometry.shape", "solid",
+                      "the continuum does not know solids of any shape yet",
+                      "press it by the lattice, or describe a body of revolution by its profile"});
+  else if (!geometry.is_dome() && !axisymmetric() && analysis != Analysis::verification)
     broken.push_back(
         {"geometry.shape", "profile",
          press && symmetry != Symmetry::none
-             ? "the continuum presses a profile along its axis: no tilt, no lateral motion, a plane "
+             ? "the continuum presses a profile along its axis: no tilt, no lateral motion, a "
+               "plane "
                "or a sphere on the axis"
              : "the continuum knows a profile by its meridian, not as a solid",
          "take the dome, or press along the axis with reference.symmetry = \"automatic\""});

@@ -1,4 +1,5 @@
 /// fingertip-fem RUN_FOLDER: carries out the reference job in RUN_FOLDER/job.json.
+/// fingertip-fem --triangles CAD STL: the surface of a CAD solid.
 #include <deal.II/base/mpi.h>
 
 #include <malloc.h>
@@ -11,6 +12,7 @@
 #include <sstream>
 
 #include "fem_reference/run.h"
+#include "meshes/cad_surface.h"
 #include "meshes/errors.h"
 
 namespace {
@@ -57,6 +59,20 @@ int carry_out(const char* folder) {
 
 }  // namespace
 
+/// Without the continuum: what a configuration's geometry.file is, seen as triangles.
+int write_triangles(const char* cad, const char* stl) {
+  try {
+    fingertip::meshes::write_cad_surface(cad, stl);
+    return ok;
+  } catch (const fingertip::meshes::InvalidInput& error) {
+    std::cerr << error.what() << '\n';
+    return bad_input;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return failure;
+  }
+}
+
 /// Matrices come and go in every Newton iteration; giving their pages back to the system and taking
 /// them again cost a third of the time.
 void keep_freed_memory() {
@@ -78,10 +94,14 @@ void start_without_network() {
 int main(int argc, char** argv) {
   keep_freed_memory();
   start_without_network();
+  if (argc == 4 && std::strcmp(argv[1], "--triangles") == 0)
+    return write_triangles(argv[2], argv[3]);
   if (argc != 2 || std::strcmp(argv[1], "--help") == 0) {
     std::cerr
         << "usage: fingertip-fem RUN_FOLDER\n"
-           "Presses the continuum as RUN_FOLDER/job.json says and writes the results beside it.\n";
+           "Presses the continuum as RUN_FOLDER/job.json says and writes the results beside it.\n"
+           "       fingertip-fem --triangles CAD_FILE STL_FILE\n"
+           "Writes the surface of a solid in a STEP or BREP file as triangles.\n";
     return argc == 2 ? ok : bad_input;
   }
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);

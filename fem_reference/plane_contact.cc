@@ -115,8 +115,8 @@ PlaneContact::Facing PlaneContact::facing(const meshes::Vector3& rest,
   const meshes::Vector3 out(0.0, 0.0, -1.0);
   const double over = pose.height - rest.z() - displacement.z();
   if (!curved()) return {over - height(obstacle_, {rest.x() - pose.shift, rest.y(), 0.0}), out};
-  const auto found = hit(obstacle_, {rest.x() + displacement.x() - pose.shift,
-                                     rest.y() + displacement.y(), over});
+  const auto found =
+      hit(obstacle_, {rest.x() + displacement.x() - pose.shift, rest.y() + displacement.y(), over});
   return {found.gap, {found.normal[0], found.normal[1], -found.normal[2]}};
 }
 

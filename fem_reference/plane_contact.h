@@ -12,8 +12,8 @@
 
 namespace fingertip::fem_reference {
 
-/// Where the plane is: z >= height is behind it; it has moved along x by `shift`. The obstacle's top
-/// lies in it. Plane axes [m].
+/// Where the plane is: z >= height is behind it; it has moved along x by `shift`. The obstacle's
+/// top lies in it. Plane axes [m].
 struct PlanePose {
   double height = 0.0;
   double shift = 0.0;

@@ -220,8 +220,7 @@ void TipPress<dim>::note_indicators(PressState& state) {
 
   std::map<long, bool> touches;
   for (std::size_t i = 0; i < contact_->status().size(); ++i)
-    touches[contact_->unknowns().nodes[i].unknown[2]] =
-        contact_->status()[i] != NodeStatus::open;
+    touches[contact_->unknowns().nodes[i].unknown[2]] = contact_->status()[i] != NodeStatus::open;
   const double edge = half_width();
   std::vector<dealii::types::global_dof_index> indices(body_->fine.element.n_dofs_per_cell());
   for (const auto& cell : body_->fine.dofs.active_cell_iterators()) {

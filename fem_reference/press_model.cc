@@ -74,9 +74,9 @@ void TipPress<dim>::prepare() {
       within_reach(outer_nodes_, job_.protocol, touch_, bulge * job_.protocol.samples.back()),
       curved || job_.protocol.contact != ContactMode::frictionless);
   solver_ = make_solver(candidates.unknowns);
-  contact_ = std::make_unique<PlaneContact>(
-      std::move(candidates), job_.protocol.contact, pose(0.0), job_.protocol.friction,
-      job_.rubber.shear_modulus, job_.protocol.obstacle, job_.strain == Strain::finite);
+  contact_ = std::make_unique<PlaneContact>(std::move(candidates), job_.protocol.contact, pose(0.0),
+                                            job_.protocol.friction, job_.rubber.shear_modulus,
+                                            job_.protocol.obstacle, job_.strain == Strain::finite);
   place_ = 0.0;
   displacement_.reinit(body_->fine.vector());
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);
@@ -139,8 +139,7 @@ Eigen::VectorXd TipPress<dim>::at_contact(const Vector& field) const {
 template <int dim>
 double TipPress<dim>::residual(const Vector& displacement, const PlanePose& target) {
   assemble_force(*body_, *kernel_, displacement, *system_);
-  off_surface_ =
-      contact_->curved() ? contact_->linearise(at_contact(displacement), target) : 0.0;
+  off_surface_ = contact_->curved() ? contact_->linearise(at_contact(displacement), target) : 0.0;
   Vector out_of_balance = system_->force;
   const Eigen::VectorXd left = contact_->out_of_balance(at_contact(system_->force));
   const std::vector<long>& unknowns = contact_->unknowns().unknowns;
@@ -241,9 +240,9 @@ void TipPress<dim>::check_other_nodes(double place) const {
     if (contact_->gap(outer_nodes_[i].position, moved[i], plane) < deep)
       throw meshes::NotConverged(
           "the rubber rises through the " + std::string(name(job_.protocol.obstacle.shape)) +
-              " far beside the contact at an indentation of " +
-          meshes::to_text(at.indentation) + " m and a lateral displacement of " +
-          meshes::to_text(at.lateral) + " m; press less deep or move less far");
+          " far beside the contact at an indentation of " + meshes::to_text(at.indentation) +
+          " m and a lateral displacement of " + meshes::to_text(at.lateral) +
+          " m; press less deep or move less far");
 }
 
 template <int dim>

@@ -102,7 +102,7 @@ class TipPress final : public PressModel {
   std::unique_ptr<PlaneContact> contact_;
   std::vector<SurfaceNode> outer_nodes_;
   LinearSolver solver_kind_ = LinearSolver::automatic;
-  Vector displacement_;  ///< of the last converged step
+  Vector displacement_;       ///< of the last converged step
   double off_surface_ = 0.0;  ///< [m]
   /// Where a sample asks for smaller elements, per local cell.
   struct Marks {

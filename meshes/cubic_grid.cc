@@ -3,10 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "meshes/files.h"
-#include "meshes/meridian.h"
+#include "meshes/shape.h"
 
 namespace fingertip::meshes {
 
@@ -66,13 +65,13 @@ CubicGrid covering_grid(const Geometry& geometry, double spacing, const Vector3&
 
 std::vector<std::uint8_t> sample_particles(const Geometry& geometry, const CubicGrid& grid) {
   const double tolerance = 1e-9 * geometry.tip_radius;
-  std::optional<Meridian> meridian;
-  if (!geometry.is_dome()) meridian.emplace(geometry);
+  const auto shape = geometry.is_dome() ? nullptr : shape_of(geometry);
   const auto contains = [&](const Vector3& w) {
-    if (!meridian) return geometry.contains(w, tolerance);
+    if (!shape) return geometry.contains(w, tolerance);
     // As of the dome: what lies on the surface belongs to it, but not on the bond.
-    return meridian->signed_distance(w) <= tolerance &&
-           meridian->nearest(ProfileSurface::bond, w).distance > tolerance;
+    const double distance = shape->signed_distance(w);
+    return distance <= -tolerance ||
+           (distance <= tolerance && shape->nearest(ProfileSurface::bond, w).distance > tolerance);
   };
   std::vector<std::uint8_t> inside(grid.points(), 0);
   for (int k = 0; k < grid.size[2]; ++k) {

@@ -8,6 +8,7 @@
 #include "meshes/files.h"
 #include "meshes/revolved_cells.h"
 #include "meshes/smoothed_gauss.h"
+#include "meshes/solid_cells.h"
 
 // On a grid along the axis: revolved_cells.h. On a turned one, of the dome, a cell's integral is
 // three nested ones. Along the innermost direction a line meets the boundary (spheres, cylinders,
@@ -282,8 +283,8 @@ std::array<double, 8> Cell::moments() {
 
 void check_cells(const Geometry& geometry, const CubicGrid& grid, double smallest_fraction) {
   auto found = geometry.violations();
-  if (!geometry.is_dome() && !along_axes(grid)) {
-    found.push_back({"lattice.rotation", "", "only the dome can be cut by a turned grid",
+  if (!geometry.profile.empty() && !along_axes(grid)) {
+    found.push_back({"lattice.rotation", "", "a profile cannot be cut by a turned grid",
                      "leave the lattice unturned, or take geometry.shape = \"dome\""});
   }
   if (!(smallest_fraction >= 0.0 && smallest_fraction < 1.0)) {
@@ -299,6 +300,7 @@ void check_cells(const Geometry& geometry, const CubicGrid& grid, double smalles
 std::vector<CutCell> cut_cells(const Geometry& geometry, const CubicGrid& grid,
                                double smallest_fraction) {
   check_cells(geometry, grid, smallest_fraction);
+  if (geometry.solid) return solid_cells(*geometry.solid, grid, smallest_fraction);
   const std::array<double, 8> cube{1.0, 0.5, 0.5, 0.25, 0.5, 0.25, 0.25, 0.125};
   const double reach = 0.5 * std::numbers::sqrt3 * grid.spacing;
   const double round_off = 1e-12;

@@ -8,6 +8,7 @@
 #include "meshes/geometry.h"
 #include "meshes/press_protocol.h"
 #include "meshes/rubber.h"
+#include "meshes/solid.h"
 
 namespace fingertip::meshes {
 
@@ -19,13 +20,16 @@ concept Fields = std::same_as<std::remove_const_t<T>, Settings>;
 /// The bindings name every member, so that a new one that is not visited does not compile.
 template <Fields<Geometry> T>
 void visit_fields(T& geometry, auto&& visit) {
-  auto& [tip_radius, rod_radius, sleeve_length, rod_length, profile] = geometry;
+  auto& [tip_radius, rod_radius, sleeve_length, rod_length, profile, solid] = geometry;
   visit("tip_radius", tip_radius, "m");
   visit("rod_radius", rod_radius, "m");
   visit("sleeve_length", sleeve_length, "m");
   visit("rod_length", rod_length, "m");
   // Files of a dome need not name what it has not.
   if (!std::is_const_v<T> || !profile.empty()) visit("profile", profile, "");
+  // Told by its digest, from which nobody can read it back.
+  if constexpr (std::is_const_v<T>)
+    if (solid) visit("solid", solid->content(), "");
 }
 
 template <Fields<ProfileCorner> T>

@@ -9,6 +9,7 @@
 
 #include "meshes/files.h"
 #include "meshes/meridian.h"
+#include "meshes/solid.h"
 
 namespace fingertip::meshes {
 
@@ -21,22 +22,45 @@ std::string_view name(Surface surface) {
   return "";
 }
 
+namespace {
+
+/// The lengths of another shape than the dome.
+void take_lengths(const Shape& shape, std::optional<double> endpoint, Geometry& geometry) {
+  geometry.tip_radius = shape.largest_radius();
+  geometry.rod_radius = shape.bond_radius();
+  geometry.sleeve_length = -shape.lowest();
+  geometry.rod_length = -endpoint.value_or(shape.lowest());
+}
+
+}  // namespace
+
 Geometry Geometry::of_profile(std::vector<ProfileCorner> corners, std::optional<double> endpoint) {
   Geometry geometry;
   geometry.profile = std::move(corners);
-  const Meridian meridian(geometry);
-  geometry.tip_radius = meridian.largest_radius();
-  geometry.rod_radius = 0.0;
-  for (const MeridianPiece& piece : meridian.pieces())
-    if (piece.surface() == ProfileSurface::bond)
-      geometry.rod_radius = std::max({geometry.rod_radius, piece.from().x(), piece.to().x()});
-  geometry.sleeve_length = -meridian.lowest();
-  geometry.rod_length = -endpoint.value_or(meridian.lowest());
+  take_lengths(Meridian(geometry), endpoint, geometry);
   return geometry;
+}
+
+Geometry Geometry::of_solid(std::shared_ptr<const Solid> solid, std::optional<double> endpoint) {
+  Geometry geometry;
+  geometry.solid = std::move(solid);
+  take_lengths(*geometry.solid, endpoint, geometry);
+  return geometry;
+}
+
+std::string_view Geometry::shape_name() const {
+  if (solid) return "solid";
+  return profile.empty() ? "dome" : "profile";
+}
+
+std::shared_ptr<const Shape> shape_of(const Geometry& geometry) {
+  if (geometry.solid) return geometry.solid;
+  return std::make_shared<Meridian>(geometry);
 }
 
 double Geometry::pole() const {
   if (is_dome()) return tip_radius;
+  if (solid) return solid->pole();
   double top = lowest();
   for (const ProfileCorner& corner : profile)
     if (corner.r == 0.0) top = std::max(top, corner.z);
@@ -44,11 +68,12 @@ double Geometry::pole() const {
 }
 
 double Geometry::reach(double tilt) const {
-  return is_dome() ? tip_radius : Meridian(*this).reach(tilt);
+  return is_dome() ? tip_radius : shape_of(*this)->reach(tilt);
 }
 
 double Geometry::thickness() const {
   if (is_dome()) return tip_radius - rod_radius;
+  if (solid) return solid->pole() - solid->bond_top();
   double held = lowest();
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const ProfileCorner &corner = profile[i], &next = profile[(i + 1) % profile.size()];
@@ -66,15 +91,17 @@ double Geometry::thickness() const {
 }
 
 double Geometry::coarsest_spacing() const {
-  // A wall is known to round-off.
-  return is_dome() ? 0.5 * thickness() : 0.25 * (1.0 + 1e-9) * Meridian(*this).wall();
+  if (is_dome()) return 0.5 * thickness();
+  // A wall is known to round-off, or as well as facets stand for the surface.
+  constexpr double round_off = 1e-9, facets = 0.02;
+  return 0.25 * (1.0 + (solid ? facets : round_off)) * shape_of(*this)->wall();
 }
 
 std::vector<Violation> Geometry::violations() const {
   std::vector<Violation> found;
   if (!is_dome()) {
     try {
-      const Meridian meridian(*this);
+      shape_of(*this);
     } catch (const InvalidInput& error) {
       found = error.violations();
     }
@@ -138,7 +165,7 @@ bool Geometry::contains(const Vector3& w, double tolerance) const {
 }
 
 double Geometry::tip_volume() const {
-  if (!is_dome()) return Meridian(*this).volume();
+  if (!is_dome()) return shape_of(*this)->volume();
   const auto cube = [](double x) { return x * x * x; };
   const auto square = [](double x) { return x * x; };
   return std::numbers::pi * (2.0 / 3.0 * (cube(tip_radius) - cube(rod_radius)) +

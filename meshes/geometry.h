@@ -1,13 +1,15 @@
-/// The deformable finger: the dome of Reznik & Laugier (1996), Fig. 1, or a body of revolution.
+/// The deformable finger: the dome of Reznik & Laugier (1996), Fig. 1, a body of revolution, or a
+/// solid.
 ///
 /// The dome is a rigid rod (cylinder and hemisphere of radius r) inside a rubber tip (hemispherical
 /// shell and sleeve, outer radius R). Frame: the common centre of both hemispheres is the origin,
 /// the axis is z, the pole of the tip is (0, 0, R), the sleeve ends at z = -L and the rod's
-/// endpoint, held by the robot, is (0, 0, -l). A profile has its own heights; its axis is z, too,
-/// and its pole, the highest point, touches first.
+/// endpoint, held by the robot, is (0, 0, -l). Profiles and solids have their own heights; their
+/// axis is z, too, and the pole, the highest point, touches first.
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,8 @@ namespace fingertip::meshes {
 
 using Vector3 = Eigen::Vector3d;
 
+class Solid;
+
 /// The three parts of the tip's boundary.
 enum class Surface {
   outer,  ///< |w| = R (z >= 0) and rho = R (z < 0): free or in contact
@@ -27,7 +31,7 @@ enum class Surface {
 
 std::string_view name(Surface surface);
 
-/// What a piece of a profile is.
+/// What a piece of a profile or a facet of a solid is; a solid knows contact and bond.
 enum class ProfileSurface {
   contact,  ///< may touch
   bond,     ///< held rigidly by the hand
@@ -51,22 +55,29 @@ struct ProfileCorner {
   double centre_r = 0.0, centre_z = 0.0;  ///< of an arc
 };
 
-/// Lengths in metres. Those of a profile follow from it: `of_profile`.
+/// Lengths in metres. Those of another shape than the dome follow from it: `of_profile`,
+/// `of_solid`.
 struct Geometry {
-  double tip_radius = 0.010;  ///< R, outer radius of the rubber; of a profile its largest [m]
+  double tip_radius = 0.010;  ///< R, outer radius of the rubber; of another shape its largest [m]
   double rod_radius =
-      0.005;  ///< r, radius of the rod, 0 < r < R; of a profile that of the bond [m]
-  /// L, length of the sleeve below the hemisphere, L >= 0; minus a profile's lowest height [m]
+      0.005;  ///< r, radius of the rod, 0 < r < R; of another shape that of the bond [m]
+  /// L, length of the sleeve below the hemisphere, L >= 0; minus another shape's lowest height [m]
   double sleeve_length = 0.015;
-  /// l, distance from the centre to the rod's endpoint, l >= L; minus a profile's endpoint [m]
+  /// l, distance from the centre to the rod's endpoint, l >= L; minus another shape's endpoint [m]
   double rod_length = 0.030;
-  std::vector<ProfileCorner> profile = {};  ///< empty: the dome
+  std::vector<ProfileCorner> profile = {};       ///< of a body of revolution, else empty
+  std::shared_ptr<const Solid> solid = nullptr;  ///< of a solid, else null
 
   /// The body of revolution with this meridian; force and torque are told at the height `endpoint`
   /// of the axis, by default the lowest. Throws InvalidInput (Meridian).
   static Geometry of_profile(std::vector<ProfileCorner> corners,
                              std::optional<double> endpoint = std::nullopt);
-  bool is_dome() const { return profile.empty(); }
+  /// The solid's finger, in the same way.
+  static Geometry of_solid(std::shared_ptr<const Solid> solid,
+                           std::optional<double> endpoint = std::nullopt);
+  bool is_dome() const { return profile.empty() && !solid; }
+  /// The word of geometry.shape: dome, profile or solid.
+  std::string_view shape_name() const;
 
   /// Every rule this geometry breaks; empty when it is valid.
   std::vector<Violation> violations() const;
@@ -75,7 +86,7 @@ struct Geometry {
   static double radial_distance(const Vector3& w);
 
   /// Of the dome: signed distance to the tip's boundary [m], negative inside the rubber, exact
-  /// everywhere. Of any shape: Meridian.
+  /// everywhere. Of any shape: shape_of().
   double signed_distance(const Vector3& w) const;
 
   /// Of the dome. Membership in the paper's set P (section II.C): r < |w| <= R for z >= 0,
@@ -89,14 +100,14 @@ struct Geometry {
   /// Height of the pole, which touches first [m].
   double pole() const;
   /// How far the surface that may touch reaches along the axis turned by `tilt` [rad], from the
-  /// origin [m]: R of a dome, the pole of a profile at tilt 0.
+  /// origin [m]: R of a dome, the pole of another shape at tilt 0.
   double reach(double tilt) const;
   /// Lowest height of the rubber [m].
   double lowest() const { return -sleeve_length; }
-  /// Rubber between the pole and what is held: R - r, of a profile the height of the pole over the
-  /// highest corner of the bond [m].
+  /// Rubber between the pole and what is held: R - r, of another shape the height of the pole over
+  /// the highest place of the bond [m].
   double thickness() const;
-  /// Coarsest grid [m]: two cells through the dome's rubber, four through a profile's thinnest
+  /// Coarsest grid [m]: two cells through the dome's rubber, four through another shape's thinnest
   /// wall.
   double coarsest_spacing() const;
 

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
-#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <limits>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "meshes/files.h"
+#include "meshes/peak.h"
 
 namespace fingertip::meshes {
 namespace {
@@ -35,24 +35,6 @@ constexpr double no_length = 1e-9;
 
 std::string place(const Vector2& corner) {
   return "(r, z) = (" + to_text(1e3 * corner.x()) + ", " + to_text(1e3 * corner.y()) + ") mm";
-}
-
-struct Peak {
-  double at, value;
-};
-
-/// The largest of the values on an interval, found from equal steps and then between them.
-Peak peak(double low, double high, int steps, auto&& value) {
-  Peak best{low, value(low)};
-  const double step = (high - low) / steps;
-  for (int i = 1; i <= steps; ++i) {
-    const double at = low + i * step, found = value(at);
-    if (found > best.value) best = {at, found};
-  }
-  const auto [at, least] = boost::math::tools::brent_find_minima(
-      [&](double t) { return -value(t); }, std::max(low, best.at - step),
-      std::min(high, best.at + step), std::numeric_limits<double>::digits);
-  return -least > best.value ? Peak{at, -least} : best;
 }
 
 [[noreturn]] void refuse(std::size_t corner, const Vector2& at, const std::string& rule,
@@ -338,6 +320,14 @@ void Meridian::measure() {
            "turn the finger so that it points along +z");
 }
 
+double Meridian::bond_radius() const {
+  double radius = 0.0;
+  for (const MeridianPiece& piece : pieces_)
+    if (piece.surface() == ProfileSurface::bond)
+      radius = std::max({radius, piece.from().x(), piece.to().x()});
+  return radius;
+}
+
 double Meridian::pole_radius() const {
   for (const MeridianPiece& piece : pieces_) {
     const bool ends = piece.to().x() == 0.0 && piece.to().y() == pole_;
@@ -457,13 +447,11 @@ NearestPoint Meridian::nearest(ProfileSurface surface, const Vector3& w) const {
 double Meridian::reach(double tilt) const {
   if (tilt == 0.0) return pole_;
   const double across = std::sin(tilt), up = std::cos(tilt);
-  return highest(ProfileSurface::contact, false, [&](const Vector3& w) {
-           return across * w.x() + up * w.z();
-         }).height;
+  const auto height = [&](const Vector3& w) { return across * w.x() + up * w.z(); };
+  return highest(ProfileSurface::contact, {height}).height;
 }
 
-HighestPlace Meridian::highest(ProfileSurface surface, bool revolved,
-                               const std::function<double(const Vector3&)>& height) const {
+HighestPlace Meridian::highest(ProfileSurface surface, const HeightOf& height) const {
   HighestPlace best;
   for (const MeridianPiece& piece : pieces_) {
     if (piece.surface() != surface) continue;
@@ -472,11 +460,11 @@ HighestPlace Meridian::highest(ProfileSurface surface, bool revolved,
       return Vector3(at.x() * std::cos(angle), at.x() * std::sin(angle), at.y());
     };
     const auto along = [&](double angle) {
-      return peak(0.0, 1.0, chords, [&](double t) { return height(place(t, angle)); });
+      return peak(0.0, 1.0, chords, [&](double t) { return height.at(place(t, angle)); });
     };
-    const Peak around = revolved ? Peak{0.0, 0.0} : peak(0.0, pi, chords, [&](double angle) {
-      return along(angle).value;
-    });
+    const Peak around =
+        height.revolved ? Peak{0.0, 0.0}
+                        : peak(0.0, pi, chords, [&](double angle) { return along(angle).value; });
     const Peak found = along(around.at);
     if (found.value > best.height) best = {found.value, place(found.at, around.at)};
   }
@@ -533,6 +521,7 @@ std::vector<std::vector<Vector2>> held_outlines(const Geometry& geometry, int po
   const double low = geometry.lowest();
   std::vector<std::vector<Vector2>> outlines{
       {{0.0, low - 2.0 * r}, {r, low - 2.0 * r}, {r, low}, {0.0, low}}};
+  if (geometry.solid) return outlines;  // its bond is no curve
   const Meridian meridian(geometry);
   for (const MeridianPiece& piece : meridian.pieces()) {
     if (piece.surface() != ProfileSurface::bond) continue;

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "meshes/files.h"
-#include "meshes/meridian.h"
+#include "meshes/shape.h"
 
 namespace fingertip::meshes {
 
@@ -22,12 +23,13 @@ Vector3 seen(const Vector3& w, double tilt) {
 
 /// Where a surface first meets the obstacle, and how far the plane of its top is then from the
 /// origin.
-HighestPlace first_place(const Meridian& meridian, ProfileSurface surface, double tilt,
+HighestPlace first_place(const Shape& finger, ProfileSurface surface, double tilt,
                          const Obstacle& obstacle) {
-  return meridian.highest(surface, tilt == 0.0 && obstacle.on_axis(), [&](const Vector3& w) {
+  const auto top = [&](const Vector3& w) {
     const Vector3 at = seen(w, tilt);
     return at.z() + height(obstacle, at);
-  });
+  };
+  return finger.highest(surface, {top, tilt == 0.0 && obstacle.on_axis()});
 }
 
 }  // namespace
@@ -68,8 +70,7 @@ Eigen::Matrix3d curvature(const Obstacle& obstacle, const Vector3& place) {
   const Vector3 bends(form.across_x, form.across_y, 1.0);
   const Vector3 from_centre(form.across_x * (place.x() - form.offset_x), form.across_y * place.y(),
                             place.z() + form.radius);
-  const bool on_face =
-      form.edge && std::abs(from_centre.x() + from_centre.y()) > from_centre.z();
+  const bool on_face = form.edge && std::abs(from_centre.x() + from_centre.y()) > from_centre.z();
   if (form.flat || on_face) return Eigen::Matrix3d::Zero();
   return (Eigen::Matrix3d(bends.asDiagonal()) - normal * normal.transpose()) / from_centre.norm();
 }
@@ -114,9 +115,16 @@ ObstacleMesh obstacle_mesh(const Obstacle& obstacle, double half) {
   return mesh;
 }
 
+double relative_radius(const Shape& shape, const Obstacle& obstacle) {
+  const double own = shape.pole_radius();
+  if (obstacle.is_plane()) return own;
+  const double across = own * obstacle.radius / (own + obstacle.radius);
+  return obstacle.shape == ObstacleShape::sphere ? across : std::sqrt(across * own);
+}
+
 double first_touch(const Geometry& geometry, double tilt, const Obstacle& obstacle) {
   if (obstacle.is_plane()) return geometry.reach(tilt);
-  return first_place(Meridian(geometry), ProfileSurface::contact, tilt, obstacle).height;
+  return first_place(*shape_of(geometry), ProfileSurface::contact, tilt, obstacle).height;
 }
 
 std::vector<Violation> Obstacle::violations(const Geometry& geometry, double tilt) const {
@@ -129,12 +137,12 @@ std::vector<Violation> Obstacle::violations(const Geometry& geometry, double til
     found.push_back({"obstacle.offset", to_text(offset) + " m", "the offset must be finite",
                      "give the place of the obstacle's top along t1"});
   if (!found.empty() || !geometry.violations().empty()) return found;
-  const Meridian meridian(geometry);
+  const std::shared_ptr<const Shape> finger = shape_of(geometry);
   // Beside a ball or a cylinder there is none.
   const auto touch_of = [&](ProfileSurface surface) {
-    const HighestPlace touch = first_place(meridian, surface, tilt, *this);
-    const bool misses = shape != ObstacleShape::edge &&
-                        !(meshes::height(*this, seen(touch.place, tilt)) > -radius);
+    const HighestPlace touch = first_place(*finger, surface, tilt, *this);
+    const bool misses =
+        shape != ObstacleShape::edge && !(meshes::height(*this, seen(touch.place, tilt)) > -radius);
     return misses ? -std::numeric_limits<double>::infinity() : touch.height;
   };
   const double touch = touch_of(ProfileSurface::contact);

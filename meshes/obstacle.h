@@ -37,9 +37,7 @@ struct Obstacle {
 
   bool is_plane() const { return shape == ObstacleShape::plane; }
   /// Whether it is a body of revolution about the finger's axis.
-  bool on_axis() const {
-    return is_plane() || (shape == ObstacleShape::sphere && offset == 0.0);
-  }
+  bool on_axis() const { return is_plane() || (shape == ObstacleShape::sphere && offset == 0.0); }
   /// Whether it is its own mirror image under t1 -> -t1 (as under t2 -> -t2 it always is).
   bool mirrored() const { return is_plane() || along_x() || offset == 0.0; }
   /// Whether it extends along t1 without end, so that `offset` does not matter.

@@ -10,13 +10,14 @@ namespace fingertip::meshes {
 /// finger, and the origin in the plane that touches the obstacle at its top.
 struct ObstacleForm {
   bool flat = true;
-  bool edge = false;                   ///< faces at 45 degrees below the rounding
-  double radius = 0.0;                 ///< [m]
-  double offset_x = 0.0;               ///< of its top [m]
+  bool edge = false;                      ///< faces at 45 degrees below the rounding
+  double radius = 0.0;                    ///< [m]
+  double offset_x = 0.0;                  ///< of its top [m]
   double across_x = 0.0, across_y = 0.0;  ///< 1 where the surface bends along x or y, else 0
 };
 
-/// Slope of the height beside an obstacle: none is there, but whoever looks for its top is led to it.
+/// Slope of the height beside an obstacle: none is there, but whoever looks for its top is led to
+/// it.
 inline constexpr double cliff = 1e3;
 
 /// Distance of a place from the obstacle, negative inside, and its gradient: the unit normal out of
@@ -67,7 +68,8 @@ T obstacle_height(const ObstacleForm& form, const T& x, const T& y) {
   const T a = form.across_x * (x - form.offset_x), b = form.across_y * y, square = a * a + b * b;
   const T within = form.radius * form.radius - square;
   const T round = sqrt(choose(within > T(0.0), within, T(0.0))) - form.radius;
-  if (!form.edge) return round - cliff * choose(within > T(0.0), T(0.0), sqrt(square) - form.radius);
+  if (!form.edge)
+    return round - cliff * choose(within > T(0.0), T(0.0), sqrt(square) - form.radius);
   constexpr double root = 1.41421356237309505;
   const T across = abs(a + b);
   return choose(root * across < T(form.radius), round, (root - 1.0) * form.radius - across);

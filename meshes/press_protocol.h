@@ -43,8 +43,8 @@ struct PressPose {
 };
 
 /// The press. Indentation is geometric: the distance the rod has travelled along the plane's normal
-/// since the tip first touched; of an obstacle that is no plane, "the plane" is the one that touches
-/// it at its top.
+/// since the tip first touched; of an obstacle that is no plane, "the plane" is the one that
+/// touches it at its top.
 struct PressProtocol {
   DriveMode mode = DriveMode::pid;
   ContactMode contact = ContactMode::stick;

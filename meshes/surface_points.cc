@@ -8,6 +8,7 @@
 
 #include "meshes/files.h"
 #include "meshes/meridian.h"
+#include "meshes/solid.h"
 
 namespace fingertip::meshes {
 
@@ -117,6 +118,7 @@ void check(const Geometry& geometry, double spacing) {
 std::vector<SurfacePoint> surface_points(const Geometry& geometry, Surface surface,
                                          double spacing) {
   check(geometry, spacing);
+  if (geometry.solid) return geometry.solid->points(piece_of(surface), spacing);
   std::vector<SurfacePoint> points;
   const std::vector<MeridianPiece> all = Meridian(geometry).pieces();
   // Counter-clockwise, `contact` ends at the pole.
@@ -130,7 +132,7 @@ std::vector<SurfacePoint> surface_points(const Geometry& geometry, Surface surfa
 
 double surface_area(const Geometry& geometry, Surface surface) {
   check(geometry);
-  return Meridian(geometry).area(piece_of(surface));
+  return shape_of(geometry)->area(piece_of(surface));
 }
 
 }  // namespace fingertip::meshes

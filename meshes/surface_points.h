@@ -22,7 +22,11 @@ struct SurfacePoint {
 /// y, none on a mirror plane. Sums of areas are exact, and so are those of z and of the normal
 /// (arcs about the axis, cylinders) and of x² and y² (planes, cones); integrals of other smooth
 /// functions converge at second order. Points run ring by ring away from the pole (`end`: from the
-/// bond outward). Throws InvalidInput for an invalid geometry and unless R/1000 <= spacing <= R.
+/// bond outward). Of a solid, facets with edges longer than `spacing` are halved until they are
+/// not, and what lies in one cube of half that size and faces the same way is one point, in its
+/// middle: sums of areas and of first moments are exact, that of the normal where facets are flat,
+/// and points may lie anywhere. Throws InvalidInput for an invalid geometry and unless R/1000 <=
+/// spacing <= R.
 std::vector<SurfacePoint> surface_points(const Geometry& geometry, Surface surface, double spacing);
 
 /// Area of one of the surfaces [m²], of the dome 2π s (s + L) with s = R (outer) or r (bond),

@@ -6,7 +6,7 @@
 
 #include "lattice/model/constants.h"
 #include "lattice/press/static_press.h"
-#include "meshes/meridian.h"
+#include "meshes/solid.h"
 
 namespace fingertip::calibration {
 
@@ -42,6 +42,11 @@ struct Place {
   }
 };
 
+/// Of a solid, else empty.
+std::string content(const meshes::Geometry& geometry) {
+  return geometry.solid ? geometry.solid->content() : "";
+}
+
 bool same_cells(const PressSetup& a, const PressSetup& b) {
   const auto place = [](const meshes::ProfileCorner& corner) {
     return std::pair(corner.r, corner.z);
@@ -49,6 +54,7 @@ bool same_cells(const PressSetup& a, const PressSetup& b) {
   return a.lattice.spacing == b.lattice.spacing && a.lattice.offset == b.lattice.offset &&
          a.lattice.axes == b.lattice.axes && a.protocol.tilt == b.protocol.tilt &&
          a.geometry.tip_radius == b.geometry.tip_radius &&
+         content(a.geometry) == content(b.geometry) &&
          std::ranges::equal(a.geometry.profile, b.geometry.profile, {}, place, place);
 }
 
@@ -90,8 +96,9 @@ double between(const std::vector<double>& xs, const std::vector<double>& ys, dou
 Eigen::MatrixXd lattice_covariance(const std::vector<PressSetup>& presses) {
   std::vector<Place> places;
   for (const PressSetup& press : presses) {
-    const meshes::Meridian meridian(press.geometry);
-    const double pole_radius = meridian.pole_radius(), wall = meridian.wall();
+    const auto shape = meshes::shape_of(press.geometry);
+    const double pole_radius = meshes::relative_radius(*shape, press.protocol.obstacle),
+                 wall = shape->wall();
     for (const double depth : press.protocol.samples)
       places.push_back({&press, depth, pole_radius, wall});
   }

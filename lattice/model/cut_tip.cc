@@ -47,11 +47,13 @@ void check_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   };
   check_factor("lattice.ligament_stiffness", settings.ligament_stiffness);
   check_factor("lattice.contact_stiffness", settings.contact_stiffness);
-  if ((sectors != 1 && sectors != 2 && sectors != 4) || sectors > grid_symmetry(settings)) {
-    found.push_back({"sectors", std::to_string(sectors),
-                     "the tip divides into 1, 2 or 4 parts, and into several only along planes "
-                     "of grid points",
-                     "compute the whole tip, or remove offset and rotation"});
+  if ((sectors != 1 && sectors != 2 && sectors != 4) ||
+      sectors > grid_symmetry(geometry, settings)) {
+    found.push_back(
+        {"sectors", std::to_string(sectors),
+         "the tip divides into 1, 2 or 4 parts, and into several only along planes "
+         "of grid points",
+         "compute the whole tip, or remove offset and rotation; a solid is always whole"});
   }
   if (!found.empty()) throw meshes::InvalidInput(found);
 }
@@ -124,7 +126,8 @@ std::vector<Violation> rotation_violations(const Eigen::Matrix3d& axes) {
            "give three angles, or a rotation matrix"}};
 }
 
-int grid_symmetry(const LatticeSettings& settings) {
+int grid_symmetry(const Geometry& geometry, const LatticeSettings& settings) {
+  if (geometry.solid) return 1;
   if (!settings.axes.isIdentity(0.0) || settings.offset.y() != 0.0) return 1;
   return settings.offset.x() == 0.0 ? 4 : 2;
 }

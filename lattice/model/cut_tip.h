@@ -42,8 +42,9 @@ CutTip cut_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
 /// Empty if `axes` is a rotation.
 std::vector<meshes::Violation> rotation_violations(const Eigen::Matrix3d& axes);
 
-/// 4, 2 or 1: into how many mirror images the grid's planes through x = 0 and y = 0 divide the tip.
-int grid_symmetry(const LatticeSettings& settings);
+/// 4, 2 or 1: into how many mirror images the grid's planes through x = 0 and y = 0 divide the tip;
+/// 1 for a solid.
+int grid_symmetry(const meshes::Geometry& geometry, const LatticeSettings& settings);
 
 /// Deepest height at which the outer surface can meet the plane [m]: a sleeve as long as the rubber
 /// is thick, since no press goes deeper than that.

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "meshes/files.h"
-#include "meshes/meridian.h"
+#include "meshes/shape.h"
 
 namespace fingertip::lattice {
 
@@ -158,9 +158,9 @@ std::size_t neighbour_count(const LatticeModel& model, std::size_t i) {
 }  // namespace
 
 void find_boundary(LatticeModel& model, const Geometry& geometry) {
-  const meshes::Meridian meridian(geometry);
+  const auto shape = meshes::shape_of(geometry);
   const auto distance = [&](meshes::ProfileSurface surface, std::uint32_t i) {
-    return meridian.nearest(surface, model.rest_position(i)).distance;
+    return shape->nearest(surface, model.rest_position(i)).distance;
   };
   for (const std::uint32_t i : model.particles)
     if (neighbour_count(model, i) < 26 &&
@@ -175,10 +175,10 @@ namespace {
 /// the pair is the particle's.
 void hang_on_ligaments(LatticeModel& model, const Geometry& geometry, double layer_stiffness) {
   const double reach = model.spacing() + 1e-9 * geometry.tip_radius;
-  const meshes::Meridian meridian(geometry);
+  const auto shape = meshes::shape_of(geometry);
   for (const std::uint32_t i : model.particles) {
     const meshes::Vector3 rest = model.rest_position(i);
-    if (meridian.nearest(meshes::ProfileSurface::bond, rest).distance > reach) continue;
+    if (shape->nearest(meshes::ProfileSurface::bond, rest).distance > reach) continue;
     model.ligaments.push_back(
         {i, rest, layer_stiffness, 2.0 * std::sqrt(model.mass[i] * layer_stiffness)});
   }

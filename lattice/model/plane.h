@@ -26,9 +26,7 @@ struct PressPlane {
     return (pose.indentation - height) * normal + pose.lateral * t1;
   }
   /// Its axes t1, t2 and n as columns.
-  Eigen::Matrix3d axes() const {
-    return (Eigen::Matrix3d() << t1, t2, normal).finished();
-  }
+  Eigen::Matrix3d axes() const { return (Eigen::Matrix3d() << t1, t2, normal).finished(); }
 };
 
 PressPlane press_plane(const meshes::PressProtocol& protocol, const meshes::Geometry& geometry);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lattice/model/cut_tip.h"
-#include "meshes/meridian.h"
+#include "meshes/shape.h"
 
 namespace fingertip::lattice {
 
@@ -35,13 +35,13 @@ std::vector<BoundaryView::Candidate> BoundaryView::candidates(
     const meshes::Geometry& geometry) const {
   std::vector<Candidate> all;
   std::vector<int> number(model_->points(), -1);
-  const meshes::Meridian meridian(geometry);
+  const auto shape = meshes::shape_of(geometry);
   for (const std::uint32_t particle : model_->boundary) {
     number[particle] = int(all.size());
     const Vector3 rest = model_->rest_position(particle);
     // Cut cells reach beyond the surface.
     const Vector3 place =
-        model_->is_cut() ? meridian.nearest(meshes::ProfileSurface::contact, rest).position : rest;
+        model_->is_cut() ? shape->nearest(meshes::ProfileSurface::contact, rest).position : rest;
     all.push_back({place, nullptr});
   }
   const std::vector<Candidate> nominal = all;

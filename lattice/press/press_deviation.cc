@@ -7,7 +7,7 @@
 
 #include "lattice/control/approach.h"
 #include "lattice/dynamics/time_step.h"
-#include "meshes/meridian.h"
+#include "meshes/shape.h"
 
 namespace fingertip::lattice {
 
@@ -27,13 +27,13 @@ constexpr double cost = 2.0;              // of a scaled step, in plain ones
 struct RoughForce {
   double factor = 0.0, layer = 0.0, pole_radius = 0.0;
 
-  RoughForce(const Geometry& geometry, const Rubber& rubber) {
-    const meshes::Meridian meridian(geometry);
-    pole_radius = meridian.pole_radius();
+  RoughForce(const Geometry& geometry, const Rubber& rubber, const meshes::Obstacle& obstacle) {
+    const auto shape = meshes::shape_of(geometry);
+    pole_radius = meshes::relative_radius(*shape, obstacle);
     const double nu = rubber.poissons_ratio(), radius = std::sqrt(pole_radius),
                  alpha = (1.2876 - 1.4678 * nu + 1.3442 * nu * nu) / (1.0 - nu);
     factor = 4.0 / 3.0 * rubber.youngs_modulus / (1.0 - nu * nu) * radius;
-    layer = 2.0 / std::numbers::pi * alpha * radius / meridian.wall();
+    layer = 2.0 / std::numbers::pi * alpha * radius / shape->wall();
   }
   double value(double d) const { return factor * (std::pow(d, 1.5) + layer * d * d); }
   double slope(double d) const { return factor * (1.5 * std::sqrt(d) + 2.0 * layer * d); }
@@ -123,12 +123,12 @@ double plain_step(const PressSetup& setup) {
 }
 
 double rough_force(const Geometry& geometry, const Rubber& rubber, double indentation) {
-  return RoughForce(geometry, rubber).value(indentation);
+  return RoughForce(geometry, rubber, {}).value(indentation);
 }
 
 std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup, double step) {
   const meshes::PressProtocol& protocol = setup.protocol;
-  const RoughForce force(setup.geometry, setup.rubber);
+  const RoughForce force(setup.geometry, setup.rubber, setup.protocol.obstacle);
   const Sway sway(setup.geometry, setup.rubber);
   const Approach approach(protocol.speed, protocol.clearance);
   const double v = protocol.speed, spacing = setup.lattice.spacing,

@@ -286,7 +286,8 @@ LatticeBody static_body(const PressSetup& setup, int sectors) {
 
 StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer) {
   check(setup);
-  const LatticeBody body = static_body(setup, largest_symmetry(setup.lattice, setup.protocol));
+  const LatticeBody body =
+      static_body(setup, largest_symmetry(setup.geometry, setup.lattice, setup.protocol));
   return StaticPress(setup, body, observer).run();
 }
 
@@ -300,7 +301,8 @@ StaticOutcomeWithSlopes run_static_press_with_slopes(const PressSetup& setup,
                                                      const std::vector<PressParameter>& parameters,
                                                      const StaticObserver& observer) {
   check(setup);
-  const LatticeBody body = static_body(setup, largest_symmetry(setup.lattice, setup.protocol));
+  const LatticeBody body =
+      static_body(setup, largest_symmetry(setup.geometry, setup.lattice, setup.protocol));
   const SlopeSystem system(setup, body, parameters);
   StaticPress press(setup, body, observer);
   press.differentiate(system);

@@ -7,7 +7,7 @@
 #include "lattice/model/cut_tip.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
-#include "meshes/meridian.h"
+#include "meshes/shape.h"
 
 namespace fingertip::lattice {
 
@@ -113,9 +113,9 @@ LatticeBody body_of(const LatticeModel& model, const Geometry& geometry, const R
   std::vector<std::uint32_t> number(model.points(), GridCells::none);
   LatticeBody body = published_springs(model, number);
   const double a = model.spacing();
-  const meshes::Meridian meridian(geometry);
+  const auto shape = meshes::shape_of(geometry);
   const auto normal = [&](meshes::ProfileSurface surface, const Vector3& rest) {
-    return meridian.nearest(surface, rest).normal;
+    return shape->nearest(surface, rest).normal;
   };
   for (const Ligament& ligament : model.ligaments) {
     body.bond.push_back(tie_to_particle(number[ligament.particle], ligament.rest,
@@ -151,9 +151,10 @@ LatticeBody build_free_block(const Rubber& rubber, const LatticeSettings& settin
                       formulation_for(rubber, settings), rubber.density);
 }
 
-int largest_symmetry(const LatticeSettings& settings, const meshes::PressProtocol& protocol) {
+int largest_symmetry(const Geometry& geometry, const LatticeSettings& settings,
+                     const meshes::PressProtocol& protocol) {
   if (settings.model == ModelKind::published) return 1;
-  const int sectors = grid_symmetry(settings);
+  const int sectors = grid_symmetry(geometry, settings);
   const bool straight = protocol.tilt == 0.0 && protocol.lateral == 0.0;
   return straight && protocol.obstacle.mirrored() ? sectors : std::min(sectors, 2);
 }

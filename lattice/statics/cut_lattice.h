@@ -40,7 +40,8 @@ LatticeBody build_free_block(const meshes::Rubber& rubber, const LatticeSettings
 
 /// 4, 2 or 1: how many equal parts the press and the grid allow. Offsets along x and y must vanish
 /// and the grid must not be rotated; tilt and lateral motion leave y -> -y alone; the published
-/// lattice is always computed whole.
-int largest_symmetry(const LatticeSettings& settings, const meshes::PressProtocol& protocol);
+/// lattice and a solid are always computed whole.
+int largest_symmetry(const meshes::Geometry& geometry, const LatticeSettings& settings,
+                     const meshes::PressProtocol& protocol);
 
 }  // namespace fingertip::lattice

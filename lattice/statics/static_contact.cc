@@ -123,8 +123,8 @@ std::vector<FirstTouch> StaticContact::first_touches(const VectorXd& start, doub
                          (1.0 - share) * first.rest + share * last.rest};
     const Facing left = facing(there);
     touch.anchor = there.now - left.gap * left.normal;
-    touch.projection = Matrix3d::Identity() - left.normal * left.normal.transpose() -
-                       left.gap * bend(there);
+    touch.projection =
+        Matrix3d::Identity() - left.normal * left.normal.transpose() - left.gap * bend(there);
     touches.push_back(touch);
   }
   return touches;

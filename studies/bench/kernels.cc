@@ -10,6 +10,7 @@
 #include "meshes/press_response.h"
 #include "studies/bench/lammps.h"
 #include "studies/exchange/lammps_program.h"
+#include "studies/files/places.h"
 #include "studies/files/process.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/json_file.h"

@@ -49,8 +49,10 @@ constexpr Verb verbs[] = {
     {"import", "take back what LAMMPS made of it: table, deviation, time, frames", "RUN",
      "folder of an export", 0U},
     {"check", "check a configuration file", "FILE", "the file", config_options},
-    {"shape", "check the meridian of a finger, tell its measures, draw it", "FILE",
-     "CSV files, columns r [mm],z [mm],surface,curve", out_options},
+    {"shape", "check the shape of a finger, tell its measures, draw its section", "FILE",
+     "meridians (.csv: r [mm],z [mm],surface,curve), solids (.stl, .step, .brep; --set "
+     "geometry.bond=...)",
+     config_options | out_options},
     {"explain", "explain a configuration key, or list all", "KEY", "section.key", 0U},
     {"init", "write a commented configuration with every key", "FILE",
      "the file (default: standard output)", out_options},

@@ -3,8 +3,9 @@
 
 #include "studies/cases/case_file.h"
 #include "studies/cli/verbs.h"
-#include "studies/run/cache.h"
+#include "studies/files/places.h"
 #include "studies/files/process.h"
+#include "studies/run/cache.h"
 #include "studies/run/provenance.h"
 
 namespace fingertip::studies {

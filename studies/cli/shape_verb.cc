@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "meshes/cubic_grid.h"
 #include "meshes/meridian.h"
+#include "meshes/solid.h"
 #include "studies/cli/verbs.h"
 #include "studies/config/profile_file.h"
 #include "studies/report/figure.h"
@@ -18,6 +20,8 @@ using meshes::Geometry;
 using meshes::Meridian;
 using meshes::MeridianPiece;
 using meshes::ProfileSurface;
+using meshes::Solid;
+using meshes::Vector3;
 
 constexpr double mm = 1e-3;
 /// Memory of a press in motion, at all and per V/a³ [MB]: measured on the dome at R/12, R/24, R/32
@@ -33,26 +37,64 @@ constexpr Look looks[] = {{ProfileSurface::contact, "#0072b2", "contact: may tou
                           {ProfileSurface::bond, "#d55e00", "bond: held by the hand"},
                           {ProfileSurface::free, "#666666", "free"}};
 
-/// The whole section, left half mirrored.
-reporting::Figure section(const Meridian& meridian, const std::string& name) {
+/// A line through (x, z) of each; NaN ends one.
+struct Outline {
+  std::vector<double> x, z;
+
+  void add(double across, double up) {
+    x.push_back(across / mm);
+    z.push_back(up / mm);
+  }
+  void end() {
+    x.push_back(std::nan(""));
+    z.push_back(std::nan(""));
+  }
+};
+
+/// Of the whole section, left half mirrored.
+Outline outline(const Meridian& meridian, ProfileSurface surface) {
+  Outline outline;
+  for (const double side : {1.0, -1.0})
+    for (const MeridianPiece& piece : meridian.pieces()) {
+      if (piece.surface() != surface) continue;
+      constexpr int points = 48;
+      for (int i = 0; i <= points; ++i) {
+        const meshes::Vector2 place = piece.at(double(i) / points);
+        outline.add(side * place.x(), place.y());
+      }
+      outline.end();
+    }
+  return outline;
+}
+
+/// Where facets meet the plane y = 0.
+Outline outline(const Solid& solid, ProfileSurface surface) {
+  Outline outline;
+  for (std::size_t t = 0; t < solid.mesh().triangles.size(); ++t) {
+    if (solid.is_bond(t) != (surface == ProfileSurface::bond)) continue;
+    int crossings = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vector3 &a = solid.mesh().corner(t, c), &b = solid.mesh().corner(t, (c + 1) % 3);
+      if ((a.y() < 0.0) == (b.y() < 0.0)) continue;
+      const Vector3 place = a + a.y() / (a.y() - b.y()) * (b - a);
+      outline.add(place.x(), place.z());
+      ++crossings;
+    }
+    if (crossings > 0) outline.end();
+  }
+  return outline;
+}
+
+reporting::Figure section(const auto& shape, const std::string& name) {
   reporting::Panel panel;
   panel.x_label = "x [mm]", panel.y_label = "z [mm]";
   panel.equal_scales = true;
   panel.key = "outside right top";
   for (const Look& look : looks) {
-    reporting::Series series{look.meaning, "", {}, {}, {}, {look.colour, "", 2.5}};
-    for (const double side : {1.0, -1.0})
-      for (const MeridianPiece& piece : meridian.pieces()) {
-        if (piece.surface() != look.surface) continue;
-        constexpr int points = 48;
-        for (int i = 0; i <= points; ++i) {
-          const meshes::Vector2 place = piece.at(double(i) / points);
-          series.x.push_back(side * place.x() / mm);
-          series.y.push_back(place.y() / mm);
-        }
-        series.x.push_back(std::nan("")), series.y.push_back(std::nan(""));
-      }
-    if (!series.x.empty()) panel.series.push_back(std::move(series));
+    Outline found = outline(shape, look.surface);
+    if (!found.x.empty())
+      panel.series.push_back(
+          {look.meaning, "", std::move(found.x), std::move(found.z), {}, {look.colour, "", 2.5}});
   }
   reporting::Figure figure;
   figure.name = name;
@@ -60,43 +102,69 @@ reporting::Figure section(const Meridian& meridian, const std::string& name) {
   return figure;
 }
 
+/// What a lattice of it takes.
+void print_lattices(const Geometry& geometry) {
+  const double coarsest = geometry.coarsest_spacing();
+  for (const double spacing : {std::min(coarsest, geometry.tip_radius / 8),
+                               std::min(0.5 * coarsest, geometry.tip_radius / 16)}) {
+    const double masses = meshes::expected_particle_count(geometry, spacing);
+    fmt::print(
+        "  lattice           tip_radius/{:.3g} = {:.3g} mm: about {:.2g} masses, {:.0f} MB in "
+        "motion\n",
+        std::ceil(10.0 * geometry.tip_radius / spacing) / 10.0, spacing / mm, masses,
+        least_memory + masses * memory_per_mass);
+  }
+}
+
+void print_measures(const Geometry& geometry, const meshes::Shape& shape) {
+  fmt::print("  height            {:.4g} mm, from {:.4g} to the pole at {:.4g} mm\n",
+             (shape.pole() - shape.lowest()) / mm, shape.lowest() / mm, shape.pole() / mm);
+  fmt::print("  largest radius    {:.4g} mm\n", shape.largest_radius() / mm);
+  fmt::print("  rubber            {:.5g} mm^3\n", shape.volume() / (mm * mm * mm));
+  for (const Look& look : looks)
+    fmt::print("  {:<8}          {:.5g} mm^2\n", name(look.surface),
+               shape.area(look.surface) / (mm * mm));
+  fmt::print("  thinnest wall     {:.4g} mm\n", shape.wall() / mm);
+  fmt::print("  pole above bond   {:.4g} mm, the limit of press.depth\n",
+             geometry.thickness() / mm);
+  print_lattices(geometry);
+}
+
+/// What [geometry] says of a solid in this file. A press need not fit it yet.
+Geometry solid_of(const CommandLine& line, const std::filesystem::path& file) {
+  ConfigSource source = line.config;
+  source.sets.emplace_back("geometry.shape=dome");
+  Config config = load_config(source).config;
+  config.solid.file = std::filesystem::absolute(file);
+  return Geometry::of_solid(read_solid(config.solid), config.endpoint);
+}
+
 }  // namespace
 
 int run_shape(const CommandLine& line) {
   namespace fs = std::filesystem;
   if (line.arguments.empty())
-    refuse("shape", "no file is given", "give the CSV file of a meridian");
+    refuse("shape", "no file is given", "give the CSV file of a meridian, or a solid's");
   for (const std::string& word : line.arguments) {
     const fs::path file = word;
-    const Geometry geometry = Geometry::of_profile(read_profile(file));
-    const Meridian meridian(geometry);
-    fmt::print("{}: a closed meridian of {} pieces\n", word, meridian.pieces().size());
-    fmt::print("  height            {:.4g} mm, from {:.4g} to the pole at {:.4g} mm\n",
-               (meridian.pole() - meridian.lowest()) / mm, meridian.lowest() / mm,
-               meridian.pole() / mm);
-    fmt::print("  largest radius    {:.4g} mm\n", meridian.largest_radius() / mm);
-    fmt::print("  rubber            {:.5g} mm^3\n", meridian.volume() / (mm * mm * mm));
-    for (const Look& look : looks)
-      fmt::print("  {:<8}          {:.5g} mm^2\n", name(look.surface),
-                 meridian.area(look.surface) / (mm * mm));
-    fmt::print("  thinnest wall     {:.4g} mm\n", meridian.wall() / mm);
-    fmt::print("  pole above bond   {:.4g} mm, the limit of press.depth\n",
-               geometry.thickness() / mm);
-    const double coarsest = geometry.coarsest_spacing();
-    for (const double spacing : {std::min(coarsest, geometry.tip_radius / 8),
-                                 std::min(0.5 * coarsest, geometry.tip_radius / 16)}) {
-      const double masses = meshes::expected_particle_count(geometry, spacing);
-      fmt::print(
-          "  lattice           tip_radius/{:.3g} = {:.3g} mm: about {:.2g} masses, {:.0f} MB in "
-          "motion\n",
-          std::ceil(10.0 * geometry.tip_radius / spacing) / 10.0, spacing / mm, masses,
-          least_memory + masses * memory_per_mass);
+    const std::string stem = file.stem().string() + "_section";
+    reporting::Figure figure;
+    if (!is_solid_file(file)) {
+      const Geometry geometry = Geometry::of_profile(read_profile(file));
+      const Meridian meridian(geometry);
+      fmt::print("{}: a closed meridian of {} pieces\n", word, meridian.pieces().size());
+      print_measures(geometry, meridian);
+      figure = section(meridian, stem);
+    } else {
+      const Geometry geometry = solid_of(line, file);
+      fmt::print("{}: a closed surface of {} facets\n", word,
+                 geometry.solid->mesh().triangles.size());
+      print_measures(geometry, *geometry.solid);
+      figure = section(*geometry.solid, stem);
     }
     const fs::path folder = line.out.empty() ? file.parent_path() : line.out;
     if (!folder.empty()) fs::create_directories(folder);
-    const std::string stem = file.stem().string() + "_section";
-    reporting::draw(section(meridian, stem), file.stem().string() + ", section",
-                    folder.empty() ? "." : folder);
+    reporting::draw(figure, file.stem().string() + ", section", folder.empty() ? "." : folder);
     fmt::print("  drawn             {}\n", (folder / (stem + ".svg")).string());
   }
   return 0;

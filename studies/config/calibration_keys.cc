@@ -16,7 +16,12 @@ std::string_view name(CalibrationProblem problem) {
 }
 
 std::string_view name(ShapeKind shape) {
-  return shape == ShapeKind::dome ? "dome" : "profile";
+  switch (shape) {
+    case ShapeKind::dome: return "dome";
+    case ShapeKind::profile: return "profile";
+    case ShapeKind::solid: return "solid";
+  }
+  return "unknown";
 }
 
 std::string_view name(ConstantsSource source) {

@@ -13,6 +13,7 @@
 #include "lattice/control/control_settings.h"
 #include "lattice/grasp/grasp.h"
 #include "lattice/press/press_setup.h"
+#include "studies/config/solid_file.h"
 
 namespace fingertip::studies {
 
@@ -20,10 +21,11 @@ namespace fingertip::studies {
 enum class ShapeKind {
   dome,     ///< the paper's finger
   profile,  ///< a body of revolution from a file
+  solid,    ///< a closed surface of triangles, or a CAD solid, from a file
 };
 std::string_view name(ShapeKind shape);
 constexpr auto values(ShapeKind) {
-  return std::array{ShapeKind::dome, ShapeKind::profile};
+  return std::array{ShapeKind::dome, ShapeKind::profile, ShapeKind::solid};
 }
 
 /// Where the spring constants come from (key lattice.constants).
@@ -127,7 +129,8 @@ struct Config {
   lattice::PressSetup press;
   ShapeKind shape = ShapeKind::dome;
   std::filesystem::path profile;   ///< absolute; only for ShapeKind::profile
-  std::optional<double> endpoint;  ///< of a profile, on the axis [m]
+  SolidFile solid;                 ///< only for ShapeKind::solid
+  std::optional<double> endpoint;  ///< of a profile or solid, on the axis [m]
   ControllerSettings controller;
   ConstantsSource constants = ConstantsSource::automatic;
   std::filesystem::path constants_file;           ///< absolute; only for ConstantsSource::file

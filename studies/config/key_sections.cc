@@ -75,17 +75,32 @@ std::vector<Key> specimen_keys() {
   const auto of_profile = [](Key key) {
     return only_with("geometry.shape", {"profile"}, std::move(key));
   };
+  const auto of_solid = [](Key key) {
+    return only_with("geometry.shape", {"solid"}, std::move(key));
+  };
   return {
       choice("geometry", "shape",
              {{"dome", "the paper's finger: hemisphere and sleeve on a rod"},
-              {"profile", "the body of revolution of geometry.profile"}},
+              {"profile", "the body of revolution of geometry.profile"},
+              {"solid", "the closed surface of geometry.file"}},
              "what the finger is", at(&Config::shape)),
       of_profile(choice("geometry", "profile", {{"none", "only for a profile"}},
                         "closed meridian, a CSV file with the columns r [mm],z [mm],surface,curve",
                         at(&Config::profile))),
-      of_profile(quantity("geometry", "endpoint", "cm", "m", any,
-                          "height on the axis where force and torque are told; auto: the lowest",
-                          at(&Config::endpoint))),
+      of_solid(choice("geometry", "file", {{"none", "only for a solid"}},
+                      "closed surface of one body that points along +z: .stl, .step or .brep",
+                      at(&Config::solid, &SolidFile::file))),
+      of_solid(plain("geometry", "unit", any,
+                     "unit of length of the numbers in geometry.file (STEP has its own)",
+                     at(&Config::solid, &SolidFile::unit))),
+      of_solid(plain("geometry", "bond", any,
+                     "what of a solid's surface the hand holds: half spaces like z < 1 mm, joined "
+                     "by and, or; the rest may touch",
+                     at(&Config::solid, &SolidFile::bond))),
+      only_with("geometry.shape", {"profile", "solid"},
+                quantity("geometry", "endpoint", "cm", "m", any,
+                         "height on the axis where force and torque are told; auto: the lowest",
+                         at(&Config::endpoint))),
       of_dome(quantity("geometry", "tip_radius", "cm", "m", positive,
                        "R, outer radius of the rubber", geometry(&Geometry::tip_radius))),
       of_dome(with_rule(quantity("geometry", "rod_radius", "cm", "m", positive,
@@ -133,7 +148,7 @@ std::vector<Key> lattice_keys() {
           "lattice", "spacing", "m", "m", positive,
           "a, distance of neighbouring masses along the axes",
           at(&Config::press, &lattice::PressSetup::lattice, &lattice::LatticeSettings::spacing)),
-      "at most (tip_radius - rod_radius)/2, of a profile a quarter of its thinnest wall, "
+      "at most (tip_radius - rod_radius)/2, of another shape a quarter of its thinnest wall, "
       "and no more than 20 million masses",
       {"geometry.tip_radius", "geometry.rod_radius"});
   const double divisor = meshes::Geometry().tip_radius / lattice::LatticeSettings().spacing;

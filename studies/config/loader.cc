@@ -183,21 +183,30 @@ std::vector<std::string> inert_keys(const LoadedConfig& loaded) {
 void Reader::resolve_shape() {
   Config& config = loaded_.config;
   if (config.shape == ShapeKind::dome) return;
-  const Entry& entry = loaded_.entries.at("geometry.profile");
-  if (config.profile.empty()) {
-    problems_.push_back({loaded_.entries.at("geometry.shape").place, "geometry.profile", "none",
-                         "a profile needs the file of its meridian",
-                         "write e.g. geometry.profile = \"finger.csv\""});
+  const bool profile = config.shape == ShapeKind::profile;
+  const std::string key = profile ? "geometry.profile" : "geometry.file";
+  const std::filesystem::path& file = profile ? config.profile : config.solid.file;
+  if (file.empty()) {
+    problems_.push_back({loaded_.entries.at("geometry.shape").place, key, "none",
+                         profile ? "a profile needs the file of its meridian"
+                                 : "a solid needs the file of its surface",
+                         "write e.g. " + key + " = \"finger." + (profile ? "csv" : "stl") + '"'});
     return;
   }
   try {
     config.press.geometry =
-        meshes::Geometry::of_profile(read_profile(config.profile), config.endpoint);
+        profile ? meshes::Geometry::of_profile(read_profile(file), config.endpoint)
+                : meshes::Geometry::of_solid(read_solid(config.solid), config.endpoint);
   } catch (const meshes::InvalidInput& error) {
     for (const meshes::Violation& broken : error.violations()) {
-      const bool whole = broken.key == "geometry.profile";
-      problems_.push_back({whole ? entry.place + ", " + config.profile.string() : broken.key, "",
-                           "", (broken.value.empty() ? "" : broken.value + ": ") + broken.rule,
+      // Else a line of the file.
+      const auto entry = loaded_.entries.find(broken.key);
+      std::string place = broken.key;
+      if (entry != loaded_.entries.end())
+        place =
+            loaded_.entries.at(entry->second.given ? broken.key : key).place + ", " + file.string();
+      problems_.push_back({place, "", "",
+                           (broken.value.empty() ? "" : broken.value + ": ") + broken.rule,
                            broken.remedy});
     }
   }
@@ -234,7 +243,7 @@ LoadedConfig Reader::finish() {
   config.reference.protocol = protocol;
 
   std::vector<meshes::Violation> broken = press.rubber.violations();
-  // Without its profile the finger is still the dome: rules about it mean nothing.
+  // Without its file the finger is still the dome: rules about it mean nothing.
   if (config.shape == ShapeKind::dome || !press.geometry.is_dome())
     for (const auto& more : {press.geometry.violations(), protocol.violations(press.geometry)})
       broken.insert(broken.end(), more.begin(), more.end());

@@ -75,6 +75,12 @@ void check_wall(const LoadedConfig& loaded) {
          "a mass where it crossed a plane",
          "choose frictionless, or exchange.plane = \"none\""});
   }
+  const meshes::Obstacle& obstacle = loaded.config.press.protocol.obstacle;
+  if (!obstacle.is_plane()) {
+    broken.push_back({"obstacle.shape", std::string(name(obstacle.shape)),
+                      "a wall for another program is a plane",
+                      "leave obstacle.shape out, or choose exchange.plane = \"none\""});
+  }
   if (loaded.config.exchange.cube) {
     broken.push_back({"exchange.plane", "wall", "the press is that of a fingertip",
                       "choose exchange.body = \"fingertip\", or no plane"});

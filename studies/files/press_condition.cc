@@ -65,6 +65,7 @@ PressCondition condition_of(const JsonEntry& inputs) {
   condition.sleeve_length = number_if_any(geometry, "sleeve_length");
   condition.rod_length = number_if_any(geometry, "rod_length");
   if (geometry.contains("profile")) condition.profile = geometry.at("profile").content().dump();
+  if (geometry.contains("solid")) condition.profile = text_if_any(geometry, "solid");
   condition.youngs_modulus = number_if_any(rubber, "youngs_modulus");
   condition.shear_modulus = number_if_any(rubber, "shear_modulus");
   const bool lattice = inputs.contains("lattice");

@@ -22,10 +22,9 @@ struct GeometryEntry {
 constexpr auto fields_of(const GeometryEntry*) {
   using meshes::named;
   using Whole = GeometryEntry;
-  return std::tuple_cat(
-      named("tip_radius rod_radius sleeve_length rod_length", &Whole::tip_radius,
-            &Whole::rod_radius, &Whole::sleeve_length, &Whole::rod_length),
-      meshes::if_known(named("shape", &Whole::shape)));
+  return std::tuple_cat(named("tip_radius rod_radius sleeve_length rod_length", &Whole::tip_radius,
+                              &Whole::rod_radius, &Whole::sleeve_length, &Whole::rod_length),
+                        meshes::if_known(named("shape", &Whole::shape)));
 }
 
 /// What the finger was pressed against, if no plane [m].

@@ -32,7 +32,9 @@ PressCondition condition_of(const lattice::PressSetup& setup) {
   condition.rod_radius = setup.geometry.rod_radius;
   condition.sleeve_length = setup.geometry.sleeve_length;
   condition.rod_length = setup.geometry.rod_length;
-  if (!setup.geometry.is_dome())
+  if (setup.geometry.solid)
+    condition.profile = setup.geometry.solid->content();
+  else if (!setup.geometry.is_dome())
     condition.profile = meshes::json_of<nlohmann::json>(setup.geometry.profile).dump();
   condition.youngs_modulus = setup.rubber.youngs_modulus;
   condition.shear_modulus = setup.rubber.shear_modulus;

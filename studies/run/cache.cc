@@ -2,8 +2,7 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
-
+#include "studies/files/places.h"
 #include "studies/run/digest.h"
 #include "studies/run/file_lock.h"
 #include "studies/run/json_file.h"
@@ -69,12 +68,7 @@ bool is_run_file(const fs::path& file) {
 }
 
 fs::path Cache::default_folder() {
-  const char* const xdg = std::getenv("XDG_CACHE_HOME");
-  if (xdg != nullptr && *xdg != '\0') return fs::path(xdg) / "fingertip";
-  const char* const home = std::getenv("HOME");
-  if (home != nullptr && *home != '\0') return fs::path(home) / ".cache" / "fingertip";
-  std::error_code none;
-  return fs::temp_directory_path(none) / "fingertip-cache";
+  return cache_folder();
 }
 
 fs::path Cache::entry(const Job& job) const {

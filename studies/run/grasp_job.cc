@@ -112,6 +112,7 @@ lattice::GraspSetup grasp_setup(const LoadedConfig& loaded) {
   protocol.mode = meshes::DriveMode::quasi_static;
   protocol.tilt = straight.tilt;
   protocol.lateral = straight.lateral;
+  protocol.obstacle = straight.obstacle;
   const lattice::PressSetup press = press_setup(fingers);
   lattice::GraspSetup setup;
   lattice::FingerSetup& finger = setup.hand.finger;

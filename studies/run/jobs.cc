@@ -6,6 +6,7 @@
 #include "meshes/fields_json.h"
 #include "meshes/table_rows.h"
 #include "source_hash.h"
+#include "studies/files/places.h"
 #include "studies/files/run_tables.h"
 #include "studies/run/fem_process.h"
 #include "studies/run/json_file.h"

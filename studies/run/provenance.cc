@@ -77,12 +77,4 @@ std::string utc_now() {
       fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
 }
 
-std::filesystem::path executable_folder() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
-}
-
-std::filesystem::path reference_program() {
-  return executable_folder() / "fingertip-fem";
-}
-
 }  // namespace fingertip::studies

@@ -1,9 +1,8 @@
 /// What a result was made with: program, packages, machine.
 #pragma once
 
-#include <filesystem>
-
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace fingertip::studies {
 
@@ -18,11 +17,5 @@ nlohmann::ordered_json host_description();
 
 /// UTC time as "2026-11-20T05:12:00Z".
 std::string utc_now();
-
-/// The folder this executable lies in.
-std::filesystem::path executable_folder();
-
-/// fingertip-fem beside this executable; need not exist.
-std::filesystem::path reference_program();
 
 }  // namespace fingertip::studies

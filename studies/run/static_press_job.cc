@@ -65,7 +65,7 @@ void run_static_job(const lattice::PressSetup& setup, const fs::path& folder,
 
 GeometryEntry geometry_entry(const meshes::Geometry& geometry) {
   return {geometry.tip_radius, geometry.rod_radius, geometry.sleeve_length, geometry.rod_length,
-          geometry.is_dome() ? "" : "profile"};
+          geometry.is_dome() ? "" : std::string(geometry.shape_name())};
 }
 
 ConstantsEntry constants_entry(const lattice::SpringConstants& constants) {

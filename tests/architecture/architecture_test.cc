@@ -138,7 +138,11 @@ TEST_F(PlantedTree, MisplacedPackagesAreCaught) {
   plant("calibration/fit.h", header("calibration", ""));
   plant("meshes/shape.h", header("meshes", "#include <gmsh.h>\n"));
   expect_caught(architecture::check_packages, "meshes/shape.h", "gmsh");
+  plant("meshes/shape.h", header("meshes", "#include <CGAL/Surface_mesh.h>\n"));
+  expect_caught(architecture::check_packages, "meshes/shape.h", "CGAL");
   plant("meshes/shape.h", header("meshes", ""));
+  plant("lattice/model/model.h", header("lattice", "#include \"meshes/cad_surface.h\"\n"));
+  expect_caught(architecture::check_packages, "lattice/model/model.h", "mesher");
   plant("lattice/model/model.h", header("lattice", "#include \"meshes/volume_mesh.h\"\n"));
   expect_caught(architecture::check_packages, "lattice/model/model.h", "mesher");
 }

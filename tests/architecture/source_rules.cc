@@ -243,8 +243,14 @@ Findings check_packages(const fs::path& source) {
         refuse(file.room != "calibration" || file.is_header(),
                "Ceres belongs into calibration's sources");
       if (include.target.starts_with("gmsh"))
-        refuse(file.path != "meshes/volume_mesh.cc" && file.path != "meshes/meridian_mesh.cc",
-               "gmsh belongs into meshes/volume_mesh.cc and meridian_mesh.cc");
+        refuse(file.path != "meshes/volume_mesh.cc" && file.path != "meshes/meridian_mesh.cc" &&
+                   file.path != "meshes/cad_surface.cc",
+               "gmsh belongs into meshes/volume_mesh.cc, meridian_mesh.cc and cad_surface.cc");
+      if (include.target.starts_with("CGAL/"))
+        refuse(file.path != "meshes/triangle_tree.cc", "CGAL belongs into meshes/triangle_tree.cc");
+      if (include.target == "meshes/cad_surface.h")
+        refuse(file.room != "fem_reference" && file.path != "meshes/cad_surface.cc",
+               "the mesher belongs to fem_reference");
       if (include.target == "meshes/volume_mesh.h")
         refuse(file.room != "fem_reference" && file.path != "meshes/volume_mesh.cc" &&
                    file.path != "meshes/meridian_mesh.h",

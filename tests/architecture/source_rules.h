@@ -26,7 +26,8 @@ std::vector<Finding> check_link_arrows(const std::filesystem::path& source);
 
 /// Heavy packages where they do not belong: deal.II outside fem_reference or in one of its headers
 /// that the application reaches, Ceres outside calibration's sources, gmsh outside
-/// meshes/volume_mesh.cc, and the mesher's header outside fem_reference.
+/// its three sources in meshes, CGAL outside meshes/triangle_tree.cc, and the mesher's header
+/// outside fem_reference.
 std::vector<Finding> check_packages(const std::filesystem::path& source);
 
 /// Headers of the rooms that include each other in a circle.

@@ -245,8 +245,7 @@ TEST(Meridian, PressesABallAsTheSolidDoes) {
       const auto &a = flat[0].sample, &b = full[0].sample;
       EXPECT_LE(std::abs(a.normal_force - b.normal_force), a.force_error + b.force_error)
           << meshes::name(contact) << int(strain);
-      EXPECT_NEAR(a.contact_radius, b.contact_radius,
-                  flat[0].node_spacing + full[0].node_spacing);
+      EXPECT_NEAR(a.contact_radius, b.contact_radius, flat[0].node_spacing + full[0].node_spacing);
     }
 }
 

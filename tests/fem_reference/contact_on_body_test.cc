@@ -39,9 +39,8 @@ struct Tip {
     const bool serial = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
     system = std::make_unique<LinearSystem>(*body, !serial);
     assemble(*body, kernel, body->fine.vector(), *system);
-    auto unknowns =
-        contact_unknowns(within_reach(outer_nodes(*body), {}, R, 0.2 * R),
-                         mode != ContactMode::frictionless);
+    auto unknowns = contact_unknowns(within_reach(outer_nodes(*body), {}, R, 0.2 * R),
+                                     mode != ContactMode::frictionless);
     solver = serial ? make_condensed_solver(*body, unknowns.unknowns)
                     : make_multigrid_solver(*body, unknowns.unknowns, 1e-12);
     solver->set_matrix(*system);

@@ -10,6 +10,7 @@
 
 #include "meshes/obstacle.h"
 #include "meshes/press_protocol.h"
+#include "meshes/shape.h"
 #include "tests/fingers.h"
 
 using namespace fingertip::meshes;
@@ -70,7 +71,8 @@ double searched(const Obstacle& o, const Vector3& place) {
 TEST(Obstacle, DistanceIsThatOfItsSurface) {
   for (const Obstacle& o : curved)
     for (const Vector3& place : places())
-      EXPECT_NEAR(hit(o, place).gap, searched(o, place), 2e-8) << name(o.shape) << place.transpose();
+      EXPECT_NEAR(hit(o, place).gap, searched(o, place), 2e-8)
+          << name(o.shape) << place.transpose();
   EXPECT_EQ(hit({}, Vector3(1.0, 2.0, -3e-3)).gap, -3e-3);
 }
 
@@ -160,6 +162,16 @@ TEST(Obstacle, IsRefusedWhereItMissesOrStartsInside) {
   EXPECT_EQ(refusal(capped, obstacle(ObstacleShape::sphere, 4e-3)), "");
   EXPECT_NE(refusal(capped, obstacle(ObstacleShape::sphere, 4e-3, 11e-3)).find("starts inside"),
             std::string::npos);
+}
+
+TEST(Obstacle, AndTipAreLikeOneBallOnAPlane) {
+  const Geometry dome;
+  const auto shape = shape_of(dome);
+  const double R = dome.tip_radius;
+  EXPECT_DOUBLE_EQ(relative_radius(*shape, {}), R);
+  EXPECT_DOUBLE_EQ(relative_radius(*shape, obstacle(ObstacleShape::sphere, R)), R / 2);
+  EXPECT_DOUBLE_EQ(relative_radius(*shape, obstacle(ObstacleShape::cylinder, R)),
+                   R / std::numbers::sqrt2);
 }
 
 TEST(Obstacle, LargeBallsArePlanes) {

@@ -18,6 +18,8 @@
 #include "studies/run/grasp_job.h"
 #include "studies/run/jobs.h"
 #include "studies/run/press_setup.h"
+#include "tests/fingers.h"
+#include "tests/stl_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
@@ -163,8 +165,9 @@ Sets joined(std::initializer_list<Sets> parts) {
 const Sets nowhere = {"run.threads", "run.units", "exchange.", "controller.address",
                       "controller.timeout", "controller.connect_timeout", "controller.library",
                       "controller.schedule",
-                      // Of a profile, see below.
-                      "geometry.shape", "geometry.profile", "geometry.endpoint"};
+                      // Of other shapes, see below.
+                      "geometry.shape", "geometry.profile", "geometry.file", "geometry.unit",
+                      "geometry.bond", "geometry.endpoint"};
 /// Of the fit of constants to moduli, which a hookean lattice has in closed form.
 const Sets moduli_fit = {"calibration.starts", "calibration.seed", "calibration.isotropy_weight",
                          "calibration.bulk_weight"};
@@ -391,6 +394,32 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
   // How fast the plane comes is all that the elastic press does not know.
   EXPECT_TRUE(differs(ramp, "press.speed=2 cm/s"));
   EXPECT_FALSE(differs(ramp, "press.clearance=1 mm"));
+}
+
+/// What a solid is counts, not what its file is called.
+TEST(IdentityOfAJob, KnowsASolidByItsContent) {
+  const TemporaryFolder folder;
+  const auto finger = [](double width) {
+    return fingers::box({-0.006, -0.005, 0.0}, {width, 0.007, 0.02});
+  };
+  write_text(folder / "a.stl", stl_text(finger(0.004)));
+  write_text(folder / "same.stl", stl_text(finger(0.004)));
+  write_text(folder / "other.stl", stl_text(finger(0.0041)));
+  const auto sets = [&](const char* file, Sets further = {}) {
+    Sets all = {"geometry.shape=solid", "geometry.file=" + (folder / file).string(),
+                "geometry.bond=z < 1 mm", "press.mode=static"};
+    all.insert(all.end(), further.begin(), further.end());
+    return all;
+  };
+  const auto base = identity_of(press, sets("a.stl"));
+  EXPECT_TRUE(base);
+  EXPECT_EQ(identity_of(press, sets("same.stl")), base);
+  for (const Sets& other : {sets("other.stl"), sets("a.stl", {"geometry.bond=z < 2 mm"}),
+                            sets("a.stl", {"geometry.unit=cm", "geometry.bond=z < 1 cm"}),
+                            sets("a.stl", {"geometry.endpoint=-1 mm"})}) {
+    EXPECT_TRUE(identity_of(press, other)) << other.back();
+    EXPECT_NE(identity_of(press, other), base) << other.back();
+  }
 }
 
 /// What a profile is counts, not what its file is called.

@@ -82,11 +82,10 @@ TEST(LatticeAgainstContinuum, AgreesUnderABallOnABlock) {
   using enum meshes::ProfileSurface;
   using enum meshes::ProfileCurve;
   const double size = 0.02, radius = 0.1, spacing = size / 20.0;
-  const meshes::Geometry block =
-      meshes::Geometry::of_profile({{size, 0.0, free, straight},
-                                    {size, size, contact, straight},
-                                    {0.0, size, axis, straight},
-                                    {0.0, 0.0, bond, straight}});
+  const meshes::Geometry block = meshes::Geometry::of_profile({{size, 0.0, free, straight},
+                                                               {size, size, contact, straight},
+                                                               {0.0, size, axis, straight},
+                                                               {0.0, 0.0, bond, straight}});
   const double depth = std::pow(6.0 * spacing, 2) / radius;
   ReferenceJob job = continuum_job(block, {}, ContactMode::frictionless, depth);
   job.press_to({depth});

@@ -45,9 +45,9 @@ struct Scene {
   mutable lattice::Team team{1};
 
   explicit Scene(const meshes::Obstacle& obstacle = {}, Kinematics kinematics = Kinematics::small)
-      : settings(settings_for(kinematics == Kinematics::small ? ModelKind::hookean
-                                                              : ModelKind::network,
-                              kinematics, 6)) {
+      : settings(
+            settings_for(kinematics == Kinematics::small ? ModelKind::hookean : ModelKind::network,
+                         kinematics, 6)) {
     settings.axes = Eigen::AngleAxisd(0.7, Vector3(1.0, -2.0, 0.5).normalized()).matrix();
     settings.offset = Vector3(0.3, -0.2, 0.1);
     model = lattice::build_cut_model({}, {}, settings);
@@ -188,7 +188,8 @@ void expect_static_contact(const Scene& s) {
 TEST(PenaltyContact, HasTheEnergyAndForcesOfTheStaticContact) {
   expect_static_contact(Scene{});
   for (const meshes::ObstacleShape shape :
-       {meshes::ObstacleShape::sphere, meshes::ObstacleShape::cylinder, meshes::ObstacleShape::edge})
+       {meshes::ObstacleShape::sphere, meshes::ObstacleShape::cylinder,
+        meshes::ObstacleShape::edge})
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
       SCOPED_TRACE(std::string(name(shape)) + (kinematics == Kinematics::small ? " small" : ""));
       expect_static_contact(Scene({.shape = shape, .radius = 3e-3, .offset = 1e-3}, kinematics));

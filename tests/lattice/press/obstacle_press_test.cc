@@ -28,13 +28,11 @@ PressSetup press_on(const Obstacle& obstacle, ModelKind model, ContactMode conta
   setup.protocol.samples = {0.75e-3, 1.5e-3};
   setup.protocol.depth = 1.5e-3;
   setup.lattice.model = model;
-  setup.lattice.kinematics =
-      model == ModelKind::hookean ? Kinematics::small : Kinematics::finite;
+  setup.lattice.kinematics = model == ModelKind::hookean ? Kinematics::small : Kinematics::finite;
   setup.lattice.spacing = setup.geometry.tip_radius / per_radius;
-  setup.lattice.constants =
-      model == ModelKind::published
-          ? lattice::published_constants(setup.rubber, setup.lattice.spacing)
-          : lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  setup.lattice.constants = model == ModelKind::published
+                                ? lattice::published_constants(setup.rubber, setup.lattice.spacing)
+                                : lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
   return setup;
 }
 
@@ -118,8 +116,7 @@ TEST(ObstaclePress, ForceIsTheSlopeOfTheEnergy) {
 TEST(ObstaclePress, MovesAsItRests) {
   for (const auto& [model, contact] : kinds) {
     for (const ObstacleShape shape : {ObstacleShape::sphere, ObstacleShape::edge}) {
-      PressSetup setup =
-          press_on({.shape = shape, .radius = 3e-3, .offset = 1e-3}, model, contact);
+      PressSetup setup = press_on({.shape = shape, .radius = 3e-3, .offset = 1e-3}, model, contact);
       setup.protocol.samples = {setup.protocol.depth = 1.5e-3};
       const double expected = pressed(setup).back().normal_force;
       setup.protocol.mode = DriveMode::quasi_static;

@@ -375,20 +375,20 @@ TEST(CutLattice, SymmetryIsThatOfGridAndPress) {
   tilted.tilt = 0.1;
   sideways.lateral = -1e-3;
   settings.offset.z() = 0.4;
-  EXPECT_EQ(largest_symmetry(settings, straight), 4);
-  EXPECT_EQ(largest_symmetry(settings, tilted), 2);
-  EXPECT_EQ(largest_symmetry(settings, sideways), 2);
+  EXPECT_EQ(largest_symmetry({}, settings, straight), 4);
+  EXPECT_EQ(largest_symmetry({}, settings, tilted), 2);
+  EXPECT_EQ(largest_symmetry({}, settings, sideways), 2);
   settings.offset.x() = 0.1;
-  EXPECT_EQ(largest_symmetry(settings, straight), 2);
-  EXPECT_EQ(largest_symmetry(settings, tilted), 2);
+  EXPECT_EQ(largest_symmetry({}, settings, straight), 2);
+  EXPECT_EQ(largest_symmetry({}, settings, tilted), 2);
   settings.offset.y() = 0.1;
-  EXPECT_EQ(largest_symmetry(settings, straight), 1);
+  EXPECT_EQ(largest_symmetry({}, settings, straight), 1);
   settings.offset = Vector3::Zero();
   settings.axes = Eigen::AngleAxisd(0.1, Vector3::UnitZ()).toRotationMatrix();
-  EXPECT_EQ(largest_symmetry(settings, straight), 1);
+  EXPECT_EQ(largest_symmetry({}, settings, straight), 1);
   settings.axes = Matrix3d::Identity();
   settings.model = ModelKind::published;
-  EXPECT_EQ(largest_symmetry(settings, straight), 1);
+  EXPECT_EQ(largest_symmetry({}, settings, straight), 1);
 }
 
 TEST(CutLattice, RefusesBadInput) {

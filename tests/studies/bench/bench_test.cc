@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "studies/bench/history.h"
+#include "studies/files/places.h"
 #include "studies/report/report.h"
 #include "studies/run/json_file.h"
 #include "studies/run/provenance.h"

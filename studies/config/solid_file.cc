@@ -1,0 +1,216 @@
+#include "studies/config/solid_file.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <sstream>
+#include <string_view>
+
+#include "meshes/errors.h"
+#include "meshes/text_file.h"
+#include "studies/config/cad_file.h"
+#include "studies/config/trimmed.h"
+#include "studies/config/units.h"
+
+namespace fingertip::studies {
+namespace {
+
+namespace fs = std::filesystem;
+using meshes::HalfSpace;
+using meshes::InvalidInput;
+using meshes::TriangleMesh;
+
+constexpr std::size_t head_bytes = 84, facet_bytes = 50;
+/// Beyond, the checks take minutes.
+constexpr std::size_t most_facets = 2'000'000;
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return char(std::tolower(c)); });
+  return lower;
+}
+
+[[noreturn]] void refuse_facets(std::size_t count) {
+  throw InvalidInput({"geometry.file", std::to_string(count) + " facets",
+                      "a surface has at most two million", "export it with fewer facets"});
+}
+
+template <typename Number>
+Number number_at(const std::string& bytes, std::size_t place) {
+  static_assert(std::endian::native == std::endian::little, "as the numbers of an STL file are");
+  Number value;
+  std::memcpy(&value, bytes.data() + place, sizeof value);
+  return value;
+}
+
+void add_triangle(const std::array<meshes::Vector3, 3>& corners, TriangleMesh& mesh) {
+  const int first = int(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+  mesh.triangles.push_back({first, first + 1, first + 2});
+}
+
+TriangleMesh binary_facets(const std::string& bytes, std::size_t count) {
+  TriangleMesh mesh;
+  for (std::size_t f = 0; f < count; ++f) {
+    std::array<meshes::Vector3, 3> corners;
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t d = 0; d < 3; ++d)
+        corners[c][Eigen::Index(d)] =
+            double(number_at<float>(bytes, head_bytes + facet_bytes * f + 12 + 12 * c + 4 * d));
+    add_triangle(corners, mesh);
+  }
+  return mesh;
+}
+
+TriangleMesh text_facets(const fs::path& file, const std::string& text) {
+  TriangleMesh mesh;
+  std::istringstream lines(text);
+  std::size_t number = 0, corner = 0;
+  bool ended = false;
+  std::array<meshes::Vector3, 3> corners;
+  const auto refuse = [&](const std::string& rule, const std::string& remedy) {
+    throw InvalidInput({file.string() + ":" + std::to_string(number), "", rule, remedy});
+  };
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::istringstream words(lower_case(line));
+    std::string word;
+    words >> word;
+    if (word == "vertex") {
+      if (corner == 3) refuse("a facet has three vertices", "export the surface as triangles");
+      for (Eigen::Index d = 0; d < 3; ++d) {
+        words >> word;
+        double value = std::nan("");
+        const char* const end = word.data() + word.size();
+        const char* const start = word.data() + (word.starts_with('+') ? 1 : 0);
+        const auto [rest, error] = std::from_chars(start, end, value);
+        if (!words || error != std::errc() || rest != end)
+          refuse("a vertex has three numbers", "write vertex X Y Z");
+        corners[corner][d] = value;
+      }
+      ++corner;
+    } else if (word == "endfacet") {
+      if (corner != 3) refuse("a facet has three vertices", "export the surface as triangles");
+      add_triangle(corners, mesh);
+      if (mesh.triangles.size() > most_facets) refuse_facets(mesh.triangles.size());
+      corner = 0;
+    } else if (word == "endsolid") {
+      ended = true;
+    } else if (word == "solid" || word == "facet") {
+      ended = false;
+    } else if (!word.empty() && word != "outer" && word != "endloop") {
+      refuse("no line of an STL file: " + word.substr(0, 20),
+             "a line begins with solid, facet, outer loop, vertex, endloop, endfacet or endsolid");
+    }
+  }
+  if (!ended || corner != 0) refuse("the file is cut off before its endsolid", "export it anew");
+  return mesh;
+}
+
+[[noreturn]] void refuse_region(const std::string& part, const std::string& rule) {
+  throw InvalidInput({"geometry.bond", part, rule,
+                      "write half spaces joined by and, or, e.g. geometry.bond = \"z < 1 mm\""});
+}
+
+HalfSpace parse_half_space(const std::string& text) {
+  HalfSpace space;
+  const std::string_view whole = trimmed(text);
+  const std::size_t axis =
+      whole.empty() ? std::string::npos : std::string_view("xyz").find(whole.front());
+  if (axis == std::string::npos) refuse_region(text, "a half space begins with x, y or z");
+  const std::string_view rest = trimmed(whole.substr(1));
+  if (rest.empty() || (rest.front() != '<' && rest.front() != '>'))
+    refuse_region(text, "< or > follows the axis");
+  space.axis = int(axis);
+  space.below = rest.front() == '<';
+  std::string_view limit = rest.substr(1);
+  if (limit.starts_with('=')) limit.remove_prefix(1);
+  try {
+    space.limit = parse_quantity(trimmed(limit), "m", "1 mm");
+  } catch (const UnitError& error) {
+    refuse_region(text, error.rule);
+  }
+  return space;
+}
+
+constexpr const char* kinds[] = {".stl", ".step", ".stp", ".brep", ".brp"};
+
+std::string kind_of_file(const fs::path& file) {
+  return lower_case(file.extension().string());
+}
+
+double metres_per(const SolidFile& solid, bool has_unit) {
+  if (has_unit && solid.unit != "mm")
+    throw InvalidInput({"geometry.unit", solid.unit, "a STEP file has a unit of its own",
+                        "leave geometry.unit out"});
+  try {
+    return parse_quantity("1 " + solid.unit, "m", "1 mm");
+  } catch (const UnitError& error) {
+    throw InvalidInput({"geometry.unit", solid.unit, error.rule,
+                        "write a unit of length, e.g. geometry.unit = \"mm\""});
+  }
+}
+
+}  // namespace
+
+bool is_solid_file(const fs::path& file) {
+  const std::string kind = kind_of_file(file);
+  return std::ranges::any_of(kinds, [&](const char* known) { return kind == known; });
+}
+
+TriangleMesh read_stl(const fs::path& file) {
+  const std::string bytes = meshes::read_text(file);
+  const auto starts = [&](const char* word) { return lower_case(bytes.substr(0, 5)) == word; };
+  const std::size_t count = bytes.size() >= head_bytes ? number_at<std::uint32_t>(bytes, 80) : 0;
+  const bool fits = bytes.size() >= head_bytes && bytes.size() == head_bytes + facet_bytes * count;
+  if (!fits && starts("solid")) return text_facets(file, bytes);
+  if (bytes.size() < head_bytes + facet_bytes * count || bytes.size() < head_bytes)
+    throw InvalidInput({file.string(), std::to_string(bytes.size()) + " bytes",
+                        "no complete STL file: a binary one has 84 bytes and 50 for each of its "
+                        "facets, here " +
+                            std::to_string(count) + "; a text begins with solid",
+                        "export it anew"});
+  if (count > most_facets) refuse_facets(count);
+  return binary_facets(bytes, count);
+}
+
+meshes::Region parse_region(const std::string& text) {
+  meshes::Region region;
+  if (trimmed(text).empty()) return region;
+  std::istringstream words(text);
+  region.emplace_back();
+  std::string part;
+  for (std::string word; words >> word;) {
+    if (word != "and" && word != "or") {
+      part += (part.empty() ? "" : " ") + word;
+      continue;
+    }
+    region.back().push_back(parse_half_space(part));
+    if (word == "or") region.emplace_back();
+    part.clear();
+  }
+  region.back().push_back(parse_half_space(part));
+  return region;
+}
+
+std::shared_ptr<const meshes::Solid> read_solid(const SolidFile& solid) {
+  const std::string kind = kind_of_file(solid.file);
+  const bool step = kind == ".step" || kind == ".stp";
+  if (!is_solid_file(solid.file))
+    throw InvalidInput({"geometry.file", solid.file.string(),
+                        "a solid is an STL, STEP or BREP file",
+                        "name a .stl, .step or .brep file"});
+  const meshes::Region bond = parse_region(solid.bond);
+  const double metres = metres_per(solid, step);
+  TriangleMesh mesh = read_stl(kind == ".stl" ? solid.file : triangulated(solid.file));
+  for (meshes::Vector3& vertex : mesh.vertices) vertex *= metres;
+  return std::make_shared<meshes::Solid>(mesh, bond);
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,35 @@
+/// The file of a solid (keys geometry.file, unit and bond).
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "meshes/solid.h"
+
+namespace fingertip::studies {
+
+/// What the keys say.
+struct SolidFile {
+  std::filesystem::path file;  ///< absolute; .stl, .step, .stp or .brep
+  std::string unit = "mm";     ///< of length, of the file's numbers; STEP files have their own
+  std::string bond;            ///< "z < 1 mm and x > 0 mm or ..."
+
+  bool operator==(const SolidFile&) const = default;
+};
+
+/// By its name: .stl, .step, .stp, .brep, .brp.
+bool is_solid_file(const std::filesystem::path& file);
+
+/// Triangles of an STL file, binary or ASCII, with the corners of each facet as they stand there,
+/// in the file's unit. Throws InvalidInput with the line, or the facet, that cannot be read.
+meshes::TriangleMesh read_stl(const std::filesystem::path& file);
+
+/// Half spaces `x|y|z <|> QUANTITY` joined by `and`, which binds closer, and `or`; empty for an
+/// empty text. Throws InvalidInput (geometry.bond).
+meshes::Region parse_region(const std::string& text);
+
+/// Reads and checks it. Throws InvalidInput (geometry.file, unit or bond; see Solid).
+std::shared_ptr<const meshes::Solid> read_solid(const SolidFile& solid);
+
+}  // namespace fingertip::studies

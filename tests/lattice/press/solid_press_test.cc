@@ -1,0 +1,96 @@
+// Presses of triangulated solids.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "lattice/press/press.h"
+#include "lattice/press/static_press.h"
+#include "tests/fingers.h"
+
+using namespace fingertip;
+using lattice::Kinematics;
+using lattice::ModelKind;
+using lattice::PressSetup;
+using meshes::ContactMode;
+using meshes::DriveMode;
+using meshes::Geometry;
+
+namespace {
+
+PressSetup press_of(const Geometry& geometry, ModelKind model, double per_radius = 8) {
+  PressSetup setup;
+  setup.geometry = geometry;
+  setup.lattice.model = model;
+  setup.lattice.kinematics = model == ModelKind::hookean ? Kinematics::small : Kinematics::finite;
+  setup.lattice.spacing = 0.01 / per_radius;
+  setup.lattice.constants = model == ModelKind::published
+                                ? lattice::published_constants(setup.rubber, setup.lattice.spacing)
+                                : lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+  setup.protocol.contact = ContactMode::frictionless;
+  setup.protocol.mode = DriveMode::equilibrium;
+  setup.protocol.samples = {1e-3, 2e-3, 3e-3};
+  setup.protocol.depth = 3e-3;
+  return setup;
+}
+
+TEST(SolidPress, TrianglesOfTheDomeAreTheDomeAtRest) {
+  const Geometry solid = fingers::solid_dome();
+  for (const double tilt : {0.0, 0.2}) {
+    PressSetup dome = press_of(Geometry{}, ModelKind::hookean);
+    dome.protocol.tilt = tilt;
+    if (tilt != 0.0) {
+      dome.protocol.contact = ContactMode::stick;
+      dome.protocol.samples = {dome.protocol.depth = 5e-4};
+    }
+    PressSetup triangles = dome;
+    triangles.geometry = solid;
+    const auto expected = lattice::run_static_press(dome).response.samples();
+    const auto found = lattice::run_static_press(triangles).response.samples();
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const double force = expected[i].normal_force;
+      EXPECT_NEAR(found[i].normal_force, force, 5e-3 * force);
+      EXPECT_NEAR(found[i].lateral_force_x, expected[i].lateral_force_x, 5e-3 * force);
+      EXPECT_NEAR(found[i].lateral_force_y, 0.0, 1e-3 * force);
+      EXPECT_NEAR(found[i].torque_y, expected[i].torque_y, 5e-3 * force * 0.03);
+    }
+  }
+}
+
+/// A turned grid cuts the same rubber.
+TEST(SolidPress, TurnedGridsAgree) {
+  PressSetup aligned = press_of(fingers::solid_dome(), ModelKind::hookean);
+  aligned.protocol.samples = {aligned.protocol.depth = 2e-3};
+  PressSetup turned = aligned;
+  turned.lattice.axes = Eigen::AngleAxisd(0.5, meshes::Vector3(0.0, 0.6, 0.8)).toRotationMatrix();
+  const auto of = [](const PressSetup& setup) {
+    const auto outcome = lattice::run_static_press(setup);
+    EXPECT_NEAR(outcome.volume / outcome.exact_volume, 1.0, 1e-5);  // small shares are left out
+    return outcome.response.samples().back().normal_force;
+  };
+  const double force = of(aligned);
+  EXPECT_NEAR(of(turned), force, 0.03 * force);
+}
+
+TEST(SolidPress, MovesAsTheDomeDoes) {
+  const Geometry solid = fingers::solid_dome();
+  for (const ModelKind model : {ModelKind::hookean, ModelKind::published}) {
+    PressSetup dome = press_of(Geometry{}, model);
+    dome.protocol.contact = ContactMode::stick;
+    dome.protocol.mode = DriveMode::quasi_static;
+    dome.protocol.samples = {1e-3, 2e-3};
+    dome.protocol.depth = 2e-3;
+    // No grid point may lie on a surface, which facets do not reach.
+    dome.lattice.offset = {0.21, 0.13, 0.37};
+    PressSetup triangles = dome;
+    triangles.geometry = solid;
+    const auto expected = lattice::run_press(dome), found = lattice::run_press(triangles);
+    const double depth = dome.protocol.depth, force = expected.response.normal_force_at(depth);
+    EXPECT_NEAR(found.response.normal_force_at(depth), force,
+                (model == ModelKind::hookean ? 5e-3 : 0.03) * force)
+        << name(model);
+    EXPECT_LT(found.momentum_defect, 1e-9);
+  }
+}
+
+}  // namespace

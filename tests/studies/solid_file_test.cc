@@ -1,0 +1,205 @@
+#include "studies/config/solid_file.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "meshes/errors.h"
+#include "studies/config/loader.h"
+#include "tests/fingers.h"
+#include "tests/stl_text.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip;
+using namespace fingertip::studies;
+using meshes::Vector3;
+
+namespace {
+
+meshes::TriangleMesh finger() {
+  return fingers::box({-0.006, -0.005, 0.0}, {0.004, 0.007, 0.02});
+}
+
+const std::string settings =
+    "[geometry]\nshape = \"solid\"\nfile = \"finger.stl\"\nbond = \"z < 1 mm\"\n"
+    "[press]\ndepth = \"1 mm\"\n";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// What the loader says of a configuration with this file; empty when it is fine.
+std::string refusal_of(const std::string& stl, const std::string& toml = settings) {
+  const TemporaryFolder folder;
+  write_text(folder / "finger.stl", stl);
+  write_text(folder / "case.toml", toml);
+  try {
+    load_config({folder / "case.toml", {}, {}});
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void expect_refused(const std::string& refusal, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(refusal.find(part), std::string::npos) << part << "\nnot in: " << refusal;
+}
+
+TEST(SolidFile, ReadsBothFormsOfStl) {
+  const TemporaryFolder folder;
+  write_text(folder / "text.stl", stl_text(finger()));
+  // A binary file may begin with the word solid, too.
+  write_text(folder / "bytes.STL", with(stl_bytes(finger()), "     ", "solid"));
+  for (const char* name : {"text.stl", "bytes.STL"}) {
+    const auto mesh = read_stl(folder / name);
+    ASSERT_EQ(mesh.triangles.size(), 12u) << name;
+    for (std::size_t t = 0; t < 12; ++t)
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR((mesh.corner(t, c) - 1e3 * finger().corner(t, c)).norm(), 0.0, 1e-6);
+  }
+}
+
+TEST(SolidFile, MakesTheFingerOfAConfiguration) {
+  const TemporaryFolder folder;
+  write_text(folder / "finger.stl", stl_text(finger()));
+  write_text(folder / "case.toml", with(settings, "shape", "endpoint = \"-2 mm\"\nshape"));
+  const LoadedConfig loaded = load_config({folder / "case.toml", {}, {}});
+  const meshes::Geometry& geometry = loaded.config.press.geometry;
+  ASSERT_TRUE(geometry.solid);
+  EXPECT_EQ(geometry.shape_name(), "solid");
+  EXPECT_NEAR(geometry.tip_volume(), 2.4e-6, 1e-15);
+  EXPECT_NEAR(geometry.tip_radius, std::hypot(0.006, 0.007), 1e-12);
+  EXPECT_NEAR(geometry.thickness(), 0.019, 1e-12);
+  EXPECT_NEAR(geometry.rod_endpoint().z(), -0.002, 1e-15);
+  EXPECT_NEAR(loaded.config.press.lattice.spacing, geometry.tip_radius / 12, 1e-12);
+  // The resolved configuration is the same finger from anywhere.
+  const auto again =
+      load_config({{},
+                   {"geometry.shape=solid", "geometry.bond=z < 1 mm",
+                    "geometry.file=" + (folder / "finger.stl").string(), "press.depth=1 mm"},
+                   {}});
+  EXPECT_EQ(again.config.press.geometry.solid->content(), geometry.solid->content());
+  // Another unit of the same numbers.
+  const auto centimetres =
+      load_config({folder / "case.toml", {"geometry.unit=cm", "geometry.bond=z < 1 cm"}, {}});
+  EXPECT_NEAR(centimetres.config.press.geometry.tip_volume() / geometry.tip_volume(), 1000.0, 1e-6);
+}
+
+TEST(SolidFile, ReadsHalfSpaces) {
+  const auto region = parse_region("z < 1 mm and x>-0.2cm or y <= 3e-3 m");
+  ASSERT_EQ(region.size(), 2u);
+  ASSERT_EQ(region[0].size(), 2u);
+  ASSERT_EQ(region[1].size(), 1u);
+  EXPECT_EQ(region[0][0].axis, 2);
+  EXPECT_TRUE(region[0][0].below);
+  EXPECT_NEAR(region[0][0].limit, 1e-3, 1e-18);
+  EXPECT_EQ(region[0][1].axis, 0);
+  EXPECT_FALSE(region[0][1].below);
+  EXPECT_NEAR(region[0][1].limit, -2e-3, 1e-18);
+  EXPECT_EQ(region[1][0].axis, 1);
+  EXPECT_NEAR(region[1][0].limit, 3e-3, 1e-18);
+  EXPECT_TRUE(parse_region("  ").empty());
+}
+
+TEST(SolidFile, RefusesWithPlaceAndRemedy) {
+  const std::string good = stl_text(finger()), bytes = stl_bytes(finger());
+  EXPECT_EQ(refusal_of(good), "");
+  EXPECT_EQ(refusal_of(bytes), "");
+  const auto asked = [&](const std::string& from, const std::string& to) {
+    return refusal_of(good, with(settings, from, to));
+  };
+  expect_refused(asked("file = \"finger.stl\"\n", ""), {"case.toml:2", "geometry.file", "surface"});
+  expect_refused(asked("finger.stl", "other.stl"), {"other.stl", "no such file"});
+  expect_refused(asked("finger.stl", "finger.obj"), {"case.toml:3", "finger.obj", ".step"});
+  expect_refused(asked("bond = \"z < 1 mm\"\n", ""), {"geometry.bond = \"z < 1 mm\"", "held"});
+  expect_refused(asked("z < 1 mm", "z < 1"), {"case.toml:4", "z < 1", "unit"});
+  expect_refused(asked("z < 1 mm", "w < 1 mm"), {"case.toml:4", "x, y or z"});
+  expect_refused(asked("z < 1 mm", "z = 1 mm"), {"case.toml:4", "< or >"});
+  expect_refused(asked("z < 1 mm", "z < 1 mm and"), {"case.toml:4", "and"});
+  expect_refused(asked("z < 1 mm", "z < 1 kg"), {"case.toml:4", "kg"});
+  expect_refused(asked("bond", "unit = \"m\"\nbond"),
+                 {"case.toml:4", "20 m across", "0.5 mm to 0.5 m", "geometry.unit"});
+  expect_refused(asked("bond", "unit = \"kg\"\nbond"), {"case.toml:4", "kg", "unit of length"});
+  expect_refused(asked("\"1 mm\"\n", "\"25 mm\"\n"), {"press.depth", "pole over the bond"});
+  expect_refused(refusal_of(""), {"finger.stl", "no complete STL file"});
+  expect_refused(refusal_of(with(good, "endsolid finger", "")), {"finger.stl", "cut off"});
+  expect_refused(refusal_of(with(good, "vertex", "vertx")), {"finger.stl:4", "vertx"});
+  expect_refused(refusal_of(with(good, "vertex -6", "vertex six")), {"finger.stl:4", "numbers"});
+  expect_refused(refusal_of(with(good, "   vertex", "vertex 0 0 0\n   vertex")),
+                 {"finger.stl:7", "three vertices"});
+  expect_refused(refusal_of(bytes.substr(0, bytes.size() - 30)),
+                 {"finger.stl", "84 bytes", "12", "anew"});
+  const std::size_t first = good.find(" facet"), second = good.find(" facet", first + 1);
+  expect_refused(refusal_of(std::string(good).erase(first, second - first)),
+                 {"case.toml:3", "open edge at (x, y, z) = (", "fill the hole"});
+}
+
+/// Whatever is done to the file: a finger or a refusal, and soon.
+void survive_damage(int count, const std::string& whole, const std::string& letters) {
+  std::mt19937 generator(11);
+  const TemporaryFolder folder;
+  int accepted = 0;
+  for (int i = 0; i < count; ++i) {
+    std::string text = whole;
+    const int changes = 1 + int(generator() % 4);
+    for (int c = 0; c < changes; ++c) {
+      const std::size_t place = generator() % text.size();
+      const char letter =
+          letters.empty() ? char(generator()) : letters[generator() % letters.size()];
+      switch (generator() % 4) {
+        case 0: text.erase(place, 1 + generator() % 60); break;
+        case 1: text.insert(place, 1, letter); break;
+        case 2: text.insert(place, text.substr(generator() % text.size(), 60)); break;
+        default: text[place] = letter;
+      }
+      if (text.empty()) text = "s";
+    }
+    write_text(folder / "damaged.stl", text);
+    try {
+      const auto solid = read_solid({folder / "damaged.stl", "mm", "z < 1 mm or x > 3 mm"});
+      EXPECT_GT(solid->volume(), 0.0);
+      EXPECT_GT(solid->wall(), 0.0);
+      EXPECT_TRUE(std::isfinite(solid->signed_distance({0.0, 0.0, 0.03})));
+      ++accepted;
+    } catch (const meshes::InvalidInput&) {
+    }
+  }
+  EXPECT_GT(accepted, count / 100);
+}
+
+TEST(SolidFile, SurvivesDamagedText) {
+  survive_damage(1500, stl_text(fingers::revolved({{0.0, 0.0}, {0.006, 0.0}, {0.0, 0.012}}, 7)),
+                 "0123456789.,-+e \nvertexfacsolidnormalouterloopend");
+}
+
+TEST(SolidFile, SurvivesDamagedBytes) {
+  const auto mesh = fingers::revolved({{0.0, 0.0}, {0.006, 0.0}, {0.0, 0.012}}, 7);
+  survive_damage(1500, stl_bytes(mesh), "");
+}
+
+/// Corners moved at random: what crosses itself is told, what does not is a finger.
+TEST(SolidFile, SurvivesBentFingers) {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> shift(0.0, 1.0);
+  const auto straight =
+      fingers::revolved({{0.0, 0.0}, {0.006, 0.0}, {0.006, 0.006}, {0.0, 0.012}}, 7);
+  int accepted = 0;
+  for (int i = 0; i < 500; ++i) {
+    auto bent = straight;
+    for (Vector3& w : bent.vertices)
+      w += 1e-5 * double(i) * Vector3(shift(generator), shift(generator), shift(generator));
+    try {
+      const meshes::Solid solid(bent, {{{2, true, 1e-3}}});
+      EXPECT_GT(solid.volume(), 0.0);
+      EXPECT_GT(solid.wall(), 0.0);
+      ++accepted;
+    } catch (const meshes::InvalidInput&) {
+    }
+  }
+  EXPECT_GT(accepted, 50);
+  EXPECT_LT(accepted, 450);
+}
+
+}  // namespace
