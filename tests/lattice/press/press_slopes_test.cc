@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "lattice/press/static_press.h"
@@ -168,6 +169,19 @@ TEST(PressSlopes, AgreeWithDifferencesTilted) {
   setup.protocol.tilt = 10.0 * std::numbers::pi / 180.0;
   setup.protocol.lateral = 1e-4;
   expect_differences(setup);
+}
+
+/// Beside the axis of a ball, so that the normal differs from point to point at finite strain.
+TEST(PressSlopes, AgreeWithDifferencesOnABall) {
+  for (const ContactMode contact : {ContactMode::frictionless, ContactMode::stick}) {
+    for (const auto& [model, kinematics] : {std::pair(ModelKind::hookean, Kinematics::small),
+                                            std::pair(ModelKind::network, Kinematics::finite)}) {
+      PressSetup setup = press_at(6, depths(0.05), contact, model, kinematics);
+      setup.protocol.obstacle = {
+          .shape = meshes::ObstacleShape::sphere, .radius = 6e-3, .offset = 1e-3};
+      expect_differences(setup);
+    }
+  }
 }
 
 /// Springs of a constant that is zero are not in the body; its force still has a derivative.
