@@ -70,7 +70,7 @@ struct VolumeDerivatives {
   Matrix9 second;
 };
 
-VolumeDerivatives differentiate(const VolumetricMeasure& h, double jacobian,
+VolumeDerivatives differentiate(const meshes::VolumetricMeasure& h, double jacobian,
                                 const Eigen::Matrix3d& inverse) {
   VolumeDerivatives result;
   Eigen::Matrix<double, 9, 1> cofactor;
@@ -185,7 +185,8 @@ void HookeKernel<dim>::integrate(const dealii::FEValues<dim>& values,
 }
 
 template <int dim>
-HyperelasticKernel<dim>::HyperelasticKernel(const HyperelasticLaw& law, Volumetric volumetric)
+HyperelasticKernel<dim>::HyperelasticKernel(const meshes::HyperelasticLaw& law,
+                                            Volumetric volumetric)
     : law_(law), volumetric_(volumetric) {}
 
 template <int dim>

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fem_reference/job.h"
-#include "fem_reference/material/strain_energy.h"
+#include "meshes/hyperelastic_law.h"
 #include "meshes/rubber.h"
 
 namespace fingertip::fem_reference {
@@ -68,7 +68,7 @@ class HookeKernel : public ElementKernel<dim> {
 template <int dim>
 class HyperelasticKernel : public ElementKernel<dim> {
  public:
-  HyperelasticKernel(const HyperelasticLaw& law, Volumetric volumetric);
+  HyperelasticKernel(const meshes::HyperelasticLaw& law, Volumetric volumetric);
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  Parts parts, ElementSystem& result) override;
   std::unique_ptr<ElementKernel<dim>> clone() const override {
@@ -80,7 +80,7 @@ class HyperelasticKernel : public ElementKernel<dim> {
   void add_swelling(const Eigen::MatrixXd& swelling, const Eigen::MatrixXd& weighted_basis,
                     double modulus, Eigen::MatrixXd& matrix);
 
-  HyperelasticLaw law_;
+  meshes::HyperelasticLaw law_;
   Volumetric volumetric_;
   Eigen::MatrixXd slopes_, stressed_, block_, projected_;
   /// dP/dF of every point, by component and slope of both.

@@ -11,6 +11,7 @@
 
 #include "meshes/fields_json.h"
 #include "meshes/files.h"
+#include "meshes/hyperelastic_law.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -110,20 +111,6 @@ std::string_view name(Volumetric volumetric) {
   return volumetric == Volumetric::pointwise ? "pointwise" : "projected";
 }
 
-std::string_view name(StrainEnergy law) {
-  switch (law) {
-    case StrainEnergy::law_a: return "A";
-    case StrainEnergy::law_b: return "B";
-    case StrainEnergy::law_c: return "C";
-  }
-  return "";
-}
-
-void ReferenceJob::press_to(std::vector<double> samples) {
-  protocol.depth = samples.empty() ? 0.0 : samples.back();
-  protocol.samples = std::move(samples);
-}
-
 std::string_view name(Symmetry symmetry) {
   switch (symmetry) {
     case Symmetry::automatic: return "automatic";
@@ -167,11 +154,9 @@ std::vector<Violation> ReferenceJob::violations() const {
           "choose 16 for a smooth body, 0 for the meridian alone");
   require(modes >= 1 && modes <= 1000, "reference.modes", modes, "must lie between 1 and 1000",
           "choose 10");
-  if (strain == Strain::finite && law != StrainEnergy::law_c)  // C needs a bulk modulus > 0 only
-    require(rubber.lame_lambda() >= -1e-12 * rubber.shear_modulus, "rubber", rubber.lame_lambda(),
-            "finite strain needs nu >= 0: with a negative Lame constant lambda the energy falls "
-            "without bound as the volume goes to zero",
-            "choose G <= E/2, or reference.strain = \"linear\"");
+  if (strain == Strain::finite && broken.empty())
+    for (Violation& violation : meshes::large_strain_violations(rubber))
+      broken.push_back(std::move(violation));
   if (symmetry == Symmetry::axisymmetric && !axisymmetric())
     broken.push_back(
         {"reference.symmetry", "axisymmetric",

@@ -20,7 +20,7 @@ enum class LinearSolver {
 /// Which continuum.
 enum class Strain {
   linear,  ///< small strain, Hooke's law, gap and moments at reference positions
-  finite,  ///< large strain, `StrainEnergy`, gap and moments at current positions
+  finite,  ///< large strain, the rubber's law, gap and moments at current positions
 };
 
 /// What is computed.
@@ -44,14 +44,10 @@ enum class Symmetry {
   none,          ///< as a solid
 };
 
-/// Strain energies of large strain; see material/strain_energy.h.
-enum class StrainEnergy { law_a, law_b, law_c };
-
 std::string_view name(LinearSolver solver);
 std::string_view name(Strain strain);
 std::string_view name(Analysis analysis);
 std::string_view name(Volumetric volumetric);
-std::string_view name(StrainEnergy law);
 std::string_view name(Symmetry symmetry);
 
 /// One order to the continuum, SI.
@@ -63,7 +59,6 @@ struct ReferenceJob {
   /// its mode and clearance never.
   meshes::PressProtocol protocol;
   Strain strain = Strain::linear;
-  StrainEnergy law = StrainEnergy::law_a;  ///< finite strain only
   Symmetry symmetry = Symmetry::automatic;
   int modes = 10;  ///< how many, lowest first
   int degree = 2;  ///< polynomial degree of the elements, 1, 2 or 3
@@ -86,7 +81,7 @@ struct ReferenceJob {
 
 template <meshes::Fields<ReferenceJob> T>
 void visit_fields(T& job, auto&& visit) {
-  auto& [analysis, geometry, rubber, protocol, strain, law, symmetry, modes, degree, volumetric,
+  auto& [analysis, geometry, rubber, protocol, strain, symmetry, modes, degree, volumetric,
          refinement, tolerance, max_unknowns, estimate_error, solver, solver_tolerance,
          write_fields, field_sectors] = job;
   visit("analysis", analysis, "");
@@ -94,7 +89,6 @@ void visit_fields(T& job, auto&& visit) {
   visit("rubber", rubber, "");
   visit("protocol", protocol, "");
   visit("strain", strain, "");
-  visit("law", law, "");
   visit("symmetry", symmetry, "");
   visit("modes", modes, "");
   visit("degree", degree, "");
@@ -124,9 +118,6 @@ constexpr auto values(Volumetric) {
 }
 constexpr auto values(Symmetry) {
   return std::array{Symmetry::automatic, Symmetry::axisymmetric, Symmetry::none};
-}
-constexpr auto values(StrainEnergy) {
-  return std::array{StrainEnergy::law_a, StrainEnergy::law_b, StrainEnergy::law_c};
 }
 
 /// JSON in and out (file `job.json` in the run folder). Reading throws InvalidInput with the

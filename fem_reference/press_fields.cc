@@ -45,7 +45,7 @@ class Law {
  public:
   explicit Law(const ReferenceJob& job)
       : lambda_(job.rubber.lame_lambda()), shear_(job.rubber.shear_modulus) {
-    if (job.strain == Strain::finite) finite_.emplace(job.law, job.rubber);
+    if (job.strain == Strain::finite) finite_.emplace(job.rubber);
   }
 
   /// div u at small strain, h(J) at large strain.
@@ -68,7 +68,7 @@ class Law {
 
  private:
   double lambda_, shear_;
-  std::optional<HyperelasticLaw> finite_;
+  std::optional<meshes::HyperelasticLaw> finite_;
   Eigen::Matrix3d one_ = Eigen::Matrix3d::Identity();
 };
 

@@ -38,7 +38,7 @@ template <int dim>
 std::unique_ptr<ElementKernel<dim>> make_kernel(const ReferenceJob& job) {
   if (job.strain == Strain::linear)
     return std::make_unique<HookeKernel<dim>>(job.rubber, job.volumetric);
-  return std::make_unique<HyperelasticKernel<dim>>(HyperelasticLaw(job.law, job.rubber),
+  return std::make_unique<HyperelasticKernel<dim>>(meshes::HyperelasticLaw(job.rubber),
                                                    job.volumetric);
 }
 

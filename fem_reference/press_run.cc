@@ -287,7 +287,7 @@ class PressRun {
     RunSummary summary = summary_head(outcome, job_);
     summary.contact = meshes::name(job_.protocol.contact);
     summary.strain = fem_reference::name(job_.strain);
-    if (job_.strain == Strain::finite) summary.law = fem_reference::name(job_.law);
+    if (job_.strain == Strain::finite) summary.law = meshes::describe(job_.rubber.energy);
     summary.worst_relative_error = history_.worst_relative_error();
     if (!history_.meshes().empty()) add_finest(history_.meshes().back().mesh, summary);
     summary.mesh = first_mesh(mesh_quality_);

@@ -45,11 +45,21 @@ void visit_fields(T& corner, auto&& visit) {
 
 template <Fields<Rubber> T>
 void visit_fields(T& rubber, auto&& visit) {
-  auto& [youngs_modulus, shear_modulus, density, retardation_time] = rubber;
+  auto& [youngs_modulus, shear_modulus, density, retardation_time, energy] = rubber;
   visit("youngs_modulus", youngs_modulus, "Pa");
   visit("shear_modulus", shear_modulus, "Pa");
   visit("density", density, "kg/m^3");
   visit("retardation_time", retardation_time, "s");
+  // Files of the usual law need not name it.
+  if (!std::is_const_v<T> || energy != StrainEnergy()) visit("energy", energy, "");
+}
+
+template <Fields<StrainEnergy> T>
+void visit_fields(T& energy, auto&& visit) {
+  auto& [law, volumetric, shape] = energy;
+  visit("law", law, "");
+  visit("volumetric", volumetric, "");
+  visit("shape", shape, "");
 }
 
 template <Fields<PressProtocol> T>
@@ -85,6 +95,14 @@ void visit_fields(T& obstacle, auto&& visit) {
 /// All values of an enumeration; name() tells how each is written.
 constexpr auto values(ContactMode) {
   return std::array{ContactMode::stick, ContactMode::frictionless, ContactMode::coulomb};
+}
+constexpr auto values(RubberLaw) {
+  return std::array{RubberLaw::linear,        RubberLaw::neo_hookean, RubberLaw::yeoh,
+                    RubberLaw::mooney_rivlin, RubberLaw::ogden,       RubberLaw::gent};
+}
+constexpr auto values(VolumetricLaw) {
+  return std::array{VolumetricLaw::logarithmic, VolumetricLaw::quadratic,
+                    VolumetricLaw::full_quadratic, VolumetricLaw::isochoric_logarithmic};
 }
 constexpr auto values(ProfileSurface) {
   return std::array{ProfileSurface::contact, ProfileSurface::bond, ProfileSurface::free,

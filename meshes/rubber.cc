@@ -1,6 +1,7 @@
 #include "meshes/rubber.h"
 
 #include <cmath>
+#include <utility>
 
 #include "meshes/files.h"
 
@@ -31,6 +32,7 @@ std::vector<Violation> Rubber::violations() const {
   require(std::isfinite(retardation_time) && retardation_time >= 0.0, "rubber.retardation_time",
           retardation_time, "s", "tau must be finite and not negative",
           "give the Kelvin-Voigt retardation time, or 0 for no damping");
+  for (Violation& violation : energy.violations()) found.push_back(std::move(violation));
   return found;
 }
 

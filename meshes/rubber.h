@@ -1,9 +1,11 @@
-/// Linear isotropic rubber, given by Young's and shear modulus as in the paper (section II.E).
+/// Isotropic rubber, given by Young's and shear modulus as in the paper (section II.E), and at
+/// large strain by a law of them.
 #pragma once
 
 #include <vector>
 
 #include "meshes/errors.h"
+#include "meshes/strain_energy.h"
 
 namespace fingertip::meshes {
 
@@ -13,6 +15,7 @@ struct Rubber {
   double shear_modulus = 1372.931;   ///< G [Pa]; default 14 gf/cm²
   double density = 500.0;            ///< rho [kg/m³]
   double retardation_time = 0.3e-3;  ///< tau of the Kelvin-Voigt damping [s], tan d = omega tau
+  StrainEnergy energy;               ///< at large strain; small strain knows E and G alone
 
   std::vector<Violation> violations() const;
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <memory>
 
-#include "fem_reference/material/strain_energy.h"
+#include "meshes/hyperelastic_law.h"
 #include "fem_reference/tip_body.h"
 #include "tests/fem_reference/shared_mesh.h"
 
