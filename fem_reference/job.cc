@@ -111,6 +111,11 @@ std::string_view name(Volumetric volumetric) {
   return volumetric == Volumetric::pointwise ? "pointwise" : "projected";
 }
 
+void ReferenceJob::press_to(std::vector<double> samples) {
+  protocol.depth = samples.empty() ? 0.0 : samples.back();
+  protocol.samples = std::move(samples);
+}
+
 std::string_view name(Symmetry symmetry) {
   switch (symmetry) {
     case Symmetry::automatic: return "automatic";
@@ -155,8 +160,10 @@ std::vector<Violation> ReferenceJob::violations() const {
   require(modes >= 1 && modes <= 1000, "reference.modes", modes, "must lie between 1 and 1000",
           "choose 10");
   if (strain == Strain::finite && broken.empty())
-    for (Violation& violation : meshes::large_strain_violations(rubber))
+    for (Violation& violation : meshes::large_strain_violations(rubber)) {
+      if (violation.key == "rubber.youngs_modulus") violation.key = "rubber";  // E beside G
       broken.push_back(std::move(violation));
+    }
   if (symmetry == Symmetry::axisymmetric && !axisymmetric())
     broken.push_back(
         {"reference.symmetry", "axisymmetric",

@@ -223,15 +223,14 @@ Matrix9d tangent_of(const Terms& t, const Matrix3d& F, const Matrix3d& H) {
   return tangent;
 }
 
-/// lambda, for nu = 0 exactly 0: in other units than the user's, round-off may leave it just below.
-double volumetric_modulus_of(const Rubber& rubber) {
+}  // namespace
+
+double volumetric_modulus(const Rubber& rubber) {
   if (rubber.energy.isochoric()) return rubber.bulk_modulus();
   const double G = rubber.shear_modulus,
                left = rubber.lame_lambda() - rubber.energy.lambda_share() * G;
-  return std::abs(left) < 1e-12 * G ? 0.0 : left;
+  return std::abs(left) < 1e-12 * G ? 0.0 : left;  // in other units than the user's
 }
-
-}  // namespace
 
 std::vector<Violation> large_strain_violations(const Rubber& rubber) {
   const StrainEnergy& energy = rubber.energy;
@@ -239,7 +238,7 @@ std::vector<Violation> large_strain_violations(const Rubber& rubber) {
     return {{"rubber.law", "linear", "finite strain needs a law of large strain",
              "take neo-hookean or another law, or small strain"}};
   }
-  if (volumetric_modulus_of(rubber) >= 0.0) return {};
+  if (volumetric_modulus(rubber) >= 0.0) return {};
   const std::string limit = energy.logarithmic() ? "0" : "infinity";
   if (energy.lambda_share() == 0.0) {
     return {{"rubber.youngs_modulus", to_text(rubber.youngs_modulus) + " Pa",
@@ -259,7 +258,7 @@ std::vector<Violation> large_strain_violations(const Rubber& rubber) {
 HyperelasticLaw::HyperelasticLaw(const Rubber& rubber)
     : energy_(rubber.energy),
       shear_modulus_(rubber.shear_modulus),
-      volumetric_modulus_(volumetric_modulus_of(rubber)) {
+      volumetric_modulus_(fingertip::meshes::volumetric_modulus(rubber)) {
   auto broken = rubber.violations();
   if (broken.empty()) broken = large_strain_violations(rubber);
   if (!broken.empty()) throw InvalidInput(std::move(broken));

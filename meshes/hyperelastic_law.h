@@ -48,6 +48,10 @@ class HyperelasticLaw {
   /// law of full invariants leaves m < 0: its energy falls without bound.
   explicit HyperelasticLaw(const Rubber& rubber);
 
+  /// G and m as they are, unchecked: the law is linear in both.
+  HyperelasticLaw(const StrainEnergy& energy, double shear_modulus, double volumetric_modulus)
+      : energy_(energy), shear_modulus_(shear_modulus), volumetric_modulus_(volumetric_modulus) {}
+
   /// Everything except the volumetric term.
   PointResponse pointwise(const Eigen::Matrix3d& F) const;
 
@@ -69,6 +73,9 @@ class HyperelasticLaw {
   StrainEnergy energy_;
   double shear_modulus_, volumetric_modulus_;
 };
+
+/// m of a rubber with that law [Pa]; lambda = 0 but for round-off counts as 0.
+double volumetric_modulus(const Rubber& rubber);
 
 /// What forbids large strain to a rubber, whose own rules hold.
 std::vector<Violation> large_strain_violations(const Rubber& rubber);

@@ -12,19 +12,33 @@ namespace fingertip::lattice {
 ///   cubic    ½ eps:C:eps + ½ bending q:Omega:q           small strain, eps = (H + Hᵀ)/2
 ///   volume   kappa/2 (J - 1)²                            beside central springs, J = det F
 ///   network  law A + ½ bending q:Omega:q, law A = G/2 (|F|² - 3) - G ln J + lambda/2 (ln J)²
+///   invariants, stretches
+///            W + ½ bending q:Omega:q with the W of any other law of large strain, of invariants of
+///            F or of its principal stretches (meshes/strain_energy.h)
 ///
-/// Damping (Kelvin-Voigt): `cubic` sees u + tau v instead of u. `network` adds, with L the mean
-/// velocity gradient dv/dx and D its symmetric part, the Kirchhoff stress tau (lambda tr D + 2 G D)
-/// and on the bilinear modes bending tau Omega (dq/dt - L q); `volume` adds to dW/dF the stress
-/// tau kappa dJ/dt cof F. All are objective, so no rigid motion of a deformed cell is damped, and
-/// equal to tau times the stiffness at rest.
-enum class CellLawKind { cubic, volume, network };
+/// Damping (Kelvin-Voigt): `cubic` sees u + tau v instead of u. Laws of large strain add, with L
+/// the mean velocity gradient dv/dx and D its symmetric part, the Kirchhoff stress tau (lambda tr D
+/// + 2 G D) and on the bilinear modes bending tau Omega (dq/dt - L q); `volume` adds to dW/dF the
+/// stress tau kappa dJ/dt cof F. All are objective, so no rigid motion of a deformed cell is
+/// damped, and equal to tau times the stiffness at rest.
+enum class CellLawKind { cubic, volume, network, invariants, stretches };
+
+/// meshes::StrainEnergy as plain data.
+struct CellStrainEnergy {
+  enum class Law { neo_hookean, yeoh, mooney_rivlin, ogden, gent };
+  Law law = Law::neo_hookean;
+  bool isochoric = false;   ///< whether W sees F free of the change of volume
+  bool logarithmic = true;  ///< whether the volumetric part is m/2 (ln J)², not m/2 (J - 1)²
+  double volumetric = 0.0;  ///< m [Pa]
+  double shape[6] = {};
+};
 
 struct CellMaterial {
   CellLawKind kind = CellLawKind::cubic;
   double c11 = 0.0, c12 = 0.0, c44 = 0.0;  ///< cubic, along the grid's axes [Pa]
   double kappa = 0.0;                      ///< volume [Pa]
-  double shear = 0.0, lambda = 0.0;        ///< network: G > 0, lambda >= 0 [Pa]
+  double shear = 0.0, lambda = 0.0;        ///< network and beyond: G > 0, lambda at rest [Pa]
+  CellStrainEnergy energy;                 ///< invariants, stretches
   double bending = 0.0;  ///< modulus of the bilinear modes, the fibres' share of C44 or G [Pa]
   double retardation_time = 0.0;  ///< tau [s], not negative
 
@@ -33,9 +47,11 @@ struct CellMaterial {
   };
   /// What W amounts to at small strain [Pa].
   Cubic at_rest() const {
-    if (kind == CellLawKind::network) return {lambda + 2.0 * shear, lambda, shear};
+    if (large_strain()) return {lambda + 2.0 * shear, lambda, shear};
     return kind == CellLawKind::volume ? Cubic{kappa, kappa, 0.0} : Cubic{c11, c12, c44};
   }
+  /// Whether the law is one of rubber at large strain, which needs J > 0.
+  bool large_strain() const { return kind != CellLawKind::cubic && kind != CellLawKind::volume; }
   /// Whether nothing is stored, whatever the deformation.
   bool none() const {
     const auto [a, b, c] = at_rest();

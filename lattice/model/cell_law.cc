@@ -1,11 +1,31 @@
 #include "lattice/model/cell_law.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
 #include "lattice/kernels/cell_law.h"
 
 namespace fingertip::lattice {
+
+meshes::HyperelasticLaw hyperelastic_law(const CellMaterial& material) {
+  using meshes::RubberLaw, meshes::VolumetricLaw;
+  const CellStrainEnergy& own = material.energy;
+  meshes::StrainEnergy energy;
+  switch (own.law) {
+    case CellStrainEnergy::Law::neo_hookean: energy.law = RubberLaw::neo_hookean; break;
+    case CellStrainEnergy::Law::yeoh: energy.law = RubberLaw::yeoh; break;
+    case CellStrainEnergy::Law::mooney_rivlin: energy.law = RubberLaw::mooney_rivlin; break;
+    case CellStrainEnergy::Law::ogden: energy.law = RubberLaw::ogden; break;
+    case CellStrainEnergy::Law::gent: energy.law = RubberLaw::gent; break;
+  }
+  energy.volumetric =
+      own.isochoric
+          ? (own.logarithmic ? VolumetricLaw::isochoric_logarithmic : VolumetricLaw::quadratic)
+          : (own.logarithmic ? VolumetricLaw::logarithmic : VolumetricLaw::full_quadratic);
+  std::ranges::copy(own.shape, energy.shape.begin());
+  return {energy, material.shear, own.volumetric};
+}
 
 namespace {
 
@@ -69,6 +89,8 @@ double CellLaw::energy(const Matrix3d& H) const {
   const Law::Rows F = Law::plus_one(gradient);
   const double J = dot(F.x, cross(F.y, F.z)), fibres = 0.5 * m.bending * Law::stretch(gradient);
   if (m.kind == CellLawKind::volume) return Law::volume_energy(m, 1.0, J) - fibres;
+  if (m.kind != CellLawKind::network)
+    return hyperelastic_law(m).energy(Matrix3d::Identity() + H) - fibres;
   if (!(J > 0.0)) return std::numeric_limits<double>::infinity();
   return Law::network_energy(m, 1.0, gradient, J) - fibres;
 }
@@ -82,6 +104,11 @@ CellResponse CellLaw::evaluate(const Matrix3d& H) const {
       change(n / 3, n % 3) = 1.0;
       response.tangent.col(n) = cubic_stress(*this, change);
     }
+  } else if (material.large_strain() && material.kind != CellLawKind::network) {
+    const Matrix3d F = Matrix3d::Identity() + H;
+    const meshes::PointResponse point = hyperelastic_law(material).complete(F);
+    response.stress = flat(rows_of(point.stress - material.bending * F));
+    response.tangent = point.tangent;
   } else {
     response = deformed_response(material, Law::plus_one(rows_of(H)));
   }

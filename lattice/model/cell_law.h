@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "lattice/kernels/cell_material.h"
+#include "meshes/hyperelastic_law.h"
 
 namespace fingertip::lattice {
 
@@ -14,9 +15,12 @@ struct CellResponse {
   Eigen::Matrix<double, 9, 9> tangent;  ///< d²W/dH² [Pa]
 };
 
+/// The law of `invariants` and `stretches`, point by point.
+meshes::HyperelasticLaw hyperelastic_law(const CellMaterial& material);
+
 /// The law of a material (kernels/cell_law.h) less what fibres along the edges carry of it, which
-/// equilibria count edge by edge: W(H) - bending/2 |H|² (cubic), W(H) - bending/2 (|F|² - 3). No
-/// law but `network` needs J > 0.
+/// equilibria count edge by edge: W(H) - bending/2 |H|² (cubic), W(H) - bending/2 (|F|² - 3). Laws
+/// of large strain need J > 0.
 struct CellLaw {
   CellMaterial material;
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: those of `cubic`

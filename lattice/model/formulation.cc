@@ -1,8 +1,11 @@
 #include "lattice/model/formulation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "meshes/files.h"
+#include "meshes/hyperelastic_law.h"
 
 namespace fingertip::lattice {
 
@@ -27,9 +30,26 @@ CellMaterial volume_material(double kappa, bool finite) {
   return material;
 }
 
-CellMaterial network_material(double shear, double lambda, double share) {
+CellMaterial network_material(const meshes::StrainEnergy& energy, double shear, double lambda,
+                              double share) {
+  using meshes::RubberLaw;
   CellMaterial material;
-  material.kind = CellLawKind::network;
+  material.kind = energy == meshes::StrainEnergy() ? CellLawKind::network
+                  : energy.law == RubberLaw::ogden ? CellLawKind::stretches
+                                                   : CellLawKind::invariants;
+  CellStrainEnergy& own = material.energy;
+  switch (energy.law) {
+    case RubberLaw::yeoh: own.law = CellStrainEnergy::Law::yeoh; break;
+    case RubberLaw::mooney_rivlin: own.law = CellStrainEnergy::Law::mooney_rivlin; break;
+    case RubberLaw::ogden: own.law = CellStrainEnergy::Law::ogden; break;
+    case RubberLaw::gent: own.law = CellStrainEnergy::Law::gent; break;
+    default: break;
+  }
+  own.isochoric = energy.isochoric();
+  own.logarithmic = energy.logarithmic();
+  own.volumetric =
+      own.isochoric ? lambda + 2.0 / 3.0 * shear : lambda - energy.lambda_share() * shear;
+  std::ranges::copy(energy.shape, own.shape);
   material.shear = shear;
   material.lambda = lambda;
   material.bending = share * shear;
@@ -50,7 +70,7 @@ Formulation formulation_for(const Rubber& rubber, const LatticeSettings& setting
   formulation.cell_law = settings.model != ModelKind::central;
   if (network && formulation.finite) {
     formulation.material =
-        network_material(rubber.shear_modulus, rubber.lame_lambda(), fibre_share);
+        network_material(rubber.energy, rubber.shear_modulus, rubber.lame_lambda(), fibre_share);
   } else if (formulation.central_springs) {
     formulation.material = volume_material(formulation.constants.kappa, formulation.finite);
   } else {
@@ -80,15 +100,16 @@ std::vector<Violation> material_violations(const Rubber& rubber, const LatticeSe
                      "choose central, hookean or network"});
   }
   if (settings.model == ModelKind::network) {
-    // The margin keeps round-off in other units than the user's from refusing nu = 0.
-    if (settings.kinematics == Kinematics::finite && rubber.poissons_ratio() < -1e-12) {
-      found.push_back({"rubber.youngs_modulus", meshes::to_text(rubber.youngs_modulus) + " Pa",
-                       "the network at finite strain needs nu >= 0, that is E >= 2G: with a "
-                       "negative Lame constant lambda the energy falls without bound as J -> 0",
-                       "raise youngs_modulus to 2 shear_modulus or more, or take kinematics "
-                       "small"});
-    }
+    if (settings.kinematics == Kinematics::finite && found.empty())
+      return meshes::large_strain_violations(rubber);
     return found;
+  }
+  const meshes::StrainEnergy usual;
+  if (settings.kinematics == Kinematics::finite && rubber.energy.law != usual.law) {
+    found.push_back({"rubber.law", std::string(meshes::name(rubber.energy.law)),
+                     "at finite kinematics a lattice of model " +
+                         std::string(name(settings.model)) + " has no law of large strain",
+                     "take lattice.model = \"network\", or kinematics = \"small\""});
   }
   const SpringConstants& k = settings.constants;
   const auto not_negative = [](double value) { return std::isfinite(value) && value >= 0.0; };

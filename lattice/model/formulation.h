@@ -17,9 +17,8 @@ namespace fingertip::lattice {
 inline constexpr double fibre_share = 1.0 / 3.0;
 
 ///   hookean, small    isotropic fibres s C44 a along the edges, cells with the law `cubic`
-///   network, finite   isotropic fibres s G a, cells with the law `network`: law A of the
-///   continuum,
-///                     no stress at rest in cut cells either
+///   network, finite   isotropic fibres s G a, cells with the law of Rubber::energy (`network` for
+///                     the usual one); no stress at rest in cut cells either
 ///   network, small    hookean with the rubber's closed form for its constants
 ///   hookean, finite   central springs k1, k2, k3, cells with the law `volume`
 ///   central           central springs k1, k2, k3, cells without a law
@@ -38,9 +37,10 @@ struct Formulation {
 CellMaterial cubic_material(const SpringConstants& constants, double spacing, double share);
 /// kappa alone [Pa]: kappa/2 (tr H)² or kappa/2 (J - 1)².
 CellMaterial volume_material(double kappa, bool finite);
-/// `shear` G and `lambda` [Pa]; fibres carry the share `share` of G. With lambda < 0 the energy has
-/// no bound below as J -> 0; not checked.
-CellMaterial network_material(double shear, double lambda, double share);
+/// `shear` G and `lambda` at rest [Pa]; fibres carry the share `share` of G. What makes the energy
+/// unbounded (meshes::large_strain_violations) is not checked.
+CellMaterial network_material(const meshes::StrainEnergy& energy, double shear, double lambda,
+                              double share);
 
 /// settings.constants are those of hookean (kappa included) and central, the network takes G and
 /// lambda of the rubber. Settings must be free of material_violations.

@@ -43,11 +43,12 @@ Rates rates_of(PressParameter parameter, const LatticeSettings& settings) {
 }
 
 /// Every law is linear in its moduli.
-CellMaterial material_slope(const Formulation& formulation, const Rates& rates, double spacing) {
+CellMaterial material_slope(const Formulation& formulation, const Rates& rates, double spacing,
+                            const meshes::StrainEnergy& energy) {
   if (formulation.central_springs)
     return volume_material(formulation.cell_law ? rates.constants.kappa : 0.0, formulation.finite);
-  if (formulation.material.kind == CellLawKind::network)
-    return network_material(rates.shear, rates.lambda, fibre_share);
+  if (formulation.material.large_strain())
+    return network_material(energy, rates.shear, rates.lambda, fibre_share);
   return cubic_material(rates.constants, spacing, fibre_share);
 }
 
@@ -160,7 +161,8 @@ LatticeBody body_slope(const LatticeBody& body, const PressSetup& setup, PressPa
   const Rates rates = rates_of(parameter, setup.lattice);
   const double shear = rates.shear / formulation.shear;  // fibres and ties are proportional to it
   LatticeBody slope = body;
-  slope.law.material = material_slope(formulation, rates, setup.lattice.spacing);
+  slope.law.material =
+      material_slope(formulation, rates, setup.lattice.spacing, setup.rubber.energy);
   if (slope.law.none()) slope.cells.clear();
   slope.springs =
       formulation.central_springs ? springs_slope(body, setup, parameter) : std::vector<Spring>();

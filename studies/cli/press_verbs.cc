@@ -95,7 +95,8 @@ void print_folder(const Session& session, const JobResult& result) {
 /// "continuum, finite strain (law A), stick contact, static"
 std::string heading(const fem_reference::ReferenceJob& reference) {
   const bool finite = reference.strain == fem_reference::Strain::finite;
-  std::string text = finite ? fmt::format("continuum, finite strain (law {})", name(reference.law))
+  std::string text = finite ? fmt::format("continuum, finite strain ({})",
+                                          meshes::describe(reference.rubber.energy))
                             : std::string("continuum, small strain");
   if (reference.analysis == fem_reference::Analysis::modes) return text + ", natural frequencies";
   return fmt::format("{}, {} contact, {}", text, meshes::name(reference.protocol.contact),

@@ -111,6 +111,27 @@ struct ControllerSettings {
   double connect_timeout = 60.0;                  ///< for the first client of the socket [s]
 };
 
+/// Coefficients of a law of large strain, as given; resolve_elasticity makes Rubber::energy of
+/// them.
+struct LawCoefficients {
+  std::vector<double> yeoh, mooney_rivlin;  ///< [Pa]
+  std::vector<double> ogden;                ///< mu [Pa], alpha, mu [Pa], alpha, ...
+  std::optional<double> gent_jm, bulk_modulus;
+};
+
+/// The neo-Hookean law of the continuum by an older name (key reference.law).
+enum class ContinuumLaw {
+  a,  ///< the rubber's own
+  b,  ///< VolumetricLaw::full_quadratic
+  c,  ///< VolumetricLaw::isochoric_logarithmic
+};
+constexpr std::string_view name(ContinuumLaw law) {
+  return law == ContinuumLaw::a ? "A" : law == ContinuumLaw::b ? "B" : "C";
+}
+constexpr auto values(ContinuumLaw) {
+  return std::array{ContinuumLaw::a, ContinuumLaw::b, ContinuumLaw::c};
+}
+
 /// Section [exchange]: what is handed to another program.
 struct ExchangeSettings {
   bool cube = false;            ///< a free cube instead of the fingertip
@@ -140,6 +161,8 @@ struct Config {
   std::optional<double> spacing_divisor;          ///< a = R/divisor when given so
   std::optional<double> poissons_ratio;           ///< when given so; press.rubber has E and G
   std::optional<double> shore_hardness;           ///< Shore A, when given instead of E
+  LawCoefficients coefficients;                   ///< as given; press.rubber has the law
+  ContinuumLaw continuum_law = ContinuumLaw::a;
   fem_reference::ReferenceJob reference;
   CalibrationSettings calibration;
   ExchangeSettings exchange;

@@ -16,6 +16,7 @@ std::string_view kind_name(Kind kind) {
   switch (kind) {
     case Kind::quantity: return "quantity";
     case Kind::quantities: return "list of quantities";
+    case Kind::terms: return "list of pairs of a quantity and a number";
     case Kind::number: return "number";
     case Kind::numbers: return "list of 3 numbers";
     case Kind::integer: return "integer";
@@ -65,6 +66,7 @@ nlohmann::json element_schema(const Key& key) {
     case Kind::source:
     case Kind::texts:
     case Kind::files: schema = {{"type", "string"}, {"minLength", 1}}; break;
+    case Kind::terms: return {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}};
     case Kind::integer: schema["type"] = "integer"; break;
     case Kind::number:
     case Kind::number_pair:
@@ -80,9 +82,9 @@ nlohmann::json element_schema(const Key& key) {
 
 nlohmann::json key_schema(const Key& key) {
   nlohmann::json schema = element_schema(key);
-  const bool list = key.kind == Kind::quantities || key.kind == Kind::texts ||
-                    key.kind == Kind::files || key.kind == Kind::numbers ||
-                    key.kind == Kind::number_pair;
+  const bool list = key.kind == Kind::quantities || key.kind == Kind::terms ||
+                    key.kind == Kind::texts || key.kind == Kind::files ||
+                    key.kind == Kind::numbers || key.kind == Kind::number_pair;
   if (list) schema = {{"type", "array"}, {"items", schema}};
   const std::size_t length = key.kind == Kind::numbers       ? 3
                              : key.kind == Kind::number_pair ? 2

@@ -1,4 +1,4 @@
-/// The rubber's two elastic constants from whichever two were given.
+/// The rubber's two elastic constants from whichever two were given, and its law.
 #pragma once
 
 #include "studies/config/loader.h"
@@ -15,11 +15,12 @@ inline constexpr double usual_poissons_ratio = 0.49;
 /// a point of hardness is 3 to 5 % of E, and durometers differ by some points.
 double youngs_modulus_of_hardness(double shore_a);
 
-/// Puts E and G into config.press.rubber. Given can be E or hardness, G, nu: two of the three, one
-/// (then nu is `usual_poissons_ratio`, or E the default where nu is given; a note tells) or none
-/// (the defaults of E and G). Entries of what follows from others become "auto", so that the
-/// resolved configuration can be loaded again. Appends a problem where three are given, or both E
-/// and hardness.
+/// Puts E, G and the law of large strain into config.press.rubber. Given can be E or hardness, G
+/// (or the coefficients of a law, which tell it), nu, K: two of the four, one (then nu is
+/// `usual_poissons_ratio`, or E the default where nu or K is given; a note tells) or none (the
+/// defaults of E and G). Entries of what follows from others become "auto", so that the
+/// resolved configuration can be loaded again. Appends a problem where three are given, both E
+/// and hardness, a stiffness beside coefficients, or where a law misses its coefficients.
 void resolve_elasticity(LoadedConfig& loaded, std::vector<Problem>& problems);
 
 }  // namespace fingertip::studies

@@ -60,6 +60,16 @@ std::vector<Key> specimen_keys() {
   const auto rubber = [](auto member) {
     return at(&Config::press, &lattice::PressSetup::rubber, member);
   };
+  const auto energy = [](auto member) {
+    return at(&Config::press, &lattice::PressSetup::rubber, &meshes::Rubber::energy, member);
+  };
+  const auto coefficients = [](auto member) { return at(&Config::coefficients, member); };
+  const auto list = [](Key key, std::size_t length) {
+    key.kind = Kind::quantities;
+    key.unit = "Pa";
+    key.length = length;
+    return key;
+  };
   using meshes::Geometry;
   using meshes::Rubber;
   const auto or_auto = [](Key key) {
@@ -78,6 +88,12 @@ std::vector<Key> specimen_keys() {
   const auto of_solid = [](Key key) {
     return only_with("geometry.shape", {"solid"}, std::move(key));
   };
+  Key terms = plain("rubber", "ogden", any,
+                    "pairs of mu and alpha, [[\"2 kPa\", 1.3], ...]; G is "
+                    "the sum of the mu",
+                    coefficients(&LawCoefficients::ogden));
+  terms.kind = Kind::terms;
+  terms.unit = "Pa";
   return {
       choice("geometry", "shape",
              {{"dome", "the paper's finger: hemisphere and sleeve on a rod"},
@@ -131,6 +147,45 @@ std::vector<Key> specimen_keys() {
                       "Shore A hardness instead of E, by Gent's formula: rough; auto: none",
                       at(&Config::shore_hardness)),
                 "not beside youngs_modulus", {}),
+      with_rule(or_auto(quantity("rubber", "bulk_modulus", "", "Pa", positive,
+                                 "K, bulk modulus, beside one of E and G; auto: from the others",
+                                 coefficients(&LawCoefficients::bulk_modulus))),
+                "two of E (or hardness), G, nu and K", {}),
+      choice("rubber", "law",
+             {{"linear", "Hooke's law; refused at large strain"},
+              {"neo-hookean", "G/2 (I1 - 3)"},
+              {"yeoh", "C1 (I1 - 3) + C2 (I1 - 3)^2 + C3 (I1 - 3)^3"},
+              {"mooney-rivlin", "C10 (I1 - 3) + C01 (I2 - 3)"},
+              {"ogden", "sum of 2 mu/alpha^2 (l1^alpha + l2^alpha + l3^alpha - 3)"},
+              {"gent", "-G Jm/2 ln(1 - (I1 - 3)/Jm)"}},
+             "strain energy at large strain; at small strain only E and G count",
+             energy(&meshes::StrainEnergy::law)),
+      choice(
+          "rubber", "volumetric",
+          {{"logarithmic", "I1, I2, l as they are, and m/2 (ln J)^2; m is lambda less their share"},
+           {"quadratic", "I1, I2, l free of the volume, and K/2 (J - 1)^2"},
+           {"full-quadratic", "as logarithmic, but m/2 (J - 1)^2"},
+           {"isochoric-logarithmic", "as quadratic, but K/2 (ln J)^2"}},
+          "what a change of volume costs at large strain",
+          energy(&meshes::StrainEnergy::volumetric)),
+      with_rule(only_with("rubber.law", {"yeoh"},
+                          list(plain("rubber", "yeoh", any, "C1, C2, C3 or fewer; G is 2 C1",
+                                     coefficients(&LawCoefficients::yeoh)),
+                               0)),
+                "one to three, the first positive; instead of E and G", {}),
+      with_rule(only_with("rubber.law", {"mooney-rivlin"},
+                          list(plain("rubber", "mooney_rivlin", any,
+                                     "C10 and C01; G is twice "
+                                     "their sum",
+                                     coefficients(&LawCoefficients::mooney_rivlin)),
+                               0)),
+                "two with a positive sum; instead of E and G", {}),
+      with_rule(only_with("rubber.law", {"ogden"}, terms),
+                "one to three pairs, the mu with a positive sum; instead of E and G", {}),
+      with_rule(only_with("rubber.law", {"gent"},
+                          plain("rubber", "gent_jm", positive, "Jm, the largest I1 - 3",
+                                coefficients(&LawCoefficients::gent_jm))),
+                "given for gent", {}),
       quantity("rubber", "density", "g/cm^3", "kg/m^3", positive, "rho, mass density",
                rubber(&Rubber::density)),
       quantity("rubber", "retardation_time", "ms", "s", not_negative,
@@ -321,18 +376,17 @@ std::vector<Key> continuum_model_keys() {
   return {
       with_rule(choice("reference", "strain",
                        {{"linear", "small strain, Hooke's law"},
-                        {"finite", "large strain, the law of reference.law"}},
+                        {"finite", "large strain, the law of rubber.law"}},
                        "continuum theory", job(&Job::strain)),
                 "finite needs a Poisson's ratio of 0 or more",
                 {"rubber.youngs_modulus", "rubber.shear_modulus", "rubber.poissons_ratio"}),
-      only_with(
-          "reference.strain", {"finite"},
-          choice("reference", "law",
-                 {{"A", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (ln J)^2, the project's standard"},
-                  {"B", "W = G/2 (I1 - 3 - 2 ln J) + lambda/2 (J - 1)^2"},
-                  {"C", "W = G/2 (J^(-2/3) I1 - 3) + K/2 (ln J)^2"}},
-                 "strain energy at finite strain (neo-Hookean, same E and G at small strain)",
-                 job(&Job::law))),
+      only_with("reference.strain", {"finite"},
+                choice("reference", "law",
+                       {{"A", "the rubber's own"},
+                        {"B", "volumetric = full-quadratic"},
+                        {"C", "volumetric = isochoric-logarithmic"}},
+                       "another rubber.volumetric for the continuum alone (rubber.law neo-hookean)",
+                       at(&Config::continuum_law))),
       with_rule(choice("reference", "mode",
                        {{"static", "one equilibrium per output depth"},
                         {"transient", "the press at press.speed, with inertia and damping"},

@@ -16,6 +16,7 @@ enum class Kind {
   quantity,     ///< text "number unit"
   quantities,   ///< list of such texts
   number,       ///< TOML number
+  terms,        ///< list of pairs of such a text and a TOML number
   numbers,      ///< list of three TOML numbers
   number_pair,  ///< list of two TOML numbers, the smaller first
   integer,      ///< TOML integer
@@ -31,7 +32,7 @@ enum class Kind {
 /// A value read from text, in SI.
 struct Value {
   double number = 0.0;          ///< quantity, number, integer, boolean (0 or 1)
-  std::vector<double> numbers;  ///< quantities, numbers
+  std::vector<double> numbers;  ///< quantities, terms, numbers
   std::string word;  ///< choice, source, text, file; for a quantity the word given instead of one
   std::vector<std::string> words;  ///< texts, files
 };

@@ -52,6 +52,7 @@ class Reader {
 
  private:
   void resolve_shape();
+  void resolve_continuum_law();
   /// Files named by a value are relative to `base`: the configuration file's folder.
   void take(const Key& key, const toml::node& node, Entry entry, const std::filesystem::path& base);
   void read_section(const std::string& section, const toml::node& node,
@@ -212,6 +213,21 @@ void Reader::resolve_shape() {
   }
 }
 
+/// The older key changes what a change of volume costs in the continuum alone.
+void Reader::resolve_continuum_law() {
+  const ContinuumLaw law = loaded_.config.continuum_law;
+  if (law == ContinuumLaw::a) return;
+  meshes::StrainEnergy& energy = loaded_.config.reference.rubber.energy;
+  if (energy != meshes::StrainEnergy()) {
+    const Entry& entry = loaded_.entries.at("reference.law");
+    problems_.push_back({entry.place, "reference.law", unquoted(entry.literal),
+                         "means a neo-Hookean rubber with volumetric = logarithmic",
+                         "leave it out and give rubber.law and rubber.volumetric"});
+  }
+  energy.volumetric = law == ContinuumLaw::b ? meshes::VolumetricLaw::full_quadratic
+                                             : meshes::VolumetricLaw::isochoric_logarithmic;
+}
+
 LoadedConfig Reader::finish() {
   Config& config = loaded_.config;
   lattice::PressSetup& press = config.press;
@@ -240,6 +256,7 @@ LoadedConfig Reader::finish() {
   }
   config.reference.geometry = press.geometry;
   config.reference.rubber = press.rubber;
+  resolve_continuum_law();
   config.reference.protocol = protocol;
 
   std::vector<meshes::Violation> broken = press.rubber.violations();

@@ -73,12 +73,29 @@ Value read_quantity(const Key& key, const toml::node& node) {
 Value read_quantities(const Key& key, const toml::node& node) {
   const auto* list = node.as_array();
   if (list == nullptr)
-    refuse("must be a list of quantities", "write e.g. [\"0.1 cm\", \"0.2 cm\"]");
+    refuse("must be a list of quantities", "write e.g. [\"" + key.example() + "\"]");
   if (key.length > 0 && list->size() != key.length)
     refuse("must be a list of " + std::to_string(key.length) + " quantities", preset_advice(key));
   Value value;
   for (const toml::node& element : *list) {
     value.numbers.push_back(read_quantity(key, element).number);
+  }
+  return value;
+}
+
+Value read_number(const Key& key, const toml::node& node);
+
+Value read_terms(const Key& key, const toml::node& node) {
+  const std::string advice = "write e.g. [[\"2 kPa\", 1.3], [\"0.1 kPa\", 5.0]]";
+  const auto* list = node.as_array();
+  if (list == nullptr) refuse("must be a list of pairs of a quantity and a number", advice);
+  Value value;
+  for (const toml::node& element : *list) {
+    const auto* pair = element.as_array();
+    if (pair == nullptr || pair->size() != 2)
+      refuse("must be a list of pairs of a quantity and a number", advice);
+    value.numbers.push_back(read_quantity(key, pair->at(0)).number);
+    value.numbers.push_back(read_number(key, pair->at(1)).number);
   }
   return value;
 }
@@ -169,6 +186,7 @@ Value read_value(const Key& key, const toml::node& node) {
   switch (key.kind) {
     case Kind::quantity: return read_quantity(key, node);
     case Kind::quantities: return read_quantities(key, node);
+    case Kind::terms: return read_terms(key, node);
     case Kind::number: return read_number(key, node);
     case Kind::numbers: return read_numbers(key, node);
     case Kind::number_pair: return read_number_pair(key, node);

@@ -359,7 +359,7 @@ fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
   reference.analysis = fem_reference::Analysis::static_press;
   reference.strain = kinematics == lattice::Kinematics::finite ? fem_reference::Strain::finite
                                                                : fem_reference::Strain::linear;
-  reference.law = fem_reference::StrainEnergy::law_a;
+  reference.rubber.energy = loaded.config.press.rubber.energy;
   reference.write_fields = false;
   return continuum_setup(own);
 }

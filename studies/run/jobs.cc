@@ -85,7 +85,7 @@ ordered_json inputs_of(const fem_reference::ReferenceJob& reference) {
   ordered_json inputs = json_of(reference);
   inputs["protocol"] = inputs_of(reference.protocol, reference.analysis == Analysis::transient);
   drop(inputs["protocol"], {"mode", "clearance"});
-  if (reference.strain != fem_reference::Strain::finite) drop(inputs, {"law"});
+  if (reference.strain != fem_reference::Strain::finite) drop(inputs["rubber"], {"energy"});
   if (reference.analysis != Analysis::modes) drop(inputs, {"modes"});
   if (!reference.axisymmetric() || !reference.write_fields) drop(inputs, {"field_sectors"});
   if (reference.analysis == Analysis::static_press)
@@ -110,6 +110,7 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
     inputs["controller"] = {{"period", setup.controller.period}};
   }
   if (!moves) drop(inputs["rubber"], {"density", "retardation_time"});
+  if (setup.lattice.kinematics == lattice::Kinematics::small) drop(inputs["rubber"], {"energy"});
   if (!moves)
     drop(inputs, {"controller", "duration", "gravity", "integrator", "time_step", "tolerance",
                   "energy_bound"});

@@ -72,7 +72,9 @@ void take_over(const calibration::Material& material, LoadedConfig& loaded) {
   meshes::Rubber& rubber = loaded.config.press.rubber;
   // One of them says nothing about the others, and two together must make a rubber.
   if (!given("rubber.youngs_modulus") && !given("rubber.shear_modulus") &&
-      !given("rubber.poissons_ratio") && !given("rubber.shore_hardness")) {
+      !given("rubber.poissons_ratio") && !given("rubber.shore_hardness") &&
+      !given("rubber.bulk_modulus") && !given("rubber.yeoh") && !given("rubber.mooney_rivlin") &&
+      !given("rubber.ogden")) {
     take("rubber.youngs_modulus", material.rubber.youngs_modulus, rubber.youngs_modulus);
     take("rubber.shear_modulus", material.rubber.shear_modulus, rubber.shear_modulus);
   }
