@@ -79,8 +79,11 @@ void add_reaction(Terms& terms, double g, double J) {
   terms.inverse += g;  // J psi_J = -g, and normal = g - g
 }
 
-Terms terms_of_invariants(const StrainEnergy& energy, double G, const Matrix3d& F, double J) {
-  const double I1 = F.squaredNorm();
+/// `excess` adds to I1, and I1/3 times it to I2: so a shear that fluctuates about F costs G at
+/// rest.
+Terms terms_of_invariants(const StrainEnergy& energy, double G, const Matrix3d& F, double J,
+                          double excess) {
+  const double square = F.squaredNorm(), I1 = square + excess;
   const bool two = energy.law == RubberLaw::mooney_rivlin;
   Terms t;
   if (!energy.isochoric()) {
@@ -89,7 +92,8 @@ Terms terms_of_invariants(const StrainEnergy& energy, double G, const Matrix3d& 
     t.along = 2.0 * G * d.first;
     t.second = 2.0 * G * d.second;
     t.curvature = 4.0 * G * d.curvature;
-    if (two) t.energy += G * d.second * (second_invariant(F, I1) - 3.0);
+    if (two) t.energy += G * d.second * (second_invariant(F, square) + square * excess / 3.0 - 3.0);
+    t.along += t.second * excess / 3.0;
     add_reaction(t, G * (1.0 + (two ? energy.shape[0] : 0.0)), J);
     return t;
   }
@@ -103,12 +107,15 @@ Terms terms_of_invariants(const StrainEnergy& energy, double G, const Matrix3d& 
   t.normal = 4.0 / 9.0 * (curve * a * I1 + first);
   t.mixed = -4.0 / 3.0 * a * (G * d.first + curve);
   if (two) {
-    const double I2 = second_invariant(F, I1), second = G * d.second * b * I2;
+    const double I2 = second_invariant(F, square) + square * excess / 3.0,
+                 second = G * d.second * b * I2;
     t.energy += second - 3.0 * G * d.second;
     t.second = 2.0 * G * d.second * b;
     t.inverse += 4.0 / 3.0 * second;
     t.normal += 16.0 / 9.0 * second;
     t.mixed_second = -8.0 / 3.0 * G * d.second * b;
+    t.along += t.second * excess / 3.0;
+    t.mixed += t.mixed_second * excess / 3.0;
   }
   return t;
 }
@@ -118,13 +125,65 @@ Terms terms_of_invariants(const StrainEnergy& energy, double G, const Matrix3d& 
 struct Spectral {
   Matrix3d axes;  ///< columns V: F V = U diag(stretch)
   Vector3d stretch;
-  double energy = 0.0;
+  double energy = 0.0, slope = 0.0;  ///< slope: of the energy with `excess`
   Vector3d tau = Vector3d::Zero();
+  Vector3d slope_change = Vector3d::Zero();  ///< of the slope with the logarithms
   Matrix3d change = Matrix3d::Zero(), secant = Matrix3d::Zero();
 };
 
+/// (l_a^n - l_b^n)/(l_a² - l_b²) over l_b^n/l_b², by the distance of the logarithms. Both fall with
+/// it; their ratio is sharp as long as there is one.
+double divided_difference(double n, double apart) {
+  return apart == 0.0 ? 0.5 * n : std::expm1(n * apart) / std::expm1(2.0 * apart);
+}
+
+/// Of functions of free logarithms, as functions of those less their mean.
+Vector3d free_of_volume(const Vector3d& v) {
+  return v.array() - v.mean();
+}
+Matrix3d free_of_volume(const Vector3d& diagonal, bool) {
+  Matrix3d m = diagonal.asDiagonal();
+  m.colwise() -= diagonal / 3.0;
+  m.rowwise() -= diagonal.transpose() / 3.0;
+  m.array() += diagonal.sum() / 9.0;
+  return m;
+}
+
+/// What a fluctuation costs: chi/2 excess, chi = sum of mu_i times the mean of l^(alpha_i - 2).
+void add_excess(const StrainEnergy& energy, const Vector3d& logs, double J, double excess,
+                Spectral& s) {
+  const double volume = energy.isochoric() ? std::pow(J, -2.0 / 3.0) : 1.0;
+  double chi = 0.0;
+  Vector3d first = Vector3d::Zero(), second = Vector3d::Zero();
+  for (std::size_t term = 0; term < 3; ++term) {
+    const double mu = energy.shape[2 * term] / 3.0, n = energy.shape[2 * term + 1] - 2.0;
+    const Vector3d power = mu * (n * logs).array().exp();
+    chi += power.sum();
+    first += n * power;
+    second += n * n * power;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        s.secant(a, b) += 0.5 * excess * volume * n * power[b] *
+                          divided_difference(n, logs[a] - logs[b]) / (s.stretch[b] * s.stretch[b]);
+  }
+  Vector3d change = first;
+  Matrix3d curvature = second.asDiagonal();
+  if (energy.isochoric()) {
+    const Vector3d free = free_of_volume(first), one = Vector3d::Ones();
+    change = free - 2.0 / 3.0 * chi * one;
+    curvature = free_of_volume(second, true) -
+                2.0 / 3.0 * (one * free.transpose() + free * one.transpose()) +
+                4.0 / 9.0 * chi * one * one.transpose();
+  }
+  s.slope = 0.5 * volume * chi;
+  s.slope_change = 0.5 * volume * change;
+  s.energy += excess * s.slope;
+  s.tau += excess * s.slope_change;
+  s.change += 0.5 * excess * volume * curvature;
+}
+
 /// W/G; for full stretches with -g ln J, which is tau of (l^alpha - 1).
-Spectral spectral_of(const StrainEnergy& energy, const Matrix3d& F, double J) {
+Spectral spectral_of(const StrainEnergy& energy, const Matrix3d& F, double J, double excess) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(F.transpose() * F);
   Spectral s;
   s.axes = solver.eigenvectors();
@@ -141,29 +200,25 @@ Spectral spectral_of(const StrainEnergy& energy, const Matrix3d& F, double J) {
       s.tau[a] += 2.0 * mu / alpha * more;
       gamma[a] += 2.0 * mu * (more + 1.0);
       for (int b = 0; b < 3; ++b) {
-        const double apart = logs[a] - logs[b];
-        // Both fall with the distance; their ratio is sharp as long as there is one.
-        const double ratio =
-            apart == 0.0 ? 0.5 * alpha : std::expm1(alpha * apart) / std::expm1(2.0 * apart);
-        s.secant(a, b) +=
-            2.0 * mu / alpha * std::exp(alpha * logs[b]) * ratio / (s.stretch[b] * s.stretch[b]);
+        s.secant(a, b) += 2.0 * mu / alpha * std::exp(alpha * logs[b]) *
+                          divided_difference(alpha, logs[a] - logs[b]) /
+                          (s.stretch[b] * s.stretch[b]);
       }
     }
     if (!energy.isochoric()) s.energy -= 2.0 * mu / alpha * logarithm;
   }
   s.change = gamma.asDiagonal();
   if (energy.isochoric()) {
-    s.tau.array() -= s.tau.mean();
-    s.change.colwise() -= gamma / 3.0;
-    s.change.rowwise() -= gamma.transpose() / 3.0;
-    s.change.array() += gamma.sum() / 9.0;
+    s.tau = free_of_volume(s.tau);
+    s.change = free_of_volume(gamma, true);
   }
+  add_excess(energy, logs, J, excess, s);
   return s;
 }
 
 /// P = U diag(tau/l) Vᵀ.
-Matrix3d stress_of(const Spectral& s, const Matrix3d& F) {
-  const Vector3d along = s.tau.array() / s.stretch.array().square();
+Matrix3d stress_of(const Spectral& s, const Vector3d& tau, const Matrix3d& F) {
+  const Vector3d along = tau.array() / s.stretch.array().square();
   return F * s.axes * along.asDiagonal() * s.axes.transpose();
 }
 
@@ -279,37 +334,53 @@ void add_volumetric(Terms& terms, const VolumetricMeasure& h, double m, double J
   terms.normal += m * (h.first * h.first + h.value * h.second) * J * J + kirchhoff;
 }
 
-PointResponse respond(const StrainEnergy& energy, double G, const Matrix3d& F, double m,
-                      const HyperelasticLaw* whole) {
+FluctuatingResponse respond(const StrainEnergy& energy, double G, const Matrix3d& F, double m,
+                            const HyperelasticLaw* whole, double excess) {
   const Inverse inverse(F);
-  const bool ogden = energy.law == RubberLaw::ogden;
-  Terms terms = ogden ? Terms() : terms_of_invariants(energy, G, F, inverse.J);
-  if (whole) add_volumetric(terms, whole->volumetric(inverse.J), m, inverse.J);
-  PointResponse response{terms.energy, stress_of(terms, F, inverse.transposed),
-                         tangent_of(terms, F, inverse.transposed)};
-  if (ogden) {
-    const Spectral spectral = spectral_of(energy, F, inverse.J);
-    response.energy += G * spectral.energy;
-    response.stress += G * stress_of(spectral, F);
-    response.tangent += G * tangent_of(spectral, F);
+  const Matrix3d& H = inverse.transposed;
+  FluctuatingResponse response;
+  if (energy.law == RubberLaw::ogden) {
+    Terms terms;
+    if (whole) add_volumetric(terms, whole->volumetric(inverse.J), m, inverse.J);
+    const Spectral s = spectral_of(energy, F, inverse.J, excess);
+    response.energy = terms.energy + G * s.energy;
+    response.stress = stress_of(terms, F, H) + G * stress_of(s, s.tau, F);
+    response.tangent = tangent_of(terms, F, H) + G * tangent_of(s, F);
+    response.slope = G * s.slope;
+    response.mixed = G * stress_of(s, s.slope_change, F);
+    return response;
   }
+  Terms terms = terms_of_invariants(energy, G, F, inverse.J, excess);
+  const double third = F.squaredNorm() / 3.0;
+  response.slope = 0.5 * (terms.along + terms.second * (third - excess / 3.0));
+  response.curvature = 0.25 * terms.curvature;
+  response.mixed = (0.5 * terms.curvature + terms.second / 3.0) * F +
+                   0.5 * (terms.mixed + terms.mixed_second * (third - excess / 3.0)) * H;
+  if (whole) add_volumetric(terms, whole->volumetric(inverse.J), m, inverse.J);
+  response.energy = terms.energy;
+  response.stress = stress_of(terms, F, H);
+  response.tangent = tangent_of(terms, F, H);
   return response;
 }
 
 }  // namespace
 
 PointResponse HyperelasticLaw::pointwise(const Matrix3d& F) const {
-  return respond(energy_, shear_modulus_, F, volumetric_modulus_, nullptr);
+  return respond(energy_, shear_modulus_, F, volumetric_modulus_, nullptr, 0.0);
 }
 
 PointResponse HyperelasticLaw::complete(const Matrix3d& F) const {
-  return respond(energy_, shear_modulus_, F, volumetric_modulus_, this);
+  return respond(energy_, shear_modulus_, F, volumetric_modulus_, this, 0.0);
+}
+
+FluctuatingResponse HyperelasticLaw::fluctuating(const Matrix3d& F, double excess) const {
+  return respond(energy_, shear_modulus_, F, volumetric_modulus_, this, excess);
 }
 
 Matrix3d HyperelasticLaw::cauchy_stress(const Matrix3d& F) const {
   const Inverse inverse(F);
   const bool ogden = energy_.law == RubberLaw::ogden;
-  Terms terms = ogden ? Terms() : terms_of_invariants(energy_, shear_modulus_, F, inverse.J);
+  Terms terms = ogden ? Terms() : terms_of_invariants(energy_, shear_modulus_, F, inverse.J, 0.0);
   add_volumetric(terms, volumetric(inverse.J), volumetric_modulus_, inverse.J);
   // Kirchhoff stress with H Fᵀ = 1, so that the result is symmetric to the last bit.
   const Matrix3d B = F * F.transpose();
@@ -317,7 +388,7 @@ Matrix3d HyperelasticLaw::cauchy_stress(const Matrix3d& F) const {
       (terms.along + terms.second * B.trace()) * B - terms.inverse * Matrix3d::Identity();
   if (terms.second != 0.0) tau -= terms.second * (B * B.transpose());
   if (ogden) {
-    const Spectral s = spectral_of(energy_, F, inverse.J);
+    const Spectral s = spectral_of(energy_, F, inverse.J, 0.0);
     const Matrix3d U = F * s.axes * s.stretch.cwiseInverse().asDiagonal();
     const Matrix3d part = U * s.tau.asDiagonal() * U.transpose();
     tau += 0.5 * shear_modulus_ * (part + part.transpose());
@@ -325,14 +396,14 @@ Matrix3d HyperelasticLaw::cauchy_stress(const Matrix3d& F) const {
   return tau / inverse.J;
 }
 
-double HyperelasticLaw::energy(const Matrix3d& F) const {
+double HyperelasticLaw::energy(const Matrix3d& F, double excess) const {
   const double J = F.determinant();
   if (!(J > 0.0)) return std::numeric_limits<double>::infinity();
   try {
     const double h = volumetric(J).value,
                  shape = energy_.law == RubberLaw::ogden
-                             ? shear_modulus_ * spectral_of(energy_, F, J).energy
-                             : terms_of_invariants(energy_, shear_modulus_, F, J).energy;
+                             ? shear_modulus_ * spectral_of(energy_, F, J, excess).energy
+                             : terms_of_invariants(energy_, shear_modulus_, F, J, excess).energy;
     return shape + 0.5 * volumetric_modulus_ * h * h;
   } catch (const std::domain_error&) {
     return std::numeric_limits<double>::infinity();

@@ -14,6 +14,16 @@ struct PointResponse {
   Eigen::Matrix<double, 9, 9> tangent;  ///< dP_iJ/dF_kL in row 3i + J, column 3k + L [Pa]
 };
 
+/// The same where the gradient fluctuates within a body whose mean gradient is F: `excess` is the
+/// mean of |dx/dX - F|², or a share of it, and W that of I1 + excess. I2 grows with I1/3 times it,
+/// an ogden law by excess/2 times the sum of mu_i times the mean of l^(alpha_i - 2): shears that
+/// fluctuate cost G at rest, and what the law makes of it elsewhere.
+struct FluctuatingResponse : PointResponse {
+  double slope = 0.0;                               ///< dW/dexcess [Pa]
+  double curvature = 0.0;                           ///< d²W/dexcess² [Pa]
+  Eigen::Matrix3d mixed = Eigen::Matrix3d::Zero();  ///< d²W/(dexcess dF) [Pa]
+};
+
 /// h(J) and its derivatives; the volumetric part of the energy is m/2 h².
 struct VolumetricMeasure {
   double value;   ///< h
@@ -66,8 +76,11 @@ class HyperelasticLaw {
   /// sigma = P Fᵀ / J [Pa], symmetric, of both parts.
   Eigen::Matrix3d cauchy_stress(const Eigen::Matrix3d& F) const;
 
+  /// Of both parts, `excess` >= 0.
+  FluctuatingResponse fluctuating(const Eigen::Matrix3d& F, double excess) const;
+
   /// Of both parts [J/m³]; infinite instead of an exception.
-  double energy(const Eigen::Matrix3d& F) const;
+  double energy(const Eigen::Matrix3d& F, double excess = 0.0) const;
 
  private:
   StrainEnergy energy_;

@@ -13,8 +13,10 @@ namespace fingertip::lattice {
 ///   volume   kappa/2 (J - 1)²                            beside central springs, J = det F
 ///   network  law A + ½ bending q:Omega:q, law A = G/2 (|F|² - 3) - G ln J + lambda/2 (ln J)²
 ///   invariants, stretches
-///            W + ½ bending q:Omega:q with the W of any other law of large strain, of invariants of
-///            F or of its principal stretches (meshes/strain_energy.h)
+///            W(F, excess) of any other law of large strain (meshes/hyperelastic_law.h), by
+///            invariants of F or by its principal stretches; excess = bending/G q:Omega:q, so that
+///            fibres are springs whose constant grows with the cell's stretch, for laws of I1 as
+///            2 W'(I1)/G
 ///
 /// Damping (Kelvin-Voigt): `cubic` sees u + tau v instead of u. Laws of large strain add, with L
 /// the mean velocity gradient dv/dx and D its symmetric part, the Kirchhoff stress tau (lambda tr D
@@ -52,6 +54,10 @@ struct CellMaterial {
   }
   /// Whether the law is one of rubber at large strain, which needs J > 0.
   bool large_strain() const { return kind != CellLawKind::cubic && kind != CellLawKind::volume; }
+  /// Whether the fibres along the edges stiffen with the cell.
+  bool holds_fibres() const {
+    return kind == CellLawKind::invariants || kind == CellLawKind::stretches;
+  }
   /// Whether nothing is stored, whatever the deformation.
   bool none() const {
     const auto [a, b, c] = at_rest();

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "lattice/kernels/stencil.h"
-#include "lattice/model/grid_cells.h"
 
 namespace fingertip::lattice {
 
@@ -53,21 +52,30 @@ void put_edge_variance(const CornerMoments& moments, double fraction, int d,
   }
 }
 
+}  // namespace
+
+Eigen::Matrix4d mode_root(const CornerMoments& moments) {
+  const double fraction = std::accumulate(moments.begin(), moments.end(), 0.0);
+  Eigen::Matrix<double, edge_pairs, 4> forms;
+  for (int d = 0; d < 3; ++d) put_edge_variance(moments, fraction, d, forms);
+  return forms.householderQr().matrixQR().topRows<4>().triangularView<Eigen::Upper>();
+}
+
+namespace {
+
 CutValues cut_values_of(const CutCell& cell, double spacing, const CellMaterial& material) {
   const CornerMoments moments = corner_moments(cell);
   const double fraction = std::accumulate(moments.begin(), moments.end(), 0.0);
   CutValues values{fraction};
-  Eigen::Matrix<double, edge_pairs, 4> forms;
   for (int d = 0; d < 3; ++d) {
     for (int c = 0; c < 8; ++c) {
       const double share = moments[std::size_t(c)] / fraction;
       values[std::size_t(1 + d)] += share * coordinate(c, d);
       values[std::size_t(4 + d)] += share * coordinate(c, (d + 1) % 3) * coordinate(c, (d + 2) % 3);
     }
-    put_edge_variance(moments, fraction, d, forms);
   }
-  forms *= std::sqrt(0.25 * spacing * spacing * fraction * material.bending);
-  const Eigen::Matrix4d root = forms.householderQr().matrixQR().topRows<4>();
+  const Eigen::Matrix4d root =
+      std::sqrt(0.25 * spacing * spacing * fraction * material.bending) * mode_root(moments);
   std::size_t next = 7;
   for (int m = 0; m < 4; ++m) {
     for (int n = m; n < 4; ++n) values[next++] = root(m, n);

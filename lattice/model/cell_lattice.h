@@ -1,6 +1,7 @@
 /// Cells that store energy in their deformation, laid out for the vectorised kernel.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,7 @@
 
 #include "lattice/kernels/cell_material.h"
 #include "lattice/kernels/lanes.h"
+#include "lattice/model/grid_cells.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/cut_cells.h"
 
@@ -38,6 +40,10 @@ struct CellLattice {
 
   bool empty() const { return blocks.empty(); }
 };
+
+/// R with RᵀR = Omega, upper triangular: |R q|² is the variance of the gradients of a cell's edges,
+/// weighted by the rubber they own, for the bilinear modes q in the order yz, zx, xy, xyz.
+Eigen::Matrix4d mode_root(const CornerMoments& moments);
 
 /// Lays the cells out; they must be sorted by grid index. The grid must have at least `lanes` - 1
 /// points without particles at the end of every row and one layer of them on every other side, so

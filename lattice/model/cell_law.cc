@@ -79,8 +79,9 @@ CellResponse deformed_response(const CellMaterial& m, const Law::Rows& F) {
 
 }  // namespace
 
-double CellLaw::energy(const Matrix3d& H) const {
+double CellLaw::energy(const Matrix3d& H, double excess) const {
   const CellMaterial& m = material;
+  if (m.holds_fibres()) return hyperelastic_law(m).energy(Matrix3d::Identity() + H, excess);
   const Law::Rows gradient = rows_of(H);
   if (m.kind == CellLawKind::cubic) {
     return Law::cubic_energy(m, 1.0, rows_of(axes.transpose() * H * axes)) -
@@ -89,14 +90,23 @@ double CellLaw::energy(const Matrix3d& H) const {
   const Law::Rows F = Law::plus_one(gradient);
   const double J = dot(F.x, cross(F.y, F.z)), fibres = 0.5 * m.bending * Law::stretch(gradient);
   if (m.kind == CellLawKind::volume) return Law::volume_energy(m, 1.0, J) - fibres;
-  if (m.kind != CellLawKind::network)
-    return hyperelastic_law(m).energy(Matrix3d::Identity() + H) - fibres;
   if (!(J > 0.0)) return std::numeric_limits<double>::infinity();
   return Law::network_energy(m, 1.0, gradient, J) - fibres;
 }
 
-CellResponse CellLaw::evaluate(const Matrix3d& H) const {
+CellResponse CellLaw::evaluate(const Matrix3d& H, double excess) const {
   CellResponse response;
+  if (material.holds_fibres()) {
+    const meshes::FluctuatingResponse point =
+        hyperelastic_law(material).fluctuating(Matrix3d::Identity() + H, excess);
+    response.energy = point.energy;
+    response.stress = flat(rows_of(point.stress));
+    response.tangent = point.tangent;
+    response.slope = point.slope;
+    response.curvature = point.curvature;
+    response.mixed = point.mixed;
+    return response;
+  }
   if (material.kind == CellLawKind::cubic) {
     response.stress = cubic_stress(*this, H) - material.bending * flat(rows_of(H));
     for (Eigen::Index n = 0; n < 9; ++n) {
@@ -104,11 +114,6 @@ CellResponse CellLaw::evaluate(const Matrix3d& H) const {
       change(n / 3, n % 3) = 1.0;
       response.tangent.col(n) = cubic_stress(*this, change);
     }
-  } else if (material.large_strain() && material.kind != CellLawKind::network) {
-    const Matrix3d F = Matrix3d::Identity() + H;
-    const meshes::PointResponse point = hyperelastic_law(material).complete(F);
-    response.stress = flat(rows_of(point.stress - material.bending * F));
-    response.tangent = point.tangent;
   } else {
     response = deformed_response(material, Law::plus_one(rows_of(H)));
   }

@@ -13,22 +13,27 @@ struct CellResponse {
   double energy = 0.0;                  ///< [J/m³]
   Eigen::Matrix<double, 9, 1> stress;   ///< dW/dH [Pa]
   Eigen::Matrix<double, 9, 9> tangent;  ///< d²W/dH² [Pa]
+  /// With respect to `excess`: dW, d²W, d²W/(dexcess dH) [Pa]; 0 for laws that have fibres apart.
+  double slope = 0.0, curvature = 0.0;
+  Eigen::Matrix3d mixed = Eigen::Matrix3d::Zero();
 };
 
 /// The law of `invariants` and `stretches`, point by point.
 meshes::HyperelasticLaw hyperelastic_law(const CellMaterial& material);
 
 /// The law of a material (kernels/cell_law.h) less what fibres along the edges carry of it, which
-/// equilibria count edge by edge: W(H) - bending/2 |H|² (cubic), W(H) - bending/2 (|F|² - 3). Laws
+/// equilibria count edge by edge: W(H) - bending/2 |H|² (cubic), W(H) - bending/2 (|F|² - 3).
+/// Laws that hold their fibres (CellMaterial) see `excess` instead, the share of the fibres times
+/// what the edges' gradients differ by. Laws
 /// of large strain need J > 0.
 struct CellLaw {
   CellMaterial material;
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: those of `cubic`
 
   /// Throws std::domain_error where J <= 0 and the law needs J > 0.
-  CellResponse evaluate(const Eigen::Matrix3d& H) const;
+  CellResponse evaluate(const Eigen::Matrix3d& H, double excess = 0.0) const;
   /// Energy alone [J/m³]; infinite instead of an exception.
-  double energy(const Eigen::Matrix3d& H) const;
+  double energy(const Eigen::Matrix3d& H, double excess = 0.0) const;
   /// Whether stress is proportional to H: the tangent is constant and rest is free of stress.
   bool linear() const { return material.kind == CellLawKind::cubic || none(); }
   /// Whether cells store nothing at all.

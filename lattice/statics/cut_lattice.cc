@@ -24,7 +24,8 @@ void add_springs(const GridCells& cells, const Formulation& formulation, Lattice
   const std::array<std::vector<double>, directions> shares = spring_shares(cells);
   const std::array<double, 3> k{formulation.constants.k1, formulation.constants.k2,
                                 formulation.constants.k3};
-  const double whole_fibre = formulation.material.bending * cells.grid().spacing;
+  const bool apart = !formulation.material.holds_fibres();
+  const double whole_fibre = apart ? formulation.material.bending * cells.grid().spacing : 0.0;
   for (std::uint32_t p = 0; p < cells.particles(); ++p) {
     for (std::size_t s = 0; s < half_stencil.size(); ++s) {
       const double share = shares[s][cells.point(p)];
@@ -38,6 +39,17 @@ void add_springs(const GridCells& cells, const Formulation& formulation, Lattice
       if (fibre > 0.0) body.fibres.push_back({{p, q}, fibre});
     }
   }
+}
+
+/// How displacements of the corners make the bilinear modes yz, zx, xy, xyz [1/m].
+Eigen::Matrix<double, 4, 8> mode_weights(double spacing) {
+  Eigen::Matrix<double, 4, 8> weights;
+  for (int c = 0; c < 8; ++c) {
+    const double x = (c & 1) != 0 ? 1.0 : -1.0, y = (c & 2) != 0 ? 1.0 : -1.0,
+                 z = (c & 4) != 0 ? 1.0 : -1.0;
+    weights.col(c) << y * z, z * x, x * y, x * y * z;
+  }
+  return weights / (4.0 * spacing);
 }
 
 /// Particles, springs and cells; no bond, no outer points, nothing held.
@@ -55,6 +67,8 @@ LatticeBody elastic_body(const GridCells& cells, const Formulation& formulation,
     for (std::size_t c = 0; c < 8; ++c) body.mass[corners[c]] += density * cube * moments[c];
     body.cells.push_back(
         {corners, mean_gradients(moments, spacing, cells.grid().axes), cell.fraction() * cube});
+    if (body.law.material.holds_fibres())
+      body.cells.back().modes = std::sqrt(fibre_share) * mode_root(moments) * mode_weights(spacing);
   }
   add_springs(cells, formulation, body);
   return body;

@@ -35,6 +35,21 @@ Matrix3d cell_gradient(const MeanCell& cell, const VectorXd& displacement) {
 
 namespace {
 
+/// What the cell's modes do to components and corners: D_m = Σ u_c modes_mc.
+Eigen::Matrix<double, 3, 4> cell_modes(const MeanCell& cell, const VectorXd& displacement) {
+  Eigen::Matrix<double, 3, 4> modes = Eigen::Matrix<double, 3, 4>::Zero();
+  for (int c = 0; c < 8; ++c)
+    modes += displacement.segment<3>(3 * Eigen::Index(cell.corners[std::size_t(c)])) *
+             cell.modes.col(c).transpose();
+  return modes;
+}
+
+double cell_energy(const LatticeBody& body, const MeanCell& cell, const VectorXd& displacement) {
+  const double excess =
+      body.law.material.holds_fibres() ? cell_modes(cell, displacement).squaredNorm() : 0.0;
+  return cell.volume * body.law.energy(cell_gradient(cell, displacement), excess);
+}
+
 /// Particles joined by springs, cells and embedded points.
 std::vector<std::vector<std::uint32_t>> groups_of(const LatticeBody& body) {
   std::vector<std::vector<std::uint32_t>> groups;
@@ -78,7 +93,9 @@ struct ElasticSystem::Implementation {
 
   void add_spring(const Spring& spring, const Matrix3d& block, double* values) const;
   void add_embedded(const EmbeddedPoint& point, const Matrix3d& block, double* values) const;
-  void add_cell(std::size_t cell, const Eigen::Matrix<double, 9, 9>& tangent, double* values) const;
+  /// `modes`: D of cells that hold their fibres, else nothing.
+  void add_cell(std::size_t cell, const CellResponse& response,
+                const Eigen::Matrix<double, 3, 4>* modes, double* values) const;
   void assemble_springs(const VectorXd& displacement, VectorXd& force, double* values) const;
   void assemble_cells(const VectorXd& displacement, VectorXd& force, double* values) const;
   bool nonlinear_cells() const { return !body.law.linear(); }
@@ -113,8 +130,8 @@ ElasticSystem::Implementation::Implementation(const LatticeBody& lattice_body)
   if (body.law.none()) return;
   for (const MeanCell& cell : body.cells) slots.push_back(slots_of(cell, pattern));
   if (nonlinear_cells()) return;
-  const auto tangent = body.law.evaluate(Matrix3d::Zero()).tangent;
-  for (std::size_t i = 0; i < body.cells.size(); ++i) add_cell(i, tangent, values);
+  const CellResponse response = body.law.evaluate(Matrix3d::Zero());
+  for (std::size_t i = 0; i < body.cells.size(); ++i) add_cell(i, response, nullptr, values);
 }
 
 void ElasticSystem::Implementation::add_spring(const Spring& spring, const Matrix3d& block,
@@ -142,10 +159,19 @@ void ElasticSystem::Implementation::add_embedded(const EmbeddedPoint& point, con
   }
 }
 
-void ElasticSystem::Implementation::add_cell(std::size_t cell,
-                                             const Eigen::Matrix<double, 9, 9>& tangent,
+/// With D the modes, e = |D|² and W_e, W_ee, X the response's slope, curvature and mixed part,
+/// corners c and d share g_c·A·g_d + 2 W_e m_c·m_d 1 + 4 W_ee (D m_c)(D m_d)ᵀ + 2 (X g_c)(D m_d)ᵀ +
+/// 2 (D m_c)(X g_d)ᵀ per volume.
+void ElasticSystem::Implementation::add_cell(std::size_t cell, const CellResponse& response,
+                                             const Eigen::Matrix<double, 3, 4>* modes,
                                              double* values) const {
   const MeanCell& c = body.cells[cell];
+  const auto& tangent = response.tangent;
+  Eigen::Matrix<double, 3, 8> along, bent;  // X g_c, 2 D m_c
+  if (modes) {
+    along = response.mixed * c.gradients;
+    bent = 2.0 * *modes * c.modes;
+  }
   Eigen::Matrix<double, 9, 24> columns;  // A_iJkL g_L per corner and component k
   for (int d = 0; d < 8; ++d)
     for (int k = 0; k < 3; ++k)
@@ -155,6 +181,14 @@ void ElasticSystem::Implementation::add_cell(std::size_t cell,
     for (int i = 0; i < 3; ++i)
       block.row(i) =
           c.gradients.col(pair.row).transpose() * columns.block<3, 3>(3 * i, 3 * pair.column);
+    if (modes) {
+      const Vector3 own = bent.col(pair.row);
+      const Eigen::RowVector3d other = bent.col(pair.column).transpose();
+      block += c.volume * (response.curvature * own * other + along.col(pair.row) * other +
+                           own * along.col(pair.column).transpose());
+      block.diagonal().array() +=
+          2.0 * c.volume * response.slope * c.modes.col(pair.row).dot(c.modes.col(pair.column));
+    }
     const std::uint32_t q = c.corners[pair.column];
     if (pair.row == pair.column) {
       pattern.add_diagonal(q, block, values);
@@ -186,12 +220,17 @@ void ElasticSystem::Implementation::assemble_cells(const VectorXd& displacement,
                                                    double* values) const {
   for (std::size_t i = 0; i < body.cells.size(); ++i) {
     const MeanCell& cell = body.cells[i];
-    const CellResponse response = body.law.evaluate(cell_gradient(cell, displacement));
+    const bool bends = body.law.material.holds_fibres();
+    Eigen::Matrix<double, 3, 4> modes;
+    if (bends) modes = cell_modes(cell, displacement);
+    const CellResponse response =
+        body.law.evaluate(cell_gradient(cell, displacement), bends ? modes.squaredNorm() : 0.0);
     const Matrix3d transposed = Eigen::Map<const Matrix3d>(response.stress.data());
+    Eigen::Matrix<double, 3, 8> pull = transposed.transpose() * cell.gradients;
+    if (bends) pull += 2.0 * response.slope * modes * cell.modes;
     for (int c = 0; c < 8; ++c)
-      force.segment<3>(3 * Eigen::Index(cell.corners[std::size_t(c)])) -=
-          cell.volume * (transposed.transpose() * cell.gradients.col(c));
-    if (values) add_cell(i, response.tangent, values);
+      force.segment<3>(3 * Eigen::Index(cell.corners[std::size_t(c)])) -= cell.volume * pull.col(c);
+    if (values) add_cell(i, response, bends ? &modes : nullptr, values);
   }
 }
 
@@ -214,8 +253,7 @@ double ElasticSystem::energy(const VectorXd& displacement) const {
     }
   }
   if (own.nonlinear_cells())
-    for (const MeanCell& cell : own.body.cells)
-      sum += cell.volume * own.body.law.energy(cell_gradient(cell, displacement));
+    for (const MeanCell& cell : own.body.cells) sum += cell_energy(own.body, cell, displacement);
   return sum;
 }
 

@@ -24,13 +24,16 @@ struct MeanCell {
   std::array<std::uint32_t, 8> corners{};
   Eigen::Matrix<double, 3, 8> gradients;  ///< mean of grad N_c over the rubber [1/m]
   double volume = 0.0;                    ///< of the rubber in the cell [m³]
+  /// |Σ_c u_c modes_cᵀ|² is what edges' gradients differ by, times the fibres' share [1/m]. Zero
+  /// where fibres are springs of their own.
+  Eigen::Matrix<double, 4, 8> modes = Eigen::Matrix<double, 4, 8>::Zero();
 };
 
 /// Immutable. Everything in the tip's frame (meshes/geometry.h); energies of a displacement u:
 ///   fibres   ½ k (|d|² - |d0|²), small: ½ k |du|²   d = x_b - x_a; isotropic springs of the rubber
 ///            network, whose tension at rest is balanced by the cells
 ///   springs  ½ k (|d| - |d0|)², small: ½ k (d0^·du)²    central springs
-///   cells    volume x CellLaw(H)
+///   cells    volume x CellLaw(H, excess); laws beyond `network` have the fibres in them
 ///   bond     ½ stiffness |x - rest|²                the rod stands still
 struct LatticeBody {
   std::vector<meshes::Vector3> rest;  ///< X per particle [m]

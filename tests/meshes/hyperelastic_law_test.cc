@@ -181,6 +181,28 @@ TEST(StrainEnergy, StressAndTangentAreDerivatives) {
   }
 }
 
+TEST(StrainEnergy, FluctuationsHaveTheirDerivatives) {
+  const double step = 1e-5;
+  for (const StrainEnergy& law : all_laws) {
+    const HyperelasticLaw material = law_of(law);
+    const auto rest = material.fluctuating(Matrix3d::Identity(), 0.0);
+    EXPECT_NEAR(rest.slope, rubber().shear_modulus / 2, 1e-12) << describe(law);
+    for (const Matrix3d& F : random_deformations(4)) {
+      const double excess = 0.3;
+      const auto here = material.fluctuating(F, excess);
+      EXPECT_NEAR(here.energy, material.energy(F, excess), 1e-11);
+      const auto up = material.fluctuating(F, excess + step),
+                 down = material.fluctuating(F, excess - step);
+      const double scale = 1e2 + here.tangent.cwiseAbs().maxCoeff();
+      EXPECT_NEAR(here.slope, (up.energy - down.energy) / (2 * step), 1e-7 * scale);
+      EXPECT_NEAR(here.curvature, (up.slope - down.slope) / (2 * step), 1e-7 * scale);
+      EXPECT_LT((here.mixed - (up.stress - down.stress) / (2 * step)).norm(), 1e-7 * scale)
+          << describe(law);
+      expect_derivatives([&](const Matrix3d& X) { return material.fluctuating(X, excess); }, F);
+    }
+  }
+}
+
 TEST(StrainEnergy, PartsMakeTheWhole) {
   for (const StrainEnergy& law : all_laws) {
     const HyperelasticLaw material = law_of(law);
