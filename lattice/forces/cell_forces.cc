@@ -18,6 +18,7 @@ bool has_rates(const CellMaterial& material) {
 void extend(kernel::CellBounds& all, const kernel::CellBounds& some) {
   all.smallest_jacobian = std::min(all.smallest_jacobian, some.smallest_jacobian);
   all.tangent = std::max(all.tangent, some.tangent);
+  all.beyond = std::max(all.beyond, some.beyond);
   all.viscosity = std::max(all.viscosity, some.viscosity);
   all.fastest = std::max(all.fastest, some.fastest);
   all.velocity_gradient = std::max(all.velocity_gradient, some.velocity_gradient);
@@ -29,10 +30,10 @@ CellExtremes extremes_of(const CellMaterial& m, const kernel::CellBounds& bounds
   result.smallest_jacobian = bounds.smallest_jacobian;
   const double G = m.shear, lambda = m.lambda, tangent = bounds.tangent;
   double stiffening = tangent;
-  if (m.kind == CellLawKind::network) {
-    stiffening =
-        std::max((G + tangent) / (lambda + 2.0 * G),
-                 (G + tangent + 2.0 * lambda * bounds.viscosity) / (3.0 * lambda + 2.0 * G));
+  if (m.large_strain()) {
+    stiffening = std::max(
+        (G + tangent) / (lambda + 2.0 * G),
+        (G + tangent + 2.0 * lambda * bounds.viscosity + bounds.beyond) / (3.0 * lambda + 2.0 * G));
   }
   result.stiffening = std::max(1.0, stiffening);
   result.thickening = bounds.viscosity;

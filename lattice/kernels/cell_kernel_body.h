@@ -180,7 +180,7 @@ struct CellBody : CellResponse<Pack> {
       } else if constexpr (Law == CellLawKind::volume) {
         Response::template answer_volume<Rates>(m, area, u, velocity, extremes, take);
       } else {
-        Response::template answer_network<Rates, Whole>(m, area, u, velocity, extremes, take);
+        Response::template answer_large<Law, Rates, Whole>(m, area, u, velocity, extremes, take);
       }
     }
     close(a, std::ptrdiff_t(b.first) + block, carry);
@@ -214,8 +214,8 @@ struct CellBody : CellResponse<Pack> {
   static void sweep(const CellArrays& arrays, const CellBlock* blocks, std::size_t begin,
                     std::size_t end, CellBounds& bounds) {
     const CellArrays a = arrays;  // a copy that no store can alias
-    Extremes extremes{bounds.smallest_jacobian, bounds.tangent, bounds.viscosity, bounds.fastest,
-                      bounds.velocity_gradient};
+    Extremes extremes{bounds.smallest_jacobian, bounds.tangent, bounds.beyond,
+                      bounds.viscosity,         bounds.fastest, bounds.velocity_gradient};
     Border borders[2];
     for (std::size_t b = begin; b < end; ++b) {
       const std::ptrdiff_t first = std::ptrdiff_t(blocks[b].first);
@@ -232,8 +232,8 @@ struct CellBody : CellResponse<Pack> {
         finish(a, first + a.row, high);
       }
     }
-    bounds = {hmin(extremes.jacobian), hmax(extremes.tangent), hmax(extremes.viscosity),
-              hmax(extremes.rate), hmax(extremes.swiftness)};
+    bounds = {hmin(extremes.jacobian),  hmax(extremes.tangent), hmax(extremes.beyond),
+              hmax(extremes.viscosity), hmax(extremes.rate),    hmax(extremes.swiftness)};
   }
 
   /// Energy of the cells of a pack. A stress in the units of `area` is 4 a times too small for one.
@@ -245,6 +245,13 @@ struct CellBody : CellResponse<Pack> {
     const Rows H = Response::gradient(u), F = Response::plus_one(H);
     const Pack J = dot(F.x, cross(F.y, F.z));
     if constexpr (Law == CellLawKind::volume) return Response::volume_energy(m, volume, J);
+    if constexpr (Law == CellLawKind::invariants || Law == CellLawKind::stretches) {
+      Pack room;
+      const Pack density = Hyperelastic<Pack>::template energy<Law>(
+          m, H, J, Response::template excess_of<Whole>(m, area, u), room);
+      smallest_jacobian = min(smallest_jacobian, min(J, room));
+      return volume * density;
+    }
     const Pack modes = Pack(2.0 * a.spacing) *
                        (modes_energy<Whole>(m, area, u.x.q) + modes_energy<Whole>(m, area, u.y.q) +
                         modes_energy<Whole>(m, area, u.z.q));
@@ -298,6 +305,8 @@ struct CellBody : CellResponse<Pack> {
     switch (law) {
       case CellLawKind::cubic: return energy<CellLawKind::cubic>;
       case CellLawKind::volume: return energy<CellLawKind::volume>;
+      case CellLawKind::invariants: return energy<CellLawKind::invariants>;
+      case CellLawKind::stretches: return energy<CellLawKind::stretches>;
       default: return energy<CellLawKind::network>;
     }
   }
@@ -306,6 +315,12 @@ struct CellBody : CellResponse<Pack> {
     if (law == CellLawKind::cubic) return sweep<CellLawKind::cubic, false>;
     if (law == CellLawKind::volume) {
       return rates ? sweep<CellLawKind::volume, true> : sweep<CellLawKind::volume, false>;
+    }
+    if (law == CellLawKind::invariants) {
+      return rates ? sweep<CellLawKind::invariants, true> : sweep<CellLawKind::invariants, false>;
+    }
+    if (law == CellLawKind::stretches) {
+      return rates ? sweep<CellLawKind::stretches, true> : sweep<CellLawKind::stretches, false>;
     }
     return rates ? sweep<CellLawKind::network, true> : sweep<CellLawKind::network, false>;
   }

@@ -40,12 +40,6 @@ struct Law : PackAlgebra<Number> {
     return Number(m.lambda) * Algebra::log(J) - Number(m.shear);
   }
 
-  /// A row of dW/dF of `network`, from those of F and T; G and pressure times what it is to be.
-  [[gnu::always_inline]] static Vector network_stress(const Number& shear, const Number& pressure,
-                                                      const Vector& F, const Vector& T) {
-    return shear * F + pressure * T;
-  }
-
   /// How dW/dF changes with F; `p`: the pressure.
   static Rows volume_tangent(const CellMaterial& m, const Rows& F, const Rows& T, const Number& p,
                              const Rows& dF) {

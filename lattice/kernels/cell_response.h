@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "lattice/kernels/cell_hyperelastic.h"
 #include "lattice/kernels/cell_kernel.h"
 #include "lattice/kernels/cell_law.h"
 #include "lattice/kernels/stencil.h"
@@ -40,7 +41,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
     Row x, y, z;
   };
   struct Extremes {
-    Pack jacobian, tangent, viscosity, rate, swiftness;
+    Pack jacobian, tangent, beyond, viscosity, rate, swiftness;
   };
 
   /// Values of a block's cut cells, from the pack's first lane on.
@@ -143,16 +144,46 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
     });
   }
 
-  template <bool Rates, bool Whole, typename Velocity, typename Take>
-  [[gnu::always_inline]] static void answer_network(const CellMaterial& m, const Pack& area,
-                                                    const Field& u, const Velocity& velocity,
-                                                    Extremes& extremes, const Take& take) {
+  /// Laws of large strain. Damping is that of G and lambda at rest.
+  template <CellLawKind Kind, bool Rates, bool Whole, typename Velocity, typename Take>
+  [[gnu::always_inline]] static void answer_large(const CellMaterial& m, const Pack& area,
+                                                  const Field& u, const Velocity& velocity,
+                                                  Extremes& extremes, const Take& take) {
+    constexpr bool network = Kind == CellLawKind::network;
+    using Hyperelastic = kernel::Hyperelastic<Pack>;
     const Rows F = Algebra::plus_one(gradient(u));
     Rows T = Algebra::cofactor(F);
     const Pack J = dot(F.x, T.x), lambda = m.lambda, G = area * Pack(m.shear);
     T = Algebra::multiple(Pack(1.0) / J, T);  // F⁻ᵀ
-    const Pack pressure = Law::network_pressure(m, J), g = Algebra::gershgorin(T);
-    extend(extremes, J, (abs(pressure) + lambda) * g, g);
+    const Pack g = Algebra::gershgorin(T);
+    Pack pressure;
+    typename Hyperelastic::Answer answer;
+    if constexpr (network) {
+      pressure = Law::network_pressure(m, J);
+      extend(extremes, J, (abs(pressure) + lambda) * g, g);
+    } else {
+      answer = Hyperelastic::template answer<Kind>(m, F, T, J, excess_of<Whole>(m, area, u));
+      pressure = answer.pressure;
+      extend(extremes, min(J, answer.room), answer.tangent, g);
+      extremes.beyond = max(extremes.beyond, answer.beyond);
+    }
+    /// Of a component the stress but for the pressure, and what the modes exert.
+    const auto elastic = [&](auto c) __attribute__((always_inline)) {
+      if constexpr (network) {
+        return G * entry<c()>(F);
+      } else {
+        return area * Hyperelastic::times(entry<c()>(F), answer.S);
+      }
+    };
+    const auto bent = [&](auto c) __attribute__((always_inline)) {
+      const Modes d = bend<Whole>(m, area, entry<c()>(u).q);
+      if constexpr (network) {
+        return d;
+      } else {
+        return Modes{answer.modes * d.yz, answer.modes * d.zx, answer.modes * d.xy,
+                     answer.modes * d.xyz};
+      }
+    };
     if constexpr (Rates) {
       read_later();
       Rows L, drag;
@@ -169,7 +200,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
         const Modes d = bend<Whole>(m, area, slip);
         entry<c()>(L) = l;
         entry<c()>(drag) = {contract(d, u.x.q), contract(d, u.y.q), contract(d, u.z.q)};
-        entry<c()>(h) = bend<Whole>(m, area, entry<c()>(u).q) + d;
+        entry<c()>(h) = bent(c) + d;
       });
       const Pack trace = L.x.x + L.y.y + L.z.z, diagonal = area * (pressure + lambda * trace);
       extremes.rate = max(extremes.rate, abs(trace));
@@ -183,15 +214,24 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
                    {xy - drag.y.x, G * (L.y.y + L.y.y) - drag.y.y + diagonal, yz - drag.y.z},
                    {zx - drag.z.x, yz - drag.z.y, G * (L.z.z + L.z.z) - drag.z.z + diagonal}};
       for_components([&](auto c) __attribute__((always_inline)) {
-        take(c, Row{G * entry<c()>(F) + transposed_times(T, entry<c()>(A)), entry<c()>(h)});
+        take(c, Row{elastic(c) + transposed_times(T, entry<c()>(A)), entry<c()>(h)});
       });
     } else {
       const Pack p = area * pressure;
       for_components([&](auto c) __attribute__((always_inline)) {
-        take(c, Row{Law::network_stress(G, p, entry<c()>(F), entry<c()>(T)),
-                    bend<Whole>(m, area, entry<c()>(u).q)});
+        take(c, Row{elastic(c) + p * entry<c()>(T), bent(c)});
       });
     }
+  }
+
+  /// bending/G q:Omega:q; absent cells have none.
+  template <bool Whole>
+  [[gnu::always_inline]] static Pack excess_of(const CellMaterial& m, const Pack& area,
+                                               const Field& u) {
+    const Pack sum = contract(bend<Whole>(m, area, u.x.q), u.x.q) +
+                     contract(bend<Whole>(m, area, u.y.q), u.y.q) +
+                     contract(bend<Whole>(m, area, u.z.q), u.z.q);
+    return sum / max(area * Pack(m.shear), Pack(1e-300));
   }
 
   [[gnu::always_inline]] static Pack contract(const Modes& a, const Modes& b) {

@@ -115,6 +115,13 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
                      "masses are scaled cell by cell, so the model must consist of cells: hookean "
                      "at small strain, or network",
                      "take symplectic-euler, or another model"});
+  } else if (setup.integrator == Integrator::mass_scaled &&
+             lattice.kinematics == Kinematics::finite &&
+             setup.rubber.energy != meshes::StrainEnergy()) {
+    found.push_back({"run.integrator", std::string(name(setup.integrator)),
+                     "masses are scaled by a bound on the neo-Hookean law's tangent, here is " +
+                         meshes::describe(setup.rubber.energy),
+                     "take symplectic-euler, press.mode = static, or that law"});
   }
   return found;
 }

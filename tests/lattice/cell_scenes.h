@@ -72,12 +72,19 @@ inline CellMaterial material(CellLawKind kind, double retardation_time = 0.0) {
   m.shear = 1.4e3, m.lambda = 9.1e3;
   m.bending = 450.0;
   m.retardation_time = retardation_time;
+  using Law = lattice::CellStrainEnergy::Law;
+  // Laws whose energy can be written without principal stretches (tests/lattice/reference.h).
+  if (kind == CellLawKind::invariants) m.energy = {Law::mooney_rivlin, true, false, 1e4, {0.3}};
+  if (kind == CellLawKind::stretches)
+    m.energy = {Law::ogden, false, true, 9.1e3, {0.2, 4.0, 0.8, -2.0}};
   return m;
 }
 
 inline constexpr CellLawKind all_laws[] = {CellLawKind::cubic, CellLawKind::volume,
-                                           CellLawKind::network};
-inline constexpr CellLawKind finite_laws[] = {CellLawKind::volume, CellLawKind::network};
+                                           CellLawKind::network, CellLawKind::invariants,
+                                           CellLawKind::stretches};
+inline constexpr CellLawKind finite_laws[] = {CellLawKind::volume, CellLawKind::network,
+                                              CellLawKind::invariants, CellLawKind::stretches};
 
 /// A field on the particles, given by their rest positions.
 template <typename Function>

@@ -117,6 +117,28 @@ auto sum_of_squares(const Matrix& m) {
   return m.cwiseProduct(m).sum();
 }
 
+/// Of a Mooney-Rivlin law free of volume with K/2 (J - 1)², or of an ogden law of l⁴ and l⁻² with
+/// m/2 (ln J)², whose sums are polynomials of the invariants.
+template <typename Number>
+Number hyperelastic_density(const CellMaterial& m, const Field<Number>& u, const Number& excess) {
+  const Gradient<Number> F = Gradient<Number>::Identity() + u.H, C = F.transpose() * F;
+  const Number J = F.determinant(), I1 = C.trace(), log_J = std::log(J);
+  const Number I2 = 0.5 * (I1 * I1 - sum_of_squares(C));
+  const auto& s = m.energy.shape;
+  const double G = m.shear, k = m.energy.volumetric;
+  if (m.kind == CellLawKind::invariants) {
+    const Number a = std::exp(-2.0 / 3.0 * log_J);
+    return 0.5 * G * (1.0 - s[0]) * (a * (I1 + excess) - 3.0) +
+           0.5 * G * s[0] * (a * a * (I2 + I1 * excess / 3.0) - 3.0) +
+           0.5 * k * (J - 1.0) * (J - 1.0);
+  }
+  const Number fourth = I1 * I1 - 2.0 * I2, inverse = I2 / (J * J),
+               inverse_fourth = inverse * inverse - 2.0 * I1 / (J * J);
+  const double mu = G * s[0], nu = G * s[2];  // of l⁴ and of l⁻²
+  return mu / 8.0 * (fourth - 3.0) + nu / 2.0 * (inverse - 3.0) - (0.5 * mu - nu) * log_J +
+         0.5 * k * log_J * log_J + 0.5 * excess * (mu * I1 + nu * inverse_fourth) / 3.0;
+}
+
 /// Stored per volume (CellMaterial) [J/m³].
 template <typename Number>
 Number energy_density(const CellMaterial& m, const Field<Number>& u, const Matrix4d& bent) {
@@ -129,6 +151,7 @@ Number energy_density(const CellMaterial& m, const Field<Number>& u, const Matri
   }
   const Number J = (Gradient<Number>::Identity() + u.H).determinant();
   if (m.kind == CellLawKind::volume) return 0.5 * m.kappa * (J - 1.0) * (J - 1.0);
+  if (m.holds_fibres()) return hyperelastic_density<Number>(m, u, 2.0 * bending / m.shear);
   // |F|² - 3 written so that it does not cancel at small strain.
   const Number excess = 2.0 * u.H.trace() + sum_of_squares(u.H), log_J = std::log(J);
   return 0.5 * m.shear * excess - m.shear * log_J + 0.5 * m.lambda * log_J * log_J + bending;

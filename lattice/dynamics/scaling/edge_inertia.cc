@@ -51,8 +51,10 @@ Shares take_pack(const LatticeModel& model, std::size_t& cell) {
 
 EdgeInertiaRule::EdgeInertiaRule(const LatticeModel& model)
     : model_(&model), shares_{whole_shares()} {
-  if (model.edges.empty()) {
-    throw std::invalid_argument("mass scaling: the model must consist of cut cells with a law");
+  if (model.edges.empty() || model.cell_lattice.material.holds_fibres()) {
+    throw std::invalid_argument(
+        "mass scaling: the model must consist of cut cells with a law it "
+        "has a bound for");
   }
   for (std::size_t cell = 0; cell < model.cells.size();) {
     sweeps::EdgePack pack;

@@ -72,7 +72,8 @@ TEST(CellForces, EnergyIsThatOfTheCellsOneByOneWithTheSameBitsAtAnyWidth) {
       }
       const double wanted = cell_energy(cells, u),
                    at_width_two = lattice::cell_energy(cells, u, alone, 2);
-      EXPECT_NEAR(at_width_two, wanted, 1e-7 * wanted);  // what log J loses at small strain
+      // What log J loses at small strain, and invariants of F in the reference.
+      EXPECT_NEAR(at_width_two, wanted, (m.holds_fibres() ? 1e-6 : 1e-7) * wanted);
       if (size == 1.0) {
         EXPECT_NEAR(at_width_two, wanted, 1e-12 * wanted);
       }

@@ -10,7 +10,8 @@ using namespace fingertip;
 using lattice::CellLaw;
 
 inline CellLaw network_law(const meshes::Rubber& rubber, double share) {
-  return {lattice::network_material(rubber.shear_modulus, rubber.lame_lambda(), share)};
+  return {
+      lattice::network_material(rubber.energy, rubber.shear_modulus, rubber.lame_lambda(), share)};
 }
 inline CellLaw volume_law(double kappa, bool finite) {
   return {lattice::volume_material(kappa, finite)};
