@@ -19,11 +19,11 @@ using namespace fingertip;
 using fem_reference::Body;
 using fem_reference::HookeKernel;
 using fem_reference::HyperelasticKernel;
-using fem_reference::HyperelasticLaw;
 using fem_reference::LinearSystem;
 using fem_reference::Space;
 using fem_reference::Vector;
 using fem_reference::Volumetric;
+using meshes::HyperelasticLaw;
 
 namespace {
 
@@ -223,8 +223,7 @@ TEST_P(Assembly, CoarseMatrixIsTheRestrictionToLinearElements) {
 /// What the bond exerts on the body balances what pulls elsewhere.
 TEST_P(Assembly, UnconstrainedForcesAddUpToZero) {
   const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
-  HyperelasticKernel<3> kernel(
-      HyperelasticLaw(fem_reference::StrainEnergy::law_a, meshes::Rubber{}), Volumetric::projected);
+  HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::projected);
   const Vector u = interpolate(*body, body->fine, [](const auto& x) {
     return Eigen::Vector3d(2 * x[0] * x[2], x[1] * x[1], -3 * x[2] * x[0]);
   });
@@ -236,8 +235,7 @@ TEST_P(Assembly, UnconstrainedForcesAddUpToZero) {
 /// Inverted at the pole alone, so that not every process sees it; all of them say so.
 TEST_P(Assembly, AnInvertedElementStopsEveryProcess) {
   const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
-  HyperelasticKernel<3> kernel(
-      HyperelasticLaw(fem_reference::StrainEnergy::law_a, meshes::Rubber{}), Volumetric::projected);
+  HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::projected);
   LinearSystem system(*body, false);
   const Vector u = interpolate(*body, body->fine, [](const auto& x) {
     return Eigen::Vector3d(0, 0, x.distance(dealii::Point<3>(0, 0, 0.01)) < 1e-9 ? -0.01 : 0.0);

@@ -10,8 +10,8 @@ using namespace fingertip;
 using fem_reference::PressState;
 using fem_reference::ReferenceJob;
 using fem_reference::Strain;
-using fem_reference::StrainEnergy;
 using meshes::ContactMode;
+using meshes::VolumetricLaw;
 
 namespace {
 
@@ -75,9 +75,10 @@ TEST(FinitePress, LawAStiffensAsItShould) {
 }
 
 TEST(FinitePress, ForceIsTheEnergysDerivativeForEveryLaw) {
-  for (const StrainEnergy law : {StrainEnergy::law_a, StrainEnergy::law_b, StrainEnergy::law_c}) {
+  for (const VolumetricLaw law : {VolumetricLaw::logarithmic, VolumetricLaw::full_quadratic,
+                                  VolumetricLaw::isochoric_logarithmic}) {
     ReferenceJob job = finite_press();
-    job.law = law;
+    job.rubber.energy.volumetric = law;
     const double indentation = 6e-4, h = 1e-3 * indentation;
     job.press_to({indentation + h});
     Pressing pressing(job);

@@ -14,8 +14,8 @@ using fem_reference::LinearSolver;
 using fem_reference::read_job;
 using fem_reference::ReferenceJob;
 using fem_reference::Strain;
-using fem_reference::StrainEnergy;
 using fem_reference::Volumetric;
+using meshes::VolumetricLaw;
 using Json = nlohmann::json;
 
 namespace {
@@ -50,7 +50,7 @@ TEST(ReferenceJob, SurvivesTheFile) {
   job.protocol.clearance = 1e-3;
   job.analysis = Analysis::verification;
   job.strain = Strain::finite;
-  job.law = StrainEnergy::law_c;
+  job.rubber.energy.volumetric = VolumetricLaw::isochoric_logarithmic;
   job.symmetry = fem_reference::Symmetry::none;
   job.modes = 17;
   job.degree = 3;
@@ -116,7 +116,7 @@ TEST(ReferenceJob, RefusesBadFilesNamingTheEntry) {
             std::string::npos);
   EXPECT_NE(refusal(file, R"({"protocol": {"contact": "glue"}})").find("frictionless"),
             std::string::npos);
-  EXPECT_NE(refusal(file, R"({"degree": 2, "law": "D"})").find("A, B, C"), std::string::npos);
+  EXPECT_NE(refusal(file, R"({"rubber": {"energy": {"law": "D"}}})").find("yeoh"), std::string::npos);
   EXPECT_NE(refusal(file, R"({"degree": 2, "analysis": "fast"})").find("modes"), std::string::npos);
   EXPECT_NE(refusal(file, R"({"degree": 1.5})").find("integer"), std::string::npos);
   EXPECT_NE(refusal(file, R"({"degree": 2, "rubber": 7})").find("rubber"), std::string::npos);
@@ -171,14 +171,14 @@ TEST(ReferenceJob, FiniteStrainNeedsAPositivePoissonRatio) {
   job.rubber.shear_modulus = 0.6 * job.rubber.youngs_modulus;
   EXPECT_TRUE(job.violations().empty());
   job.strain = Strain::finite;
-  for (const StrainEnergy law : {StrainEnergy::law_a, StrainEnergy::law_b}) {
-    job.law = law;
+  for (const VolumetricLaw law : {VolumetricLaw::logarithmic, VolumetricLaw::full_quadratic}) {
+    job.rubber.energy.volumetric = law;
     ASSERT_EQ(job.violations().size(), 1u);
     EXPECT_NE(job.violations()[0].rule.find("nu >= 0"), std::string::npos);
   }
-  job.law = StrainEnergy::law_c;
+  job.rubber.energy.volumetric = VolumetricLaw::isochoric_logarithmic;
   EXPECT_TRUE(job.violations().empty());
-  job.law = StrainEnergy::law_a;
+  job.rubber.energy.volumetric = VolumetricLaw::logarithmic;
   job.rubber.shear_modulus = 0.5 * job.rubber.youngs_modulus;  // nu = 0 is valid
   EXPECT_TRUE(job.violations().empty());
 }

@@ -137,7 +137,7 @@ TEST(KeyTable, EveryWordOfAContinuumKeyReachesTheJob) {
   for (const std::string& word : words("reference.strain"))
     EXPECT_EQ(name(with("reference.strain=" + word).reference.strain), word);
   for (const std::string& word : words("reference.law"))
-    EXPECT_EQ(name(with("reference.law=" + word).reference.law), word);
+    EXPECT_EQ(name(with("reference.law=" + word).continuum_law), word);
   for (const std::string& word : words("reference.mode"))
     EXPECT_EQ(name(with("reference.mode=" + word).reference.analysis), word);
   for (const std::string& word : words("reference.volumetric"))

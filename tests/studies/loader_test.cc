@@ -89,7 +89,8 @@ TEST(Loader, ParametersFileReproducesEveryKey) {
   EXPECT_EQ(second.config.constants_file, folder / "material.toml");
   EXPECT_FALSE(second.config.reference.estimate_error);
   EXPECT_EQ(second.config.reference.strain, fingertip::fem_reference::Strain::finite);
-  EXPECT_EQ(second.config.reference.law, fingertip::fem_reference::StrainEnergy::law_c);
+  EXPECT_EQ(second.config.reference.rubber.energy.volumetric,
+            fingertip::meshes::VolumetricLaw::isochoric_logarithmic);
   EXPECT_EQ(second.config.reference.max_unknowns, 50000.0);
   EXPECT_EQ(second.config.reference.protocol.friction, 0.25);
   EXPECT_NEAR(second.config.reference.protocol.tilt, -std::atan(1.0) / 5.0, 1e-14);

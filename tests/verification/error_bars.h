@@ -20,8 +20,8 @@ namespace error_bars {
 using namespace fingertip;
 using fem_reference::ReferenceJob;
 using fem_reference::Strain;
-using fem_reference::StrainEnergy;
 using meshes::ContactMode;
+using meshes::VolumetricLaw;
 
 /// Lengths in cm: the default tip, one with thin rubber, and a thick one with a short sleeve.
 struct Tip {
@@ -35,7 +35,7 @@ struct Press {
   ContactMode contact;
   Strain strain;
   std::vector<double> depths;  ///< over R - r
-  StrainEnergy law = StrainEnergy::law_a;
+  VolumetricLaw law = VolumetricLaw::logarithmic;
 };
 
 inline ReferenceJob job_of(const Press& press, double tolerance) {
@@ -45,7 +45,7 @@ inline ReferenceJob job_of(const Press& press, double tolerance) {
   job.rubber.youngs_modulus = 2.0 * (1.0 + press.poissons_ratio) * job.rubber.shear_modulus;
   job.protocol.contact = press.contact;
   job.strain = press.strain;
-  job.law = press.law;
+  job.rubber.energy.volumetric = press.law;
   job.tolerance = tolerance;
   job.write_fields = false;
   std::vector<double> depths;

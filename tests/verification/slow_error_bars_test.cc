@@ -28,10 +28,11 @@ TEST(ErrorBars, ReachFinerSolutionsInNineteenOfTwentyCases) {
     for (const double nu : {0.25, 0.43, 0.47, 0.49})
       for (const ContactMode contact :
            {ContactMode::frictionless, ContactMode::stick, ContactMode::coulomb})
-        for (const auto& [strain, law] : {std::pair(Strain::linear, StrainEnergy::law_a),
-                                          std::pair(Strain::finite, StrainEnergy::law_a),
-                                          std::pair(Strain::finite, StrainEnergy::law_b),
-                                          std::pair(Strain::finite, StrainEnergy::law_c)})
+        for (const auto& [strain, law] :
+             {std::pair(Strain::linear, VolumetricLaw::logarithmic),
+              std::pair(Strain::finite, VolumetricLaw::logarithmic),
+              std::pair(Strain::finite, VolumetricLaw::full_quadratic),
+              std::pair(Strain::finite, VolumetricLaw::isochoric_logarithmic)})
           all += compare_with_finer({tip, nu, contact, strain, {0.05, 0.1, 0.2, 0.3, 0.4}, law});
   all.print();
   EXPECT_EQ(all.values, 480);

@@ -42,7 +42,8 @@ CalculixRun run_calculix(const std::string& ccx, Problem problem, meshes::TipMes
   meshes::write_tip_mesh(geometry, mesh, folder / "tip.msh");
   MeridianMesh meridian = read_meridian_mesh(folder / "tip.msh");
   if (is_quadratic(options.element)) meridian = with_midside_nodes(meridian);
-  write_deck(meridian, geometry, meshes::Rubber{}, problem, depths, options, folder / "press.inp");
+  write_deck(meridian, geometry, rubber_of(problem), problem, depths, options,
+             folder / "press.inp");
 
   CalculixRun run;
   run.unknowns = 2 * meridian.nodes.size();

@@ -76,6 +76,7 @@ class Deck {
       const double term = modulus / (4.0 * pair_exponent);
       out_ << term << ", 2., " << -term << ", 2., ";
     };
+    const auto& shape = rubber_.energy.shape;
     body("TIP");
     switch (problem_) {
       case Problem::small_strain:
@@ -98,6 +99,21 @@ class Deck {
         break;
       case Problem::neo_hooke:
         out_ << "*HYPERELASTIC, NEO HOOKE\n" << G / 2.0 << ", " << 2.0 / K << '\n';
+        break;
+      // Further volumetric terms are made small; 0 would mean nu = 0.475, 1e20 makes ogden diverge.
+      case Problem::yeoh:
+        out_ << "*HYPERELASTIC, YEOH\n"
+             << G / 2.0 << ", " << shape[0] * G << ", " << shape[1] * G << ", " << 2.0 / K
+             << ", 1e20, 1e20\n";
+        break;
+      case Problem::mooney_rivlin:
+        out_ << "*HYPERELASTIC, MOONEY-RIVLIN\n"
+             << G / 2.0 * (1.0 - shape[0]) << ", " << G / 2.0 * shape[0] << ", " << 2.0 / K << '\n';
+        break;
+      case Problem::ogden:
+        out_ << "*HYPERELASTIC, OGDEN, N=2\n"
+             << shape[0] * G << ", " << shape[1] << ", " << shape[2] * G << ", " << shape[3] << ", "
+             << 2.0 / K << ", 1e4\n";
         break;
     }
   }
@@ -170,12 +186,35 @@ class Deck {
 
 }  // namespace
 
+meshes::Rubber rubber_of(Problem problem) {
+  using meshes::RubberLaw, meshes::VolumetricLaw;
+  meshes::Rubber rubber;
+  meshes::StrainEnergy& energy = rubber.energy;
+  switch (problem) {
+    case Problem::small_strain:
+    case Problem::law_a: break;
+    case Problem::law_c: energy.volumetric = VolumetricLaw::isochoric_logarithmic; break;
+    case Problem::neo_hooke: energy.volumetric = VolumetricLaw::quadratic; break;
+    case Problem::yeoh: energy = {RubberLaw::yeoh, VolumetricLaw::quadratic, {0.1, 0.02}}; break;
+    case Problem::mooney_rivlin:
+      energy = {RubberLaw::mooney_rivlin, VolumetricLaw::quadratic, {0.3}};
+      break;
+    case Problem::ogden:
+      energy = {RubberLaw::ogden, VolumetricLaw::quadratic, {0.9, 1.4, 0.1, 6.0}};
+      break;
+  }
+  return rubber;
+}
+
 std::string_view name(Problem problem) {
   switch (problem) {
     case Problem::small_strain: return "small strain";
     case Problem::law_a: return "law A";
     case Problem::law_c: return "law C";
     case Problem::neo_hooke: return "NEO HOOKE";
+    case Problem::yeoh: return "YEOH";
+    case Problem::mooney_rivlin: return "MOONEY-RIVLIN";
+    case Problem::ogden: return "OGDEN";
   }
   return "";
 }

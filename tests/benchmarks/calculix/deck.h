@@ -18,7 +18,13 @@ enum class Problem {
   law_c,         ///< large strain, law C: two elements on the same nodes, *HYPERELASTIC, NEO HOOKE
                  ///< for the shape and *HYPERFOAM for the volume
   neo_hooke,     ///< large strain, *HYPERELASTIC, NEO HOOKE alone: law C but for K/2 (J - 1)²
+  yeoh,          ///< *HYPERELASTIC, YEOH, with K/2 (J - 1)² as those below
+  mooney_rivlin,
+  ogden,  ///< of two terms
 };
+
+/// The rubber of a problem: the usual E and G, and the law as fingertip-fem has it.
+meshes::Rubber rubber_of(Problem problem);
 
 /// CalculiX' axisymmetric quadrilaterals: linear or quadratic, fully integrated or reduced.
 enum class Element { cax4, cax4r, cax8, cax8r };

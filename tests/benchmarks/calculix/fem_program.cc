@@ -1,8 +1,11 @@
 #include "fem_program.h"
 
+#include "deck.h"
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "meshes/fields_json.h"
 #include "meshes/files.h"
 #include "meshes/press_response.h"
 
@@ -21,7 +24,7 @@ FemRun run_fem(const std::string& program, Problem problem, const FemOptions& op
   const nlohmann::json job{
       {"protocol", {{"contact", "frictionless"}, {"depth", depths.back()}, {"samples", depths}}},
       {"strain", problem == Problem::small_strain ? "linear" : "finite"},
-      {"law", problem == Problem::law_a ? "A" : "C"},
+      {"rubber", meshes::json_of<nlohmann::json>(rubber_of(problem))},
       {"symmetry", "axisymmetric"},
       {"degree", options.degree},
       {"tolerance", options.tolerance},

@@ -44,7 +44,10 @@ struct Settings {
 const std::map<std::string, Problem> problems{{"small-strain", Problem::small_strain},
                                               {"law-a", Problem::law_a},
                                               {"law-c", Problem::law_c},
-                                              {"neo-hooke", Problem::neo_hooke}};
+                                              {"neo-hooke", Problem::neo_hooke},
+                                              {"yeoh", Problem::yeoh},
+                                              {"mooney-rivlin", Problem::mooney_rivlin},
+                                              {"ogden", Problem::ogden}};
 const std::map<std::string, Element> elements{{"CAX4", Element::cax4},
                                               {"CAX4R", Element::cax4r},
                                               {"CAX8", Element::cax8},
