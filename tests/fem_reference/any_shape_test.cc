@@ -116,24 +116,21 @@ ReferenceJob small_press_of(const Geometry& geometry, ContactMode contact = Cont
 }
 
 /// One coarse mesh is a percent or two off; with error bars they are in MEASUREMENTS.md.
-TEST(AnyShape, DomeOfAnyKindIsTheDome) {
-  const Geometry profile = Geometry::of_profile(fingers::dome(), -0.03),
-                 facets = fingers::solid_dome();
-  for (const double tilt : {0.0, 0.3}) {
-    ReferenceJob job = small_press_of({}, ContactMode::frictionless);
-    job.protocol.tilt = tilt;
-    const meshes::PressSample dome = pressed(job, 1.0).sample;
-    for (const Geometry& geometry : {profile, facets}) {
-      job.geometry = geometry;
-      const meshes::PressSample sample = pressed(job, 1.0).sample;
-      EXPECT_NEAR(sample.normal_force / dome.normal_force, 1.0, 0.02);
-      EXPECT_NEAR(sample.contact_radius / dome.contact_radius, 1.0, 0.12);
-      const double moment = 0.03 * dome.normal_force;
-      EXPECT_NEAR(sample.torque_y, dome.torque_y, 0.01 * moment);
-      EXPECT_NEAR(sample.torque_x, 0.0, 0.01 * moment);
-      EXPECT_NEAR(sample.torque_z, 0.0, 0.01 * moment);
-      EXPECT_EQ(sample.lateral_force_y, 0.0);  // frictionless
-    }
+TEST(AnyShape, TiltedDomeOfAnyKindIsTheDome) {
+  ReferenceJob job = small_press_of({}, ContactMode::frictionless);
+  job.protocol.tilt = 0.3;
+  const meshes::PressSample dome = pressed(job, 1.0).sample;
+  for (const Geometry& geometry :
+       {Geometry::of_profile(fingers::dome(), -0.03), fingers::solid_dome(48, 32)}) {
+    job.geometry = geometry;
+    const meshes::PressSample sample = pressed(job, 1.0).sample;
+    EXPECT_NEAR(sample.normal_force / dome.normal_force, 1.0, 0.02);
+    EXPECT_NEAR(sample.contact_radius / dome.contact_radius, 1.0, 0.12);
+    const double moment = 0.03 * dome.normal_force;
+    EXPECT_NEAR(sample.torque_y, dome.torque_y, 0.01 * moment);
+    EXPECT_NEAR(sample.torque_x, 0.0, 0.01 * moment);
+    EXPECT_NEAR(sample.torque_z, 0.0, 0.01 * moment);
+    EXPECT_EQ(sample.lateral_force_y, 0.0);  // frictionless
   }
 }
 
@@ -176,22 +173,21 @@ TEST(AnyShape, TurnsWithItsObstacle) {
   EXPECT_NEAR(right.sample.lateral_force_y, 0.0, 0.02 * force);
 }
 
-/// The modes of a solid are those of the same body by its quarter.
-TEST(AnyShape, HasTheModesOfTheDome) {
+/// The lowest modes, which bend it, of a whole solid, of a quarter of a profile and of the dome.
+TEST(AnyShape, BendsAsTheDome) {
   ReferenceJob job;
   job.analysis = fem_reference::Analysis::modes;
+  job.degree = 1;
+  job.volumetric = fem_reference::Volumetric::pointwise;
   const auto lowest = [&](const Geometry& geometry, double refinement) {
     job.geometry = geometry;
     const SharedMesh mesh(refinement, sector(job), geometry);
     fem_reference::TipModes modes(job, mesh.file());
-    double least = 1e9;
-    for (std::size_t i = 0; i < (geometry.solid ? 1u : 4u); ++i)
-      least = std::min(least, modes.solve(fem_reference::symmetry_classes[i], 1)[0].frequency);
-    return least;
+    return modes.solve(fem_reference::symmetry_classes[geometry.solid ? 0 : 1], 1)[0].frequency;
   };
-  const double dome = lowest({}, 0.35);
-  EXPECT_NEAR(lowest(Geometry::of_profile(fingers::dome()), 0.35) / dome, 1.0, 0.01);
-  EXPECT_NEAR(lowest(fingers::solid_dome(48, 32), 0.35) / dome, 1.0, 0.01);
+  const double dome = lowest({}, 0.6);
+  EXPECT_NEAR(lowest(Geometry::of_profile(fingers::dome()), 0.5) / dome, 1.0, 0.03);
+  EXPECT_NEAR(lowest(fingers::solid_dome(48, 32), 0.5) / dome, 1.0, 0.03);
 }
 
 }  // namespace
