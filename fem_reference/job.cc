@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
@@ -82,6 +83,39 @@ void read_fields(const Json& object, const std::string& place, Settings& setting
       refuse(key, value, "is no entry of a reference job");
 }
 
+/// Beside the job: the surface of its solid, from which the digest was taken.
+constexpr const char* surface_file = "solid.json";
+
+void write_surface(const meshes::Solid& solid, const std::filesystem::path& file) {
+  Json vertices = Json::array(), triangles = Json::array(), bonded = Json::array();
+  for (const meshes::Vector3& w : solid.mesh().vertices) vertices.push_back({w.x(), w.y(), w.z()});
+  for (std::size_t t = 0; t < solid.mesh().triangles.size(); ++t) {
+    triangles.push_back(solid.mesh().triangles[t]);
+    bonded.push_back(solid.is_bond(t));
+  }
+  const Json json{{"vertices", vertices}, {"triangles", triangles}, {"bonded", bonded}};
+  meshes::write_atomically(file, [&](std::ostream& out) { out << json << '\n'; });
+}
+
+std::shared_ptr<const meshes::Solid> read_surface(const std::filesystem::path& file,
+                                                  const std::string& content) {
+  std::ifstream in(file);
+  meshes::TriangleMesh mesh;
+  std::vector<bool> bonded;
+  try {
+    const Json json = Json::parse(in);
+    for (const Json& w : json.at("vertices"))
+      mesh.vertices.emplace_back(w.at(0).get<double>(), w.at(1).get<double>(),
+                                 w.at(2).get<double>());
+    json.at("triangles").get_to(mesh.triangles);
+    json.at("bonded").get_to(bonded);
+  } catch (const Json::exception& error) {
+    throw InvalidInput({file.string(), "", std::string("no surface of a solid: ") + error.what(),
+                        "write it with write_job or start `fingertip reference`"});
+  }
+  return std::make_shared<meshes::Solid>(std::move(mesh), bonded, content);
+}
+
 }  // namespace
 
 std::string_view name(LinearSolver solver) {
@@ -127,8 +161,8 @@ std::string_view name(Symmetry symmetry) {
 
 bool ReferenceJob::axisymmetric() const {
   const bool press = analysis == Analysis::static_press || analysis == Analysis::transient;
-  return symmetry != Symmetry::none && press && protocol.tilt == 0.0 && protocol.lateral == 0.0 &&
-         protocol.obstacle.on_axis();
+  return !geometry.solid && symmetry != Symmetry::none && press && protocol.tilt == 0.0 &&
+         protocol.lateral == 0.0 && protocol.obstacle.on_axis();
 }
 
 std::vector<Violation> ReferenceJob::violations() const {
@@ -167,23 +201,17 @@ std::vector<Violation> ReferenceJob::violations() const {
   if (symmetry == Symmetry::axisymmetric && !axisymmetric())
     broken.push_back(
         {"reference.symmetry", "axisymmetric",
-         press ? "a tilt, a lateral motion or an obstacle that is not round about the axis breaks "
-                 "the symmetry"
-               : "vibrations leave the meridian: they need the solid",
+         geometry.solid ? "a solid need not be a body of revolution"
+         : press
+             ? "a tilt, a lateral motion or an obstacle that is not round about the axis breaks "
+               "the symmetry"
+             : "vibrations leave the meridian: they need the solid",
          "choose reference.symmetry = \"automatic\""});
-  if (geometry.solid && analysis != Analysis::verification)
-    broken.push_back({"geometry.shape", "solid",
-                      "the continuum does not know solids of any shape yet",
-                      "press it by the lattice, or describe a body of revolution by its profile"});
-  else if (!geometry.is_dome() && !axisymmetric() && analysis != Analysis::verification)
-    broken.push_back(
-        {"geometry.shape", "profile",
-         press && symmetry != Symmetry::none
-             ? "the continuum presses a profile along its axis: no tilt, no lateral motion, a "
-               "plane "
-               "or a sphere on the axis"
-             : "the continuum knows a profile by its meridian, not as a solid",
-         "take the dome, or press along the axis with reference.symmetry = \"automatic\""});
+  if (analysis == Analysis::transient && geometry.solid)
+    broken.push_back({"reference.mode", "transient",
+                      "a transient press tells the force along the axis alone, and a solid, which "
+                      "has no symmetry, is pushed aside, too",
+                      "choose reference.mode = \"static\""});
   if (analysis == Analysis::transient)
     require(strain == Strain::linear && protocol.tilt == 0.0 && protocol.lateral == 0.0 &&
                 protocol.obstacle.on_axis() && protocol.contact != meshes::ContactMode::coulomb,
@@ -195,6 +223,7 @@ std::vector<Violation> ReferenceJob::violations() const {
 
 void write_job(const ReferenceJob& job, const std::filesystem::path& file) {
   const auto json = meshes::json_of<Json>(job);
+  if (job.geometry.solid) write_surface(*job.geometry.solid, file.parent_path() / surface_file);
   meshes::write_atomically(file, [&](std::ostream& out) { out << json.dump(2) << '\n'; });
 }
 
@@ -212,7 +241,20 @@ ReferenceJob read_job(const std::filesystem::path& file) {
   }
   ReferenceJob job;
   std::vector<Violation> broken;
+  // Its surface stands in a file of its own.
+  std::string content;
+  if (json.is_object() && json.contains("geometry") && json["geometry"].is_object() &&
+      json["geometry"].contains("solid")) {
+    const Json& solid = json["geometry"]["solid"];
+    if (solid.is_string()) content = solid.get<std::string>();
+    if (content.empty())
+      broken.push_back({file.string() + ": geometry.solid", solid.dump(),
+                        "must be the digest of a surface", "correct the entry or leave it out"});
+    json["geometry"].erase("solid");
+  }
   read_fields(json, file.string() + ": ", job, broken);
+  if (broken.empty() && !content.empty())
+    job.geometry.solid = read_surface(file.parent_path() / surface_file, content);
   if (broken.empty()) broken = job.violations();
   if (!broken.empty()) throw InvalidInput(broken);
   return job;

@@ -72,7 +72,8 @@ struct ReferenceJob {
   bool write_fields = true;         ///< VTU per sample and a PVD over them
   int field_sectors = 0;  ///< of the solid into which a meridian's fields are turned; 0: none
 
-  /// Whether the meridian is meshed, not the solid: a press without tilt and lateral motion.
+  /// Whether the meridian is meshed: a press of a body of revolution without tilt and lateral
+  /// motion.
   bool axisymmetric() const;
   /// Solves for these indentations [m], increasing; the press ends at the last.
   void press_to(std::vector<double> samples);
@@ -120,8 +121,9 @@ constexpr auto values(Symmetry) {
   return std::array{Symmetry::automatic, Symmetry::axisymmetric, Symmetry::none};
 }
 
-/// JSON in and out (file `job.json` in the run folder). Reading throws InvalidInput with the
-/// file and the offending entry; entries that are absent keep their defaults.
+/// JSON in and out (file `job.json` in the run folder). The surface of a solid, of which the job
+/// has a digest, stands beside it in `solid.json`. Reading throws InvalidInput with the file and
+/// the offending entry; entries that are absent keep their defaults.
 void write_job(const ReferenceJob& job, const std::filesystem::path& file);
 ReferenceJob read_job(const std::filesystem::path& file);
 

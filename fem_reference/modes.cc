@@ -96,28 +96,31 @@ class ModesRun {
     const double start = progress_.wall_time();
     const std::size_t number = meshes_.size() + 1;
     progress_.report("mesh", number - 1, number, "meshing the tip");
-    write_mesh_once(job_.geometry, meshes::TipMeshOptions{}.refined(refinement),
-                    folder_ / "tip.msh");
+    write_mesh_once(job_.geometry, mesh_options(job_, refinement), folder_ / "tip.msh");
     TipModes tip(job_, folder_ / "tip.msh");
     ModesOnMesh found;
     found.mesh = tip.mesh();
-    for (std::size_t i = 0; i < symmetry_classes.size(); ++i) {
+    for (std::size_t i = 0; i < classes(); ++i) {
       stop_if_asked(stop_requested_);
-      progress_.report("modes", i, symmetry_classes.size(),
+      progress_.report("modes", i, classes(),
                        "mesh " + std::to_string(number) + ": " +
                            std::to_string(found.mesh.unknowns) + " unknowns, symmetry " +
-                           name(symmetry_classes[i]));
+                           symmetry(symmetry_classes[i]));
       found.classes[i] = tip.solve(symmetry_classes[i], job_.modes);
     }
     found.wall_time = progress_.wall_time() - start;
     meshes_.push_back(std::move(found));
-    progress_.report("modes", symmetry_classes.size(), symmetry_classes.size(),
+    progress_.report("modes", classes(), classes(),
                      "mesh " + std::to_string(number) + ": lowest frequency " +
                          to_text(lowest().front().frequency) + " Hz");
     write_tables({RunOutcome::Status::interrupted, ""});
     if (job_.write_fields && (!job_.estimate_error || meshes_.size() >= fewest_meshes))
       write_fields(tip);
   }
+
+  /// A solid has no symmetry: its modes are of one class.
+  std::size_t classes() const { return job_.geometry.solid ? 1 : symmetry_classes.size(); }
+  std::string symmetry(SymmetryClass of) const { return job_.geometry.solid ? "none" : name(of); }
 
   /// Of all classes on the finest mesh.
   std::vector<NaturalMode> lowest() const {
@@ -183,7 +186,7 @@ class ModesRun {
   void write_modes(const std::vector<NaturalMode>& modes) const {
     std::vector<ModeRow> rows;
     for (const NaturalMode& mode : modes)
-      rows.push_back({int(rows.size()) + 1, mode.frequency, error(mode), name(mode.symmetry),
+      rows.push_back({int(rows.size()) + 1, mode.frequency, error(mode), symmetry(mode.symmetry),
                       mode.multiplicity});
     meshes::write_rows(rows, folder_ / "modes.csv");
   }

@@ -51,7 +51,8 @@ struct NaturalMode {
 /// The modes on one mesh. All processes of MPI_COMM_WORLD take part in every call.
 class TipModes {
  public:
-  /// Reads a mesh of the sector `quarter`. Throws InvalidInput for a mesh that cannot be read.
+  /// Reads a mesh of the sector `quarter`, of a solid `full`: its modes are found in the first
+  /// class, each alone. Throws InvalidInput for a mesh that cannot be read.
   TipModes(const ReferenceJob& job, const std::filesystem::path& mesh_file);
   ~TipModes();
   TipModes(const TipModes&) = delete;

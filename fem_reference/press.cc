@@ -34,14 +34,31 @@ std::unique_ptr<PressModel> make_model(const ReferenceJob& job,
 
 }  // namespace
 
-bool has_two_symmetry_planes(const ReferenceJob& job) {
-  return job.protocol.tilt == 0.0 && job.protocol.lateral == 0.0 &&
-         job.protocol.obstacle.mirrored();
+meshes::Sector sector(const ReferenceJob& job) {
+  using meshes::Sector;
+  if (job.axisymmetric()) return Sector::meridian;
+  if (job.geometry.solid) return Sector::full;
+  const meshes::PressProtocol& press = job.protocol;
+  const bool mirrored = press.tilt == 0.0 && press.lateral == 0.0 && press.obstacle.mirrored();
+  return mirrored || job.analysis == Analysis::modes ? Sector::quarter : Sector::half;
 }
 
-meshes::Sector sector(const ReferenceJob& job) {
-  if (job.axisymmetric()) return meshes::Sector::meridian;
-  return has_two_symmetry_planes(job) ? meshes::Sector::quarter : meshes::Sector::half;
+double copies(meshes::Sector sector) {
+  switch (sector) {
+    case meshes::Sector::quarter: return 4.0;
+    case meshes::Sector::half: return 2.0;
+    case meshes::Sector::full:
+    case meshes::Sector::meridian: return 1.0;
+  }
+  return 1.0;
+}
+
+meshes::TipMeshOptions mesh_options(const ReferenceJob& job, double refinement) {
+  meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(refinement);
+  options.sector = sector(job);
+  if (!job.geometry.is_dome() && job.analysis != Analysis::modes)
+    options.touch = meshes::touched_first(job.geometry, job.protocol.tilt, job.protocol.obstacle);
+  return options;
 }
 
 struct ContinuumPress::Implementation {

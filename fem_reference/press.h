@@ -16,8 +16,9 @@ namespace fingertip::fem_reference {
 
 /// A node that the plane pushes.
 struct ContactPoint {
-  double radius =
-      0.0;  ///< distance from the axis: small strain reference, large strain current [m]
+  /// Distance from the axis, of another shape than the dome from the line through where it touches
+  /// first: small strain reference, large strain current [m].
+  double radius = 0.0;
   double pressure = 0.0;  ///< nodal force over lumped area (large strain: current area) [Pa]
 };
 
@@ -49,7 +50,8 @@ struct MeshSummary {
   LinearSolver solver = LinearSolver::automatic;
 };
 
-/// A mesh edge in the plane y = 0, undeformed and deformed, as (x1, z1, x2, z2) in plane axes [m].
+/// A mesh edge in the plane y = 0, or of a whole solid where its surface crosses it, undeformed and
+/// deformed, as (x1, z1, x2, z2) in plane axes [m].
 struct SectionEdge {
   std::array<double, 4> undeformed{};
   std::array<double, 4> deformed{};
@@ -66,7 +68,8 @@ double contact_edge(const std::vector<ContactPoint>& contact, double node_spacin
 struct PressSnapshot;
 
 /// A tip under a plane that comes nearer: its meridian when the job is axisymmetric, a quarter of
-/// it when nothing else breaks the symmetry, a half (y >= 0) when it is tilted or moved laterally.
+/// it when nothing else breaks the symmetry, a half (y >= 0) when it is tilted or moved laterally;
+/// a solid as a whole.
 /// All processes of MPI_COMM_WORLD take part in every call.
 class ContinuumPress {
  public:
@@ -118,9 +121,11 @@ class ContinuumPress {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Whether a quarter of the tip tells everything, if not less; otherwise a half does.
-bool has_two_symmetry_planes(const ReferenceJob& job);
-/// What has to be meshed for a press.
+/// What has to be meshed for a job.
 meshes::Sector sector(const ReferenceJob& job);
+/// How many such sectors make the tip.
+double copies(meshes::Sector sector);
+/// The first mesh of a job, its counts times `refinement`.
+meshes::TipMeshOptions mesh_options(const ReferenceJob& job, double refinement);
 
 }  // namespace fingertip::fem_reference

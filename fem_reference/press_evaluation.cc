@@ -41,12 +41,8 @@ struct EdgeShare {
 };
 constexpr std::array<EdgeShare, 2> edge_shares = {{{0.7, 5}, {0.5, 3}}};
 
-double radius(const meshes::Vector3& position) {
-  return std::hypot(position.x(), position.y());
-}
-
 /// Distance to the nearest other node, averaged over the candidates next to `edge`.
-double spacing_around(const std::vector<SurfaceNode>& nodes, double edge) {
+double spacing_around(const std::vector<SurfaceNode>& nodes, double edge, const auto& radius) {
   double sum = 0.0;
   int count = 0;
   for (double band = 0.05; count < 3 && band < 10.0; band *= 2) {
@@ -118,10 +114,19 @@ PressState TipPress<dim>::evaluate() {
 }
 
 template <int dim>
+double TipPress<dim>::radius(const meshes::Vector3& position) const {
+  return std::hypot(position.x() - centre_.x(), position.y() - centre_.y());
+}
+
+template <int dim>
+bool TipPress<dim>::is_round() const {
+  const bool turned = job_.protocol.tilt != 0.0 || job_.protocol.lateral != 0.0;
+  return !job_.geometry.solid && !turned && job_.protocol.obstacle.on_axis();
+}
+
+template <int dim>
 void TipPress<dim>::add_resultant(PressState& state) const {
-  const bool straight = has_two_symmetry_planes(job_),
-             round = straight && job_.protocol.obstacle.on_axis();
-  const double sectors = copies();
+  const double sectors = copies(sector_);
   state.energy *= sectors;
   const std::vector<SurfaceNode>& nodes = contact_->unknowns().nodes;
   const bool finite = job_.strain == Strain::finite;
@@ -139,9 +144,8 @@ void TipPress<dim>::add_resultant(PressState& state) const {
   }
   if (Kinematics<dim>::revolved)
     for (auto& node : now) node[1] = 0.0;  // it has no unknown
-  const double s = std::sin(job_.protocol.tilt), c = std::cos(job_.protocol.tilt),
-               l = job_.geometry.rod_length;
-  const meshes::Vector3 endpoint(s * l, 0.0, -c * l);  // (0, 0, -l) in plane axes
+  const Eigen::AngleAxisd to_rod(job_.protocol.tilt, meshes::Vector3::UnitY());
+  const meshes::Vector3 endpoint = to_rod.inverse() * job_.geometry.rod_endpoint();
   meshes::Vector3 force = meshes::Vector3::Zero(), torque = force;
   double touched = 0.0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -159,14 +163,20 @@ void TipPress<dim>::add_resultant(PressState& state) const {
 
   meshes::PressSample& sample = state.sample;
   sample.normal_force = -sectors * force.z();
+  torque = to_rod * torque;
   // What breaks no symmetry vanishes.
-  sample.lateral_force_x = straight ? 0.0 : sectors * force.x();
-  sample.torque_y = straight ? 0.0 : sectors * torque.y();
-  sample.lateral_force_y = sample.torque_x = sample.torque_z = 0.0;
+  const bool whole = sector_ == meshes::Sector::full,
+             along_x = whole || sector_ == meshes::Sector::half;
+  sample.lateral_force_x = along_x ? sectors * force.x() : 0.0;
+  sample.torque_y = along_x ? sectors * torque.y() : 0.0;
+  sample.lateral_force_y = whole ? force.y() : 0.0;
+  sample.torque_x = whole ? torque.x() : 0.0;
+  sample.torque_z = whole ? torque.z() : 0.0;
   if (state.contact.empty()) return;
   sample.max_pressure = std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
-  state.node_spacing = spacing_around(outer_nodes_, outermost());
-  if (round) {
+  state.node_spacing = spacing_around(outer_nodes_, outermost(),
+                                      [this](const meshes::Vector3& at) { return radius(at); });
+  if (is_round()) {
     sample.contact_radius = contact_edge(state.contact, state.node_spacing, dim == 2 ? 1 : 4);
   } else {
     sample.contact_radius = std::sqrt(sectors * touched / std::numbers::pi);
@@ -184,15 +194,17 @@ double TipPress<dim>::outermost() const {
 
 template <int dim>
 double TipPress<dim>::half_width() const {
-  if (job_.protocol.obstacle.on_axis()) return outermost();
+  // A ball's contact with a plane is round, whatever its tilt.
+  if (is_round() || (job_.geometry.is_dome() && job_.protocol.obstacle.on_axis()))
+    return outermost();
   meshes::Vector3 low = meshes::Vector3::Constant(std::numeric_limits<double>::infinity()),
                   high = -low;
   for (std::size_t i = 0; i < contact_->status().size(); ++i) {
     if (contact_->status()[i] == NodeStatus::open) continue;
     // With its images in the planes of symmetry.
     meshes::Vector3 at = contact_->unknowns().nodes[i].position, image = at;
-    image.y() = -at.y();
-    if (has_two_symmetry_planes(job_)) image.x() = -at.x();
+    if (sector_ != meshes::Sector::full) image.y() = -at.y();
+    if (sector_ == meshes::Sector::quarter) image.x() = -at.x();
     low = low.cwiseMin(at).cwiseMin(image);
     high = high.cwiseMax(at).cwiseMax(image);
   }
@@ -216,7 +228,7 @@ void TipPress<dim>::note_indicators(PressState& state) {
   for (float& value : now) sum += double(value *= value);
   sum = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
   if (sum > 0.0) now *= float(1.0 / sum);
-  state.indicator = excess_energy<dim> * copies() * job_.rubber.shear_modulus * sum;
+  state.indicator = excess_energy<dim> * copies(sector_) * job_.rubber.shear_modulus * sum;
 
   std::map<long, bool> touches;
   for (std::size_t i = 0; i < contact_->status().size(); ++i)
@@ -269,6 +281,10 @@ bool TipPress<dim>::refine(double share, const std::vector<char>& wanted) {
 
 template PressState TipPress<2>::evaluate();
 template PressState TipPress<3>::evaluate();
+template double TipPress<2>::radius(const meshes::Vector3&) const;
+template double TipPress<3>::radius(const meshes::Vector3&) const;
+template bool TipPress<2>::is_round() const;
+template bool TipPress<3>::is_round() const;
 template double TipPress<2>::outermost() const;
 template double TipPress<3>::outermost() const;
 template double TipPress<2>::half_width() const;

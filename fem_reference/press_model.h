@@ -85,16 +85,20 @@ class TipPress final : public PressModel {
   double residual(const Vector& displacement, const PlanePose& target);
   std::vector<meshes::Vector3> displacements(const std::vector<SurfaceNode>& nodes) const;
   void check_other_nodes(double place) const;
-  /// How many of the mesh make the tip.
-  double copies() const { return dim == 2 ? 1.0 : has_two_symmetry_planes(job_) ? 4.0 : 2.0; }
+  /// From where contact starts, across the press [m].
+  double radius(const meshes::Vector3& position) const;
+  /// Whether contact is a disc about the axis.
+  bool is_round() const;
   void add_resultant(PressState& state) const;
   double outermost() const;   ///< reference radius of the farthest node that touches [m]
   double half_width() const;  ///< of the contact where it is narrowest, in the reference [m]
   void note_indicators(PressState& state);
   void load_marks(std::size_t samples);
 
+  meshes::Sector sector_;
   meshes::PressPath path_;
-  double touch_;  ///< height of the obstacle's top at first touch [m]
+  double touch_;            ///< height of the obstacle's top at first touch [m]
+  meshes::Vector3 centre_;  ///< of the contact, in plane axes; the dome's is its own [m]
   std::unique_ptr<Body<dim>> body_;
   std::unique_ptr<ElementKernel<dim>> kernel_;
   std::unique_ptr<LinearSystem> system_;

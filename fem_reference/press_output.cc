@@ -115,6 +115,27 @@ std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot& state) cons
       }
     own.push_back(edge);
   };
+  // Where the sides of a face of the surface cross the plane, by their displacements in between.
+  const auto cross = [&](const auto& face) {
+    std::array<double, 8> edge{};
+    unsigned found = 0;
+    for (unsigned l = 0; l < 4 && found < 2; ++l) {
+      const auto& line = face->line(l);
+      const double from = line->vertex(0)[1], to = line->vertex(1)[1];
+      if ((from < 0.0) == (to < 0.0)) continue;
+      const double share = from / (from - to);
+      for (unsigned k = 0; k < 2; ++k) {
+        const unsigned component = 2 * k;
+        const auto between = [&](double a, double b) { return a + share * (b - a); };
+        edge[2 * found + k] = between(line->vertex(0)[component], line->vertex(1)[component]);
+        edge[4 + 2 * found + k] =
+            edge[2 * found + k] + between(u[line->vertex_dof_index(0, component)],
+                                          u[line->vertex_dof_index(1, component)]);
+      }
+      ++found;
+    }
+    if (found == 2) own.push_back(edge);
+  };
   const auto in_section = [](const auto& face) {
     return face->at_boundary() &&
            face->boundary_id() == dealii::types::boundary_id(meshes::PhysicalTag::symmetry_y);
@@ -126,6 +147,8 @@ std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot& state) cons
         take(face);
       } else if (in_section(face)) {
         for (unsigned l = 0; l < 4; ++l) take(face->line(l));
+      } else if (sector_ == meshes::Sector::full && face->at_boundary()) {
+        cross(face);
       }
     }
   }

@@ -161,9 +161,8 @@ class PressRun {
 
   void make_mesh() {
     const double counts = job_.axisymmetric() ? meridian_counts : 1.0;
-    meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(counts * job_.refinement);
-    options.sector = sector(job_);
-    mesh_quality_ = write_mesh_once(job_.geometry, options, folder_ / "tip.msh");
+    mesh_quality_ = write_mesh_once(job_.geometry, mesh_options(job_, counts * job_.refinement),
+                                    folder_ / "tip.msh");
   }
 
   void start_mesh(const ContinuumPress& press) {

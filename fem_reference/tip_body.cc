@@ -8,18 +8,21 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <limits>
+#include <map>
+#include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "fem_reference/kinematics.h"
+#include "meshes/boundary_parts.h"
 #include "meshes/errors.h"
-#include "meshes/meridian.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -66,54 +69,67 @@ class ShellManifold : public dealii::Manifold<dim> {
   dealii::Tensor<1, dim> axis_;
 };
 
-/// Keeps new points on a piece of a profile.
-class PieceManifold : public dealii::Manifold<2> {
+/// Keeps new points on parts of the boundary of a finger that is turned about y by -`tilt`.
+template <int dim>
+class PartsManifold : public dealii::Manifold<dim> {
  public:
-  explicit PieceManifold(const meshes::MeridianPiece& piece) : piece_(piece) {}
+  PartsManifold(std::shared_ptr<const meshes::BoundaryParts> boundary, std::vector<int> parts,
+                double tilt)
+      : boundary_(std::move(boundary)),
+        parts_(std::move(parts)),
+        turn_(Eigen::AngleAxisd(-tilt, Eigen::Vector3d::UnitY())) {}
 
-  std::unique_ptr<dealii::Manifold<2>> clone() const override {
-    return std::make_unique<PieceManifold>(piece_);
+  std::unique_ptr<dealii::Manifold<dim>> clone() const override {
+    return std::make_unique<PartsManifold>(*this);
   }
 
-  dealii::Point<2> get_new_point(const dealii::ArrayView<const dealii::Point<2>>& points,
-                                 const dealii::ArrayView<const double>& weights) const override {
-    meshes::Vector2 mean(0.0, 0.0);
-    for (unsigned i = 0; i < points.size(); ++i)
-      mean += weights[i] * meshes::Vector2(points[i][0], points[i][1]);
-    const meshes::Vector2 found = piece_.at(piece_.nearest(mean));
-    return {found.x(), found.y()};
+  dealii::Point<dim> get_new_point(const dealii::ArrayView<const dealii::Point<dim>>& points,
+                                   const dealii::ArrayView<const double>& weights) const override {
+    dealii::Point<dim> mean;
+    for (unsigned i = 0; i < points.size(); ++i) mean += weights[i] * points[i];
+    const Eigen::Vector3d found =
+        turn_ * boundary_->on(parts_, turn_.conjugate() * in_space<dim>(mean));
+    dealii::Point<dim> result;
+    for (unsigned c = 0; c < dim; ++c) result[c] = found[Kinematics<dim>::axis[c]];
+    return result;
   }
 
  private:
-  meshes::MeridianPiece piece_;
+  std::shared_ptr<const meshes::BoundaryParts> boundary_;
+  std::vector<int> parts_;
+  Eigen::Quaterniond turn_;
 };
 
-meshes::ProfileSurface surface_of(dealii::types::boundary_id boundary) {
-  if (boundary == id(PhysicalTag::outer)) return meshes::ProfileSurface::contact;
-  if (boundary == id(PhysicalTag::bond)) return meshes::ProfileSurface::bond;
-  if (boundary == id(PhysicalTag::end)) return meshes::ProfileSurface::free;
-  return meshes::ProfileSurface::axis;
-}
-
-/// Edges on the boundary are curved as the piece is on which they lie, all others straight.
-void follow_profile(const meshes::Geometry& geometry, Triangulation<2>& triangulation) {
-  const meshes::Meridian meridian(geometry);
-  const auto& pieces = meridian.pieces();
-  for (unsigned p = 0; p < pieces.size(); ++p)
-    triangulation.set_manifold(p, PieceManifold(pieces[p]));
-  for (const auto& cell : triangulation.active_cell_iterators())
+/// Faces and edges on the boundary are curved as the parts are on which they lie, all others flat
+/// and straight. The mesh is turned by -`tilt` as it is told.
+template <int dim>
+void follow_boundary(const meshes::Geometry& geometry, double tilt,
+                     Triangulation<dim>& triangulation) {
+  const std::shared_ptr<const meshes::BoundaryParts> boundary = meshes::boundary_parts(geometry);
+  using Parts = std::set<int>;
+  std::map<Parts, dealii::types::manifold_id> numbers;
+  const auto number_of = [&](const Parts& parts) {
+    return numbers.try_emplace(parts, dealii::types::manifold_id(numbers.size())).first->second;
+  };
+  std::map<unsigned, Parts> at_line;  // by the line's number
+  for (const auto& cell : triangulation.cell_iterators())
     for (const auto& face : cell->face_iterators()) {
       if (!face->at_boundary()) continue;
-      const meshes::Vector2 middle(face->center()[0], face->center()[1]);
-      double least = std::numeric_limits<double>::infinity();
-      for (unsigned p = 0; p < pieces.size(); ++p) {
-        if (pieces[p].surface() != surface_of(face->boundary_id())) continue;
-        const double distance = (pieces[p].at(pieces[p].nearest(middle)) - middle).norm();
-        if (distance >= least) continue;
-        least = distance;
-        face->set_manifold_id(p);
-      }
+      dealii::Point<dim> middle = face->center();
+      const int part = boundary->part_at(PhysicalTag(face->boundary_id()), in_space<dim>(middle));
+      if (part < 0) continue;
+      face->set_manifold_id(number_of({part}));
+      if constexpr (dim == 3)
+        for (unsigned l = 0; l < face->n_lines(); ++l) at_line[face->line(l)->index()].insert(part);
     }
+  if constexpr (dim == 3)
+    for (const auto& cell : triangulation.cell_iterators())
+      for (unsigned l = 0; l < cell->n_lines(); ++l)
+        if (const auto parts = at_line.find(cell->line(l)->index()); parts != at_line.end())
+          cell->line(l)->set_manifold_id(number_of(parts->second));
+  for (const auto& [parts, number] : numbers)
+    triangulation.set_manifold(number,
+                               PartsManifold<dim>(boundary, {parts.begin(), parts.end()}, tilt));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& rule) {
@@ -133,6 +149,11 @@ void read_mesh(const std::filesystem::path& file, Triangulation<dim>& triangulat
   }
 }
 
+void turn(Triangulation<3>& triangulation, double tilt) {
+  if (tilt != 0.0)
+    dealii::GridTools::rotate(dealii::Tensor<1, 3>({0.0, 1.0, 0.0}), -tilt, triangulation);
+}
+
 }  // namespace
 
 template <int dim>
@@ -141,18 +162,17 @@ std::unique_ptr<Body<dim>> read_tip(MPI_Comm communicator, const std::filesystem
   auto body = std::make_unique<Body<dim>>(communicator, degree);
   Triangulation<dim>& triangulation = body->triangulation;
   read_mesh(mesh_file, triangulation);
-  if constexpr (dim == 2)
-    if (!geometry.is_dome()) {
-      follow_profile(geometry, triangulation);
-      return body;
-    }
+  if (!geometry.is_dome()) {
+    follow_boundary(geometry, tilt, triangulation);
+    if constexpr (dim == 3) turn(triangulation, tilt);
+    return body;
+  }
   constexpr dealii::types::manifold_id sphere = 1, cylinder = 2;
   for (const auto& cell : triangulation.cell_iterators())
     cell->set_all_manifold_ids(cell->center()[dim - 1] > 0.0 ? sphere : cylinder);
   triangulation.set_manifold(sphere, ShellManifold<dim>(dealii::Tensor<1, dim>()));
   if constexpr (dim == 3) {
-    const dealii::Tensor<1, 3> y({0.0, 1.0, 0.0});
-    if (tilt != 0.0) dealii::GridTools::rotate(y, -tilt, triangulation);
+    turn(triangulation, tilt);
     triangulation.set_manifold(
         cylinder, ShellManifold<3>(dealii::Tensor<1, 3>({-std::sin(tilt), 0.0, std::cos(tilt)})));
   } else {

@@ -10,10 +10,10 @@
 
 namespace fingertip::fem_reference {
 
-/// Reads the gmsh mesh of a tip (dim = 3: quarter or half; dim = 2: the meridian) and turns it
+/// Reads the gmsh mesh of a tip (dim = 3: quarter, half or all; dim = 2: the meridian) and turns it
 /// about y by -`tilt` [rad], so that the plane's normal becomes the z axis whatever the tilt: n =
 /// (-sin tilt, 0, -cos tilt) in rod axes is (0, 0, -1) in plane axes, and t1 is their x axis.
-/// Refined cells keep to the true sphere and cylinder, or to the pieces of `geometry`'s profile.
+/// Refined cells keep to the true sphere and cylinder, or to the parts of `geometry`'s boundary.
 /// Collective over `communicator`. Throws InvalidInput when the mesh cannot be read, is damaged or
 /// has inverted elements. A meridian takes no tilt.
 template <int dim>

@@ -136,6 +136,7 @@ std::size_t class_index(SymmetryClass symmetry) {
 }  // namespace
 
 struct TipModes::Implementation {
+  bool is_quarter;
   std::unique_ptr<Body<3>> body;
   HookeKernel<3> stiffness;
   MassKernel<3> mass;
@@ -144,10 +145,12 @@ struct TipModes::Implementation {
 };
 
 TipModes::TipModes(const ReferenceJob& job, const std::filesystem::path& mesh_file)
-    : implementation_(new Implementation{read_tip<3>(MPI_COMM_WORLD, mesh_file, job.degree, 0.0),
-                                         HookeKernel<3>(job.rubber, job.volumetric),
-                                         MassKernel<3>(job.rubber.density),
-                                         {}}) {
+    : implementation_(
+          new Implementation{!job.geometry.solid,
+                             read_tip<3>(MPI_COMM_WORLD, mesh_file, job.degree, 0.0, job.geometry),
+                             HookeKernel<3>(job.rubber, job.volumetric),
+                             MassKernel<3>(job.rubber.density),
+                             {}}) {
   implementation_->body->number(supports({}));
 }
 
@@ -167,7 +170,7 @@ std::vector<NaturalMode> TipModes::solve(SymmetryClass symmetry, int count) {
   std::vector<NaturalMode> modes;
   for (Eigenpair& pair : lowest_eigenpairs(*self.body, self.stiffness, self.mass, count)) {
     modes.push_back({std::sqrt(pair.eigenvalue) / (2.0 * std::numbers::pi), symmetry, modes.size(),
-                     multiplicity(*self.body, pair.shape, symmetry)});
+                     self.is_quarter ? multiplicity(*self.body, pair.shape, symmetry) : 1});
     normalise(pair.shape);
     shapes.push_back(std::move(pair.shape));
   }
@@ -184,7 +187,7 @@ void TipModes::write_fields(const NaturalMode& mode, const std::filesystem::path
   out.add_data_vector(body.fine.dofs, u, std::vector<std::string>(3, "displacement"),
                       std::vector<DataComponentInterpretation>(3, component_is_part_of_vector));
   out.build_patches(body.mapping, unsigned(body.degree()), dealii::DataOut<3>::curved_inner_cells);
-  out.complete(mode.symmetry);
+  if (implementation_->is_quarter) out.complete(mode.symmetry);
   write_vtu(out, file);
 }
 

@@ -37,9 +37,8 @@ class TransientRun {
   RunOutcome carry_out() {
     const RunOutcome outcome = outcome_of([&] {
       progress_.report("mesh", 0, 1, "meshing the tip");
-      meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(job_.refinement);
-      options.sector = sector(job_);
-      quality_ = write_mesh_once(job_.geometry, options, folder_ / "tip.msh");
+      quality_ =
+          write_mesh_once(job_.geometry, mesh_options(job_, job_.refinement), folder_ / "tip.msh");
       if (job_.estimate_error) adapt();
       press();
       if (job_.estimate_error) repeat_with_doubled_steps();

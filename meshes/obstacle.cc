@@ -127,6 +127,10 @@ double first_touch(const Geometry& geometry, double tilt, const Obstacle& obstac
   return first_place(*shape_of(geometry), ProfileSurface::contact, tilt, obstacle).height;
 }
 
+Vector3 touched_first(const Geometry& geometry, double tilt, const Obstacle& obstacle) {
+  return first_place(*shape_of(geometry), ProfileSurface::contact, tilt, obstacle).place;
+}
+
 std::vector<Violation> Obstacle::violations(const Geometry& geometry, double tilt) const {
   if (is_plane()) return {};
   std::vector<Violation> found;

@@ -67,6 +67,9 @@ struct ObstacleMesh {
 };
 ObstacleMesh obstacle_mesh(const Obstacle& obstacle, double half);
 
+/// The place of what may touch, in the finger's axes, that the obstacle touches first [m].
+Vector3 touched_first(const Geometry& geometry, double tilt, const Obstacle& obstacle);
+
 /// How far the top's plane is from the origin, along the normal, when the obstacle first touches
 /// what may touch of a finger tilted by `tilt` [rad] against it [m].
 double first_touch(const Geometry& geometry, double tilt, const Obstacle& obstacle);

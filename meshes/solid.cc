@@ -267,8 +267,21 @@ Solid::Solid(const TriangleMesh& mesh, const Region& bond) : mesh_(closed_surfac
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
     groups_.push_back(within(bond, corners_of(mesh_, t), cutter.grain()) ? bond_group
                                                                          : contact_group);
-  neighbours_ = neighbours_of(mesh_);
   content_ = digest_of(mesh_, groups_);
+  complete();
+}
+
+Solid::Solid(TriangleMesh mesh, const std::vector<bool>& bonded, const std::string& content)
+    : mesh_(std::move(mesh)), content_(content) {
+  for (const bool is_held : bonded) groups_.push_back(is_held ? bond_group : contact_group);
+  if (digest_of(mesh_, groups_) != content)
+    throw InvalidInput({"geometry.solid", content, "the surface must be the one with this digest",
+                        "write both anew: start `fingertip reference` again"});
+  complete();
+}
+
+void Solid::complete() {
+  neighbours_ = neighbours_of(mesh_);
   measure();
   tree_ = std::make_unique<TriangleTree>(mesh_, groups_, 2);
 }

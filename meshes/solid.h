@@ -29,6 +29,10 @@ class Solid final : public Shape {
   /// reaches higher than what may touch, or the axis x = y = 0 misses the finger.
   Solid(const TriangleMesh& mesh, const Region& bond);
 
+  /// One of this mesh and bond as another one has them, whose content() it must have: else throws
+  /// InvalidInput.
+  Solid(TriangleMesh mesh, const std::vector<bool>& bonded, const std::string& content);
+
   const TriangleMesh& mesh() const { return mesh_; }
   bool is_bond(std::size_t triangle) const { return groups_[triangle] == bond_group; }
   /// Tells solids apart: a digest of vertices, triangles and what is bonded.
@@ -54,6 +58,7 @@ class Solid final : public Shape {
  private:
   static constexpr int contact_group = 0, bond_group = 1;
 
+  void complete();
   bool is(ProfileSurface surface, std::size_t triangle) const;
   void measure();
   double thinnest() const;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "meshes/meridian_mesh.h"
+#include "meshes/split_mesh.h"
 
 namespace fingertip::meshes {
 namespace {
@@ -315,6 +316,8 @@ MeshQuality mesh_tip(const Geometry& geometry, const TipMeshOptions& options,
     else
       build_meridian(geometry, options);
     gmsh::model::mesh::generate(2);
+  } else if (!geometry.is_dome()) {
+    build_split_mesh(geometry, options);
   } else {
     const bool sleeve = geometry.sleeve_length > 0.0;
     BlockStructure blocks(geometry, options);

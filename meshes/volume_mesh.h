@@ -1,9 +1,10 @@
-/// The continuum's mesh of the tip, made by gmsh: block-structured hexahedra, or quadrilaterals of
-/// its meridian.
+/// The continuum's mesh of the tip, written by gmsh: block-structured hexahedra of a dome, divided
+/// tetrahedra of any other shape, or quadrilaterals of a meridian.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "meshes/geometry.h"
@@ -22,7 +23,8 @@ enum class PhysicalTag { tip = 1, outer = 2, bond = 3, end = 4, symmetry_x = 5, 
 /// around the pole, two blocks from the cap to the equator, two blocks of the sleeve; the full tip
 /// is four quarters. The meridian is two, from the pole to the equator (cap and ring elements) and
 /// the sleeve, with x and y of the file for the distance from the axis and the place along it; its
-/// axis is `symmetry_x`.
+/// axis is `symmetry_x`. Of another shape than the dome elements are as large as `radial_elements`
+/// says, and smallest where it touches first.
 struct TipMeshOptions {
   Sector sector = Sector::quarter;
   double cap_angle = 0.72;   ///< polar angle of the cap's edge on the meridians x = 0, y = 0 [rad]
@@ -32,6 +34,7 @@ struct TipMeshOptions {
   int sleeve_elements = 6;   ///< from the equator to the end of the sleeve
   int radial_elements = 6;   ///< through the rubber
   double radial_grading = 3.0;  ///< thickest over thinnest of many layers; fine at both surfaces
+  std::optional<Vector3> touch = std::nullopt;  ///< touches first [m]; by default the pole
 
   /// The same mesh with every count multiplied by `factor` (rounded, at least 2).
   TipMeshOptions refined(double factor) const;
@@ -49,9 +52,11 @@ struct MeshQuality {
 };
 
 /// Writes the mesh in MSH 4.1 format with the physical volume `tip` and the physical surfaces
-/// `outer`, `bond`, `end` and, for quarter and half, `symmetry_y` (the plane y = 0), for the
-/// quarter `symmetry_x` (x = 0), too. Lengths in metres. Throws InvalidInput for a broken option,
-/// NotConverged when gmsh fails or when an element has a non-positive Jacobian.
+/// `outer`, `bond`, `end` (of another shape what is free, if anything) and, for quarter and half,
+/// `symmetry_y` (the plane y = 0), for the quarter `symmetry_x` (x = 0), too. A solid has no
+/// symmetry: it is meshed as a whole, whatever the sector. Lengths in metres. Throws InvalidInput
+/// for a broken option, NotConverged when gmsh fails or when an element has a non-positive
+/// Jacobian.
 MeshQuality write_tip_mesh(const Geometry& geometry, const TipMeshOptions& options,
                            const std::filesystem::path& file);
 

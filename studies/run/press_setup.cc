@@ -197,14 +197,7 @@ void check_all(const LoadedConfig& loaded) {
   if (!lattice::beyond_the_lattice(within_the_lattice.config.press).empty())
     protocol.mode = meshes::DriveMode::equilibrium;
   press_setup(within_the_lattice);
-  if (loaded.config.press.geometry.solid) return;  // unknown to the continuum
-  LoadedConfig within_the_continuum = loaded;
-  if (!loaded.config.press.geometry.is_dome()) {  // what it cannot press, the lattice can
-    meshes::PressProtocol& straightened = within_the_continuum.config.reference.protocol;
-    straightened.tilt = straight.tilt;
-    straightened.lateral = straight.lateral;
-  }
-  continuum_setup(within_the_continuum);
+  continuum_setup(loaded);
 }
 
 void check_validation(const LoadedConfig& loaded) {

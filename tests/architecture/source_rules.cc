@@ -244,16 +244,22 @@ Findings check_packages(const fs::path& source) {
                "Ceres belongs into calibration's sources");
       if (include.target.starts_with("gmsh"))
         refuse(file.path != "meshes/volume_mesh.cc" && file.path != "meshes/meridian_mesh.cc" &&
-                   file.path != "meshes/cad_surface.cc",
-               "gmsh belongs into meshes/volume_mesh.cc, meridian_mesh.cc and cad_surface.cc");
+                   file.path != "meshes/split_mesh.cc" && file.path != "meshes/cad_surface.cc",
+               "gmsh belongs into meshes/volume_mesh.cc, meridian_mesh.cc, split_mesh.cc and "
+               "cad_surface.cc");
       if (include.target.starts_with("CGAL/"))
-        refuse(file.path != "meshes/triangle_tree.cc", "CGAL belongs into meshes/triangle_tree.cc");
+        refuse(file.path != "meshes/triangle_tree.cc" && file.path != "meshes/tetrahedra.cc",
+               "CGAL belongs into meshes/triangle_tree.cc and tetrahedra.cc");
+      if (include.target == "meshes/boundary_parts.h")
+        refuse(file.room != "fem_reference" && file.room != "meshes",
+               "the mesher belongs to fem_reference");
       if (include.target == "meshes/cad_surface.h")
         refuse(file.room != "fem_reference" && file.path != "meshes/cad_surface.cc",
                "the mesher belongs to fem_reference");
       if (include.target == "meshes/volume_mesh.h")
         refuse(file.room != "fem_reference" && file.path != "meshes/volume_mesh.cc" &&
-                   file.path != "meshes/meridian_mesh.h",
+                   file.path != "meshes/meridian_mesh.h" && file.path != "meshes/split_mesh.h" &&
+                   file.path != "meshes/boundary_parts.h",
                "the mesher belongs to fem_reference");
     }
   return findings;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "meshes/fields_json.h"
+#include "tests/fingers.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -200,6 +201,53 @@ TEST(ReferenceJob, TransientPressesAreUprightAndLinear) {
 }
 
 /// Modes and verification do not press: they need no samples.
+/// The job tells a solid's digest, the surface stands beside it.
+TEST(ReferenceJob, ASolidSurvivesWithItsSurface) {
+  const TemporaryFolder folder;
+  const auto file = folder / "job.json", surface = folder / "solid.json";
+  ReferenceJob job;
+  // Cut along the bond, where vertices come near others.
+  job.geometry = meshes::Geometry::of_solid(
+      std::make_shared<meshes::Solid>(fingers::dome_surface(24, 12), fingers::dome_bond()), -0.03);
+  job.press_to({1e-3});
+  job.protocol.tilt = 0.1;
+  EXPECT_TRUE(job.violations().empty());
+  write_job(job, file);
+  const ReferenceJob read = read_job(file);
+  EXPECT_EQ(meshes::json_of<Json>(read), meshes::json_of<Json>(job));
+  ASSERT_TRUE(read.geometry.solid);
+  EXPECT_EQ(read.geometry.solid->content(), job.geometry.solid->content());
+  EXPECT_EQ(read.geometry.solid->volume(), job.geometry.solid->volume());
+
+  const std::string text = read_text(file), facets = read_text(surface);
+  std::string released = facets;
+  released.replace(released.find("true"), 4, "false");
+  write_text(surface, released);
+  EXPECT_NE(refusal(file, text).find("digest"), std::string::npos);
+  write_text(surface, facets.substr(0, facets.size() / 2));
+  EXPECT_NE(refusal(file, text).find("solid.json"), std::string::npos);
+  std::filesystem::remove(surface);
+  EXPECT_NE(refusal(file, text).find("solid.json"), std::string::npos);
+  EXPECT_NE(refusal(file, R"({"geometry": {"solid": 7}})").find("geometry.solid"),
+            std::string::npos);
+}
+
+TEST(ReferenceJob, ASolidIsNoBodyOfRevolution) {
+  ReferenceJob job;
+  job.press_to({1e-3});
+  job.geometry = meshes::Geometry::of_solid(std::make_shared<meshes::Solid>(
+      fingers::box({-0.01, -0.01, 0.0}, {0.01, 0.01, 0.02}), meshes::Region{{{2, true, 1e-3}}}));
+  EXPECT_TRUE(job.violations().empty());
+  EXPECT_FALSE(job.axisymmetric());
+  job.symmetry = fem_reference::Symmetry::axisymmetric;
+  ASSERT_EQ(job.violations().size(), 1u);
+  EXPECT_EQ(job.violations()[0].key, "reference.symmetry");
+  job.symmetry = fem_reference::Symmetry::automatic;
+  job.analysis = Analysis::transient;
+  ASSERT_EQ(job.violations().size(), 1u);
+  EXPECT_EQ(job.violations()[0].key, "reference.mode");
+}
+
 TEST(ReferenceJob, OnlyAPressNeedsSamples) {
   ReferenceJob job;
   EXPECT_FALSE(job.violations().empty());

@@ -413,14 +413,16 @@ TEST(IdentityOfAJob, KnowsASolidByItsContent) {
     all.insert(all.end(), further.begin(), further.end());
     return all;
   };
-  const auto base = identity_of(press, sets("a.stl"));
-  EXPECT_TRUE(base);
-  EXPECT_EQ(identity_of(press, sets("same.stl")), base);
-  for (const Sets& other : {sets("other.stl"), sets("a.stl", {"geometry.bond=z < 2 mm"}),
-                            sets("a.stl", {"geometry.unit=cm", "geometry.bond=z < 1 cm"}),
-                            sets("a.stl", {"geometry.endpoint=-1 mm"})}) {
-    EXPECT_TRUE(identity_of(press, other)) << other.back();
-    EXPECT_NE(identity_of(press, other), base) << other.back();
+  for (const Identity& identity : {Identity(press), Identity(continuum)}) {
+    const auto base = identity_of(identity, sets("a.stl"));
+    EXPECT_TRUE(base);
+    EXPECT_EQ(identity_of(identity, sets("same.stl")), base);
+    for (const Sets& other : {sets("other.stl"), sets("a.stl", {"geometry.bond=z < 2 mm"}),
+                              sets("a.stl", {"geometry.unit=cm", "geometry.bond=z < 1 cm"}),
+                              sets("a.stl", {"geometry.endpoint=-1 mm"})}) {
+      EXPECT_TRUE(identity_of(identity, other)) << other.back();
+      EXPECT_NE(identity_of(identity, other), base) << other.back();
+    }
   }
 }
 

@@ -1,0 +1,329 @@
+#include "meshes/boundary_parts.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "meshes/meridian.h"
+#include "meshes/solid.h"
+
+namespace fingertip::meshes {
+namespace {
+
+/// Facets around a full turn, and of a piece of a meridian per radian that it turns, of a line per
+/// largest radius: chords are within 0.03 % of the radius.
+constexpr int facets_around = 128;
+constexpr double facets_per_radian = 20.0, facets_per_radius = 8.0;
+/// Facets that meet at a smaller angle go on from one to the other (cosine).
+constexpr double smooth_cosine = 0.7071;
+/// A part this narrow, over the largest radius, belongs to a neighbour: elements of its width would
+/// be countless. What is held moves as one, so that its own edges do not matter.
+constexpr double narrow = 0.02, narrow_bond = 0.2;
+/// Steps to where parts meet, each at least halves what is missing.
+constexpr int most_steps = 60;
+
+double turned(const Vector2& a, const Vector2& b, const Vector2& c) {
+  return cross(b - a, c - b);
+}
+
+/// Numbers of the corners of triangles that fill a simple polygon, counter-clockwise as it is.
+std::vector<std::array<std::size_t, 3>> filled(const std::vector<Vector2>& polygon) {
+  std::vector<std::size_t> left(polygon.size());
+  std::iota(left.begin(), left.end(), 0);
+  std::vector<std::array<std::size_t, 3>> triangles;
+  const auto is_ear = [&](std::size_t a, std::size_t b, std::size_t c) {
+    const Vector2 &p = polygon[a], &q = polygon[b], &r = polygon[c];
+    if (!(turned(p, q, r) > 0.0)) return false;
+    return std::ranges::none_of(left, [&](std::size_t other) {
+      if (other == a || other == b || other == c) return false;
+      const Vector2& w = polygon[other];
+      return turned(p, q, w) >= 0.0 && turned(q, r, w) >= 0.0 && turned(r, p, w) >= 0.0;
+    });
+  };
+  while (left.size() > 2) {
+    // The fattest ear, so that no sliver is left at the end.
+    std::size_t best = left.size();
+    double widest = -1.0;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const std::size_t a = left[(i + left.size() - 1) % left.size()], b = left[i],
+                        c = left[(i + 1) % left.size()];
+      if (!is_ear(a, b, c)) continue;
+      const double wide =
+          turned(polygon[a], polygon[b], polygon[c]) / (polygon[c] - polygon[a]).squaredNorm();
+      if (wide > widest) widest = wide, best = i;
+    }
+    if (best == left.size())
+      throw NotConverged("the section of the finger could not be filled with triangles");
+    triangles.push_back(
+        {left[(best + left.size() - 1) % left.size()], left[best], left[(best + 1) % left.size()]});
+    left.erase(left.begin() + std::ptrdiff_t(best));
+  }
+  return triangles;
+}
+
+class RevolvedParts final : public BoundaryParts {
+ public:
+  explicit RevolvedParts(const Geometry& geometry) : meridian_(geometry) {}
+
+  int count() const override { return int(meridian_.pieces().size()) + 2; }
+
+  PhysicalTag tag(int part) const override {
+    if (part == plane_y()) return PhysicalTag::symmetry_y;
+    if (part == plane_x()) return PhysicalTag::symmetry_x;
+    switch (piece(part).surface()) {
+      case ProfileSurface::contact: return PhysicalTag::outer;
+      case ProfileSurface::bond: return PhysicalTag::bond;
+      case ProfileSurface::free: return PhysicalTag::end;
+      case ProfileSurface::axis: break;
+    }
+    return PhysicalTag::tip;  // no boundary
+  }
+
+  Vector3 nearest(int part, const Vector3& w) const override {
+    if (part == plane_y()) return {w.x(), 0.0, w.z()};
+    if (part == plane_x()) return {0.0, w.y(), w.z()};
+    const double r = w.head<2>().norm();
+    const Vector2 found = piece(part).at(piece(part).nearest({r, w.z()}));
+    const double scale = r > 0.0 ? found.x() / r : 0.0;
+    return {scale * w.x(), scale * w.y(), found.y()};
+  }
+
+  PartedSurface surface(Sector sector) const override {
+    PartedSurface result;
+    const Outline outline = chords();
+    const int turns = sector == Sector::full   ? facets_around
+                      : sector == Sector::half ? facets_around / 2
+                                               : facets_around / 4;
+    const bool closed = sector == Sector::full;
+    // Rings of vertices, of one on the axis.
+    std::vector<std::vector<int>> rings;
+    for (const Vector2& corner : outline.corners) {
+      std::vector<int>& ring = rings.emplace_back();
+      for (int t = 0; t <= turns; ++t) {
+        if (t > 0 && (corner.x() == 0.0 || (closed && t == turns))) {
+          ring.push_back(ring.front());
+          continue;
+        }
+        const double angle = 2.0 * std::numbers::pi * t / facets_around;
+        // Exactly on the planes of symmetry.
+        const double c = 4 * t == facets_around ? 0.0 : std::cos(angle);
+        const double s = 2 * t == facets_around ? 0.0 : std::sin(angle);
+        ring.push_back(int(result.mesh.vertices.size()));
+        result.mesh.vertices.emplace_back(corner.x() * c, corner.x() * s, corner.y());
+      }
+    }
+    const auto add = [&](int a, int b, int c, int part) {
+      if (a == b || b == c || c == a) return;
+      result.mesh.triangles.push_back({a, b, c});
+      result.parts.push_back(part);
+    };
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      const std::vector<int>&from = rings[i], &to = rings[(i + 1) % rings.size()];
+      const int part = outline.parts[i];
+      if (piece(part).surface() == ProfileSurface::axis) continue;
+      for (std::size_t t = 0; t + 1 < from.size(); ++t) {
+        add(from[t], from[t + 1], to[t + 1], part);
+        add(from[t], to[t + 1], to[t], part);
+      }
+    }
+    if (closed) return result;
+    const int other = sector == Sector::half ? plane_y() : plane_x();
+    for (const auto& [a, b, c] : filled(outline.corners)) {
+      add(rings[a].front(), rings[b].front(), rings[c].front(), plane_y());
+      add(rings[a].back(), rings[c].back(), rings[b].back(), other);
+    }
+    return result;
+  }
+
+ private:
+  const MeridianPiece& piece(int part) const { return meridian_.pieces()[std::size_t(part)]; }
+  int plane_y() const { return count() - 2; }
+  int plane_x() const { return count() - 1; }
+
+  /// A closed polygon (r, z), and the piece on which each of its sides lies.
+  struct Outline {
+    std::vector<Vector2> corners;
+    std::vector<int> parts;
+  };
+  Outline chords() const {
+    Outline outline;
+    for (int part = 0; part < plane_y(); ++part) {
+      const MeridianPiece& own = piece(part);
+      double sides = facets_per_radius * own.length() / meridian_.largest_radius();
+      if (own.curve() != ProfileCurve::straight)
+        sides = std::max(sides, facets_per_radian * turn_of(own));
+      const int chords = own.surface() == ProfileSurface::axis ? 1 : std::max(1, int(sides));
+      for (int i = 0; i < chords; ++i) {
+        outline.corners.push_back(own.at(double(i) / chords));
+        if (outline.corners.back().x() < 1e-12 * meridian_.largest_radius())
+          outline.corners.back().x() = 0.0;
+        outline.parts.push_back(part);
+      }
+    }
+    return outline;
+  }
+
+  /// The angle through which a piece turns [rad].
+  static double turn_of(const MeridianPiece& own) {
+    constexpr int samples = 16;
+    double turn = 0.0;
+    for (int i = 0; i < samples; ++i) {
+      const double cosine =
+          own.normal(double(i) / samples).dot(own.normal(double(i + 1) / samples));
+      turn += std::acos(std::clamp(cosine, -1.0, 1.0));
+    }
+    return turn;
+  }
+
+  Meridian meridian_;
+};
+
+class SolidParts final : public BoundaryParts {
+ public:
+  explicit SolidParts(std::shared_ptr<const Solid> solid) : solid_(std::move(solid)) {
+    const TriangleMesh& mesh = solid_->mesh();
+    const std::size_t count = mesh.triangles.size();
+    std::map<std::pair<int, int>, std::size_t> triangle_at;
+    for (std::size_t t = 0; t < count; ++t)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int a = mesh.triangles[t][c], b = mesh.triangles[t][(c + 1) % 3];
+        const auto [known, is_new] = triangle_at.try_emplace(std::minmax(a, b), t);
+        if (!is_new)
+          sides_.push_back(
+              {t, known->second,
+               (mesh.vertices[std::size_t(a)] - mesh.vertices[std::size_t(b)]).norm()});
+      }
+    Classes classes(count);
+    for (const Side& side : sides_)
+      if (continues(side)) classes.unite(side.t, side.other);
+    while (unite_narrow(classes)) {
+    }
+    std::map<std::size_t, int> numbers;
+    for (std::size_t t = 0; t < count; ++t) {
+      const auto [known, is_new] = numbers.try_emplace(classes.of(t), int(numbers.size()));
+      if (is_new) bonded_.push_back(solid_->is_bond(t));
+      parts_.push_back(known->second);
+    }
+    tree_ = std::make_unique<TriangleTree>(mesh, parts_, this->count());
+  }
+
+  int count() const override { return int(bonded_.size()); }
+  PhysicalTag tag(int part) const override {
+    return bonded_[std::size_t(part)] ? PhysicalTag::bond : PhysicalTag::outer;
+  }
+  Vector3 nearest(int part, const Vector3& w) const override {
+    const auto hit = tree_->nearest(w, part);
+    return hit ? hit->position : w;
+  }
+  PartedSurface surface(Sector) const override { return {solid_->mesh(), parts_}; }
+
+ private:
+  /// An edge and its two triangles.
+  struct Side {
+    std::size_t t, other;
+    double length;
+  };
+
+  /// Triangles that belong together.
+  class Classes {
+   public:
+    explicit Classes(std::size_t count) : root_(count) { std::iota(root_.begin(), root_.end(), 0); }
+    std::size_t of(std::size_t t) {
+      while (root_[t] != t) t = root_[t] = root_[root_[t]];
+      return t;
+    }
+    void unite(std::size_t t, std::size_t other) { root_[of(t)] = of(other); }
+
+   private:
+    std::vector<std::size_t> root_;
+  };
+
+  bool same_surface(const Side& side) const {
+    return solid_->is_bond(side.t) == solid_->is_bond(side.other);
+  }
+  bool continues(const Side& side) const {
+    const Vector3 a = solid_->mesh().area_vector(side.t),
+                  b = solid_->mesh().area_vector(side.other);
+    // Also where one has no area.
+    return same_surface(side) && a.dot(b) >= smooth_cosine * a.norm() * b.norm();
+  }
+
+  /// Unites the narrowest class, if it is narrow, with the neighbour of the longest border.
+  bool unite_narrow(Classes& classes) const {
+    struct Class {
+      double area = 0.0, border = 0.0;
+      std::map<std::size_t, double> neighbours;
+    };
+    std::map<std::size_t, Class> all;
+    for (std::size_t t = 0; t < solid_->mesh().triangles.size(); ++t)
+      all[classes.of(t)].area += solid_->mesh().area_vector(t).norm();
+    for (const Side& side : sides_) {
+      const std::size_t a = classes.of(side.t), b = classes.of(side.other);
+      if (a == b) continue;
+      for (const auto& [own, other] : {std::pair{a, b}, std::pair{b, a}}) {
+        all[own].border += side.length;
+        if (same_surface(side)) all[own].neighbours[other] += side.length;
+      }
+    }
+    std::optional<std::pair<std::size_t, std::size_t>> found;
+    double least = 1.0;
+    for (const auto& [number, own] : all) {
+      if (own.neighbours.empty()) continue;
+      const double bound = solid_->is_bond(number) ? narrow_bond : narrow;
+      const double width = 2.0 * own.area / own.border / (bound * solid_->largest_radius());
+      if (width >= least) continue;
+      least = width;
+      found = {number, std::ranges::max_element(own.neighbours, {}, [](const auto& entry) {
+                         return entry.second;
+                       })->first};
+    }
+    if (found) classes.unite(found->first, found->second);
+    return found.has_value();
+  }
+
+  std::shared_ptr<const Solid> solid_;
+  std::vector<Side> sides_;
+  std::vector<int> parts_;
+  std::vector<bool> bonded_;
+  std::unique_ptr<TriangleTree> tree_;
+};
+
+}  // namespace
+
+int BoundaryParts::part_at(PhysicalTag wanted, const Vector3& w) const {
+  int best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int part = 0; part < count(); ++part) {
+    if (tag(part) != wanted) continue;
+    const double distance = (nearest(part, w) - w).norm();
+    if (distance < least) least = distance, best = part;
+  }
+  return best;
+}
+
+Vector3 BoundaryParts::on(const std::vector<int>& parts, const Vector3& w) const {
+  Vector3 place = w;
+  if (parts.size() == 1) return nearest(parts[0], place);
+  for (int step = 0; step < most_steps; ++step) {
+    const Vector3 before = place;
+    for (const int part : parts) place = nearest(part, place);
+    if ((place - before).norm() <= 1e-14 * place.norm()) break;
+  }
+  return place;
+}
+
+std::unique_ptr<const BoundaryParts> boundary_parts(const Geometry& geometry) {
+  const std::vector<Violation> broken = geometry.violations();
+  if (!broken.empty()) throw InvalidInput(broken);
+  if (geometry.solid) return std::make_unique<SolidParts>(geometry.solid);
+  return std::make_unique<RevolvedParts>(geometry);
+}
+
+}  // namespace fingertip::meshes

@@ -1,0 +1,255 @@
+#include "meshes/split_mesh.h"
+
+#include <gmsh.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "meshes/boundary_parts.h"
+#include "meshes/meridian_mesh.h"
+
+namespace fingertip::meshes {
+namespace {
+
+/// Edges of tetrahedra in units of the thinnest rubber, and of the radius, over
+/// TipMeshOptions::radial_elements: of the default dome, as many unknowns as its blocks.
+constexpr double size_over_wall = 3.6, size_over_radius = 1.8;
+/// How fast edges may grow away from the place that touches first.
+constexpr double growth = 0.5;
+/// Distance of the tetrahedra's surface from the finger's, over the size.
+constexpr double surface_distance = 0.1;
+/// Where a corner's Jacobian is less, of a cube 1, sizes shrink by `smaller`.
+constexpr double least_jacobian = 0.05, smaller = 0.7;
+constexpr int most_attempts = 12;
+/// Facets of a tetrahedron that turn by less than 60 degrees go on from one to the other.
+constexpr double flat_cosine = 0.5;
+
+/// Nodes and elements by numbers from 0.
+struct HexahedralMesh {
+  std::vector<Vector3> nodes;
+  std::vector<std::array<int, 8>> hexahedra;  ///< bottom and top around, as gmsh has them
+  std::map<PhysicalTag, std::vector<std::array<int, 4>>> quadrilaterals;
+};
+
+/// Two facets that go on from one to the other leave a hexahedron at their common edge hardly any
+/// angle: tetrahedra with such facets are divided at their middle.
+Tetrahedra without_flat_corners(Tetrahedra mesh) {
+  using Corners = std::array<int, 3>;
+  const auto sorted = [](Corners corners) {
+    std::ranges::sort(corners);
+    return corners;
+  };
+  std::set<Corners> boundary;
+  for (const Tetrahedra::Facet& facet : mesh.facets) boundary.insert(sorted(facet.corners));
+  std::vector<std::array<int, 4>> all;
+  for (const auto& tetrahedron : mesh.tetrahedra) {
+    const auto at = [&](std::size_t c) { return mesh.vertices[std::size_t(tetrahedron[c % 4])]; };
+    std::vector<Vector3> normals;  // out of the body
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!boundary.contains(sorted(
+              {tetrahedron[(i + 1) % 4], tetrahedron[(i + 2) % 4], tetrahedron[(i + 3) % 4]})))
+        continue;
+      const Vector3 normal = (at(i + 2) - at(i + 1)).cross(at(i + 3) - at(i + 1)).normalized();
+      normals.push_back(normal.dot(at(i) - at(i + 1)) < 0.0 ? normal : Vector3(-normal));
+    }
+    bool flat = false;
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) flat |= normals[i].dot(normals[k]) > flat_cosine;
+    if (!flat) {
+      all.push_back(tetrahedron);
+      continue;
+    }
+    const int middle = int(mesh.vertices.size());
+    mesh.vertices.push_back((at(0) + at(1) + at(2) + at(3)) / 4.0);
+    for (std::size_t i = 0; i < 4; ++i) {
+      all.push_back(tetrahedron);
+      all.back()[i] = middle;
+    }
+  }
+  mesh.tetrahedra = std::move(all);
+  return mesh;
+}
+
+/// Divides tetrahedra at the middles of edges, faces and bodies.
+class Splitting {
+ public:
+  Splitting(const Tetrahedra& tetrahedra, const BoundaryParts& parts)
+      : tetrahedra_(tetrahedra), parts_(parts) {
+    for (const Tetrahedra::Facet& facet : tetrahedra.facets) {
+      const auto& [a, b, c] = facet.corners;
+      for (const std::vector<int>& corners :
+           {std::vector{a}, {b}, {c}, {a, b}, {b, c}, {c, a}, {a, b, c}})
+        meeting_[sorted(corners)].insert(facet.part);
+    }
+    for (const auto& [a, b, c, d] : tetrahedra.tetrahedra) {
+      // Every corner with the other three in the same sense.
+      add_hexahedron(a, b, c, d);
+      add_hexahedron(b, a, d, c);
+      add_hexahedron(c, d, a, b);
+      add_hexahedron(d, c, b, a);
+    }
+    for (const Tetrahedra::Facet& facet : tetrahedra.facets)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int a = facet.corners[i], b = facet.corners[(i + 1) % 3],
+                  c = facet.corners[(i + 2) % 3];
+        mesh_.quadrilaterals[parts.tag(facet.part)].push_back(
+            {node({a}), node({a, b}), node({a, b, c}), node({a, c})});
+      }
+  }
+
+  const HexahedralMesh& mesh() const { return mesh_; }
+
+ private:
+  static std::vector<int> sorted(std::vector<int> corners) {
+    std::ranges::sort(corners);
+    return corners;
+  }
+
+  void add_hexahedron(int a, int b, int c, int d) {
+    mesh_.hexahedra.push_back({node({a}), node({a, b}), node({a, b, c}), node({a, c}), node({a, d}),
+                               node({a, b, d}), node({a, b, c, d}), node({a, c, d})});
+  }
+
+  /// In the middle of corners, and on the surface where they are.
+  int node(std::vector<int> corners) {
+    corners = sorted(std::move(corners));
+    const auto [known, is_new] = numbers_.try_emplace(corners, int(mesh_.nodes.size()));
+    if (!is_new) return known->second;
+    const int number = known->second;
+    mesh_.nodes.emplace_back();
+    Vector3 middle = middle_of(corners);
+    if (const auto parts = meeting_.find(corners); parts != meeting_.end())
+      middle = parts_.on({parts->second.begin(), parts->second.end()}, middle);
+    mesh_.nodes[std::size_t(number)] = middle;
+    return number;
+  }
+
+  /// Of a corner, an edge, a face or a body whose edges are parabolas through their nodes.
+  Vector3 middle_of(const std::vector<int>& corners) {
+    if (corners.size() == 1) return tetrahedra_.vertices[std::size_t(corners[0])];
+    // Weights of the corners' and the edges' shape functions there.
+    const double own = corners.size() == 2 ? 0.5 : corners.size() == 3 ? -1.0 / 9.0 : -1.0 / 8.0;
+    const double edge = corners.size() == 2 ? 0.0 : corners.size() == 3 ? 4.0 / 9.0 : 1.0 / 4.0;
+    Vector3 sum = Vector3::Zero();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      sum += own * mesh_.nodes[std::size_t(node({corners[i]}))];
+      for (std::size_t k = 0; k < i && edge > 0.0; ++k)
+        sum += edge * mesh_.nodes[std::size_t(node({corners[i], corners[k]}))];
+    }
+    return sum;
+  }
+
+  const Tetrahedra& tetrahedra_;
+  const BoundaryParts& parts_;
+  std::map<std::vector<int>, std::set<int>> meeting_;  ///< parts at corners, edges and facets
+  std::map<std::vector<int>, int> numbers_;
+  HexahedralMesh mesh_;
+};
+
+/// Smallest Jacobian at a corner of a hexahedron over the lengths of its edges.
+double worst_corner(const HexahedralMesh& mesh, const std::array<int, 8>& hexahedron) {
+  double least = 1.0;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto at = [&](std::size_t k) { return mesh.nodes[std::size_t(hexahedron[k])]; };
+    const std::size_t base = i / 4 * 4, k = i % 4;
+    const Vector3 next = (at(base + (k + 1) % 4) - at(i)).normalized(),
+                  previous = (at(base + (k + 3) % 4) - at(i)).normalized(),
+                  across = (at((i + 4) % 8) - at(i)).normalized();
+    least = std::min(least, (base == 0 ? 1.0 : -1.0) * next.cross(previous).dot(across));
+  }
+  return least;
+}
+
+/// Lengths of edges, small around some places.
+class Sizes {
+ public:
+  explicit Sizes(double usual) : usual_(usual) {}
+
+  void add(const Vector3& place, double size) { small_.push_back({place, size}); }
+  double at(const Vector3& w) const {
+    double size = usual_;
+    for (const auto& [place, own] : small_)
+      size = std::min(size, own + growth * (w - place).norm());
+    return size;
+  }
+
+  /// Smaller ones where elements are bad; false where none is.
+  bool shrink(const HexahedralMesh& mesh) {
+    std::vector<std::pair<Vector3, double>> found;
+    for (const auto& hexahedron : mesh.hexahedra) {
+      if (worst_corner(mesh, hexahedron) >= least_jacobian) continue;
+      Vector3 middle = Vector3::Zero();
+      for (const int node : hexahedron) middle += mesh.nodes[std::size_t(node)] / 8.0;
+      found.emplace_back(middle, smaller * at(middle));
+    }
+    for (const auto& [place, size] : found)
+      if (size < at(place)) add(place, size);
+    return !found.empty();
+  }
+
+ private:
+  double usual_;
+  std::vector<std::pair<Vector3, double>> small_;
+};
+
+void hand_to_gmsh(const HexahedralMesh& mesh) {
+  std::vector<std::size_t> numbers;
+  std::vector<double> places;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    numbers.push_back(n + 1);
+    places.insert(places.end(), mesh.nodes[n].data(), mesh.nodes[n].data() + 3);
+  }
+  constexpr int quadrangle = 3, hexahedron = 5;  // gmsh's types
+  const auto corners_of = [](const auto& elements) {
+    std::vector<std::size_t> corners;
+    for (const auto& element : elements)
+      for (const int corner : element) corners.push_back(std::size_t(corner) + 1);
+    return corners;
+  };
+  const int body = gmsh::model::addDiscreteEntity(3);
+  gmsh::model::mesh::addNodes(3, body, numbers, places);
+  gmsh::model::mesh::addElementsByType(body, hexahedron, {}, corners_of(mesh.hexahedra));
+  name_group(3, {body}, PhysicalTag::tip, "tip");
+  const std::map<PhysicalTag, const char*> names{{PhysicalTag::outer, "outer"},
+                                                 {PhysicalTag::bond, "bond"},
+                                                 {PhysicalTag::end, "end"},
+                                                 {PhysicalTag::symmetry_x, "symmetry_x"},
+                                                 {PhysicalTag::symmetry_y, "symmetry_y"}};
+  for (const auto& [tag, quadrilaterals] : mesh.quadrilaterals) {
+    const int surface = gmsh::model::addDiscreteEntity(2);
+    gmsh::model::mesh::addElementsByType(surface, quadrangle, {}, corners_of(quadrilaterals));
+    name_group(2, {surface}, tag, names.at(tag));
+  }
+}
+
+}  // namespace
+
+void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
+  const std::unique_ptr<const BoundaryParts> parts = boundary_parts(geometry);
+  const std::shared_ptr<const Shape> shape = shape_of(geometry);
+  const PartedSurface surface = parts->surface(options.sector);
+  const double wall = std::min(geometry.thickness(), shape->wall()),
+               radius = std::min(shape->pole_radius(), shape->largest_radius());
+  const double usual =
+      std::min(size_over_wall * wall, size_over_radius * radius) / options.radial_elements;
+  Sizes sizes(usual);
+  sizes.add(options.touch.value_or(Vector3(0.0, 0.0, shape->pole())), usual / options.cap_grading);
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    const Tetrahedra tetrahedra = without_flat_corners(tetrahedra_within(
+        surface, [&](const Vector3& w) { return sizes.at(w); }, surface_distance * usual));
+    const Splitting splitting(tetrahedra, *parts);
+    if (sizes.shrink(splitting.mesh())) continue;
+    hand_to_gmsh(splitting.mesh());
+    return;
+  }
+  throw NotConverged(
+      "the finger could not be filled with hexahedra: its surface turns too much over lengths as "
+      "short as its elements; round its edges, or choose a larger reference.refinement");
+}
+
+}  // namespace fingertip::meshes
