@@ -293,11 +293,15 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
     }
     ranking.push_back(std::move(fit));
   }
+  sort_ranking(ranking);
+  return ranking;
+}
+
+void sort_ranking(std::vector<LawFit>& ranking) {
   std::ranges::stable_sort(ranking, [](const LawFit& a, const LawFit& b) {
     if (a.failure.empty() != b.failure.empty()) return a.failure.empty();
     return a.aicc < b.aicc;
   });
-  return ranking;
 }
 
 const LawFit* recommended(const std::vector<LawFit>& ranking) {

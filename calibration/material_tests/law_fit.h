@@ -90,6 +90,9 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
                               const std::vector<LawChoice>& laws,
                               const LawFitOptions& options = {});
 
+/// Into the order of rank_laws.
+void sort_ranking(std::vector<LawFit>& ranking);
+
 /// The first of a ranking that is stable in the tests and in the range of use, no coefficient open
 /// or at a bound; else the first that is stable, else the first. Null without any fit.
 const LawFit* recommended(const std::vector<LawFit>& ranking);
