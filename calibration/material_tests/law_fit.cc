@@ -103,6 +103,21 @@ void add_bulk_modulus(const std::vector<MaterialTest>& tests, CurveFitOptions& o
   }
 }
 
+/// A series of fewer terms, and a further one that is next to nothing: what has more terms must not
+/// be worse.
+void add_term_to(const LawFit& fewer, CurveFitOptions& options) {
+  const Index known = 2 * Index(fewer.choice.terms);
+  for (const double exponent : {-4.0, 4.0, 12.0}) {
+    VectorXd start(known + 2);
+    start.head(known) = fewer.fit.estimates.head(known);
+    start.tail(2) << 1e-4 * fewer.law.shear_modulus, exponent;
+    for (Index i = 0; i < start.size(); ++i)
+      start(i) = std::clamp(start(i), options.free[std::size_t(i)].lower,
+                            options.free[std::size_t(i)].upper);
+    options.other_starts.push_back(start);
+  }
+}
+
 double corrected_criterion(const CurveFit& fit, Index points, bool has_sigma) {
   const double n = double(points), k = double(fit.estimates.size()) + (has_sigma ? 0.0 : 1.0);
   if (n <= k + 1.0) return infinite;
@@ -239,6 +254,8 @@ LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
     curves.push_back(scaled_curve(test, scales.back()));
   }
   CurveFitOptions fit = law_starts(tests, scales, choice, options);
+  if (choice.law == meshes::RubberLaw::ogden && choice.terms > 1)
+    add_term_to(fit_law(tests, {choice.law, choice.terms - 1}, options), fit);
   add_bulk_modulus(tests, fit);
   fit.max_iterations = 200;
   fit.relative_singular_value = 0.0;  // closed forms have no error: intervals tell what is open
