@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "calibration/material_tests/law_card.h"
 #include "calibration/material_tests/law_record.h"
 #include "meshes/fields_json.h"
 #include "meshes/table_rows.h"
 #include "source_hash.h"
 #include "studies/run/json_file.h"
+#include "studies/run/plate_factor.h"
 #include "studies/run/provenance.h"
 
 namespace fingertip::studies {
@@ -41,6 +45,10 @@ ordered_json law_inputs(const LawInput& input) {
   for (const MaterialTest& test : input.tests.held_back)
     inputs["held_back"].push_back(test_inputs(test));
   for (const auto& law : input.laws) inputs["laws"].push_back(name(law));
+  inputs["stuck"] = ordered_json::array();
+  for (const auto& plates : input.tests.stuck)
+    inputs["stuck"].push_back(plates ? ordered_json{plates->diameter, plates->height}
+                                     : ordered_json());
   return inputs;
 }
 
@@ -67,16 +75,61 @@ void write_cards(const std::vector<LawFit>& ranking, const LawInput& input,
   }
 }
 
-void run_laws(const LawInput& input, const fs::path& folder, const JobContext& context) {
-  const std::vector<MaterialTest>&fitted = input.tests.fitted, &held_back = input.tests.held_back;
+std::vector<LawFit> ranked(const LawInput& input, const JobContext& context) {
   std::vector<LawFit> ranking;
   for (std::size_t i = 0; i < input.laws.size(); ++i) {
     if (!context.report(double(i) / double(input.laws.size()), name(input.laws[i])))
       throw meshes::Interrupted("the fit of laws was stopped");
-    auto one = rank_laws(fitted, held_back, {input.laws[i]}, input.options);
+    auto one = rank_laws(input.tests.fitted, input.tests.held_back, {input.laws[i]}, input.options);
     ranking.push_back(std::move(one.front()));
   }
   calibration::sort_ranking(ranking);
+  return ranking;
+}
+
+/// The test `i` of those fitted and, after them, those held back.
+MaterialTest& test_at(LawInput& input, std::size_t i) {
+  const std::size_t fitted = input.tests.fitted.size();
+  return i < fitted ? input.tests.fitted[i] : input.tests.held_back[i - fitted];
+}
+
+/// Puts the factors of stuck plates by this law into the tests. The largest change of a factor.
+double hold_ends(const calibration::SizedLaw& law, const std::string& place, LawInput& input,
+                 const JobContext& context) {
+  double change = 0.0;
+  for (std::size_t i = 0; i < input.tests.stuck.size(); ++i) {
+    if (!input.tests.stuck[i]) continue;
+    MaterialTest& test = test_at(input, i);
+    const PlateFactor factor =
+        plate_factor(*input.tests.stuck[i], law, fmt::format("{}_{}", place, i + 1), context);
+    test.constraint.resize(test.deformation.size(), 1.0);
+    for (std::size_t p = 0; p < test.deformation.size(); ++p) {
+      const double now = factor.at(test.deformation[p]);
+      change = std::max(change, std::abs(now - test.constraint[p]));
+      test.constraint[p] = now;
+    }
+  }
+  return change;
+}
+
+/// The factor of stuck plates hangs on the law that is sought, and hardly: a fixed point from
+/// neo-Hooke, then from the law that was found.
+std::vector<LawFit> ranked_between_plates(LawInput& input, const JobContext& context) {
+  const bool stuck = std::ranges::any_of(input.tests.stuck, [](const auto& p) { return !!p; });
+  if (!stuck) return ranked(input, context);
+  hold_ends({1e4, {}}, "plates_neo-hookean", input, context);
+  std::vector<LawFit> ranking = ranked(input, context);
+  const LawFit* best = recommended(ranking);
+  if (best == nullptr || best->unstable_in_press) return ranking;
+  const double change = hold_ends(best->law, "plates_" + name(best->choice), input, context);
+  context.log(fmt::format("factors of stuck plates by {} differ from neo-Hooke's by {:.2g}",
+                          name(best->choice), change));
+  return ranked(input, context);
+}
+
+void run_laws(LawInput input, const fs::path& folder, const JobContext& context) {
+  const std::vector<LawFit> ranking = ranked_between_plates(input, context);
+  const std::vector<MaterialTest>&fitted = input.tests.fitted, &held_back = input.tests.held_back;
   const calibration::LawsFile file = laws_file(ranking, fitted, held_back, input.options.weights);
   meshes::write_json_file(file, folder / "laws.json");
   meshes::write_rows(law_data(ranking, fitted, held_back), folder / "law_data.csv");

@@ -17,6 +17,7 @@
 #include "studies/config/units.h"
 #include "studies/config/value_reader.h"
 #include "studies/run/digest.h"
+#include "studies/run/plate_factor.h"
 #include "studies/run/strain_grid.h"
 
 namespace fingertip::studies {
@@ -310,6 +311,7 @@ class TestReader {
   void read_sizes();
   StrainCurve curve_of(const fs::path& path);
   void convert(const StrainCurve& curve);
+  void keep_known_compression();
 
   const TestTable& test_;
   MaterialTestFile& result_;
@@ -402,6 +404,20 @@ void TestReader::convert(const StrainCurve& curve) {
   }
 }
 
+void TestReader::keep_known_compression() {
+  std::size_t deep = 0;
+  while (deep < found_.deformation.size() &&
+         found_.deformation[deep] < 1.0 - deepest_stuck_compression)
+    ++deep;
+  if (deep == 0) return;
+  for (std::vector<double>* column : {&found_.deformation, &found_.stress, &found_.sigma})
+    if (!column->empty()) column->erase(column->begin(), column->begin() + std::ptrdiff_t(deep));
+  result_.notes.push_back(
+      fmt::format("{}: {} points beyond {:.0f} % of compression were left out: there the force "
+                  "between stuck plates is not known",
+                  found_.name, deep, 100.0 * deepest_stuck_compression));
+}
+
 void TestReader::read() {
   std::vector<std::pair<string_view, TestKind>> kinds;
   for (const TestKind kind : values(TestKind())) kinds.emplace_back(name(kind), kind);
@@ -437,6 +453,7 @@ void TestReader::read() {
     result_.notes.push_back(fmt::format("{}: {} file(s), {} stresses at equal steps of the strain",
                                         found_.name, curves.size(), points));
   convert(*mean);
+  if (plates_) keep_known_compression();
   const auto broken = found_.violations();
   if (!broken.empty())
     test_.refuse("strain", broken.front().key + " = " + broken.front().value, broken.front().rule,

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "calibration/material.h"
 #include "meshes/errors.h"
 #include "tests/temporary_folder.h"
