@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <ostream>
-#include <sstream>
 #include <string_view>
 
 #include "calibration/material.h"
-#include "calibration/toml_depth.h"
+#include "calibration/toml_file.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/files.h"
 
@@ -69,53 +66,22 @@ std::vector<Quantity> quantities(Material& m) {
   return all;
 }
 
-/// A double-quoted TOML string.
-std::string toml_text(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += std::string("\\") + c;
-    } else if (c == '\n') {
-      out += "\\n";
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      constexpr std::string_view digits = "0123456789abcdef";
-      out += std::string("\\u00") + digits[std::size_t(c) / 16] + digits[std::size_t(c) % 16];
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
 /// Reads one material file; knows its name for messages.
-class MaterialReader {
+class MaterialReader : TomlFile {
  public:
-  explicit MaterialReader(std::filesystem::path file) : file_(std::move(file)) {
-    const std::ifstream in(file_, std::ios::binary);
-    std::ostringstream content;
-    // Copying nothing sets the fail bit, so this refuses empty files and folders, too.
-    if (!in.is_open() || !(content << in.rdbuf()))
-      throw InvalidInput({file_.string(), "", "the file cannot be read or is empty",
-                          "check path and rights, or run calibrate again"});
-    const std::string text = content.str();
-    last_line_ = std::max(1, int(std::count(text.begin(), text.end(), '\n')));
-    if (nests_too_deep(text))
-      fail(1, "", "", "a key has hundreds of dotted parts", "run calibrate again");
-    try {
-      table_ = toml::parse(text, file_.string());
-    } catch (const toml::parse_error& error) {
-      fail(int(error.source().begin.line), "", "", std::string(error.description()),
-           "mend the line, or run calibrate again");
-    }
-  }
+  explicit MaterialReader(std::filesystem::path file)
+      : TomlFile(std::move(file), "run calibrate again") {}
 
   Material read() {
+    if (table().contains("law"))
+      fail(1, "law", "", "the file holds a law of rubber, no constants of a lattice",
+           "use it by rubber.card instead of lattice.constants");
     Material material;
     material.model = word("lattice", "model",
                           std::array{ModelKind::central, ModelKind::hookean, ModelKind::network});
     if (find("lattice", "kinematics"))
       material.kinematics = word("lattice", "kinematics", values(Kinematics()));
-    if (table_.contains("geometry")) material.geometry.emplace();
+    if (table().contains("geometry")) material.geometry.emplace();
     const std::vector<Quantity> known = quantities(material);
     for (const Quantity& quantity : known) read(quantity);
     material.density_known = find("rubber", "density") != nullptr;
@@ -137,90 +103,15 @@ class MaterialReader {
   }
 
  private:
-  [[noreturn]] void fail(int line, const std::string& key, const std::string& value,
-                         const std::string& rule, const std::string& remedy) const {
-    std::string where = file_.string() + ":" + std::to_string(line);
-    if (!key.empty()) where += ": " + key;
-    throw InvalidInput({where, value, rule, remedy});
-  }
-
-  static std::string dotted(std::string_view section, std::string_view key) {
-    return std::string(section) + "." + std::string(key);
-  }
-
-  const toml::node* find(std::string_view section, std::string_view key) const {
-    return table_.at_path(dotted(section, key)).node();
-  }
-
-  const toml::node& node(std::string_view section, std::string_view key) const {
-    const toml::node* found = find(section, key);
-    if (found == nullptr)
-      fail(last_line_, dotted(section, key), "", "the key is missing; the file may be truncated",
-           "run calibrate again");
-    return *found;
-  }
-
-  int line(std::string_view section, std::string_view key) const {
-    const toml::node* found = find(section, key);
-    return found != nullptr ? int(found->source().begin.line) : last_line_;
-  }
-
-  std::string text(std::string_view section, std::string_view key) const {
-    const std::optional<std::string> value = node(section, key).value_exact<std::string>();
-    if (!value)
-      fail(line(section, key), dotted(section, key), "", "the value must be a string",
-           "put it in quotes, a quantity with its unit");
-    return *value;
-  }
-
   void read(const Quantity& quantity) const {
     if (!quantity.required && find(quantity.section, quantity.key) == nullptr) return;
-    const double value = quantity.unit.empty() ? bare_number(quantity) : number(quantity);
+    const double value = quantity.unit.empty()
+                             ? bare_number(quantity.section, quantity.key)
+                             : number(quantity.section, quantity.key, quantity.unit);
     if (quantity.value != nullptr)
       *quantity.value = value;
     else
       *quantity.maybe = value;
-  }
-
-  double bare_number(const Quantity& quantity) const {
-    const std::optional<double> value = node(quantity.section, quantity.key).value<double>();
-    if (!value || !std::isfinite(*value))
-      fail(line(quantity.section, quantity.key), dotted(quantity.section, quantity.key), "",
-           "must be a finite number without quotes", "write for instance 1.5");
-    return *value;
-  }
-
-  double number(const Quantity& quantity) const {
-    const std::string written = text(quantity.section, quantity.key);
-    double value = 0.0;
-    const char* end = written.data() + written.size();
-    const auto parsed = std::from_chars(written.data(), end, value);
-    const std::string rest(parsed.ptr, end);
-    if (parsed.ec != std::errc() || !std::isfinite(value) ||
-        rest != " " + std::string(quantity.unit))
-      fail(line(quantity.section, quantity.key), dotted(quantity.section, quantity.key), written,
-           "must be a finite number and the unit " + std::string(quantity.unit),
-           "write for instance \"1.5 " + std::string(quantity.unit) + "\"");
-    return value;
-  }
-
-  /// The choice whose name is written.
-  template <typename Choice, std::size_t n>
-  Choice chosen(const std::string& written, std::string_view section, std::string_view key,
-                const std::array<Choice, n>& choices) const {
-    std::string names;
-    for (const Choice choice : choices) {
-      if (written == name(choice)) return choice;
-      names += (names.empty() ? "" : ", ") + std::string(name(choice));
-    }
-    fail(line(section, key), dotted(section, key), written, "must be one of " + names,
-         "give one of them");
-  }
-
-  template <typename Choice, std::size_t n>
-  Choice word(std::string_view section, std::string_view key,
-              const std::array<Choice, n>& choices) const {
-    return chosen(text(section, key), section, key, choices);
   }
 
   std::vector<ContactMode> contacts() const {
@@ -256,7 +147,7 @@ class MaterialReader {
            network ? "no such key: the network's stiffness is E and G in [rubber]" : "no such key",
            "remove it");
     };
-    for (const auto& [section, content] : table_) {
+    for (const auto& [section, content] : table()) {
       if (!content.is_table()) refuse(content, std::string(section.str()));
       for (const auto& [key, value] : *content.as_table())
         if (!expected(section.str(), key.str())) refuse(value, dotted(section.str(), key.str()));
@@ -268,14 +159,11 @@ class MaterialReader {
     for (meshes::Violation& violation : found) {
       const std::size_t dot = violation.key.find('.');
       const int at = line(violation.key.substr(0, dot), violation.key.substr(dot + 1));
-      violation.key = file_.string() + ":" + std::to_string(at) + ": " + violation.key;
+      violation.key = file().string() + ":" + std::to_string(at) + ": " + violation.key;
     }
     if (!found.empty()) throw InvalidInput(found);
   }
 
-  std::filesystem::path file_;
-  toml::table table_;
-  int last_line_ = 1;
   std::string_view statement_ = "statement";
 };
 

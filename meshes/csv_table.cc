@@ -15,13 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* run_again = "the file is truncated or damaged: run again what writes it";
-
 [[noreturn]] void refuse(const fs::path& file, std::size_t line, const std::string& column,
-                         const std::string& value, const std::string& rule) {
+                         const std::string& value, const std::string& rule,
+                         const char* remedy = write_table_again) {
   std::string place = file.string() + ":" + std::to_string(line);
   if (!column.empty()) place += ", " + column;
-  throw InvalidInput({place, value, rule, run_again});
+  throw InvalidInput({place, value, rule, remedy});
 }
 
 void strip(std::string& cell) {
@@ -30,17 +29,19 @@ void strip(std::string& cell) {
   cell.erase(cell.begin(), std::find_if_not(cell.begin(), cell.end(), blank));
 }
 
-std::vector<std::string> split(const std::string& line) {
+/// `line` neither begins nor ends with blanks.
+std::vector<std::string> split(const std::string& line, char separator) {
   std::vector<std::string> cells(1);
   bool quoted = false;
+  const auto separates = [&](char c) { return c == separator || (separator == ' ' && c == '\t'); };
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
     if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
       cells.back() += line[++i];
     } else if (c == '"') {
       quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      cells.emplace_back();
+    } else if (separates(c) && !quoted) {
+      if (separator != ' ' || !separates(line[i - 1])) cells.emplace_back();
     } else {
       cells.back() += c;
     }
@@ -63,7 +64,7 @@ double parse(const CsvTable& table, std::size_t row, std::size_t column) {
   const auto [stop, error] = std::from_chars(cell.data(), end, value);
   if (error != std::errc() || stop != end || !(std::abs(value) <= largest_plausible))
     refuse(table.file, table.lines[row], table.names[column], shown(cell),
-           "must be a finite number, or nothing");
+           "must be a finite number, or nothing", table.remedy);
   return value;
 }
 
@@ -75,7 +76,7 @@ void check_names(const CsvTable& table, std::size_t line) {
   std::set<std::string> seen;
   for (const std::string& name : table.names)
     if (!seen.insert(name).second)
-      refuse(table.file, line, "", shown(name), "a column's name must occur once");
+      refuse(table.file, line, "", shown(name), "a column's name must occur once", table.remedy);
 }
 
 }  // namespace
@@ -95,7 +96,7 @@ std::vector<std::string> CsvTable::texts(const std::string& name) const {
 std::vector<double> CsvTable::numbers(const std::string& name) const {
   const std::size_t column = index_of(*this, name);
   if (column == names.size() && !rows.empty())
-    refuse(file, lines.front(), "", "", "the column '" + name + "' is missing");
+    refuse(file, lines.front(), "", "", "the column '" + name + "' is missing", remedy);
   std::vector<double> values;
   values.reserve(rows.size());
   for (std::size_t row = 0; row < rows.size(); ++row) values.push_back(parse(*this, row, column));
@@ -110,7 +111,7 @@ std::vector<std::size_t> CsvTable::indices(const std::string& name, std::size_t 
     if (!(values[row] >= 0.0 && values[row] < double(count) &&
           values[row] == std::floor(values[row])))
       refuse(file, lines[row], name, shown(rows[row][index_of(*this, name)]),
-             "must be a whole number from 0 to below " + std::to_string(count));
+             "must be a whole number from 0 to below " + std::to_string(count), remedy);
     whole.push_back(std::size_t(values[row]));
   }
   return whole;
@@ -121,20 +122,31 @@ std::vector<double> CsvTable::numbers_if_any(const std::string& name) const {
 }
 
 CsvTable read_csv(const fs::path& file) {
+  return read_csv(file, CsvFormat());
+}
+
+CsvTable read_csv(const fs::path& file, const CsvFormat& format) {
   const std::string text = read_text(file);
   CsvTable table;
   table.file = file;
+  table.remedy = format.remedy;
   std::size_t line = 0;
   for (std::size_t start = 0; start < text.size();) {
     ++line;
-    const std::size_t end = text.find('\n', start);
-    if (end == std::string::npos)
-      refuse(file, line, "", shown(text.substr(start)), "the last line must end with a line break");
+    std::size_t end = text.find('\n', start);
+    if (end == std::string::npos && format.complete)
+      refuse(file, line, "", shown(text.substr(start)), "the last line must end with a line break",
+             format.remedy);
+    end = std::min(end, text.size());
     std::string content = text.substr(start, end - start);
     start = end + 1;
     strip(content);
-    if (content.empty() || content.front() == '#') continue;
-    std::vector<std::string> cells = split(content);
+    if (line <= format.skip || content.empty() || content.front() == '#') continue;
+    if (format.decimal_comma && (!format.has_names || !table.names.empty()))
+      std::ranges::replace(content, ',', '.');
+    std::vector<std::string> cells = split(content, format.separator);
+    if (table.names.empty() && !format.has_names)
+      for (std::size_t i = 1; i <= cells.size(); ++i) table.names.push_back(std::to_string(i));
     if (table.names.empty()) {
       table.names = std::move(cells);
       check_names(table, line);
@@ -143,12 +155,15 @@ CsvTable read_csv(const fs::path& file) {
       table.lines.push_back(line);
     } else {
       refuse(file, line, "", std::to_string(cells.size()) + " cells",
-             "every row must have as many cells as the first line has names (" +
-                 std::to_string(table.names.size()) + ")");
+             "every row must have as many cells as the first line has " +
+                 std::string(format.has_names ? "names (" : "cells (") +
+                 std::to_string(table.names.size()) + ")",
+             format.remedy);
     }
   }
   if (table.names.empty())
-    refuse(file, 1, "", "", "the file is empty: its first line must name the columns");
+    refuse(file, 1, "", "", "the file is empty: its first line must name the columns",
+           format.remedy);
   return table;
 }
 

@@ -29,7 +29,12 @@ bool varies_by_logarithm(const FreeParameter& free) {
     case MaterialParameter::lame_shear:
     case MaterialParameter::bond:
     case MaterialParameter::contact:
-    case MaterialParameter::retardation_time: return true;
+    case MaterialParameter::retardation_time:
+    case MaterialParameter::ogden_mu1:
+    case MaterialParameter::ogden_mu2:
+    case MaterialParameter::ogden_mu3:
+    case MaterialParameter::gent_jm:
+    case MaterialParameter::bulk_modulus: return true;
     default: return false;
   }
 }
@@ -39,9 +44,18 @@ double size_of(const FreeParameter& free) {
 }
 
 double lower_bound(const FreeParameter& free) {
-  const bool may_be_negative =
-      free.parameter == MaterialParameter::kappa || free.parameter == MaterialParameter::lambda;
-  return may_be_negative ? free.lower : std::max(0.0, free.lower);
+  switch (free.parameter) {
+    case MaterialParameter::kappa:
+    case MaterialParameter::lambda:
+    case MaterialParameter::yeoh_c2:
+    case MaterialParameter::yeoh_c3:
+    case MaterialParameter::mooney_c10:
+    case MaterialParameter::mooney_c01:
+    case MaterialParameter::ogden_alpha1:
+    case MaterialParameter::ogden_alpha2:
+    case MaterialParameter::ogden_alpha3: return free.lower;
+    default: return std::max(0.0, free.lower);
+  }
 }
 
 std::optional<std::pair<Index, Index>> places_of_moduli(const CurveFitOptions& options) {

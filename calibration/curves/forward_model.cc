@@ -7,6 +7,7 @@
 
 #include "lattice/press/static_press.h"
 #include "meshes/errors.h"
+#include "meshes/press_response.h"
 
 namespace fingertip::calibration {
 
@@ -30,9 +31,8 @@ std::optional<PressParameter> press_parameter(MaterialParameter parameter) {
     case MaterialParameter::lambda: return PressParameter::lambda;
     case MaterialParameter::bond: return PressParameter::bond;
     case MaterialParameter::contact: return PressParameter::contact;
-    case MaterialParameter::retardation_time: return std::nullopt;
+    default: return std::nullopt;
   }
-  return std::nullopt;
 }
 
 bool is_tie(MaterialParameter parameter) {
@@ -138,6 +138,19 @@ std::string_view name(MaterialParameter parameter) {
     case MaterialParameter::bond: return "bond";
     case MaterialParameter::contact: return "contact";
     case MaterialParameter::retardation_time: return "retardation_time";
+    case MaterialParameter::yeoh_c1: return "yeoh_c1";
+    case MaterialParameter::yeoh_c2: return "yeoh_c2";
+    case MaterialParameter::yeoh_c3: return "yeoh_c3";
+    case MaterialParameter::mooney_c10: return "mooney_c10";
+    case MaterialParameter::mooney_c01: return "mooney_c01";
+    case MaterialParameter::ogden_mu1: return "ogden_mu1";
+    case MaterialParameter::ogden_alpha1: return "ogden_alpha1";
+    case MaterialParameter::ogden_mu2: return "ogden_mu2";
+    case MaterialParameter::ogden_alpha2: return "ogden_alpha2";
+    case MaterialParameter::ogden_mu3: return "ogden_mu3";
+    case MaterialParameter::ogden_alpha3: return "ogden_alpha3";
+    case MaterialParameter::gent_jm: return "gent_jm";
+    case MaterialParameter::bulk_modulus: return "bulk_modulus";
   }
   return "unknown";
 }
@@ -148,7 +161,11 @@ std::string_view unit(MaterialParameter parameter) {
     case MaterialParameter::k2:
     case MaterialParameter::k3: return "N/m";
     case MaterialParameter::bond:
-    case MaterialParameter::contact: return "1";
+    case MaterialParameter::contact:
+    case MaterialParameter::ogden_alpha1:
+    case MaterialParameter::ogden_alpha2:
+    case MaterialParameter::ogden_alpha3:
+    case MaterialParameter::gent_jm: return "1";
     case MaterialParameter::retardation_time: return "s";
     default: return "Pa";
   }
@@ -169,8 +186,8 @@ double value_of(MaterialParameter parameter, const PressSetup& setup) {
     case MaterialParameter::bond: return setup.lattice.ligament_stiffness;
     case MaterialParameter::contact: return setup.lattice.contact_stiffness;
     case MaterialParameter::retardation_time: return setup.rubber.retardation_time;
+    default: return meshes::unknown;
   }
-  return 0.0;
 }
 
 Eigen::RowVector2d lambda_slopes(double e, double g) {

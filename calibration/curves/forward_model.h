@@ -27,6 +27,20 @@ enum class MaterialParameter {
   bond,              ///< LatticeSettings::ligament_stiffness
   contact,           ///< LatticeSettings::contact_stiffness
   retardation_time,  ///< tau of Kelvin and Voigt [s]
+  // Coefficients of laws at large strain, meshes/strain_energy.h; material_tests/ fits them.
+  yeoh_c1,       ///< [Pa]
+  yeoh_c2,       ///< [Pa]
+  yeoh_c3,       ///< [Pa]
+  mooney_c10,    ///< [Pa]
+  mooney_c01,    ///< [Pa]
+  ogden_mu1,     ///< mu_1 [Pa]
+  ogden_alpha1,  ///< its exponent
+  ogden_mu2,     ///< [Pa]
+  ogden_alpha2,
+  ogden_mu3,  ///< [Pa]
+  ogden_alpha3,
+  gent_jm,       ///< largest I1 - 3
+  bulk_modulus,  ///< K, all else held [Pa]
 };
 
 /// The enumerator's name.
@@ -35,7 +49,8 @@ std::string_view name(MaterialParameter parameter);
 /// "Pa", "N/m", "s" or "1".
 std::string_view unit(MaterialParameter parameter);
 
-/// Value in a setup, in the parameter's unit; lame_shear and lambda are the rubber's.
+/// Value in a setup, in the parameter's unit; lame_shear and lambda are the rubber's. NaN for
+/// coefficients of laws at large strain.
 double value_of(MaterialParameter parameter, const lattice::PressSetup& setup);
 
 /// What a model answers at the abscissae of a curve.

@@ -121,6 +121,8 @@ int verdict(const ordered_json& content, bool written) {
 
 int run_calibrate(const CommandLine& line) {
   const LoadedConfig loaded = load_checked(line);
+  if (loaded.config.calibration.problem == CalibrationProblem::material)
+    return run_material(line, loaded);
   CalibrationStages stages(
       loaded, "",
       line.force ? CalibrationStages::Failed::kept : CalibrationStages::Failed::refused);

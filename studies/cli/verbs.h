@@ -19,6 +19,8 @@ int run_modes(const CommandLine& line);
 int run_grasp(const CommandLine& line);
 int run_reference(const CommandLine& line);
 int run_calibrate(const CommandLine& line);
+/// calibrate with calibration.problem = "material".
+int run_material(const CommandLine& line, const LoadedConfig& loaded);
 int run_compare(const CommandLine& line);
 int run_report(const CommandLine& line);
 int run_export(const CommandLine& line);

@@ -11,6 +11,7 @@ std::string_view name(CalibrationProblem problem) {
     case CalibrationProblem::experiment: return "experiment";
     case CalibrationProblem::finite_strain: return "finite-strain";
     case CalibrationProblem::damping: return "damping";
+    case CalibrationProblem::material: return "material";
   }
   return "unknown";
 }
@@ -54,7 +55,8 @@ Key problem_key() {
        {"curve", "spring constants, bond and contact to the continuum's forces"},
        {"experiment", "Young's and shear modulus to measured forces"},
        {"finite-strain", "the neo-Hookean law (law A) to measured stress and stretch, or shear"},
-       {"damping", "the retardation time to loss factors, creep, a held ramp or a press"}},
+       {"damping", "the retardation time to loss factors, creep, a held ramp or a press"},
+       {"material", "laws of rubber at large strain to the material tests of calibration.tests"}},
       "what is fitted to what", at(&Config::calibration, &CalibrationSettings::problem));
 }
 
@@ -85,9 +87,27 @@ Key range_key() {
 
 std::vector<Key> calibration_keys() {
   using Order = CalibrationSettings;
+  const auto of_material = [](Key key) {
+    return only_with("calibration.problem", {"material"}, std::move(key));
+  };
   return {
       problem_key(),
       data_key(),
+      of_material(choice("calibration", "tests", {{"none", "only for material"}},
+                         "TOML file that names and describes material tests, for material",
+                         at(&Config::calibration, &Order::tests))),
+      of_material(with_rule(
+          entry("laws", any, "laws that are tried; none: all of them", &Order::laws),
+          "neo-hookean, mooney-rivlin, gent, yeoh-2, yeoh-3, ogden-1, ogden-2, ogden-3", {})),
+      of_material(choice("calibration", "weights",
+                         {{"test", "the root mean square stress of each test"},
+                          {"stress", "the same for all: small stresses count little"},
+                          {"point", "the stress itself, at least 5 % of the test's largest"}},
+                         "what a residual of a material test is divided by; a sigma goes before it",
+                         at(&Config::calibration, &Order::weights))),
+      of_material(entry("stretch_range", {0.05, 20.0, true},
+                        "principal stretches of use, in which a law must be stable",
+                        &Order::stretch_range)),
       entry(
           "conditions", any,
           "settings of presses in place of [press], \"press.contact=stick; press.tilt=20 deg\", a "

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calibration/material_tests/law_fit.h"
 #include "calibration/moduli_fit.h"
 #include "fem_reference/job.h"
 #include "lattice/control/control_settings.h"
@@ -48,11 +49,12 @@ enum class CalibrationProblem {
   experiment,     ///< E and G, or constants, to measured forces
   finite_strain,  ///< E and G, or lambda and G, of law A to stress-stretch data
   damping,        ///< the retardation time
+  material,       ///< laws of large strain to material tests
 };
 std::string_view name(CalibrationProblem problem);
 constexpr auto values(CalibrationProblem) {
   using enum CalibrationProblem;
-  return std::array{moduli, curve, experiment, finite_strain, damping};
+  return std::array{moduli, curve, experiment, finite_strain, damping, material};
 }
 
 /// What answers for the press when parameters are varied (key calibration.forward).
@@ -81,6 +83,10 @@ struct CalibrationSettings {
   int starts = 10;
   int evaluations = 50;  ///< most that a search may do
   unsigned seed = 1;
+  std::filesystem::path tests;    ///< what describes the material tests; absolute, empty for none
+  std::vector<std::string> laws;  ///< of calibration::known_laws; empty: all
+  calibration::TestWeights weights = calibration::TestWeights::test;
+  std::vector<double> stretch_range = {0.5, 2.0};  ///< principal stretches of use
 };
 
 /// Who moves the rod in mode pid (key controller.type).
@@ -161,6 +167,7 @@ struct Config {
   std::optional<double> spacing_divisor;          ///< a = R/divisor when given so
   std::optional<double> poissons_ratio;           ///< when given so; press.rubber has E and G
   std::optional<double> shore_hardness;           ///< Shore A, when given instead of E
+  std::filesystem::path card;                     ///< of the rubber's law; absolute, or empty
   LawCoefficients coefficients;                   ///< as given; press.rubber has the law
   ContinuumLaw continuum_law = ContinuumLaw::a;
   fem_reference::ReferenceJob reference;

@@ -11,6 +11,7 @@
 #include "meshes/files.h"
 #include "studies/config/elasticity.h"
 #include "studies/config/key_table.h"
+#include "studies/config/law_card_keys.h"
 #include "studies/config/profile_file.h"
 #include "studies/config/trimmed.h"
 #include "studies/config/units.h"
@@ -52,6 +53,7 @@ class Reader {
 
  private:
   void resolve_shape();
+  void resolve_card();
   void resolve_continuum_law();
   /// Files named by a value are relative to `base`: the configuration file's folder.
   void take(const Key& key, const toml::node& node, Entry entry, const std::filesystem::path& base);
@@ -213,6 +215,34 @@ void Reader::resolve_shape() {
   }
 }
 
+/// What the card says takes the place of defaults.
+void Reader::resolve_card() {
+  const Config& config = loaded_.config;
+  if (config.card.empty()) return;
+  const Entry& entry = loaded_.entries.at("rubber.card");
+  try {
+    const calibration::LawCard card = calibration::read_law_card(config.card);
+    for (const auto& [name, literal] : keys_of(card)) {
+      const Entry& known = loaded_.entries.at(name);
+      if (!known.given) {
+        read_assignment(config.card.string(), name, literal);
+      } else if (known.literal != toml_literal(*toml::parse("v = " + literal).get("v"))) {
+        problems_.push_back({known.place, name, unquoted(known.literal),
+                             "the card " + config.card.filename().string() + " says " + literal,
+                             "leave one of the two out"});
+      }
+    }
+    for (const std::string& warning : card_warnings(card, loaded_))
+      loaded_.notes.push_back(config.card.filename().string() + ": " + warning);
+  } catch (const meshes::InvalidInput& error) {
+    for (const meshes::Violation& broken : error.violations())
+      problems_.push_back(
+          {entry.place, "rubber.card", unquoted(entry.literal),
+           broken.key + (broken.value.empty() ? "" : " = " + broken.value) + ": " + broken.rule,
+           broken.remedy});
+  }
+}
+
 /// The older key changes what a change of volume costs in the continuum alone.
 void Reader::resolve_continuum_law() {
   const ContinuumLaw law = loaded_.config.continuum_law;
@@ -232,6 +262,7 @@ LoadedConfig Reader::finish() {
   Config& config = loaded_.config;
   lattice::PressSetup& press = config.press;
   resolve_shape();
+  resolve_card();
   resolve_elasticity(loaded_, problems_);
   if (config.spacing_divisor) {
     press.lattice.spacing = press.geometry.tip_radius / *config.spacing_divisor;

@@ -121,7 +121,9 @@ constexpr int fine_grid = 61;
 void add_profile(const FitInput& input, const std::vector<ForwardModel*>& models,
                  calibration::FitRecord& record) {
   const auto place = [&](const std::string& name) {
-    const auto found = std::ranges::find(record.fit.parameters, name, calibration::name);
+    const auto found = std::ranges::find_if(record.fit.parameters, [&](MaterialParameter each) {
+      return calibration::name(each) == name;
+    });
     return std::size_t(found - record.fit.parameters.begin());
   };
   const std::size_t first = place(input.profile[0]), second = place(input.profile[1]);

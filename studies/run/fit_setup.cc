@@ -74,7 +74,8 @@ std::vector<MaterialParameter> free_parameters(const LoadedConfig& loaded) {
   const std::vector<MaterialParameter> known = known_parameters(settings);
   std::vector<MaterialParameter> chosen;
   for (const std::string& word : settings.parameters) {
-    const auto found = std::ranges::find(known, word, calibration::name);
+    const auto found = std::ranges::find_if(
+        known, [&](MaterialParameter each) { return calibration::name(each) == word; });
     if (found == known.end())
       throw refused(
           loaded, "calibration.parameters", word,

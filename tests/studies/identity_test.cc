@@ -167,7 +167,10 @@ const Sets nowhere = {"run.threads", "run.units", "exchange.", "controller.addre
                       "controller.schedule",
                       // Of other shapes, see below.
                       "geometry.shape", "geometry.profile", "geometry.file", "geometry.unit",
-                      "geometry.bond", "geometry.endpoint"};
+                      "geometry.bond", "geometry.endpoint",
+                      // Its keys count, and of material tests what they say (law_job_test).
+                      "rubber.card", "calibration.tests", "calibration.laws",
+                      "calibration.weights", "calibration.stretch_range"};
 /// Of the fit of constants to moduli, which a hookean lattice has in closed form.
 const Sets moduli_fit = {"calibration.starts", "calibration.seed", "calibration.isotropy_weight",
                          "calibration.bulk_weight"};

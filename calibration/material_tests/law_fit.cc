@@ -1,0 +1,350 @@
+#include "calibration/material_tests/law_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "calibration/curves/fit_statistics.h"
+#include "calibration/material_tests/law_starts.h"
+#include "calibration/words.h"
+#include "meshes/errors.h"
+#include "meshes/press_response.h"
+
+namespace fingertip::calibration {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using meshes::InvalidInput;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double point_floor = 0.05;  // TestWeights::point, of the largest stress
+/// Two coefficients of a higher correlation are one to the tests.
+constexpr double collinear = 0.995;
+/// Residuals of so unlikely an order show something that the law misses.
+constexpr double unlikely_order = 0.05;
+/// A prediction that misses by more contradicts the law.
+constexpr double miss = 0.1;
+/// Stretches that presses ask for, and StrainEnergy's own rule.
+constexpr std::array<double, 2> press_range = {0.5, 2.0};
+
+double root_mean_square(const std::vector<double>& values) {
+  return VectorXd::Map(values.data(), Index(values.size())).norm() /
+         std::sqrt(double(values.size()));
+}
+
+double largest(const std::vector<double>& values) {
+  return VectorXd::Map(values.data(), Index(values.size())).cwiseAbs().maxCoeff();
+}
+
+std::vector<double> scales_of(const MaterialTest& test, TestWeights weights) {
+  const std::size_t points = test.stress.size();
+  if (weights == TestWeights::stress) return std::vector<double>(points, 1.0);
+  if (weights == TestWeights::test)
+    return std::vector<double>(points, root_mean_square(test.stress));
+  std::vector<double> scales;
+  const double least = point_floor * largest(test.stress);
+  for (const double stress : test.stress) scales.push_back(std::max(std::abs(stress), least));
+  return scales;
+}
+
+Curve scaled_curve(const MaterialTest& test, const std::vector<double>& scales) {
+  Curve curve{test.name,
+              std::string(name(test.kind)) + " [1]",
+              "stress over its scale [1]",
+              test.deformation,
+              test.stress,
+              test.sigma};
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    curve.y[i] /= scales[i];
+    if (!curve.sigma.empty()) curve.sigma[i] /= scales[i];
+  }
+  return curve;
+}
+
+bool is_volumetric(const MaterialTest& test) {
+  return test.kind == TestKind::volumetric;
+}
+
+void check_tests(const std::vector<MaterialTest>& tests) {
+  std::vector<meshes::Violation> found;
+  for (const MaterialTest& test : tests)
+    for (meshes::Violation& violation : test.violations()) found.push_back(std::move(violation));
+  if (std::ranges::all_of(tests, is_volumetric))
+    found.push_back({"tests", tests.empty() ? "none" : "volumetric",
+                     "a law is fitted to at least one test that changes the shape",
+                     "give a tension, compression or shear test"});
+  if (!found.empty()) throw InvalidInput(found);
+}
+
+/// K joins the coefficients where a test tells it; its start is the test's own.
+void add_bulk_modulus(const std::vector<MaterialTest>& tests, CurveFitOptions& options) {
+  double product = 0.0, square = 0.0;
+  for (const MaterialTest& test : tests) {
+    if (!is_volumetric(test)) continue;
+    for (std::size_t i = 0; i < test.stress.size(); ++i) {
+      const double unit = mean_stress(1.0, test.deformation[i]);
+      product += unit * test.stress[i];
+      square += unit * unit;
+    }
+  }
+  if (square == 0.0) return;
+  const double k = product / square;
+  if (!(k > 0.0))
+    throw InvalidInput({"stress", rounded(k) + " Pa",
+                        "a smaller volume needs pressure, which is a negative mean stress",
+                        "give the column's sign"});
+  options.free.push_back({MaterialParameter::bulk_modulus, k, 1e-3 * k, 1e3 * k});
+  for (VectorXd& start : options.other_starts) {
+    start.conservativeResize(start.size() + 1);
+    start(start.size() - 1) = k;
+  }
+}
+
+/// A series of fewer terms, and a further one that is next to nothing: what has more terms must not
+/// be worse.
+void add_term_to(const LawFit& fewer, CurveFitOptions& options) {
+  const Index known = 2 * Index(fewer.choice.terms);
+  for (const double exponent : {-4.0, 4.0, 12.0}) {
+    VectorXd start(known + 2);
+    start.head(known) = fewer.fit.estimates.head(known);
+    start.tail(2) << 1e-4 * fewer.law.shear_modulus, exponent;
+    for (Index i = 0; i < start.size(); ++i)
+      start(i) = std::clamp(start(i), options.free[std::size_t(i)].lower,
+                            options.free[std::size_t(i)].upper);
+    options.other_starts.push_back(start);
+  }
+}
+
+double corrected_criterion(const CurveFit& fit, Index points, bool has_sigma) {
+  const double n = double(points), k = double(fit.estimates.size()) + (has_sigma ? 0.0 : 1.0);
+  if (n <= k + 1.0) return infinite;
+  double squares = 0.0;
+  for (const VectorXd& residuals : fit.residuals) squares += residuals.squaredNorm();
+  const double misfit =
+      has_sigma ? fit.chi_square.value_or(squares) : n * std::log(std::max(squares, 1e-300) / n);
+  return misfit + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+}
+
+std::string instability_text(const meshes::Instability& at, const char* where) {
+  return "the law is unstable (Drucker) from the stretch " + rounded(at.stretch) + " on in " +
+         std::string(name(at.test)) + " tests, which is " + where;
+}
+
+std::string size_text(double share) {
+  return rounded(100.0 * share, 3) + " %";
+}
+
+void add_open_coefficients(LawFit& result) {
+  const CurveFit& fit = result.fit;
+  auto& told = result.contradictions;
+  if (!fit.converged) told.push_back("the search ended before its minimum");
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    if (fit.at_bound[i])
+      told.push_back(std::string(name(fit.parameters[i])) +
+                     " ended at its bound: the tests ask for another law, or for fewer terms");
+  for (const Direction& direction : fit.unidentifiable) told.push_back(direction.statement);
+  for (Index i = 0; i < fit.correlation.rows(); ++i)
+    for (Index j = 0; j < i; ++j)
+      if (std::abs(fit.correlation(i, j)) > collinear)
+        told.push_back("the tests hardly tell " +
+                       std::string(name(fit.parameters[std::size_t(j)])) + " and " +
+                       std::string(name(fit.parameters[std::size_t(i)])) +
+                       " apart: their correlation is " + rounded(fit.correlation(i, j), 5));
+}
+
+void add_instabilities(LawFit& result, const LawFitOptions& options) {
+  const auto within = [&](const std::array<double, 2>& range) {
+    // The search begins at rest.
+    return first_instability(result.law.energy, std::min(range[0], 0.999),
+                             std::max(range[1], 1.001));
+  };
+  result.unstable_in_tests = within(result.tested);
+  result.unstable_in_press = within(press_range);
+  if (options.range_of_use) result.unstable_in_use = within(*options.range_of_use);
+  if (result.unstable_in_tests)
+    result.contradictions.push_back(
+        instability_text(*result.unstable_in_tests, "within the stretches of the fitted tests"));
+  else if (result.unstable_in_use)
+    result.contradictions.push_back(
+        instability_text(*result.unstable_in_use, "within the stretches of use"));
+  else if (result.unstable_in_press)
+    result.contradictions.push_back(
+        instability_text(*result.unstable_in_press, "within 0.5 to 2, which a press asks for"));
+}
+
+void add_misfits(LawFit& result) {
+  for (const TestMisfit& misfit : result.fitted)
+    if (misfit.structure.probability < unlikely_order)
+      result.contradictions.push_back("residuals of " + misfit.test + " (rms " +
+                                      size_text(misfit.rms_relative) +
+                                      "): " + misfit.structure.statement);
+}
+
+void add_predictions(LawFit& result) {
+  for (const TestMisfit& misfit : result.predicted) {
+    if (misfit.largest_relative <= miss && misfit.rms_relative <= miss) continue;
+    result.contradictions.push_back(
+        misfit.test + ", which was not fitted, is missed by " + size_text(misfit.rms_relative) +
+        " (rms), " + size_text(misfit.largest_relative) + " at most" +
+        (misfit.in_range ? "" : "; its stretches go beyond those of the fitted tests"));
+  }
+}
+
+}  // namespace
+
+std::string_view name(TestWeights weights) {
+  switch (weights) {
+    case TestWeights::test: return "test";
+    case TestWeights::stress: return "stress";
+    case TestWeights::point: return "point";
+  }
+  return "unknown";
+}
+
+TestMisfit predict(const LawFit& fit, const MaterialTest& test, TestWeights weights) {
+  const std::vector<meshes::Violation> broken = test.violations();
+  if (!broken.empty()) throw InvalidInput(broken);
+  const std::vector<double> scales = scales_of(test, weights);
+  TestMisfit misfit;
+  misfit.test = test.name;
+  misfit.points = test.stress.size();
+  const auto range = stretch_range({test});
+  misfit.in_range = range[0] >= 0.999 * fit.tested[0] && range[1] <= 1.001 * fit.tested[1];
+  CurveSlopes answer;
+  try {
+    answer = LawModel(test, scales, fit.choice, fit.fit.parameters).evaluate(fit.fit.estimates);
+  } catch (const meshes::NotConverged&) {  // beyond the limit of a gent law
+    misfit.rms = misfit.sum_of_squares = misfit.rms_relative = misfit.largest_relative = infinite;
+    misfit.stress.assign(misfit.points, infinite);
+    return misfit;
+  }
+  VectorXd residuals(answer.value.size());
+  const int freedom = fit.fit.degrees_of_freedom;
+  const double quantile = test.sigma.empty() && freedom > 0 ? student_95(freedom) : normal_95();
+  int inside = 0;
+  for (Index i = 0; i < residuals.size(); ++i) {
+    const std::size_t p = std::size_t(i);
+    misfit.stress.push_back(answer.value(i) * scales[p]);
+    residuals(i) = test.stress[p] - misfit.stress.back();
+    const Eigen::RowVectorXd slope = answer.jacobian.row(i);
+    const double deviation =
+        test.sigma.empty() ? fit.fit.residual_deviation : test.sigma[p] / scales[p];
+    const double spread = std::sqrt(slope.dot(slope * fit.fit.covariance) + deviation * deviation);
+    if (std::abs(residuals(i)) <= quantile * fit.fit.birge_ratio * spread * scales[p]) ++inside;
+  }
+  misfit.sum_of_squares = residuals.squaredNorm();
+  misfit.rms = std::sqrt(misfit.sum_of_squares / double(misfit.points));
+  misfit.rms_relative = misfit.rms / root_mean_square(test.stress);
+  misfit.largest_relative = residuals.cwiseAbs().maxCoeff() / largest(test.stress);
+  misfit.within = freedom > 0 ? double(inside) / double(misfit.points) : meshes::unknown;
+  misfit.structure = residual_structure(residuals);
+  return misfit;
+}
+
+LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
+               const LawFitOptions& options) {
+  check_tests(tests);
+  std::vector<std::vector<double>> scales;
+  std::vector<Curve> curves;
+  for (const MaterialTest& test : tests) {
+    scales.push_back(scales_of(test, options.weights));
+    curves.push_back(scaled_curve(test, scales.back()));
+  }
+  CurveFitOptions fit = law_starts(tests, scales, choice, options);
+  if (choice.law == meshes::RubberLaw::ogden && choice.terms > 1)
+    add_term_to(fit_law(tests, {choice.law, choice.terms - 1}, options), fit);
+  add_bulk_modulus(tests, fit);
+  fit.max_iterations = 200;
+  fit.relative_singular_value = 0.0;  // closed forms have no error: intervals tell what is open
+  std::vector<MaterialParameter> parameters;
+  for (const FreeParameter& free : fit.free) parameters.push_back(free.parameter);
+  Index points = 0;
+  for (const Curve& curve : curves) points += Index(curve.y.size());
+  if (points <= Index(parameters.size()))
+    throw InvalidInput({"tests", std::to_string(points) + " points",
+                        "more points than the " + std::to_string(parameters.size()) +
+                            " coefficients of " + name(choice) + " are needed",
+                        "give further tests, or a law of fewer coefficients"});
+  std::vector<std::unique_ptr<LawModel>> models;
+  std::vector<ForwardModel*> addresses;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    models.push_back(std::make_unique<LawModel>(tests[t], scales[t], choice, parameters));
+    addresses.push_back(models.back().get());
+  }
+  LawFit result;
+  result.choice = choice;
+  result.fit = fit_curves(curves, addresses, fit);
+  result.law = sized_law(choice, result.fit.estimates);
+  if (parameters.back() == MaterialParameter::bulk_modulus)
+    result.bulk_modulus = result.fit.estimates(result.fit.estimates.size() - 1);
+  result.aicc = corrected_criterion(result.fit, points, !curves.front().sigma.empty());
+  result.tested = stretch_range(tests);
+  for (const MaterialTest& test : tests)
+    result.fitted.push_back(predict(result, test, options.weights));
+  add_instabilities(result, options);
+  add_open_coefficients(result);
+  add_misfits(result);
+  return result;
+}
+
+std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
+                              const std::vector<MaterialTest>& held_back,
+                              const std::vector<LawChoice>& laws, const LawFitOptions& options) {
+  check_tests(tests);
+  std::vector<LawFit> ranking;
+  for (const LawChoice& law : laws) {
+    LawFit fit;
+    try {
+      fit = fit_law(tests, law, options);
+      for (const MaterialTest& test : held_back)
+        fit.predicted.push_back(predict(fit, test, options.weights));
+      add_predictions(fit);
+    } catch (const std::exception& error) {
+      fit = LawFit();
+      fit.choice = law;
+      fit.aicc = infinite;
+      fit.failure = error.what();
+    }
+    ranking.push_back(std::move(fit));
+  }
+  sort_ranking(ranking);
+  return ranking;
+}
+
+void sort_ranking(std::vector<LawFit>& ranking) {
+  std::ranges::stable_sort(ranking, [](const LawFit& a, const LawFit& b) {
+    if (a.failure.empty() != b.failure.empty()) return a.failure.empty();
+    return a.aicc < b.aicc;
+  });
+}
+
+const LawFit* recommended(const std::vector<LawFit>& ranking) {
+  const auto stable = [](const LawFit& fit) {
+    return fit.failure.empty() && !fit.unstable_in_tests && !fit.unstable_in_use &&
+           !fit.unstable_in_press;
+  };
+  const auto settled = [&](const LawFit& fit) {
+    return stable(fit) && fit.fit.converged && fit.fit.unidentifiable.empty() &&
+           std::ranges::none_of(fit.fit.at_bound, [](bool at) { return at; });
+  };
+  auto found = std::ranges::find_if(ranking, settled);
+  if (found == ranking.end()) found = std::ranges::find_if(ranking, stable);
+  if (found == ranking.end()) found = ranking.begin();
+  return found == ranking.end() || !found->failure.empty() ? nullptr : &*found;
+}
+
+meshes::Rubber rubber_of(const LawFit& fit, double poissons_ratio) {
+  meshes::Rubber rubber;
+  const double g = fit.law.shear_modulus;
+  rubber.shear_modulus = g;
+  const double k = fit.bulk_modulus.value_or(0.0);
+  rubber.youngs_modulus =
+      fit.bulk_modulus ? 9.0 * k * g / (3.0 * k + g) : 2.0 * g * (1.0 + poissons_ratio);
+  rubber.energy = fit.law.energy;
+  return rubber;
+}
+
+}  // namespace fingertip::calibration

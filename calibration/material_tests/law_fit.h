@@ -1,0 +1,104 @@
+/// Laws of rubber from material tests: the fit, what it leaves open, how it compares with others.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/residual_structure.h"
+#include "calibration/material_tests/law_model.h"
+#include "calibration/material_tests/material_test.h"
+#include "meshes/rubber.h"
+
+namespace fingertip::calibration {
+
+/// What a residual is divided by. Where all tests have a sigma, that is it.
+enum class TestWeights {
+  test,    ///< the root mean square stress of its test: tests of other size count alike
+  stress,  ///< the same for all: small stresses count little
+  point,   ///< the stress itself, at least 5 % of its test's largest: relative errors
+};
+std::string_view name(TestWeights weights);
+constexpr auto values(TestWeights) {
+  return std::array{TestWeights::test, TestWeights::stress, TestWeights::point};
+}
+
+struct LawFitOptions {
+  TestWeights weights = TestWeights::test;
+  /// Searches for laws of more than one minimum (ogden, gent), from the best of `guesses` sets of
+  /// exponents that are drawn between -25 and 25.
+  int starts = 8;
+  int guesses = 400;
+  unsigned seed = 1;
+  /// Principal stretches in which the law will be used, where they are known.
+  std::optional<std::array<double, 2>> range_of_use;
+};
+
+/// How a law meets a test that it was fitted to, or predicts one.
+struct TestMisfit {
+  std::string test;
+  std::size_t points = 0;
+  double rms = 0.0;               ///< of the residuals [Pa]
+  double sum_of_squares = 0.0;    ///< of the residuals [Pa²]
+  double rms_relative = 0.0;      ///< rms over the stresses' root mean square
+  double largest_relative = 0.0;  ///< largest residual over the largest stress
+  /// Share of the points within the 95 % interval of a further measurement, by the coefficients'
+  /// covariance and the residuals' deviation; NaN without degrees of freedom. Residuals of one test
+  /// hang together, and specimens differ: a share far below 0.95 says that they do.
+  double within = 0.0;
+  bool in_range = true;        ///< the stretches are among those of the fitted tests
+  std::vector<double> stress;  ///< of the law at the test's deformations [Pa]
+  ResidualStructure structure;
+};
+
+struct LawFit {
+  LawChoice choice;
+  CurveFit fit;  ///< over scaled stresses; coefficients, then bulk_modulus where it was sought
+  SizedLaw law;
+  std::optional<double> bulk_modulus;  ///< [Pa]; none: no volumetric test
+  /// n ln(S/n) + 2k + 2k(k + 1)/(n - k - 1), n residuals of weighted sum of squares S, k the
+  /// coefficients and, without sigma, the deviation (Hurvich & Tsai, Biometrika 76, 297, 1989);
+  /// with sigma S + 2k + ... Infinite where n <= k + 1.
+  double aicc = 0.0;
+  std::array<double, 2> tested = {1.0, 1.0};  ///< principal stretches of the fitted tests
+  std::vector<TestMisfit> fitted, predicted;
+  /// Drucker's rule: within the stretches tested, used, and between 0.5 and 2, which presses ask.
+  std::optional<meshes::Instability> unstable_in_tests, unstable_in_use, unstable_in_press;
+  /// What contradicts it, in plain sentences: residuals of structure, predictions that miss,
+  /// coefficients that are open or at a bound, instabilities. Empty: nothing seen.
+  std::vector<std::string> contradictions;
+  /// Why there is no fit; all but `choice` is then empty.
+  std::string failure;
+};
+
+/// Least squares over all tests together. Throws InvalidInput for tests that break their rules,
+/// fewer points than coefficients, some tests with sigma and some without, and where all tests are
+/// volumetric; NotConverged where no start has an answer.
+LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
+               const LawFitOptions& options = {});
+
+/// Of a test that the fit has not seen. A volumetric one needs fit.bulk_modulus (InvalidInput).
+TestMisfit predict(const LawFit& fit, const MaterialTest& test,
+                   TestWeights weights = TestWeights::test);
+
+/// The laws, fitted to `tests` and asked for `held_back`, the least AICc first, those without a fit
+/// last. Throws as fit_law does where no law can be fitted for the tests' sake.
+std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
+                              const std::vector<MaterialTest>& held_back,
+                              const std::vector<LawChoice>& laws,
+                              const LawFitOptions& options = {});
+
+/// Into the order of rank_laws.
+void sort_ranking(std::vector<LawFit>& ranking);
+
+/// The first of a ranking that is stable in the tests and in the range of use, no coefficient open
+/// or at a bound; else the first that is stable, else the first. Null without any fit.
+const LawFit* recommended(const std::vector<LawFit>& ranking);
+
+/// E, G and the energy of a fit as a rubber; nu is that of `bulk_modulus`, or `poissons_ratio`
+/// where it is unknown. Its rules may be broken: Rubber::violations tells.
+meshes::Rubber rubber_of(const LawFit& fit, double poissons_ratio);
+
+}  // namespace fingertip::calibration

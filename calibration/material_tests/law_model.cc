@@ -1,0 +1,191 @@
+#include "calibration/material_tests/law_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "meshes/errors.h"
+#include "meshes/files.h"
+
+namespace fingertip::calibration {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using meshes::RubberLaw;
+using Three = std::array<double, 3>;
+
+namespace {
+
+/// Difference of two Kirchhoff stresses to the stress that is measured.
+double measured_stress(const Three& kirchhoff, TestKind kind, StressMeasure measure, double l) {
+  if (kind == TestKind::simple_shear) return (kirchhoff[0] - kirchhoff[2]) / std::sqrt(4.0 + l * l);
+  const double difference = kirchhoff[0] - kirchhoff[kind == TestKind::uniaxial ? 1 : 2];
+  return measure == StressMeasure::cauchy ? difference : difference / l;
+}
+
+/// d(kirchhoff)/d(alpha) of 2 mu/alpha (l^alpha - 1) at mu = 1.
+Three by_exponent(double alpha, const Three& stretch) {
+  Three slope;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double y = std::log(stretch[k]), ay = alpha * y;
+    // (ay e^ay - (e^ay - 1))/alpha², whose terms cancel where ay is small.
+    slope[k] = std::abs(ay) < 1e-4 ? y * y * (1.0 + 2.0 / 3.0 * ay)
+                                   : 2.0 * (ay * std::exp(ay) - std::expm1(ay)) / (alpha * alpha);
+  }
+  return slope;
+}
+
+/// Kirchhoff stresses of a law whose coefficient `i` is 1 and whose others are 0, or its derivative
+/// by coefficient i where the law is no sum of them.
+Three by_coefficient(const LawChoice& choice, const VectorXd& c, Index i, const Three& stretch) {
+  const auto response = [&](const meshes::StrainEnergy& energy, double modulus) {
+    Three tau = principal_response(energy, stretch).kirchhoff;
+    for (double& value : tau) value *= modulus;
+    return tau;
+  };
+  const double above =
+      stretch[0] * stretch[0] + stretch[1] * stretch[1] + stretch[2] * stretch[2] - 3.0;
+  meshes::StrainEnergy energy;
+  switch (choice.law) {
+    // dW/dI1 over that of neo-Hooke, 1/2: of C_i (I1 - 3)^i.
+    case RubberLaw::yeoh: return response(energy, 2.0 * double(i + 1) * std::pow(above, double(i)));
+    case RubberLaw::mooney_rivlin:
+      energy.law = RubberLaw::mooney_rivlin;
+      energy.shape[0] = i == 0 ? 0.0 : 1.0;
+      return response(energy, 2.0);
+    case RubberLaw::ogden: {
+      const double mu = c(i - i % 2), alpha = c(i - i % 2 + 1);
+      if (i % 2 == 1) {
+        Three slope = by_exponent(alpha, stretch);
+        for (double& value : slope) value *= mu;
+        return slope;
+      }
+      energy.law = RubberLaw::ogden;
+      energy.shape = {1.0, alpha};
+      return response(energy, 1.0);
+    }
+    case RubberLaw::gent: {
+      const double left = c(1) - above;  // W' = G/2 Jm/(Jm - (I1 - 3))
+      return response(energy, i == 0 ? c(1) / left : -c(0) * above / (left * left));
+    }
+    default: return response(energy, 1.0);
+  }
+}
+
+}  // namespace
+
+std::string name(const LawChoice& choice) {
+  const bool series = choice.law == RubberLaw::yeoh || choice.law == RubberLaw::ogden;
+  return std::string(name(choice.law)) + (series ? "-" + std::to_string(choice.terms) : "");
+}
+
+const std::vector<LawChoice>& known_laws() {
+  static const std::vector<LawChoice> laws = {
+      {RubberLaw::neo_hookean, 1}, {RubberLaw::mooney_rivlin, 1}, {RubberLaw::gent, 1},
+      {RubberLaw::yeoh, 2},        {RubberLaw::yeoh, 3},          {RubberLaw::ogden, 1},
+      {RubberLaw::ogden, 2},       {RubberLaw::ogden, 3}};
+  return laws;
+}
+
+std::optional<LawChoice> law_named(std::string_view text) {
+  for (const LawChoice& law : known_laws())
+    if (name(law) == text) return law;
+  return std::nullopt;
+}
+
+std::vector<MaterialParameter> coefficients(const LawChoice& choice) {
+  using enum MaterialParameter;
+  const auto first = [&](std::vector<MaterialParameter> all, int count) {
+    all.resize(std::size_t(count));
+    return all;
+  };
+  switch (choice.law) {
+    case RubberLaw::yeoh: return first({yeoh_c1, yeoh_c2, yeoh_c3}, choice.terms);
+    case RubberLaw::mooney_rivlin: return {mooney_c10, mooney_c01};
+    case RubberLaw::ogden:
+      return first({ogden_mu1, ogden_alpha1, ogden_mu2, ogden_alpha2, ogden_mu3, ogden_alpha3},
+                   2 * choice.terms);
+    case RubberLaw::gent: return {shear_modulus, gent_jm};
+    default: return {shear_modulus};
+  }
+}
+
+SizedLaw sized_law(const LawChoice& choice, const VectorXd& c) {
+  SizedLaw law;
+  law.energy.law = choice.law;
+  law.energy.volumetric = meshes::VolumetricLaw::quadratic;
+  double& g = law.shear_modulus;
+  auto& shape = law.energy.shape;
+  const Index count = Index(coefficients(choice).size());
+  switch (choice.law) {
+    case RubberLaw::yeoh: g = 2.0 * c(0); break;
+    case RubberLaw::mooney_rivlin: g = 2.0 * (c(0) + c(1)); break;
+    case RubberLaw::ogden:
+      for (Index i = 0; i < count; i += 2) g += c(i);
+      break;
+    default: g = c(0);
+  }
+  if (!(g > 0.0) || !std::isfinite(g))
+    throw meshes::InvalidInput({"rubber.shear_modulus", meshes::to_text(g) + " Pa",
+                                "the coefficients must make a positive shear modulus",
+                                "give tests that reach small strain"});
+  if (choice.law == RubberLaw::yeoh)
+    for (Index i = 1; i < count; ++i) shape[std::size_t(i - 1)] = c(i) / g;
+  if (choice.law == RubberLaw::mooney_rivlin) shape[0] = 2.0 * c(1) / g;
+  if (choice.law == RubberLaw::ogden)
+    for (Index i = 0; i < count; ++i) shape[std::size_t(i)] = i % 2 == 0 ? c(i) / g : c(i);
+  if (choice.law == RubberLaw::gent) shape[0] = c(1);
+  return law;
+}
+
+double test_stress(const SizedLaw& law, TestKind kind, StressMeasure measure, double deformation) {
+  const auto response = principal_response(law.energy, principal_stretches(kind, deformation));
+  if (!std::isfinite(response.energy)) return std::numeric_limits<double>::infinity();
+  return law.shear_modulus * measured_stress(response.kirchhoff, kind, measure, deformation);
+}
+
+double mean_stress(double bulk_modulus, double volume_ratio) {
+  return bulk_modulus * (volume_ratio - 1.0);
+}
+
+LawModel::LawModel(MaterialTest test, std::vector<double> scales, LawChoice choice,
+                   std::vector<MaterialParameter> parameters)
+    : test_(std::move(test)),
+      scales_(std::move(scales)),
+      choice_(choice),
+      parameters_(std::move(parameters)) {}
+
+CurveSlopes LawModel::evaluate(const VectorXd& parameters) {
+  const Index points = Index(test_.deformation.size()), all = Index(parameters_.size());
+  const Index own = Index(coefficients(choice_).size());
+  const SizedLaw law = sized_law(choice_, parameters);
+  CurveSlopes result{VectorXd(points), Eigen::MatrixXd::Zero(points, all)};
+  for (Index p = 0; p < points; ++p) {
+    const double at = test_.deformation[std::size_t(p)];
+    double factor = 1.0 / scales_[std::size_t(p)];
+    if (test_.kind == TestKind::volumetric) {
+      if (all <= own)
+        throw meshes::InvalidInput({"test " + test_.name, "volumetric",
+                                    "an incompressible law says nothing of a volume",
+                                    "free the bulk modulus"});
+      result.value(p) = factor * mean_stress(parameters(own), at);
+      result.jacobian(p, own) = factor * mean_stress(1.0, at);
+      continue;
+    }
+    if (!test_.constraint.empty()) factor *= test_.constraint[std::size_t(p)];
+    const Three stretch = principal_stretches(test_.kind, at);
+    const double stress = test_stress(law, test_.kind, test_.measure, at);
+    if (!std::isfinite(stress))
+      throw meshes::NotConverged("the stretch " + meshes::to_text(at) +
+                                 " is beyond the limit of the gent law");
+    result.value(p) = factor * stress;
+    for (Index i = 0; i < own; ++i)
+      result.jacobian(p, i) =
+          factor * measured_stress(by_coefficient(choice_, parameters, i, stretch), test_.kind,
+                                   test_.measure, at);
+  }
+  return result;
+}
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,130 @@
+#include "calibration/material_tests/law_record.h"
+
+#include <cmath>
+#include <optional>
+
+#include "calibration/words.h"
+
+namespace fingertip::calibration {
+
+using meshes::unknown;
+
+namespace {
+
+ParameterEntry law_parameter(const LawFit& fit, std::size_t i) {
+  const Eigen::Index at = Eigen::Index(i);
+  ParameterEntry entry;
+  entry.name = name(fit.fit.parameters[i]);
+  entry.unit = unit(fit.fit.parameters[i]);
+  entry.estimate = fit.fit.estimates(at);
+  entry.standard_error = fit.fit.standard_errors(at);
+  entry.lower = fit.fit.lower(at);
+  entry.upper = fit.fit.upper(at);
+  entry.at_bound = fit.fit.at_bound[i];
+  return entry;
+}
+
+LawTestEntry law_test(const MaterialTest& test, const TestMisfit& misfit, const char* use) {
+  return {test.name,
+          std::string(name(test.kind)),
+          use,
+          misfit.points,
+          misfit.rms,
+          misfit.rms_relative,
+          misfit.largest_relative,
+          misfit.sum_of_squares,
+          misfit.within,
+          misfit.in_range,
+          {misfit.structure.runs, misfit.structure.probability, misfit.structure.statement}};
+}
+
+std::optional<InstabilityEntry> instability_entry(const std::optional<meshes::Instability>& at) {
+  if (!at) return std::nullopt;
+  return InstabilityEntry{std::string(name(at->test)), at->stretch};
+}
+
+std::vector<std::vector<double>> matrix_rows(const Eigen::MatrixXd& matrix) {
+  std::vector<std::vector<double>> rows;
+  for (const auto& row : matrix.rowwise()) rows.emplace_back(row.begin(), row.end());
+  return rows;
+}
+
+LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
+                   const std::vector<MaterialTest>& held_back) {
+  LawEntry entry;
+  entry.law = name(fit.choice);
+  entry.failure = fit.failure;
+  if (!fit.failure.empty()) return entry;
+  for (std::size_t i = 0; i < fit.fit.parameters.size(); ++i)
+    entry.parameters.push_back(law_parameter(fit, i));
+  entry.shear_modulus = fit.law.shear_modulus;
+  entry.aicc = fit.aicc;
+  entry.covariance = matrix_rows(fit.fit.covariance);
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    entry.tests.push_back(law_test(tests[i], fit.fitted[i], "fit"));
+  for (std::size_t i = 0; i < held_back.size(); ++i)
+    entry.tests.push_back(law_test(held_back[i], fit.predicted[i], "predict"));
+  entry.unstable_in_tests = instability_entry(fit.unstable_in_tests);
+  entry.unstable_in_use = instability_entry(fit.unstable_in_use);
+  entry.unstable_in_press = instability_entry(fit.unstable_in_press);
+  for (const Minimum& minimum : fit.fit.minima)
+    entry.minima.push_back({{minimum.estimates.begin(), minimum.estimates.end()},
+                            minimum.loss,
+                            minimum.iterations,
+                            minimum.converged});
+  entry.contradictions = fit.contradictions;
+  return entry;
+}
+
+}  // namespace
+
+LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<MaterialTest>& tests,
+                   const std::vector<MaterialTest>& held_back, TestWeights weights) {
+  LawsFile file;
+  file.problem = "material";
+  file.weights = name(weights);
+  const auto range = stretch_range(tests);
+  file.smallest_stretch = range[0];
+  file.largest_stretch = range[1];
+  for (const LawFit& fit : ranking) file.laws.push_back(law_entry(fit, tests, held_back));
+  const LawFit* best = recommended(ranking);
+  if (best == nullptr) {
+    file.statement = "No law could be fitted: " + ranking.front().failure;
+    return file;
+  }
+  file.recommended = name(best->choice);
+  file.statement = "Of " + std::to_string(ranking.size()) + " laws " +
+                   name(ranking.front().choice) + " has the least AICc";
+  file.statement +=
+      best == &ranking.front()
+          ? " and is taken."
+          : "; " + file.recommended + " is taken, being stable and its coefficients settled.";
+  for (std::size_t i = 0; i < held_back.size(); ++i)
+    file.statement += " It predicts " + held_back[i].name + " within " +
+                      rounded(100.0 * best->predicted[i].rms_relative, 3) + " % (rms), " +
+                      rounded(100.0 * best->predicted[i].largest_relative, 3) + " % at most.";
+  return file;
+}
+
+std::vector<LawDataRow> law_data(const std::vector<LawFit>& ranking,
+                                 const std::vector<MaterialTest>& tests,
+                                 const std::vector<MaterialTest>& held_back) {
+  std::vector<LawDataRow> rows;
+  for (const LawFit& fit : ranking) {
+    if (!fit.failure.empty()) continue;
+    const auto add = [&](const std::vector<MaterialTest>& from,
+                         const std::vector<TestMisfit>& misfits, const char* use) {
+      for (std::size_t t = 0; t < from.size(); ++t)
+        for (std::size_t i = 0; i < from[t].stress.size(); ++i) {
+          const double computed = misfits[t].stress[i];
+          rows.push_back({name(fit.choice), from[t].name, use, from[t].deformation[i],
+                          from[t].stress[i], std::isfinite(computed) ? computed : unknown});
+        }
+    };
+    add(tests, fit.fitted, "fit");
+    add(held_back, fit.predicted, "predict");
+  }
+  return rows;
+}
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,110 @@
+/// laws.json and the tables of a fit of laws to material tests. SI.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "calibration/fit_file.h"
+#include "calibration/material_tests/law_fit.h"
+#include "meshes/file_fields.h"
+#include "meshes/press_response.h"
+
+namespace fingertip::calibration {
+
+/// How a law meets a test; see TestMisfit.
+struct LawTestEntry {
+  std::string name, kind, use;  ///< use: fit or predict
+  std::size_t points = 0;
+  double rms = meshes::unknown, rms_relative = meshes::unknown, largest_relative = meshes::unknown,
+         sum_of_squares = meshes::unknown, within = meshes::unknown;
+  bool in_range = true;
+  StructureEntry structure;
+};
+constexpr auto fields_of(const LawTestEntry*) {
+  using meshes::named;
+  using Whole = LawTestEntry;
+  return named(
+      "name kind use points rms rms_relative largest_relative sum_of_squares within in_range "
+      "structure",
+      &Whole::name, &Whole::kind, &Whole::use, &Whole::points, &Whole::rms, &Whole::rms_relative,
+      &Whole::largest_relative, &Whole::sum_of_squares, &Whole::within, &Whole::in_range,
+      &Whole::structure);
+}
+
+/// Where a law stops being stable.
+struct InstabilityEntry {
+  std::string test;
+  double stretch = meshes::unknown;
+};
+constexpr auto fields_of(const InstabilityEntry*) {
+  using meshes::named;
+  using Whole = InstabilityEntry;
+  return named("test stretch", &Whole::test, &Whole::stretch);
+}
+
+/// A law of the ranking.
+struct LawEntry {
+  std::string law;
+  std::vector<ParameterEntry> parameters;
+  double shear_modulus = meshes::unknown, aicc = meshes::unknown;
+  std::vector<std::vector<double>> covariance;
+  std::vector<LawTestEntry> tests;
+  std::optional<InstabilityEntry> unstable_in_tests, unstable_in_use, unstable_in_press;
+  std::vector<MinimumEntry> minima;
+  std::vector<std::string> contradictions;
+  std::string failure;
+};
+constexpr auto fields_of(const LawEntry*) {
+  using meshes::named;
+  using Whole = LawEntry;
+  return named(
+      "law parameters shear_modulus aicc covariance tests unstable_in_tests unstable_in_use "
+      "unstable_in_press minima contradictions failure",
+      &Whole::law, &Whole::parameters, &Whole::shear_modulus, &Whole::aicc, &Whole::covariance,
+      &Whole::tests, &Whole::unstable_in_tests, &Whole::unstable_in_use, &Whole::unstable_in_press,
+      &Whole::minima, &Whole::contradictions, &Whole::failure);
+}
+
+/// laws.json.
+struct LawsFile {
+  std::string problem, weights, recommended;
+  double smallest_stretch = meshes::unknown, largest_stretch = meshes::unknown;
+  std::vector<LawEntry> laws;  ///< the least AICc first
+  std::string statement;
+};
+constexpr auto fields_of(const LawsFile*) {
+  using meshes::named;
+  using Whole = LawsFile;
+  return named("problem weights recommended smallest_stretch largest_stretch laws statement",
+               &Whole::problem, &Whole::weights, &Whole::recommended, &Whole::smallest_stretch,
+               &Whole::largest_stretch, &Whole::laws, &Whole::statement);
+}
+
+/// law_data.csv: a measured stress beside those of a law.
+struct LawDataRow {
+  std::string law, test, use;
+  double deformation = meshes::unknown, measured = meshes::unknown, computed = meshes::unknown;
+};
+constexpr auto fields_of(const LawDataRow*) {
+  using meshes::field;
+  using Row = LawDataRow;
+  return std::tuple{field("law", &Row::law),
+                    field("test", &Row::test),
+                    field("use", &Row::use),
+                    field("deformation", &Row::deformation),
+                    field("measured [Pa]", &Row::measured),
+                    field("computed [Pa]", &Row::computed)};
+}
+
+/// What the ranking says, as a file; `ranking` of rank_laws is not empty.
+LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<MaterialTest>& tests,
+                   const std::vector<MaterialTest>& held_back, TestWeights weights);
+
+/// Stresses of every law that has a fit, at the tests' deformations.
+std::vector<LawDataRow> law_data(const std::vector<LawFit>& ranking,
+                                 const std::vector<MaterialTest>& tests,
+                                 const std::vector<MaterialTest>& held_back);
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,62 @@
+#include "studies/config/law_card_keys.h"
+
+#include <cmath>
+
+#include "meshes/files.h"
+
+namespace fingertip::studies {
+
+using calibration::CardValue;
+using calibration::LawCard;
+using meshes::RubberLaw;
+
+namespace {
+
+std::string pascals(double value) {
+  return '"' + meshes::to_text(value) + " Pa\"";
+}
+
+std::string pascal_list(const std::vector<CardValue>& values) {
+  std::string list;
+  for (const CardValue& value : values) list += (list.empty() ? "" : ", ") + pascals(value.value);
+  return '[' + list + ']';
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> keys_of(const LawCard& card) {
+  const auto& c = card.coefficients;
+  std::vector<std::pair<std::string, std::string>> keys = {
+      {"rubber.law", '"' + std::string(name(card.choice.law)) + '"'}};
+  switch (card.choice.law) {
+    case RubberLaw::yeoh: keys.emplace_back("rubber.yeoh", pascal_list(c)); break;
+    case RubberLaw::mooney_rivlin: keys.emplace_back("rubber.mooney_rivlin", pascal_list(c)); break;
+    case RubberLaw::ogden: {
+      std::string list;
+      for (std::size_t i = 0; i + 1 < c.size(); i += 2)
+        list += (list.empty() ? "[" : ", [") + pascals(c[i].value) + ", " +
+                meshes::to_text(c[i + 1].value) + ']';
+      keys.emplace_back("rubber.ogden", '[' + list + ']');
+      break;
+    }
+    case RubberLaw::gent:
+      keys.emplace_back("rubber.gent_jm", meshes::to_text(c[1].value));
+      [[fallthrough]];
+    default: keys.emplace_back("rubber.shear_modulus", pascals(c[0].value));
+  }
+  if (card.bulk_modulus)
+    keys.emplace_back("rubber.bulk_modulus", pascals(card.bulk_modulus->value));
+  return keys;
+}
+
+std::vector<std::string> card_warnings(const LawCard& card, const LoadedConfig& loaded) {
+  const auto& press = loaded.config.press;
+  std::optional<std::array<double, 2>> used;
+  if (press.geometry.is_dome() && press.protocol.depth < press.geometry.thickness()) {
+    const double along = 1.0 - press.protocol.depth / press.geometry.thickness();
+    used = {along, 1.0 / std::sqrt(along)};
+  }
+  return calibration::warnings(card, used);
+}
+
+}  // namespace fingertip::studies

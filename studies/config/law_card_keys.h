@@ -1,0 +1,22 @@
+/// A card of a rubber's law as configuration keys.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibration/material_tests/law_card.h"
+#include "studies/config/loader.h"
+
+namespace fingertip::studies {
+
+/// Keys "rubber.yeoh" and their values as TOML literals, "[\"7.7e3 Pa\", ...]". Without a bulk
+/// modulus nothing is said of the volume.
+std::vector<std::pair<std::string, std::string>> keys_of(const calibration::LawCard& card);
+
+/// What to beware of where `loaded` uses the card; the mean stretch of the rubber above the
+/// contact, 1 - depth/thickness, stands for the stretches of a press on a dome.
+std::vector<std::string> card_warnings(const calibration::LawCard& card,
+                                       const LoadedConfig& loaded);
+
+}  // namespace fingertip::studies

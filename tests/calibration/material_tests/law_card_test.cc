@@ -1,0 +1,117 @@
+/// The card of a law: to the bits and back, and what is refused.
+#include "calibration/material_tests/law_card.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calibration/material.h"
+#include "meshes/errors.h"
+#include "tests/temporary_folder.h"
+
+using namespace fingertip;
+using namespace fingertip::calibration;
+
+namespace {
+
+LawCard ogden_card() {
+  LawCard card;
+  card.choice = {meshes::RubberLaw::ogden, 2};
+  card.coefficients = {{1234.5678901234567, 1200.0, 1270.0},
+                       {2.1, 2.0, 2.2},
+                       {77.7, std::nan(""), std::nan("")},
+                       {-3.3, -3.5, -3.1}};
+  card.bulk_modulus = CardValue{2e6, 1.9e6, 2.1e6};
+  card.tested = {0.4, 2.5};
+  card.rates = {0.005, 0.2};
+  card.tests = {{"pull \"fast\"", TestKind::uniaxial, true, 12, 0.01, 0.02},
+                {"sheet", TestKind::planar, false, 7, 0.1, 0.2}};
+  card.contradictions = {"one", "a second \\ one"};
+  card.material = "silicone";
+  card.provenance = "a.csv (SHA-256 00)";
+  card.statement = "What it is.";
+  return card;
+}
+
+class Cards : public testing::Test {
+ protected:
+  std::filesystem::path file() const { return folder_ / "material.toml"; }
+  void expect_refused(const std::string& from, const std::string& to, const std::string& part) {
+    write_law_card(ogden_card(), file());
+    std::string text = read_text(file());
+    const auto at = text.find(from);
+    ASSERT_NE(at, text.npos) << from;
+    write_text(file(), text.replace(at, from.size(), to));
+    try {
+      read_law_card(file());
+      ADD_FAILURE() << "accepted: " << to;
+    } catch (const meshes::InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("material.toml"), std::string::npos);
+    }
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Cards, ReadBackToTheSameBits) {
+  const LawCard written = ogden_card();
+  write_law_card(written, file());
+  const LawCard read = read_law_card(file());
+  EXPECT_EQ(read.choice, written.choice);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(read.coefficients[i].value, written.coefficients[i].value);
+  EXPECT_EQ(read.coefficients[0].upper, 1270.0);
+  EXPECT_TRUE(std::isnan(read.coefficients[2].lower));
+  EXPECT_EQ(read.bulk_modulus->lower, 1.9e6);
+  EXPECT_EQ(read.tested, written.tested);
+  EXPECT_EQ(read.rates, written.rates);
+  ASSERT_EQ(read.tests.size(), 2u);
+  EXPECT_EQ(read.tests[0].name, "pull \"fast\"");
+  EXPECT_FALSE(read.tests[1].fitted);
+  EXPECT_EQ(read.contradictions, written.contradictions);
+  EXPECT_EQ(read.statement, "What it is.");
+  const std::string text = read_text(file());
+  write_law_card(read, file());
+  EXPECT_EQ(read_text(file()), text);
+}
+
+TEST_F(Cards, RefusalsNameFileAndKey) {
+  expect_refused("name = \"ogden-2\"", "name = \"ogden-9\"", "must be one of neo-hookean");
+  expect_refused("name = \"ogden-2\"", "name = \"yeoh-2\"", "yeoh_c1");
+  expect_refused("1234.5678901234567 Pa", "1234.5678901234567 kPa", "the unit Pa");
+  expect_refused("1234.5678901234567 Pa", "-1e5 Pa", "positive shear modulus");
+  expect_refused("ogden_alpha1 = 2.1", "ogden_alpha1 = 0.0", "exponents must not be 0");
+  expect_refused("ogden_alpha1 = 2.1", "ogden_alpha1 = \"x\"", "ogden_alpha1");
+  expect_refused("largest_stretch = 2.5", "largest_stretch = 0.9", "holds 1");
+  expect_refused("kind = \"planar\"", "kind = \"bent\"", "a test has name, kind");
+  expect_refused("material = ", "matrial = ", "no such key");
+  expect_refused("slowest_rate = \"0.005 1/s\"", "slowest_rate = \"5 1/s\"", "in order");
+  expect_refused("statement = ", "#statement = ", "about.statement");
+}
+
+TEST_F(Cards, LatticeAndLawPointAtEachOther) {
+  write_law_card(ogden_card(), file());
+  try {
+    read_material_toml(file());
+    ADD_FAILURE();
+  } catch (const meshes::InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("rubber.card"), std::string::npos);
+  }
+  write_text(file(), "[lattice]\nmodel = \"hookean\"\n");
+  try {
+    read_law_card(file());
+    ADD_FAILURE();
+  } catch (const meshes::InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("lattice.constants"), std::string::npos);
+  }
+}
+
+TEST_F(Cards, AUseBeyondTheTestsIsTold) {
+  const LawCard card = ogden_card();
+  EXPECT_EQ(warnings(card, std::array{0.5, 1.4}).size(), 2u);  // the contradictions
+  const auto beyond = warnings(card, std::array{0.2, 1.4});
+  ASSERT_EQ(beyond.size(), 3u);
+  EXPECT_NE(beyond[0].find("it is a guess"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,197 @@
+/// Fits of laws to synthetic tests: recovery, intervals, what stays open, ranking, refusals.
+#include "calibration/material_tests/law_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "meshes/errors.h"
+
+using namespace fingertip;
+using namespace fingertip::calibration;
+using Eigen::VectorXd;
+using meshes::RubberLaw;
+
+namespace {
+
+VectorXd vector_of(std::initializer_list<double> values) {
+  return VectorXd::Map(values.begin(), Eigen::Index(values.size()));
+}
+
+const LawChoice neo{RubberLaw::neo_hookean, 1}, yeoh{RubberLaw::yeoh, 3},
+    mooney{RubberLaw::mooney_rivlin, 1}, gent{RubberLaw::gent, 1}, ogden2{RubberLaw::ogden, 2};
+const VectorXd yeoh_rubber = vector_of({15e3, -0.2e3, 0.06e3});
+const VectorXd ogden_rubber = vector_of({12e3, 1.6, 3e3, -3.0});
+
+/// A normal number; the library's own would differ between systems.
+double normal(std::mt19937& random) {
+  double sum = -6.0;
+  for (int i = 0; i < 12; ++i) sum += double(random()) / double(std::mt19937::max());
+  return sum;
+}
+
+/// `points` between `from` and `to`, with noise of deviation `noise` [Pa].
+MaterialTest made(const LawChoice& choice, const VectorXd& coefficients, TestKind kind, double from,
+                  double to, int points, double noise = 0.0, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  MaterialTest test;
+  test.name = std::string(name(kind));
+  test.kind = kind;
+  const SizedLaw law = sized_law(choice, coefficients);
+  for (int i = 0; i < points; ++i) {
+    test.deformation.push_back(from + (to - from) * i / (points - 1));
+    const double stress = kind == TestKind::volumetric
+                              ? mean_stress(2e6, test.deformation.back())
+                              : test_stress(law, kind, test.measure, test.deformation.back());
+    test.stress.push_back(stress + noise * normal(random));
+  }
+  return test;
+}
+
+void expect_estimates(const LawFit& fit, const VectorXd& expected, double relative) {
+  ASSERT_EQ(fit.fit.estimates.size(), expected.size()) << fit.failure;
+  for (Eigen::Index i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(fit.fit.estimates(i), expected(i), relative * std::abs(expected(i))) << i;
+}
+
+TEST(LawFit, RecoversEveryLawFromItsOwnStresses) {
+  const std::vector<std::pair<LawChoice, VectorXd>> laws = {{neo, vector_of({20e3})},
+                                                            {yeoh, yeoh_rubber},
+                                                            {mooney, vector_of({8e3, 2e3})},
+                                                            {gent, vector_of({20e3, 30.0})},
+                                                            {ogden2, ogden_rubber}};
+  for (const auto& [law, coefficients] : laws)
+    for (const TestWeights weights : values(TestWeights())) {
+      LawFitOptions options;
+      options.weights = weights;
+      const LawFit fit = fit_law({made(law, coefficients, TestKind::uniaxial, 0.5, 3.0, 26),
+                                  made(law, coefficients, TestKind::planar, 1.1, 2.5, 15)},
+                                 law, options);
+      SCOPED_TRACE(name(law) + " " + std::string(name(weights)));
+      ASSERT_TRUE(fit.fit.converged);
+      if (law == ogden2 && fit.fit.estimates(1) < fit.fit.estimates(3)) {
+        expect_estimates(
+            fit, vector_of({coefficients(2), coefficients(3), coefficients(0), coefficients(1)}),
+            1e-4);
+      } else {
+        expect_estimates(fit, coefficients, 1e-4);
+      }
+      EXPECT_LT(fit.fitted[0].rms_relative, 1e-6);
+      EXPECT_FALSE(fit.unstable_in_tests);
+    }
+}
+
+TEST(LawFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  int inside = 0, all = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const LawFit fit =
+        fit_law({made(yeoh, yeoh_rubber, TestKind::uniaxial, 0.6, 3.0, 25, 400.0, seed)}, yeoh);
+    for (Eigen::Index i = 0; i < 3; ++i, ++all)
+      if (yeoh_rubber(i) >= fit.fit.lower(i) && yeoh_rubber(i) <= fit.fit.upper(i)) ++inside;
+  }
+  // 180 intervals, three of a fit hanging together: 0.95 +- 3 standard errors of 60 trials.
+  EXPECT_GT(double(inside) / all, 0.87);
+}
+
+TEST(LawFit, APredictionsIntervalHoldsAFurtherMeasurement) {
+  int inside = 0, all = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const LawFit fit =
+        fit_law({made(yeoh, yeoh_rubber, TestKind::uniaxial, 0.6, 3.0, 40, 300.0, seed)}, yeoh);
+    const TestMisfit again =
+        predict(fit, made(yeoh, yeoh_rubber, TestKind::uniaxial, 0.6, 3.0, 40, 300.0, 1000 + seed));
+    inside += int(std::lround(40 * again.within));
+    all += 40;
+    EXPECT_TRUE(again.in_range);
+  }
+  EXPECT_NEAR(double(inside) / all, 0.95, 0.03);
+}
+
+TEST(LawFit, TheTrueLawRanksFirstAndAnotherTellsItsResiduals) {
+  const auto ranking =
+      rank_laws({made(yeoh, yeoh_rubber, TestKind::uniaxial, 0.6, 4.0, 50, 200.0)},
+                {made(yeoh, yeoh_rubber, TestKind::equibiaxial, 1.1, 2.0, 10)}, known_laws());
+  ASSERT_EQ(ranking.size(), known_laws().size());
+  EXPECT_EQ(name(ranking.front().choice), "yeoh-3");
+  EXPECT_EQ(recommended(ranking), &ranking.front());
+  EXPECT_LT(ranking.front().predicted[0].rms_relative, 0.02);
+  for (const LawFit& fit : ranking) {
+    ASSERT_TRUE(fit.failure.empty()) << name(fit.choice) << fit.failure;
+    if (fit.choice != neo) continue;
+    ASSERT_FALSE(fit.contradictions.empty());
+    EXPECT_NE(fit.contradictions[0].find("the model misses something"), std::string::npos);
+  }
+}
+
+TEST(LawFit, OneTestCannotTellMooneysCoefficientsApartAsWellAsTwo) {
+  const VectorXd c = vector_of({8e3, 2e3});
+  const auto tension = made(mooney, c, TestKind::uniaxial, 1.05, 1.4, 20, 60.0);
+  const auto biaxial = made(mooney, c, TestKind::equibiaxial, 1.05, 1.4, 20, 60.0, 7);
+  const LawFit one = fit_law({tension}, mooney), both = fit_law({tension, biaxial}, mooney);
+  EXPECT_GT(std::abs(one.fit.correlation(0, 1)), 0.995);
+  ASSERT_FALSE(one.contradictions.empty());
+  EXPECT_NE(one.contradictions[0].find("mooney_c"), std::string::npos) << one.contradictions[0];
+  EXPECT_LT(both.fit.standard_errors(1), 0.3 * one.fit.standard_errors(1));
+}
+
+TEST(LawFit, ABulkModulusComesFromAVolumetricTestAlone) {
+  const auto tension = made(neo, vector_of({20e3}), TestKind::uniaxial, 0.8, 1.5, 12);
+  const auto pressed = made(neo, vector_of({20e3}), TestKind::volumetric, 0.98, 0.999, 8);
+  EXPECT_FALSE(fit_law({tension}, neo).bulk_modulus);
+  const LawFit fit = fit_law({tension, pressed}, neo);
+  ASSERT_TRUE(fit.bulk_modulus);
+  EXPECT_NEAR(*fit.bulk_modulus, 2e6, 1.0);
+  EXPECT_NEAR(rubber_of(fit, 0.49).bulk_modulus(), 2e6, 10.0);
+  EXPECT_NEAR(rubber_of(fit_law({tension}, neo), 0.49).poissons_ratio(), 0.49, 1e-9);
+}
+
+TEST(LawFit, AFactorOnTheForceOfStuckPlatesIsTakenOut) {
+  MaterialTest stuck = made(neo, vector_of({20e3}), TestKind::uniaxial, 0.6, 0.95, 12);
+  for (std::size_t i = 0; i < stuck.stress.size(); ++i) {
+    stuck.constraint.push_back(1.1 + 0.01 * double(i));
+    stuck.stress[i] *= stuck.constraint.back();
+  }
+  expect_estimates(fit_law({stuck}, neo), vector_of({20e3}), 1e-9);
+}
+
+TEST(LawFit, UnstableCoefficientsAreToldWithTheirStretch) {
+  const LawFit fit = fit_law(
+      {made({RubberLaw::yeoh, 2}, vector_of({15e3, -2e3}), TestKind::uniaxial, 1.02, 2.6, 20)},
+      {RubberLaw::yeoh, 2});
+  ASSERT_TRUE(fit.unstable_in_tests);
+  // W'(I1) = C1 + 2 C2 (I1 - 3) is still positive; the tangent is not, from 0.735 biaxially on,
+  // which is a tension of 0.735^-2 = 1.85.
+  EXPECT_NEAR(fit.unstable_in_tests->stretch, 0.735, 0.001);
+  EXPECT_NE(fit.contradictions[0].find("unstable (Drucker) from the stretch"), std::string::npos);
+  EXPECT_FALSE(rubber_of(fit, 0.49).energy.violations().empty());
+}
+
+TEST(LawFit, RefusesWhatCannotBeFitted) {
+  const auto good = made(neo, vector_of({20e3}), TestKind::uniaxial, 0.8, 1.5, 5);
+  const auto refused = [&](auto change) {
+    MaterialTest test = good;
+    change(test);
+    EXPECT_THROW(fit_law({test}, neo), meshes::InvalidInput);
+  };
+  refused([](MaterialTest& t) { t.deformation[1] = t.deformation[0]; });
+  refused([](MaterialTest& t) { t.deformation[0] = -0.1; });
+  refused([](MaterialTest& t) { t.deformation[4] = 120.0; });
+  refused([](MaterialTest& t) { t.stress[2] = std::nan(""); });
+  refused([](MaterialTest& t) { t.stress.pop_back(); });
+  refused([](MaterialTest& t) { t.sigma = {1.0, 1.0, 0.0, 1.0, 1.0}; });
+  refused([](MaterialTest& t) { t.rate = 0.0; });
+  refused([](MaterialTest& t) {
+    for (double& stress : t.stress) stress = -stress;  // pulled when compressed
+  });
+  refused([](MaterialTest& t) { t.kind = TestKind::volumetric; });
+  EXPECT_THROW(fit_law({}, neo), meshes::InvalidInput);
+  EXPECT_THROW(fit_law({made(neo, vector_of({20e3}), TestKind::uniaxial, 0.8, 1.5, 3)}, yeoh),
+               meshes::InvalidInput);
+  const auto ranking =
+      rank_laws({made(neo, vector_of({2e4}), TestKind::uniaxial, 0.8, 1.5, 3)}, {}, {yeoh, neo});
+  EXPECT_EQ(ranking.front().choice, neo);
+  EXPECT_NE(ranking.back().failure.find("more points"), std::string::npos);
+}
+
+}  // namespace
