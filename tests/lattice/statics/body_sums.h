@@ -41,6 +41,17 @@ inline Matrix3d mean_gradient(const MeanCell& cell, const VectorXd& u) {
   return H;
 }
 
+/// What edges' gradients differ by, times the fibres' share; of cells that hold their fibres.
+inline double edge_variance(const MeanCell& cell, const VectorXd& u) {
+  double sum = 0.0;
+  for (int m = 0; m < 4; ++m) {
+    Vector3 mode = Vector3::Zero();
+    for (int c = 0; c < 8; ++c) mode += cell.modes(m, c) * at(u, cell.corners[std::size_t(c)]);
+    sum += mode.squaredNorm();
+  }
+  return sum;
+}
+
 inline Vector3 displacement(const EmbeddedPoint& point, const VectorXd& u) {
   Vector3 sum = Vector3::Zero();
   for (std::size_t c = 0; c < 8; ++c) sum += point.weights[c] * at(u, point.corners[c]);
@@ -67,7 +78,7 @@ inline double elastic_energy(const LatticeBody& body, const VectorXd& u) {
     });
   }
   for (const MeanCell& cell : body.cells) {
-    sum += cell.volume * body.law.energy(mean_gradient(cell, u));
+    sum += cell.volume * body.law.energy(mean_gradient(cell, u), edge_variance(cell, u));
   }
   return sum;
 }

@@ -34,23 +34,39 @@ lattice::LatticeSettings settings_for(ModelKind model, Kinematics kinematics) {
   return settings;
 }
 
-/// Runs `check(settings, label)` for the models made of cells, in both kinematics.
+struct Model : lattice::LatticeSettings {
+  meshes::Rubber rubber;
+};
+
+/// Runs `check(model)` for the models made of cells, in both kinematics, and for laws of large
+/// strain whose cells hold their fibres.
 template <typename Check>
 void for_all_models(const Check& check) {
   for (const ModelKind model : {ModelKind::central, ModelKind::hookean, ModelKind::network}) {
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite}) {
       SCOPED_TRACE(std::string(name(model)) + ", " + std::string(name(kinematics)));
-      check(settings_for(model, kinematics));
+      check(Model{settings_for(model, kinematics), {}});
     }
+  }
+  using meshes::RubberLaw, meshes::VolumetricLaw;
+  for (const meshes::StrainEnergy& energy : std::initializer_list<meshes::StrainEnergy>{
+           {RubberLaw::yeoh, VolumetricLaw::logarithmic, {0.1, 0.02}},
+           {RubberLaw::mooney_rivlin, VolumetricLaw::quadratic, {0.3}},
+           {RubberLaw::ogden, VolumetricLaw::quadratic, {0.8, 1.3, 0.2, 5.0}},
+           {RubberLaw::gent, VolumetricLaw::isochoric_logarithmic, {20.0}}}) {
+    SCOPED_TRACE(describe(energy));
+    Model model{settings_for(ModelKind::network, Kinematics::finite), {}};
+    model.rubber.energy = energy;
+    check(model);
   }
 }
 
-LatticeBody quarter_tip(const lattice::LatticeSettings& settings) {
-  return build_cut_tip({}, {}, settings, 4);
+LatticeBody quarter_tip(const Model& model) {
+  return build_cut_tip({}, model.rubber, model, 4);
 }
 
-LatticeBody block(const lattice::LatticeSettings& settings) {
-  return build_free_block({}, settings, {3, 2, 2});
+LatticeBody block(const Model& model) {
+  return build_free_block(model.rubber, model, {3, 2, 2});
 }
 
 VectorXd random_displacement(const LatticeBody& body, double amplitude, unsigned seed) {
@@ -177,7 +193,7 @@ TEST(ElasticSystem, InternalForcesBalance) {
 }
 
 TEST(ElasticSystem, EmbeddedPointsAddTheirBlockToTheTangent) {
-  const LatticeBody body = quarter_tip(settings_for(ModelKind::hookean, Kinematics::small));
+  const LatticeBody body = quarter_tip({settings_for(ModelKind::hookean, Kinematics::small), {}});
   const ElasticSystem system(body);
   Matrix3d block;
   block << 3.0, 0.5, -0.2, 0.5, 2.0, 0.7, -0.2, 0.7, 4.0;
@@ -196,7 +212,7 @@ TEST(ElasticSystem, EmbeddedPointsAddTheirBlockToTheTangent) {
 }
 
 TEST(ElasticSystem, CellsTurnedInsideOutAreNoted) {
-  const LatticeBody body = block(settings_for(ModelKind::network, Kinematics::finite));
+  const LatticeBody body = block({settings_for(ModelKind::network, Kinematics::finite), {}});
   const ElasticSystem system(body);
   const auto stretched = [&](double by) {
     return on_particles(body, [by](const Vector3& x) -> Vector3 { return {0.0, 0.0, by * x.z()}; });
@@ -206,6 +222,6 @@ TEST(ElasticSystem, CellsTurnedInsideOutAreNoted) {
   EXPECT_EQ(system.energy(stretched(-1.2)), std::numeric_limits<double>::infinity());
   EXPECT_THROW(force_of(system, stretched(-1.2)), meshes::NotConverged);
   EXPECT_FALSE(system.linear());
-  const LatticeBody small = block(settings_for(ModelKind::network, Kinematics::small));
+  const LatticeBody small = block({settings_for(ModelKind::network, Kinematics::small), {}});
   EXPECT_TRUE(ElasticSystem(small).linear());
 }

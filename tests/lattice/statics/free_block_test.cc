@@ -153,6 +153,28 @@ TEST(FreeBlock, FiniteNetworkStoresLawA) {
   }
 }
 
+TEST(FreeBlock, CellsOfLargeStrainStoreTheirLaw) {
+  using meshes::RubberLaw, meshes::VolumetricLaw;
+  for (const meshes::StrainEnergy& energy : std::initializer_list<meshes::StrainEnergy>{
+           {RubberLaw::yeoh, VolumetricLaw::logarithmic, {0.1, 0.02}},
+           {RubberLaw::mooney_rivlin, VolumetricLaw::quadratic, {0.3}},
+           {RubberLaw::ogden, VolumetricLaw::quadratic, {0.8, 1.3, 0.2, 5.0}},
+           {RubberLaw::gent, VolumetricLaw::isochoric_logarithmic, {20.0}}}) {
+    meshes::Rubber rubber = rubber_with(0.45);
+    rubber.energy = energy;
+    auto settings = settings_for(ModelKind::network, Kinematics::finite, rubber);
+    settings.axes = skew_axes();
+    for (const auto& cells : blocks) {
+      const Matrix3d H = some_gradient(0.4);
+      const double exact =
+          volume_of(cells) * meshes::HyperelasticLaw(rubber).energy(Matrix3d::Identity() + H);
+      EXPECT_NEAR(energy_of(lattice::build_free_block(rubber, settings, cells), H) / exact, 1.0,
+                  1e-12)
+          << describe(energy);
+    }
+  }
+}
+
 TEST(FreeBlock, FiniteCentralSpringsStoreTheInfiniteLatticesEnergy) {
   const meshes::Rubber rubber;
   const Matrix3d H = some_gradient(0.4);
