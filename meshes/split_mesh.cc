@@ -17,8 +17,8 @@ namespace fingertip::meshes {
 namespace {
 
 /// Edges of tetrahedra in units of the thinnest rubber, and of the radius, over
-/// TipMeshOptions::radial_elements: of the default dome, as many unknowns as its blocks.
-constexpr double size_over_wall = 3.6, size_over_radius = 1.8;
+/// TipMeshOptions::radial_elements: the whole dome starts with some 50 000 unknowns.
+constexpr double size_over_wall = 4.0, size_over_radius = 2.4;
 /// How fast edges may grow away from the place that touches first.
 constexpr double growth = 0.5;
 /// Distance of the tetrahedra's surface from the finger's, over the size.
