@@ -68,8 +68,8 @@ PlateFactor plate_factor(const Plates& plates, const SizedLaw& law, const std::s
   const auto folders = context.run_all({{place, reference_job(job)}});
   const double area = 0.25 * std::numbers::pi * plates.diameter * plates.diameter;
   PlateFactor found;
-  for (const auto& sample :
-       meshes::PressResponse::read_csv(folders.front() / "response.csv").samples()) {
+  const auto response = meshes::PressResponse::read_csv(folders.front() / "response.csv");
+  for (const meshes::PressSample& sample : response.samples()) {
     const double stretch = 1.0 - sample.indentation / plates.height;
     const double slipping = -area * test_stress(law, calibration::TestKind::uniaxial,
                                                 calibration::StressMeasure::nominal, stretch);
