@@ -221,7 +221,8 @@ void put_warnings(const std::filesystem::path& folder, const std::vector<std::st
 int run_press(const CommandLine& line) {
   LoadedConfig loaded = with_material(load_checked(line), LatticeUse::press);
   const lattice::PressSetup setup = press_setup(loaded);
-  for (const std::string& note : scaling_notes(setup)) loaded.notes.push_back(note);
+  for (const auto& notes : {law_notes(setup), scaling_notes(setup)})
+    loaded.notes.insert(loaded.notes.end(), notes.begin(), notes.end());
   const std::vector<std::string> warnings = loaded.notes;
   if (const auto note = duration_note(setup, cores_for(loaded))) loaded.notes.push_back(*note);
   if (line.movie > 0 && setup.protocol.mode == meshes::DriveMode::equilibrium) {

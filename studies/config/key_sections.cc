@@ -37,7 +37,7 @@ constexpr auto job = [](auto member) { return at(&Config::reference, member); };
 const std::vector<Section>& sections() {
   static const std::vector<Section> all = {
       {"geometry", "The finger: rigid rod inside a rubber tip (paper, Fig. 1)"},
-      {"rubber", "The tip's material: linear, isotropic"},
+      {"rubber", "The tip's material: isotropic, at small and at large strain"},
       {"rod", "The rigid rod"},
       {"lattice", "The mass-spring model of the tip"},
       {"press", "What is done to the finger"},

@@ -77,6 +77,19 @@ double pressing_time(const PressSetup& setup, double step, double cost, int thre
 
 }  // namespace
 
+std::vector<std::string> law_notes(const PressSetup& setup) {
+  const lattice::LatticeSettings& lattice = setup.lattice;
+  if (setup.rubber.energy == meshes::StrainEnergy() ||
+      (lattice.model == lattice::ModelKind::network &&
+       lattice.kinematics == lattice::Kinematics::finite))
+    return {};
+  return {fmt::format(
+      "rubber.law = {}: lattice.model = {} at {} strain knows E and G alone; lattice.model = "
+      "network takes the law",
+      meshes::describe(setup.rubber.energy), lattice::name(lattice.model),
+      lattice::name(lattice.kinematics))};
+}
+
 std::vector<std::string> scaling_notes(const PressSetup& setup) {
   if (setup.integrator != Integrator::mass_scaled ||
       setup.protocol.mode == meshes::DriveMode::equilibrium)

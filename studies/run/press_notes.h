@@ -9,6 +9,9 @@
 
 namespace fingertip::studies {
 
+/// That a law of large strain has no say where the lattice knows E and G alone.
+std::vector<std::string> law_notes(const lattice::PressSetup& setup);
+
 /// Where scaled masses change the force by more than lattice::tolerated_deviation, by how much and
 /// what would not; and that plain masses are pressed where scaled ones do not serve.
 std::vector<std::string> scaling_notes(const lattice::PressSetup& setup);

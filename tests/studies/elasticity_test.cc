@@ -89,7 +89,10 @@ TEST(Elasticity, ResolvedParametersAreTheSameRubber) {
       {"rubber.poissons_ratio=0.3"},
       {"rubber.shore_hardness=30"},
       {"rubber.shore_hardness=30", "rubber.shear_modulus=390 kPa"},
-      {"rubber.shear_modulus=115 kPa", "rubber.poissons_ratio=0.3"}};
+      {"rubber.shear_modulus=115 kPa", "rubber.poissons_ratio=0.3"},
+      {"rubber.shear_modulus=115 kPa", "rubber.bulk_modulus=3 MPa"},
+      {"rubber.law=yeoh", "rubber.yeoh=[\"2 kPa\", \"0.2 kPa\"]", "rubber.bulk_modulus=3 MPa"},
+      {"rubber.law=ogden", "rubber.ogden=[[\"6 kPa\", 1.3], [\"2 kPa\", -2]]"}};
   for (const auto& sets : given) {
     const TemporaryFolder folder;
     const LoadedConfig first = with(sets);
@@ -97,10 +100,67 @@ TEST(Elasticity, ResolvedParametersAreTheSameRubber) {
     const LoadedConfig second = load_config({folder / "parameters.toml", {}, {}});
     EXPECT_EQ(first.config.press.rubber.youngs_modulus, second.config.press.rubber.youngs_modulus);
     EXPECT_EQ(first.config.press.rubber.shear_modulus, second.config.press.rubber.shear_modulus);
+    EXPECT_EQ(first.config.press.rubber.energy, second.config.press.rubber.energy);
     // A further setting finds what was given, and nothing that was derived.
     const Rubber deeper = first.with({"press.depth=1 mm"}).config.press.rubber;
     EXPECT_EQ(first.config.press.rubber.shear_modulus, deeper.shear_modulus);
   }
+}
+
+TEST(Elasticity, ABulkModulusStandsForPoissonsRatio) {
+  const Rubber truth = rubber({"rubber.youngs_modulus=343 kPa", "rubber.shear_modulus=120 kPa"});
+  const std::string K = "rubber.bulk_modulus=" + std::to_string(truth.bulk_modulus()) + " Pa";
+  const std::string nu = "rubber.poissons_ratio=" + std::to_string(truth.poissons_ratio());
+  for (const std::string& other : {std::string("rubber.youngs_modulus=343 kPa"),
+                                   std::string("rubber.shear_modulus=120 kPa"), nu}) {
+    const Rubber found = rubber({other, K});
+    EXPECT_NEAR(found.youngs_modulus / 343e3, 1.0, 1e-4) << other;
+    EXPECT_NEAR(found.shear_modulus / 120e3, 1.0, 1e-4) << other;
+  }
+  EXPECT_NE(refusal({"rubber.youngs_modulus=343 kPa", "rubber.bulk_modulus=30 kPa"}), "");
+  EXPECT_NE(refusal({"rubber.youngs_modulus=343 kPa", "rubber.shear_modulus=120 kPa", K}), "");
+}
+
+TEST(Elasticity, CoefficientsTellTheShearModulusAndTheLaw) {
+  using fingertip::meshes::RubberLaw;
+  const auto yeoh = rubber({"rubber.law=yeoh", "rubber.yeoh=[\"2 kPa\", \"0.2 kPa\"]"});
+  EXPECT_EQ(yeoh.energy.law, RubberLaw::yeoh);
+  EXPECT_NEAR(yeoh.shear_modulus, 4e3, 1e-9);
+  EXPECT_NEAR(yeoh.poissons_ratio(), 0.49, 1e-12);
+  EXPECT_NEAR(yeoh.energy.shape[0], 0.05, 1e-12);
+  const auto mooney =
+      rubber({"rubber.law=mooney-rivlin", "rubber.mooney_rivlin=[\"3 kPa\", \"1 kPa\"]",
+              "rubber.poissons_ratio=0.45"});
+  EXPECT_NEAR(mooney.shear_modulus, 8e3, 1e-9);
+  EXPECT_NEAR(mooney.poissons_ratio(), 0.45, 1e-12);
+  EXPECT_NEAR(mooney.energy.shape[0], 0.25, 1e-12);
+  const auto ogden = rubber({"rubber.law=ogden", "rubber.ogden=[[\"6 kPa\", 1.3], [\"2 kPa\", -2]]",
+                             "rubber.bulk_modulus=2 MPa"});
+  EXPECT_NEAR(ogden.shear_modulus, 8e3, 1e-9);
+  EXPECT_NEAR(ogden.bulk_modulus(), 2e6, 1.0);
+  EXPECT_NEAR(ogden.energy.shape[0], 0.75, 1e-12);
+  EXPECT_NEAR(ogden.energy.shape[3], -2.0, 1e-12);
+  const auto gent =
+      rubber({"rubber.law=gent", "rubber.gent_jm=9.0", "rubber.youngs_modulus=12 kPa"});
+  EXPECT_NEAR(gent.energy.shape[0], 9.0, 1e-12);
+}
+
+TEST(Elasticity, LawsWithoutTheirCoefficientsAreRefused) {
+  const auto holds = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(holds(refusal({"rubber.law=yeoh"}), "needs its coefficients"));
+  EXPECT_TRUE(holds(refusal({"rubber.law=gent"}), "rubber.gent_jm"));
+  EXPECT_TRUE(holds(refusal({"rubber.law=mooney-rivlin", "rubber.mooney_rivlin=[\"3 kPa\"]"}),
+                    "two coefficients"));
+  EXPECT_TRUE(holds(refusal({"rubber.law=ogden", "rubber.ogden=[[\"6 kPa\"]]"}), "pairs"));
+  EXPECT_TRUE(
+      holds(refusal({"rubber.law=yeoh", "rubber.yeoh=[\"2 kPa\"]", "rubber.shear_modulus=4 kPa"}),
+            "the coefficients tell the stiffness"));
+  EXPECT_TRUE(holds(refusal({"rubber.law=yeoh", "rubber.yeoh=[\"2 kPa\", \"-0.3 kPa\"]"}),
+                    "fails at 0.747"));
+  EXPECT_TRUE(holds(refusal({"rubber.law=gent", "rubber.gent_jm=9.0", "reference.law=B"}),
+                    "rubber.volumetric"));
 }
 
 TEST(Elasticity, BlanksAroundTheEqualsSignDoNotMatter) {

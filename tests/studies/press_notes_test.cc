@@ -25,6 +25,17 @@ bool holds(const std::string& text, const std::string& part) {
 
 }  // namespace
 
+TEST(PressNotes, ALawThatHasNoSayIsTold) {
+  const std::vector<std::string> gent = {"rubber.law=gent", "rubber.gent_jm=9.0"};
+  const auto notes = law_notes(setup_of(gent));
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(holds(notes[0], "gent, logarithmic")) << notes[0];
+  auto network = gent;
+  network.emplace_back("lattice.model=network");
+  EXPECT_TRUE(law_notes(setup_of(network)).empty());
+  EXPECT_TRUE(law_notes(setup_of({})).empty());
+}
+
 TEST(PressNotes, FastPressesWithLongStepsAreTold) {
   const std::string note = note_on({"press.speed=20 cm/s", "run.time_step=1 ms"});
   EXPECT_TRUE(holds(note, "scaled masses at steps of 1 ms")) << note;
