@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "meshes/boundary_parts.h"
 #include "meshes/meridian_mesh.h"
+#include "meshes/shape.h"
 
 namespace fingertip::meshes {
 namespace {
