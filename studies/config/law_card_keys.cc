@@ -52,8 +52,10 @@ std::vector<std::pair<std::string, std::string>> keys_of(const LawCard& card) {
 std::vector<std::string> card_warnings(const LawCard& card, const LoadedConfig& loaded) {
   const auto& press = loaded.config.press;
   std::optional<std::array<double, 2>> used;
-  if (press.geometry.is_dome() && press.protocol.depth < press.geometry.thickness()) {
-    const double along = 1.0 - press.protocol.depth / press.geometry.thickness();
+  const auto& samples = press.protocol.samples;
+  const double depth = samples.empty() ? press.protocol.depth : samples.back();
+  if (press.geometry.is_dome() && depth < press.geometry.thickness()) {
+    const double along = 1.0 - depth / press.geometry.thickness();
     used = {along, 1.0 / std::sqrt(along)};
   }
   return calibration::warnings(card, used);

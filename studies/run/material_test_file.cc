@@ -295,8 +295,10 @@ std::vector<double> numbers(const meshes::CsvTable& table, const std::string& co
   if (!column.starts_with('#')) return table.numbers(column);
   const std::size_t place = std::stoul(column.substr(1));
   if (place > table.names.size())
-    throw InvalidInput({table.file.string(), column.substr(1),
-                        fmt::format("the table has {} columns", table.names.size()), lay_out});
+    throw InvalidInput(
+        {table.file.string(), column.substr(1),
+         fmt::format("the number of a column is at most that of the table, {}", table.names.size()),
+         lay_out});
   return table.numbers(table.names[place - 1]);
 }
 
