@@ -96,11 +96,16 @@ void run_grasp_job(lattice::GraspSetup setup, const fs::path& folder, const JobC
 
 ordered_json inputs_of(const lattice::GraspSetup& setup) {
   const lattice::FingerSetup& finger = setup.hand.finger;
-  return {{"geometry", json_of(finger.geometry)}, {"rubber", json_of(finger.rubber)},
-          {"lattice", json_of(finger.lattice)},   {"contact", meshes::name(finger.contact.mode)},
-          {"friction", finger.contact.friction},  {"time_step", json_of(finger.time_step)},
-          {"clearance", setup.hand.clearance},    {"gravity", setup.hand.gravity},
-          {"block", json_of(setup.hand.block)},   {"grip", json_of(setup.grip)}};
+  return {{"geometry", json_of(finger.geometry)},
+          {"rubber", inputs_of(finger.rubber, finger.lattice.kinematics)},
+          {"lattice", json_of(finger.lattice)},
+          {"contact", meshes::name(finger.contact.mode)},
+          {"friction", finger.contact.friction},
+          {"time_step", json_of(finger.time_step)},
+          {"clearance", setup.hand.clearance},
+          {"gravity", setup.hand.gravity},
+          {"block", json_of(setup.hand.block)},
+          {"grip", json_of(setup.grip)}};
 }
 
 }  // namespace

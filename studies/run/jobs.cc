@@ -85,7 +85,8 @@ ordered_json inputs_of(const fem_reference::ReferenceJob& reference) {
   ordered_json inputs = json_of(reference);
   inputs["protocol"] = inputs_of(reference.protocol, reference.analysis == Analysis::transient);
   drop(inputs["protocol"], {"mode", "clearance"});
-  if (reference.strain != fem_reference::Strain::finite) drop(inputs["rubber"], {"energy"});
+  if (reference.strain != fem_reference::Strain::finite || reference.analysis == Analysis::modes)
+    drop(inputs["rubber"], {"energy"});
   if (reference.analysis != Analysis::modes) drop(inputs, {"modes"});
   if (!reference.axisymmetric() || !reference.write_fields) drop(inputs, {"field_sectors"});
   if (reference.analysis == Analysis::static_press)
@@ -98,6 +99,12 @@ ordered_json inputs_of(const fem_reference::ReferenceJob& reference) {
 
 }  // namespace
 
+ordered_json inputs_of(const meshes::Rubber& rubber, lattice::Kinematics kinematics) {
+  ordered_json inputs = json_of(rubber);
+  if (kinematics == lattice::Kinematics::small) drop(inputs, {"energy"});
+  return inputs;
+}
+
 ordered_json inputs_of(const lattice::PressSetup& setup) {
   const bool moves = setup.protocol.mode != meshes::DriveMode::equilibrium;
   ordered_json inputs = json_of(setup);
@@ -109,8 +116,8 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
     // Steps divide it, whatever moves the rod.
     inputs["controller"] = {{"period", setup.controller.period}};
   }
+  inputs["rubber"] = inputs_of(setup.rubber, setup.lattice.kinematics);
   if (!moves) drop(inputs["rubber"], {"density", "retardation_time"});
-  if (setup.lattice.kinematics == lattice::Kinematics::small) drop(inputs["rubber"], {"energy"});
   if (!moves)
     drop(inputs, {"controller", "duration", "gravity", "integrator", "time_step", "tolerance",
                   "energy_bound"});

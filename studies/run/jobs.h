@@ -40,6 +40,9 @@ Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions
 Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& central,
               const lattice::SpringConstants& hookean, double spacing);
 
+/// A rubber as input of a lattice: at small strain its law has no say.
+nlohmann::ordered_json inputs_of(const meshes::Rubber& rubber, lattice::Kinematics kinematics);
+
 /// What a press depends on, for `Job::inputs`: all members but those that have no effect. Static
 /// presses know neither time nor controller.
 nlohmann::ordered_json inputs_of(const lattice::PressSetup& setup);
