@@ -294,7 +294,7 @@ ordered_json inputs_of(const FitInput& input) {
   ordered_json inputs = {
       {"problem", name(input.problem)},
       {"geometry", meshes::json_of(input.base.geometry)},
-      {"rubber", inputs_of(input.base.rubber, input.base.lattice.kinematics)},
+      {"rubber", rubber_inputs(input.base.rubber, input.base.lattice.kinematics)},
       {"lattice", meshes::json_of(input.base.lattice)},
       {"rubber_known", input.rubber_known},
       {"robust_width", input.options.robust_width},

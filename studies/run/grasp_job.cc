@@ -97,7 +97,7 @@ void run_grasp_job(lattice::GraspSetup setup, const fs::path& folder, const JobC
 ordered_json inputs_of(const lattice::GraspSetup& setup) {
   const lattice::FingerSetup& finger = setup.hand.finger;
   return {{"geometry", json_of(finger.geometry)},
-          {"rubber", inputs_of(finger.rubber, finger.lattice.kinematics)},
+          {"rubber", rubber_inputs(finger.rubber, finger.lattice.kinematics)},
           {"lattice", json_of(finger.lattice)},
           {"contact", meshes::name(finger.contact.mode)},
           {"friction", finger.contact.friction},

@@ -99,7 +99,7 @@ ordered_json inputs_of(const fem_reference::ReferenceJob& reference) {
 
 }  // namespace
 
-ordered_json inputs_of(const meshes::Rubber& rubber, lattice::Kinematics kinematics) {
+ordered_json rubber_inputs(const meshes::Rubber& rubber, lattice::Kinematics kinematics) {
   ordered_json inputs = json_of(rubber);
   if (kinematics == lattice::Kinematics::small) drop(inputs, {"energy"});
   return inputs;
@@ -116,7 +116,7 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
     // Steps divide it, whatever moves the rod.
     inputs["controller"] = {{"period", setup.controller.period}};
   }
-  inputs["rubber"] = inputs_of(setup.rubber, setup.lattice.kinematics);
+  inputs["rubber"] = rubber_inputs(setup.rubber, setup.lattice.kinematics);
   if (!moves) drop(inputs["rubber"], {"density", "retardation_time"});
   if (!moves)
     drop(inputs, {"controller", "duration", "gravity", "integrator", "time_step", "tolerance",

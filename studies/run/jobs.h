@@ -41,7 +41,7 @@ Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& cent
               const lattice::SpringConstants& hookean, double spacing);
 
 /// A rubber as input of a lattice: at small strain its law has no say.
-nlohmann::ordered_json inputs_of(const meshes::Rubber& rubber, lattice::Kinematics kinematics);
+nlohmann::ordered_json rubber_inputs(const meshes::Rubber& rubber, lattice::Kinematics kinematics);
 
 /// What a press depends on, for `Job::inputs`: all members but those that have no effect. Static
 /// presses know neither time nor controller.
