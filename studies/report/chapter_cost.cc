@@ -79,7 +79,7 @@ using MeshRow = std::pair<Cell, std::string>;
 std::vector<MeshRow> problem_rows(const fem_reference::RunSummary& summary) {
   return {{plain("Status"), summary.status},
           {plain("Contact"), summary.contact},
-          {plain("Strain"), summary.strain + (summary.law.empty() ? "" : ", law " + summary.law)},
+          {plain("Strain"), summary.strain + (summary.law.empty() ? "" : ", " + summary.law)},
           {plain("Polynomial degree"), number(double(summary.degree), 1)},
           {plain("Volumetric part", "of the energy"), summary.volumetric},
           {plain("Linear solver"), summary.solver},

@@ -155,7 +155,7 @@ Job verification_job() {
 Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions& options) {
   Job job;
   job.kind = "moduli";
-  job.inputs = {{"rubber", json_of(rubber)},
+  job.inputs = {{"rubber", rubber_inputs(rubber, lattice::Kinematics::small)},
                 {"model", lattice::name(options.model)},
                 {"spacing", options.spacing},
                 {"starts", options.starts},
@@ -174,7 +174,7 @@ Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& cent
               const lattice::SpringConstants& hookean, double spacing) {
   Job job;
   job.kind = "cubes";
-  job.inputs = {{"rubber", json_of(rubber)},
+  job.inputs = {{"rubber", rubber_inputs(rubber, lattice::Kinematics::small)},
                 {"central", json_of(central)},
                 {"hookean", json_of(hookean)},
                 {"spacing", spacing}};

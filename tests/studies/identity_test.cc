@@ -296,7 +296,7 @@ const World worlds[] = {
              no_rod,
              no_time,
              {"lattice.", "press.", "obstacle.", "rubber.retardation_time",
-              "reference.field_sectors"}})},
+              "reference.field_sectors", "reference.law"}})},
     {"fit to moduli",
      {"calibration.problem=moduli", "lattice.model=central"},
      calibration,
