@@ -219,15 +219,7 @@ std::string material_toml(Material material) {
 void write_material_toml(const Material& material, const std::filesystem::path& file) {
   const std::vector<meshes::Violation> broken = material.violations();
   if (!broken.empty()) throw InvalidInput(broken);
-  const std::string text = material_toml(material);
-  try {
-    static_cast<void>(toml::parse(text));
-  } catch (const toml::parse_error& error) {
-    throw InvalidInput(
-        {"about", "", "the texts on a material must be UTF-8: " + std::string(error.description()),
-         "rename the files it names"});
-  }
-  meshes::write_atomically(file, [&](std::ostream& out) { out << text; });
+  write_toml(material_toml(material), file);
 }
 
 Material read_material_toml(const std::filesystem::path& file) {

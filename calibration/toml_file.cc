@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <ostream>
 #include <sstream>
 #include <utility>
 
 #include "calibration/toml_depth.h"
 #include "meshes/errors.h"
+#include "meshes/files.h"
 
 namespace fingertip::calibration {
 
@@ -105,6 +107,17 @@ double TomlFile::number_in(const std::string& written, std::string_view unit,
          "must be a finite number and the unit " + std::string(unit),
          "write for instance \"1.5 " + std::string(unit) + "\"");
   return value;
+}
+
+void write_toml(const std::string& text, const std::filesystem::path& file) {
+  try {
+    static_cast<void>(toml::parse(text));
+  } catch (const toml::parse_error& error) {
+    throw meshes::InvalidInput(
+        {"about", "", "the texts on a material must be UTF-8: " + std::string(error.description()),
+         "rename the files it names"});
+  }
+  meshes::write_atomically(file, [&](std::ostream& out) { out << text; });
 }
 
 }  // namespace fingertip::calibration

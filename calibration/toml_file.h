@@ -69,4 +69,8 @@ class TomlFile {
   int last_line_ = 1;
 };
 
+/// Writes what tells of a material, atomically; throws InvalidInput where a text in it is not
+/// UTF-8.
+void write_toml(const std::string& text, const std::filesystem::path& file);
+
 }  // namespace fingertip::calibration

@@ -328,15 +328,7 @@ LawCard card_of(const LawFit& fit, const std::vector<MaterialTest>& tests,
 void write_law_card(const LawCard& card, const std::filesystem::path& file) {
   const std::vector<Violation> broken = card.violations();
   if (!broken.empty()) throw InvalidInput(broken);
-  const std::string text = card_toml(card);
-  try {
-    static_cast<void>(toml::parse(text));
-  } catch (const toml::parse_error& error) {
-    throw InvalidInput(
-        {"about", "", "the texts on a material must be UTF-8: " + std::string(error.description()),
-         "rename the files it names"});
-  }
-  meshes::write_atomically(file, [&](std::ostream& out) { out << text; });
+  write_toml(card_toml(card), file);
 }
 
 LawCard read_law_card(const std::filesystem::path& file) {
