@@ -231,6 +231,11 @@ void check_model(const LoadedConfig& loaded) {
     throw refused(loaded, "lattice.model", "published",
                   "the published model has a rule for its constants and is not calibrated",
                   "calibrate central, hookean or network");
+  const meshes::StrainEnergy& energy = loaded.config.press.rubber.energy;
+  if (settings.problem == CalibrationProblem::finite_strain && energy != meshes::StrainEnergy())
+    throw refused(loaded, "rubber.law", std::string(meshes::name(energy.law)),
+                  "the problem finite-strain fits the neo-Hookean law, logarithmic, alone",
+                  "take calibration.problem = \"material\", which fits every law");
 }
 
 FitSetup assembled(const LoadedConfig& loaded) {

@@ -253,7 +253,10 @@ TEST(Calibrate, RefusesAMeasuredFileWithItsLine) {
       {{"--set", "calibration.data=[\"few.csv\"]"}, "few.csv"},
       {{"--set", "calibration.data=[\"few.csv\",\"sure.csv\"]"}, "sure.csv"},
       {{"--set", "calibration.problem=finite-strain", "--set", "calibration.data=[\"long.csv\"]"},
-       "long.csv:4"}};
+       "long.csv:4"},
+      {{"--set", "calibration.problem=finite-strain", "--set", "calibration.data=[\"long.csv\"]",
+        "--set", "rubber.law=gent", "--set", "rubber.gent_jm=9.0"},
+       "rubber.law = gent"}};
   for (const auto& [words, place] : attempts) {
     const ProgramResult run =
         run_program(folder.path(), with(experiment, with(words, {"--out", "bad"})));
