@@ -207,6 +207,9 @@ std::vector<Violation> ReferenceJob::violations() const {
                "the symmetry"
              : "vibrations leave the meridian: they need the solid",
          "choose reference.symmetry = \"automatic\""});
+  if (press && !rubber.relaxation.empty())
+    broken.push_back({"rubber.relaxation", std::to_string(rubber.relaxation.branches.size()),
+                      "the continuum does not relax", "leave it out"});
   if (analysis == Analysis::transient && geometry.solid)
     broken.push_back({"reference.mode", "transient",
                       "a transient press tells the force along the axis alone, and a solid, which "

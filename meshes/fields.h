@@ -45,13 +45,28 @@ void visit_fields(T& corner, auto&& visit) {
 
 template <Fields<Rubber> T>
 void visit_fields(T& rubber, auto&& visit) {
-  auto& [youngs_modulus, shear_modulus, density, retardation_time, energy] = rubber;
+  auto& [youngs_modulus, shear_modulus, density, retardation_time, energy, relaxation] = rubber;
   visit("youngs_modulus", youngs_modulus, "Pa");
   visit("shear_modulus", shear_modulus, "Pa");
   visit("density", density, "kg/m^3");
   visit("retardation_time", retardation_time, "s");
   // Files of the usual law need not name it.
   if (!std::is_const_v<T> || energy != StrainEnergy()) visit("energy", energy, "");
+  if (!std::is_const_v<T> || !relaxation.empty()) visit("relaxation", relaxation, "");
+}
+
+template <Fields<Relaxation> T>
+void visit_fields(T& relaxation, auto&& visit) {
+  auto& [branches, bulk] = relaxation;
+  visit("branches", branches, "");
+  visit("bulk", bulk, "");
+}
+
+template <Fields<RelaxationBranch> T>
+void visit_fields(T& branch, auto&& visit) {
+  auto& [share, time] = branch;
+  visit("share", share, "");
+  visit("time", time, "s");
 }
 
 template <Fields<StrainEnergy> T>

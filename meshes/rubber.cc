@@ -33,6 +33,7 @@ std::vector<Violation> Rubber::violations() const {
           retardation_time, "s", "tau must be finite and not negative",
           "give the Kelvin-Voigt retardation time, or 0 for no damping");
   for (Violation& violation : energy.violations()) found.push_back(std::move(violation));
+  for (Violation& violation : relaxation.violations()) found.push_back(std::move(violation));
   return found;
 }
 

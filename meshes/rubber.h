@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "meshes/errors.h"
+#include "meshes/relaxation.h"
 #include "meshes/strain_energy.h"
 
 namespace fingertip::meshes {
@@ -16,6 +17,7 @@ struct Rubber {
   double density = 500.0;            ///< rho [kg/m³]
   double retardation_time = 0.3e-3;  ///< tau of the Kelvin-Voigt damping [s], tan d = omega tau
   StrainEnergy energy;               ///< at large strain; small strain knows E and G alone
+  Relaxation relaxation;             ///< E and G are what is left of them after long times
 
   std::vector<Violation> violations() const;
 

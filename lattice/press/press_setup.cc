@@ -130,6 +130,9 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
 
 std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
   std::vector<Violation> found = beyond_the_model(setup);
+  if (!setup.rubber.relaxation.empty())
+    found.push_back({"rubber.relaxation", std::to_string(setup.rubber.relaxation.branches.size()),
+                     "the lattice does not relax", "leave it out"});
   add_light_rod(found, setup);
   return found;
 }

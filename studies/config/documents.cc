@@ -12,11 +12,13 @@ namespace fingertip::studies {
 
 namespace {
 
-std::string_view kind_name(Kind kind) {
-  switch (kind) {
+std::string_view kind_name(const Key& key) {
+  switch (key.kind) {
     case Kind::quantity: return "quantity";
     case Kind::quantities: return "list of quantities";
-    case Kind::terms: return "list of pairs of a quantity and a number";
+    case Kind::terms:
+      return key.number_first ? "list of pairs of a number and a quantity"
+                              : "list of pairs of a quantity and a number";
     case Kind::number: return "number";
     case Kind::numbers: return "list of 3 numbers";
     case Kind::integer: return "integer";
@@ -34,7 +36,7 @@ std::string_view kind_name(Kind kind) {
 
 /// "Pa; > 0 Pa; greater than youngs_modulus/3": unit, range and rule in one line.
 std::string constraints(const Key& key) {
-  std::string text(kind_name(key.kind));
+  std::string text(kind_name(key));
   if (!key.unit.empty()) text += " in units of " + key.unit;
   if (!key.allowed().empty()) text += "; " + key.allowed();
   if (!key.rule.empty()) text += "; " + key.rule;

@@ -94,6 +94,24 @@ std::vector<Key> specimen_keys() {
                     coefficients(&LawCoefficients::ogden));
   terms.kind = Kind::terms;
   terms.unit = "Pa";
+  const auto relaxation = [](auto member) {
+    return at(&Config::press, &lattice::PressSetup::rubber, &Rubber::relaxation, member);
+  };
+  using Branches = std::vector<meshes::RelaxationBranch>;
+  Key branches = plain("rubber", "relaxation", any,
+                       "Prony series: pairs of a share g of G0 and its time, [[0.2, \"0.1 s\"], "
+                       "...]; E and G are those after long times",
+                       at(&Config::coefficients, &LawCoefficients::ogden));
+  branches.kind = Kind::terms;
+  branches.number_first = true;
+  branches.unit = "s";
+  branches.assign = [target = relaxation(&meshes::Relaxation::branches)](Config& config,
+                                                                         const Value& value) {
+    Branches& series = target(config);
+    series.clear();
+    for (std::size_t i = 0; i + 1 < value.numbers.size(); i += 2)
+      series.push_back({value.numbers[i], value.numbers[i + 1]});
+  };
   return {
       choice("geometry", "shape",
              {{"dome", "the paper's finger: hemisphere and sleeve on a rod"},
@@ -194,6 +212,10 @@ std::vector<Key> specimen_keys() {
       quantity("rubber", "retardation_time", "ms", "s", not_negative,
                "tau of the Kelvin-Voigt damping, loss factor = omega tau",
                rubber(&Rubber::retardation_time)),
+      with_rule(branches, "shares and times positive, shares with a sum below 1", {}),
+      plain("rubber", "relaxation_bulk", any,
+            "whether the bulk modulus fades as the shear modulus does, or not at all",
+            relaxation(&meshes::Relaxation::bulk)),
       quantity("rod", "density", "g/cm^3", "kg/m^3", positive,
                "mass density of the rod; sets its inertia",
                at(&Config::press, &lattice::PressSetup::rod, &lattice::RodSettings::density)),

@@ -59,7 +59,7 @@ std::string quantity_literal(double value, const std::string& unit, const std::s
 
 std::string Key::example() const {
   if (kind == Kind::quantities || kind == Kind::terms)
-    return unit == "Pa" ? "2 kPa" : unit == "rad" ? "10 deg" : "0.1 cm";
+    return unit == "Pa" ? "2 kPa" : unit == "rad" ? "10 deg" : unit == "s" ? "0.1 s" : "0.1 cm";
   const bool quoted = preset.size() > 2 && preset.front() == '"';
   const bool default_is_quantity = quoted && preset.find(' ') != preset.npos;
   return default_is_quantity ? preset.substr(1, preset.size() - 2) : "1 " + unit;

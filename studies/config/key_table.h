@@ -16,7 +16,7 @@ enum class Kind {
   quantity,     ///< text "number unit"
   quantities,   ///< list of such texts
   number,       ///< TOML number
-  terms,        ///< list of pairs of such a text and a TOML number
+  terms,        ///< list of pairs of such a text and a TOML number, or the other way round
   numbers,      ///< list of three TOML numbers
   number_pair,  ///< list of two TOML numbers, the smaller first
   integer,      ///< TOML integer
@@ -59,10 +59,11 @@ struct Key {
   std::string unit;    ///< SI unit; empty for what is no quantity
   Range range;         ///< in SI
   std::vector<Choice> choices;
-  std::size_t length = 0;  ///< of a list of quantities; 0: any
-  std::string word;        ///< word accepted instead of a quantity: "auto", "tip_radius/N"
-  std::string help;        ///< one line
-  std::string rule;        ///< further rule in words, may be empty
+  std::size_t length = 0;     ///< of a list of quantities; 0: any
+  bool number_first = false;  ///< of terms
+  std::string word;           ///< word accepted instead of a quantity: "auto", "tip_radius/N"
+  std::string help;           ///< one line
+  std::string rule;           ///< further rule in words, may be empty
   std::vector<std::string> related;  ///< keys its rule also depends on
   /// The key matters only where that one is one of these words; empty: always.
   std::string matters_with;

@@ -86,16 +86,22 @@ Value read_quantities(const Key& key, const toml::node& node) {
 Value read_number(const Key& key, const toml::node& node);
 
 Value read_terms(const Key& key, const toml::node& node) {
-  const std::string advice = "write e.g. [[\"2 kPa\", 1.3], [\"0.1 kPa\", 5.0]]";
+  const bool first = key.number_first;
+  const std::string quantity = '"' + key.example() + '"',
+                    advice =
+                        "write e.g. [[" + (first ? "0.2, " + quantity : quantity + ", 1.3") + "]]",
+                    rule = std::string("must be a list of pairs of ") +
+                           (first ? "a number and a quantity" : "a quantity and a number");
   const auto* list = node.as_array();
-  if (list == nullptr) refuse("must be a list of pairs of a quantity and a number", advice);
+  if (list == nullptr) refuse(rule, advice);
   Value value;
   for (const toml::node& element : *list) {
     const auto* pair = element.as_array();
-    if (pair == nullptr || pair->size() != 2)
-      refuse("must be a list of pairs of a quantity and a number", advice);
-    value.numbers.push_back(read_quantity(key, pair->at(0)).number);
-    value.numbers.push_back(read_number(key, pair->at(1)).number);
+    if (pair == nullptr || pair->size() != 2) refuse(rule, advice);
+    for (const bool number : {first, !first}) {
+      const toml::node& part = pair->at(number == first ? 0 : 1);
+      value.numbers.push_back((number ? read_number(key, part) : read_quantity(key, part)).number);
+    }
   }
   return value;
 }

@@ -44,8 +44,8 @@ TEST(Rubber, RefusesShearModulusAtOrBelowAThirdOfYoungs) {
 }
 
 TEST(Rubber, RefusesAPoissonsRatioThatRoundsToMinusOne) {
-  EXPECT_FALSE((Rubber{1e-12, 1e4, 500.0, 0.0, {}}.violations().empty()));
-  const Rubber odd{1e-3, 1e4, 500.0, 0.0, {}};  // nu = -1 + 5e-8
+  EXPECT_FALSE((Rubber{1e-12, 1e4, 500.0, 0.0, {}, {}}.violations().empty()));
+  const Rubber odd{1e-3, 1e4, 500.0, 0.0, {}, {}};  // nu = -1 + 5e-8
   EXPECT_TRUE(odd.violations().empty());
   EXPECT_GT(odd.poissons_ratio(), -1.0);
 }
