@@ -46,14 +46,17 @@ CellExtremes extremes_of(const CellMaterial& m, const kernel::CellBounds& bounds
 
 }  // namespace
 
-CellForces::CellForces(const CellLattice& cells, Team& team, int width)
+CellForces::CellForces(const CellLattice& cells, const CellMaterial& material, Team& team,
+                       int width)
     : cells_(&cells),
+      material_(material),
       team_(&team),
-      sweep_(kernel::select_cells(cells.material.kind, has_rates(cells.material), width)) {}
+      sweep_(kernel::select_cells(material.kind, has_rates(material), width)) {}
 
 CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
                              VectorField& force) const {
   kernel::CellArrays arrays = cell_arrays(*cells_, displacement);
+  arrays.material = material_;
   for (std::size_t c = 0; c < 3; ++c) {
     arrays.velocity[c] = velocity.component[c].data();
     arrays.force[c] = force.component[c].data();
@@ -74,7 +77,7 @@ CellExtremes CellForces::add(const VectorField& displacement, const VectorField&
       extend(all, some);
     });
   }
-  return extremes_of(cells_->material, all);
+  return extremes_of(material_, all);
 }
 
 }  // namespace fingertip::lattice

@@ -29,7 +29,10 @@ struct CellExtremes {
 class CellForces {
  public:
   /// `width`: doubles per register (2, 4, 8), 0 for the widest the processor has.
-  CellForces(const CellLattice& cells, Team& team, int width = 0);
+  CellForces(const CellLattice& cells, Team& team, int width = 0)
+      : CellForces(cells, cells.material, team, width) {}
+  /// Of cells that consist of something else.
+  CellForces(const CellLattice& cells, const CellMaterial& material, Team& team, int width);
 
   /// force += the cells' forces [N]. `cubic`: at the displacement handed over (u, or u + tau v to
   /// include damping; the velocity is not read). Others: at u, and with damping at v if tau > 0.
@@ -41,6 +44,7 @@ class CellForces {
 
  private:
   const CellLattice* cells_;
+  CellMaterial material_;
   Team* team_;
   kernel::CellSweep sweep_;
 };

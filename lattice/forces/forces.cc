@@ -14,6 +14,7 @@ InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
     : model_(&model),
       team_(&team),
       cells_(model.cell_lattice, team, width),
+      shear_(model.cell_lattice, model.cell_lattice.material.shear_alone(), team, width),
       rates_(model.kinematics == Kinematics::finite || !model.proportional_damping) {
   if (model.has_springs()) {
     const kernel::Variant variant{model.kinematics == Kinematics::finite, rates_};
@@ -27,16 +28,26 @@ InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
   std::copy(model.stiffness.begin(), model.stiffness.end(), arrays_.stiffness);
   std::copy(model.damping.begin(), model.damping.end(), arrays_.damping);
   if (!rates_) damped_ = VectorField(model.points());
+  if (!model.relaxation.bulk) lag_ = VectorField(model.points());
 }
 
-CellExtremes InternalForces::accumulate(const State& state, VectorField& force) {
+CellExtremes InternalForces::accumulate(const State& state, double time,
+                                        const RelaxingMemory& memory, VectorField& force) {
+  const bool apart = !model_->relaxation.bulk && !memory.empty();
   const VectorField& displacement = rates_ ? state.displacement : damped(state);
+  if (!rates_ && !apart) add_lags(*model_, memory, state, time, *team_, damped_);
   if (springs_ != nullptr) {
     gather_springs(displacement, state, force);
   } else {
     clear(force);
   }
-  return cells_.add(displacement, state.velocity, force);
+  const CellExtremes extremes = cells_.add(displacement, state.velocity, force);
+  if (apart) {
+    for (auto& component : lag_.component) std::fill(component.begin(), component.end(), 0.0);
+    add_lags(*model_, memory, state, time, *team_, lag_);
+    shear_.add(lag_, state.velocity, force);
+  }
+  return extremes;
 }
 
 const VectorField& InternalForces::damped(const State& state) {

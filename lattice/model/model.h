@@ -56,6 +56,8 @@ struct LatticeModel {
   /// dampers are per class.
   double retardation_time = 0.0;
   bool proportional_damping = false;  ///< whether mu = tau k throughout
+  meshes::Relaxation relaxation;      ///< of springs and cells; what they are otherwise is after
+                                      ///< long times
 
   std::vector<std::uint32_t> particles;  ///< grid indices of the particles, increasing
   std::vector<std::uint32_t> cells;      ///< grid indices of the cells' lowest corners

@@ -126,13 +126,32 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
   return found;
 }
 
+void add_relaxation(std::vector<Violation>& found, const PressSetup& setup) {
+  const meshes::Relaxation& relaxation = setup.rubber.relaxation;
+  if (relaxation.empty()) return;
+  const auto refuse = [&](const char* rule, const char* remedy) {
+    found.push_back({"rubber.relaxation", std::to_string(relaxation.branches.size()) + " branches",
+                     rule, remedy});
+  };
+  const LatticeSettings& lattice = setup.lattice;
+  const bool springs = lattice.model == ModelKind::published || lattice.model == ModelKind::central;
+  if (setup.protocol.mode == meshes::DriveMode::equilibrium)
+    refuse("a lattice in equilibrium knows no time, and a rubber that relaxes depends on it",
+           "take press.mode = quasi-static or pid; without rubber.relaxation an equilibrium is "
+           "that after long times");
+  else if (lattice.model == ModelKind::published || lattice.kinematics == Kinematics::finite)
+    refuse("the lattice relaxes at small strain, and its cells and fitted springs alone",
+           "take lattice.kinematics = small and lattice.model = hookean");
+  else if (springs && !relaxation.bulk)
+    refuse("springs have no bulk modulus of their own that could stay",
+           "take lattice.model = hookean, or rubber.relaxation_bulk = true");
+}
+
 }  // namespace
 
 std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
   std::vector<Violation> found = beyond_the_model(setup);
-  if (!setup.rubber.relaxation.empty())
-    found.push_back({"rubber.relaxation", std::to_string(setup.rubber.relaxation.branches.size()),
-                     "the lattice does not relax", "leave it out"});
+  add_relaxation(found, setup);
   add_light_rod(found, setup);
   return found;
 }
