@@ -41,8 +41,8 @@ void Finger::load(const Snapshot& snapshot) {
 }
 
 void Finger::find_forces(double step) {
-  now_.relaxing.note(*model_, now_.state, now_.time, team_);
-  now_.extremes = internal_forces(now_.state, now_.time, force_);
+  ++evaluations_;
+  now_.extremes = internal_.note(now_.state, now_.time, now_.relaxing, force_);
   if (!gravity_.isZero(0.0)) weigh_particles(force_);
   now_.bond = surfaces_->apply(now_.state, now_.rod, now_.plane, step, force_);
 }

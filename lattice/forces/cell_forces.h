@@ -38,15 +38,15 @@ class CellForces {
   /// include damping; the velocity is not read). Others: at u, and with damping at v if tau > 0.
   /// The result is the same bits for any number of threads and any register width.
   /// Where a cell is turned inside out (J <= 0) forces are meaningless and smallest_jacobian says
-  /// so.
-  CellExtremes add(const VectorField& displacement, const VectorField& velocity,
-                   VectorField& force) const;
+  /// so. `past`: what cells with a law of large strain remember.
+  CellExtremes add(const VectorField& displacement, const VectorField& velocity, VectorField& force,
+                   const kernel::CellPast& past = {}) const;
 
  private:
   const CellLattice* cells_;
   CellMaterial material_;
   Team* team_;
-  kernel::CellSweep sweep_;
+  kernel::CellSweep sweep_, fading_sweep_;
 };
 
 }  // namespace fingertip::lattice

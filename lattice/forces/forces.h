@@ -27,9 +27,14 @@ class InternalForces {
   /// (empty) the forces are those after long times.
   CellExtremes accumulate(const State& state, double time, const RelaxingMemory& memory,
                           VectorField& force);
+  /// The same, and the memory is brought to this state.
+  CellExtremes note(const State& state, double time, RelaxingMemory& memory, VectorField& force);
 
  private:
   const VectorField& damped(const State& state);
+  kernel::CellPast past_of(const RelaxingMemory& memory, double time);
+  CellExtremes respond(const VectorField& displacement, const State& state,
+                       const kernel::CellPast& past, VectorField& force);
   void gather_springs(const VectorField& displacement, const State& state, VectorField& force);
   void clear(VectorField& force);
 
@@ -41,6 +46,7 @@ class InternalForces {
   kernel::Arrays arrays_{};
   VectorField damped_;  ///< u + tau v, and what relaxes
   VectorField lag_;     ///< what relaxes where the bulk does not
+  std::vector<kernel::CellFading> fading_;
 };
 
 }  // namespace fingertip::lattice

@@ -27,12 +27,18 @@ void over_blocks(const LatticeModel& model, Team& team, const Body& body) {
 
 RelaxingMemory::RelaxingMemory(const LatticeModel& model) {
   if (model.relaxation.empty()) return;
+  if (model.kinematics == Kinematics::finite) {
+    cells.assign(model.cell_lattice.blocks.size() * std::size_t(kernel::remembered) *
+                     (1 + model.relaxation.branches.size()),
+                 kernel::Lanes{});
+    return;
+  }
   displacement = VectorField(model.points());
   lag.assign(model.relaxation.branches.size(), displacement);
 }
 
 void RelaxingMemory::note(const LatticeModel& model, const State& state, double at, Team& team) {
-  if (empty()) return;
+  if (lag.empty()) return;
   for (std::size_t n = 0; n < lag.size(); ++n) {
     const Fading fading(at - time, model.relaxation.branches[n].time);
     over_blocks(model, team, [&](std::size_t c, std::size_t first) {
@@ -69,7 +75,7 @@ void add_lags(const LatticeModel& model, const RelaxingMemory& memory, const Sta
 BranchEnergy branch_energy(const LatticeModel& model, const RelaxingMemory& memory,
                            const State& state, double time, Team& team) {
   BranchEnergy energy;
-  if (memory.empty()) return energy;
+  if (memory.lag.empty()) return energy;
   RelaxingMemory now = memory;
   now.note(model, state, time, team);
   State lagging(model);

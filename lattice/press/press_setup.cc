@@ -134,14 +134,21 @@ void add_relaxation(std::vector<Violation>& found, const PressSetup& setup) {
                      rule, remedy});
   };
   const LatticeSettings& lattice = setup.lattice;
-  const bool springs = lattice.model == ModelKind::published || lattice.model == ModelKind::central;
+  const bool springs = lattice.model == ModelKind::central,
+             finite = lattice.kinematics == Kinematics::finite;
   if (setup.protocol.mode == meshes::DriveMode::equilibrium)
     refuse("a lattice in equilibrium knows no time, and a rubber that relaxes depends on it",
            "take press.mode = quasi-static or pid; without rubber.relaxation an equilibrium is "
            "that after long times");
-  else if (lattice.model == ModelKind::published || lattice.kinematics == Kinematics::finite)
-    refuse("the lattice relaxes at small strain, and its cells and fitted springs alone",
-           "take lattice.kinematics = small and lattice.model = hookean");
+  else if (lattice.model == ModelKind::published || (finite && lattice.model != ModelKind::network))
+    refuse("the published lattice does not relax, and at large strain no springs do",
+           "take lattice.model = hookean at small strain, network at large");
+  else if (finite && setup.integrator == Integrator::energy_controlled)
+    refuse("at large strain the stress that relaxes is not known by an energy",
+           "take run.integrator = symplectic-euler or runge-kutta");
+  else if (finite && !relaxation.bulk)
+    refuse("at large strain the lattice relaxes as a whole",
+           "take rubber.relaxation_bulk = true, or lattice.kinematics = small");
   else if (springs && !relaxation.bulk)
     refuse("springs have no bulk modulus of their own that could stay",
            "take lattice.model = hookean, or rubber.relaxation_bulk = true");

@@ -143,6 +143,123 @@ TEST(RelaxingLattice, ABulkThatStaysDoesNotFade) {
   }
 }
 
+namespace {
+
+/// A block at large strain of a law of each kernel.
+std::vector<LatticeModel> large_blocks(const Relaxation& relaxation, double tau = 3e-4) {
+  std::vector<LatticeModel> models;
+  for (const meshes::StrainEnergy& energy :
+       {meshes::StrainEnergy{},
+        meshes::StrainEnergy{
+            meshes::RubberLaw::yeoh, meshes::VolumetricLaw::quadratic, {0.05, 0.005}},
+        meshes::StrainEnergy{
+            meshes::RubberLaw::ogden, meshes::VolumetricLaw::quadratic, {0.8, 1.3, 0.2, 5.0}}}) {
+    meshes::Rubber rubber;
+    rubber.retardation_time = tau;
+    rubber.relaxation = relaxation;
+    rubber.energy = energy;
+    models.push_back(
+        cell_block(settings_for(ModelKind::network, Kinematics::finite, 10), {3, 3, 3}, rubber));
+  }
+  return models;
+}
+
+Eigen::Matrix3d turn(double angle) {
+  return Eigen::AngleAxisd(angle, Vector3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
+}
+
+/// x = Q (X + u).
+State turned(const LatticeModel& model, const State& state, const Eigen::Matrix3d& Q) {
+  State result(model);
+  for (const std::size_t i : model.particles) {
+    const Vector3 X = model.rest_position(i);
+    result.displacement.set(i, Q * (X + state.displacement.at(i)) - X);
+  }
+  return result;
+}
+
+}  // namespace
+
+/// F(t) = 1 + t H: S = S_inf + integral of b exp(-(t - s)/tau) dS_inf/ds (Holzapfel & Simo), with
+/// S_inf from the law of a point.
+TEST(RelaxingLattice, LargeStrainKeepsAStressOnTheRestShape) {
+  Eigen::Matrix3d H;
+  H << 0.3, 0.2, -0.1, 0.0, -0.25, 0.3, 0.15, 0.1, -0.2;
+  constexpr double step = 0.01;
+  constexpr int steps = 100;
+  for (const LatticeModel& model : large_blocks(two)) {
+    lattice::Team team(1);
+    lattice::InternalForces forces(model, team), plain(model, team);
+    RelaxingMemory memory(model);
+    VectorField force(model.points());
+    /// F⁻¹ P of the block, from the work of its forces along e_i (x) e_j.
+    const auto stress = [&](const VectorField& f, const Eigen::Matrix3d& F) {
+      Eigen::Matrix3d P;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+          Eigen::Matrix3d direction = Eigen::Matrix3d::Zero();
+          direction(i, j) = 1.0;
+          P(i, j) = work(model, f, direction);
+        }
+      return Eigen::Matrix3d(F.inverse() * P);
+    };
+    std::vector<Eigen::Matrix3d> after_long_times{Eigen::Matrix3d::Zero()};
+    Eigen::Matrix3d found;
+    for (int n = 1; n <= steps; ++n) {
+      const Eigen::Matrix3d part = n * step * H, F = part + Eigen::Matrix3d::Identity();
+      const State state = deformed(model, part);
+      plain.accumulate(state, force);
+      after_long_times.push_back(stress(force, F));
+      forces.note(state, n * step, memory, force);
+      found = stress(force, F);
+      // What is only tried changes nothing.
+      forces.accumulate(deformed(model, 0.5 * part), (n + 0.5) * step, memory, force);
+    }
+    Eigen::Matrix3d exact = after_long_times.back();
+    for (std::size_t i = 0; i < 2; ++i)
+      for (int n = 1; n <= steps; ++n) {
+        const double tau = two.branches[i].time, rest = step * (steps - n);
+        exact += two.excess(i) * tau / step *
+                 (std::exp(-rest / tau) - std::exp(-(rest + step) / tau)) *
+                 (after_long_times[std::size_t(n)] - after_long_times[std::size_t(n - 1)]);
+      }
+    EXPECT_LT((found - exact).norm(), 1e-11 * exact.norm());
+    EXPECT_GT((found - after_long_times.back()).norm(), 0.05 * found.norm());
+  }
+}
+
+/// Whatever the state, its modes included: at once all forces are those after long times, times
+/// G0/G_inf, and they turn with a rubber that turns.
+TEST(RelaxingLattice, LargeStrainIsElasticAtOnceAndTurnsAlong) {
+  for (const LatticeModel& model : large_blocks(two)) {
+    lattice::Team team(1);
+    lattice::InternalForces forces(model, team);
+    RelaxingMemory memory(model);
+    State state = random_state(model, 0.1, 0.0, 11);
+    VectorField elastic(model.points()), at_once(model.points()), later(model.points());
+    forces.accumulate(state, elastic);
+    forces.note(state, 0.0, memory, at_once);
+    const double scale = largest(model, elastic);
+    for (const std::size_t i : model.particles)
+      EXPECT_LT((at_once.at(i) - two.instant() * elastic.at(i)).norm(), 1e-12 * scale);
+    const Eigen::Matrix3d Q = turn(0.7);
+    forces.note(turned(model, state, Q), 0.02, memory, later);
+    forces.accumulate(turned(model, state, Q), elastic);
+    for (const std::size_t i : model.particles)
+      EXPECT_LT((later.at(i) - two.modulus(0.02) * elastic.at(i)).norm(), 1e-11 * scale);
+    // Forces and torques balance while it deforms and turns.
+    State other = random_state(model, 0.1, 0.0, 12);
+    forces.note(other, 0.03, memory, later);
+    Vector3 sum = Vector3::Zero(), torque = Vector3::Zero();
+    for (const std::size_t i : model.particles) {
+      sum += later.at(i);
+      torque += (model.rest_position(i) + other.displacement.at(i)).cross(later.at(i));
+    }
+    EXPECT_LT(sum.norm(), 1e-11 * scale);
+    EXPECT_LT(torque.norm(), 1e-11 * scale * 3e-3);
+  }
+}
+
 /// Undamped but for the branches: what moves is lost, and nothing is made of nothing.
 TEST(RelaxingLattice, EnergyNeverGrowsWithoutInput) {
   for (const Relaxation& relaxation :
@@ -186,6 +303,36 @@ TEST(RelaxingLattice, EnergyNeverGrowsWithoutInput) {
     }
     EXPECT_LT(before, 0.5 * first);
     EXPECT_TRUE(std::isfinite(first) && first > 0.0);
+  }
+}
+
+/// At large strain: what moves comes to rest, undamped but for the branches, and no window of a
+/// thousand steps has more energy after long times than the first.
+TEST(RelaxingLattice, LargeStrainComesToRest) {
+  for (const LatticeModel& model : large_blocks({{{0.5, 1e-3}, {0.2, 0.03}}, true}, 0.0)) {
+    lattice::Team team(1);
+    lattice::InternalForces forces(model, team);
+    State state = random_state(model, 0.05, 1e-3, 7);
+    RelaxingMemory memory(model);
+    VectorField force(model.points());
+    const double step = 0.4 * lattice::largest_stable_step(lattice::spectral_estimate(model),
+                                                           Integrator::symplectic_euler);
+    double first = 0.0, window = 0.0;
+    constexpr int per_window = 1000;
+    for (int n = 0; n < 100000; ++n) {
+      forces.note(state, n * step, memory, force);
+      for (const std::uint32_t i : model.particles) {
+        state.velocity.add(i, step * model.inverse_mass[i] * force.at(i));
+        state.displacement.add(i, step * state.velocity.at(i));
+      }
+      window = std::max(
+          window, lattice::kinetic_energy(model, state) + lattice::elastic_energy(model, state));
+      if ((n + 1) % per_window != 0) continue;
+      if (n + 1 == per_window) first = window;
+      EXPECT_LE(window, first) << n;
+      if (n + 1 < 100000) window = 0.0;
+    }
+    EXPECT_LT(window, 1e-2 * first);
   }
 }
 
@@ -239,7 +386,7 @@ TEST(RelaxingLattice, IntegratorsAgree) {
   EXPECT_LT(apart(pressed(Integrator::energy_controlled, series), exact), 2e-2);
   EXPECT_LT(apart(pressed(Integrator::mass_scaled, series, 250e-6), exact), 3e-2);
   // It relaxes: from near its modulus at once to what is left.
-  EXPECT_GT(exact[50], 1.2 * exact[149]);
+  EXPECT_GT(exact[50], 1.15 * exact[149]);
 }
 
 TEST(RelaxingLattice, FastBranchesVanishSlowOnesAreElastic) {
