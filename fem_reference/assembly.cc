@@ -123,7 +123,7 @@ void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const V
     }
     for (unsigned i = 0; i < order.size(); ++i) {
       result.force[i] = element.force[order[i]];
-      if (parts == Parts::force) continue;
+      if (parts != Parts::all) continue;
       for (unsigned j = 0; j < order.size(); ++j)
         result.matrix(i, j) = element.matrix(order[i], order[j]);
     }

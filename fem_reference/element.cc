@@ -87,7 +87,26 @@ VolumeDerivatives differentiate(const meshes::VolumetricMeasure& h, double jacob
   return result;
 }
 
+/// P += F S, dP += dF S.
+void add_carried(const Eigen::Matrix3d& stress, const Eigen::Matrix3d& gradient,
+                 meshes::PointResponse& response) {
+  response.stress += gradient * stress;
+  for (Index i = 0; i < 3; ++i) response.tangent.block<3, 3>(3 * i, 3 * i) += stress;
+}
+
 }  // namespace
+
+Eigen::Matrix3d tensor_of(const Eigen::Matrix<double, 6, 1>& s) {
+  Eigen::Matrix3d tensor;
+  tensor << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+  return tensor;
+}
+
+Eigen::Matrix<double, 6, 1> entries_of(const Eigen::Matrix3d& t) {
+  Eigen::Matrix<double, 6, 1> entries;
+  entries << t(0, 0), t(1, 1), t(2, 2), t(1, 2), t(0, 2), t(0, 1);
+  return entries;
+}
 
 template <int dim>
 ElementPolynomials<dim>::ElementPolynomials(const dealii::FEValues<dim>& values, int degree)
@@ -186,8 +205,8 @@ void HookeKernel<dim>::integrate(const dealii::FEValues<dim>& values,
 
 template <int dim>
 HyperelasticKernel<dim>::HyperelasticKernel(const meshes::HyperelasticLaw& law,
-                                            Volumetric volumetric)
-    : law_(law), volumetric_(volumetric) {}
+                                            Volumetric volumetric, const PointStresses* carried)
+    : law_(law), volumetric_(volumetric), carried_(carried) {}
 
 template <int dim>
 void HyperelasticKernel<dim>::integrate(const dealii::FEValues<dim>& values,
@@ -227,9 +246,13 @@ void HyperelasticKernel<dim>::integrate(const dealii::FEValues<dim>& values,
   // By point and slope, for every component: the stress, and how h changes.
   Eigen::MatrixXd stresses = Eigen::MatrixXd::Zero(3 * points, dim), swelling = stresses;
   tangents_.resize(with_matrix ? std::size_t(points) : 0);
+  result.stresses.resize(6, parts == Parts::stresses ? points : 0);
   for (Index q = 0; q < points; ++q) {
     const Eigen::Matrix3d& f = gradient[std::size_t(q)];
-    const auto response = law_.pointwise(f);
+    auto response = law_.pointwise(f);
+    if (carried_)
+      add_carried(tensor_of(carried_->of_cell(values.get_cell()->active_cell_index()).col(q)), f,
+                  response);
     const auto volume = differentiate(law_.volumetric(jacobians[q]), jacobians[q], f.inverse());
     result.energy += weights[q] * response.energy;
     for_each_slope<dim>([&](Index i, Index s, Index e) {
@@ -237,6 +260,12 @@ void HyperelasticKernel<dim>::integrate(const dealii::FEValues<dim>& values,
           weights[q] * (response.stress(e / 3, e % 3) + modulus * effective[q] * volume.first[e]);
       swelling(3 * q + s, i) = volume.first[e];
     });
+    if (parts == Parts::stresses) {
+      using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+      const Eigen::Matrix3d swollen = Eigen::Map<const RowMajor>(volume.first.data());
+      result.stresses.col(q) =
+          entries_of(f.inverse() * (response.stress + modulus * effective[q] * swollen));
+    }
     if (!with_matrix) continue;
     Matrix9 tangent = response.tangent + modulus * effective[q] * volume.second;
     if (!projects) tangent += modulus * volume.first * volume.first.transpose();

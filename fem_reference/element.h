@@ -16,16 +16,36 @@
 
 namespace fingertip::fem_reference {
 
+/// Symmetric tensors in columns: entries 11, 22, 33, 23, 13, 12.
+using SymmetricTensors = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+/// One of them, and back.
+Eigen::Matrix3d tensor_of(const Eigen::Matrix<double, 6, 1>& entries);
+Eigen::Matrix<double, 6, 1> entries_of(const Eigen::Matrix3d& tensor);
+
+/// Second Piola-Kirchhoff stresses [Pa] at the quadrature points of every active cell of a mesh, as
+/// `assemble` chooses them; cells that other processes own are zero.
+struct PointStresses {
+  Eigen::Index points = 0;  ///< of a cell
+  SymmetricTensors values;  ///< column: active cell index times `points` plus point
+
+  auto of_cell(unsigned cell) const {
+    return values.middleCols(Eigen::Index(cell) * points, points);
+  }
+  auto of_cell(unsigned cell) { return values.middleCols(Eigen::Index(cell) * points, points); }
+};
+
 /// Stiffness (or mass) and internal force of an element.
 struct ElementSystem {
   Eigen::MatrixXd matrix;     ///< (dim n, dim n)
   Eigen::VectorXd force;      ///< (dim n), zero where a kernel has none
   double min_jacobian = 1.0;  ///< smallest J = det F at the quadrature points
   double energy = 0.0;        ///< [J]
+  SymmetricTensors stresses;  ///< second Piola-Kirchhoff, at the quadrature points [Pa]
 };
 
-/// What is asked of an element: its force costs a fifth of its stiffness at large strain.
-enum class Parts { force, all };
+/// What is asked of an element: its force, which costs a fifth of its stiffness at large strain;
+/// that and the stresses, of which small strain has none; force and stiffness.
+enum class Parts { force, stresses, all };
 
 /// Integrates one element. A kernel may fill in the matrix though only the force is asked for.
 /// `values` is of the scalar element, with gradients, values, points and JxW; `displacement` holds
@@ -50,6 +70,9 @@ template <int dim>
 class HookeKernel : public ElementKernel<dim> {
  public:
   HookeKernel(const meshes::Rubber& rubber, Volumetric volumetric);
+  /// Of Lamé's constants [Pa], whatever their signs.
+  HookeKernel(double lambda, double shear, Volumetric volumetric)
+      : lambda_(lambda), shear_(shear), volumetric_(volumetric) {}
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  Parts parts, ElementSystem& result) override;
   std::unique_ptr<ElementKernel<dim>> clone() const override {
@@ -64,11 +87,14 @@ class HookeKernel : public ElementKernel<dim> {
 
 /// Large strain, total Lagrangian, exact tangent. The volumetric term m/2 h(J)² becomes
 /// m/2 (P h(J))² when projected; energy, force and tangent stay derivatives of one another.
-/// Throws NotConverged for an inverted element.
+/// Throws NotConverged for an inverted element. `carried` stresses S stay what they are whatever
+/// the displacement: P = dW/dF + F S. They have no share of the energy.
 template <int dim>
 class HyperelasticKernel : public ElementKernel<dim> {
  public:
-  HyperelasticKernel(const meshes::HyperelasticLaw& law, Volumetric volumetric);
+  /// `carried` must stay alive.
+  HyperelasticKernel(const meshes::HyperelasticLaw& law, Volumetric volumetric,
+                     const PointStresses* carried = nullptr);
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement,
                  Parts parts, ElementSystem& result) override;
   std::unique_ptr<ElementKernel<dim>> clone() const override {
@@ -82,6 +108,7 @@ class HyperelasticKernel : public ElementKernel<dim> {
 
   meshes::HyperelasticLaw law_;
   Volumetric volumetric_;
+  const PointStresses* carried_;
   Eigen::MatrixXd slopes_, stressed_, block_, projected_;
   /// dP/dF of every point, by component and slope of both.
   std::vector<Eigen::Matrix<double, 3 * dim, 3 * dim>> tangents_;

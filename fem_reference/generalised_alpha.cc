@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "fem_reference/kinematics.h"
@@ -9,34 +10,46 @@
 namespace fingertip::fem_reference {
 namespace {
 
-/// stiffness_factor K + mass_factor M of an element.
+/// A kernel with its factor in a sum.
 template <int dim>
-class EffectiveKernel : public ElementKernel<dim> {
+struct Weighted {
+  const ElementKernel<dim>& kernel;
+  double factor;
+};
+
+/// The sum of linear kernels.
+template <int dim>
+class SumKernel : public ElementKernel<dim> {
  public:
-  EffectiveKernel(const ElementKernel<dim>& stiffness, double stiffness_factor,
-                  const ElementKernel<dim>& mass, double mass_factor)
-      : stiffness_(stiffness.clone()),
-        mass_(mass.clone()),
-        stiffness_factor_(stiffness_factor),
-        mass_factor_(mass_factor) {}
+  explicit SumKernel(const std::vector<Weighted<dim>>& terms) {
+    for (const Weighted<dim>& term : terms) terms_.push_back({term.kernel.clone(), term.factor});
+  }
 
   void integrate(const dealii::FEValues<dim>& values, const Eigen::VectorXd& displacement, Parts,
                  ElementSystem& result) override {
-    stiffness_->integrate(values, displacement, Parts::all, result);
-    mass_->integrate(values, displacement, Parts::all, mass_part_);
-    result.matrix = stiffness_factor_ * result.matrix + mass_factor_ * mass_part_.matrix;
+    terms_.front().kernel->integrate(values, displacement, Parts::all, result);
+    result.matrix *= terms_.front().factor;
+    for (std::size_t i = 1; i < terms_.size(); ++i) {
+      terms_[i].kernel->integrate(values, displacement, Parts::all, part_);
+      result.matrix += terms_[i].factor * part_.matrix;
+    }
     result.force.noalias() = result.matrix * displacement;
     result.energy = 0.5 * displacement.dot(result.force);
   }
 
   std::unique_ptr<ElementKernel<dim>> clone() const override {
-    return std::make_unique<EffectiveKernel>(*stiffness_, stiffness_factor_, *mass_, mass_factor_);
+    auto copy = std::make_unique<SumKernel>(std::vector<Weighted<dim>>{});
+    for (const Term& term : terms_) copy->terms_.push_back({term.kernel->clone(), term.factor});
+    return copy;
   }
 
  private:
-  std::unique_ptr<ElementKernel<dim>> stiffness_, mass_;
-  double stiffness_factor_, mass_factor_;
-  ElementSystem mass_part_;
+  struct Term {
+    std::unique_ptr<ElementKernel<dim>> kernel;
+    double factor;
+  };
+  std::vector<Term> terms_;
+  ElementSystem part_;
 };
 
 template <int dim>
@@ -76,11 +89,12 @@ std::array<Vector, dim> mass_of_translations(const Body<dim>& body, ElementKerne
 template <int dim>
 GeneralisedAlpha<dim>::GeneralisedAlpha(const Body<dim>& body, ElementKernel<dim>& stiffness,
                                         ElementKernel<dim>& mass, double retardation_time,
-                                        bool with_coarse_matrix)
+                                        bool with_coarse_matrix, LinearMemory<dim> memory)
     : body_(body),
       stiffness_kernel_(stiffness),
       mass_kernel_(mass),
       retardation_time_(retardation_time),
+      memory_(std::move(memory)),
       stiffness_(assembled(body, stiffness)),
       mass_(assembled(body, mass)),
       mass_of_(mass_of_translations(body, mass)),
@@ -104,8 +118,11 @@ void GeneralisedAlpha<dim>::set_step(double step, FieldSolver& solver) {
   constexpr double round_off = 1e-9;  // of a length divided into equal steps
   if (std::abs(step - step_) <= round_off * step) return;
   step_ = step;
-  EffectiveKernel<dim> kernel(stiffness_kernel_, 1.0 + 1.5 * retardation_time_ / step, mass_kernel_,
-                              2.0 / (step * step));
+  memory_.set_step(step);
+  std::vector<Weighted<dim>> terms = {{stiffness_kernel_, 1.0 + 1.5 * retardation_time_ / step},
+                                      {mass_kernel_, 2.0 / (step * step)}};
+  if (!memory_.empty()) terms.push_back({memory_.kernel(), memory_.stiffening()});
+  SumKernel<dim> kernel(terms);
   assemble(body_, kernel, body_.fine.vector(), *effective_);
   solver.set_matrix(*effective_);
 }
@@ -121,6 +138,7 @@ Vector GeneralisedAlpha<dim>::load() const {
   mass_.vmult(result, inertial);
   stiffness_.vmult(part, viscous);
   result += part;
+  memory_.add_load(u_, result);
   return result;
 }
 
@@ -134,6 +152,7 @@ void GeneralisedAlpha<dim>::advance(const Vector& displacement) {
   v_.add(1.5 / step_, travel, 0.25 * step_, a_);
   a_ *= 0.5;
   a_.add(0.5, end_acceleration_);
+  memory_.advance(u_, displacement);
   u_ = displacement;
 }
 
@@ -141,7 +160,7 @@ template <int dim>
 MechanicalEnergy GeneralisedAlpha<dim>::energy() const {
   Vector force = u_;
   stiffness_.vmult(force, u_);
-  const double elastic = 0.5 * (force * u_);
+  const double elastic = 0.5 * (force * u_) + memory_.energy();
   mass_.vmult(force, v_);
   return {0.5 * (force * v_), elastic};
 }
@@ -150,7 +169,7 @@ template <int dim>
 double GeneralisedAlpha<dim>::dissipation_rate() const {
   Vector force = u_;
   stiffness_.vmult(force, v_);
-  return retardation_time_ * (force * v_);
+  return retardation_time_ * (force * v_) + memory_.dissipation_rate();
 }
 
 template <int dim>
@@ -165,12 +184,12 @@ meshes::Vector3 GeneralisedAlpha<dim>::momentum() const {
 
 template <int dim>
 Vector GeneralisedAlpha<dim>::residual() const {
-  EffectiveKernel<dim> elastic(stiffness_kernel_, 1.0, mass_kernel_, 0.0);
-  EffectiveKernel<dim> inertial(stiffness_kernel_, 0.0, mass_kernel_, 1.0);
   Vector retarded = u_;
   retarded.add(retardation_time_, v_);
-  Vector result = unconstrained_force(body_, elastic, retarded);
+  Vector result = unconstrained_force(body_, stiffness_kernel_, retarded);
+  SumKernel<dim> inertial({{mass_kernel_, 1.0}});
   result += unconstrained_force(body_, inertial, end_acceleration_);
+  if (!memory_.empty()) result += unconstrained_force(body_, memory_.kernel(), memory_.past());
   return result;
 }
 

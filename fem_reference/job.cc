@@ -207,9 +207,12 @@ std::vector<Violation> ReferenceJob::violations() const {
                "the symmetry"
              : "vibrations leave the meridian: they need the solid",
          "choose reference.symmetry = \"automatic\""});
-  if (press && !rubber.relaxation.empty())
-    broken.push_back({"rubber.relaxation", std::to_string(rubber.relaxation.branches.size()),
-                      "the continuum does not relax", "leave it out"});
+  const bool split = strain == Strain::linear || rubber.energy.isochoric();
+  if (press && !rubber.relaxation.empty() && !rubber.relaxation.bulk && !split)
+    broken.push_back({"rubber.relaxation_bulk", "false",
+                      "a law of full invariants has no part that a change of volume leaves alone, "
+                      "so shear cannot relax without it",
+                      "choose rubber.volumetric = \"quadratic\", or let all moduli relax"});
   if (analysis == Analysis::transient && geometry.solid)
     broken.push_back({"reference.mode", "transient",
                       "a transient press tells the force along the axis alone, and a solid, which "

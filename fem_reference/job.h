@@ -55,8 +55,8 @@ struct ReferenceJob {
   Analysis analysis = Analysis::static_press;
   meshes::Geometry geometry;
   meshes::Rubber rubber;
-  /// Its samples are the indentations to solve for; its speed matters to a transient press alone,
-  /// its mode and clearance never.
+  /// Its samples are the indentations to solve for; its speed matters to a transient press and to a
+  /// rubber that relaxes, its mode and clearance never.
   meshes::PressProtocol protocol;
   Strain strain = Strain::linear;
   Symmetry symmetry = Symmetry::automatic;

@@ -15,9 +15,10 @@ namespace fingertip::fem_reference {
 namespace {
 
 /// Steps of a press, as fractions of the first sample, of the way so far (contact grows fastest at
-/// first touch), and of R - r.
+/// first touch), and of R - r; those of a rubber that relaxes as shares of the next sample's place,
+/// for the rate of strain counts as constant within a step.
 struct Steps {
-  double first, growth, longest;
+  double first, growth, longest, of_relaxing = 1.0 / 16.0;
 };
 /// Where a node first touches is remembered: at nu = 0.49 steps twice as long are off by 0.15 %.
 constexpr Steps remembered = {0.1, 0.25, 0.01};
@@ -74,15 +75,18 @@ struct ContinuumPress::Implementation {
   bool frictionless() const {
     return model->job().protocol.contact == meshes::ContactMode::frictionless;
   }
-  bool one_step() const { return frictionless() && model->job().strain == Strain::linear; }
+  bool relaxes() const { return !model->job().rubber.relaxation.empty(); }
+  bool one_step() const {
+    return frictionless() && model->job().strain == Strain::linear && !relaxes();
+  }
 
   double next_step(double target, double limit) const {
     if (one_step()) return target;
     const double now = model->place();
     const double longest = limit * steps.longest * model->job().geometry.thickness();
-    const double step =
-        std::min(longest, now > 0.0 ? limit * steps.growth * now
-                                    : limit * steps.first * std::min(target, longest));
+    double step = std::min(longest, now > 0.0 ? limit * steps.growth * now
+                                              : limit * steps.first * std::min(target, longest));
+    if (relaxes()) step = std::min(step, limit * steps.of_relaxing * target);
     const double pieces = std::ceil((target - now) / step - 1e-9);
     return pieces <= 1.0 ? target : std::min(target, now + std::min(step, (target - now) / pieces));
   }
@@ -100,6 +104,10 @@ MeshSummary ContinuumPress::mesh() const {
 
 void ContinuumPress::set_longest_step(double step) {
   implementation_->steps.longest = step;
+}
+
+void ContinuumPress::set_relaxing_step(double share) {
+  implementation_->steps.of_relaxing = share;
 }
 
 PressState ContinuumPress::advance(double place) {

@@ -28,7 +28,8 @@ struct PressState {
   std::vector<ContactPoint> contact;  ///< by increasing radius
   double node_spacing = 0.0;          ///< of the candidate nodes around the contact edge [m]
   double min_jacobian = 1.0;          ///< smallest det F at a quadrature point; 1 at small strain
-  double energy = 0.0;                ///< stored in the rubber [J]
+  double energy =
+      0.0;  ///< stored in the rubber; if it relaxes, after long times of this strain [J]
   /// About the energy that the mesh stores in excess: G times the sum of the squared error
   /// indicators (refine()), 2.5 times that on a meridian, up to a factor of order one that meshes
   /// share [J].
@@ -67,9 +68,11 @@ double contact_edge(const std::vector<ContactPoint>& contact, double node_spacin
 
 struct PressSnapshot;
 
-/// A tip under a plane that comes nearer: its meridian when the job is axisymmetric, a quarter of
-/// it when nothing else breaks the symmetry, a half (y >= 0) when it is tilted or moved laterally;
-/// a solid as a whole.
+/// A tip under a plane that comes nearer, in equilibrium; a rubber that relaxes is in time, without
+/// inertia, under a plane that moves along the path at the job's speed from first touch on.
+///
+/// Computed is its meridian when the job is axisymmetric, a quarter of it when nothing else breaks
+/// the symmetry, a half (y >= 0) when it is tilted or moved laterally; a solid as a whole.
 /// All processes of MPI_COMM_WORLD take part in every call.
 class ContinuumPress {
  public:
@@ -85,6 +88,8 @@ class ContinuumPress {
 
   /// Longest step in units of R - r; at first 0.01, or 0.1 where nothing sticks.
   void set_longest_step(double step);
+  /// Longest step of a rubber that relaxes, over the next sample's place; at first 1/16.
+  void set_relaxing_step(double share);
 
   /// Moves on to `place` [m] of the job's PressPath, at least the present one. Throws
   /// NotConverged, which leaves the press at the last step that converged; Interrupted between
@@ -112,7 +117,8 @@ class ContinuumPress {
   /// there, in plane axes [N].
   meshes::Vector3 bond_reaction() const;
 
-  /// Saves or restores mesh, solution and contact state; `folder` must exist.
+  /// Saves or restores mesh, solution, contact state and what the rubber remembers; `folder` must
+  /// exist.
   void save(const std::filesystem::path& folder) const;
   void load(const std::filesystem::path& folder);
 

@@ -100,12 +100,17 @@ PressState TipPress<dim>::evaluate() {
                             ? int(std::ranges::count(contact_->status(), NodeStatus::slide))
                             : 0;
   solver_->forget();
+  if (!job_.rubber.relaxation.empty()) state.sample.time = place_ / job_.protocol.speed;
   if (job_.strain == Strain::finite) {
     state.min_jacobian = system_->min_jacobian;
+    if (!point_memory_.empty())  // the last kernel was a step's
+      assemble_force(*body_, *make_kernel<dim>(job_, 1.0, 0.0), displacement_, *system_);
     state.energy = system_->energy;
   } else {
     Vector force = body_->fine.vector();
     system_->matrix.vmult(force, displacement_);
+    if (!linear_memory_.empty())  // a step's matrix
+      force.add(-linear_memory_.stiffening(), linear_memory_.relaxing_force(displacement_));
     state.energy = 0.5 * (force * displacement_);
   }
   add_resultant(state);

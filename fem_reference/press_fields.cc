@@ -13,6 +13,7 @@
 #include <ostream>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "fem_reference/element.h"
@@ -43,8 +44,9 @@ double von_mises(const Eigen::Matrix3d& stress) {
 /// The job's law: what is projected, and stress from it and the displacement gradient.
 class Law {
  public:
-  explicit Law(const ReferenceJob& job)
-      : lambda_(job.rubber.lame_lambda()), shear_(job.rubber.shear_modulus) {
+  explicit Law(const ReferenceJob& job) : shear_(job.rubber.shear_modulus) {
+    lambda_ = job.rubber.lame_lambda();
+    relaxing_lambda_ = job.rubber.relaxation.bulk ? lambda_ : -2.0 / 3.0 * shear_;
     if (job.strain == Strain::finite) finite_.emplace(job.rubber);
   }
 
@@ -56,7 +58,7 @@ class Law {
   }
 
   Eigen::Matrix3d stress(const Eigen::Matrix3d& gradient, double volumetric) const {
-    if (!finite_) return lambda_ * volumetric * one_ + shear_ * (gradient + gradient.transpose());
+    if (!finite_) return hookean(lambda_, gradient, volumetric);
     const Eigen::Matrix3d f = one_ + gradient;
     const double jacobian = f.determinant();
     // Nodes are not quadrature points; an element may be inverted there alone.
@@ -66,8 +68,17 @@ class Law {
     return finite_->pointwise(f).stress * f.transpose() / jacobian + pressure * one_;
   }
 
+  /// At small strain, of the moduli that relax.
+  Eigen::Matrix3d relaxing_stress(const Eigen::Matrix3d& gradient, double volumetric) const {
+    return hookean(relaxing_lambda_, gradient, volumetric);
+  }
+
  private:
-  double lambda_, shear_;
+  Eigen::Matrix3d hookean(double lambda, const Eigen::Matrix3d& gradient, double volumetric) const {
+    return lambda * volumetric * one_ + shear_ * (gradient + gradient.transpose());
+  }
+
+  double lambda_, relaxing_lambda_, shear_;
   std::optional<meshes::HyperelasticLaw> finite_;
   Eigen::Matrix3d one_ = Eigen::Matrix3d::Identity();
 };
@@ -89,8 +100,47 @@ class NodalStress {
             dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points) {}
 
   std::vector<Eigen::Matrix3d> on(const CellIterator<dim>& cell, const Vector& displacement) {
+    const auto [gradients, volumetric] = strain_on(cell, displacement);
+    std::vector<Eigen::Matrix3d> stresses;
+    for (std::size_t a = 0; a < gradients.size(); ++a)
+      stresses.push_back(law_.stress(gradients[a], volumetric[Eigen::Index(a)]));
+    return stresses;
+  }
+
+  /// Adds the stress that the relaxing moduli make of a displacement.
+  void add_relaxing(const CellIterator<dim>& cell, const Vector& displacement,
+                    std::vector<Eigen::Matrix3d>& stresses) {
+    const auto [gradients, volumetric] = strain_on(cell, displacement);
+    for (std::size_t a = 0; a < gradients.size(); ++a)
+      stresses[a] += law_.relaxing_stress(gradients[a], volumetric[Eigen::Index(a)]);
+  }
+
+  /// Adds second Piola-Kirchhoff stresses, carried from the quadrature points to the nodes by
+  /// polynomials.
+  void add_remembered(const CellIterator<dim>& cell, const Vector& displacement,
+                      const PointStresses& kept, std::vector<Eigen::Matrix3d>& stresses) {
+    inside_.reinit(cell);
     nodes_.reinit(cell);
+    const ElementPolynomials<dim> polynomials(inside_, int(inside_.get_fe().degree));
+    Eigen::VectorXd weights(kept.points);
+    for (Eigen::Index q = 0; q < weights.size(); ++q) weights[q] = weight(inside_, unsigned(q));
+    const Eigen::MatrixXd at_nodes = kept.of_cell(cell->active_cell_index()) *
+                                     weights.asDiagonal() *
+                                     polynomials.at(inside_.get_quadrature_points()) *
+                                     polynomials.at(nodes_.get_quadrature_points()).transpose();
     const auto gradients = gradients_of(nodes_, displacement);
+    for (std::size_t a = 0; a < gradients.size(); ++a) {
+      const Eigen::Matrix3d f = Eigen::Matrix3d::Identity() + gradients[a];
+      stresses[a] += f * tensor_of(at_nodes.col(Eigen::Index(a))) * f.transpose() / f.determinant();
+    }
+  }
+
+ private:
+  /// At the nodes: displacement gradients and the volumetric measure that elements work with.
+  std::pair<std::vector<Eigen::Matrix3d>, Eigen::VectorXd> strain_on(const CellIterator<dim>& cell,
+                                                                     const Vector& displacement) {
+    nodes_.reinit(cell);
+    auto gradients = gradients_of(nodes_, displacement);
     Eigen::VectorXd volumetric(Eigen::Index(gradients.size()));
     if (projected_) {
       volumetric = projection(cell, displacement);
@@ -98,13 +148,9 @@ class NodalStress {
       for (std::size_t a = 0; a < gradients.size(); ++a)
         volumetric[Eigen::Index(a)] = law_.volumetric(gradients[a]);
     }
-    std::vector<Eigen::Matrix3d> stresses;
-    for (std::size_t a = 0; a < gradients.size(); ++a)
-      stresses.push_back(law_.stress(gradients[a], volumetric[Eigen::Index(a)]));
-    return stresses;
+    return {std::move(gradients), std::move(volumetric)};
   }
 
- private:
   static std::vector<Eigen::Matrix3d> gradients_of(const dealii::FEValues<dim>& values,
                                                    const Vector& displacement) {
     const dealii::FEValuesExtractors::Vector whole(0);
@@ -254,19 +300,23 @@ void FieldOutput<2>::write(const std::filesystem::path& file, int around) {
 
 template <int dim>
 StressField<dim>::StressField(const Body<dim>& body, const ReferenceJob& job,
-                              const Vector& displacement)
+                              const Vector& displacement, const RememberedStress& kept)
     : element_(dealii::FE_DGQ<dim>(unsigned(body.degree())), field_count<dim>),
       dofs_(body.triangulation) {
   dofs_.distribute_dofs(element_);
   Vector own(dofs_.locally_owned_dofs(), body.fine.communicator);
   const Vector u = body.fine.ghosted(displacement);
+  const Vector past =
+      kept.displacement.size() > 0 ? body.fine.ghosted(kept.displacement) : Vector();
   NodalStress<dim> nodal(body, job);
   std::vector<global_dof_index> unknowns(element_.n_dofs_per_cell());
   for (const auto& cell : dofs_.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
     const CellIterator<dim> elastic(&body.triangulation, cell->level(), cell->index(),
                                     &body.fine.dofs);
-    const auto stresses = nodal.on(elastic, u);
+    auto stresses = nodal.on(elastic, u);
+    if (past.size() > 0) nodal.add_relaxing(elastic, past, stresses);
+    if (kept.stress.points > 0) nodal.add_remembered(elastic, u, kept.stress, stresses);
     cell->get_dof_indices(unknowns);
     for (unsigned a = 0; a < stresses.size(); ++a) {
       for (unsigned c = 0; c + 1 < field_count<dim>; ++c) {

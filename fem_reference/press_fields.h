@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem_reference/body.h"
+#include "fem_reference/element.h"
 #include "fem_reference/job.h"
 #include "fem_reference/plane_contact.h"
 
@@ -22,6 +23,14 @@ class FieldOutput : public dealii::DataOut<dim> {
   void write(const std::filesystem::path& file, int around = 0);
 };
 
+/// Of what a rubber that relaxes remembers (memory.h): at small strain the displacement of which
+/// the relaxing moduli make stress, at large strain the stress itself. Both empty for one that does
+/// not.
+struct RememberedStress {
+  Vector displacement;  ///< [m]
+  PointStresses stress;
+};
+
 /// Cauchy stress and von Mises' equivalent stress [Pa] at the nodes of each element, where elements
 /// may disagree. The volumetric part is the one that the elements work with: when the job asks for
 /// it projected, its pointwise values would oscillate near nu = 1/2.
@@ -30,7 +39,8 @@ class StressField {
  public:
   /// At the displacement given (owned entries). Small strain with Kelvin-Voigt damping: give
   /// u + tau v.
-  StressField(const Body<dim>& body, const ReferenceJob& job, const Vector& displacement);
+  StressField(const Body<dim>& body, const ReferenceJob& job, const Vector& displacement,
+              const RememberedStress& kept = {});
 
   /// As `stress` (a tensor) and `von_mises_stress`; not a number where an element is turned inside
   /// out at a node alone.

@@ -43,14 +43,6 @@ meshes::Vector3 contact_centre(const ReferenceJob& job) {
          meshes::touched_first(job.geometry, tilt, job.protocol.obstacle);
 }
 
-template <int dim>
-std::unique_ptr<ElementKernel<dim>> make_kernel(const ReferenceJob& job) {
-  if (job.strain == Strain::linear)
-    return std::make_unique<HookeKernel<dim>>(job.rubber, job.volumetric);
-  return std::make_unique<HyperelasticKernel<dim>>(meshes::HyperelasticLaw(job.rubber),
-                                                   job.volumetric);
-}
-
 }  // namespace
 
 template <int dim>
@@ -61,7 +53,7 @@ TipPress<dim>::TipPress(const ReferenceJob& job, const std::filesystem::path& me
       touch_(meshes::first_touch(job.geometry, job.protocol.tilt, job.protocol.obstacle)),
       centre_(contact_centre(job)),
       body_(read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, job.protocol.tilt, job.geometry)),
-      kernel_(make_kernel<dim>(job)) {
+      kernel_(make_kernel<dim>(job, 1.0, 0.0)) {
   body_->number(tip_supports<dim>());
   prepare();
 }
@@ -92,8 +84,12 @@ void TipPress<dim>::prepare() {
   displacement_.reinit(body_->fine.vector());
   system_ = std::make_unique<LinearSystem>(*body_, solver_kind_ == LinearSolver::multigrid);
   if (job_.strain == Strain::linear) {
+    linear_memory_ = LinearMemory<dim>(*body_, job_);
+    kernel_ = make_kernel<dim>(job_, 1.0, 0.0);
     assemble(*body_, *kernel_, displacement_, *system_);
     solver_->set_matrix(*system_);
+  } else {
+    point_memory_ = PointMemory<dim>(*body_, job_);
   }
   marks_.clear();
 }
@@ -119,6 +115,7 @@ template <int dim>
 void TipPress<dim>::step(double place, bool sampled, PressState& effort) {
   const PlanePose target = pose(place);
   const Vector before = displacement_;
+  prepare_step((place - place_) / job_.protocol.speed);
   if (job_.strain == Strain::linear)
     linear_step(target, effort);
   else
@@ -130,7 +127,26 @@ void TipPress<dim>::step(double place, bool sampled, PressState& effort) {
     throw;
   }
   contact_->commit();
+  linear_memory_.advance(before, displacement_);
+  point_memory_.advance(displacement_);
   place_ = place;
+}
+
+template <int dim>
+void TipPress<dim>::prepare_step(double duration) {
+  if (!point_memory_.empty()) {
+    point_memory_.start_step(duration);
+    kernel_ = make_kernel<dim>(job_, 1.0, point_memory_.stiffening(), point_memory_.carried());
+  }
+  if (linear_memory_.empty()) return;
+  if (linear_memory_.set_step(duration)) {
+    kernel_ = make_kernel<dim>(job_, 1.0, linear_memory_.stiffening());
+    assemble(*body_, *kernel_, body_->fine.vector(), *system_);
+    solver_->set_matrix(*system_);
+  }
+  Vector load = body_->fine.vector();
+  linear_memory_.add_load(displacement_, load);
+  solver_->set_load(load);
 }
 
 template <int dim>
@@ -264,8 +280,12 @@ void TipPress<dim>::check_other_nodes(double place) const {
 
 template <int dim>
 meshes::Vector3 TipPress<dim>::bond_reaction() const {
-  return resultant(*body_, unconstrained_force(*body_, *kernel_, displacement_),
-                   dealii::types::boundary_id(meshes::PhysicalTag::bond));
+  const PointStresses kept = point_memory_.past();
+  const auto kernel = make_kernel<dim>(job_, 1.0, 0.0, point_memory_.empty() ? nullptr : &kept);
+  Vector force = unconstrained_force(*body_, *kernel, displacement_);
+  if (!linear_memory_.empty())
+    force += unconstrained_force(*body_, linear_memory_.kernel(), linear_memory_.past());
+  return resultant(*body_, force, dealii::types::boundary_id(meshes::PhysicalTag::bond));
 }
 
 template class TipPress<2>;

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "fem_reference/field_solver.h"
+#include "fem_reference/memory.h"
 #include "fem_reference/plane_contact.h"
 #include "fem_reference/press.h"
+#include "fem_reference/press_fields.h"
 #include "fem_reference/tip_body.h"
 
 namespace fingertip::fem_reference {
@@ -19,6 +21,7 @@ namespace fingertip::fem_reference {
 struct PressSnapshot {
   Vector displacement;
   PlaneContact::State contact;
+  RememberedStress remembered;
 };
 
 /// What ContinuumPress asks of a model, whatever its dimension.
@@ -77,6 +80,8 @@ class TipPress final : public PressModel {
   void prepare();
   std::unique_ptr<FieldSolver> make_solver(const std::vector<long>& contact_unknowns) const;
   PlanePose pose(double place) const;
+  /// The material of a step of that length [s]; of a rubber that relaxes it depends on both.
+  void prepare_step(double duration);
   void linear_step(const PlanePose& target, PressState& effort);
   void newton_step(const PlanePose& target, bool sampled, PressState& effort);
   Eigen::VectorXd at_contact(const Vector& field) const;
@@ -94,6 +99,7 @@ class TipPress final : public PressModel {
   double half_width() const;  ///< of the contact where it is narrowest, in the reference [m]
   void note_indicators(PressState& state);
   void load_marks(std::size_t samples);
+  void load_stresses();
 
   meshes::Sector sector_;
   meshes::PressPath path_;
@@ -106,8 +112,10 @@ class TipPress final : public PressModel {
   std::unique_ptr<PlaneContact> contact_;
   std::vector<SurfaceNode> outer_nodes_;
   LinearSolver solver_kind_ = LinearSolver::automatic;
-  Vector displacement_;       ///< of the last converged step
-  double off_surface_ = 0.0;  ///< [m]
+  Vector displacement_;              ///< of the last converged step
+  LinearMemory<dim> linear_memory_;  ///< of that step, at small strain
+  PointMemory<dim> point_memory_;    ///< at large strain
+  double off_surface_ = 0.0;         ///< [m]
   /// Where a sample asks for smaller elements, per local cell.
   struct Marks {
     dealii::Vector<float> indicators;  ///< squared error indicators over their sum

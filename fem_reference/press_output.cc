@@ -1,8 +1,10 @@
 /// Files for ParaView, the section, and checkpoints of a press.
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_dgq.h>
+#include <deal.II/fe/fe_system.h>
 #include <deal.II/numerics/data_out.h>
 
 #include <fstream>
@@ -64,6 +66,62 @@ class CellFields {
   dealii::DoFHandler<dim> dofs_;
 };
 
+/// Stresses at quadrature points as fields of elements whose nodes are those points, so that they
+/// travel with the mesh.
+template <int dim>
+class PointFields {
+ public:
+  explicit PointFields(const Body<dim>& body)
+      : element_(dealii::FE_DGQArbitraryNodes<dim>(dealii::QGauss<1>(unsigned(body.degree()) + 1)),
+                 6),
+        dofs_(body.triangulation) {
+    dofs_.distribute_dofs(element_);
+  }
+  Vector from(const PointStresses& stresses) const {
+    Vector result(dofs_.locally_owned_dofs(), MPI_COMM_WORLD);
+    for_each(stresses, [&](double value, auto unknown) { result[unknown] = value; });
+    result.compress(dealii::VectorOperation::insert);
+    Vector known(dofs_.locally_owned_dofs(), relevant(), MPI_COMM_WORLD);
+    known = result;
+    return known;
+  }
+  Vector empty() const { return Vector(dofs_.locally_owned_dofs(), MPI_COMM_WORLD); }
+  void copy(const Vector& field, PointStresses& stresses) const {
+    for_each(stresses, [&](double& value, auto unknown) { value = field[unknown]; });
+  }
+  const dealii::DoFHandler<dim>& dofs() const { return dofs_; }
+
+ private:
+  dealii::IndexSet relevant() const {
+    dealii::IndexSet result;
+    dealii::DoFTools::extract_locally_relevant_dofs(dofs_, result);
+    return result;
+  }
+  void for_each(auto& stresses, auto action) const {
+    std::vector<dealii::types::global_dof_index> unknowns(element_.n_dofs_per_cell());
+    for (const auto& cell : dofs_.active_cell_iterators()) {
+      if (!cell->is_locally_owned()) continue;
+      cell->get_dof_indices(unknowns);
+      auto values = stresses.of_cell(cell->active_cell_index());
+      for (unsigned q = 0; q < stresses.points; ++q)
+        for (unsigned c = 0; c < 6; ++c)
+          action(values(c, q), unknowns[element_.component_to_system_index(c, q)]);
+    }
+  }
+
+  dealii::FESystem<dim> element_;
+  dealii::DoFHandler<dim> dofs_;
+};
+
+template <int dim>
+using Transfer = dealii::parallel::distributed::SolutionTransfer<dim, Vector>;
+
+std::vector<const Vector*> pointers_to(const std::vector<Vector>& fields) {
+  std::vector<const Vector*> list;
+  for (const Vector& field : fields) list.push_back(&field);
+  return list;
+}
+
 Json to_json(const Eigen::VectorXd& v) {
   return std::vector<double>(v.data(), v.data() + v.size());
 }
@@ -77,7 +135,8 @@ Eigen::VectorXd vector_from(const Json& json) {
 
 template <int dim>
 std::shared_ptr<const PressSnapshot> TipPress<dim>::snapshot() const {
-  return std::make_shared<PressSnapshot>(PressSnapshot{displacement_, contact_->committed()});
+  return std::make_shared<PressSnapshot>(PressSnapshot{
+      displacement_, contact_->committed(), {linear_memory_.past(), point_memory_.past()}});
 }
 
 template <int dim>
@@ -89,7 +148,7 @@ void TipPress<dim>::write_fields(const PressSnapshot& state,
   then.restore(state.contact);
   const ContactField<dim> contact(*body_, then,
                                   outer_area(*body_, finite ? &state.displacement : nullptr));
-  const StressField<dim> stress(*body_, job_, state.displacement);
+  const StressField<dim> stress(*body_, job_, state.displacement, state.remembered);
   FieldOutput<dim> out;
   out.add_data_vector(body_->fine.dofs, u, std::vector<std::string>(dim, "displacement"),
                       std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
@@ -162,19 +221,23 @@ std::vector<SectionEdge> TipPress<dim>::section(const PressSnapshot& state) cons
 template <int dim>
 void TipPress<dim>::save(const std::filesystem::path& folder) const {
   const CellFields<dim> cells(body_->triangulation);
-  const Vector u = body_->fine.ghosted(displacement_);
+  std::vector<Vector> displacements = {body_->fine.ghosted(displacement_)};
+  for (const Vector& branch : linear_memory_.branches())
+    displacements.push_back(body_->fine.ghosted(branch));
   std::vector<Vector> marks;
   for (const Marks& sample : marks_) {
     marks.push_back(cells.ghosted(cells.from(sample.indicators)));
     marks.push_back(cells.ghosted(cells.from(sample.edge)));
   }
-  std::vector<const Vector*> mark_list;
-  for (const Vector& field : marks) mark_list.push_back(&field);
-  dealii::parallel::distributed::SolutionTransfer<dim, Vector> displacement_transfer(
-      body_->fine.dofs);
-  dealii::parallel::distributed::SolutionTransfer<dim, Vector> cell_transfer(cells.dofs());
-  displacement_transfer.prepare_for_serialization(u);
-  if (!mark_list.empty()) cell_transfer.prepare_for_serialization(mark_list);
+  Transfer<dim> displacement_transfer(body_->fine.dofs), cell_transfer(cells.dofs());
+  displacement_transfer.prepare_for_serialization(pointers_to(displacements));
+  if (!marks.empty()) cell_transfer.prepare_for_serialization(pointers_to(marks));
+  const PointFields<dim> points(*body_);
+  Transfer<dim> point_transfer(points.dofs());
+  std::vector<Vector> stresses;
+  for (const PointStresses* field : point_memory_.stresses())
+    stresses.push_back(points.from(*field));
+  if (!stresses.empty()) point_transfer.prepare_for_serialization(pointers_to(stresses));
   body_->triangulation.save((folder / "mesh").string());
   if (!first_process()) return;
   const PlaneContact::State& state = contact_->committed();
@@ -198,13 +261,25 @@ void TipPress<dim>::load_marks(std::size_t samples) {
   std::vector<Vector> fields(2 * samples, cells.from(empty));
   std::vector<Vector*> list;
   for (Vector& field : fields) list.push_back(&field);
-  dealii::parallel::distributed::SolutionTransfer<dim, Vector> transfer(cells.dofs());
+  Transfer<dim> transfer(cells.dofs());
   transfer.deserialize(list);
   for (std::size_t i = 0; i < samples; ++i) {
     marks_[i] = {empty, empty};
     cells.copy(fields[2 * i], marks_[i].indicators);
     cells.copy(fields[2 * i + 1], marks_[i].edge);
   }
+}
+
+template <int dim>
+void TipPress<dim>::load_stresses() {
+  if (point_memory_.empty()) return;
+  const PointFields<dim> points(*body_);
+  const std::vector<PointStresses*> stresses = point_memory_.stresses();
+  std::vector<Vector> fields(stresses.size(), points.empty());
+  std::vector<Vector*> list;
+  for (Vector& field : fields) list.push_back(&field);
+  Transfer<dim>(points.dofs()).deserialize(list);
+  for (std::size_t i = 0; i < fields.size(); ++i) points.copy(fields[i], *stresses[i]);
 }
 
 template <int dim>
@@ -215,10 +290,11 @@ void TipPress<dim>::load(const std::filesystem::path& folder) {
   std::ostringstream text;
   if (first_process()) text << std::ifstream(folder / "contact.json").rdbuf();
   const Json json = Json::parse(dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, text.str()));
-  dealii::parallel::distributed::SolutionTransfer<dim, Vector> displacement_transfer(
-      body_->fine.dofs);
-  displacement_transfer.deserialize(displacement_);
+  std::vector<Vector*> displacements = {&displacement_};
+  for (Vector& branch : linear_memory_.branches()) displacements.push_back(&branch);
+  Transfer<dim>(body_->fine.dofs).deserialize(displacements);
   load_marks(json.at("samples").get<std::size_t>());
+  load_stresses();
 
   place_ = json.at("place").get<double>();
   PlaneContact::State state;

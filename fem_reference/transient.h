@@ -21,15 +21,16 @@ struct TransientStep {
   double contact_force = 0.0;   ///< of the plane on the rubber [N]
   double momentum = 0.0;        ///< of the rubber away from the plane, in the rod's frame [kg m/s]
   double kinetic_energy = 0.0;  ///< in the rod's frame [J]
-  double elastic_energy = 0.0;  ///< [J]
+  double elastic_energy = 0.0;  ///< of the branches, too [J]
   double work = 0.0;            ///< of the plane on the rubber so far [J]
-  double dissipated_energy = 0.0;  ///< by the rubber's damping so far [J]
+  double dissipated_energy = 0.0;  ///< by damping and relaxation so far [J]
 };
 
 class TransientModel;
 
 /// The press of ContinuumPress at the job's speed: small strain, frictionless or stick, along the
-/// axis, Kelvin-Voigt damping C = tau K, consistent mass M. In the rod's frame, which is inertial
+/// axis, Kelvin-Voigt damping C = tau K of the moduli after long times, relaxation, consistent mass
+/// M. In the rod's frame, which is inertial
 /// because the rod's speed is constant, the tip starts at rest and the plane comes at that speed,
 /// first touching at time 0. No gravity.
 ///

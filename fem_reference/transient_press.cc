@@ -83,7 +83,7 @@ class TipInMotion final : public TransientModel {
         mass(job.rubber.density),
         solver_kind(choose_solver(job, double(body->unknowns()))),
         motion(*body, stiffness, mass, job.rubber.retardation_time,
-               solver_kind == LinearSolver::multigrid) {
+               solver_kind == LinearSolver::multigrid, LinearMemory<dim>(*body, job)) {
     ContactUnknowns candidates =
         contact_unknowns(within_reach(outer_nodes(*body), job.protocol, touch(),
                                       bulge * job.protocol.samples.back()),
@@ -164,7 +164,7 @@ class TipInMotion final : public TransientModel {
     // With Kelvin-Voigt damping the stress is that of u + tau v.
     Vector strained = motion.displacement();
     strained.add(job.rubber.retardation_time, motion.velocity());
-    const StressField<dim> stress(*body, job, strained);
+    const StressField<dim> stress(*body, job, strained, {motion.memory().past(), {}});
     const ContactField<dim> touch(*body, *contact, outer_area(*body, nullptr));
     FieldOutput<dim> out;
     out.add_data_vector(space.dofs, u, std::vector<std::string>(dim, "displacement"), vector);

@@ -80,7 +80,7 @@ void visit_fields(T& energy, auto&& visit) {
 template <Fields<PressProtocol> T>
 void visit_fields(T& protocol, auto&& visit) {
   auto& [mode, contact, friction, tilt, lateral, lateral_path, lateral_samples, depth, speed,
-         clearance, samples, obstacle] = protocol;
+         clearance, samples, obstacle, program] = protocol;
   visit("mode", mode, "");
   visit("contact", contact, "");
   visit("friction", friction, "");
@@ -94,6 +94,16 @@ void visit_fields(T& protocol, auto&& visit) {
   visit("samples", samples, "m");
   // Files of a press on a plane need not name what it has not.
   if (!std::is_const_v<T> || !obstacle.is_plane()) visit("obstacle", obstacle, "");
+  // Nor those of the usual press its stages.
+  if (!std::is_const_v<T> || !program.empty()) visit("program", program, "");
+}
+
+template <Fields<PressStage> T>
+void visit_fields(T& stage, auto&& visit) {
+  auto& [indentation, speed, hold] = stage;
+  visit("indentation", indentation, "m");
+  visit("speed", speed, "m/s");
+  visit("hold", hold, "s");
 }
 
 template <Fields<Obstacle> T>

@@ -1,5 +1,6 @@
 #include "meshes/press_protocol.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,6 +11,80 @@ namespace fingertip::meshes {
 namespace {
 /// Beyond it the sleeve's end may come near the plane [rad].
 constexpr double largest_tilt = 0.7854;
+
+bool is_positive(double value) {
+  return std::isfinite(value) && value > 0.0;
+}
+
+/// Of a program's stages, each told by its number.
+class ProgramRules {
+ public:
+  ProgramRules(const PressProtocol& protocol, const Geometry& geometry)
+      : protocol_(protocol), geometry_(geometry) {}
+
+  std::vector<Violation> broken() {
+    double reached = -protocol_.clearance, deepest = reached;
+    for (const PressStage& stage : protocol_.program) {
+      ++number_;
+      if (stage.moves()) check_move(stage, reached);
+      if (!stage.moves()) check_hold(stage, reached);
+      reached = stage.indentation;
+      deepest = std::max(deepest, reached);
+    }
+    if (found_.empty()) check_whole(deepest);
+    return std::move(found_);
+  }
+
+ private:
+  void require(bool holds, const std::string& rule, const std::string& remedy) {
+    if (!holds)
+      found_.push_back({"press.program", std::to_string(protocol_.program.size()) + " stages",
+                        (number_ > 0 ? "stage " + std::to_string(number_) + ": " : "") + rule,
+                        remedy});
+  }
+
+  void check_move(const PressStage& stage, double reached) {
+    const double to = stage.indentation;
+    require(is_positive(stage.speed), "the speed of a move must be finite and positive",
+            "an indentation below the last one moves up");
+    require(to >= -protocol_.clearance && to < geometry_.thickness(),
+            "the indentation must lie between minus the clearance, where the rod starts, and the "
+            "thickness of the rubber, " +
+                to_text(geometry_.thickness()) + " m",
+            "press less deep, or lift less far or give a larger press.clearance");
+    require(number_ > 1 || to > 0.0, "the first stage must press, to an indentation above 0",
+            "begin with the loading");
+    require(to != reached, "the move ends where it begins",
+            "write [\"hold\", \"1 s\"] to stay, or drop the stage");
+    require(stage.hold == 0.0, "a stage moves or holds", "make two stages of it");
+  }
+
+  void check_hold(const PressStage& stage, double reached) {
+    require(number_ > 1, "a program begins with a move", "press first, then hold");
+    require(is_positive(stage.hold), "a hold must take a finite time above 0",
+            "give its duration, or drop the stage");
+    require(number_ == 1 || stage.indentation == reached, "a hold stays at its indentation",
+            "give it that of the stage before");
+  }
+
+  void check_whole(double deepest) {
+    number_ = 0;
+    require(protocol_.depth == deepest,
+            "press.depth must be the program's largest indentation, " + to_text(deepest) + " m",
+            "leave press.depth out");
+    require(protocol_.speed == protocol_.program.front().speed,
+            "press.speed must be the speed of the first stage, " +
+                to_text(protocol_.program.front().speed) + " m/s",
+            "leave press.speed out");
+    require(!protocol_.slides_after(), "no lateral motion follows the stages of a program",
+            "take press.lateral_path = diagonal, or leave one of the two out");
+  }
+
+  const PressProtocol& protocol_;
+  const Geometry& geometry_;
+  std::size_t number_ = 0;  ///< of the stage, from 1; 0: the whole program
+  std::vector<Violation> found_;
+};
 }  // namespace
 
 std::string_view name(ContactMode mode) {
@@ -37,6 +112,23 @@ std::string_view name(LateralPath path) {
 PressPath::PressPath(const PressProtocol& protocol)
     : length_(protocol.depth),
       samples_(protocol.samples.empty() ? default_samples(protocol.depth) : protocol.samples) {
+  if (!protocol.program.empty()) {
+    slope_ = protocol.lateral / protocol.depth;
+    samples_.clear();
+    length_ = 0.0;
+    double from = 0.0;
+    for (const PressStage& stage : protocol.program) {
+      if (!stage.moves()) continue;
+      for (const double depth : depths_on_the_way(protocol, from, stage.indentation)) {
+        samples_.push_back(length_ + std::abs(depth - from));
+        sample_depths_.push_back(depth);
+      }
+      length_ = samples_.back();
+      from = stage.indentation;
+      moves_.emplace_back(length_, from);
+    }
+    return;
+  }
   if (!protocol.slides_after()) {
     slope_ = protocol.lateral / protocol.depth;
     return;
@@ -49,7 +141,32 @@ PressPath::PressPath(const PressProtocol& protocol)
   samples_.push_back(length_);
 }
 
+bool PressPath::bends(double from, double to) const {
+  if (from < corner_ && corner_ < to) return true;
+  return std::ranges::any_of(moves_,
+                             [&](const auto& end) { return from < end.first && end.first < to; });
+}
+
 PressPose PressPath::at(double s) const {
+  if (!moves_.empty()) {
+    // A sample lies where it was asked for, without the rounding of s.
+    const auto sample = std::ranges::lower_bound(samples_, s);
+    double depth = s;
+    if (sample != samples_.end() && *sample == s) {
+      depth = sample_depths_[std::size_t(sample - samples_.begin())];
+    } else {
+      const auto end =
+          std::ranges::find_if(moves_, [s](const auto& move) { return s < move.first; });
+      const bool first = end == moves_.begin();
+      if (end == moves_.end()) {
+        depth = moves_.back().second;
+      } else if (!first) {
+        const auto& [place, from] = *(end - 1);
+        depth = from + std::copysign(s - place, end->second - from);
+      }
+    }
+    return {depth, slope_ * depth};
+  }
   if (s <= corner_) return {s, slope_ * s};
   // A sample lies where it was asked for, without the rounding of s.
   constexpr double rounding = 1e-9;
@@ -63,7 +180,7 @@ std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const
                            const char* remedy) {
     if (!holds) found.push_back({key, std::move(value), rule, remedy});
   };
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  const auto positive = is_positive;
   require(positive(depth) && depth < geometry.thickness(), "press.depth", to_text(depth) + " m",
           geometry.is_dome()
               ? "the depth must lie between 0 and the rubber's thickness R - r"
@@ -98,7 +215,22 @@ std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const
     require(samples.back() == depth, "press.samples", to_text(samples.back()) + " m",
             "the last sample must be the depth of the press", "end the samples at press.depth");
   }
+  if (!program.empty())
+    for (Violation& violation : ProgramRules(*this, geometry).broken())
+      found.push_back(std::move(violation));
   return found;
+}
+
+std::vector<double> depths_on_the_way(const PressProtocol& protocol, double from, double to) {
+  const double same = 1e-9 * protocol.depth;
+  std::vector<double> depths;
+  for (const double depth :
+       protocol.samples.empty() ? default_samples(protocol.depth) : protocol.samples)
+    if (depth > std::min(from, to) + same && depth < std::max(from, to) - same)
+      depths.push_back(depth);
+  if (to < from) std::ranges::reverse(depths);
+  depths.push_back(to);
+  return depths;
 }
 
 std::vector<double> default_samples(double depth) {

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "meshes/errors.h"
@@ -42,6 +43,16 @@ struct PressPose {
   double lateral = 0.0;  ///< displacement along t1
 };
 
+/// A part of a press in time: a move on to another indentation, or a hold.
+struct PressStage {
+  double indentation = 0.0;  ///< at its end [m]; of a hold that of the stage before; 0: first touch
+  double speed = 0.0;        ///< of a move [m/s], > 0; 0: a hold
+  double hold = 0.0;         ///< how long a hold lasts [s], > 0; 0: a move
+
+  bool moves() const { return speed != 0.0; }
+  bool operator==(const PressStage&) const = default;
+};
+
 /// The press. Indentation is geometric: the distance the rod has travelled along the plane's normal
 /// since the tip first touched; of an obstacle that is no plane, "the plane" is the one that
 /// touches it at its top.
@@ -58,6 +69,10 @@ struct PressProtocol {
   double clearance = 0.5e-3;    ///< initial gap between pole and plane [m], > 0; starts at rest
   std::vector<double> samples;  ///< output indentations [m], increasing, last one = depth
   Obstacle obstacle = {};
+  /// Stages one after the other, each from rest to rest; the first one covers the clearance, too.
+  /// depth is the largest indentation then, speed the first stage's. Empty: to `depth` at `speed`,
+  /// still moving when it ends.
+  std::vector<PressStage> program = {};
 
   /// Whether a second phase follows the press: a lateral motion at full depth.
   bool slides_after() const { return lateral_path == LateralPath::after && lateral != 0.0; }
@@ -65,9 +80,11 @@ struct PressProtocol {
   std::vector<Violation> violations(const Geometry& geometry) const;
 };
 
-/// The plane's path by a coordinate s [m] that is 0 at first touch and grows: s is the indentation,
-/// and where a lateral motion follows the press, depth plus the distance moved laterally. The path
-/// is straight but for one corner, at full depth, when a lateral motion follows.
+/// The plane's path by a coordinate s [m] that is 0 at first touch and grows: the indentation, and
+/// where a lateral motion follows the press, depth plus the distance moved laterally; of a program
+/// the way travelled along the normal, up or down. The path is straight but for its corners: at
+/// full depth, when a lateral motion follows, and where a program's moves end. Holds are no part of
+/// it.
 class PressPath {
  public:
   /// Straight along the normal, without end.
@@ -79,10 +96,11 @@ class PressPath {
   PressPose at(double s) const;
   /// Displacement along t1 per indentation on the way down.
   double slope() const { return slope_; }
-  /// Whether the corner lies between two places of the path.
-  bool bends(double from, double to) const { return from < corner_ && corner_ < to; }
+  /// Whether a corner lies between two places of the path.
+  bool bends(double from, double to) const;
   /// Where output is wanted: at the protocol's samples (or default_samples) and after them at equal
-  /// steps of the lateral motion that follows. Increasing; ends at length().
+  /// steps of the lateral motion that follows; of every move of a program at depths_on_the_way.
+  /// Increasing; ends at length().
   const std::vector<double>& samples() const { return samples_; }
 
  private:
@@ -91,7 +109,13 @@ class PressPath {
   double lateral_ = 0.0;  ///< beyond the corner, to the end [m]
   int steps_ = 0;         ///< samples beyond the corner
   std::vector<double> samples_;
+  std::vector<std::pair<double, double>> moves_;  ///< of a program: place, indentation at ends [m]
+  std::vector<double> sample_depths_;             ///< of a program: exact ones of samples_ [m]
 };
+
+/// Output depths [m] of a move between two indentations [m]: those of the protocol's samples (or
+/// default_samples) that lie between them, in the order in which they are passed, and then `to`.
+std::vector<double> depths_on_the_way(const PressProtocol& protocol, double from, double to);
 
 /// Ten output depths [m] for a press to `depth` [m] > 0: 1, 2, 3, 5, 7.5, 10, 15, 20, 25 and 30
 /// thirtieths of it, denser where the force is still strongly curved.

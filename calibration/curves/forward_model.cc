@@ -54,6 +54,9 @@ void check(const PressSetup& setup, const std::vector<MaterialParameter>& parame
   if (setup.protocol.slides_after())
     found.push_back({"press.lateral_path", std::string(name(setup.protocol.lateral_path)),
                      "forces are fitted against indentation", "choose diagonal"});
+  if (!setup.protocol.program.empty())
+    found.push_back({"press.program", "given",
+                     "forces are fitted against the indentation of one press", "leave it out"});
   for (auto it = parameters.begin(); it != parameters.end(); ++it) {
     if (!model_has(setup.lattice, *it))
       found.push_back({"parameters", std::string(name(*it)),

@@ -7,13 +7,13 @@
 #include <memory>
 #include <sstream>
 
-#include "lattice/control/approach.h"
 #include "lattice/control/control_loop.h"
 #include "lattice/control/virtual_finger.h"
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/press_pictures.h"
 #include "lattice/press/press_recorder.h"
 #include "lattice/press/press_task.h"
+#include "meshes/press_motion.h"
 
 namespace fingertip::lattice {
 
@@ -92,7 +92,7 @@ class Press {
   PressOutcome outcome_;
   PressWay way_;
   VirtualFinger finger_;
-  Approach approach_;
+  const meshes::PressMotion motion_;
   PressRecorder recorder_;
   PressPictures pictures_;
   std::unique_ptr<Controller> controller_;  // null when the motion is prescribed
@@ -108,27 +108,25 @@ Press::Press(const PressSetup& setup, const PressObserver& observer, const Press
       observer_(observer),
       way_(setup.protocol, setup.geometry),
       finger_(pressed_finger(setup, way_)),
-      approach_(setup.protocol.speed, setup.protocol.clearance),
+      motion_(setup.protocol),
       recorder_(setup.protocol, finger_.finger().plane(), finger_.finger(), outcome_),
       pictures_(setup, finger_.finger(), expected_time(), film, outcome_) {
-  const meshes::PressProtocol& protocol = setup.protocol;
   outcome_.census = take_census(setup, finger_.model());
   outcome_.step = finger_.step_report(setup.controller.period);
   if (finger_.setup().prescribed) {
     finger_.write([this](double time) {
-      const SetPoint point = approach_.at(time);
+      const meshes::SetPoint point = motion_.at(time);
       return RodMotion{point.distance * way_.direction, point.speed * way_.direction};
     });
   } else {
     make_controller();
   }
-  time_limit_ =
-      setup.duration.value_or(2.0 * approach_.time_at(protocol.clearance + protocol.depth) + 0.5);
+  time_limit_ = setup.duration.value_or(2.0 * motion_.duration() + 0.5);
 }
 
 /// When the press will end if all goes well [s].
 double Press::expected_time() const {
-  const double at_depth = approach_.time_at(setup_.protocol.clearance + setup_.protocol.depth);
+  const double at_depth = motion_.duration();
   const double latest = setup_.duration.value_or(at_depth);
   return setup_.follows_path ? std::min(at_depth, latest) : latest;
 }
@@ -197,7 +195,7 @@ bool Press::follow_motion() {
   const double end = finger_.time() + period;
   while (true) {
     const auto depth = recorder_.next_depth(indentation() + 1e-9 * protocol.depth);
-    const double until = depth ? approach_.time_at(protocol.clearance + *depth) : end;
+    const double until = depth ? motion_.time_at(*depth) : end;
     if (!(until < end - 1e-6 * period)) return finger_.do_step(end - finger_.time(), observe);
     if (!finger_.do_step(until - finger_.time(), observe)) return false;
   }
@@ -207,7 +205,7 @@ void Press::look_after() {
   PressInstant instant = now();
   const Wrench held =
       loop_ ? loop_->commanded() : Wrench{-instant.bond.force, -instant.bond.torque};
-  recorder_.add_trace(instant, approach_.at(instant.time), held,
+  recorder_.add_trace(instant, motion_.at(instant.time), held,
                       controller_ ? controller_->report() : ControllerReport{});
   outcome_.elapsed.push_back(elapsed());
   check_sanity();
@@ -220,7 +218,7 @@ void Press::check_sanity() {
   if (!(row.kinetic_energy + row.elastic_energy < largest)) {
     give_up("the lattice blew up: its energy left every bound");
   }
-  const double commanded = approach_.at(row.time).distance - setup_.protocol.clearance;
+  const double commanded = motion_.at(row.time).distance - setup_.protocol.clearance;
   const double ahead = row.indentation - commanded;
   const bool off_path = setup_.follows_path && !(ahead <= 0.1 * setup_.geometry.thickness());
   if (row.tilt > 0.5 || off_path) {

@@ -5,8 +5,8 @@
 #include <complex>
 #include <numbers>
 
-#include "lattice/control/approach.h"
 #include "lattice/dynamics/time_step.h"
+#include "meshes/press_motion.h"
 #include "meshes/shape.h"
 
 namespace fingertip::lattice {
@@ -73,8 +73,8 @@ struct Swing {
   double frequency = 0.0;  ///< [rad/s]; 0: it creeps back
 };
 
-Swing swing_of(double mass, double w, double s, double tau, const Approach& approach, double speed,
-               double time) {
+Swing swing_of(double mass, double w, double s, double tau, const meshes::PressMotion& approach,
+               double speed, double time) {
   const double T = approach.rise_time(), turn = 2.0 * std::numbers::pi / T;
   const double half = 0.5 * w * w * tau / (1.0 + s);
   const Complex root = std::sqrt(Complex(half * half - w * w / (1.0 + s)));
@@ -99,7 +99,7 @@ double largest_difference(const Swing& a, const Swing& b, double time) {
 
 double sway_deviation(const Sway& sway, const PressSetup& setup, double step, double time) {
   const double speed = setup.protocol.speed, tau = setup.rubber.retardation_time;
-  const Approach approach(speed, setup.protocol.clearance);
+  const meshes::PressMotion approach(setup.protocol);
   double sum = 0.0;
   for (const double n : {1.0, 3.0, 5.0}) {
     const double w = n * sway.frequency, mass = sway.mass / (n * n),
@@ -130,7 +130,7 @@ std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup, double s
   const meshes::PressProtocol& protocol = setup.protocol;
   const RoughForce force(setup.geometry, setup.rubber, setup.protocol.obstacle);
   const Sway sway(setup.geometry, setup.rubber);
-  const Approach approach(protocol.speed, protocol.clearance);
+  const meshes::PressMotion approach(protocol);
   const double v = protocol.speed, spacing = setup.lattice.spacing,
                filter = contact_factor *
                         (0.25 * step * step + 0.5 * step * setup.rubber.retardation_time);
@@ -140,7 +140,7 @@ std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup, double s
   for (const double depth : depths) {
     const double patch = std::sqrt(force.pole_radius * depth);
     if (patch < resolved_patch * spacing) continue;
-    const double time = approach.time_at(protocol.clearance + depth);
+    const double time = approach.time_at(depth);
     const double contact = filter * v * v * force.curvature(depth) +
                            v * std::sqrt(filter) * force.slope(depth) * spacing / patch;
     found.push_back(

@@ -81,7 +81,7 @@ std::optional<double> PressRecorder::next_depth(double beyond) const {
   return found != depths_.end() ? std::optional(*found) : std::nullopt;
 }
 
-void PressRecorder::add_trace(const PressInstant& now, const SetPoint& commanded,
+void PressRecorder::add_trace(const PressInstant& now, const meshes::SetPoint& commanded,
                               const Wrench& applied, const ControllerReport& controller) {
   const RodState& rod = finger_->rod();
   const double elapsed = now.time - plane_since_;

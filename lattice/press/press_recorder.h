@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "lattice/control/approach.h"
 #include "lattice/dynamics/finger.h"
 #include "lattice/press/press.h"
+#include "meshes/press_motion.h"
 #include "meshes/press_protocol.h"
 
 namespace fingertip::lattice {
@@ -34,7 +34,7 @@ class PressRecorder {
   /// The first indentation beyond this one at which the response is taken [m], if there is one.
   std::optional<double> next_depth(double beyond) const;
   /// To be called once per controller period.
-  void add_trace(const PressInstant& now, const SetPoint& commanded, const Wrench& applied,
+  void add_trace(const PressInstant& now, const meshes::SetPoint& commanded, const Wrench& applied,
                  const ControllerReport& controller);
   /// Brings the outcome up to date: times, momentum balance.
   void update(double wall_time);

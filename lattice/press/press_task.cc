@@ -4,7 +4,7 @@ namespace fingertip::lattice {
 
 using meshes::Vector3;
 
-Target PressWay::at(const Vector3& start, const SetPoint& point) const {
+Target PressWay::at(const Vector3& start, const meshes::SetPoint& point) const {
   Target target;
   target.pose.position = start + point.distance * direction;
   target.twist.velocity = point.speed * direction;
@@ -43,8 +43,9 @@ ControlTask control_task(const PressSetup& setup, const PressWay& way, const Rod
   task.clearance = protocol.clearance;
   task.depth = protocol.depth;
   task.speed = protocol.speed;
-  task.path = [start = rod.endpoint, way, approach = Approach(protocol.speed, protocol.clearance)](
-                  double time) { return way.at(start, approach.at(time)); };
+  task.path = [start = rod.endpoint, way, motion = meshes::PressMotion(protocol)](double time) {
+    return way.at(start, motion.at(time));
+  };
   return task;
 }
 

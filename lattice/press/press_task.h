@@ -1,10 +1,10 @@
 /// What a press asks of finger and controller: whoever runs one builds both from here.
 #pragma once
 
-#include "lattice/control/approach.h"
 #include "lattice/control/task.h"
 #include "lattice/control/virtual_finger.h"
 #include "lattice/press/press_setup.h"
+#include "meshes/press_motion.h"
 
 namespace fingertip::lattice {
 
@@ -19,7 +19,7 @@ struct PressWay {
         direction(-plane.normal - plane.path.slope() * plane.t1) {}
 
   /// Where the endpoint, at `start` in the beginning, should be at a set point of the way.
-  Target at(const meshes::Vector3& start, const SetPoint& point) const;
+  Target at(const meshes::Vector3& start, const meshes::SetPoint& point) const;
   /// Travel along the normal since first touch, negative before [m].
   double indentation(const meshes::Vector3& start, const meshes::Vector3& endpoint,
                      double clearance) const {

@@ -19,6 +19,7 @@ std::string_view kind_name(const Key& key) {
     case Kind::terms:
       return key.number_first ? "list of pairs of a number and a quantity"
                               : "list of pairs of a quantity and a number";
+    case Kind::stages: return "list of pairs [indentation, speed] or [hold, duration]";
     case Kind::number: return "number";
     case Kind::numbers: return "list of 3 numbers";
     case Kind::integer: return "integer";
@@ -69,6 +70,11 @@ nlohmann::json element_schema(const Key& key) {
     case Kind::texts:
     case Kind::files: schema = {{"type", "string"}, {"minLength", 1}}; break;
     case Kind::terms: return {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}};
+    case Kind::stages:
+      return {{"type", "array"},
+              {"minItems", 2},
+              {"maxItems", 2},
+              {"items", {{"type", "string"}, {"minLength", 1}}}};
     case Kind::integer: schema["type"] = "integer"; break;
     case Kind::number:
     case Kind::number_pair:
@@ -85,8 +91,9 @@ nlohmann::json element_schema(const Key& key) {
 nlohmann::json key_schema(const Key& key) {
   nlohmann::json schema = element_schema(key);
   const bool list = key.kind == Kind::quantities || key.kind == Kind::terms ||
-                    key.kind == Kind::texts || key.kind == Kind::files ||
-                    key.kind == Kind::numbers || key.kind == Kind::number_pair;
+                    key.kind == Kind::stages || key.kind == Kind::texts ||
+                    key.kind == Kind::files || key.kind == Kind::numbers ||
+                    key.kind == Kind::number_pair;
   if (list) schema = {{"type", "array"}, {"items", schema}};
   const std::size_t length = key.kind == Kind::numbers       ? 3
                              : key.kind == Kind::number_pair ? 2

@@ -329,6 +329,13 @@ std::vector<Key> press_keys() {
   samples.kind = Kind::quantities;
   samples.assign = assign_samples;
   samples.unit = "m";
+  const Key program = with_rule(
+      plain("press", "program", any,
+            "stages in time, instead of depth and speed: e.g. [[\"0.3 cm\", \"1 cm/s\"], "
+            "[\"hold\", \"2 s\"], [\"0 cm\", \"1 cm/s\"]]; [] means one press",
+            protocol(&PressProtocol::program)),
+      "begins with a move that presses; indentations from -clearance to less than the thickness",
+      {"press.clearance", "geometry.tip_radius", "geometry.rod_radius"});
   return {
       choice("press", "mode",
              {{"pid", "dynamics; a controller holds speed and orientation"},
@@ -383,6 +390,7 @@ std::vector<Key> press_keys() {
                "gap between pole and plane at the start, where the rod is at rest",
                protocol(&PressProtocol::clearance)),
       samples,
+      program,
       quantity("press", "gravity", "m/s^2", "m/s^2", not_negative,
                "acceleration of gravity on rod and tip, toward the plane (moving lattices)",
                at(&Config::press, &lattice::PressSetup::gravity)),

@@ -17,6 +17,7 @@ enum class Kind {
   quantities,   ///< list of such texts
   number,       ///< TOML number
   terms,        ///< list of pairs of such a text and a TOML number, or the other way round
+  stages,       ///< list of pairs of two such texts, or of the word hold and one
   numbers,      ///< list of three TOML numbers
   number_pair,  ///< list of two TOML numbers, the smaller first
   integer,      ///< TOML integer
@@ -32,7 +33,7 @@ enum class Kind {
 /// A value read from text, in SI.
 struct Value {
   double number = 0.0;          ///< quantity, number, integer, boolean (0 or 1)
-  std::vector<double> numbers;  ///< quantities, terms, numbers
+  std::vector<double> numbers;  ///< quantities, terms, numbers; three of a stage as in PressStage
   std::string word;  ///< choice, source, text, file; for a quantity the word given instead of one
   std::vector<std::string> words;  ///< texts, files
 };

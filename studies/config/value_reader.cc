@@ -1,6 +1,7 @@
 #include "studies/config/value_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -106,6 +107,45 @@ Value read_terms(const Key& key, const toml::node& node) {
   return value;
 }
 
+constexpr const char* stage_advice =
+    "write e.g. [[\"0.3 cm\", \"1 cm/s\"], [\"hold\", \"2 s\"], [\"0 cm\", \"1 cm/s\"]]";
+
+/// One of a program: where it ends, at which speed, how long it holds; `reached` before it.
+std::array<double, 3> read_stage(const toml::node& node, double reached) {
+  const auto* pair = node.as_array();
+  const auto text = [&](std::size_t i) { return pair->at(i).value<std::string>(); };
+  if (pair == nullptr || pair->size() != 2 || !text(0) || !text(1))
+    refuse("must be a pair of texts, [indentation, speed] or [\"hold\", duration]", stage_advice);
+  if (*text(0) == "hold") {
+    const double duration = parse_quantity(*text(1), "s", "2 s");
+    if (!(duration > 0.0)) refuse("a hold must take a time above 0", "drop the stage");
+    return {reached, 0.0, duration};
+  }
+  const double indentation = parse_quantity(*text(0), "m", "0.3 cm"),
+               speed = parse_quantity(*text(1), "m/s", "1 cm/s");
+  if (!(speed > 0.0))
+    refuse("the speed of a move must be positive", "an indentation below the last one moves up");
+  return {indentation, speed, 0.0};
+}
+
+Value read_stages(const toml::node& node) {
+  const auto* list = node.as_array();
+  if (list == nullptr)
+    refuse("must be a list of pairs, [indentation, speed] or [\"hold\", duration]", stage_advice);
+  Value value;
+  double reached = 0.0;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    try {
+      const std::array<double, 3> stage = read_stage(list->at(i), reached);
+      reached = stage[0];
+      value.numbers.insert(value.numbers.end(), stage.begin(), stage.end());
+    } catch (const UnitError& error) {
+      refuse("stage " + std::to_string(i + 1) + ": " + error.rule, error.remedy);
+    }
+  }
+  return value;
+}
+
 Value read_number(const Key& key, const toml::node& node) {
   Value value;
   if (!key.word.empty() && node.value<std::string>() == key.word) {
@@ -193,6 +233,7 @@ Value read_value(const Key& key, const toml::node& node) {
     case Kind::quantity: return read_quantity(key, node);
     case Kind::quantities: return read_quantities(key, node);
     case Kind::terms: return read_terms(key, node);
+    case Kind::stages: return read_stages(node);
     case Kind::number: return read_number(key, node);
     case Kind::numbers: return read_numbers(key, node);
     case Kind::number_pair: return read_number_pair(key, node);

@@ -1,7 +1,7 @@
 /// A set point that a person moves while the finger follows it.
 #pragma once
 
-#include "lattice/control/approach.h"
+#include "meshes/press_motion.h"
 
 namespace fingertip::studies {
 
@@ -24,14 +24,14 @@ class MovingSetPoint {
   /// Starts anew, at rest, from `distance` [m].
   void restart(double distance);
   /// Distance and speed at this moment, acceleration until the next one.
-  const lattice::SetPoint& now() const { return now_; }
+  const meshes::SetPoint& now() const { return now_; }
 
  private:
   double acceleration_limit() const;
   void plan();
 
   double speed_, goal_, clearance_, period_;
-  lattice::SetPoint now_;
+  meshes::SetPoint now_;
 };
 
 }  // namespace fingertip::studies

@@ -13,6 +13,7 @@ constexpr double deepest = 0.7;
 
 lattice::PressSetup under_control(lattice::PressSetup setup) {
   setup.protocol.mode = meshes::DriveMode::pid;
+  setup.protocol.program.clear();  // here a person moves the set point
   return setup;
 }
 
@@ -47,7 +48,7 @@ double within(double value, const Span& span) {
 
 LiveRig::LiveRig(const lattice::PressSetup& setup)
     : setup_(under_control(setup)),
-      way_(setup.protocol, setup.geometry),
+      way_(setup_.protocol, setup_.geometry),
       finger_(lattice::finger_setup(setup_, way_)),
       boundary_(finger_.model(), setup.geometry),
       limits_(limits_for(setup_)),

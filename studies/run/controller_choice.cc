@@ -10,11 +10,11 @@
 
 #include "calibration/surrogate/surrogate.h"
 #include "lattice/control/adaptive_pid.h"
-#include "lattice/control/approach.h"
 #include "lattice/control/force_controller.h"
 #include "lattice/control/hybrid_controller.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/fields_json.h"
+#include "meshes/press_motion.h"
 #include "studies/control/shared_object_controller.h"
 #include "studies/control/socket_controller.h"
 #include "studies/run/digest.h"
@@ -72,6 +72,11 @@ void choose_adaptive(const LoadedConfig& loaded, lattice::PressSetup& setup) {
 
 template <typename ForceLaw>
 void choose_force(const LoadedConfig& loaded, const char* type, lattice::PressSetup& setup) {
+  if (!setup.protocol.program.empty())
+    throw loaded.locate({{"press.program", "given",
+                          std::string("controller.type = ") + type +
+                              " holds a force once it touches, and a program says where to be",
+                          "take controller.type = pid or adaptive, or leave one of the two out"}});
   lattice::ForceSettings settings = loaded.config.controller.force;
   try {
     lattice::check(settings, setup.controller);
@@ -86,9 +91,7 @@ void choose_force(const LoadedConfig& loaded, const char* type, lattice::PressSe
   };
   setup.follows_path = false;
   if (!setup.duration) {
-    const meshes::PressProtocol& protocol = setup.protocol;
-    const lattice::Approach way(protocol.speed, protocol.clearance);
-    setup.duration = way.time_at(protocol.clearance + protocol.depth) +
+    setup.duration = meshes::PressMotion(setup.protocol).duration() +
                      10.0 / (2.0 * std::numbers::pi * settings.bandwidth);
   }
 }

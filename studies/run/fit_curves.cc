@@ -101,6 +101,10 @@ void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve cur
         {{"press.lateral_path", "after",
           "a fit takes forces against indentation, and a motion at full depth has none",
           "choose diagonal, or leave press.lateral at 0"}});
+  if (!press.protocol.program.empty())
+    throw own.locate(
+        {{"press.program", "given", "a fit takes forces against the indentation of one loading",
+          "leave it out, or give press.depth and press.speed"}});
   fit.input.conditions.push_back(described(press));
   if (curve.name.empty()) curve.name = fit.input.conditions.back();
   name_once(fit.input.curves, curve);

@@ -118,6 +118,7 @@ lattice::GraspSetup grasp_setup(const LoadedConfig& loaded) {
   protocol.tilt = straight.tilt;
   protocol.lateral = straight.lateral;
   protocol.obstacle = straight.obstacle;
+  protocol.program = straight.program;
   const lattice::PressSetup press = press_setup(fingers);
   lattice::GraspSetup setup;
   lattice::FingerSetup& finger = setup.hand.finger;

@@ -75,7 +75,13 @@ ordered_json inputs_of(const meshes::PressProtocol& protocol, bool moves) {
   ordered_json inputs = json_of(protocol);
   if (!protocol.slides_after()) drop(inputs, {"lateral_path", "lateral_samples"});
   if (protocol.contact != meshes::ContactMode::coulomb) drop(inputs, {"friction"});
-  if (!moves) drop(inputs, {"speed", "clearance"});
+  if (moves) return inputs;
+  drop(inputs, {"speed", "clearance"});
+  if (protocol.program.empty()) return inputs;
+  ordered_json stages = ordered_json::array();
+  for (const meshes::PressStage& stage : protocol.program)
+    if (stage.moves()) stages.push_back(stage.indentation);
+  inputs["program"] = stages;
   return inputs;
 }
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lattice/control/approach.h"
 #include "lattice/press/press_deviation.h"
 #include "meshes/cubic_grid.h"
+#include "meshes/press_motion.h"
 #include "studies/run/progress.h"
 
 namespace fingertip::studies {
@@ -67,8 +67,7 @@ std::string deviation_note(const PressSetup& setup, const ScalingChoice& choice)
 constexpr double plain_cost = 5e-8;
 
 double pressing_time(const PressSetup& setup, double step, double cost, int threads) {
-  const lattice::Approach approach(setup.protocol.speed, setup.protocol.clearance);
-  const double time = approach.time_at(setup.protocol.clearance + setup.protocol.depth),
+  const double time = meshes::PressMotion(setup.protocol).duration(),
                particles =
                    1.4 * meshes::expected_particle_count(setup.geometry, setup.lattice.spacing);
   const double gain = 1.0 + 0.8 * (std::max(threads, 1) - 1);

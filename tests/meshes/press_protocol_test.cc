@@ -129,6 +129,65 @@ TEST(PressPath, AfterWithoutLateralMotionIsAStraightPress) {
   EXPECT_EQ(PressPath(protocol).length(), protocol.depth);
 }
 
+TEST(PressPath, AProgramGoesUpAndDownAndHoldsAddNothing) {
+  PressProtocol protocol;
+  protocol.depth = 2e-3;
+  protocol.samples = {0.5e-3, 2e-3};
+  protocol.lateral = 1e-3;
+  protocol.program = {{2e-3, 0.01, 0.0}, {2e-3, 0.0, 1.0}, {-0.1e-3, 0.02, 0.0}, {1e-3, 0.01, 0.0}};
+  EXPECT_TRUE(protocol.violations(Geometry{}).empty());
+  const PressPath path(protocol);
+  EXPECT_NEAR(path.length(), 2e-3 + 2.1e-3 + 1.1e-3, 1e-18);
+  std::vector<double> depths;
+  double before = 0.0;
+  for (const double place : path.samples()) {
+    EXPECT_GT(place, before);
+    depths.push_back(path.at(place).indentation);
+    EXPECT_EQ(path.at(place).lateral, 0.5 * depths.back());
+    before = place;
+  }
+  EXPECT_EQ(depths, (std::vector<double>{0.5e-3, 2e-3, 0.5e-3, -0.1e-3, 0.5e-3, 1e-3}));
+  EXPECT_EQ(path.samples().back(), path.length());
+  EXPECT_EQ(path.at(-1e-4).indentation, -1e-4);
+  EXPECT_EQ(path.at(1e-3).indentation, 1e-3);
+  EXPECT_NEAR(path.at(2.3e-3).indentation, 1.7e-3, 1e-18);
+  EXPECT_NEAR(path.at(4.6e-3).indentation, 0.4e-3, 1e-18);
+  EXPECT_TRUE(path.bends(1.9e-3, 2.1e-3));
+  EXPECT_TRUE(path.bends(4e-3, 4.2e-3));
+  EXPECT_FALSE(path.bends(2.1e-3, 4e-3));
+}
+
+TEST(PressProtocol, RefusesProgramsByTheNumberOfTheirStage) {
+  const Geometry geometry;
+  const auto rule_of = [&](std::vector<PressStage> program) {
+    PressProtocol protocol;
+    protocol.program = std::move(program);
+    const auto found = protocol.violations(geometry);
+    if (found.empty()) return std::string();
+    EXPECT_EQ(found[0].key, "press.program");
+    return found[0].rule;
+  };
+  const PressStage down{3e-3, 0.01, 0.0}, hold{3e-3, 0.0, 1.0};
+  EXPECT_EQ(rule_of({down, hold, {0.0, 0.1, 0.0}, {-0.5e-3, 0.1, 0.0}, down}), "");
+  const auto begins = [&](std::vector<PressStage> program, const std::string& words) {
+    const std::string rule = rule_of(std::move(program));
+    EXPECT_TRUE(rule.starts_with(words)) << rule;
+  };
+  begins({hold}, "stage 1: a program begins with a move");
+  begins({{0.0, 0.01, 0.0}}, "stage 1: the first stage must press");
+  begins({down, {-0.6e-3, 0.01, 0.0}}, "stage 2: the indentation must lie");
+  begins({down, {geometry.thickness(), 0.01, 0.0}}, "stage 2: the indentation must lie");
+  begins({down, {std::nan(""), 0.01, 0.0}}, "stage 2: the indentation must lie");
+  begins({down, {1e-3, -0.01, 0.0}}, "stage 2: the speed");
+  begins({down, {3e-3, 0.01, 0.0}}, "stage 2: the move ends where it begins");
+  begins({down, {3e-3, 0.0, 0.0}}, "stage 2: a hold must take");
+  begins({down, {3e-3, 0.0, HUGE_VAL}}, "stage 2: a hold must take");
+  begins({down, {2e-3, 0.0, 1.0}}, "stage 2: a hold stays");
+  begins({down, {2e-3, 0.01, 1.0}}, "stage 2: a stage moves or holds");
+  begins({{2e-3, 0.01, 0.0}}, "press.depth must be the program's largest");
+  begins({{3e-3, 0.02, 0.0}}, "press.speed must be the speed of the first stage");
+}
+
 TEST(PressProtocol, NamesTellTheModesApart) {
   EXPECT_EQ(name(ContactMode::stick), "stick");
   EXPECT_EQ(name(ContactMode::frictionless), "frictionless");

@@ -77,6 +77,7 @@ Sets other_values(const Key& key, const std::string& literal) {
       {"lattice.spacing", {"tip_radius/7"}},
       {"lattice.rotation", {"[\"1 deg\", \"0 deg\", \"0 deg\"]"}},
       {"press.samples", {"[\"0.1 cm\", \"0.3 cm\"]"}},
+      {"press.program", {"[[\"0.3 cm\", \"1 cm/s\"], [\"0 cm\", \"1 cm/s\"]]"}},
       {"calibration.conditions", {"[\"press.contact=frictionless\"]"}},
       {"calibration.parameters", {"[\"k1\", \"k2\"]", "[\"youngs_modulus\"]"}},
       {"calibration.profile", {"[\"k1\", \"k2\"]", "[\"youngs_modulus\", \"shear_modulus\"]"}},
@@ -218,7 +219,7 @@ const Sets diagonal = {"press.lateral_path", "press.lateral_samples"},
 const Sets beside = {"reference.mode",  "reference.strain", "reference.law",
                      "reference.modes", "reference.fields", "reference.field_sectors"};
 /// A fit presses where its data are.
-const Sets own_depths = {"press.mode", "press.depth", "press.samples"};
+const Sets own_depths = {"press.mode", "press.depth", "press.samples", "press.program"};
 
 const World worlds[] = {
     {"controlled press",
@@ -263,8 +264,8 @@ const World worlds[] = {
              controllers,
              // The rods are driven as the grip says; it takes symplectic Euler alone.
              {"obstacle.", "press.mode", "press.tilt", "press.lateral", "press.depth",
-              "press.speed", "press.samples", "press.gravity", "press.duration", "run.integrator",
-              "run.tolerance", "run.energy_bound"}})},
+              "press.speed", "press.samples", "press.program", "press.gravity", "press.duration",
+              "run.integrator", "run.tolerance", "run.energy_bound"}})},
     {"continuum",
      {"press.lateral=1 mm"},
      continuum,
@@ -274,8 +275,8 @@ const World worlds[] = {
              no_rod,
              no_time,
              // Aside, so that it is no meridian.
-             {"lattice.", "press.mode", "rubber.density", "rubber.retardation_time",
-              "reference.field_sectors"}})},
+             {"lattice.", "press.mode", "press.program", "rubber.density",
+              "rubber.retardation_time", "reference.field_sectors"}})},
     {"continuum in time",
      {"reference.mode=transient"},
      continuum,
@@ -287,8 +288,8 @@ const World worlds[] = {
              diagonal,
              // It knows small strain and upright presses that start at the plane.
              {"run.", "controller.", "lattice.", "press.mode", "press.clearance", "press.gravity",
-              "press.duration", "press.tilt", "press.lateral", "obstacle.along", "obstacle.offset",
-              "reference.strain", "reference.law"}})},
+              "press.duration", "press.program", "press.tilt", "press.lateral", "obstacle.along",
+              "obstacle.offset", "reference.strain", "reference.law"}})},
     {"continuum's modes",
      {"reference.mode=modes"},
      continuum,

@@ -100,6 +100,7 @@ TEST(KeyTable, HasTheContractsKeysWithItsDefaults) {
       {"press.speed", "\"1 cm/s\""},
       {"press.clearance", "\"0.05 cm\""},
       {"press.samples", "[]"},
+      {"press.program", "[]"},
       {"press.friction", "0.5"},
       {"press.tilt", "\"0 deg\""},
       {"press.lateral", "\"0 cm\""},

@@ -11,12 +11,12 @@
 
 #include "calibration/curves/curve_fit.h"
 #include "fit_fixtures.h"
-#include "lattice/control/approach.h"
 #include "lattice/dynamics/finger.h"
 #include "lattice/dynamics/time_step.h"
 #include "lattice/forces/forces.h"
 #include "lattice/press/static_press.h"
 #include "meshes/errors.h"
+#include "meshes/press_motion.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;
@@ -92,12 +92,12 @@ VectorXd ramp_and_hold(const lattice::PressSetup& setup, double duration,
   const lattice::StepController steps(model, nullptr, setup.integrator, {});
   lattice::Finger finger(model, lattice::rod_body(setup.geometry, setup.rod), plane,
                          protocol.contact, setup.integrator, steps.divide(1e-3, {}), 1);
-  const lattice::Approach approach(protocol.speed, protocol.clearance);
-  const double touch = approach.time_at(protocol.clearance), stop = touch + duration;
+  const meshes::PressMotion approach(protocol);
+  const double touch = approach.touch_time(), stop = touch + duration;
   VectorXd force(Index(times.size()));
   for (std::size_t next = 0; next < times.size();) {
     const double start = finger.time(), end = start + finger.step();
-    const lattice::SetPoint at = approach.at(std::min(end, stop));
+    const meshes::SetPoint at = approach.at(std::min(end, stop));
     finger.advance(lattice::RodMotion{
         -at.distance * plane.normal,
         end < stop ? Vector3(-at.speed * plane.normal) : Vector3(Vector3::Zero())});

@@ -159,7 +159,9 @@ TEST(AdaptivePid, ScheduleAndEstimateKeepTheSpeedThroughAStiffeningContact) {
   const double K = 1300.0;
   slider.spring = [K](double depth) { return K * std::pow(depth, 1.5); };
   const ControlTask task = with_identification(task_for(slider, 0.05), slider);
-  const double touch = lattice::Approach(0.05, slider.clearance).time_at(slider.clearance);
+  const double touch =
+      meshes::PressMotion({.speed = 0.05, .clearance = slider.clearance, .samples = {}})
+          .touch_time();
   const auto error = [&](bool scheduled, bool estimated) {
     AdaptiveSettings settings;
     settings.estimate = estimated;

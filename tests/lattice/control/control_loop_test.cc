@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "lattice/control/approach.h"
+#include "meshes/press_motion.h"
 #include "tests/lattice/finger_scenes.h"
 
 using namespace fingertip;
@@ -55,8 +55,9 @@ void run(ControlLoop& loop, int cycles) {
 /// The way of a press from the finger's start [m, m/s].
 std::function<Target(double)> way(const VirtualFinger& finger, double speed, double clearance) {
   const Vector3 start = finger.rod_body().endpoint;
-  return [start, approach = lattice::Approach(speed, clearance)](double time) {
-    const lattice::SetPoint at = approach.at(time);
+  return [start, approach = meshes::PressMotion(
+                     {.speed = speed, .clearance = clearance, .samples = {}})](double time) {
+    const meshes::SetPoint at = approach.at(time);
     Target target;
     target.pose.position = start + at.distance * Vector3::UnitZ();
     target.twist.velocity = at.speed * Vector3::UnitZ();

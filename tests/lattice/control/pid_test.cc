@@ -3,11 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "lattice/control/approach.h"
 #include "lattice/control/pid.h"
 
 using namespace fingertip;
-using lattice::Approach;
 using lattice::Measurement;
 using lattice::Pid;
 using lattice::PidSettings;
@@ -188,27 +186,4 @@ TEST(Pid, WithoutSetPointWeightAStepIsReachedWithLessOvershoot) {
     return most;
   };
   EXPECT_LT(overshoot(0.0), overshoot(1.0));
-}
-
-TEST(Approach, SpeedAndAccelerationAreDerivativesOfTheDistance) {
-  const Approach approach(0.01, 0.5e-3);
-  const double h = 1e-6;
-  for (double t = 0.001; t < 0.05; t += 0.0037) {
-    const auto at = approach.at(t), later = approach.at(t + h), earlier = approach.at(t - h);
-    EXPECT_NEAR(at.speed, (later.distance - earlier.distance) / (2 * h), 1e-8);
-    EXPECT_NEAR(at.acceleration, (later.speed - earlier.speed) / (2 * h), 1e-4);
-  }
-}
-
-TEST(Approach, StartsFromRestAndReachesItsSpeedBeforeThePlane) {
-  for (const double speed : {0.001, 0.01, 0.2}) {
-    const double clearance = 0.5e-3;
-    const Approach approach(speed, clearance);
-    EXPECT_EQ(approach.at(0.0).speed, 0.0);
-    EXPECT_EQ(approach.at(0.0).acceleration, 0.0);
-    EXPECT_LE(approach.rise_time(), 0.03);
-    EXPECT_LE(approach.at(approach.rise_time()).distance, 0.5 * clearance * (1.0 + 1e-12));
-    EXPECT_NEAR(approach.at(approach.time_at(clearance)).distance, clearance, 1e-15);
-    EXPECT_EQ(approach.at(approach.rise_time()).speed, speed);
-  }
 }

@@ -6,8 +6,8 @@
 #include <functional>
 #include <random>
 
-#include "lattice/control/approach.h"
 #include "lattice/control/task.h"
+#include "meshes/press_motion.h"
 
 namespace plants {
 
@@ -79,8 +79,9 @@ inline ControlTask task_for(const Slider& slider, double speed) {
   task.inertia = slider.mass * Eigen::Matrix<double, 6, 6>::Identity();
   task.clearance = slider.clearance;
   task.speed = speed;
-  task.path = [approach = lattice::Approach(speed, slider.clearance)](double time) {
-    const lattice::SetPoint point = approach.at(time);
+  task.path = [approach = meshes::PressMotion(
+                   {.speed = speed, .clearance = slider.clearance, .samples = {}})](double time) {
+    const meshes::SetPoint point = approach.at(time);
     Target target;
     target.pose.position.z() = point.distance;
     target.twist.velocity.z() = point.speed;

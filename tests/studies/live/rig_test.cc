@@ -17,10 +17,10 @@ TEST(MovingSetPoint, ArrivesWithoutJumpsOrOvershoot) {
     MovingSetPoint point(speed, 3.5e-3, 0.5e-3, 1e-3);
     const double most = std::max(0.5, speed * speed / 0.5e-3);
     double furthest = 0.0;
-    lattice::SetPoint before = point.now();
+    meshes::SetPoint before = point.now();
     for (int i = 0; i < 4000; ++i) {
       point.advance();
-      const lattice::SetPoint now = point.now();
+      const meshes::SetPoint now = point.now();
       EXPECT_LE(std::abs(now.speed - before.speed), most * 1e-3 * (1.0 + 1e-9));
       // The trapezoid of the speeds is the way.
       EXPECT_NEAR(now.distance - before.distance, 0.5e-3 * (now.speed + before.speed), 2e-10);

@@ -1,0 +1,141 @@
+// Presses of a rubber that relaxes: against Lee & Radok's integral over the elastic curve, against
+// limits, against themselves in smaller steps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "meshes/errors.h"
+#include "tests/fem_reference/pressing.h"
+
+using namespace fingertip;
+using fem_reference::PressState;
+using fem_reference::ReferenceJob;
+using fem_reference::Strain;
+using fem_reference::Symmetry;
+using meshes::ContactMode;
+
+namespace {
+
+ReferenceJob relaxing_press(Strain strain = Strain::linear,
+                            ContactMode contact = ContactMode::frictionless) {
+  ReferenceJob job = small_press();
+  job.symmetry = Symmetry::axisymmetric;
+  job.strain = strain;
+  job.protocol.contact = contact;
+  job.protocol.speed = 0.01;
+  job.press_to({1e-4, 3e-4, 6e-4, 1e-3});
+  job.rubber.energy.volumetric = meshes::VolumetricLaw::quadratic;
+  job.rubber.relaxation = {{{0.3, 0.01}, {0.25, 0.2}}, true};
+  return job;
+}
+
+std::vector<double> forces(const ReferenceJob& job, double relaxing_step = 0.0) {
+  Pressing pressing(job);
+  if (relaxing_step > 0.0) pressing.press.set_relaxing_step(relaxing_step);
+  std::vector<double> result;
+  for (const double sample : job.protocol.samples)
+    result.push_back(pressing.press.advance(sample).sample.normal_force);
+  return result;
+}
+
+/// Lee & Radok (J. Appl. Mech. 27, 1960, 438-444): contact that grows, all moduli relaxing alike:
+/// F(t) = ∫ G(t - s)/G_inf dF_el(delta(s)).
+TEST(RelaxingPress, IsLeeAndRadoksIntegralOverTheElasticCurve) {
+  for (const Symmetry symmetry : {Symmetry::axisymmetric, Symmetry::none}) {
+    ReferenceJob job = relaxing_press();
+    job.symmetry = symmetry;
+    const meshes::Relaxation relaxation = job.rubber.relaxation;
+    const std::vector<double> found = forces(job);
+
+    ReferenceJob elastic = job;
+    elastic.rubber.relaxation = {};
+    const int pieces = symmetry == Symmetry::none ? 80 : 400;
+    std::vector<double> places{0.0};
+    for (int i = 1; i <= pieces; ++i) places.push_back(1e-3 * i / pieces);
+    elastic.press_to({places.begin() + 1, places.end()});
+    std::vector<double> curve = forces(elastic);
+    curve.insert(curve.begin(), 0.0);
+
+    double worst = 0.0;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const double time = job.protocol.samples[k] / job.protocol.speed;
+      double wanted = 0.0;
+      for (std::size_t i = 1; i < places.size() && places[i] <= job.protocol.samples[k] + 1e-9;
+           ++i) {
+        // The modulus in the middle of a piece, within which F_el is nearly straight.
+        const double middle = (places[i] + places[i - 1]) / 2 / job.protocol.speed;
+        wanted += relaxation.modulus(time - middle) * (curve[i] - curve[i - 1]);
+      }
+      EXPECT_NEAR(found[k] / wanted, 1.0, 3e-3) << time;
+      worst = std::max(worst, std::abs(found[k] / wanted - 1.0));
+      // It matters.
+      const double still = curve[std::size_t(std::lround(job.protocol.samples[k] / 1e-3 * pieces))];
+      EXPECT_GT(found[k] / still, 1.2);
+    }
+    RecordProperty(std::string(name(symmetry)), std::to_string(worst));
+  }
+}
+
+TEST(RelaxingPress, QuickBranchesAreGoneAndSlowOnesAreSprings) {
+  for (const Strain strain : {Strain::linear, Strain::finite})
+    for (const ContactMode contact : {ContactMode::frictionless, ContactMode::stick})
+      for (const bool bulk : {true, false}) {
+        ReferenceJob job = relaxing_press(strain, contact);
+        job.press_to({4e-4});
+        job.rubber.relaxation.bulk = bulk;
+        ReferenceJob soft = job, hard = job;
+        soft.rubber.relaxation = hard.rubber.relaxation = {};
+        const double G = job.rubber.relaxation.instant() * job.rubber.shear_modulus,
+                     K = job.rubber.bulk_modulus() * (bulk ? job.rubber.relaxation.instant() : 1.0);
+        hard.rubber.set_lame(G, K - 2.0 / 3.0 * G);
+        // In the same steps: where a node first touches depends on them.
+        for (auto& branch : job.rubber.relaxation.branches) branch.time *= 1e-7;
+        EXPECT_NEAR(forces(job, 1.0).back() / forces(soft).back(), 1.0, 1e-5);
+        for (auto& branch : job.rubber.relaxation.branches) branch.time *= 1e14;
+        EXPECT_NEAR(forces(job, 1.0).back() / forces(hard).back(), 1.0, 1e-5);
+      }
+}
+
+TEST(RelaxingPress, StepsAreFineEnough) {
+  for (const Strain strain : {Strain::linear, Strain::finite}) {
+    ReferenceJob job = relaxing_press(strain);
+    for (const double time : {1e-3, 1e-2, 1e-1}) {
+      job.rubber.relaxation.branches = {{0.6, time}};
+      const std::vector<double> usual = forces(job), fine = forces(job, 1.0 / 64.0);
+      for (std::size_t k = 0; k < fine.size(); ++k) {
+        EXPECT_NEAR(usual[k] / fine[k], 1.0, 5e-4) << name(strain) << " " << time << " " << k;
+        RecordProperty(std::string(name(strain)) + std::to_string(time) + "_" + std::to_string(k),
+                       std::to_string(usual[k] / fine[k] - 1));
+      }
+    }
+  }
+}
+
+TEST(RelaxingPress, ForceIsThatOfTheBond) {
+  for (const Strain strain : {Strain::linear, Strain::finite})
+    for (const bool bulk : {true, false}) {
+      ReferenceJob job = relaxing_press(strain, ContactMode::stick);
+      job.rubber.relaxation.bulk = bulk;
+      Pressing pressing(job);
+      const PressState state = pressing.press.advance(4e-4);
+      EXPECT_NEAR(pressing.press.bond_reaction().z() / state.sample.normal_force, 1.0, 1e-6);
+      EXPECT_DOUBLE_EQ(state.sample.time, 0.04);
+    }
+}
+
+TEST(RelaxingPress, GoesOnFromACheckpoint) {
+  for (const Strain strain : {Strain::linear, Strain::finite}) {
+    const ReferenceJob job = relaxing_press(strain, ContactMode::stick);
+    Pressing whole(job);
+    whole.press.advance(2e-4);
+    whole.press.save(whole.folder().path());
+    const double wanted = whole.press.advance(4e-4).sample.normal_force;
+    Pressing again(job);
+    again.press.load(whole.folder().path());
+    EXPECT_NEAR(again.press.advance(4e-4).sample.normal_force / wanted, 1.0, 1e-10);
+  }
+}
+
+}  // namespace
