@@ -33,41 +33,34 @@ InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
 
 CellExtremes InternalForces::accumulate(const State& state, double time,
                                         const RelaxingMemory& memory, VectorField& force) {
-  const kernel::CellPast past = past_of(memory, time);
-  const bool apart = !model_->relaxation.bulk && !memory.lag.empty();
-  const VectorField& displacement = rates_ ? state.displacement : damped(state);
-  if (!rates_ && !apart) add_lags(*model_, memory, state, time, *team_, damped_);
-  const CellExtremes extremes = respond(displacement, state, past, force);
-  if (apart) {
-    for (auto& component : lag_.component) std::fill(component.begin(), component.end(), 0.0);
-    add_lags(*model_, memory, state, time, *team_, lag_);
-    shear_.add(lag_, state.velocity, force);
-  }
-  return extremes;
+  return find(state, time, memory, nullptr, force);
 }
 
 CellExtremes InternalForces::note(const State& state, double time, RelaxingMemory& memory,
                                   VectorField& force) {
-  if (memory.cells.empty()) {
-    memory.note(*model_, state, time, *team_);
-    return accumulate(state, time, memory, force);
-  }
-  kernel::CellPast past = past_of(memory, time);
-  past.noted = memory.cells.data();
+  const CellExtremes extremes = find(state, time, memory, &memory, force);
   memory.time = time;
-  return respond(state.displacement, state, past, force);
+  return extremes;
 }
 
-/// How the branches have faded since.
-kernel::CellPast InternalForces::past_of(const RelaxingMemory& memory, double time) {
-  if (memory.cells.empty()) return {};
-  const auto& branches = model_->relaxation.branches;
-  fading_.clear();
-  for (std::size_t n = 0; n < branches.size(); ++n) {
-    const meshes::Fading fading(time - memory.time, branches[n].time);
-    fading_.push_back({fading.keep, fading.gain * model_->relaxation.excess(n)});
+CellExtremes InternalForces::find(const State& state, double time, const RelaxingMemory& memory,
+                                  RelaxingMemory* noted, VectorField& force) {
+  kernel::CellPast past;
+  const bool lags = !memory.lag.empty(), apart = lags && !model_->relaxation.bulk;
+  if (!memory.empty()) find_fading(*model_, memory, time, fading_);
+  if (!memory.cells.empty()) {
+    past = {memory.cells.data(), noted != nullptr ? noted->cells.data() : nullptr, fading_.data(),
+            int(fading_.size())};
   }
-  return {memory.cells.data(), nullptr, fading_.data(), int(branches.size())};
+  const VectorField& displacement = rates_ ? state.displacement : damped(state);
+  if (lags && !apart) add_lags(*model_, memory, fading_, state, *team_, damped_, noted);
+  const CellExtremes extremes = respond(displacement, state, past, force);
+  if (apart) {
+    for (auto& component : lag_.component) std::fill(component.begin(), component.end(), 0.0);
+    add_lags(*model_, memory, fading_, state, *team_, lag_, noted);
+    shear_.add(lag_, state.velocity, force);
+  }
+  return extremes;
 }
 
 CellExtremes InternalForces::respond(const VectorField& displacement, const State& state,

@@ -32,7 +32,8 @@ class InternalForces {
 
  private:
   const VectorField& damped(const State& state);
-  kernel::CellPast past_of(const RelaxingMemory& memory, double time);
+  CellExtremes find(const State& state, double time, const RelaxingMemory& memory,
+                    RelaxingMemory* noted, VectorField& force);
   CellExtremes respond(const VectorField& displacement, const State& state,
                        const kernel::CellPast& past, VectorField& force);
   void gather_springs(const VectorField& displacement, const State& state, VectorField& force);

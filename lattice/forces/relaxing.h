@@ -16,7 +16,7 @@ namespace fingertip::lattice {
 struct RelaxingMemory {
   double time = 0.0;                 ///< when it was noted [s]
   VectorField displacement;          ///< u then [m]
-  std::vector<VectorField> lag;      ///< d of every branch then [m]
+  std::vector<VectorField> lag;      ///< b d of every branch then [m]
   std::vector<kernel::Lanes> cells;  ///< at large strain (cell_kernel.h)
 
   RelaxingMemory() = default;
@@ -24,15 +24,18 @@ struct RelaxingMemory {
   explicit RelaxingMemory(const LatticeModel& model);
 
   bool empty() const { return lag.empty() && cells.empty(); }
-  /// Small strain: brings it to a state at a time not before its own, u having changed at a
-  /// constant rate.
-  void note(const LatticeModel& model, const State& state, double at, Team& team);
 };
 
-/// sum += b d of every branch at a state that follows `memory`; nothing if that is empty. Allocates
-/// nothing.
-void add_lags(const LatticeModel& model, const RelaxingMemory& memory, const State& state,
-              double time, Team& team, VectorField& sum);
+/// How branches fade from `memory` to a time not before its own: h = keep h + gain times the change
+/// of what drives them, at a constant rate.
+void find_fading(const LatticeModel& model, const RelaxingMemory& memory, double time,
+                 std::vector<kernel::CellFading>& fading);
+
+/// At small strain: sum += b d of every branch at a state. `noted`: the memory itself, which is
+/// brought to that state but for its time, or null. Allocates nothing.
+void add_lags(const LatticeModel& model, const RelaxingMemory& memory,
+              const std::vector<kernel::CellFading>& fading, const State& state, Team& team,
+              VectorField& sum, RelaxingMemory* noted = nullptr);
 
 /// What the branches hold and lose; 0 at large strain, where the stress of a branch is not known by
 /// an energy.
