@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "lattice/kernels/tie_law.h"
 #include "lattice/model/cell_law.h"
 #include "lattice/model/embedded_points.h"
+#include "lattice/model/tie_layer.h"
 #include "meshes/geometry.h"
 
 namespace fingertip::lattice {
