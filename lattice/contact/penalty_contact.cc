@@ -93,6 +93,7 @@ kernel::ContactArrays PenaltyContact::arrays(const State& state, const Plane& no
   a.then = frame_of(plane_, model_->grid.axes);
   a.ahead = step;
   a.friction = law_.friction;
+  a.law = model_->contact;
   a.gap_kind = gap_kind();
   if (a.gap_kind == kernel::GapKind::flat) return a;
   a.obstacle = plane_.obstacle.form();

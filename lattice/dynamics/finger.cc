@@ -27,7 +27,11 @@ Finger::Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane
       move_(kernel::select_move()),
       integrator_(integrator),
       tip_mass_(model.total_mass()),
-      now_{.state = State(model), .rod = RodState(rod), .plane = plane, .step = step},
+      now_{.state = State(model),
+           .rod = RodState(rod),
+           .plane = plane,
+           .relaxing = RelaxingMemory(model),
+           .step = step},
       force_(model.points()),
       partial_momentum_((model.blocks.size() + portion - 1) / portion) {}
 
@@ -37,7 +41,8 @@ void Finger::load(const Snapshot& snapshot) {
 }
 
 void Finger::find_forces(double step) {
-  now_.extremes = internal_forces(now_.state, force_);
+  ++evaluations_;
+  now_.extremes = internal_.note(now_.state, now_.time, now_.relaxing, force_);
   if (!gravity_.isZero(0.0)) weigh_particles(force_);
   now_.bond = surfaces_->apply(now_.state, now_.rod, now_.plane, step, force_);
 }
@@ -117,15 +122,20 @@ Vector3 Finger::move_scaled(const Wrench* applied) {
   return axes * moved.momentum;
 }
 
-CellExtremes Finger::internal_forces(const State& state, VectorField& force) {
+CellExtremes Finger::internal_forces(const State& state, double time, VectorField& force) {
   ++evaluations_;
-  return internal_.accumulate(state, force);
+  return internal_.accumulate(state, time, now_.relaxing, force);
+}
+
+BranchEnergy Finger::branch_energy() const {
+  Team team = team_;  // a handle
+  return lattice::branch_energy(*model_, now_.relaxing, now_.state, now_.time, team);
 }
 
 Finger::Trial Finger::attempt(const State& state, const RodState& rod, const Plane& plane,
-                              VectorField& force) {
+                              double time, VectorField& force) {
   Trial trial;
-  trial.extremes = internal_forces(state, force);
+  trial.extremes = internal_forces(state, time, force);
   if (!gravity_.isZero(0.0)) weigh_particles(force);
   trial.surfaces = ties().attempt(state, rod, plane, force);
   return trial;
@@ -231,7 +241,7 @@ double Finger::kinetic_energy() const {
 
 double Finger::elastic_energy() const {
   Team team = team_;  // a handle
-  return lattice::elastic_energy(*model_, now_.state, team) +
+  return lattice::elastic_energy(*model_, now_.state, team) + branch_energy().stored +
          surfaces_->energy(now_.state, now_.rod);
 }
 

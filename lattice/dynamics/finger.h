@@ -29,6 +29,7 @@ struct FingerMemory {
   RodState rod;
   Plane plane;
   double time = 0.0;                             ///< [s]
+  RelaxingMemory relaxing{};                     ///< noted at the start of the last step
   Wrench bond{};                                 ///< on the rod about its endpoint
   Wrench plane_impulse{};                        ///< of the last step
   CellExtremes extremes{};                       ///< at the start of the last step
@@ -77,16 +78,20 @@ class Finger {
 
   const MassScaling* mass_scaling() const { return now_.scaling.get(); }
 
-  /// For integrators of their own: forces at a state that is only tried, nothing changes. `force`
+  /// For integrators of their own: forces at a state that is only tried, at a time not before the
+  /// last start_step(); nothing changes. `force`
   /// receives all forces on the particles [N] (CutSurfaces::attempt). Throws
   /// std::logic_error for the published model, whose surfaces act between steps.
   struct Trial {
     CutSurfaces::Trial surfaces;
     CellExtremes extremes;
   };
-  Trial attempt(const State& state, const RodState& rod, const Plane& plane, VectorField& force);
+  Trial attempt(const State& state, const RodState& rod, const Plane& plane, double time,
+                VectorField& force);
   /// Forces of springs and cells alone [N].
-  CellExtremes internal_forces(const State& state, VectorField& force);
+  CellExtremes internal_forces(const State& state, double time, VectorField& force);
+  /// What holds the stress of a rubber that relaxes, at the present state.
+  BranchEnergy branch_energy() const;
   /// Takes note of the present state as one that a step starts from: anchors of the contact,
   /// bond(), extremes().
   void start_step();

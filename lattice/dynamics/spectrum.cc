@@ -211,8 +211,9 @@ bool uniformly_damped(const SpectralBounds& bounds) {
 SpectralBounds spectral_bounds(const LatticeModel& model, const RodBody* rod) {
   SpectralBounds bounds;
   find_retardation_times(model, bounds);
-  bounds.stiffness = bound(model, Quantity::stiffness, rod);
-  bounds.damping = uniformly_damped(bounds) ? bounds.longest_retardation * bounds.stiffness
+  const double stiffness = bound(model, Quantity::stiffness, rod);
+  bounds.stiffness = model.relaxation.instant() * stiffness;
+  bounds.damping = uniformly_damped(bounds) ? bounds.longest_retardation * stiffness
                                             : bound(model, Quantity::damping, rod);
   return bounds;
 }
@@ -235,6 +236,7 @@ SpectralBounds spectral_estimate(const LatticeModel& model, const State& at, int
     ScaledOperator damping_operator(model, at, Quantity::damping);
     estimate.damping = lanczos(damping_operator, steps);
   }
+  estimate.stiffness *= model.relaxation.instant();
   return estimate;
 }
 

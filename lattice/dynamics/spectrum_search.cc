@@ -211,7 +211,11 @@ void SpectrumSearch::apply(Memory& memory) {
 
 void SpectrumSearch::finish_quantity(Memory& memory) {
   const Ritz best = ritz(memory.projected, vectors);
-  (memory.quantity == 0 ? memory.found.stiffness : memory.found.damping) = best.values[0];
+  if (memory.quantity == 0) {
+    memory.found.stiffness = model_->relaxation.instant() * best.values[0];
+  } else {
+    memory.found.damping = best.values[0];
+  }
   MatrixXd& kept = memory.kept[memory.quantity];
   kept.resize(rows(), most_kept);
   in_portions(rows(), [&](Index, Index first, Index size) {

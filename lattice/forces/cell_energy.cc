@@ -8,8 +8,14 @@ namespace fingertip::lattice {
 
 double cell_energy(const CellLattice& cells, const VectorField& displacement, Team& team,
                    int width) {
-  const kernel::CellEnergy energy = kernel::select_cell_energy(cells.material.kind, width);
-  const kernel::CellArrays arrays = cell_arrays(cells, displacement);
+  return cell_energy(cells, cells.material, displacement, team, width);
+}
+
+double cell_energy(const CellLattice& cells, const CellMaterial& material,
+                   const VectorField& displacement, Team& team, int width) {
+  const kernel::CellEnergy energy = kernel::select_cell_energy(material.kind, width);
+  kernel::CellArrays arrays = cell_arrays(cells, displacement);
+  arrays.material = material;
   return sum_in_portions<64>(team, cells.blocks.size(), [&](std::size_t begin, std::size_t end) {
     return energy(arrays, cells.blocks.data() + begin, end - begin);
   });

@@ -12,5 +12,8 @@ namespace fingertip::lattice {
 /// for any number of threads.
 double cell_energy(const CellLattice& cells, const VectorField& displacement, Team& team,
                    int width = 0);
+/// Of cells that consist of something else.
+double cell_energy(const CellLattice& cells, const CellMaterial& material,
+                   const VectorField& displacement, Team& team, int width = 0);
 
 }  // namespace fingertip::lattice

@@ -46,14 +46,20 @@ CellExtremes extremes_of(const CellMaterial& m, const kernel::CellBounds& bounds
 
 }  // namespace
 
-CellForces::CellForces(const CellLattice& cells, Team& team, int width)
+CellForces::CellForces(const CellLattice& cells, const CellMaterial& material, Team& team,
+                       int width)
     : cells_(&cells),
+      material_(material),
       team_(&team),
-      sweep_(kernel::select_cells(cells.material.kind, has_rates(cells.material), width)) {}
+      sweep_(kernel::select_cells(material.kind, has_rates(material), false, width)),
+      fading_sweep_(kernel::select_cells(material.kind, has_rates(material), true, width)) {}
 
 CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
-                             VectorField& force) const {
+                             VectorField& force, const kernel::CellPast& past) const {
   kernel::CellArrays arrays = cell_arrays(*cells_, displacement);
+  arrays.material = material_;
+  arrays.past = past;
+  const kernel::CellSweep sweep = past.values == nullptr ? sweep_ : fading_sweep_;
   for (std::size_t c = 0; c < 3; ++c) {
     arrays.velocity[c] = velocity.component[c].data();
     arrays.force[c] = force.component[c].data();
@@ -68,13 +74,13 @@ CellExtremes CellForces::add(const VectorField& displacement, const VectorField&
       kernel::CellBounds some;
       for (const CellLattice::Plane& plane : planes) {
         if (plane.first < begin || plane.first >= end) continue;
-        sweep_(arrays, cells_->blocks.data(), plane.first, plane.last, some);
+        sweep(arrays, cells_->blocks.data(), plane.first, plane.last, some);
       }
       const std::lock_guard<std::mutex> lock(guard);
       extend(all, some);
     });
   }
-  return extremes_of(cells_->material, all);
+  return extremes_of(material_, all);
 }
 
 }  // namespace fingertip::lattice

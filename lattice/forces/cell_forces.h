@@ -29,20 +29,24 @@ struct CellExtremes {
 class CellForces {
  public:
   /// `width`: doubles per register (2, 4, 8), 0 for the widest the processor has.
-  CellForces(const CellLattice& cells, Team& team, int width = 0);
+  CellForces(const CellLattice& cells, Team& team, int width = 0)
+      : CellForces(cells, cells.material, team, width) {}
+  /// Of cells that consist of something else.
+  CellForces(const CellLattice& cells, const CellMaterial& material, Team& team, int width);
 
   /// force += the cells' forces [N]. `cubic`: at the displacement handed over (u, or u + tau v to
   /// include damping; the velocity is not read). Others: at u, and with damping at v if tau > 0.
   /// The result is the same bits for any number of threads and any register width.
   /// Where a cell is turned inside out (J <= 0) forces are meaningless and smallest_jacobian says
-  /// so.
-  CellExtremes add(const VectorField& displacement, const VectorField& velocity,
-                   VectorField& force) const;
+  /// so. `past`: what cells with a law of large strain remember.
+  CellExtremes add(const VectorField& displacement, const VectorField& velocity, VectorField& force,
+                   const kernel::CellPast& past = {}) const;
 
  private:
   const CellLattice* cells_;
+  CellMaterial material_;
   Team* team_;
-  kernel::CellSweep sweep_;
+  kernel::CellSweep sweep_, fading_sweep_;
 };
 
 }  // namespace fingertip::lattice

@@ -14,6 +14,7 @@ InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
     : model_(&model),
       team_(&team),
       cells_(model.cell_lattice, team, width),
+      shear_(model.cell_lattice, model.cell_lattice.material.shear_alone(), team, width),
       rates_(model.kinematics == Kinematics::finite || !model.proportional_damping) {
   if (model.has_springs()) {
     const kernel::Variant variant{model.kinematics == Kinematics::finite, rates_};
@@ -27,16 +28,56 @@ InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
   std::copy(model.stiffness.begin(), model.stiffness.end(), arrays_.stiffness);
   std::copy(model.damping.begin(), model.damping.end(), arrays_.damping);
   if (!rates_) damped_ = VectorField(model.points());
+  if (!model.relaxation.bulk) lag_ = VectorField(model.points());
 }
 
-CellExtremes InternalForces::accumulate(const State& state, VectorField& force) {
+CellExtremes InternalForces::accumulate(const State& state, double time,
+                                        const RelaxingMemory& memory, VectorField& force) {
+  const kernel::CellPast past = past_of(memory, time);
+  const bool apart = !model_->relaxation.bulk && !memory.lag.empty();
   const VectorField& displacement = rates_ ? state.displacement : damped(state);
+  if (!rates_ && !apart) add_lags(*model_, memory, state, time, *team_, damped_);
+  const CellExtremes extremes = respond(displacement, state, past, force);
+  if (apart) {
+    for (auto& component : lag_.component) std::fill(component.begin(), component.end(), 0.0);
+    add_lags(*model_, memory, state, time, *team_, lag_);
+    shear_.add(lag_, state.velocity, force);
+  }
+  return extremes;
+}
+
+CellExtremes InternalForces::note(const State& state, double time, RelaxingMemory& memory,
+                                  VectorField& force) {
+  if (memory.cells.empty()) {
+    memory.note(*model_, state, time, *team_);
+    return accumulate(state, time, memory, force);
+  }
+  kernel::CellPast past = past_of(memory, time);
+  past.noted = memory.cells.data();
+  memory.time = time;
+  return respond(state.displacement, state, past, force);
+}
+
+/// How the branches have faded since.
+kernel::CellPast InternalForces::past_of(const RelaxingMemory& memory, double time) {
+  if (memory.cells.empty()) return {};
+  const auto& branches = model_->relaxation.branches;
+  fading_.clear();
+  for (std::size_t n = 0; n < branches.size(); ++n) {
+    const meshes::Fading fading(time - memory.time, branches[n].time);
+    fading_.push_back({fading.keep, fading.gain * model_->relaxation.excess(n)});
+  }
+  return {memory.cells.data(), nullptr, fading_.data(), int(branches.size())};
+}
+
+CellExtremes InternalForces::respond(const VectorField& displacement, const State& state,
+                                     const kernel::CellPast& past, VectorField& force) {
   if (springs_ != nullptr) {
     gather_springs(displacement, state, force);
   } else {
     clear(force);
   }
-  return cells_.add(displacement, state.velocity, force);
+  return cells_.add(displacement, state.velocity, force, past);
 }
 
 const VectorField& InternalForces::damped(const State& state) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lattice/forces/cell_forces.h"
+#include "lattice/forces/relaxing.h"
 #include "lattice/kernels/kernel.h"
 #include "lattice/kernels/parallel.h"
 #include "lattice/model/model.h"
@@ -19,20 +20,33 @@ class InternalForces {
   /// force = sum of spring and cell forces [N] at every particle for this state; at points that
   /// are no particles the force is zero or left as it was. `force` has model.points() entries.
   /// Returns how far the cells are from rest (rest itself for models without a cell law).
-  CellExtremes accumulate(const State& state, VectorField& force);
+  CellExtremes accumulate(const State& state, VectorField& force) {
+    return accumulate(state, 0.0, {}, force);
+  }
+  /// With what a rubber that relaxes remembers, at a time not before it noted that; without
+  /// (empty) the forces are those after long times.
+  CellExtremes accumulate(const State& state, double time, const RelaxingMemory& memory,
+                          VectorField& force);
+  /// The same, and the memory is brought to this state.
+  CellExtremes note(const State& state, double time, RelaxingMemory& memory, VectorField& force);
 
  private:
   const VectorField& damped(const State& state);
+  kernel::CellPast past_of(const RelaxingMemory& memory, double time);
+  CellExtremes respond(const VectorField& displacement, const State& state,
+                       const kernel::CellPast& past, VectorField& force);
   void gather_springs(const VectorField& displacement, const State& state, VectorField& force);
   void clear(VectorField& force);
 
   const LatticeModel* model_;
   Team* team_;
   kernel::GatherForces springs_ = nullptr;  ///< null without springs
-  CellForces cells_;
+  CellForces cells_, shear_;                ///< `shear_`: what relaxes where the bulk does not
   bool rates_ = true;  ///< else one pass at u + tau v serves stiffness and damping
   kernel::Arrays arrays_{};
-  VectorField damped_;  ///< u + tau v
+  VectorField damped_;  ///< u + tau v, and what relaxes
+  VectorField lag_;     ///< what relaxes where the bulk does not
+  std::vector<kernel::CellFading> fading_;
 };
 
 }  // namespace fingertip::lattice

@@ -9,6 +9,22 @@
 
 namespace fingertip::lattice::kernel {
 
+/// What cells of a rubber that relaxes at large strain remember, as functions of C = FᵀF and of the
+/// modes seen from the rubber, k = F⁻¹ q: S = 2 dW/dC in the units of force (xx, yy, zz, yz, zx,
+/// xy), and dW/dk but for bending, by components and modes. First those of the last note, then
+/// those of every branch.
+inline constexpr int remembered = 18;
+/// Of a branch since then: h = keep h + gain times the change.
+struct CellFading {
+  double keep = 0.0, gain = 0.0;
+};
+struct CellPast {
+  const Lanes* values = nullptr;  ///< `remembered` (1 + branches) per block; null: none
+  Lanes* noted = nullptr;         ///< the same, to be brought to the present; null: kept
+  const CellFading* fading = nullptr;
+  int branches = 0;
+};
+
 /// Borrowed arrays of a CellLattice and a state; sizes and units as in cell_lattice.h.
 struct CellArrays {
   const double* displacement[3];
@@ -18,6 +34,7 @@ struct CellArrays {
   std::ptrdiff_t row, plane;
   double spacing;
   CellMaterial material;
+  CellPast past;  ///< read by kernels that know it only
 };
 
 /// Extremes over cells that a sweep has seen; rest counts among them. The order of sweeps does not
@@ -41,11 +58,12 @@ using CellSweep = void (*)(const CellArrays& arrays, const CellBlock* blocks, st
 
 /// The kernel for a law and a number of doubles per register: 2 (every x86-64), 4 (AVX2), 8
 /// (AVX-512), or 0 for the widest the processor has; the caller makes sure that it has the others.
-/// `rates`: whether velocities enter; never for `cubic`.
-CellSweep select_cells(CellLawKind law, bool rates, int width);
+/// `rates`: whether velocities enter; never for `cubic`. `fades`: whether the past does; laws of
+/// large strain only, and with rates.
+CellSweep select_cells(CellLawKind law, bool rates, bool fades, int width);
 
 /// That of one compilation (cell_kernel_widths.cc).
 template <int width>
-CellSweep cells_at(CellLawKind law, bool rates);
+CellSweep cells_at(CellLawKind law, bool rates, bool fades);
 
 }  // namespace fingertip::lattice::kernel

@@ -146,9 +146,11 @@ struct CellBody : CellResponse<Pack> {
   }
 
   /// Between the borders `low` and `high`, the second of which is written.
-  template <CellLawKind Law, bool Rates, bool Whole>
-  [[gnu::always_inline]] static void evaluate(const CellArrays& a, const CellBlock& b, Border& lows,
-                                              Border& highs, Extremes& extremes) {
+  /// `number`: of the block.
+  template <CellLawKind Law, bool Rates, bool Fades, bool Whole>
+  [[gnu::always_inline]] static void evaluate(const CellArrays& a, const CellBlock& b,
+                                              std::size_t number, Border& lows, Border& highs,
+                                              Extremes& extremes) {
     Carry carry;
     clear(carry);
     for (int chunk = 0; chunk < chunks; ++chunk) {
@@ -180,7 +182,9 @@ struct CellBody : CellResponse<Pack> {
       } else if constexpr (Law == CellLawKind::volume) {
         Response::template answer_volume<Rates>(m, area, u, velocity, extremes, take);
       } else {
-        Response::template answer_large<Law, Rates, Whole>(m, area, u, velocity, extremes, take);
+        const typename Response::Past past{a.past, number, lane};
+        Response::template answer_large<Law, Rates, Fades, Whole>(m, area, u, velocity, past,
+                                                                  extremes, take);
       }
     }
     close(a, std::ptrdiff_t(b.first) + block, carry);
@@ -210,7 +214,7 @@ struct CellBody : CellResponse<Pack> {
     close(a, first + block, carry);
   }
 
-  template <CellLawKind Law, bool Rates>
+  template <CellLawKind Law, bool Rates, bool Fades = false>
   static void sweep(const CellArrays& arrays, const CellBlock* blocks, std::size_t begin,
                     std::size_t end, CellBounds& bounds) {
     const CellArrays a = arrays;  // a copy that no store can alias
@@ -224,9 +228,9 @@ struct CellBody : CellResponse<Pack> {
         open<Rates>(a, first, low);
       }
       if (blocks[b].cut == CellBlock::whole) {
-        evaluate<Law, Rates, true>(a, blocks[b], low, high, extremes);
+        evaluate<Law, Rates, Fades, true>(a, blocks[b], b, low, high, extremes);
       } else {
-        evaluate<Law, Rates, false>(a, blocks[b], low, high, extremes);
+        evaluate<Law, Rates, Fades, false>(a, blocks[b], b, low, high, extremes);
       }
       if (b + 1 == end || first + a.row != std::ptrdiff_t(blocks[b + 1].first)) {
         finish(a, first + a.row, high);
@@ -311,18 +315,20 @@ struct CellBody : CellResponse<Pack> {
     }
   }
 
-  static CellSweep select(CellLawKind law, bool rates) {
-    if (law == CellLawKind::cubic) return sweep<CellLawKind::cubic, false>;
-    if (law == CellLawKind::volume) {
-      return rates ? sweep<CellLawKind::volume, true> : sweep<CellLawKind::volume, false>;
+  template <CellLawKind Law>
+  static CellSweep large(bool rates, bool fades) {
+    if (fades) return sweep<Law, true, true>;
+    return rates ? sweep<Law, true> : sweep<Law, false>;
+  }
+  static CellSweep select(CellLawKind law, bool rates, bool fades) {
+    switch (law) {
+      case CellLawKind::cubic: return sweep<CellLawKind::cubic, false>;
+      case CellLawKind::volume:
+        return rates ? sweep<CellLawKind::volume, true> : sweep<CellLawKind::volume, false>;
+      case CellLawKind::invariants: return large<CellLawKind::invariants>(rates, fades);
+      case CellLawKind::stretches: return large<CellLawKind::stretches>(rates, fades);
+      default: return large<CellLawKind::network>(rates, fades);
     }
-    if (law == CellLawKind::invariants) {
-      return rates ? sweep<CellLawKind::invariants, true> : sweep<CellLawKind::invariants, false>;
-    }
-    if (law == CellLawKind::stretches) {
-      return rates ? sweep<CellLawKind::stretches, true> : sweep<CellLawKind::stretches, false>;
-    }
-    return rates ? sweep<CellLawKind::network, true> : sweep<CellLawKind::network, false>;
   }
 };
 

@@ -6,10 +6,10 @@ namespace fingertip::lattice::kernel {
 using Pack = std::experimental::native_simd<double>;
 
 template <int width>
-CellSweep cells_at(CellLawKind law, bool rates) {
-  return CellBody<Pack>::select(law, rates);
+CellSweep cells_at(CellLawKind law, bool rates, bool fades) {
+  return CellBody<Pack>::select(law, rates, fades);
 }
-template CellSweep cells_at<int(Pack::size())>(CellLawKind, bool);
+template CellSweep cells_at<int(Pack::size())>(CellLawKind, bool, bool);
 
 template <int width>
 CellEnergy cell_energy_at(CellLawKind law) {

@@ -52,6 +52,14 @@ struct CellMaterial {
     if (large_strain()) return {lambda + 2.0 * shear, lambda, shear};
     return kind == CellLawKind::volume ? Cubic{kappa, kappa, 0.0} : Cubic{c11, c12, c44};
   }
+  /// `cubic` without its resistance to a change of volume.
+  CellMaterial shear_alone() const {
+    CellMaterial result = *this;
+    const double bulk = (c11 + 2.0 * c12) / 3.0;
+    result.c11 -= bulk;
+    result.c12 -= bulk;
+    return result;
+  }
   /// Whether the law is one of rubber at large strain, which needs J > 0.
   bool large_strain() const { return kind != CellLawKind::cubic && kind != CellLawKind::volume; }
   /// Whether the fibres along the edges stiffen with the cell.

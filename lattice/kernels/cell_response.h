@@ -18,7 +18,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   using Law = kernel::Law<Pack>;
   using Algebra = PackAlgebra<Pack>;
   using Algebra::contract, Algebra::transposed_times;
-  using Packs<Pack>::load;
+  using Packs<Pack>::load, Packs<Pack>::store;
   using typename Algebra::Rows;
   using Vector = PackVector<Pack>;
 
@@ -95,6 +95,47 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
     }
   }
 
+  /// v.x a.x + v.y a.y + v.z a.z.
+  template <typename Three>
+  [[gnu::always_inline]] static Modes along(const Vector& v, const Three& a) {
+    return {v.x * a.x.yz + v.y * a.y.yz + v.z * a.z.yz, v.x * a.x.zx + v.y * a.y.zx + v.z * a.z.zx,
+            v.x * a.x.xy + v.y * a.y.xy + v.z * a.z.xy,
+            v.x * a.x.xyz + v.y * a.y.xyz + v.z * a.z.xyz};
+  }
+  /// By components.
+  struct Bends {
+    Modes x, y, z;
+  };
+
+  /// What cells remember (cell_kernel.h), of a block from the pack's first lane on.
+  struct Past {
+    const CellPast& all;
+    std::size_t block;
+    std::ptrdiff_t lane;
+
+    [[gnu::always_inline]] std::ptrdiff_t at(int branch, int k) const {
+      return (std::ptrdiff_t(block) * (all.branches + 1) + branch) * remembered + k;
+    }
+    /// What the branches make of value k, which is now `now`.
+    [[gnu::always_inline]] Pack fade(int k, const Pack& now) const {
+      const Pack change = now - load(all.values[at(0, k)].at + lane);
+      Pack sum = 0.0;
+      for (int n = 0; n < all.branches; ++n) {
+        const std::ptrdiff_t i = at(1 + n, k);
+        const Pack h = Pack(all.fading[n].keep) * load(all.values[i].at + lane) +
+                       Pack(all.fading[n].gain) * change;
+        if (all.noted != nullptr) store(all.noted[i].at + lane, h);
+        sum = sum + h;
+      }
+      if (all.noted != nullptr) store(all.noted[at(0, k)].at + lane, now);
+      return sum;
+    }
+    [[gnu::always_inline]] Modes fade(int k, const Pack& factor, const Modes& now) const {
+      return {fade(k, factor * now.yz), fade(k + 1, factor * now.zx), fade(k + 2, factor * now.xy),
+              fade(k + 3, factor * now.xyz)};
+    }
+  };
+
   [[gnu::always_inline]] static Rows gradient(const Field& u) { return {u.x.H, u.y.H, u.z.H}; }
 
   /// `area`, here and below: a²/4 times the rubber's fraction, which makes stresses forces.
@@ -145,10 +186,11 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   }
 
   /// Laws of large strain. Damping is that of G and lambda at rest.
-  template <CellLawKind Kind, bool Rates, bool Whole, typename Velocity, typename Take>
+  template <CellLawKind Kind, bool Rates, bool Fades, bool Whole, typename Velocity, typename Take>
   [[gnu::always_inline]] static void answer_large(const CellMaterial& m, const Pack& area,
                                                   const Field& u, const Velocity& velocity,
-                                                  Extremes& extremes, const Take& take) {
+                                                  const Past& past, Extremes& extremes,
+                                                  const Take& take) {
     constexpr bool network = Kind == CellLawKind::network;
     using Hyperelastic = kernel::Hyperelastic<Pack>;
     const Rows F = Algebra::plus_one(gradient(u));
@@ -167,13 +209,54 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
       extend(extremes, min(J, answer.room), answer.tangent, g);
       extremes.beyond = max(extremes.beyond, answer.beyond);
     }
+    typename Hyperelastic::Symmetric Q;  // what relaxes of the stress ...
+    Bends faded;                         // ... and of the modes
+    if constexpr (Fades) {
+      const Bends q{u.x.q, u.y.q, u.z.q};
+      Bends kappa, moment;
+      Pack stiffer = 1.0;
+      if constexpr (!network) stiffer = answer.modes;
+      for_components([&](auto c) __attribute__((always_inline)) {
+        entry<c()>(kappa) = along({entry<c()>(T.x), entry<c()>(T.y), entry<c()>(T.z)}, q);
+        entry<c()>(moment) = along({entry<c()>(F.x), entry<c()>(F.y), entry<c()>(F.z)}, q);
+      });
+      const auto bends = [&](const Modes& a, const Modes& b) __attribute__((always_inline)) {
+        return stiffer * contract(bend<Whole>(m, area, a), b);
+      };
+      // The second Piola-Kirchhoff stress while F⁻¹ q stays as it is.
+      typename Hyperelastic::Symmetric S = Hyperelastic::right_cauchy_green(T), R;
+      if constexpr (network) {
+        const Pack none = 0.0;
+        R = {Pack(m.shear), Pack(m.shear), Pack(m.shear), none, none, none};
+      } else {
+        R = answer.S;
+      }
+      S = {area * (R.xx + pressure * S.xx) + bends(kappa.x, kappa.x),
+           area * (R.yy + pressure * S.yy) + bends(kappa.y, kappa.y),
+           area * (R.zz + pressure * S.zz) + bends(kappa.z, kappa.z),
+           area * (R.yz + pressure * S.yz) + bends(kappa.y, kappa.z),
+           area * (R.zx + pressure * S.zx) + bends(kappa.z, kappa.x),
+           area * (R.xy + pressure * S.xy) + bends(kappa.x, kappa.y)};
+      Q = {past.fade(0, S.xx), past.fade(1, S.yy), past.fade(2, S.zz),
+           past.fade(3, S.yz), past.fade(4, S.zx), past.fade(5, S.xy)};
+      Bends held;
+      for_components([&](auto c) __attribute__((always_inline)) {
+        entry<c()>(held) = past.fade(6 + 4 * c(), stiffer, entry<c()>(moment));
+      });
+      for_components([&](auto c) __attribute__((always_inline)) {
+        entry<c()>(faded) = along(entry<c()>(T), held);
+      });
+    }
     /// Of a component the stress but for the pressure, and what the modes exert.
     const auto elastic = [&](auto c) __attribute__((always_inline)) {
+      Vector P;
       if constexpr (network) {
-        return G * entry<c()>(F);
+        P = G * entry<c()>(F);
       } else {
-        return area * Hyperelastic::times(entry<c()>(F), answer.S);
+        P = area * Hyperelastic::times(entry<c()>(F), answer.S);
       }
+      if constexpr (Fades) P += Hyperelastic::times(entry<c()>(F), Q);
+      return P;
     };
     const auto bent = [&](auto c) __attribute__((always_inline)) {
       const Modes d = bend<Whole>(m, area, entry<c()>(u).q);
@@ -187,9 +270,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
     if constexpr (Rates) {
       read_later();
       Rows L, drag;
-      struct {
-        Modes x, y, z;
-      } h;
+      Bends h;
       for_components([&](auto c) __attribute__((always_inline)) {
         const Row w = velocity(c);
         const Vector l = Algebra::times(T, w.H);
@@ -197,7 +278,9 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
                          w.q.zx - (l.x * u.x.q.zx + l.y * u.y.q.zx + l.z * u.z.q.zx),
                          w.q.xy - (l.x * u.x.q.xy + l.y * u.y.q.xy + l.z * u.z.q.xy),
                          w.q.xyz - (l.x * u.x.q.xyz + l.y * u.y.q.xyz + l.z * u.z.q.xyz)};
-        const Modes d = bend<Whole>(m, area, slip);
+        Modes d = bend<Whole>(m, area, slip);
+        // What relaxes acts as damping does.
+        if constexpr (Fades) d = d + bend<Whole>(m, area, entry<c()>(faded));
         entry<c()>(L) = l;
         entry<c()>(drag) = {contract(d, u.x.q), contract(d, u.y.q), contract(d, u.z.q)};
         entry<c()>(h) = bent(c) + d;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "lattice/kernels/lanes.h"
+#include "lattice/kernels/tie_law.h"
 #include "meshes/obstacle_surface.h"
 
 namespace fingertip::lattice::kernel {
@@ -41,7 +42,7 @@ struct ContactGroup {
   Lanes weight[lanes];            ///< per corner: of the points
   Lanes share[lanes];             ///< per point: of the corners (the same, transposed)
   Lanes rest[3];                  ///< along the grid's axes [m]
-  Lanes stiffness;                ///< [N/m]
+  Lanes stiffness;                ///< at rest [N/m]
   Lanes inertia;                  ///< stiffness times Σ |weight| [N/m]
   Lanes facing[3];  ///< outward normal times the surface it stands for, along the grid's axes [m²]
 };
@@ -69,6 +70,7 @@ struct ContactArrays {
   double normal[3];       ///< of the plane, in its own axes
   double ahead;           ///< length of the step [s]
   double friction;        ///< Coulomb's coefficient
+  TieLaw law;             ///< of all ties
   GapKind gap_kind;
   meshes::ObstacleForm obstacle;
   double tangent[2][3];  ///< t1 and t2 of the obstacle, in the plane's own axes

@@ -182,7 +182,7 @@ struct ContactBody : Packs<Pack> {
     const Vector anchor = load(memory.anchor, lane);
     const Pack depth = -now.gap;
     const Vector stretch = anchor - place;
-    const Clipped kept = clip(stretch, now.normal, a.friction * depth);
+    const Clipped kept = clip(stretch, now.normal, a.friction * TiePush<Pack>(a.law, depth).length);
     // Points not yet there are anchored where they will be.
     const Mask anchored = load(memory.anchored, lane) != 0.0;
     const Mask slips = anchored && depth > 0.0 && kept.share < 1.0;
@@ -213,44 +213,54 @@ struct ContactBody : Packs<Pack> {
     store(memory.sliding, lane, sliding);
   }
 
-  /// How far the ties pull, and what share of the stiffness acts in the plane.
+  /// How far ties are stretched, their push by their law, its direction, how much more it is than
+  /// that of a linear tie [m], and what share of the stiffness at rest acts in the plane.
+  struct Stretch {
+    Vector elastic, normal;
+    TiePush<Pack> push;
+    Pack more, share;
+  };
   template <Grip grip>
-  static Clipped stretches(const ContactArrays& a, const Vector& place, const Facing& then,
+  static Stretch stretches(const ContactArrays& a, const Vector& place, const Facing& then,
                            const ContactMemory& memory, std::size_t lane) {
     const Pack depth = std::experimental::max(-then.gap, Pack(0.0));
-    if constexpr (grip == Grip::frictionless) return {depth * then.normal, 0.0};
+    const TiePush<Pack> push(a.law, depth);
+    Stretch result{depth * then.normal, then.normal, push, push.length - depth, 0.0};
+    if constexpr (grip == Grip::frictionless) return result;
     const Mask anchored = load(memory.anchored, lane) != 0.0;
     const Vector nothing{0.0, 0.0, 0.0};
-    Clipped result{load(memory.anchor, lane) - place, 1.0};
+    result.elastic = load(memory.anchor, lane) - place;
+    result.share = 1.0;
     if constexpr (grip == Grip::coulomb) {
-      const Clipped kept = clip(result.tangential, then.normal, a.friction * depth);
+      const Clipped kept = clip(result.elastic, then.normal, a.friction * push.length);
       result.share = kept.share;
-      result.tangential =
-          choose(kept.share < 1.0, depth * then.normal + kept.tangential, result.tangential);
+      result.elastic =
+          choose(kept.share < 1.0, depth * then.normal + kept.tangential, result.elastic);
     }
-    result.tangential = choose(anchored, result.tangential, nothing);
+    result.elastic = choose(anchored, result.elastic, nothing);
     return result;
   }
 
-  static void note(const ContactArrays& a, const ContactGroup& group, const Clipped& tie,
+  static void note(const ContactArrays& a, const ContactGroup& group, const Stretch& tie,
                    std::size_t lane, ContactMemory& memory, Pulls& pulls, GroupFindings& found) {
     const Pack stiffness = load(group.stiffness, lane);
-    const Vector& s = tie.tangential;
-    const Vector force = stiffness * s;
+    const Vector force = stiffness * (tie.elastic + tie.more * tie.normal);
     const double* t = a.then.turn;
     Base::store(pulls.force[0] + lane, t[0] * force.x + t[3] * force.y + t[6] * force.z);
     Base::store(pulls.force[1] + lane, t[1] * force.x + t[4] * force.y + t[7] * force.z);
     Base::store(pulls.force[2] + lane, t[2] * force.x + t[5] * force.y + t[8] * force.z);
     const Mask acts = force.x != 0.0 || force.y != 0.0 || force.z != 0.0;
     const Pack inertia = choose(acts, load(group.inertia, lane), Pack(0.0));
-    Base::store(pulls.stiffness + lane, inertia);
+    Base::store(pulls.stiffness + lane, tie.push.tangent * inertia);
     Base::store(pulls.tangential + lane, tie.share * inertia);
     store(memory.push, lane, dot(force, broadcast(a.normal)));
     store(memory.force, lane, force);
     found.touching += popcount(acts);
     found.sliding += popcount(acts && load(memory.sliding, lane) != 0.0);
     double energy[width];
-    Base::store(energy, 0.5 * dot(force, s));
+    const Pack depth = tie.push.length - tie.more;
+    Base::store(energy, 0.5 * dot(stiffness * tie.elastic, tie.elastic) +
+                            stiffness * (tie.push.energy - 0.5 * depth * depth));
     for (const double e : energy) found.energy += e;
   }
 
@@ -274,9 +284,9 @@ struct ContactBody : Packs<Pack> {
         look_at<kind>(a, group, place, ahead.gap, lane, memory);
       store(memory.place, lane, place);
       store(memory.gap, lane, ahead.gap);
-      Clipped tie = stretches<grip>(a, place, ahead, memory, lane);
+      Stretch tie = stretches<grip>(a, place, ahead, memory, lane);
       // Particles know one normal, the plane's: across another one a tie counts in full.
-      if constexpr (kind == GapKind::exact) tie.share = 1.0;
+      if constexpr (kind == GapKind::exact) tie.share = tie.push.tangent;
       note(a, group, tie, lane, memory, pulls, found);
       const double least = std::experimental::hmin(ahead.gap);
       found.smallest_gap = least < found.smallest_gap ? least : found.smallest_gap;

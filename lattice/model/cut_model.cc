@@ -137,6 +137,7 @@ LatticeModel build_cut_model(const meshes::Geometry& geometry, const meshes::Rub
   find_boundary(model, geometry);
   model.bond = on_grid(std::move(tip.bond), tip.cells);
   model.outer = on_grid(std::move(tip.outer), tip.cells);
+  model.contact = tip.contact;
   return model;
 }
 

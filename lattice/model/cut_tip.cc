@@ -105,7 +105,8 @@ CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   grid.size[0] += spare_rows;
   std::vector<CutCell> cut = meshes::cut_cells(geometry, grid, smallest_fraction);
   keep_sector(grid, sectors, cut);
-  CutTip tip{GridCells(grid, largest_piece(grid, cut)), formulation_for(rubber, settings), {}, {}};
+  CutTip tip{
+      GridCells(grid, largest_piece(grid, cut)), formulation_for(rubber, settings), {}, {}, {}};
   const double stiffness = tie_stiffness * tip.formulation.shear / grid.spacing;
   // All of the bond holds, wherever it lies; of a profile's contact what round-off may put below.
   constexpr double everywhere = -std::numeric_limits<double>::infinity();
@@ -115,6 +116,7 @@ CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   tip.outer =
       embedded_surface(tip.cells, geometry, Surface::outer, lowest_contact(geometry) - slack,
                        sectors, stiffness * settings.contact_stiffness);
+  if (tip.formulation.material.large_strain()) tip.contact = layer_law(rubber.energy, grid.spacing);
   return tip;
 }
 

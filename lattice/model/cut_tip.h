@@ -8,6 +8,7 @@
 #include "lattice/model/formulation.h"
 #include "lattice/model/grid_cells.h"
 #include "lattice/model/lattice_settings.h"
+#include "lattice/model/tie_layer.h"
 #include "meshes/geometry.h"
 #include "meshes/rubber.h"
 
@@ -22,11 +23,13 @@ inline constexpr double smallest_fraction = 1e-6;
 /// Immutable. Corners of embedded points are particle numbers of `cells`. Bond and outer points lie
 /// at most a/3 apart; the outer ones cover the hemisphere and R - r of the sleeve. Ties:
 /// tie_stiffness C44/a per area, the bond's times ligament_stiffness, the outer ones times
-/// contact_stiffness.
+/// contact_stiffness. Those of the bond are linear, and all at small strain and in lattices of
+/// central springs; the network's outer ones stiffen with the depth as layers of its rubber do.
 struct CutTip {
   GridCells cells;
   Formulation formulation;
   std::vector<EmbeddedPoint> bond, outer;
+  TieLaw contact;  ///< of the outer ones
 };
 
 /// `sectors` = 4, 2 or 1 asks for the quarter (x, y >= 0), half (y >= 0) or whole tip; mirror

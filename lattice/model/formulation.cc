@@ -77,6 +77,7 @@ Formulation formulation_for(const Rubber& rubber, const LatticeSettings& setting
     formulation.material = cubic_material(formulation.constants, a, fibre_share);
   }
   formulation.material.retardation_time = rubber.retardation_time;
+  formulation.relaxation = rubber.relaxation;
   return formulation;
 }
 

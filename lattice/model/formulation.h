@@ -28,6 +28,7 @@ struct Formulation {
   bool cell_law = false;         ///< whether cells store energy
   CellMaterial material;         ///< of the cells; its `bending` times a is a whole edge's fibre
   bool finite = false;           ///< kinematics
+  meshes::Relaxation relaxation; ///< of all constants, or of shear alone
   double shear = 0.0;            ///< C44 at rest [Pa]
 };
 

@@ -217,6 +217,7 @@ LatticeModel build_model(const GridCells& cells, ModelKind kind, const Formulati
   connect_cells(model, cells, formulation.central_springs, density);
   model.proportional_damping = true;
   model.retardation_time = formulation.material.retardation_time;
+  model.relaxation = formulation.relaxation;
   if (formulation.central_springs) {
     model.stiffness = {formulation.constants.k1, formulation.constants.k2,
                        formulation.constants.k3};

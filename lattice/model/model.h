@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lattice/kernels/stencil.h"
+#include "lattice/kernels/tie_law.h"
 #include "lattice/model/cell_edges.h"
 #include "lattice/model/cell_lattice.h"
 #include "lattice/model/constants.h"
@@ -56,6 +57,8 @@ struct LatticeModel {
   /// dampers are per class.
   double retardation_time = 0.0;
   bool proportional_damping = false;  ///< whether mu = tau k throughout
+  meshes::Relaxation relaxation;      ///< of springs and cells; what they are otherwise is after
+                                      ///< long times
 
   std::vector<std::uint32_t> particles;  ///< grid indices of the particles, increasing
   std::vector<std::uint32_t> cells;      ///< grid indices of the cells' lowest corners
@@ -70,6 +73,7 @@ struct LatticeModel {
   std::vector<Ligament> ligaments;  ///< published
   /// On the rod's surface and where the plane may touch; corners are grid indices. Not published.
   std::vector<EmbeddedPoint> bond, outer;
+  TieLaw contact;           ///< of the outer points' ties
   double added_mass = 0.0;  ///< what light particles at cut cells were given [kg] (build_cut_model)
 
   std::size_t points() const { return is_particle.size(); }  ///< including the padding

@@ -115,6 +115,7 @@ LatticeBody build_cut_tip(const Geometry& geometry, const Rubber& rubber,
   hold_mirror_planes(settings.spacing, sectors, body);
   body.bond = std::move(tip.bond);
   body.outer = std::move(tip.outer);
+  body.contact = tip.contact;
   return body;
 }
 

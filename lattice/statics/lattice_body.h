@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lattice/kernels/tie_law.h"
 #include "lattice/model/cell_law.h"
 #include "lattice/model/embedded_points.h"
 #include "meshes/geometry.h"
@@ -44,6 +45,7 @@ struct LatticeBody {
   bool finite = false;               ///< kinematics of springs, fibres and law
   std::vector<EmbeddedPoint> bond;   ///< on the rod's surface
   std::vector<EmbeddedPoint> outer;  ///< where the plane may touch
+  TieLaw contact;                    ///< of their ties
   /// Per unknown (3 particle + component): 1 where a mirror plane holds it.
   std::vector<std::uint8_t> fixed;
   int sectors = 1;  ///< how often this body makes up the tip: 1, 2 (y >= 0) or 4 (x, y >= 0)

@@ -9,6 +9,7 @@ namespace fingertip::lattice {
 using Eigen::Matrix3d;
 using Eigen::VectorXd;
 using meshes::Vector3;
+using TiePush = kernel::TiePush<double>;
 
 namespace {
 
@@ -55,12 +56,12 @@ bool StaticContact::touches(std::size_t point, const VectorXd& displacement) con
 
 Vector3 StaticContact::tie_force(std::size_t point, const VectorXd& displacement) const {
   const EmbeddedPoint& outer = body_->outer[point];
-  if (!stick_) {
-    const Facing now = facing(point, displacement);
-    return -outer.stiffness * std::min(now.gap, 0.0) * now.normal;
-  }
-  if (!anchored_[point]) return Vector3::Zero();
-  return outer.stiffness * (plane_.point(place_) + anchor_[point] - position(outer, displacement));
+  if (stick_ && !anchored_[point]) return Vector3::Zero();
+  const Facing now = facing(point, displacement);
+  const double depth = std::max(-now.gap, 0.0), push = TiePush(body_->contact, depth).length;
+  if (!stick_) return outer.stiffness * push * now.normal;
+  const Vector3 stretch = plane_.point(place_) + anchor_[point] - position(outer, displacement);
+  return outer.stiffness * (stretch + (push - depth) * now.normal);
 }
 
 double StaticContact::pressure(std::size_t point, const VectorXd& displacement) const {
@@ -70,8 +71,17 @@ double StaticContact::pressure(std::size_t point, const VectorXd& displacement) 
 
 double StaticContact::energy(const VectorXd& displacement) const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < body_->outer.size(); ++i)
-    sum += tie_force(i, displacement).squaredNorm() / (2.0 * body_->outer[i].stiffness);
+  for (std::size_t i = 0; i < body_->outer.size(); ++i) {
+    if (!touches(i, displacement)) continue;
+    const EmbeddedPoint& outer = body_->outer[i];
+    const double depth = std::max(-facing(i, displacement).gap, 0.0);
+    double own = TiePush(body_->contact, depth).energy;
+    if (stick_) {
+      const Vector3 stretch = plane_.point(place_) + anchor_[i] - position(outer, displacement);
+      own += 0.5 * (stretch.squaredNorm() - depth * depth);
+    }
+    sum += outer.stiffness * own;
+  }
   return sum;
 }
 
@@ -86,12 +96,13 @@ double StaticContact::add(const VectorXd& displacement, const ElasticSystem& sys
     for (std::size_t c = 0; c < 8; ++c)
       force.segment<3>(3 * Eigen::Index(outer.corners[c])) += outer.weights[c] * push;
     if (!tangent) continue;
-    Matrix3d shape = Matrix3d::Identity();
-    if (!stick_) {
-      const Relative at = relative(i, displacement, place_);
-      const Facing now = facing(at);
-      shape = now.normal * now.normal.transpose() + now.gap * bend(at);
-    }
+    const Relative at = relative(i, displacement, place_);
+    const Facing now = facing(at);
+    const double depth = std::max(-now.gap, 0.0);
+    const TiePush tie(body_->contact, depth);
+    const Matrix3d along = now.normal * now.normal.transpose();
+    Matrix3d shape = tie.tangent * along - tie.length * bend(at);
+    if (stick_) shape += Matrix3d::Identity() - along + depth * bend(at);
     system.add_embedded(outer, outer.stiffness * shape, *tangent);
   }
   return sum;

@@ -35,10 +35,13 @@ struct FirstTouch {
 };
 
 /// The ties between a body's outer points and the obstacle. With the gap g, an energy per point, k
-/// its stiffness:
-///   frictionless  ½ k min(g, 0)²
-///   stick         ½ k |x - anchor|² where anchored, else nothing; the anchor is the place of first
-///                 touch, lies on the obstacle and moves with it
+/// its stiffness at rest and k w(d) what the body's TieLaw stores at the depth d = max(-g, 0), ½ k
+/// d² if it is linear:
+///   frictionless  k w(d)
+///   stick         ½ k |x - anchor|² + k (w(d) - ½ d²) where anchored, else nothing; the anchor is
+///                 the place of first touch, lies on the obstacle and moves with it. Of a plane,
+///                 whose d is the tie's length along the normal, this is w(d) and a linear tie
+///                 across.
 /// Of a plane g = (x - plane point)·n, x = rest + u, also at small strain. Of another obstacle at
 /// small strain it is less by the obstacle's height at the place of rest, with the plane's normal;
 /// at finite strain the distance of x from the obstacle, with its normal there.

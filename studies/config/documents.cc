@@ -145,7 +145,7 @@ std::string config_template() {
 
 std::string explanation(const Key& key) {
   std::string text =
-      fmt::format("{}\n  {}\n  kind:    {}{}\n", key.full_name(), key.help, kind_name(key.kind),
+      fmt::format("{}\n  {}\n  kind:    {}{}\n", key.full_name(), key.help, kind_name(key),
                   key.unit.empty() ? "" : " (any unit of the dimension of " + key.unit + ")");
   if (key.choices.empty() && !key.allowed().empty()) {
     text += fmt::format("  allowed: {}\n", key.allowed());

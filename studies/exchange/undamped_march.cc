@@ -48,7 +48,7 @@ void UndampedMarch::advance() {
 
 lattice::State UndampedMarch::synchronised() {
   lattice::State state = finger_.state();
-  finger_.internal_forces(state, force_);
+  finger_.internal_forces(state, 0.0, force_);
   add_outer_forces(*body_, state, time(), force_);
   for (const std::uint32_t i : body_->model.particles) {
     state.velocity.add(i, 0.5 * body_->step * body_->model.inverse_mass[i] * force_.at(i));

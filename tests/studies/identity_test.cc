@@ -86,6 +86,7 @@ Sets other_values(const Key& key, const std::string& literal) {
       {"rubber.yeoh", {"[\"3 kPa\"]"}},
       {"rubber.mooney_rivlin", {"[\"3 kPa\", \"1 kPa\"]"}},
       {"rubber.ogden", {"[[\"3 kPa\", 2.5]]"}},
+      {"rubber.relaxation", {"[[0.2, \"0.1 s\"]]"}},
       {"rubber.shore_hardness", {"30.0"}}};
   if (const auto found = given.find(key.full_name()); found != given.end()) return found->second;
   const std::string text = unquoted(literal);
@@ -147,7 +148,8 @@ bool matters(const World& world, const Key& key) {
       {"rubber.yeoh", "rubber.yeoh=[\"2 kPa\"]"},
       {"rubber.mooney_rivlin", "rubber.mooney_rivlin=[\"2 kPa\", \"1 kPa\"]"},
       {"rubber.ogden", "rubber.ogden=[[\"2 kPa\", 2.5]]"},
-      {"rubber.gent_jm", "rubber.gent_jm=9.0"}};
+      {"rubber.gent_jm", "rubber.gent_jm=9.0"},
+      {"rubber.relaxation_bulk", "rubber.relaxation=[[0.2, \"0.1 s\"]]"}};
   if (const auto own = coefficients.find(key.full_name()); own != coefficients.end())
     sets.emplace_back(own->second);
   const auto base = identity_of(world.identity, sets);

@@ -12,15 +12,15 @@ EnergyBalance::EnergyBalance(Finger& finger)
       undamped_(finger.model().points()),
       still_(finger.model()) {}
 
-/// v·(f(u, 0) - f(u, v)) of the internal forces [W].
+/// v·(f(u, 0) - f(u, v)) of the internal forces [W], without what branches lose.
 double EnergyBalance::dissipation(const State& state) {
   const LatticeModel& model = finger_->model();
   if (model.retardation_time == 0.0 &&
       !(model.damping[0] + model.damping[1] + model.damping[2] > 0.0))
     return 0.0;
   still_.displacement = state.displacement;
-  finger_->internal_forces(state, force_);
-  finger_->internal_forces(still_, undamped_);
+  finger_->internal_forces(state, finger_->time(), force_);
+  finger_->internal_forces(still_, finger_->time(), undamped_);
   double sum = 0.0;
   for (const std::uint32_t i : model.particles) {
     sum += state.velocity.at(i).dot(undamped_.at(i) - force_.at(i));
@@ -34,10 +34,11 @@ EnergyInstant EnergyBalance::measure(bool prescribed) {
   const LatticeModel& model = finger_->model();
   const Plane& plane = finger_->plane();
   EnergyInstant now;
-  now.dissipation = dissipation(state);
-  const Finger::Trial trial = finger_->attempt(state, rod, plane, force_);
+  const BranchEnergy branches = finger_->branch_energy();
+  now.dissipation = dissipation(state) + branches.dissipation;
+  const Finger::Trial trial = finger_->attempt(state, rod, plane, finger_->time(), force_);
   now.kinetic = finger_->kinetic_energy() + (prescribed ? 0.0 : rod.kinetic_energy());
-  now.stored = lattice::elastic_energy(model, state) + finger_->bond_energy() +
+  now.stored = lattice::elastic_energy(model, state) + branches.stored + finger_->bond_energy() +
                trial.surfaces.contact_energy;
   now.endpoint = rod.endpoint();
   now.spin = rod.angular_velocity();

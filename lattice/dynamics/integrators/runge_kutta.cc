@@ -116,8 +116,8 @@ int RungeKutta::Solver::find_rates(double time, const double* y, double* y_dot) 
     const RodMotion at = (*motion)(start_ + time);
     rod_.prescribe(at.travel, at.velocity);
   }
-  const Finger::Trial trial =
-      finger_->attempt(state_, rod_, plane_.after(time - plane_time_), force_);
+  const Finger::Trial trial = finger_->attempt(state_, rod_, plane_.after(time - plane_time_),
+                                               finger_->time() + (time - plane_time_), force_);
   if (!(trial.extremes.smallest_jacobian > 0.0)) return 1;
   layout_.write_rates(state_, force_, trial.surfaces, y_dot);
   if (const Wrench* applied = std::get_if<Wrench>(drive_)) {

@@ -86,7 +86,8 @@ sweeps::EdgeFactors EdgeInertiaRule::factors(double elastic, double viscous) con
 double EdgeInertiaRule::find(const State& state, double step, double allowance, Team& team,
                              EdgeInertia& edges) {
   const CellLattice& cells = model_->cell_lattice;
-  const double unit = allowance * cells.spacing, elastic = unit * 0.25 * step * step,
+  const double unit = allowance * cells.spacing,
+               elastic = unit * 0.25 * step * step * model_->relaxation.instant(),
                viscous = unit * 0.5 * step * cells.material.retardation_time;
   const sweeps::EdgeFactors now = factors(elastic, viscous);
   sweeps::EdgeArrays arrays{{}, shares_.data(), 1.0 / cells.spacing, {1, cells.row, cells.plane}};

@@ -32,11 +32,13 @@ Plane plane_above() {
 
 /// The undeformed tip, pushed into the plane and along it.
 struct RigidTip {
-  LatticeModel model = tip(ModelKind::hookean, Kinematics::small, 6);
+  LatticeModel model;
   lattice::Team team{1};
   PenaltyContact contact;
 
-  explicit RigidTip(double mu) : contact(model, plane_above(), {ContactMode::coulomb, mu}, team) {}
+  explicit RigidTip(double mu, ModelKind kind = ModelKind::hookean)
+      : model(tip(kind, kind == ModelKind::network ? Kinematics::finite : Kinematics::small, 6)),
+        contact(model, plane_above(), {ContactMode::coulomb, mu}, team) {}
   /// The plane's force on the tip displaced by `shift`.
   Vector3 force(const Vector3& shift) {
     State state(model);
@@ -97,29 +99,32 @@ double tangential(const Vector3& force) {
 TEST(CoulombPoint, SticksUpToMuTimesThePushAndSlidesUnderExactlyThat) {
   const double mu = 0.3, push = 4e-4;
   const Vector3 along(0.6, 0.8, 0.0);
-  RigidTip tip(mu);
-  tip.force(Vector3::Zero());
-  Vector3 force = tip.force(push * Vector3::UnitZ());
-  EXPECT_LT(tangential(force), 1e-12 * force.norm());
-  EXPECT_EQ(tip.contact.sliding(), 0);
-  for (const double way : {0.5e-5, 2e-5, 5e-5, 8.9e-5, 9.1e-5, 5e-4}) {
-    force = tip.force(push * Vector3::UnitZ() + way * along);
-    double normal = 0.0, friction = 0.0, energy = 0.0;
-    int sliding = 0;
-    tip.for_each(push, [&](double depth, double stiffness) {
-      const double slips_at = mu * depth;
-      normal += stiffness * depth;
-      friction += stiffness * std::min(way, slips_at);
-      energy += 0.5 * stiffness * (depth * depth + std::pow(std::min(way, slips_at), 2));
-      sliding += way > slips_at;
-    });
-    EXPECT_NEAR(-force.z(), normal, 1e-10 * normal);
-    EXPECT_LT((force - force.z() * Vector3::UnitZ() + friction * along).norm(), 1e-10 * normal);
-    EXPECT_EQ(tip.contact.sliding(), sliding);
-    EXPECT_NEAR(tip.contact.energy(), energy, 1e-10 * energy);
+  for (const ModelKind kind : {ModelKind::hookean, ModelKind::network}) {
+    RigidTip tip(mu, kind);
+    tip.force(Vector3::Zero());
+    Vector3 force = tip.force(push * Vector3::UnitZ());
+    EXPECT_LT(tangential(force), 1e-12 * force.norm());
+    EXPECT_EQ(tip.contact.sliding(), 0);
+    for (const double way : {0.5e-5, 2e-5, 5e-5, 8.9e-5, 9.1e-5, 5e-4, 2e-3}) {
+      force = tip.force(push * Vector3::UnitZ() + way * along);
+      double normal = 0.0, friction = 0.0, energy = 0.0;
+      int sliding = 0;
+      tip.for_each(push, [&](double depth, double stiffness) {
+        const lattice::kernel::TiePush<double> tie(tip.model.contact, depth);
+        const double slips_at = mu * tie.length;
+        normal += stiffness * tie.length;
+        friction += stiffness * std::min(way, slips_at);
+        energy += stiffness * (tie.energy + 0.5 * std::pow(std::min(way, slips_at), 2));
+        sliding += way > slips_at;
+      });
+      EXPECT_NEAR(-force.z(), normal, 1e-10 * normal);
+      EXPECT_LT((force - force.z() * Vector3::UnitZ() + friction * along).norm(), 1e-10 * normal);
+      EXPECT_EQ(tip.contact.sliding(), sliding);
+      EXPECT_NEAR(tip.contact.energy(), energy, 1e-10 * energy);
+    }
+    EXPECT_EQ(tip.contact.sliding(), tip.contact.touching());
+    EXPECT_NEAR(tangential(force), mu * -force.z(), 1e-10 * mu * -force.z());
   }
-  EXPECT_EQ(tip.contact.sliding(), tip.contact.touching());
-  EXPECT_NEAR(tangential(force), mu * -force.z(), 1e-10 * mu * -force.z());
 }
 
 TEST(CoulombPoint, ToAndFroDissipatesMuTimesThePushTimesTheWay) {

@@ -113,29 +113,33 @@ double difference(const LatticeModel& model, const VectorField& a, const VectorF
 }  // namespace
 
 TEST(PenaltyContact, FrictionlessPushesAlongTheNormalWhatPenetrates) {
-  const Scene s;
-  PenaltyContact contact(s.model, s.plane, ContactMode::frictionless, s.team);
-  EXPECT_EQ(largest(s.model, forces(s, contact, s.moved(-0.9 * clearance * s.plane.normal))), 0.0);
-  EXPECT_EQ(contact.touching(), 0);
-  EXPECT_EQ(contact.energy(), 0.0);
+  for (const Kinematics kinematics : both_kinematics) {
+    const Scene s({}, kinematics);
+    PenaltyContact contact(s.model, s.plane, ContactMode::frictionless, s.team);
+    EXPECT_EQ(largest(s.model, forces(s, contact, s.moved(-0.9 * clearance * s.plane.normal))),
+              0.0);
+    EXPECT_EQ(contact.touching(), 0);
+    EXPECT_EQ(contact.energy(), 0.0);
 
-  const State state = s.pressed(1.0);
-  const VectorField force = forces(s, contact, state, looks);
-  VectorField expected(s.model.points());
-  double energy = 0.0;
-  const Vector3 normal = s.model.grid.axes.transpose() * s.plane.normal;
-  for (const EmbeddedPoint& tie : s.model.outer) {
-    const double gap = s.gap(tie, state);
-    if (gap >= 0.0) continue;
-    energy += 0.5 * tie.stiffness * gap * gap;
-    for (std::size_t c = 0; c < 8; ++c) {
-      expected.add(tie.corners[c], -tie.weights[c] * tie.stiffness * gap * normal);
+    const State state = s.pressed(1.0);
+    const VectorField force = forces(s, contact, state, looks);
+    VectorField expected(s.model.points());
+    double energy = 0.0;
+    const Vector3 normal = s.model.grid.axes.transpose() * s.plane.normal;
+    for (const EmbeddedPoint& tie : s.model.outer) {
+      const double gap = s.gap(tie, state);
+      if (gap >= 0.0) continue;
+      const lattice::kernel::TiePush<double> push(s.model.contact, -gap);
+      energy += tie.stiffness * push.energy;
+      for (std::size_t c = 0; c < 8; ++c) {
+        expected.add(tie.corners[c], tie.weights[c] * tie.stiffness * push.length * normal);
+      }
     }
+    EXPECT_LT(difference(s.model, force, expected), 1e-11 * largest(s.model, expected));
+    EXPECT_NEAR(contact.energy(), energy, 1e-11 * energy);
+    EXPECT_EQ(contact.touching(), s.penetrating(state));
+    EXPECT_GT(contact.touching(), 20);
   }
-  EXPECT_LT(difference(s.model, force, expected), 1e-11 * largest(s.model, expected));
-  EXPECT_NEAR(contact.energy(), energy, 1e-11 * energy);
-  EXPECT_EQ(contact.touching(), s.penetrating(state));
-  EXPECT_GT(contact.touching(), 20);
 }
 
 namespace {
@@ -186,7 +190,7 @@ void expect_static_contact(const Scene& s) {
 }  // namespace
 
 TEST(PenaltyContact, HasTheEnergyAndForcesOfTheStaticContact) {
-  expect_static_contact(Scene{});
+  for (const Kinematics kinematics : both_kinematics) expect_static_contact(Scene({}, kinematics));
   for (const meshes::ObstacleShape shape :
        {meshes::ObstacleShape::sphere, meshes::ObstacleShape::cylinder,
         meshes::ObstacleShape::edge})
@@ -267,82 +271,89 @@ TEST(PenaltyContact, DoesNotDependOnWhoseTurnItIs) {
 }
 
 TEST(PenaltyContact, ThePlaneReceivesWhatTheParticlesLose) {
-  for (const ContactMode mode : both_modes) {
-    for (const double step : {0.0, 1e-4, 1.0}) {
-      const Scene s;
-      PenaltyContact contact(s.model, s.plane, mode, s.team);
-      forces(s, contact, s.pressed(0.5), looks);
-      State state = s.pressed(1.0);
-      const State rough = random_state(s.model, 1.0, 0.05, 3);
-      state.velocity = rough.velocity;
-      const VectorField others = rough.displacement;
-      VectorField force = others;
-      const Vector3 plane_force = contact.add(state, s.plane, step, force).force;
-      Vector3 sum = Vector3::Zero();
-      double tangential = 0.0, magnitude = 0.0;
-      for (const std::size_t i : s.model.particles) {
-        const Vector3 change = s.model.grid.axes * (force.at(i) - others.at(i));
-        sum += change;
-        magnitude += change.norm();
-        tangential =
-            std::max(tangential, (change - change.dot(s.plane.normal) * s.plane.normal).norm());
+  for (const Kinematics kinematics : both_kinematics) {
+    for (const ContactMode mode : both_modes) {
+      for (const double step : {0.0, 1e-4, 1.0}) {
+        const Scene s({}, kinematics);
+        PenaltyContact contact(s.model, s.plane, mode, s.team);
+        forces(s, contact, s.pressed(0.5), looks);
+        State state = s.pressed(1.0);
+        const State rough = random_state(s.model, 1.0, 0.05, 3);
+        state.velocity = rough.velocity;
+        const VectorField others = rough.displacement;
+        VectorField force = others;
+        const Vector3 plane_force = contact.add(state, s.plane, step, force).force;
+        Vector3 sum = Vector3::Zero();
+        double tangential = 0.0, magnitude = 0.0;
+        for (const std::size_t i : s.model.particles) {
+          const Vector3 change = s.model.grid.axes * (force.at(i) - others.at(i));
+          sum += change;
+          magnitude += change.norm();
+          tangential =
+              std::max(tangential, (change - change.dot(s.plane.normal) * s.plane.normal).norm());
+        }
+        EXPECT_GT(magnitude, 0.0);
+        EXPECT_LT((sum - plane_force).norm(), 1e-12 * magnitude) << name(mode) << step;
+        EXPECT_EQ(tangential < 1e-13 * magnitude, mode == ContactMode::frictionless);
       }
-      EXPECT_GT(magnitude, 0.0);
-      EXPECT_LT((sum - plane_force).norm(), 1e-12 * magnitude) << name(mode) << step;
-      EXPECT_EQ(tangential < 1e-13 * magnitude, mode == ContactMode::frictionless);
     }
   }
 }
 
 TEST(PenaltyContact, ActsAsItWillBeAtTheEndOfTheStep) {
-  for (const ContactMode mode : both_modes) {
-    const Scene s;
-    const double step = 1e-3;
-    PenaltyContact moving(s.model, s.plane, mode, s.team), resting(s.model, s.plane, mode, s.team);
-    State start = s.pressed(0.3);
-    const State end = s.pressed(0.35);
-    forces(s, moving, start, looks);
-    forces(s, resting, start, looks);
-    for (const std::size_t i : s.model.particles) {
-      start.velocity.set(i, (end.displacement.at(i) - start.displacement.at(i)) / step);
+  for (const Kinematics kinematics : both_kinematics) {
+    for (const ContactMode mode : both_modes) {
+      const Scene s({}, kinematics);
+      const double step = 1e-3;
+      PenaltyContact moving(s.model, s.plane, mode, s.team),
+          resting(s.model, s.plane, mode, s.team);
+      State start = s.pressed(0.3);
+      const State end = s.pressed(0.35);
+      forces(s, moving, start, looks);
+      forces(s, resting, start, looks);
+      for (const std::size_t i : s.model.particles) {
+        start.velocity.set(i, (end.displacement.at(i) - start.displacement.at(i)) / step);
+      }
+      VectorField a(s.model.points()), b = a;
+      moving.add(start, s.plane, step, a);
+      resting.add(end, s.plane, step, b);
+      EXPECT_GT(largest(s.model, b), 0.0);
+      EXPECT_LT(difference(s.model, a, b), 1e-9 * largest(s.model, b)) << name(mode);
     }
-    VectorField a(s.model.points()), b = a;
-    moving.add(start, s.plane, step, a);
-    resting.add(end, s.plane, step, b);
-    EXPECT_GT(largest(s.model, b), 0.0);
-    EXPECT_LT(difference(s.model, a, b), 1e-9 * largest(s.model, b)) << name(mode);
   }
 }
 
 TEST(PenaltyContact, DoesNotLimitTheStep) {
-  // Particles without rubber between them, thrown against the plane at steps below and far above
-  // what explicit ties would allow: they come to rest or bounce off, with no more energy than they
-  // had.
-  for (const lattice::ContactLaw& law : all_laws) {
-    for (const double step : {1e-7, 1e-5, 1e-3}) {
-      const Scene s;
-      PenaltyContact contact(s.model, s.plane, law, s.team);
-      State state = random_state(s.model, 0.0, 0.1, 7);
-      const double speed = 0.1 * clearance / step;
-      for (const std::size_t i : s.model.particles) {
-        const Vector3 straight = s.model.grid.axes.transpose() * (-s.plane.normal);
-        state.velocity.set(i, speed * (straight + state.velocity.at(i)));
-      }
-      const double start = lattice::kinetic_energy(s.model, state);
-      double most = 0.0;
-      int touching = 0;
-      for (int n = 0; n < 60; ++n) {
-        VectorField force(s.model.points());
-        contact.add(state, s.plane, step, force);
-        touching = std::max(touching, contact.touching());
+  for (const Kinematics kinematics : both_kinematics) {
+    // Particles without rubber between them, thrown against the plane at steps below and far above
+    // what explicit ties would allow: they come to rest or bounce off, with no more energy than
+    // they had.
+    for (const lattice::ContactLaw& law : all_laws) {
+      for (const double step : {1e-7, 1e-5, 1e-3}) {
+        const Scene s({}, kinematics);
+        PenaltyContact contact(s.model, s.plane, law, s.team);
+        State state = random_state(s.model, 0.0, 0.1, 7);
+        const double speed = 0.1 * clearance / step;
         for (const std::size_t i : s.model.particles) {
-          state.velocity.add(i, step * s.model.inverse_mass[i] * force.at(i));
-          state.displacement.add(i, step * state.velocity.at(i));
+          const Vector3 straight = s.model.grid.axes.transpose() * (-s.plane.normal);
+          state.velocity.set(i, speed * (straight + state.velocity.at(i)));
         }
-        most = std::max(most, lattice::kinetic_energy(s.model, state));
+        const double start = lattice::kinetic_energy(s.model, state);
+        double most = 0.0;
+        int touching = 0;
+        for (int n = 0; n < 60; ++n) {
+          VectorField force(s.model.points());
+          contact.add(state, s.plane, step, force);
+          touching = std::max(touching, contact.touching());
+          for (const std::size_t i : s.model.particles) {
+            state.velocity.add(i, step * s.model.inverse_mass[i] * force.at(i));
+            state.displacement.add(i, step * state.velocity.at(i));
+          }
+          most = std::max(most, lattice::kinetic_energy(s.model, state));
+        }
+        EXPECT_LE(most, 1.001 * start) << name(law.mode) << step;
+        EXPECT_GT(touching, 0) << name(law.mode) << step;
       }
-      EXPECT_LE(most, 1.001 * start) << name(law.mode) << step;
-      EXPECT_GT(touching, 0) << name(law.mode) << step;
     }
   }
 }
@@ -385,24 +396,26 @@ TEST(PenaltyContact, AFastTipIsLookedAtWholeInEveryStep) {
 }
 
 TEST(PenaltyContact, EveryRegisterWidthGivesTheSameBits) {
-  const Scene s;
-  for (const lattice::ContactLaw& law : all_laws) {
-    PenaltyContact narrow(s.model, s.plane, law, s.team, 2);
-    for (int width = 4; width <= lattice::kernel::supported_width(); width *= 2) {
-      PenaltyContact wide(s.model, s.plane, law, s.team, width), fresh = narrow;
-      for (int n = 1; n <= 20; ++n) {
-        State state = s.pressed(n / 20.0);
-        state.velocity = random_state(s.model, 0.0, 0.05, unsigned(n)).velocity;
-        VectorField expected(s.model.points()), force = expected;
-        const lattice::Wrench a = fresh.add(state, s.plane, 1e-4, expected);
-        const lattice::Wrench b = wide.add(state, s.plane, 1e-4, force);
-        EXPECT_EQ(difference(s.model, force, expected), 0.0) << name(law.mode) << width;
-        EXPECT_EQ(a.force, b.force);
-        EXPECT_EQ(a.torque, b.torque);
-        EXPECT_EQ(fresh.energy(), wide.energy());
-        EXPECT_EQ(fresh.sliding(), wide.sliding());
+  for (const Kinematics kinematics : both_kinematics) {
+    const Scene s({}, kinematics);
+    for (const lattice::ContactLaw& law : all_laws) {
+      PenaltyContact narrow(s.model, s.plane, law, s.team, 2);
+      for (int width = 4; width <= lattice::kernel::supported_width(); width *= 2) {
+        PenaltyContact wide(s.model, s.plane, law, s.team, width), fresh = narrow;
+        for (int n = 1; n <= 20; ++n) {
+          State state = s.pressed(n / 20.0);
+          state.velocity = random_state(s.model, 0.0, 0.05, unsigned(n)).velocity;
+          VectorField expected(s.model.points()), force = expected;
+          const lattice::Wrench a = fresh.add(state, s.plane, 1e-4, expected);
+          const lattice::Wrench b = wide.add(state, s.plane, 1e-4, force);
+          EXPECT_EQ(difference(s.model, force, expected), 0.0) << name(law.mode) << width;
+          EXPECT_EQ(a.force, b.force);
+          EXPECT_EQ(a.torque, b.torque);
+          EXPECT_EQ(fresh.energy(), wide.energy());
+          EXPECT_EQ(fresh.sliding(), wide.sliding());
+        }
+        EXPECT_GT(wide.touching(), 0);
       }
-      EXPECT_GT(wide.touching(), 0);
     }
   }
 }

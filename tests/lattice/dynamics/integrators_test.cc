@@ -39,7 +39,7 @@ FingerSetup setup_with(Integrator integrator, double tau = 0.0,
 double force_now(VirtualFinger& finger) {
   lattice::Finger& f = finger.finger();
   lattice::VectorField force(f.model().points());
-  return -f.attempt(f.state(), f.rod(), f.plane(), force).surfaces.bond.force.z();
+  return -f.attempt(f.state(), f.rod(), f.plane(), f.time(), force).surfaces.bond.force.z();
 }
 
 /// F(t) at whole periods of a prescribed press that starts smoothly and comes to 2 cm/s.
@@ -225,7 +225,7 @@ TEST(Surfaces, RememberNothingOfWhatIsTried) {
   };
   lattice::VectorField force(f.model().points());
   const auto plane_force = [&](const lattice::State& state) {
-    return f.attempt(state, f.rod(), f.plane(), force).surfaces.plane.force;
+    return f.attempt(state, f.rod(), f.plane(), f.time(), force).surfaces.plane.force;
   };
   const Vector3 first = plane_force(moved(2.0 * clearance, 0.0));
   EXPECT_LT(first.z(), 0.0);

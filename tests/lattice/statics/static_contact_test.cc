@@ -115,15 +115,12 @@ TEST(Equilibrium, WithoutContactRestIsKept) {
   EXPECT_EQ(u.norm(), 0.0);
 }
 
-TEST(StaticContact, ForceAndTangentAreDerivatives) {
-  LatticeBody body = confined_block(ModelKind::hookean, Kinematics::small, 1e8);
+namespace {
+
+void expect_derivatives(const LatticeBody& body, const lattice::PressPlane& plane) {
   const ElasticSystem system(body);
-  meshes::PressProtocol protocol;
-  protocol.tilt = 0.3;
-  meshes::Geometry geometry;
-  geometry.tip_radius = 2.2e-3;
   for (const ContactMode mode : {ContactMode::frictionless, ContactMode::stick}) {
-    StaticContact contact(body, lattice::press_plane(protocol, geometry), mode);
+    StaticContact contact(body, plane, mode);
     std::mt19937 generator(3);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     const VectorXd u =
@@ -139,12 +136,34 @@ TEST(StaticContact, ForceAndTangentAreDerivatives) {
     const double step = 1e-7;
     const double slope = (contact.energy(u + step * d) - contact.energy(u - step * d)) / (2 * step);
     ASSERT_GT(contact.energy(u), 0.0);
-    EXPECT_NEAR(-force_at(u).dot(d), slope, 1e-6 * std::abs(slope));
+    EXPECT_NEAR(-force_at(u).dot(d), slope, 1e-6 * std::abs(slope)) << name(mode);
     lattice::Tangent tangent = system.empty_tangent();
     VectorXd force = rest;
     contact.add(u, system, force, &tangent);
     const VectorXd change = (force_at(u - step * d) - force_at(u + step * d)) / (2 * step);
-    EXPECT_LT((tangent.selfadjointView<Eigen::Lower>() * d - change).norm(), 1e-6 * change.norm());
+    EXPECT_LT((tangent.selfadjointView<Eigen::Lower>() * d - change).norm(), 1e-6 * change.norm())
+        << name(mode);
+  }
+}
+
+}  // namespace
+
+TEST(StaticContact, ForceAndTangentAreDerivatives) {
+  meshes::PressProtocol protocol;
+  protocol.tilt = 0.3;
+  meshes::Geometry geometry;
+  geometry.tip_radius = 2.2e-3;
+  geometry.rod_radius = 1e-3;
+  LatticeBody body = confined_block(ModelKind::hookean, Kinematics::small, 1e8);
+  expect_derivatives(body, lattice::press_plane(protocol, geometry));
+  // Ties that stiffen: all points before the end of that, and some of them beyond.
+  body = confined_block(ModelKind::network, Kinematics::finite, 1e8);
+  for (const double limit : {1.0, 4e-4}) {
+    body.contact = {1e7, limit};
+    for (const auto shape : {meshes::ObstacleShape::plane, meshes::ObstacleShape::sphere}) {
+      protocol.obstacle = {.shape = shape, .radius = 5e-3};
+      expect_derivatives(body, lattice::press_plane(protocol, geometry));
+    }
   }
 }
 
