@@ -39,8 +39,4 @@ const PressCourse::Leg& PressCourse::leg(double s) const {
   return legs_[i];
 }
 
-bool in_time(const ReferenceJob& job) {
-  return job.analysis == Analysis::transient || !job.rubber.relaxation.empty();
-}
-
 }  // namespace fingertip::fem_reference

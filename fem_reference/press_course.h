@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "fem_reference/job.h"
 #include "meshes/press_motion.h"
 
 namespace fingertip::fem_reference {
@@ -21,7 +20,7 @@ class PressCourse {
     double rate = 1.0;   ///< its way over that in s, once its speed has risen; 0: a hold
   };
 
-  /// `in_time`: whether time matters, for inertia or relaxation.
+  /// `in_time`: whether time matters (ReferenceJob::in_time).
   PressCourse(const meshes::PressProtocol& protocol, bool in_time);
 
   /// Where output is wanted, increasing; every leg ends at one.
@@ -41,8 +40,5 @@ class PressCourse {
   std::vector<double> samples_;
   std::vector<Leg> legs_;
 };
-
-/// Whether time matters to a job: to a transient press, and where the rubber relaxes.
-bool in_time(const ReferenceJob& job);
 
 }  // namespace fingertip::fem_reference

@@ -53,7 +53,7 @@ class PressModel {
   virtual void load(const std::filesystem::path& folder) = 0;
 
  protected:
-  explicit PressModel(const ReferenceJob& job) : job_(job), course_(job.protocol, in_time(job)) {}
+  explicit PressModel(const ReferenceJob& job) : job_(job), course_(job.protocol, job.in_time()) {}
 
   ReferenceJob job_;
   PressCourse course_;

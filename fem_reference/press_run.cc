@@ -98,7 +98,7 @@ class PressRun {
            const std::function<bool()>& stop_requested)
       : folder_(folder),
         job_(job),
-        course_(job.protocol, in_time(job)),
+        course_(job.protocol, job.in_time()),
         places_(course_.samples()),
         progress_(progress),
         stop_requested_(stop_requested),
@@ -248,7 +248,7 @@ class PressRun {
   std::vector<double> shown_until(std::size_t last) const {
     std::vector<double> shown;
     for (std::size_t i = 0; i <= last; ++i)
-      shown.push_back(in_time(job_) ? course_.time(places_[i]) : places_[i]);
+      shown.push_back(job_.in_time() ? course_.time(places_[i]) : places_[i]);
     return shown;
   }
 

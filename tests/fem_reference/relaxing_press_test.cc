@@ -12,7 +12,6 @@
 #include "tests/fem_reference/pressing.h"
 
 using namespace fingertip;
-using fem_reference::in_time;
 using fem_reference::PressCourse;
 using fem_reference::PressState;
 using fem_reference::ReferenceJob;
@@ -156,7 +155,7 @@ std::vector<PressState> states(const ReferenceJob& job, double relaxing_step = 0
   Pressing pressing(job);
   if (relaxing_step > 0.0) pressing.press.set_relaxing_step(relaxing_step);
   std::vector<PressState> result;
-  const PressCourse course(job.protocol, in_time(job));
+  const PressCourse course(job.protocol, job.in_time());
   for (const double place : course.samples()) result.push_back(pressing.press.advance(place));
   return result;
 }
