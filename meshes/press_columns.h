@@ -20,7 +20,8 @@ constexpr auto fields_of(const PressSample*) {
       field("max_pressure [Pa]", &Row::max_pressure),
       field("force_error [N]", &Row::force_error),
       field("time [s]", &Row::time),
-      field("lateral_displacement [m]", &Row::lateral_displacement, Presence::if_known)};
+      field("lateral_displacement [m]", &Row::lateral_displacement, Presence::if_known),
+      field("stage", &Row::stage, Presence::if_known)};
 }
 
 }  // namespace fingertip::meshes

@@ -116,12 +116,14 @@ PressPath::PressPath(const PressProtocol& protocol)
     slope_ = protocol.lateral / protocol.depth;
     samples_.clear();
     length_ = 0.0;
-    double from = 0.0;
+    double from = 0.0, number = 0.0;
     for (const PressStage& stage : protocol.program) {
+      ++number;
       if (!stage.moves()) continue;
       for (const double depth : depths_on_the_way(protocol, from, stage.indentation)) {
         samples_.push_back(length_ + std::abs(depth - from));
         sample_depths_.push_back(depth);
+        sample_stages_.push_back(number);
       }
       length_ = samples_.back();
       from = stage.indentation;
@@ -139,6 +141,11 @@ PressPath::PressPath(const PressProtocol& protocol)
   steps_ = protocol.lateral_samples;
   for (int i = 1; i < steps_; ++i) samples_.push_back(corner_ + std::abs(lateral_) * i / steps_);
   samples_.push_back(length_);
+}
+
+double PressPath::stage(std::size_t sample) const {
+  return sample_stages_.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                : sample_stages_.at(sample);
 }
 
 bool PressPath::bends(double from, double to) const {

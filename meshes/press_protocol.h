@@ -2,6 +2,7 @@
 /// plane, to a given depth.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -63,11 +64,11 @@ struct PressProtocol {
   double tilt = 0.0;      ///< of the rod against the plane's normal, about y [rad]
   double lateral = 0.0;   ///< displacement of the plane along t1 at the end [m]
   LateralPath lateral_path = LateralPath::diagonal;
-  int lateral_samples = 10;     ///< outputs at full depth, path after only: equal steps, > 0
-  double depth = 3.0e-3;        ///< final indentation [m], 0 < depth < R - r
-  double speed = 1.0e-2;        ///< approach speed [m/s], > 0
-  double clearance = 0.5e-3;    ///< initial gap between pole and plane [m], > 0; starts at rest
-  std::vector<double> samples;  ///< output indentations [m], increasing, last one = depth
+  int lateral_samples = 10;   ///< outputs at full depth, path after only: equal steps, > 0
+  double depth = 3.0e-3;      ///< final indentation [m], 0 < depth < R - r
+  double speed = 1.0e-2;      ///< approach speed [m/s], > 0
+  double clearance = 0.5e-3;  ///< initial gap between pole and plane [m], > 0; starts at rest
+  std::vector<double> samples = {};  ///< output indentations [m], increasing, last one = depth
   Obstacle obstacle = {};
   /// Stages one after the other, each from rest to rest; the first one covers the clearance, too.
   /// depth is the largest indentation then, speed the first stage's. Empty: to `depth` at `speed`,
@@ -102,6 +103,8 @@ class PressPath {
   /// steps of the lateral motion that follows; of every move of a program at depths_on_the_way.
   /// Increasing; ends at length().
   const std::vector<double>& samples() const { return samples_; }
+  /// The stage of a program in which a sample lies, from 1 and holds counted; NaN without one.
+  double stage(std::size_t sample) const;
 
  private:
   double slope_ = 0.0;
@@ -110,7 +113,7 @@ class PressPath {
   int steps_ = 0;         ///< samples beyond the corner
   std::vector<double> samples_;
   std::vector<std::pair<double, double>> moves_;  ///< of a program: place, indentation at ends [m]
-  std::vector<double> sample_depths_;             ///< of a program: exact ones of samples_ [m]
+  std::vector<double> sample_depths_, sample_stages_;  ///< of a program: of samples_ [m]
 };
 
 /// Output depths [m] of a move between two indentations [m]: those of the protocol's samples (or

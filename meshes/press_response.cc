@@ -33,6 +33,20 @@ void check_needed(const CsvTable& table) {
   }
 }
 
+bool is_given(double value) {
+  return !std::isnan(value);
+}
+
+/// A row after one of a program: its stage is that one's or a later one, and time goes on.
+void check_stage(const CsvTable& table, std::size_t row, const PressSample& before,
+                 const PressSample& now) {
+  if (!(now.stage >= before.stage))
+    refuse(table, row, "stage", is_given(now.stage) ? to_text(now.stage) : "",
+           "stages must be given in every row or none, and not decrease from row to row");
+  if (is_given(now.time) && is_given(before.time) && !(now.time > before.time))
+    refuse(table, row, "time [s]", to_text(now.time), "times must increase from row to row");
+}
+
 /// Slopes of the monotone cubic through (x, y): Fritsch & Carlson, SIAM J. Numer. Anal. 17 (1980)
 /// 238, with the weighted harmonic mean of Fritsch & Butland (1984) inside and one-sided
 /// differences at the ends.
@@ -62,12 +76,25 @@ std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vec
 
 std::span<const PressSample> PressResponse::pressing() const {
   const auto follows =
-      std::ranges::adjacent_find(samples_, std::ranges::greater_equal{}, &PressSample::indentation);
+      std::ranges::adjacent_find(samples_, [](const PressSample& before, const PressSample& now) {
+        return before.indentation >= now.indentation || before.stage < now.stage;
+      });
   return {samples_.begin(), follows == samples_.end() ? follows : follows + 1};
 }
 
 std::span<const PressSample> PressResponse::sliding() const {
-  return std::span(samples_).subspan(pressing().size());
+  const bool program = !samples_.empty() && is_given(samples_.front().stage);
+  return program ? std::span<const PressSample>() : std::span(samples_).subspan(pressing().size());
+}
+
+std::span<const PressSample> PressResponse::following() const {
+  return std::span(samples_).subspan(pressing().size() + sliding().size());
+}
+
+double PressResponse::deepest() const {
+  double most = 0.0;
+  for (const PressSample& sample : samples_) most = std::max(most, sample.indentation);
+  return most;
 }
 
 double PressResponse::normal_force_at(double indentation) const {
@@ -106,6 +133,9 @@ PressResponse PressResponse::read_csv(const std::filesystem::path& file) {
   std::vector<PressSample> samples = known_rows<PressSample>(table);
   for (std::size_t row = 1; row < samples.size(); ++row) {
     const PressSample &before = samples[row - 1], &now = samples[row];
+    const bool program = is_given(before.stage) || is_given(now.stage);
+    if (program) check_stage(table, row, before, now);
+    if (program && now.stage > samples.front().stage) continue;
     const bool slides = now.indentation == before.indentation &&
                         std::abs(now.lateral_displacement) > std::abs(before.lateral_displacement);
     if (now.indentation <= before.indentation && !slides) {

@@ -28,26 +28,35 @@ struct PressSample {
   double force_error = unknown;      ///< estimated error of normal_force [N]
   double time = unknown;             ///< since the start of the press [s]; empty for static runs
   double lateral_displacement = unknown;  ///< of the plane along t1, seen from the rod [m]
+  double stage = unknown;                 ///< of the press's program, from 1; unknown without one
 };
 
 /// A curve of samples by increasing indentation, and then, where a lateral motion follows the
-/// press, at full depth by increasing distance moved laterally.
+/// press, at full depth by increasing distance moved laterally; of a program its first stage by
+/// increasing indentation, and then the others in the order of time.
 class PressResponse {
  public:
   PressResponse() = default;
   explicit PressResponse(std::vector<PressSample> samples) : samples_(std::move(samples)) {}
 
   const std::vector<PressSample>& samples() const { return samples_; }
+  /// The last one, to be completed. Not of an empty response.
+  PressSample& back() { return samples_.back(); }
   bool empty() const { return samples_.empty(); }
   void append(const PressSample& sample) { samples_.push_back(sample); }
 
-  /// The samples of the press itself: by increasing indentation.
+  /// The samples of the first loading: by increasing indentation.
   std::span<const PressSample> pressing() const;
   /// Those of the lateral motion that follows, all at full depth; mostly none.
   std::span<const PressSample> sliding() const;
 
-  /// Largest indentation reached [m]; 0 when empty.
-  double depth() const { return samples_.empty() ? 0.0 : samples_.back().indentation; }
+  /// Those of the further stages of a program; mostly none.
+  std::span<const PressSample> following() const;
+
+  /// Largest indentation of the first loading, up to which forces are known [m]; 0 when empty.
+  double depth() const { return samples_.empty() ? 0.0 : pressing().back().indentation; }
+  /// Largest indentation reached, in a later stage of a program perhaps [m]; 0 when empty.
+  double deepest() const;
 
   /// Normal force [N] at `indentation` [m] by monotone piecewise-cubic interpolation
   /// (Fritsch & Carlson 1980) through pressing() and the origin, so that it never overshoots.
@@ -60,7 +69,7 @@ class PressResponse {
   /// Reads a CSV with at least the columns `indentation [m]` and `normal_force [N]`; others may
   /// be missing or empty. Throws InvalidInput naming file and line for a missing column, a cell
   /// that is no number, a truncated row, or indentations that do not increase, unless it is the
-  /// lateral displacement that does.
+  /// lateral displacement that does, or the stage of a program and with it the time.
   static PressResponse read_csv(const std::filesystem::path& file);
 
  private:

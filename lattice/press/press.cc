@@ -56,7 +56,7 @@ FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way) {
   return finger;
 }
 
-/// One press from start to depth.
+/// One press from start to depth, or to the end of its program.
 class Press {
  public:
   Press(const PressSetup& setup, const PressObserver& observer, const PressFilm& film);
@@ -109,7 +109,7 @@ Press::Press(const PressSetup& setup, const PressObserver& observer, const Press
       way_(setup.protocol, setup.geometry),
       finger_(pressed_finger(setup, way_)),
       motion_(setup.protocol),
-      recorder_(setup.protocol, finger_.finger().plane(), finger_.finger(), outcome_),
+      recorder_(setup.protocol, motion_, finger_.finger().plane(), finger_.finger(), outcome_),
       pictures_(setup, finger_.finger(), expected_time(), film, outcome_) {
   outcome_.census = take_census(setup, finger_.model());
   outcome_.step = finger_.step_report(setup.controller.period);
@@ -171,11 +171,12 @@ double Press::lateral() const {
 bool Press::after_step() {
   start_of_step_.bond = finger_.finger().bond();  // of the configuration the step started from
   if (recorder_.add_step(start_of_step_)) report(true);
-  const bool deep_enough = start_of_step_.indentation >= setup_.protocol.depth;
+  const bool done = motion_.stops() ? start_of_step_.time >= motion_.duration()
+                                    : start_of_step_.indentation >= setup_.protocol.depth;
   const bool late = setup_.duration && finger_.time() >= time_limit_;
   start_of_step_ = now();
   pictures_.look(start_of_step_.indentation);
-  return !deep_enough && !late;
+  return !done && !late;
 }
 
 bool Press::run_period() {
@@ -191,11 +192,9 @@ bool Press::follow_motion() {
   const auto observe = [this] { return after_step(); };
   const double period = setup_.controller.period;
   if (!is_adaptive(setup_.integrator)) return finger_.do_step(period, observe);
-  const meshes::PressProtocol& protocol = setup_.protocol;
   const double end = finger_.time() + period;
   while (true) {
-    const auto depth = recorder_.next_depth(indentation() + 1e-9 * protocol.depth);
-    const double until = depth ? motion_.time_at(*depth) : end;
+    const double until = recorder_.next_time(finger_.time() + 1e-6 * period).value_or(end);
     if (!(until < end - 1e-6 * period)) return finger_.do_step(end - finger_.time(), observe);
     if (!finger_.do_step(until - finger_.time(), observe)) return false;
   }
@@ -220,7 +219,10 @@ void Press::check_sanity() {
   }
   const double commanded = motion_.at(row.time).distance - setup_.protocol.clearance;
   const double ahead = row.indentation - commanded;
-  const bool off_path = setup_.follows_path && !(ahead <= 0.1 * setup_.geometry.thickness());
+  const double allowed = 0.1 * setup_.geometry.thickness();
+  const bool off_path = setup_.follows_path && !(ahead <= allowed);
+  if (setup_.follows_path && motion_.stops() && ahead < -allowed)
+    give_up("the rod did not follow the program: the controller's limits are too low");
   if (row.tilt > 0.5 || off_path) {
     give_up("the controller lost the rod: controller.natural_frequency is too high for its period");
   }

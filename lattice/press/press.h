@@ -37,7 +37,8 @@ struct ElapsedTime {
 };
 
 struct PressOutcome {
-  meshes::PressResponse response;  ///< at the sample depths and evenly in between
+  meshes::PressResponse response;  ///< at the sample depths and evenly in between; of a program
+                                   ///< then at the times of PressMotion::samples
   std::vector<TraceRow> trace;
   std::vector<ElapsedTime> elapsed;  ///< one per row of `trace`
   StepReport step;
@@ -47,6 +48,8 @@ struct PressOutcome {
   double simulated_time = 0.0;                ///< [s]
   double wall_time = 0.0;                     ///< of the step loop alone [s]
   double first_touch_time = meshes::unknown;  ///< [s]
+  double work = 0.0;  ///< of the rod on the rubber, ∫ F dδ along its way, given back or not [J]
+  double work_in = 0.0;  ///< the part of the way on which it is positive [J]
   /// Largest defect of the momentum balance of rod, tip and plane over a step, relative to the
   /// largest impulse exchanged.
   double momentum_defect = 0.0;
@@ -73,9 +76,10 @@ struct PressFilm {
   std::function<void(const BoundaryView& view, const FingerPicture& picture)> show;
 };
 
-/// Runs the press. Throws InvalidInput for a setup that breaks a rule or a time step above the
-/// stability bound (with the reason), NotConverged when the lattice blows up (the observer has
-/// seen what was finished), ControllerFailed likewise, Interrupted when the observer asks.
+/// Runs the press, until its depth is reached or its program ends. Throws InvalidInput for a setup
+/// that breaks a rule or a time step above the stability bound (with the reason), NotConverged when
+/// the lattice blows up (the observer has seen what was finished), ControllerFailed likewise,
+/// Interrupted when the observer asks.
 PressOutcome run_press(const PressSetup& setup, const PressObserver& observer = {},
                        const PressFilm& film = {});
 

@@ -112,6 +112,14 @@ double sway_deviation(const Sway& sway, const PressSetup& setup, double step, do
   return sum;
 }
 
+/// Of a program: one press to its depth at its largest speed, for deviations grow with it.
+PressSetup pressed_once(PressSetup setup) {
+  for (const meshes::PressStage& stage : setup.protocol.program)
+    setup.protocol.speed = std::max(setup.protocol.speed, stage.speed);
+  setup.protocol.program.clear();
+  return setup;
+}
+
 }  // namespace
 
 double plain_step(const PressSetup& setup) {
@@ -126,7 +134,8 @@ double rough_force(const Geometry& geometry, const Rubber& rubber, double indent
   return RoughForce(geometry, rubber, {}).value(indentation);
 }
 
-std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup, double step) {
+std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup_with_program, double step) {
+  const PressSetup setup = pressed_once(setup_with_program);
   const meshes::PressProtocol& protocol = setup.protocol;
   const RoughForce force(setup.geometry, setup.rubber, setup.protocol.obstacle);
   const Sway sway(setup.geometry, setup.rubber);

@@ -13,32 +13,41 @@ constexpr int even_depths = 60;
 
 }  // namespace
 
-PressRecorder::PressRecorder(const meshes::PressProtocol& protocol, const Plane& plane,
+PressRecorder::PressRecorder(const meshes::PressProtocol& protocol,
+                             const meshes::PressMotion& motion, const Plane& plane,
                              const Finger& finger, PressOutcome& outcome)
     : normal_(plane.normal),
       lateral_(protocol.lateral != 0.0),
+      prescribed_(protocol.mode == meshes::DriveMode::quasi_static),
+      program_(!protocol.program.empty()),
       finger_(&finger),
       outcome_(&outcome) {
-  const auto samples =
-      protocol.samples.empty() ? meshes::default_samples(protocol.depth) : protocol.samples;
+  const double end = motion.stages().front().to;
+  auto samples = depths_on_the_way(protocol, 0.0, end);
+  if (program_) samples.pop_back();
   depths_ = samples;
   for (int i = 1; i <= even_depths; ++i) {
     const double depth = protocol.depth * i / even_depths;
-    const bool known = std::any_of(samples.begin(), samples.end(), [&](double sample) {
+    const auto same = [&](double sample) {
       return std::abs(sample - depth) < 1e-6 * protocol.depth;
-    });
-    if (!known) depths_.push_back(depth);
+    };
+    const bool beyond = program_ && (depth > end || same(end));
+    if (!beyond && std::none_of(samples.begin(), samples.end(), same)) depths_.push_back(depth);
   }
   std::sort(depths_.begin(), depths_.end());
   for (const double depth : depths_) {
     is_sample_.push_back(std::find(samples.begin(), samples.end(), depth) != samples.end());
+    times_.push_back(motion.time_at(depth));
   }
+  previous_.indentation = -protocol.clearance;
+  if (!program_) return;
+  for (const meshes::MotionSample& sample : motion.samples())
+    if (sample.time >= motion.stages().front().end) later_.push_back(sample);
+  for (const meshes::MotionSample& sample : later_) times_.push_back(sample.time);
 }
 
-meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
-                                                  double indentation) const {
-  const double fraction =
-      (indentation - previous_.indentation) / (end.indentation - previous_.indentation);
+meshes::PressSample PressRecorder::sample_between(const PressInstant& end, double fraction,
+                                                  std::size_t stage) const {
   const auto between = [fraction](const auto& from, const auto& to) {
     return (from + fraction * (to - from));
   };
@@ -46,7 +55,7 @@ meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
   const Vector3 torque = between(previous_.bond.torque, end.bond.torque).eval();
   const Vector3 t1 = first_tangent(normal_), t2 = t1.cross(normal_);
   meshes::PressSample sample;
-  sample.indentation = indentation;
+  sample.indentation = between(previous_.indentation, end.indentation);
   sample.normal_force = force.dot(normal_);
   sample.lateral_force_x = force.dot(t1);
   sample.lateral_force_y = force.dot(t2);
@@ -58,7 +67,39 @@ meshes::PressSample PressRecorder::sample_between(const PressInstant& end,
   sample.max_pressure = patch.max_pressure;
   sample.time = between(previous_.time, end.time);
   if (lateral_) sample.lateral_displacement = between(previous_.lateral, end.lateral);
+  if (program_) sample.stage = double(stage + 1);
   return sample;
+}
+
+meshes::PressSample PressRecorder::sample_at(const PressInstant& end,
+                                             const meshes::MotionSample& wanted) const {
+  const double lasts = end.time - previous_.time;
+  meshes::PressSample sample =
+      sample_between(end, lasts > 0.0 ? (wanted.time - previous_.time) / lasts : 1.0, wanted.stage);
+  sample.time = wanted.time;
+  if (prescribed_) sample.indentation = wanted.indentation;
+  // A controller may leave the end of the first loading a hair's breadth away: its force is moved
+  // there along the chord of the last two, so that it can be told at the depth that was asked for.
+  constexpr double hair = 0.01;
+  const auto& rows = outcome_->response.samples();
+  const double beside = wanted.indentation - sample.indentation;
+  if (wanted.stage > 0 || rows.empty() || std::abs(beside) > hair * wanted.indentation)
+    return sample;
+  const meshes::PressSample& last = rows.back();
+  const double way = sample.indentation - last.indentation;
+  if (way > std::abs(beside))
+    sample.normal_force += beside / way * (sample.normal_force - last.normal_force);
+  sample.indentation = wanted.indentation;
+  return sample;
+}
+
+/// Of the rod on the rubber: the bond's force along the way.
+void PressRecorder::add_work(const PressInstant& end) {
+  const Vector3 force = 0.5 * (previous_.bond.force + end.bond.force);
+  const double work = force.dot(normal_) * (end.indentation - previous_.indentation) +
+                      force.dot(first_tangent(normal_)) * (end.lateral - previous_.lateral);
+  outcome_->work += work;
+  outcome_->work_in += std::max(work, 0.0);
 }
 
 bool PressRecorder::add_step(const PressInstant& start) {
@@ -67,18 +108,27 @@ bool PressRecorder::add_step(const PressInstant& start) {
     outcome_->first_touch_time = finger_->time();
   }
   bool passed_sample = false;
-  while (next_ < depths_.size() && start.indentation >= depths_[next_]) {
-    outcome_->response.append(sample_between(start, depths_[next_]));
+  while (next_later_ == 0 && next_ < depths_.size() && start.indentation >= depths_[next_]) {
+    const double way = start.indentation - previous_.indentation;
+    meshes::PressSample sample =
+        sample_between(start, (depths_[next_] - previous_.indentation) / way, 0);
+    sample.indentation = depths_[next_];
+    outcome_->response.append(sample);
     passed_sample = passed_sample || is_sample_[next_] != 0;
     ++next_;
   }
+  for (; next_later_ < later_.size() && start.time >= later_[next_later_].time; ++next_later_) {
+    outcome_->response.append(sample_at(start, later_[next_later_]));
+    passed_sample = true;
+  }
+  add_work(start);
   previous_ = start;
   return passed_sample;
 }
 
-std::optional<double> PressRecorder::next_depth(double beyond) const {
-  const auto found = std::upper_bound(depths_.begin(), depths_.end(), beyond);
-  return found != depths_.end() ? std::optional(*found) : std::nullopt;
+std::optional<double> PressRecorder::next_time(double after) const {
+  const auto found = std::upper_bound(times_.begin(), times_.end(), after);
+  return found != times_.end() ? std::optional(*found) : std::nullopt;
 }
 
 void PressRecorder::add_trace(const PressInstant& now, const meshes::SetPoint& commanded,

@@ -22,17 +22,19 @@ struct PressInstant {
 };
 
 /// Fills a PressOutcome: the response at the sample depths and 60 evenly spaced ones (linear in
-/// indentation between steps) and one trace row per controller period.
+/// indentation between steps) and one trace row per controller period. Of a program that is its
+/// first stage; what follows is taken at the times of PressMotion::samples.
 class PressRecorder {
  public:
-  PressRecorder(const meshes::PressProtocol& protocol, const Plane& plane, const Finger& finger,
-                PressOutcome& outcome);
+  PressRecorder(const meshes::PressProtocol& protocol, const meshes::PressMotion& motion,
+                const Plane& plane, const Finger& finger, PressOutcome& outcome);
 
   /// To be called after every step with the finger as it was at the step's start. Returns whether
-  /// one of the protocol's sample depths was passed.
+  /// one of the samples asked for was passed.
   bool add_step(const PressInstant& start);
-  /// The first indentation beyond this one at which the response is taken [m], if there is one.
-  std::optional<double> next_depth(double beyond) const;
+  /// The first time after this one at which the response is taken if the rod moves as it should
+  /// [s], if there is one.
+  std::optional<double> next_time(double after) const;
   /// To be called once per controller period.
   void add_trace(const PressInstant& now, const meshes::SetPoint& commanded, const Wrench& applied,
                  const ControllerReport& controller);
@@ -40,15 +42,23 @@ class PressRecorder {
   void update(double wall_time);
 
  private:
-  meshes::PressSample sample_between(const PressInstant& end, double indentation) const;
+  meshes::PressSample sample_between(const PressInstant& end, double fraction,
+                                     std::size_t stage) const;
+  meshes::PressSample sample_at(const PressInstant& end, const meshes::MotionSample& wanted) const;
+  void add_work(const PressInstant& end);
 
   meshes::Vector3 normal_;
-  bool lateral_;  ///< whether the plane is asked to move along itself
+  bool lateral_;     ///< whether the plane is asked to move along itself
+  bool prescribed_;  ///< whether the rod is where it is told to be
+  bool program_;
   const Finger* finger_;
   PressOutcome* outcome_;
-  std::vector<double> depths_;           ///< increasing [m]
+  std::vector<double> depths_;           ///< of the first loading, increasing [m]
   std::vector<std::uint8_t> is_sample_;  ///< whether the protocol asked for the depth
   std::size_t next_ = 0;
+  std::vector<meshes::MotionSample> later_;  ///< of a program: its first stage's end and after
+  std::size_t next_later_ = 0;
+  std::vector<double> times_;  ///< of all these, increasing [s]
   PressInstant previous_;
   double plane_impulse_ = 0.0;  ///< along the normal since the last trace row [N s]
   double plane_since_ = 0.0;    ///< time of the last trace row [s]

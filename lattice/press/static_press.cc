@@ -134,9 +134,10 @@ void StaticPress::take_census() {
 }
 
 StaticOutcome StaticPress::run() {
-  for (const double target : path_.samples()) {
-    march_to(target);
+  for (std::size_t i = 0; i < path_.samples().size(); ++i) {
+    march_to(path_.samples()[i]);
     outcome_.response.append(sample());
+    outcome_.response.back().stage = path_.stage(i);
     if (slope_system_) note_slopes();
     note_contact();
     report();

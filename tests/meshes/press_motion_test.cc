@@ -31,7 +31,7 @@ PressProtocol cycle() {
 
 TEST(PressMotion, StartsFromRestAndReachesItsSpeedBeforeThePlane) {
   for (const double speed : {0.001, 0.01, 0.2}) {
-    const PressProtocol protocol{.speed = speed, .samples = {}};
+    const PressProtocol protocol{.speed = speed};
     const PressMotion motion(protocol);
     EXPECT_EQ(motion.at(0.0).speed, 0.0);
     EXPECT_EQ(motion.at(0.0).acceleration, 0.0);

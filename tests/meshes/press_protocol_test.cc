@@ -148,6 +148,10 @@ TEST(PressPath, AProgramGoesUpAndDownAndHoldsAddNothing) {
   }
   EXPECT_EQ(depths, (std::vector<double>{0.5e-3, 2e-3, 0.5e-3, -0.1e-3, 0.5e-3, 1e-3}));
   EXPECT_EQ(path.samples().back(), path.length());
+  EXPECT_EQ(path.stage(1), 1.0);
+  EXPECT_EQ(path.stage(2), 3.0);
+  EXPECT_EQ(path.stage(5), 4.0);
+  EXPECT_TRUE(std::isnan(PressPath(PressProtocol{}).stage(0)));
   EXPECT_EQ(path.at(-1e-4).indentation, -1e-4);
   EXPECT_EQ(path.at(1e-3).indentation, 1e-3);
   EXPECT_NEAR(path.at(2.3e-3).indentation, 1.7e-3, 1e-18);

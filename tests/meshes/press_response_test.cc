@@ -91,6 +91,32 @@ TEST_F(PressResponseFile, ALateralMotionFollowsThePress) {
   EXPECT_TRUE(PressResponse().pressing().empty());
 }
 
+TEST_F(PressResponseFile, StagesOfAProgramFollowTheFirstLoading) {
+  PressResponse written;
+  const double rows[][4] = {{1e-3, 1.0, 0.1, 1}, {2e-3, 3.0, 0.2, 1}, {2e-3, 2.5, 0.3, 2},
+                            {2e-3, 2.4, 0.4, 2}, {3e-3, 4.0, 0.5, 3}, {-1e-4, 0.0, 0.9, 4}};
+  for (const auto& [indentation, force, time, stage] : rows)
+    written.append(
+        {.indentation = indentation, .normal_force = force, .time = time, .stage = stage});
+  written.write_csv(folder_ / "response.csv");
+  const PressResponse read = PressResponse::read_csv(folder_ / "response.csv");
+  ASSERT_EQ(read.pressing().size(), 2u);
+  ASSERT_EQ(read.following().size(), 4u);
+  EXPECT_TRUE(read.sliding().empty());
+  EXPECT_EQ(read.following().back().stage, 4.0);
+  EXPECT_EQ(read.depth(), 2e-3) << "up to which the first loading tells forces";
+  EXPECT_EQ(read.deepest(), 3e-3);
+  EXPECT_EQ(read.normal_force_at(2e-3), 3.0);
+  EXPECT_THROW(read.normal_force_at(2.5e-3), std::out_of_range);
+  EXPECT_TRUE(power_law(2.0, 1.5, 4, 2e-3).following().empty());
+
+  const std::string titles = "indentation [m],normal_force [N],time [s],stage\n0.2,1,1,1\n";
+  EXPECT_NE(refusal(titles + "0.1,1,2,1\n").find("increase"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.2,1,1,2\n").find("times must increase"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.1,1,2,0\n").find("not decrease"), std::string::npos);
+  EXPECT_NE(refusal(titles + "0.3,1,2,\n").find("every row or none"), std::string::npos);
+}
+
 TEST_F(PressResponseFile, AcceptsColumnsInAnyOrderAndUnknownOnes) {
   const auto response = PressResponse::read_csv(
       file("comment [1],normal_force [N],indentation [m]\n7,2.5,0.001\r\n,3.5,0.002\n"));

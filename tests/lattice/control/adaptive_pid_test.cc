@@ -160,8 +160,7 @@ TEST(AdaptivePid, ScheduleAndEstimateKeepTheSpeedThroughAStiffeningContact) {
   slider.spring = [K](double depth) { return K * std::pow(depth, 1.5); };
   const ControlTask task = with_identification(task_for(slider, 0.05), slider);
   const double touch =
-      meshes::PressMotion({.speed = 0.05, .clearance = slider.clearance, .samples = {}})
-          .touch_time();
+      meshes::PressMotion({.speed = 0.05, .clearance = slider.clearance}).touch_time();
   const auto error = [&](bool scheduled, bool estimated) {
     AdaptiveSettings settings;
     settings.estimate = estimated;

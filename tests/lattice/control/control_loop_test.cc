@@ -55,8 +55,8 @@ void run(ControlLoop& loop, int cycles) {
 /// The way of a press from the finger's start [m, m/s].
 std::function<Target(double)> way(const VirtualFinger& finger, double speed, double clearance) {
   const Vector3 start = finger.rod_body().endpoint;
-  return [start, approach = meshes::PressMotion(
-                     {.speed = speed, .clearance = clearance, .samples = {}})](double time) {
+  return [start,
+          approach = meshes::PressMotion({.speed = speed, .clearance = clearance})](double time) {
     const meshes::SetPoint at = approach.at(time);
     Target target;
     target.pose.position = start + at.distance * Vector3::UnitZ();

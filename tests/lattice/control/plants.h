@@ -79,8 +79,8 @@ inline ControlTask task_for(const Slider& slider, double speed) {
   task.inertia = slider.mass * Eigen::Matrix<double, 6, 6>::Identity();
   task.clearance = slider.clearance;
   task.speed = speed;
-  task.path = [approach = meshes::PressMotion(
-                   {.speed = speed, .clearance = slider.clearance, .samples = {}})](double time) {
+  task.path = [approach = meshes::PressMotion({.speed = speed, .clearance = slider.clearance})](
+                  double time) {
     const meshes::SetPoint point = approach.at(time);
     Target target;
     target.pose.position.z() = point.distance;
