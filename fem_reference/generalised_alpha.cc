@@ -128,7 +128,7 @@ void GeneralisedAlpha<dim>::set_step(double step, FieldSolver& solver) {
 }
 
 template <int dim>
-Vector GeneralisedAlpha<dim>::load() const {
+Vector GeneralisedAlpha<dim>::load(const meshes::Vector3& frame_acceleration) const {
   Vector inertial = u_, viscous = u_, result = u_, part = u_;
   inertial.sadd(2.0 / (step_ * step_), 2.0 / step_, v_);
   // v' = 3 u'/(2 dt) - w with w = 3 u/(2 dt) + v/2 - dt a/4: C w moves to the right.
@@ -139,7 +139,16 @@ Vector GeneralisedAlpha<dim>::load() const {
   stiffness_.vmult(part, viscous);
   result += part;
   memory_.add_load(u_, result);
+  if (!frame_acceleration.isZero(0.0)) result += inertial_force(frame_acceleration);
   return result;
+}
+
+template <int dim>
+Vector GeneralisedAlpha<dim>::inertial_force(const meshes::Vector3& frame_acceleration) const {
+  Vector force = body_.fine.vector();
+  for (unsigned c = 0; c < dim; ++c)
+    force.add(-frame_acceleration[Kinematics<dim>::axis[c]], mass_of_[c]);
+  return force;
 }
 
 template <int dim>

@@ -49,8 +49,9 @@ class GeneralisedAlpha {
   /// The length of the next steps [s], > 0; hands the solver its matrix when it changes.
   void set_step(double step, FieldSolver& solver);
   double step() const { return step_; }
-  /// Right-hand side of the next step: what inertia and damping add to outer forces [N].
-  Vector load() const;
+  /// Right-hand side of the next step: what inertia and damping add to outer forces [N], and in a
+  /// frame that accelerates by that vector at its end [m/s²] the force of inertia, -M times it.
+  Vector load(const meshes::Vector3& frame_acceleration = meshes::Vector3::Zero()) const;
   /// Ends a step at the solution of its system.
   void advance(const Vector& displacement);
 
@@ -64,6 +65,8 @@ class GeneralisedAlpha {
   meshes::Vector3 momentum_rate() const;
   /// [kg m/s]
   meshes::Vector3 momentum() const;
+  /// -M times the acceleration of a frame, on what is free [N].
+  Vector inertial_force(const meshes::Vector3& frame_acceleration) const;
   /// M a + C v + K u + sum b_i K_b d_i at the end of the last step with no constraint built in:
   /// what supports and contact exert on every unknown [N].
   Vector residual() const;

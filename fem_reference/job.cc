@@ -148,6 +148,7 @@ std::string_view name(Volumetric volumetric) {
 void ReferenceJob::press_to(std::vector<double> samples) {
   protocol.depth = samples.empty() ? 0.0 : samples.back();
   protocol.samples = std::move(samples);
+  protocol.program.clear();
 }
 
 std::string_view name(Symmetry symmetry) {

@@ -75,7 +75,12 @@ struct ReferenceJob {
   /// Whether the meridian is meshed: a press of a body of revolution without tilt and lateral
   /// motion.
   bool axisymmetric() const;
-  /// Solves for these indentations [m], increasing; the press ends at the last.
+  /// Whether time matters: to a transient press, and where the rubber relaxes.
+  bool in_time() const {
+    return analysis == Analysis::transient ||
+           (analysis == Analysis::static_press && !rubber.relaxation.empty());
+  }
+  /// Solves for these indentations [m], increasing; the press ends at the last, without a program.
   void press_to(std::vector<double> samples);
   std::vector<meshes::Violation> violations() const;
 };

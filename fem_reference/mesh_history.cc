@@ -97,14 +97,17 @@ const PressState* MeshHistory::finest_state(std::size_t index) const {
 
 ForceError MeshHistory::error(std::size_t index) const {
   ForceError error = edge_error(index);
-  if (std::isnan(error.value)) return error;
-  const PressState& state = *finest_state(index);
+  const PressState* finest = finest_state(index);
+  if (finest && finest->contact.empty()) error.value = 0.0;
+  if (std::isnan(error.value) || finest->contact.empty()) return error;
+  const PressState& state = *finest;
   const double typical = typical_edge_error() * edge_scale(state);
   if (typical > error.value) error.value = typical;
   const double excess =
       excess_per_indicator * state.indicator / state.energy * state.sample.normal_force;
   if (excess > error.value) error.value = excess;
   error.value *= safety_;
+  if (index < step_errors_.size()) error.value += step_errors_[index] * state.sample.normal_force;
   return error;
 }
 
@@ -148,12 +151,30 @@ std::vector<PressState> MeshHistory::best() const {
   return result;
 }
 
+std::vector<double> MeshHistory::relative_errors() const {
+  const std::vector<PressState> states = best();
+  double largest = 0.0;
+  for (const PressState& state : states) largest = std::max(largest, state.sample.normal_force);
+  std::vector<double> errors;
+  for (const PressState& state : states)
+    errors.push_back(state.contact.empty()
+                         ? 0.0
+                         : state.sample.force_error /
+                               std::max(state.sample.normal_force, least_share_ * largest));
+  return errors;
+}
+
+std::vector<char> MeshHistory::beyond(double tolerance) const {
+  std::vector<char> result;
+  for (const double error : relative_errors()) result.push_back(!(error <= tolerance));
+  return result;
+}
+
 double MeshHistory::worst_relative_error() const {
   double worst = 0.0;
-  for (const PressState& state : best()) {
-    const double relative = state.sample.force_error / state.sample.normal_force;
-    if (std::isnan(relative)) return meshes::unknown;
-    worst = std::max(worst, relative);
+  for (const double error : relative_errors()) {
+    if (std::isnan(error)) return meshes::unknown;
+    worst = std::max(worst, error);
   }
   return worst;
 }
@@ -173,8 +194,8 @@ Json MeshHistory::to_json() const {
   return all;
 }
 
-MeshHistory MeshHistory::from_json(const Json& json, double safety) {
-  MeshHistory history(safety);
+MeshHistory MeshHistory::from_json(const Json& json, MeshHistory like) {
+  like.meshes_.clear();
   for (const Json& entry : json) {
     MeshRecord record;
     record.mesh = {entry.at("cells").get<std::size_t>(), entry.at("unknowns").get<std::size_t>(),
@@ -182,9 +203,9 @@ MeshHistory MeshHistory::from_json(const Json& json, double safety) {
                    LinearSolver(entry.at("solver").get<int>())};
     record.wall_time = entry.at("wall_time").get<double>();
     for (const Json& state : entry.at("states")) record.states.push_back(state_from_json(state));
-    history.meshes_.push_back(std::move(record));
+    like.meshes_.push_back(std::move(record));
   }
-  return history;
+  return like;
 }
 
 }  // namespace fingertip::fem_reference

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <utility>
 #include <vector>
 
 #include "fem_reference/force_error.h"
@@ -20,8 +21,13 @@ struct MeshRecord {
 /// The sequence of meshes, coarse to fine.
 class MeshHistory {
  public:
-  /// `safety` multiplies every error.
-  explicit MeshHistory(double safety = 1.0) : safety_(safety) {}
+  /// `safety` multiplies every error of a mesh. Forces below `least_share` of the largest need not
+  /// be known better than one of that size: where a press ends unloaded, or nearly.
+  explicit MeshHistory(double safety = 1.0, double least_share = 0.0)
+      : safety_(safety), least_share_(least_share) {}
+  /// What the steps in time add to the errors, over the forces of the samples; none at first.
+  void set_step_errors(std::vector<double> errors) { step_errors_ = std::move(errors); }
+  const std::vector<double>& step_errors() const { return step_errors_; }
   void start_mesh(const MeshSummary& mesh) { meshes_.push_back({mesh, {}, 0.0}); }
   /// Appends the next sample of the finest mesh and estimates its error.
   void add(PressState state);
@@ -30,8 +36,8 @@ class MeshHistory {
   MeshRecord& finest() { return meshes_.back(); }
   /// Each sample from the finest mesh on which it has been computed, with its `force_error`.
   std::vector<PressState> best() const;
-  /// Error of sample `index` on the finest mesh that has it: the safety times max(e, m w, b); NaN
-  /// while e is.
+  /// Error of sample `index` on the finest mesh that has it: the safety times max(e, m w, b), and
+  /// the steps' share; NaN while e is. 0 where nothing touches.
   ///
   /// e: estimate_force_error with the node spacing h at this sample's contact edge as the measure
   /// of a mesh: adaptive meshes are refined here for one sample and there for another, and a mesh
@@ -48,19 +54,24 @@ class MeshHistory {
   /// solids is 0.4 ... 1.7 F S/E without friction at small strain, -0.9 ... 0.9 with stick. It is
   /// no correction: its factor varies with mesh and rubber.
   ForceError error(std::size_t index) const;
+  /// Which of the `best` are off by more than that share of normal_force.
+  std::vector<char> beyond(double tolerance) const;
   /// Largest force_error over normal_force; NaN before there is an estimate for every sample.
   double worst_relative_error() const;
 
   nlohmann::json to_json() const;
-  static MeshHistory from_json(const nlohmann::json& json, double safety = 1.0);
+  /// With the options of `like`.
+  static MeshHistory from_json(const nlohmann::json& json, MeshHistory like = MeshHistory());
 
  private:
+  std::vector<double> relative_errors() const;
   const PressState* finest_state(std::size_t index) const;
   ForceError edge_error(std::size_t index) const;
   double typical_edge_error() const;
 
   std::vector<MeshRecord> meshes_;
-  double safety_;
+  double safety_, least_share_;
+  std::vector<double> step_errors_;
 };
 
 }  // namespace fingertip::fem_reference

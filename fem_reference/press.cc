@@ -15,10 +15,10 @@ namespace fingertip::fem_reference {
 namespace {
 
 /// Steps of a press, as fractions of the first sample, of the way so far (contact grows fastest at
-/// first touch), and of R - r; those of a rubber that relaxes as shares of the next sample's place,
-/// for the rate of strain counts as constant within a step.
+/// first touch), and of R - r; those of a rubber that relaxes as shares of the way from where the
+/// stage began to the next sample, for the rate of strain counts as constant within a step.
 struct Steps {
-  double first, growth, longest, of_relaxing = 1.0 / 16.0;
+  double first, growth, longest, of_relaxing = ContinuumPress::usual_relaxing_step;
 };
 /// Where a node first touches is remembered: at nu = 0.49 steps twice as long are off by 0.15 %.
 constexpr Steps remembered = {0.1, 0.25, 0.01};
@@ -83,10 +83,13 @@ struct ContinuumPress::Implementation {
   double next_step(double target, double limit) const {
     if (one_step()) return target;
     const double now = model->place();
+    const PressCourse::Leg& leg = model->course().leg(target);
     const double longest = limit * steps.longest * model->job().geometry.thickness();
     double step = std::min(longest, now > 0.0 ? limit * steps.growth * now
                                               : limit * steps.first * std::min(target, longest));
-    if (relaxes()) step = std::min(step, limit * steps.of_relaxing * target);
+    if (leg.rate > 1.0) step /= leg.rate;
+    if (leg.rate == 0.0) step = target - now;
+    if (relaxes()) step = std::min(step, limit * steps.of_relaxing * (target - leg.begin));
     const double pieces = std::ceil((target - now) / step - 1e-9);
     return pieces <= 1.0 ? target : std::min(target, now + std::min(step, (target - now) / pieces));
   }

@@ -81,6 +81,7 @@ class ContinuumPress {
   ContinuumPress(const ReferenceJob& job, const std::filesystem::path& mesh_file,
                  std::function<bool()> stop_requested = {});
   ~ContinuumPress();
+  static constexpr double usual_relaxing_step = 1.0 / 64.0;
   ContinuumPress(const ContinuumPress&) = delete;
   ContinuumPress& operator=(const ContinuumPress&) = delete;
 
@@ -88,10 +89,12 @@ class ContinuumPress {
 
   /// Longest step in units of R - r; at first 0.01, or 0.1 where nothing sticks.
   void set_longest_step(double step);
-  /// Longest step of a rubber that relaxes, over the next sample's place; at first 1/16.
+  /// Longest step of a rubber that relaxes, over the time since first touch or since the program's
+  /// stage began; at first `usual_relaxing_step`, with which forces at large strain are within 0.03
+  /// % of those of ever smaller steps, at small strain within 0.01 %.
   void set_relaxing_step(double share);
 
-  /// Moves on to `place` [m] of the job's PressPath, at least the present one. Throws
+  /// Moves on to `place` [m] of the job's PressCourse, at least the present one. Throws
   /// NotConverged, which leaves the press at the last step that converged; Interrupted between
   /// steps once `stop_requested` says so.
   PressState advance(double place);

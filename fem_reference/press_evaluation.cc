@@ -92,7 +92,7 @@ double contact_edge(const std::vector<ContactPoint>& contact, double node_spacin
 template <int dim>
 PressState TipPress<dim>::evaluate() {
   PressState state;
-  const meshes::PressPose pose = path_.at(place_);
+  const meshes::PressPose pose = course_.at(place_);
   state.sample.indentation = pose.indentation;
   state.sample.lateral_displacement = pose.lateral;
   state.active_nodes = contact_->active_nodes();
@@ -100,7 +100,7 @@ PressState TipPress<dim>::evaluate() {
                             ? int(std::ranges::count(contact_->status(), NodeStatus::slide))
                             : 0;
   solver_->forget();
-  if (!job_.rubber.relaxation.empty()) state.sample.time = place_ / job_.protocol.speed;
+  if (!job_.rubber.relaxation.empty()) state.sample.time = course_.time(place_);
   if (job_.strain == Strain::finite) {
     state.min_jacobian = system_->min_jacobian;
     if (!point_memory_.empty())  // the last kernel was a step's
@@ -177,6 +177,7 @@ void TipPress<dim>::add_resultant(PressState& state) const {
   sample.lateral_force_y = whole ? force.y() : 0.0;
   sample.torque_x = whole ? torque.x() : 0.0;
   sample.torque_z = whole ? torque.z() : 0.0;
+  sample.contact_radius = sample.max_pressure = 0.0;
   if (state.contact.empty()) return;
   sample.max_pressure = std::ranges::max(state.contact, {}, &ContactPoint::pressure).pressure;
   state.node_spacing = spacing_around(outer_nodes_, outermost(),

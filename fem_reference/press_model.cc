@@ -49,7 +49,6 @@ template <int dim>
 TipPress<dim>::TipPress(const ReferenceJob& job, const std::filesystem::path& mesh_file)
     : PressModel(job),
       sector_(sector(job)),
-      path_(job.protocol),
       touch_(meshes::first_touch(job.geometry, job.protocol.tilt, job.protocol.obstacle)),
       centre_(contact_centre(job)),
       body_(read_tip<dim>(MPI_COMM_WORLD, mesh_file, job.degree, job.protocol.tilt, job.geometry)),
@@ -102,7 +101,7 @@ MeshSummary TipPress<dim>::mesh() const {
 
 template <int dim>
 PlanePose TipPress<dim>::pose(double place) const {
-  const meshes::PressPose pose = path_.at(place);
+  const meshes::PressPose pose = course_.at(place);
   return {touch_ - pose.indentation, pose.lateral};
 }
 
@@ -115,7 +114,7 @@ template <int dim>
 void TipPress<dim>::step(double place, bool sampled, PressState& effort) {
   const PlanePose target = pose(place);
   const Vector before = displacement_;
-  prepare_step((place - place_) / job_.protocol.speed);
+  prepare_step(course_.time(place - place_));
   if (job_.strain == Strain::linear)
     linear_step(target, effort);
   else
@@ -260,7 +259,7 @@ std::vector<meshes::Vector3> TipPress<dim>::displacements(
 template <int dim>
 void TipPress<dim>::check_other_nodes(double place) const {
   const PlanePose plane = pose(place);
-  const meshes::PressPose at = path_.at(place);
+  const meshes::PressPose at = course_.at(place);
   const double deep = -1e-6 * job_.geometry.tip_radius;
   const std::vector<meshes::Vector3> moved = displacements(outer_nodes_);
   // What is held goes with the obstacle, also where at small strain its slope passes by.

@@ -12,6 +12,7 @@
 #include "fem_reference/memory.h"
 #include "fem_reference/plane_contact.h"
 #include "fem_reference/press.h"
+#include "fem_reference/press_course.h"
 #include "fem_reference/press_fields.h"
 #include "fem_reference/tip_body.h"
 
@@ -29,7 +30,8 @@ class PressModel {
  public:
   virtual ~PressModel() = default;
   const ReferenceJob& job() const { return job_; }
-  /// On the job's path [m].
+  const PressCourse& course() const { return course_; }
+  /// On the course [m].
   double place() const { return place_; }
   virtual MeshSummary mesh() const = 0;
 
@@ -51,9 +53,10 @@ class PressModel {
   virtual void load(const std::filesystem::path& folder) = 0;
 
  protected:
-  explicit PressModel(const ReferenceJob& job) : job_(job) {}
+  explicit PressModel(const ReferenceJob& job) : job_(job), course_(job.protocol, job.in_time()) {}
 
   ReferenceJob job_;
+  PressCourse course_;
   double place_ = 0.0;
 };
 
@@ -102,7 +105,6 @@ class TipPress final : public PressModel {
   void load_stresses();
 
   meshes::Sector sector_;
-  meshes::PressPath path_;
   double touch_;            ///< height of the obstacle's top at first touch [m]
   meshes::Vector3 centre_;  ///< of the contact, in plane axes; the dome's is its own [m]
   std::unique_ptr<Body<dim>> body_;

@@ -12,6 +12,7 @@
 
 #include "fem_reference/mesh_history.h"
 #include "fem_reference/press.h"
+#include "fem_reference/press_course.h"
 #include "fem_reference/run_files.h"
 #include "fem_reference/run_progress.h"
 #include "meshes/errors.h"
@@ -37,6 +38,8 @@ constexpr double meridian_safety = 1.2;
 /// Element counts of a meridian's first mesh over those of a solid's: on fewer the first meshes are
 /// too coarse for the error estimate, and cost as many steps as any.
 constexpr double meridian_counts = 2.0;
+/// Of the largest force of a program: smaller ones need not be known better than one of that size.
+constexpr double least_share = 0.1;
 /// Refining every element multiplies the unknowns by at most this.
 constexpr double most_growth = 8.0;
 /// A checkpoint is written when the last one is older than this [s].
@@ -82,6 +85,7 @@ std::string percent(double fraction) {
 std::string sample_text(const meshes::PressSample& sample) {
   std::string text =
       "F = " + to_text(sample.normal_force) + " N at " + to_text(sample.indentation) + " m";
+  if (!std::isnan(sample.time)) text += ", " + to_text(sample.time) + " s";
   if (sample.lateral_displacement != 0.0)
     text += ", " + to_text(sample.lateral_force_x) + " N laterally at " +
             to_text(sample.lateral_displacement) + " m";
@@ -94,10 +98,11 @@ class PressRun {
            const std::function<bool()>& stop_requested)
       : folder_(folder),
         job_(job),
-        places_(meshes::PressPath(job.protocol).samples()),
+        course_(job.protocol, job.in_time()),
+        places_(course_.samples()),
         progress_(progress),
         stop_requested_(stop_requested),
-        history_(safety()) {}
+        history_(empty_history()) {}
 
   RunOutcome carry_out() {
     const RunOutcome outcome = outcome_of([&] { compute(); });
@@ -120,6 +125,9 @@ class PressRun {
     for (;;) {
       try {
         press_on(press);
+        if (!job_.rubber.relaxation.empty() && job_.estimate_error &&
+            history_.step_errors().empty())
+          estimate_step_errors();
       } catch (const meshes::Interrupted&) {
         save(press, true);
         throw;
@@ -149,15 +157,28 @@ class PressRun {
   /// Empty, for all, until every sample has an estimate.
   std::vector<char> samples_to_improve() const {
     if (history_.meshes().size() < fewest_meshes) return {};
-    std::vector<char> wanted;
-    for (const PressState& state : history_.best()) {
-      const double error = state.sample.force_error;
-      wanted.push_back(!(error <= job_.tolerance * state.sample.normal_force));
-    }
-    return wanted;
+    return history_.beyond(job_.tolerance);
   }
 
-  double safety() const { return job_.axisymmetric() ? meridian_safety : 1.0; }
+  MeshHistory empty_history() const {
+    return MeshHistory(job_.axisymmetric() ? meridian_safety : 1.0,
+                       job_.protocol.program.empty() ? 0.0 : least_share);
+  }
+
+  /// How far doubled steps in time are off on the first mesh: more than the usual ones are.
+  void estimate_step_errors() {
+    ContinuumPress press(job_, folder_ / "tip.msh", stop_requested_);
+    press.set_relaxing_step(2.0 * ContinuumPress::usual_relaxing_step);
+    std::vector<double> errors;
+    for (const PressState& state : history_.meshes().front().states) {
+      const double usual = state.sample.normal_force,
+                   doubled = press.advance(places_[errors.size()]).sample.normal_force;
+      errors.push_back(usual > 0.0 ? std::abs(doubled / usual - 1.0) : 0.0);
+      progress_.report("error", errors.size(), places_.size(),
+                       "doubled steps: F = " + to_text(doubled) + " N");
+    }
+    history_.set_step_errors(std::move(errors));
+  }
 
   void make_mesh() {
     const double counts = job_.axisymmetric() ? meridian_counts : 1.0;
@@ -216,12 +237,19 @@ class PressRun {
         press.write_fields(*state, folder_ / "fields" / field_name(index));
         progress_.report("fields", index + 1, places_.size(), field_name(index));
       }
-      const auto last = std::ptrdiff_t(unwritten_.back().first) + 1;
-      if (first_process()) write_field_series({places_.begin(), places_.begin() + last}, folder_);
+      if (first_process()) write_field_series(shown_until(unwritten_.back().first), folder_);
     }
     const std::vector<SectionEdge> section = press.section(*unwritten_.back().second);
     if (first_process()) write_section(section, folder_);
     unwritten_.clear();
+  }
+
+  /// What the fields of the samples are shown over: places, or times of a rubber that relaxes.
+  std::vector<double> shown_until(std::size_t last) const {
+    std::vector<double> shown;
+    for (std::size_t i = 0; i <= last; ++i)
+      shown.push_back(job_.in_time() ? course_.time(places_[i]) : places_[i]);
+    return shown;
   }
 
   /// The folder is complete at any time: a new checkpoint replaces the old one by renaming.
@@ -241,7 +269,8 @@ class PressRun {
     if (first_process()) {
       meshes::write_atomically(next / "run.json", [&](std::ostream& out) {
         out << ordered_json{{"job", text_of(folder_ / "job.json")},
-                            {"history", history_.to_json()}};
+                            {"history", history_.to_json()},
+                            {"step_errors", history_.step_errors()}};
       });
       fs::remove_all(place);
       fs::rename(next, place);
@@ -266,7 +295,8 @@ class PressRun {
     if (place.empty()) return false;
     const auto json = ordered_json::parse(from_first_process(text));
     press.load(folder_ / place);
-    history_ = MeshHistory::from_json(json.at("history"), safety());
+    history_ = MeshHistory::from_json(json.at("history"), empty_history());
+    history_.set_step_errors(json.value("step_errors", std::vector<double>()));
     progress_.report("press", history_.finest().states.size(), places_.size(),
                      "resumed on mesh " + std::to_string(history_.meshes().size()) + " after " +
                          std::to_string(history_.finest().states.size()) + " samples");
@@ -322,7 +352,8 @@ class PressRun {
 
   const fs::path folder_;
   const ReferenceJob& job_;
-  const std::vector<double> places_;  ///< of the samples on the job's path [m]
+  const PressCourse course_;
+  const std::vector<double> places_;  ///< of the samples on the course [m]
   RunProgress progress_;
   const std::function<bool()>& stop_requested_;
   Clock::time_point last_checkpoint_ = Clock::now(), last_tables_;

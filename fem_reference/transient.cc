@@ -9,6 +9,7 @@
 #include <string>
 
 #include "fem_reference/mesh_history.h"
+#include "fem_reference/press_course.h"
 #include "fem_reference/run_files.h"
 #include "fem_reference/run_progress.h"
 #include "fem_reference/run_tables.h"
@@ -32,7 +33,11 @@ class TransientRun {
  public:
   TransientRun(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
                const std::function<bool()>& stop_requested)
-      : folder_(folder), job_(job), progress_(progress), stop_requested_(stop_requested) {}
+      : folder_(folder),
+        job_(job),
+        places_(PressCourse(job.protocol, true).samples()),
+        progress_(progress),
+        stop_requested_(stop_requested) {}
 
   RunOutcome carry_out() {
     const RunOutcome outcome = outcome_of([&] {
@@ -60,6 +65,7 @@ class TransientRun {
     still.analysis = Analysis::static_press;
     still.protocol.contact = meshes::ContactMode::frictionless;
     still.rubber.relaxation = {};  // meshes are as good for other moduli
+    still.protocol.program = {};   // and for the way back
     ContinuumPress press(still, folder_ / "tip.msh", stop_requested_);
     for (;;) {
       static_presses_.start_mesh(press.mesh());
@@ -120,6 +126,17 @@ class TransientRun {
                                             stop_requested_);
   }
 
+  /// That of the static sample, in a program of the one next to its indentation.
+  double mesh_error_of(std::size_t index) const {
+    if (job_.protocol.program.empty()) return mesh_error(index);
+    const std::vector<double>& depths = job_.protocol.samples;
+    const double wanted = states_[index].sample.indentation;
+    std::size_t next = 0;
+    for (std::size_t i = 1; i < depths.size(); ++i)
+      if (std::abs(depths[i] - wanted) < std::abs(depths[next] - wanted)) next = i;
+    return mesh_error(next);
+  }
+
   void press() {
     const double start = progress_.wall_time();
     progress_.report("assemble", 0, 1, "mass and stiffness");
@@ -128,9 +145,9 @@ class TransientRun {
     progress_.report("assemble", 1, 1,
                      std::to_string(mesh_.unknowns) + " unknowns, " +
                          std::string(fem_reference::name(mesh_.solver)) + " solver");
-    for (std::size_t i = 0; i < job_.protocol.samples.size(); ++i) {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
       try {
-        states_.push_back(press->advance(job_.protocol.samples[i]));
+        states_.push_back(press->advance(places_[i]));
       } catch (...) {
         steps_ = press->steps();
         throw;
@@ -153,7 +170,7 @@ class TransientRun {
       }
     }
     write_tables({RunOutcome::Status::interrupted, ""});
-    progress_.report("press", index + 1, job_.protocol.samples.size(),
+    progress_.report("press", index + 1, places_.size(),
                      "F = " + to_text(states_.back().sample.normal_force) + " N at " +
                          to_text(states_.back().sample.indentation) + " m, " +
                          to_text(states_.back().sample.time) + " s");
@@ -162,12 +179,12 @@ class TransientRun {
   void repeat_with_doubled_steps() {
     const auto press = make_press();
     press->set_step_factor(2.0);
-    for (std::size_t i = 0; i < job_.protocol.samples.size(); ++i) {
-      const double force = press->advance(job_.protocol.samples[i]).sample.normal_force;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const double force = press->advance(places_[i]).sample.normal_force;
       meshes::PressSample& sample = states_[i].sample;
       sample.force_error =
-          std::abs(sample.normal_force - force) + mesh_error(i) * std::abs(sample.normal_force);
-      progress_.report("error", i + 1, job_.protocol.samples.size(),
+          std::abs(sample.normal_force - force) + mesh_error_of(i) * std::abs(sample.normal_force);
+      progress_.report("error", i + 1, places_.size(),
                        "doubled steps: F = " + to_text(force) + " N");
     }
   }
@@ -221,6 +238,7 @@ class TransientRun {
 
   const fs::path folder_;
   const ReferenceJob& job_;
+  const std::vector<double> places_;  ///< of the samples on the course [m]
   RunProgress progress_;
   const std::function<bool()>& stop_requested_;
   meshes::MeshQuality quality_;

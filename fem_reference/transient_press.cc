@@ -13,6 +13,7 @@
 #include "fem_reference/generalised_alpha.h"
 #include "fem_reference/kinematics.h"
 #include "fem_reference/plane_contact.h"
+#include "fem_reference/press_course.h"
 #include "fem_reference/press_fields.h"
 #include "fem_reference/run_progress.h"
 #include "fem_reference/solver_choice.h"
@@ -53,18 +54,21 @@ double radius(const SurfaceNode& node) {
 class TransientModel {
  public:
   TransientModel(const ReferenceJob& the_job, std::function<bool()> stop)
-      : job(the_job), stop_requested(std::move(stop)) {
+      : job(the_job), course(job.protocol, true), stop_requested(std::move(stop)) {
     steps.push_back({});
   }
   virtual ~TransientModel() = default;
 
   virtual MeshSummary mesh() const = 0;
-  virtual void step_to(double indentation, double duration, PressState& effort) = 0;
+  /// One step to a place [m] of the course that takes `duration` [s].
+  virtual void step_to(double place, double duration, PressState& effort) = 0;
   virtual PressState evaluate() const = 0;
   virtual double bond_force() const = 0;
   virtual void write_fields(const std::filesystem::path& file) const = 0;
 
   const ReferenceJob job;
+  const PressCourse course;
+  double place = 0.0;  ///< [m]
   const std::function<bool()> stop_requested;
   double step_factor = 1.0;
   std::vector<TransientStep> steps;
@@ -83,7 +87,8 @@ class TipInMotion final : public TransientModel {
         mass(job.rubber.density),
         solver_kind(choose_solver(job, double(body->unknowns()))),
         motion(*body, stiffness, mass, job.rubber.retardation_time,
-               solver_kind == LinearSolver::multigrid, LinearMemory<dim>(*body, job)) {
+               solver_kind == LinearSolver::multigrid, LinearMemory<dim>(*body, job)),
+        rubber_mass(job.rubber.density * volume(*body)) {
     ContactUnknowns candidates =
         contact_unknowns(within_reach(outer_nodes(*body), job.protocol, touch(),
                                       bulge * job.protocol.samples.back()),
@@ -99,30 +104,45 @@ class TipInMotion final : public TransientModel {
             contact->unknowns().unknowns.size(), solver_kind};
   }
 
-  void step_to(double indentation, double duration, PressState& effort) override {
+  void step_to(double next, double duration, PressState& effort) override {
+    const meshes::Vector3 before = frame_acceleration(place), now = frame_acceleration(next);
+    const Vector rest = motion.displacement();
     const Eigen::VectorXd reaction = contact->reactions();
     const Eigen::VectorXd displacement = contact->committed().displacement;
     const double dissipation = motion.dissipation_rate();
     motion.set_step(duration, *solver);
-    solver->set_load(motion.load());
-    const ContactEffort spent = contact->solve(*solver, pose(indentation));
+    solver->set_load(motion.load(now));
+    const ContactEffort spent = contact->solve(*solver, pose(course.at(next).indentation));
     motion.advance(solver->field());
     contact->commit();
     ++effort.steps;
     effort.active_set_iterations += spent.rounds;
     effort.cg_iterations += spent.cg_iterations;
     // Work and dissipation by the trapezoidal rule.
-    const double work =
+    double work =
         0.5 *
         (reaction + contact->reactions()).dot(contact->committed().displacement - displacement);
-    record(indentation, copies<dim> * work,
+    const meshes::Vector3 mean = 0.5 * (before + now);
+    if (!mean.isZero(0.0)) {
+      Vector travel = motion.displacement();
+      travel -= rest;
+      work += motion.inertial_force(mean) * travel;
+    }
+    place = next;
+    record(copies<dim> * work,
            copies<dim> * 0.5 * duration * (dissipation + motion.dissipation_rate()));
   }
 
   double bond_force() const override {
-    return copies<dim> * resultant(*body, motion.residual(),
-                                   dealii::types::boundary_id(meshes::PhysicalTag::bond))
-                             .z();
+    const auto bond = dealii::types::boundary_id(meshes::PhysicalTag::bond);
+    double force = resultant(*body, motion.residual(), bond).z();
+    // In a frame that accelerates the bond's nodes carry what mass the free ones do not.
+    const meshes::Vector3 acceleration = frame_acceleration(place);
+    if (!acceleration.isZero(0.0)) {
+      const Vector carried = motion.inertial_force(acceleration);
+      force += rubber_mass * acceleration.z() + carried.mean_value() * double(carried.size());
+    }
+    return copies<dim> * force;
   }
 
   PressState evaluate() const override {
@@ -184,20 +204,27 @@ class TipInMotion final : public TransientModel {
     return make_condensed_solver(*body, unknowns);
   }
 
+  /// Of the rod, whose axis the press follows.
+  meshes::Vector3 frame_acceleration(double at) const {
+    return course.acceleration(at) * meshes::Vector3::UnitZ();
+  }
   double touch() const { return meshes::first_touch(job.geometry, 0.0, job.protocol.obstacle); }
   PlanePose pose(double indentation) const { return {touch() - indentation, 0.0}; }
 
-  void record(double indentation, double work, double dissipated) {
+  void record(double work, double dissipated) {
     double push = 0.0;
     for (std::size_t i = 0; i < contact->unknowns().nodes.size(); ++i)
       push -= contact->reaction(i).z();
     const MechanicalEnergy energy = motion.energy();
     const TransientStep& last = steps.back();
     TransientStep next;
-    next.time = indentation / job.protocol.speed;
-    next.indentation = indentation;
+    next.time = course.time(place);
+    next.indentation = course.at(place).indentation;
     next.contact_force = copies<dim> * push;
-    next.normal_force = next.contact_force + copies<dim> * motion.momentum_rate().z();
+    // In a frame that accelerates by b the momentum of space changes by mass times b more.
+    next.normal_force =
+        next.contact_force +
+        copies<dim> * (motion.momentum_rate().z() + rubber_mass * course.acceleration(place));
     next.momentum = -copies<dim> * motion.momentum().z();
     next.kinetic_energy = copies<dim> * energy.kinetic;
     next.elastic_energy = copies<dim> * energy.elastic;
@@ -211,6 +238,7 @@ class TipInMotion final : public TransientModel {
   MassKernel<dim> mass;
   LinearSolver solver_kind;
   GeneralisedAlpha<dim> motion;
+  double rubber_mass;  ///< of what is meshed [kg]
   std::unique_ptr<PlaneContact> contact;
   std::unique_ptr<FieldSolver> solver;
 };
@@ -243,18 +271,22 @@ void TransientPress::set_step_factor(double factor) {
   model_->step_factor = factor;
 }
 
-PressState TransientPress::advance(double indentation) {
+PressState TransientPress::advance(double place) {
   TransientModel& self = *model_;
   const auto start = std::chrono::steady_clock::now();
-  const double first = self.steps.back().indentation, way = indentation - first;
-  const double longest = self.step_factor * std::min(longest_step * self.job.geometry.thickness(),
-                                                     longest_step_to_sample * indentation);
-  const int count = std::max(1, int(std::ceil(way / longest - 1e-9)));
+  const double first = self.place, way = place - first;
+  const PressCourse::Leg& leg = self.course.leg(place);
+  double longest = longest_step * self.job.geometry.thickness() / std::max(1.0, leg.rate);
+  if (leg.rate > 0.0)
+    longest = std::min(longest, longest_step_to_sample * (place - leg.begin));
+  else  // what shook has died
+    longest = std::max(longest, longest_step_to_sample * (first - leg.begin));
+  const int count = std::max(1, int(std::ceil(way / (self.step_factor * longest) - 1e-9)));
   const double duration = way / count / self.job.protocol.speed;
   PressState effort;
   for (int i = 1; i <= count; ++i) {
     stop_if_asked(self.stop_requested);
-    self.step_to(i == count ? indentation : first + way * i / count, duration, effort);
+    self.step_to(i == count ? place : first + way * i / count, duration, effort);
   }
   PressState state = self.evaluate();
   state.steps = effort.steps;

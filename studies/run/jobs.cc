@@ -85,19 +85,23 @@ ordered_json inputs_of(const meshes::PressProtocol& protocol, bool moves) {
   return inputs;
 }
 
-/// Neither mass nor damping enters an equilibrium, no press enters the natural frequencies.
+/// Neither mass nor damping enters an equilibrium, nor time unless the rubber relaxes; no press
+/// enters the natural frequencies, which are those of the moduli after long times.
 ordered_json inputs_of(const fem_reference::ReferenceJob& reference) {
   using fem_reference::Analysis;
   ordered_json inputs = json_of(reference);
-  inputs["protocol"] = inputs_of(reference.protocol, reference.analysis == Analysis::transient);
-  drop(inputs["protocol"], {"mode", "clearance"});
+  inputs["protocol"] = inputs_of(reference.protocol, reference.in_time());
+  drop(inputs["protocol"], {"mode"});
+  // A program's rises, and with them its falls, are shorter than the clearance.
+  if (reference.protocol.program.empty()) drop(inputs["protocol"], {"clearance"});
   if (reference.strain != fem_reference::Strain::finite || reference.analysis == Analysis::modes)
     drop(inputs["rubber"], {"energy"});
   if (reference.analysis != Analysis::modes) drop(inputs, {"modes"});
   if (!reference.axisymmetric() || !reference.write_fields) drop(inputs, {"field_sectors"});
   if (reference.analysis == Analysis::static_press)
     drop(inputs["rubber"], {"density", "retardation_time"});
-  if (reference.analysis == Analysis::modes) drop(inputs["rubber"], {"retardation_time"});
+  if (reference.analysis == Analysis::modes)
+    drop(inputs["rubber"], {"retardation_time", "relaxation"});
   if (reference.analysis == Analysis::modes || reference.analysis == Analysis::verification)
     drop(inputs, {"protocol"});
   return inputs;

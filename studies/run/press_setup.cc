@@ -171,10 +171,6 @@ fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded) {
     // About E and G together: the key that asks for finite strain names both.
     if (violation.key == "rubber") violation.key = "reference.strain";
   }
-  if (!loaded.config.reference.protocol.program.empty())
-    broken.push_back({"press.program", "given",
-                      "the continuum presses once: it knows no stages in time yet",
-                      "leave it out for `reference`; compare takes the first loading of a press"});
   if (!broken.empty()) throw loaded.locate(broken);
   return loaded.config.reference;
 }
@@ -201,10 +197,7 @@ void check_all(const LoadedConfig& loaded) {
   if (!lattice::beyond_the_lattice(within_the_lattice.config.press).empty())
     protocol.mode = meshes::DriveMode::equilibrium;
   press_setup(within_the_lattice);
-  // What the continuum cannot do, the verbs that need it tell.
-  LoadedConfig pressed_once = loaded;
-  pressed_once.config.reference.protocol.program.clear();
-  continuum_setup(pressed_once);
+  continuum_setup(loaded);
 }
 
 void check_validation(const LoadedConfig& loaded) {

@@ -261,4 +261,20 @@ TEST(ReferenceJob, OnlyAPressNeedsSamples) {
   EXPECT_TRUE(job.violations().empty());
 }
 
+TEST(ReferenceJob, ShearRelaxesAloneWhereTheLawSaysWhatItIs) {
+  ReferenceJob job;
+  job.press_to({1e-3});
+  job.rubber.relaxation = {{{0.3, 0.1}}, false};
+  EXPECT_TRUE(job.violations().empty());
+  job.strain = Strain::finite;  // a law of full invariants
+  const auto broken = job.violations();
+  ASSERT_EQ(broken.size(), 1U);
+  EXPECT_EQ(broken.front().key, "rubber.relaxation_bulk");
+  job.rubber.energy.volumetric = VolumetricLaw::quadratic;
+  EXPECT_TRUE(job.violations().empty());
+  job.rubber.energy.volumetric = VolumetricLaw::logarithmic;
+  job.rubber.relaxation.bulk = true;
+  EXPECT_TRUE(job.violations().empty());
+}
+
 }  // namespace

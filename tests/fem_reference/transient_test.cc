@@ -4,6 +4,7 @@
 #include <deal.II/grid/grid_generator.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -12,11 +13,13 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fem_reference/eigen_solver.h"
 #include "fem_reference/generalised_alpha.h"
 #include "fem_reference/press.h"
+#include "fem_reference/press_course.h"
 #include "fem_reference/tip_body.h"
 #include "tests/fem_reference/shared_mesh.h"
 
@@ -42,9 +45,9 @@ struct FreeVibration {
   }
 
   /// Amplitude of the mode after `time` from amplitude 1, in `steps` steps.
-  double amplitude_after(double time, int steps) {
+  double amplitude_after(double time, int steps, LinearMemory<3> memory = {}) {
     auto solver = make_condensed_solver(*body, {});
-    GeneralisedAlpha<3> motion(*body, stiffness, mass, tau, false);
+    GeneralisedAlpha<3> motion(*body, stiffness, mass, tau, false, std::move(memory));
     Vector acceleration = shape, zero = body->fine.vector();
     acceleration *= -omega * omega;
     motion.set_state(shape, zero, acceleration);
@@ -88,6 +91,32 @@ TEST(GeneralisedAlpha, FollowsAModeAtSecondOrder) {
     // Extrapolated, it is the exact motion.
     EXPECT_LT(std::abs(finest + (finest - fine) / 3), 0.03 * std::abs(finest)) << tau;
   }
+}
+
+TEST(GeneralisedAlpha, FollowsAModeOfARubberThatRelaxes) {
+  // q'' + omega² (q + b d) = 0, d' + d/tau = q': three first-order equations, solved by their
+  // eigenvectors.
+  FreeVibration vibration(0.0);
+  const double omega = vibration.omega, tau = 0.7 / omega, time = 8.0 / omega;
+  ReferenceJob job;
+  job.rubber.relaxation = {{{0.4, tau}}, true};
+  const double b = job.rubber.relaxation.excess(0);
+  Eigen::Matrix3d rates;
+  rates << 0, 1, 0, -omega * omega, 0, -b * omega * omega, 0, 1, -1 / tau;
+  const Eigen::EigenSolver<Eigen::Matrix3d> solver(rates);
+  const Eigen::Vector3cd start =
+      solver.eigenvectors().fullPivLu().solve(Eigen::Vector3cd(1.0, 0.0, 0.0));
+  const Eigen::Vector3cd end = (solver.eigenvalues() * time).array().exp() * start.array();
+  const double exact = (solver.eigenvectors() * end)[0].real();
+  std::vector<double> errors;
+  for (const int steps : {64, 128, 256}) {
+    LinearMemory<3> memory(*vibration.body, job);
+    const double found = vibration.amplitude_after(time, steps, std::move(memory));
+    errors.push_back(std::abs(found - exact));
+  }
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2.0, 0.15);
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2.0, 0.1);
+  EXPECT_LT(errors[2], 0.02);
 }
 
 TEST(GeneralisedAlpha, KeepsWhatMovesUniformlyAndKnowsItsMass) {
@@ -249,6 +278,48 @@ TEST(TransientPress, BalancesEnergyAndMomentum) {
       scale += dt * steps[i].contact_force;
     }
     EXPECT_NEAR(end.momentum, impulse, 2e-3 * scale) << meshes::name(contact);
+  }
+}
+
+TEST(TransientPress, BalancesEnergyAndMomentumOfARubberThatRelaxesOnAProgram) {
+  for (const bool bulk : {true, false}) {
+    Press press(0.1);
+    press.job.rubber.retardation_time = 1e-4;
+    press.job.rubber.relaxation = {{{0.2, 2e-3}, {0.2, 0.02}}, bulk};
+    press.job.protocol.program = {{2e-3, 0.1, 0.0}, {2e-3, 0.0, 0.05}, {5e-4, 0.05, 0.0}};
+    const auto transient = press.transient();
+    const PressCourse course(press.job.protocol, true);
+    double most_inertia = 0.0;
+    for (const double place : course.samples()) {
+      const PressState state = transient->advance(place);
+      const TransientStep& now = transient->steps().back();
+      // Of the bond itself, whose nodes the rod's acceleration loads, too.
+      EXPECT_NEAR(transient->bond_force() / state.sample.normal_force, 1.0, 1e-6) << place;
+      const double spent = now.kinetic_energy + now.elastic_energy + now.dissipated_energy;
+      EXPECT_LT(spent, now.work * (1 + 3e-3)) << place;
+      EXPECT_GT(spent, now.work * (1 - 1e-2)) << place;
+      most_inertia = std::max(most_inertia, std::abs(now.contact_force / now.normal_force - 1.0));
+    }
+    EXPECT_GT(most_inertia, 1e-3);
+    const auto& steps = transient->steps();
+    EXPECT_GT(steps.back().dissipated_energy, 0.05 * steps.back().work);
+  }
+}
+
+TEST(TransientPress, IsTheRelaxingPressWithoutInertia) {
+  Press press(0.02);
+  press.job.rubber.retardation_time = 0.0;
+  press.job.rubber.relaxation = {{{0.3, 0.01}, {0.2, 0.1}}, true};
+  press.job.protocol.program = {{2e-3, 0.02, 0.0}, {2e-3, 0.0, 0.2}, {1e-3, 0.02, 0.0}};
+  const auto transient = press.transient();
+  ReferenceJob still = press.job;
+  still.analysis = Analysis::static_press;
+  ContinuumPress quiet(still, press.mesh.file());
+  const PressCourse course(press.job.protocol, true);
+  const double largest = press.static_force(2e-3);
+  for (const double place : course.samples()) {
+    const double wanted = quiet.advance(place).sample.normal_force;
+    EXPECT_NEAR(transient->advance(place).sample.normal_force, wanted, 5e-3 * largest) << place;
   }
 }
 

@@ -275,8 +275,8 @@ const World worlds[] = {
              no_rod,
              no_time,
              // Aside, so that it is no meridian.
-             {"lattice.", "press.mode", "press.program", "rubber.density",
-              "rubber.retardation_time", "reference.field_sectors"}})},
+             {"lattice.", "press.mode", "rubber.density", "rubber.retardation_time",
+              "reference.field_sectors"}})},
     {"continuum in time",
      {"reference.mode=transient"},
      continuum,
@@ -288,8 +288,8 @@ const World worlds[] = {
              diagonal,
              // It knows small strain and upright presses that start at the plane.
              {"run.", "controller.", "lattice.", "press.mode", "press.clearance", "press.gravity",
-              "press.duration", "press.program", "press.tilt", "press.lateral", "obstacle.along",
-              "obstacle.offset", "reference.strain", "reference.law"}})},
+              "press.duration", "press.tilt", "press.lateral", "obstacle.along", "obstacle.offset",
+              "reference.strain", "reference.law"}})},
     {"continuum's modes",
      {"reference.mode=modes"},
      continuum,
@@ -298,8 +298,8 @@ const World worlds[] = {
              no_grasp,
              no_rod,
              no_time,
-             {"lattice.", "press.", "obstacle.", "rubber.retardation_time",
-              "reference.field_sectors", "reference.law"}})},
+             {"lattice.", "press.", "obstacle.", "rubber.retardation_time", "rubber.relaxation",
+              "rubber.relaxation_bulk", "reference.field_sectors", "reference.law"}})},
     {"fit to moduli",
      {"calibration.problem=moduli", "lattice.model=central"},
      calibration,
@@ -414,6 +414,27 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
   // How fast the plane comes is all that the elastic press does not know.
   EXPECT_TRUE(differs(ramp, "press.speed=2 cm/s"));
   EXPECT_FALSE(differs(ramp, "press.clearance=1 mm"));
+}
+
+/// An equilibrium knows time where the rubber relaxes, and there alone.
+TEST(IdentityOfAJob, KnowsTimeWhereTheRubberRelaxes) {
+  const std::string relaxing = "rubber.relaxation=[[0.2, \"0.1 s\"]]", fast = "press.speed=3 cm/s";
+  const auto program = [](const std::string& speed, const std::string& hold) {
+    return "press.program=[[\"0.3 cm\", \"" + speed + "\"], [\"hold\", \"" + hold + "\"]]";
+  };
+  const auto same = [](const Sets& one, const Sets& other) {
+    const auto a = identity_of(continuum, one), b = identity_of(continuum, other);
+    EXPECT_TRUE(a && b);
+    return a == b;
+  };
+  EXPECT_TRUE(same({}, {fast}));
+  EXPECT_FALSE(same({relaxing}, {relaxing, fast}));
+  EXPECT_TRUE(same({relaxing}, {relaxing, "press.clearance=1 mm"}));
+  const std::string once = program("1 cm/s", "1 s");
+  EXPECT_TRUE(same({once}, {program("2 cm/s", "2 s")}));
+  EXPECT_FALSE(same({relaxing, once}, {relaxing, program("2 cm/s", "1 s")}));
+  EXPECT_FALSE(same({relaxing, once}, {relaxing, program("1 cm/s", "2 s")}));
+  EXPECT_FALSE(same({relaxing, once}, {relaxing, once, "press.clearance=0.1 mm"}));
 }
 
 /// Of every job whose strain is large.
