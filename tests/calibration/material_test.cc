@@ -29,7 +29,7 @@ Material fitted(ModelKind model) {
   m.spacing = a;
   m.kinematics = model == ModelKind::network ? Kinematics::finite : Kinematics::small;
   m.rubber = {4000.0 / 3.0 * std::numbers::e, 1000.0 * std::numbers::sqrt2, 1234.5 / 7.0,
-              1.0 / 3.0e3, {}};
+              1.0 / 3.0e3, {}, {}};
   m.constants = lattice::hookean_constants(m.rubber, a);
   if (model == ModelKind::central) m.constants.kappa = 0.0;
   m.geometry = meshes::Geometry{1.0e-2 / 3.0, 0.1e-2, 0.7e-2, 0.9e-2};

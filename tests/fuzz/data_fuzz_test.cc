@@ -44,7 +44,7 @@ calibration::Material material(lattice::ModelKind model) {
   calibration::Material result;
   result.model = model;
   result.spacing = 1e-3;
-  result.rubber = {3.4e5, 1.2e5, 1070.0, 1e-4, {}};
+  result.rubber = {3.4e5, 1.2e5, 1070.0, 1e-4, {}, {}};
   result.constants = lattice::hookean_constants(result.rubber, result.spacing);
   result.kinematics = lattice::Kinematics::finite;
   result.validity.largest_indentation = 2e-3;

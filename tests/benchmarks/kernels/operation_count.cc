@@ -4,6 +4,7 @@
 
 #include "counted.h"
 // The free functions that the kernels call on their numbers must be known before the kernels are.
+#include "lattice/forces/cell_arrays.h"
 #include "lattice/kernels/cell_kernel_body.h"
 #include "lattice/kernels/kernel_body.h"
 #include "lattice/model/state.h"
@@ -21,7 +22,6 @@ namespace {
   const bool rates = finite || !model.proportional_damping;
   kernel::Arrays a{};
   for (std::size_t c = 0; c < 3; ++c) {
-    a.displacement[c] = state.displacement.component[c].data();
     a.velocity[c] = state.velocity.component[c].data();
     a.force[c] = force.component[c].data();
   }
@@ -38,18 +38,16 @@ namespace {
 }
 
 [[gnu::noinline]] void run_cells(const CellLattice& cells, const State& state, VectorField& force) {
-  kernel::CellArrays a{
-      {}, {}, {}, cells.cut.data(), cells.row, cells.plane, cells.spacing, cells.material};
+  kernel::CellArrays a = cell_arrays(cells, state.displacement);
   for (std::size_t c = 0; c < 3; ++c) {
-    a.displacement[c] = state.displacement.component[c].data();
     a.velocity[c] = state.velocity.component[c].data();
     a.force[c] = force.component[c].data();
   }
   const bool rates =
       cells.material.kind != CellLawKind::cubic && cells.material.retardation_time > 0.0;
   kernel::CellBounds bounds;
-  kernel::CellBody<Counted>::select(cells.material.kind, rates)(a, cells.blocks.data(), 0,
-                                                                cells.blocks.size(), bounds);
+  kernel::CellBody<Counted>::select(cells.material.kind, rates, false)(a, cells.blocks.data(), 0,
+                                                                       cells.blocks.size(), bounds);
 }
 
 }  // namespace
