@@ -55,7 +55,7 @@ CellForces::CellForces(const CellLattice& cells, const CellMaterial& material, T
       fading_sweep_(kernel::select_cells(material.kind, has_rates(material), true, width)) {}
 
 CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
-                             VectorField& force, const kernel::CellPast& past) const {
+                             VectorField& force, const kernel::Past& past) const {
   kernel::CellArrays arrays = cell_arrays(*cells_, displacement);
   arrays.material = material_;
   arrays.past = past;

@@ -40,7 +40,7 @@ class CellForces {
   /// Where a cell is turned inside out (J <= 0) forces are meaningless and smallest_jacobian says
   /// so. `past`: what cells with a law of large strain remember.
   CellExtremes add(const VectorField& displacement, const VectorField& velocity, VectorField& force,
-                   const kernel::CellPast& past = {}) const;
+                   const kernel::Past& past = {}) const;
 
  private:
   const CellLattice* cells_;

@@ -38,33 +38,32 @@ CellExtremes InternalForces::accumulate(const State& state, double time,
 
 CellExtremes InternalForces::note(const State& state, double time, RelaxingMemory& memory,
                                   VectorField& force) {
-  const CellExtremes extremes = find(state, time, memory, &memory, force);
-  memory.time = time;
-  return extremes;
+  return find(state, time, memory, &memory, force);
 }
 
 CellExtremes InternalForces::find(const State& state, double time, const RelaxingMemory& memory,
                                   RelaxingMemory* noted, VectorField& force) {
-  kernel::CellPast past;
+  kernel::Past past;
   const bool lags = !memory.lag.empty(), apart = lags && !model_->relaxation.bulk;
-  if (!memory.empty()) find_fading(*model_, memory, time, fading_);
-  if (!memory.cells.empty()) {
-    past = {memory.cells.data(), noted != nullptr ? noted->cells.data() : nullptr, fading_.data(),
-            int(fading_.size())};
+  if (!memory.empty()) {
+    past = find_past(*model_, memory, time, noted != nullptr, fading_);
+    if (past.held) noted = nullptr;
+    if (noted != nullptr && !noted->cells.empty()) past.noted = noted->cells.data();
   }
   const VectorField& displacement = rates_ ? state.displacement : damped(state);
-  if (lags && !apart) add_lags(*model_, memory, fading_, state, *team_, damped_, noted);
+  if (lags && !apart) add_lags(*model_, memory, past, state, *team_, damped_, noted);
   const CellExtremes extremes = respond(displacement, state, past, force);
   if (apart) {
     for (auto& component : lag_.component) std::fill(component.begin(), component.end(), 0.0);
-    add_lags(*model_, memory, fading_, state, *team_, lag_, noted);
+    add_lags(*model_, memory, past, state, *team_, lag_, noted);
     shear_.add(lag_, state.velocity, force);
   }
+  if (noted != nullptr) noted->time = time;
   return extremes;
 }
 
 CellExtremes InternalForces::respond(const VectorField& displacement, const State& state,
-                                     const kernel::CellPast& past, VectorField& force) {
+                                     const kernel::Past& past, VectorField& force) {
   if (springs_ != nullptr) {
     gather_springs(displacement, state, force);
   } else {

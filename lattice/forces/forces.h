@@ -27,7 +27,7 @@ class InternalForces {
   /// (empty) the forces are those after long times.
   CellExtremes accumulate(const State& state, double time, const RelaxingMemory& memory,
                           VectorField& force);
-  /// The same, and the memory is brought to this state.
+  /// The same, and the memory is brought to this state when it is time to.
   CellExtremes note(const State& state, double time, RelaxingMemory& memory, VectorField& force);
 
  private:
@@ -35,7 +35,7 @@ class InternalForces {
   CellExtremes find(const State& state, double time, const RelaxingMemory& memory,
                     RelaxingMemory* noted, VectorField& force);
   CellExtremes respond(const VectorField& displacement, const State& state,
-                       const kernel::CellPast& past, VectorField& force);
+                       const kernel::Past& past, VectorField& force);
   void gather_springs(const VectorField& displacement, const State& state, VectorField& force);
   void clear(VectorField& force);
 
@@ -47,7 +47,7 @@ class InternalForces {
   kernel::Arrays arrays_{};
   VectorField damped_;  ///< u + tau v, and what relaxes
   VectorField lag_;     ///< what relaxes where the bulk does not
-  std::vector<kernel::CellFading> fading_;
+  std::vector<kernel::Fading> fading_;
 };
 
 }  // namespace fingertip::lattice

@@ -1,6 +1,7 @@
 #include "lattice/forces/relaxing.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "lattice/forces/cell_energy.h"
 #include "lattice/forces/energy.h"
@@ -8,6 +9,10 @@
 namespace fingertip::lattice {
 
 namespace {
+
+/// What branches hold together bends so little within this share of their shortest time that it is
+/// taken for straight: (1/30)²/8 of it are 0.014 %.
+constexpr double interval = 1.0 / 30.0;
 
 constexpr std::size_t lagging_at_once = 16;  // blocks of eight points
 
@@ -17,50 +22,82 @@ RelaxingMemory::RelaxingMemory(const LatticeModel& model) {
   if (model.relaxation.empty()) return;
   if (model.kinematics == Kinematics::finite) {
     cells.assign(model.cell_lattice.blocks.size() * std::size_t(kernel::remembered) *
-                     (1 + model.relaxation.branches.size()),
+                     (3 + model.relaxation.branches.size()),
                  kernel::Lanes{});
     return;
   }
   displacement = VectorField(model.points());
-  lag.assign(model.relaxation.branches.size(), displacement);
+  lag.assign(2 + model.relaxation.branches.size(), displacement);
 }
 
-void find_fading(const LatticeModel& model, const RelaxingMemory& memory, double time,
-                 std::vector<kernel::CellFading>& fading) {
+kernel::Past find_past(const LatticeModel& model, const RelaxingMemory& memory, double time,
+                       bool may_hold, std::vector<kernel::Fading>& fading) {
   const meshes::Relaxation& relaxation = model.relaxation;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& branch : relaxation.branches) shortest = std::min(shortest, branch.time);
+  const double length = interval * shortest, passed = time - memory.time;
+  kernel::Past past;
+  past.held = may_hold && passed < length;
+  past.second = passed / length;
+  past.first = 1.0 - past.second;
+  past.branches = int(relaxation.branches.size());
+  past.values = memory.cells.empty() ? nullptr : memory.cells.data();
   fading.clear();
   for (std::size_t n = 0; n < relaxation.branches.size(); ++n) {
-    const meshes::Fading own(time - memory.time, relaxation.branches[n].time);
-    fading.push_back({own.keep, own.gain * relaxation.excess(n)});
+    const double own = relaxation.branches[n].time, b = relaxation.excess(n);
+    const meshes::Fading now(passed, own), later(length, own);
+    fading.push_back({now.keep, b * now.gain, later.keep});
+    past.share += b * now.gain;
+    past.gain_now += b;
+    past.gain_later += b * later.gain;
   }
+  past.fading = fading.data();
+  return past;
 }
 
-void add_lags(const LatticeModel& model, const RelaxingMemory& memory,
-              const std::vector<kernel::CellFading>& fading, const State& state, Team& team,
-              VectorField& sum, RelaxingMemory* noted) {
+void add_lags(const LatticeModel& model, const RelaxingMemory& memory, const kernel::Past& past,
+              const State& state, Team& team, VectorField& sum, RelaxingMemory* noted) {
   const std::vector<std::uint32_t>& blocks = model.blocks;
-  team.split(blocks.size(), lagging_at_once, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double *u = state.displacement.component[c].data(),
-                   *before = memory.displacement.component[c].data();
-      double* s = sum.component[c].data();
-      for (std::size_t b = begin; b < end; ++b) {
-        const std::size_t first = blocks[b];
-        double change[lanes], total[lanes] = {};
-        for (std::size_t i = 0; i < lanes; ++i) change[i] = u[first + i] - before[first + i];
-        for (std::size_t n = 0; n < fading.size(); ++n) {
-          const auto [keep, gain] = fading[n];
-          const double* h = memory.lag[n].component[c].data() + first;
-          double now[lanes];
-          for (std::size_t i = 0; i < lanes; ++i) now[i] = keep * h[i] + gain * change[i];
-          for (std::size_t i = 0; i < lanes; ++i) total[i] += now[i];
-          if (noted != nullptr) std::copy_n(now, lanes, noted->lag[n].component[c].data() + first);
-        }
-        for (std::size_t i = 0; i < lanes; ++i) s[first + i] += total[i];
-        if (noted != nullptr)
-          std::copy_n(u + first, lanes, noted->displacement.component[c].data() + first);
+  const std::size_t branches = std::size_t(past.branches);
+  /// Of eight points from `first` on.
+  const auto hold = [&](std::size_t c, std::size_t first) {
+    const double *u = state.displacement.component[c].data() + first,
+                 *start = memory.lag[branches].component[c].data() + first,
+                 *end = memory.lag[branches + 1].component[c].data() + first;
+    double* s = sum.component[c].data() + first;
+    for (std::size_t i = 0; i < lanes; ++i)
+      s[i] += past.share * u[i] + (past.first * start[i] + past.second * end[i]);
+  };
+  const auto fade = [&](std::size_t c, std::size_t first) {
+    const double *u = state.displacement.component[c].data() + first,
+                 *before = memory.displacement.component[c].data() + first;
+    double* s = sum.component[c].data() + first;
+    double change[lanes], total[lanes] = {}, later[lanes] = {};
+    for (std::size_t i = 0; i < lanes; ++i) change[i] = u[i] - before[i];
+    for (std::size_t n = 0; n < branches; ++n) {
+      const kernel::Fading f = past.fading[n];
+      const double* h = memory.lag[n].component[c].data() + first;
+      double now[lanes];
+      for (std::size_t i = 0; i < lanes; ++i) {
+        now[i] = f.keep * h[i] + f.gain * change[i];
+        total[i] += now[i];
+        later[i] += f.later * now[i];
       }
+      if (noted != nullptr) std::copy_n(now, lanes, noted->lag[n].component[c].data() + first);
     }
+    for (std::size_t i = 0; i < lanes; ++i) s[i] += total[i];
+    if (noted == nullptr) return;
+    double *start = noted->lag[branches].component[c].data() + first,
+           *end = noted->lag[branches + 1].component[c].data() + first;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      start[i] = total[i] - past.gain_now * u[i];
+      end[i] = later[i] - past.gain_later * u[i];
+    }
+    std::copy_n(u, lanes, noted->displacement.component[c].data() + first);
+  };
+  team.split(blocks.size(), lagging_at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t b = begin; b < end; ++b) past.held ? hold(c, blocks[b]) : fade(c, blocks[b]);
   });
 }
 
@@ -69,11 +106,11 @@ BranchEnergy branch_energy(const LatticeModel& model, const RelaxingMemory& memo
   BranchEnergy energy;
   if (memory.lag.empty()) return energy;
   RelaxingMemory now = memory;
-  std::vector<kernel::CellFading> fading;
-  find_fading(model, memory, time, fading);
+  std::vector<kernel::Fading> fading;
+  const kernel::Past past = find_past(model, memory, time, false, fading);
   State lagging(model);
-  add_lags(model, memory, fading, state, team, lagging.displacement, &now);
-  for (std::size_t n = 0; n < now.lag.size(); ++n) {
+  add_lags(model, memory, past, state, team, lagging.displacement, &now);
+  for (std::size_t n = 0; n < fading.size(); ++n) {
     lagging.displacement = now.lag[n];
     const CellLattice& cells = model.cell_lattice;
     const double held = model.relaxation.bulk ? elastic_energy(model, lagging, team)

@@ -11,18 +11,27 @@ namespace fingertip::lattice::kernel {
 
 /// What cells of a rubber that relaxes at large strain remember, as functions of C = FᵀF and of the
 /// modes seen from the rubber, k = F⁻¹ q: S = 2 dW/dC in the units of force (xx, yy, zz, yz, zx,
-/// xy), and dW/dk but for bending, by components and modes. First those of the last note, then
-/// those of every branch.
+/// xy), and dW/dk but for bending, by components and modes.
 inline constexpr int remembered = 18;
-/// Of a branch since then: h = keep h + gain times the change.
-struct CellFading {
+
+/// Of a branch since its values were noted: h = keep h + gain times the change.
+struct Fading {
   double keep = 0.0, gain = 0.0;
+  double later = 0.0;  ///< keep at the end of an interval that begins now
 };
-struct CellPast {
-  const Lanes* values = nullptr;  ///< `remembered` (1 + branches) per block; null: none
-  Lanes* noted = nullptr;         ///< the same, to be brought to the present; null: kept
-  const CellFading* fading = nullptr;
+/// How all branches together have faded.
+struct Past {
+  const Fading* fading = nullptr;
   int branches = 0;
+  /// Within an interval the sum of all branches is share times what drives them plus a part that
+  /// hardly bends in time: `first` and `second` times what it was made of when they were noted.
+  bool held = false;
+  double share = 0.0, first = 1.0, second = 0.0;
+  double gain_now = 0.0, gain_later = 0.0;  ///< `share` at both ends of an interval that begins now
+  /// Of cells, per block and lane: what drove the branches, their h, and the parts at both ends of
+  /// the interval; `remembered` (3 + branches) values. Null: none.
+  const Lanes* values = nullptr;
+  Lanes* noted = nullptr;  ///< the same, to be brought to the present; null: kept
 };
 
 /// Borrowed arrays of a CellLattice and a state; sizes and units as in cell_lattice.h.
@@ -34,7 +43,7 @@ struct CellArrays {
   std::ptrdiff_t row, plane;
   double spacing;
   CellMaterial material;
-  CellPast past;  ///< read by kernels that know it only
+  Past past;  ///< read by kernels that know it only
 };
 
 /// Extremes over cells that a sweep has seen; rest counts among them. The order of sweeps does not

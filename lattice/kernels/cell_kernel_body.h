@@ -182,7 +182,7 @@ struct CellBody : CellResponse<Pack> {
       } else if constexpr (Law == CellLawKind::volume) {
         Response::template answer_volume<Rates>(m, area, u, velocity, extremes, take);
       } else {
-        const typename Response::Past past{a.past, number, lane};
+        const typename Response::Memory past{a.past, number, lane};
         Response::template answer_large<Law, Rates, Fades, Whole>(m, area, u, velocity, past,
                                                                   extremes, take);
       }

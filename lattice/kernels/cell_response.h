@@ -108,26 +108,45 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   };
 
   /// What cells remember (cell_kernel.h), of a block from the pack's first lane on.
-  struct Past {
-    const CellPast& all;
+  struct Memory {
+    const Past& past;
     std::size_t block;
     std::ptrdiff_t lane;
 
-    [[gnu::always_inline]] std::ptrdiff_t at(int branch, int k) const {
-      return (std::ptrdiff_t(block) * (all.branches + 1) + branch) * remembered + k;
+    [[gnu::always_inline]] std::ptrdiff_t at(int row, int k) const {
+      return (std::ptrdiff_t(block) * (past.branches + 3) + row) * remembered + k;
+    }
+    [[gnu::always_inline]] Pack value(int row, int k) const {
+      return load(past.values[at(row, k)].at + lane);
+    }
+    [[gnu::always_inline]] void note(int row, int k, const Pack& value) const {
+      store(past.noted[at(row, k)].at + lane, value);
     }
     /// What the branches make of value k, which is now `now`.
     [[gnu::always_inline]] Pack fade(int k, const Pack& now) const {
-      const Pack change = now - load(all.values[at(0, k)].at + lane);
-      Pack sum = 0.0;
-      for (int n = 0; n < all.branches; ++n) {
-        const std::ptrdiff_t i = at(1 + n, k);
-        const Pack h = Pack(all.fading[n].keep) * load(all.values[i].at + lane) +
-                       Pack(all.fading[n].gain) * change;
-        if (all.noted != nullptr) store(all.noted[i].at + lane, h);
+      const int first = 1 + past.branches;
+      if (past.held)
+        return Pack(past.share) * now +
+               (Pack(past.first) * value(first, k) + Pack(past.second) * value(first + 1, k));
+      return past.noted != nullptr ? fade_from_note<true>(k, now) : fade_from_note<false>(k, now);
+    }
+    template <bool Noting>
+    [[gnu::always_inline]] Pack fade_from_note(int k, const Pack& now) const {
+      const Pack change = now - value(0, k);
+      Pack sum = 0.0, later = 0.0;
+      for (int n = 0; n < past.branches; ++n) {
+        const Fading& f = past.fading[n];
+        const Pack h = Pack(f.keep) * value(1 + n, k) + Pack(f.gain) * change;
         sum = sum + h;
+        if constexpr (!Noting) continue;
+        later = later + Pack(f.later) * h;
+        note(1 + n, k, h);
       }
-      if (all.noted != nullptr) store(all.noted[at(0, k)].at + lane, now);
+      if constexpr (Noting) {
+        note(0, k, now);
+        note(1 + past.branches, k, sum - Pack(past.gain_now) * now);
+        note(2 + past.branches, k, later - Pack(past.gain_later) * now);
+      }
       return sum;
     }
     [[gnu::always_inline]] Modes fade(int k, const Pack& factor, const Modes& now) const {
@@ -189,7 +208,7 @@ struct CellResponse : Law<Pack>, Packs<Pack> {
   template <CellLawKind Kind, bool Rates, bool Fades, bool Whole, typename Velocity, typename Take>
   [[gnu::always_inline]] static void answer_large(const CellMaterial& m, const Pack& area,
                                                   const Field& u, const Velocity& velocity,
-                                                  const Past& past, Extremes& extremes,
+                                                  const Memory& past, Extremes& extremes,
                                                   const Take& take) {
     constexpr bool network = Kind == CellLawKind::network;
     using Hyperelastic = kernel::Hyperelastic<Pack>;
