@@ -1,5 +1,6 @@
 #include "lattice/press/press_setup.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lattice/model/rod.h"
@@ -100,6 +101,15 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
     };
     straight("press.tilt", protocol.tilt, " rad");
     straight("press.lateral", protocol.lateral, " m");
+    const bool goes_up =
+        !std::ranges::is_sorted(protocol.program, {}, &meshes::PressStage::indentation);
+    if (goes_up && protocol.contact == meshes::ContactMode::stick)
+      found.push_back(
+          {"press.program", std::to_string(protocol.program.size()) + " stages",
+           "the published lattice, moving, sticks till the end, as the paper has it: on "
+           "the way back the plane would pull at it",
+           "take press.contact = frictionless or coulomb, press.mode = static, or "
+           "another model"});
   } else if (setup.integrator == Integrator::explicit_euler) {
     found.push_back({"run.integrator", std::string(name(setup.integrator)),
                      "explicit Euler adds energy to undamped motion, and the ties of true surfaces "

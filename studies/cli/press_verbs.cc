@@ -182,8 +182,37 @@ void print_control(const PressSummary& summary) {
   fmt::print("{}\n", text);
 }
 
+/// How each stage of a program went, and what the press cost.
+void print_program(const PressSummary& summary) {
+  const ShownUnits& units = shown_units();
+  double largest = 0.0;
+  for (const StageEntry& stage : summary.program)
+    largest = std::fmax(largest, std::fmax(stage.begin_force, stage.end_force));
+  // What is no more than round-off is not told by its digits.
+  const auto known = [&](double force) {
+    if (std::isnan(force)) return std::string("?");
+    return units.force.text(std::abs(force) < 1e-6 * largest ? 0.0 : force);
+  };
+  for (std::size_t i = 0; i < summary.program.size(); ++i) {
+    const StageEntry& stage = summary.program[i];
+    std::string text = (stage.moves() ? "to " : "hold at ") + units.length.text(stage.indentation);
+    if (!std::isnan(stage.speed)) text += " at " + units.speed.text(stage.speed);
+    if (!std::isnan(stage.end)) text += fmt::format(", {:.4g} to {:.4g} s", stage.begin, stage.end);
+    text += fmt::format(": force from {} to {}", known(stage.begin_force), known(stage.end_force));
+    if (!std::isnan(stage.relaxation))
+      text += fmt::format(", relaxed by {:.3g} %", 100.0 * stage.relaxation);
+    fmt::print("stage {}: {}\n", i + 1, text);
+  }
+  if (std::isnan(summary.work_in)) return;
+  fmt::print("work put in: {:.4g} mJ", 1e3 * summary.work_in);
+  if (!std::isnan(summary.loop_area))
+    fmt::print(", not given back (area of the loop): {:.4g} mJ", 1e3 * summary.loop_area);
+  fmt::print("\n");
+}
+
 void print_press_facts(const std::filesystem::path& folder, bool reused) {
   const auto summary = struct_of<PressSummary>(read_entry(folder / "summary.json"));
+  print_program(summary);
   if (summary.rests()) {
     const StaticCensusEntry& census = summary.static_census;
     fmt::print("{} particles ({} of the tip), {} Newton iterations\n", census.particles,

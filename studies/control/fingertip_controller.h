@@ -71,7 +71,7 @@ typedef struct fingertip_measurement {
   fingertip_wrench on_tip;    /* of the plane on the tip, about the rod's endpoint */
   int32_t has_set_point;      /* 1: the task has a way to follow, and set_point is on it */
   int32_t reserved;           /* 0 */
-  fingertip_target set_point; /* at `time`: the approach at the task's speed */
+  fingertip_target set_point; /* at `time`: the approach at the task's speed, or its stages */
 } fingertip_measurement;
 
 /// What `fingertip_command.kind` may be.

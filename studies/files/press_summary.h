@@ -198,6 +198,26 @@ constexpr auto fields_of(const EndEntry*) {
                &Whole::normal_force);
 }
 
+/// A stage of a press's program. Times since the start [s], unknown without time; forces [N],
+/// unknown where the press did not get.
+struct StageEntry {
+  std::string kind;  ///< "move" or "hold"
+  double indentation = meshes::unknown, speed = meshes::unknown, begin = meshes::unknown,
+         end = meshes::unknown, begin_force = meshes::unknown, end_force = meshes::unknown,
+         relaxation = meshes::unknown;  ///< of a hold: the part of the force that went
+  bool moves() const { return kind != "hold"; }
+  bool holds() const { return !moves(); }
+};
+constexpr auto fields_of(const StageEntry*) {
+  using meshes::if_known, meshes::named, meshes::only;
+  using Whole = StageEntry;
+  return std::tuple_cat(named("kind indentation", &Whole::kind, &Whole::indentation),
+                        if_known(named("speed", &Whole::speed)),
+                        named("begin end begin_force end_force", &Whole::begin, &Whole::end,
+                              &Whole::begin_force, &Whole::end_force),
+                        only(&Whole::holds, named("relaxation", &Whole::relaxation)));
+}
+
 /// summary.json of `press`.
 struct PressSummary {
   std::string model, kinematics, mode, contact, status;
@@ -217,6 +237,10 @@ struct PressSummary {
   double first_touch_time = meshes::unknown, momentum_defect = meshes::unknown;
   std::optional<ScalingEntry> scaling;
   std::vector<std::string> warnings;
+  std::vector<StageEntry> program;  ///< empty: one press
+  /// Of a program in time [J]: what the rod put into the rubber while it pushed, and, where it also
+  /// went back, that less what it got back.
+  double work_in = meshes::unknown, loop_area = meshes::unknown;
   TrackingEntry tracking;
   std::optional<EndEntry> end;
 
@@ -242,7 +266,8 @@ constexpr auto fields_of(const PressSummary*) {
       only(&Whole::moves, named("real_time_factor threads first_touch_time momentum_defect",
                                 &Whole::real_time_factor, &Whole::threads, &Whole::first_touch_time,
                                 &Whole::momentum_defect)),
-      if_known(named("scaling warnings", &Whole::scaling, &Whole::warnings)),
+      if_known(named("scaling warnings program work_in loop_area", &Whole::scaling,
+                     &Whole::warnings, &Whole::program, &Whole::work_in, &Whole::loop_area)),
       only(&Whole::controlled, named("tracking end", &Whole::tracking, &Whole::end)));
 }
 

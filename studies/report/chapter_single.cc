@@ -31,6 +31,19 @@ constexpr SampleAxis by_indentation{"Indentation", &meshes::PressSample::indenta
 constexpr SampleAxis by_displacement{"Lateral displacement",
                                      &meshes::PressSample::lateral_displacement};
 
+/// From zero, where both begin, unless inertia pulls at the rod or it lifts off.
+void begin_at_zero(Panel& panel) {
+  const auto negative = [&](std::vector<double> Series::*values) {
+    return std::ranges::any_of(panel.series, [&](const Series& series) {
+      return std::ranges::any_of(series.*values, [](double value) { return value < 0.0; });
+    });
+  };
+  panel.x_range.reset();
+  panel.y_range.reset();
+  if (!negative(&Series::x)) panel.x_range = Range{0.0, meshes::unknown};
+  if (!negative(&Series::y)) panel.y_range = Range{0.0, meshes::unknown};
+}
+
 Panel curve_panel(SampleRange samples, const SampleAxis& axis, const char* title,
                   double meshes::PressSample::*value, const ShownUnit& unit) {
   Panel panel;
@@ -44,11 +57,33 @@ Panel curve_panel(SampleRange samples, const SampleAxis& axis, const char* title
     series.x.push_back(shown_units().length(sample.*axis.value));
     series.y.push_back(unit(sample.*value));
   }
-  // From zero, where both begin, unless inertia pulls at the rod.
-  panel.x_range = Range{0.0, meshes::unknown};
-  if (std::ranges::all_of(series.y, [](double y) { return !(y < 0.0); }))
-    panel.y_range = Range{0.0, meshes::unknown};
   panel.series.push_back(std::move(series));
+  begin_at_zero(panel);
+  return panel;
+}
+
+/// Force of a whole program: the first loading, and then the way on from its end.
+Panel loop_panel(const meshes::PressResponse& response,
+                 const std::vector<lattice::TraceRow>& trace) {
+  const SampleRange loading = response.pressing();
+  Panel panel = curve_panel(loading, by_indentation, "normal force",
+                            &meshes::PressSample::normal_force, shown_units().force);
+  if (response.following().empty()) return panel;
+  Series then{"then", "then", {}, {}, {}, {"#D55E00", "", 2.2, trace.empty() ? 7 : 0, true}};
+  const auto add = [&then](double indentation, double force) {
+    then.x.push_back(shown_units().length(indentation));
+    then.y.push_back(shown_units().force(force));
+  };
+  add(loading.back().indentation, loading.back().normal_force);
+  for (const lattice::TraceRow& row : trace)
+    if (row.time > loading.back().time) add(row.indentation, row.normal_force);
+  if (trace.empty())
+    for (const meshes::PressSample& sample : response.following())
+      add(sample.indentation, sample.normal_force);
+  panel.series.front().label = "first loading";
+  panel.series.push_back(std::move(then));
+  panel.key = "top left";
+  begin_at_zero(panel);
   return panel;
 }
 
@@ -151,17 +186,12 @@ Figure pressure_figure(const std::vector<ContactRow>& contact) {
 
 }  // namespace
 
-Chapter press_chapter(const meshes::PressResponse& response,
-                      const std::vector<ContactRow>& contact) {
+Chapter press_chapter(const meshes::PressResponse& response, const std::vector<ContactRow>& contact,
+                      const std::vector<lattice::TraceRow>& trace) {
   if (response.empty()) return {};
   const SampleRange samples = response.pressing();
   ChapterData chapter("press");
-  chapter.figures = {{"force_indentation",
-                      760,
-                      420,
-                      1,
-                      {curve_panel(samples, by_indentation, "normal force",
-                                   &meshes::PressSample::normal_force, shown_units().force)}}};
+  chapter.figures = {{"force_indentation", 760, 420, 1, {loop_panel(response, trace)}}};
   add_samples(chapter, samples, by_indentation);
   if (known(samples, &meshes::PressSample::contact_radius))
     chapter.figures.push_back(

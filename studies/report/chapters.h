@@ -36,9 +36,12 @@ std::string variants_answer(const RunData& run);
 /// Every press of a study with its force errors, as plain text.
 std::string variants_text(const RunData& run);
 /// Force, contact radius and, from contact.csv, pressure of one press; without blocks when it has
-/// no sample.
-Chapter press_chapter(const meshes::PressResponse& response,
-                      const std::vector<ContactRow>& contact);
+/// no sample. Of a program the force is drawn to its end, from trace.csv where there is one.
+Chapter press_chapter(const meshes::PressResponse& response, const std::vector<ContactRow>& contact,
+                      const std::vector<lattice::TraceRow>& trace = {});
+/// How the press went on after its first loading: its stages, force in time. `files` may be empty,
+/// but for a lattice's press. Without blocks when nothing followed.
+Chapter program_chapter(const meshes::PressResponse& response, const PressFiles& files);
 /// The lateral motion that followed the press; without blocks when none did.
 Chapter sliding_chapter(const meshes::PressResponse& response);
 /// Its force at full depth in a sentence, and that at the end of a lateral motion in another.

@@ -42,6 +42,50 @@ void write_csv(const Comparison& comparison, const fs::path& file) {
   });
 }
 
+/// What followed the first loading.
+void write_following(const Comparison& comparison, const fs::path& file) {
+  if (comparison.following.empty()) return;
+  const std::vector<ComparedCurve>& curves = comparison.curves;
+  meshes::write_atomically(file, [&](std::ostream& out) {
+    out << "stage,time [s],indentation [m]";
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      out << ',' << meshes::csv_cell(curves[i].label + " normal_force [N]");
+      if (i > 0) out << ',' << meshes::csv_cell(curves[i].label + " relative_difference");
+    }
+    out << '\n';
+    for (const FollowingRow& row : comparison.following) {
+      out << meshes::to_text(row.stage) << ',' << meshes::to_text(row.time) << ','
+          << meshes::to_text(row.indentation);
+      for (std::size_t i = 0; i < curves.size(); ++i) {
+        out << ',' << meshes::to_text(row.forces[i].force.value);
+        if (i > 0) out << ',' << meshes::to_text(row.forces[i].difference);
+      }
+      out << '\n';
+    }
+  });
+}
+
+/// Forces in time of those that have both, from the end of the first loading on.
+Panel following_panel(const Comparison& comparison) {
+  Panel panel;
+  panel.x_label = "time since the end of the first loading [s]";
+  panel.y_label = shown_units().force.label("normal force");
+  panel.key = "outside top center horizontal";
+  for (const ComparedCurve& curve : comparison.curves) {
+    const auto following = curve.response.following();
+    if (following.empty() || std::isnan(following.front().time)) continue;
+    const meshes::PressSample& begin = curve.response.pressing().back();
+    Series series{curve.label, "",         {0.0}, {shown_units().force(begin.normal_force)},
+                  {},          curve.style};
+    for (const meshes::PressSample& sample : following) {
+      series.x.push_back(sample.time - begin.time);
+      series.y.push_back(shown_units().force(sample.normal_force));
+    }
+    panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
 Panel force_panel(const std::vector<ComparedCurve>& curves) {
   Panel panel;
   panel.x_label = shown_units().length.label("indentation");
@@ -209,6 +253,32 @@ std::string lateral_text(const std::vector<ComparedCurve>& curves) {
   return text;
 }
 
+/// What followed the first loading, moment by moment.
+std::string following_text(const Comparison& comparison) {
+  const std::vector<ComparedCurve>& curves = comparison.curves;
+  if (comparison.following.empty()) return {};
+  std::string text = fmt::format("after the first loading\n{:>6}{:>12}{:>14}{:>24}", "stage",
+                                 "time [s]", shown_units().length.label("depth"),
+                                 shown_units().force.label(curves.front().label.substr(0, 18)));
+  for (std::size_t i = 1; i < curves.size(); ++i)
+    text += fmt::format("{:>24}", curves[i].label.substr(0, 20));
+  text += "\n";
+  for (const FollowingRow& row : comparison.following) {
+    text += fmt::format("{:>6}{:>12}{:>14}{:>24}", row.stage,
+                        std::isnan(row.time) ? "" : fmt::format("{:.4f}", row.time),
+                        shown_units().length.decimals(row.indentation),
+                        shown_units().force.decimals(row.forces.front().force.value));
+    for (std::size_t i = 1; i < curves.size(); ++i) {
+      const double difference = row.forces[i].difference;
+      text += fmt::format("{:>24}", std::isnan(difference)
+                                        ? std::string()
+                                        : fmt::format("{:+.2f} %", 100.0 * difference));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 std::string screen_text(const Comparison& comparison) {
   const std::vector<ComparedCurve>& curves = comparison.curves;
   std::string text = table_text(comparison);
@@ -221,6 +291,7 @@ std::string screen_text(const Comparison& comparison) {
   if (const std::string names = interpolated_curves(comparison); !names.empty())
     text += "~: interpolated between samples of " + names + "\n";
   text += lateral_text(curves);
+  text += following_text(comparison);
   for (const ComparisonRemark& remark : comparison.remarks)
     text += (remark.meaningless ? "WARNING: " : "note: ") + remark.text + "\n";
   return text;
@@ -244,6 +315,8 @@ Page comparison_page(const Comparison& comparison, FolderReader& reader) {
   chapter.tables["differences"] = difference_table(comparison);
   if (const Panel lateral = lateral_panel(curves); !lateral.series.empty())
     chapter.figures.push_back({"comparison_lateral", 760, 420, 1, {lateral}});
+  if (const Panel following = following_panel(comparison); following.series.size() > 1)
+    chapter.figures.push_back({"comparison_time", 760, 420, 1, {following}});
   Page page;
   page.title = fmt::format("Comparison of {} force curves", curves.size());
   page.subtitle = "Relative differences are against " + curves.front().label;
@@ -266,6 +339,7 @@ ComparisonResult write_comparison(const std::vector<fs::path>& runs, const fs::p
   fs::create_directories(out_folder);
   publish(page, out_folder, "comparison.html");
   write_csv(comparison, out_folder / "comparison.csv");
+  write_following(comparison, out_folder / "comparison_following.csv");
   return {screen_text(comparison), reader.damage()};
 }
 

@@ -99,8 +99,62 @@ std::vector<double> compared_depths(const std::vector<ComparedCurve>& curves) {
   return {depths.begin(), depths.end()};
 }
 
+/// Whether what follows the first loading was asked at the same moments of the same stages. Times
+/// count from the end of the first loading, wherever a run begins to count.
+bool same_stages(const meshes::PressResponse& a, const meshes::PressResponse& b) {
+  const auto one = a.following(), other = b.following();
+  if (one.size() != other.size()) return false;
+  const double depth = std::max(a.deepest(), b.deepest());
+  const double begin = a.pressing().back().time, other_begin = b.pressing().back().time;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    // Under a controller the rod is about where it should be.
+    constexpr double beside = 0.02, late = 1e-4;
+    if (one[i].stage != other[i].stage ||
+        std::abs(one[i].indentation - other[i].indentation) > beside * depth)
+      return false;
+    const double time = one[i].time - begin, other_time = other[i].time - other_begin;
+    if (std::isnan(time) != std::isnan(other_time) ||
+        std::abs(time - other_time) > late * std::abs(time))
+      return false;
+  }
+  return true;
+}
+
+/// Fills Comparison::following, and tells of curves that have no part in it.
+void compare_following(Comparison& comparison) {
+  const std::vector<ComparedCurve>& all = comparison.curves;
+  const meshes::PressResponse& first = all.front().response;
+  std::vector<bool> takes_part;
+  for (const ComparedCurve& curve : all) {
+    takes_part.push_back(!first.following().empty() && same_stages(curve.response, first));
+    if (!takes_part.back() && !(first.following().empty() && curve.response.following().empty()))
+      comparison.remarks.push_back(
+          {fmt::format("{} and {} do not go through the same stages: what follows the first "
+                       "loading is not compared.",
+                       curve.label, all.front().label)});
+  }
+  if (std::ranges::count(takes_part, true) < 2) return;
+  double largest = 0.0;
+  for (const meshes::PressSample& sample : first.samples())
+    largest = std::max(largest, std::abs(sample.normal_force));
+  for (std::size_t i = 0; i < first.following().size(); ++i) {
+    const meshes::PressSample& wanted = first.following()[i];
+    FollowingRow row{wanted.stage, wanted.time, wanted.indentation, {}};
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      ComparedForce& cell = row.forces.emplace_back();
+      if (!takes_part[c]) continue;
+      cell.force.value = all[c].response.following()[i].normal_force;
+      // Where hardly a force is left, differences are those of noise.
+      constexpr double left = 1e-3;
+      if (std::abs(wanted.normal_force) > left * largest)
+        cell.difference = cell.force.value / wanted.normal_force - 1.0;
+    }
+    comparison.following.push_back(std::move(row));
+  }
+}
+
 Comparison compare(std::vector<ComparedCurve> curves) {
-  Comparison comparison{std::move(curves), {}, {}, {}};
+  Comparison comparison{std::move(curves), {}, {}, {}, {}};
   const std::vector<ComparedCurve>& all = comparison.curves;
   comparison.depths = compared_depths(all);
   for (const double depth : comparison.depths) {
@@ -117,6 +171,7 @@ Comparison compare(std::vector<ComparedCurve> curves) {
         remark_on(all[i].label, all[i].condition, all.front().label, all.front().condition);
     if (remark) comparison.remarks.push_back(*remark);
   }
+  compare_following(comparison);
   return comparison;
 }
 

@@ -40,12 +40,21 @@ struct ComparedForce {
   double difference = meshes::unknown;  ///< relative
 };
 
+/// A moment after the first loading, in the same stage of the same program for all.
+struct FollowingRow {
+  double stage = meshes::unknown, time = meshes::unknown, indentation = meshes::unknown;
+  std::vector<ComparedForce> forces;  ///< per curve; the difference is NaN where no force is left
+};
+
 /// Everything that is compared: forces at depths at which the first curve has samples.
 struct Comparison {
   std::vector<ComparedCurve> curves;
   std::vector<double> depths;                    ///< [m]
   std::vector<std::vector<ComparedForce>> rows;  ///< per depth and curve
   std::vector<ComparisonRemark> remarks;
+  /// Of programs: those rows of the first curve that all curves with the same stages have. A curve
+  /// of another program, or of none, has no force there.
+  std::vector<FollowingRow> following;
 
   bool interpolates(std::size_t curve) const {
     return std::ranges::any_of(rows,

@@ -214,7 +214,8 @@ class PageMaker {
                        "A mass-spring fingertip pressed against a plane");
     page.answer = joined(words([&] { return press_answer(press.response); }),
                          words([&] { return control_answer({press}); }));
-    add(page, [&] { return press_chapter(press.response, {}); });
+    add(page, [&] { return press_chapter(press.response, {}, press.trace); });
+    add(page, [&] { return program_chapter(press.response, press); });
     add(page, [&] { return control_chapter(std::vector{press}); });
     add(page, [&] { return snapshots_chapter(std::vector{press}); });
     end(page);
@@ -227,6 +228,8 @@ class PageMaker {
                        "A mass-spring fingertip in equilibrium on a plane");
     page.answer = words([&] { return press_answer(run_.response); });
     add(page, [&] { return press_chapter(run_.response, run_.contact); });
+    add(page,
+        [&] { return program_chapter(run_.response, read_press_files(run_.folder, reader_)); });
     add(page, [&] { return sliding_chapter(run_.response); });
     end(page);
     return page;
@@ -237,6 +240,7 @@ class PageMaker {
     Page page = headed("Soft fingertip: the continuum", "A deal.II continuum pressed on a plane");
     page.answer = words([&] { return press_answer(run_.reference); });
     add(page, [&] { return force_chapter(run_); });
+    add(page, [&] { return program_chapter(run_.reference, {}); });
     add(page, [&] { return sliding_chapter(run_.reference); });
     for (const auto chapter : {continuum_chapter, pictures_chapter, cost_chapter})
       add(page, [&] { return chapter(run_); });

@@ -79,8 +79,8 @@ ordered_json inputs_of(const meshes::PressProtocol& protocol, bool moves) {
   drop(inputs, {"speed", "clearance"});
   if (protocol.program.empty()) return inputs;
   ordered_json stages = ordered_json::array();
-  for (const meshes::PressStage& stage : protocol.program)
-    if (stage.moves()) stages.push_back(stage.indentation);
+  for (const meshes::PressStage& stage : protocol.program)  // without time a hold only counts
+    stages.push_back(stage.moves() ? ordered_json(stage.indentation) : ordered_json());
   inputs["program"] = stages;
   return inputs;
 }

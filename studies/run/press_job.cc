@@ -12,6 +12,7 @@
 #include "studies/run/jobs.h"
 #include "studies/run/movie.h"
 #include "studies/run/press_notes.h"
+#include "studies/run/program_summary.h"
 #include "studies/run/snapshot_files.h"
 #include "studies/run/static_press_job.h"
 #include "studies/run/tracking.h"
@@ -76,6 +77,9 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOu
   summary.momentum_defect = outcome.momentum_defect;
   if (setup.integrator == lattice::Integrator::mass_scaled) summary.scaling = scaling_of(setup);
   summary.warnings = scaling_notes(setup);
+  summary.program = stage_entries(setup.protocol, outcome.trace);
+  if (!summary.program.empty()) summary.work_in = outcome.work_in;
+  if (goes_back(setup.protocol)) summary.loop_area = outcome.work;
   if (!summary.controlled()) return summary;
   summary.tracking = tracking_of(setup, outcome);
   if (!outcome.trace.empty()) {

@@ -10,6 +10,7 @@
 #include "studies/files/run_tables.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/program_summary.h"
 
 namespace fingertip::studies {
 
@@ -25,6 +26,7 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::StaticO
                            long(outcome.cells),   long(outcome.unknowns),  outcome.volume,
                            outcome.exact_volume};
   summary.effort = {outcome.steps, outcome.newton_iterations, outcome.factorisations};
+  summary.program = stage_entries(setup.protocol, outcome.response);
   summary.smallest_jacobian = outcome.smallest_jacobian;
   summary.wall_time = outcome.wall_time;
   return summary;

@@ -1,5 +1,6 @@
 #include "studies/run/tracking.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fingertip::studies {
@@ -32,11 +33,14 @@ void measure_held_force(const std::vector<lattice::TraceRow>& trace, Tracking& t
 
 Tracking measure_tracking(const std::vector<lattice::TraceRow>& trace, double first_touch) {
   Tracking tracking;
+  // Of a press without stages the commanded speed of every row that counts.
+  double fastest = 0.0;
+  for (const lattice::TraceRow& row : trace)
+    fastest = std::max(fastest, std::abs(row.commanded_speed));
   for (const lattice::TraceRow& row : trace) {
     tracking.tilt = larger(tracking.tilt, std::abs(row.tilt));
-    if (row.time < settling_time || row.commanded_speed == 0.0 || row.force_mode) continue;
-    const double deviation =
-        std::abs(row.speed - row.commanded_speed) / std::abs(row.commanded_speed);
+    if (row.time < settling_time || fastest == 0.0 || row.force_mode) continue;
+    const double deviation = std::abs(row.speed - row.commanded_speed) / fastest;
     const bool touching = row.time >= first_touch && row.time < first_touch + touch_time;
     double& worst = touching ? tracking.speed_deviation_at_touch : tracking.speed_deviation;
     worst = larger(worst, deviation);

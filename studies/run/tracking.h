@@ -11,8 +11,8 @@ namespace fingertip::studies {
 /// Largest deviations over a trace, of speed while the controller does not control the contact
 /// force instead; NaN where the trace has no row to judge.
 struct Tracking {
-  /// |speed - command| / |command| from 50 ms after the start, without the first 20 ms after
-  /// first touch; dimensionless.
+  /// |speed - command| / (largest |command|) from 50 ms after the start, without the first 20 ms
+  /// after first touch; dimensionless.
   double speed_deviation = meshes::unknown;
   double speed_deviation_at_touch = meshes::unknown;  ///< the same within those 20 ms
   double tilt = meshes::unknown;                      ///< over the whole press [rad]

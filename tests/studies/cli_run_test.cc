@@ -272,6 +272,66 @@ TEST(Run, ALateralMotionFollowsTheStaticPress) {
   EXPECT_NE(fit.err.find("press.lateral_path = after"), std::string::npos) << fit.err;
 }
 
+// Pressed, held and lifted: on the screen, in the folder, on its page and beside another run.
+TEST(Run, APressInStagesTellsRelaxationAndLoop) {
+  const TemporaryFolder folder;
+  const auto press = [&](const char* out, const char* change, const char* last) {
+    return run_program(
+        folder.path(),
+        {"press", "--out", out, "--set", "press.mode=quasi-static", "--set",
+         "lattice.spacing=tip_radius/4", "--set", change, "--set",
+         std::string(R"(press.program=[["1 mm", "20 mm/s"], ["hold", "0.1 s"], )") + last + "]"});
+  };
+  const char* const up = R"(["-0.1 mm", "20 mm/s"])";
+  const ProgramResult result = press("one", "rubber.retardation_time=1 ms", up);
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("stage 2: hold at 1 mm, "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("relaxed by "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("(area of the loop)"), std::string::npos) << result.out;
+  const PressResponse response = PressResponse::read_csv(folder / "one/response.csv");
+  EXPECT_EQ(response.pressing().back().indentation, 1e-3);
+  ASSERT_EQ(response.following().size(), 20U);
+  EXPECT_EQ(response.following()[9].stage, 2.0);
+  EXPECT_EQ(response.following().back().indentation, -1e-4);
+  const auto summary = nlohmann::json::parse(read_text(folder / "one/summary.json"));
+  ASSERT_EQ(summary["program"].size(), 3U);
+  EXPECT_EQ(summary["program"][1]["kind"], "hold");
+  EXPECT_NEAR(double(summary["program"][1]["end"]) - double(summary["program"][1]["begin"]), 0.1,
+              1e-9);
+  EXPECT_NEAR(summary["program"][1]["relaxation"],
+              1.0 - double(summary["program"][1]["end_force"]) /
+                        double(summary["program"][1]["begin_force"]),
+              1e-12);
+  EXPECT_GT(summary["loop_area"], 0.0);
+  EXPECT_GT(summary["work_in"], summary["loop_area"]);
+  ASSERT_EQ(run_program(folder.path(), {"report", "one"}).code, 0);
+  EXPECT_NE(read_text(folder / "one/report.html").find("Normal force and indentation in time"),
+            std::string::npos);
+  EXPECT_EQ(
+      run_program(folder.path(), {"press", "--config", "one/parameters.toml", "--out", "again"})
+          .code,
+      0);
+
+  ASSERT_EQ(press("two", "rubber.retardation_time=2 ms", up).code, 0);
+  const ProgramResult beside = run_program(folder.path(), {"compare", "one", "two"});
+  ASSERT_EQ(beside.code, 0) << beside.err;
+  EXPECT_NE(beside.out.find("after the first loading"), std::string::npos) << beside.out;
+  ASSERT_EQ(press("other", "rubber.retardation_time=2 ms", R"(["0.5 mm", "20 mm/s"])").code, 0);
+  const ProgramResult other = run_program(folder.path(), {"compare", "one", "other"});
+  ASSERT_EQ(other.code, 0) << other.err;
+  EXPECT_NE(other.out.find("do not go through the same stages"), std::string::npos) << other.out;
+
+  const ProgramResult rest = press("rest", "press.mode=static", up);
+  ASSERT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(PressResponse::read_csv(folder / "rest/response.csv").following().size(), 10U);
+  ASSERT_EQ(run_program(folder.path(), {"report", "rest"}).code, 0);
+  const ProgramResult force = run_program(
+      folder.path(), {"press", "--out", "force", "--set", "controller.type=force", "--set",
+                      R"(press.program=[["1 mm", "20 mm/s"], ["hold", "0.1 s"]])"});
+  EXPECT_EQ(force.code, 2);
+  EXPECT_NE(force.err.find("press.program"), std::string::npos) << force.err;
+}
+
 // The continuum's lowest frequencies are 49.18, 54.15 (twice) and 62.57 Hz
 // (fem_reference/README.md).
 TEST(Run, ModesOfTheLatticeAreThoseOfTheContinuum) {

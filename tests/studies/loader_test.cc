@@ -251,3 +251,65 @@ TEST(Loader, AKeyThatDoesNothingIsToldOf) {
   EXPECT_TRUE(notes({"controller.force=50 mN", "controller.type=hybrid"}).empty());
   EXPECT_TRUE(notes({"press.friction=0.5"}).empty()) << "its default";
 }
+
+TEST(Loader, AProgramDecidesDepthSpeedAndSamples) {
+  const std::string program =
+      R"(press.program=[["0.2 cm", "3 cm/s"], ["hold", "2 s"], ["-0.1 mm", "1 mm/s"]])";
+  const LoadedConfig loaded = load_config({{}, {program, R"(press.samples=["0.1 cm"])"}, {}});
+  const auto& protocol = loaded.config.press.protocol;
+  using Stages = std::vector<fingertip::meshes::PressStage>;
+  EXPECT_EQ(protocol.program, (Stages{{2e-3, 0.03, 0.0}, {2e-3, 0.0, 2.0}, {-1e-4, 1e-3, 0.0}}));
+  EXPECT_EQ(protocol.depth, 2e-3);
+  EXPECT_EQ(protocol.speed, 0.03);
+  EXPECT_EQ(protocol.samples, (std::vector<double>{1e-3, 2e-3}));
+  EXPECT_EQ(loaded.config.reference.protocol.program, protocol.program);
+  EXPECT_TRUE(loaded.notes.empty());
+  // What is written down can be run again, and what is said twice alike is welcome.
+  const TemporaryFolder folder;
+  write_text(folder / "again.toml", parameters_toml(loaded, "head"));
+  EXPECT_EQ(load_config({folder / "again.toml", {}, {}}).config.press.protocol.program,
+            protocol.program);
+  EXPECT_NO_THROW(load_config({{}, {program, "press.depth=2 mm", "press.speed=30 mm/s"}, {}}));
+}
+
+TEST(Loader, RefusesProgramsWithTheNumberOfTheStage) {
+  const auto refusal = [](const std::vector<std::string>& sets) {
+    try {
+      load_config({{}, sets, {}});
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string start = R"(press.program=[["0.2 cm", "1 cm/s"])";
+  for (const auto& [stages, words] : {
+           std::pair{"press.program=3", "must be a list of pairs"},
+           {R"(press.program=["0.2 cm", "1 cm/s"])", "stage 1: must be a pair of texts"},
+           {R"(press.program=[["hold", "1 s"]])", "stage 1: a program begins with a move"},
+           {R"(press.program=[["0 cm", "1 cm/s"]])", "stage 1: the first stage must press"},
+       })
+    EXPECT_NE(refusal({stages}).find(words), std::string::npos) << refusal({stages});
+  for (const auto& [stage, words] :
+       {std::pair{R"(["hold"])", "stage 2: must be a pair of texts"},
+        {R"(["hold", "1 Hz"])", "stage 2: "},
+        {R"(["hold", "0 s"])", "stage 2: a hold must take"},
+        {R"(["0.1 cm", "1 cm"])", "stage 2: "},
+        {R"(["0.1 cm", "-1 cm/s"])", "stage 2: the speed of a move must be positive"},
+        {R"(["0.1 cm", 1])", "stage 2: must be a pair of texts"},
+        {R"(["0.2 cm", "1 cm/s"])", "stage 2: the move ends where it begins"},
+        {R"(["-1 cm", "1 cm/s"])", "stage 2: the indentation must lie between minus the clearance"},
+        {R"(["5 cm", "1 cm/s"])", "stage 2: the indentation must lie between"}}) {
+    const std::string text = refusal({start + ", " + stage + "]"});
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+    EXPECT_NE(text.find("press.program"), std::string::npos) << text;
+  }
+  for (const char* other :
+       {"press.depth=0.25 cm", "press.speed=2 cm/s", R"(press.samples=["0.1 cm", "0.4 cm"])"}) {
+    const std::string text = refusal({start + "]", other});
+    EXPECT_NE(text.find(std::string("--set ") + other), std::string::npos) << text;
+    EXPECT_NE(text.find("press.program"), std::string::npos) << text;
+  }
+  EXPECT_NE(refusal({start + "]", "press.lateral=1 mm", "press.lateral_path=after"})
+                .find("no lateral motion follows"),
+            std::string::npos);
+}

@@ -170,6 +170,19 @@ TEST(ProgramPress, LetsGoOfThePlaneAndTouchesAgain) {
   }
 }
 
+TEST(ProgramPress, ThePublishedLatticeLetsGoUnlessItSticksTillTheEnd) {
+  PressSetup setup = with_program({move(depth, 0.05), move(-0.2e-3, 0.05), hold(-0.2e-3, 0.2)});
+  setup.lattice.model = lattice::ModelKind::published;
+  setup.lattice.kinematics = lattice::Kinematics::finite;
+  setup.lattice.constants = lattice::published_constants(setup.rubber, setup.lattice.spacing);
+  EXPECT_EQ(lattice::run_press(setup).trace.back().anchored, 0);
+  setup.protocol.contact = ContactMode::stick;  // paper, II.F
+  ASSERT_EQ(setup.violations().size(), 1u);
+  EXPECT_EQ(setup.violations()[0].key, "press.program");
+  setup.protocol.mode = DriveMode::equilibrium;
+  EXPECT_TRUE(setup.violations().empty());
+}
+
 TEST(ProgramPress, EveryIntegratorFollowsIt) {
   const std::vector<PressStage> program = {move(depth), hold(depth, 0.2), move(0.0),
                                            hold(0.0, 0.2)};

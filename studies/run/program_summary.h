@@ -1,0 +1,24 @@
+/// What the stages of a press's program came to.
+#pragma once
+
+#include <vector>
+
+#include "lattice/press/press.h"
+#include "meshes/press_protocol.h"
+#include "studies/files/press_summary.h"
+
+namespace fingertip::studies {
+
+/// Of a press in time, its forces from the rows of its trace around the moments; empty without a
+/// program.
+std::vector<StageEntry> stage_entries(const meshes::PressProtocol& protocol,
+                                      const std::vector<lattice::TraceRow>& trace);
+
+/// Of a press without time, its forces from its response; a hold changes nothing.
+std::vector<StageEntry> stage_entries(const meshes::PressProtocol& protocol,
+                                      const meshes::PressResponse& response);
+
+/// Whether some stage goes back up.
+bool goes_back(const meshes::PressProtocol& protocol);
+
+}  // namespace fingertip::studies
