@@ -42,7 +42,8 @@ TEST(ReferenceJob, SurvivesTheFile) {
                 2000.0 / 3.0 * 3.1,
                 900.0,
                 1e-3,
-                {meshes::RubberLaw::ogden, VolumetricLaw::quadratic, {0.75, 1.3, 0.25, 4.0}}};
+                {meshes::RubberLaw::ogden, VolumetricLaw::quadratic, {0.75, 1.3, 0.25, 4.0}},
+                {{{0.2, 0.01}, {0.1, 1.0 / 3.0}}, false}};
   job.protocol.contact = meshes::ContactMode::coulomb;
   job.protocol.friction = 0.3;
   job.protocol.tilt = -0.2;
