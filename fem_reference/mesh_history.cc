@@ -44,7 +44,8 @@ constexpr std::pair<const char*, double meshes::PressSample::*> sample_entries[]
     {"contact_radius", &meshes::PressSample::contact_radius},
     {"max_pressure", &meshes::PressSample::max_pressure},
     {"time", &meshes::PressSample::time},
-    {"lateral_displacement", &meshes::PressSample::lateral_displacement}};
+    {"lateral_displacement", &meshes::PressSample::lateral_displacement},
+    {"stage", &meshes::PressSample::stage}};
 constexpr std::pair<const char*, double PressState::*> real_entries[] = {
     {"node_spacing", &PressState::node_spacing},
     {"min_jacobian", &PressState::min_jacobian},
@@ -72,8 +73,9 @@ Json state_to_json(const PressState& state) {
 
 PressState state_from_json(const Json& json) {
   PressState state;
-  for (const auto& [key, member] : sample_entries) state.sample.*member = value_of(json.at(key));
-  // A checkpoint of an earlier version has no indicator.
+  // A checkpoint of an earlier version has no stage and no indicator.
+  for (const auto& [key, member] : sample_entries)
+    state.sample.*member = value_of(json.value(key, Json()));
   for (const auto& [key, member] : real_entries) state.*member = value_of(json.value(key, Json()));
   for (const auto& [key, member] : whole_entries) state.*member = json.at(key).get<int>();
   for (const Json& point : json.at("contact"))
@@ -98,8 +100,14 @@ const PressState* MeshHistory::finest_state(std::size_t index) const {
 ForceError MeshHistory::error(std::size_t index) const {
   ForceError error = edge_error(index);
   const PressState* finest = finest_state(index);
-  if (finest && finest->contact.empty()) error.value = 0.0;
-  if (std::isnan(error.value) || finest->contact.empty()) return error;
+  if (finest && finest->contact.empty()) {  // what other meshes still feel
+    error.value = 0.0;
+    for (const MeshRecord& record : meshes_)
+      if (index < record.states.size())
+        error.value = std::max(error.value, record.states[index].sample.normal_force);
+    return error;
+  }
+  if (std::isnan(error.value)) return error;
   const PressState& state = *finest;
   const double typical = typical_edge_error() * edge_scale(state);
   if (typical > error.value) error.value = typical;
@@ -156,11 +164,13 @@ std::vector<double> MeshHistory::relative_errors() const {
   double largest = 0.0;
   for (const PressState& state : states) largest = std::max(largest, state.sample.normal_force);
   std::vector<double> errors;
-  for (const PressState& state : states)
-    errors.push_back(state.contact.empty()
-                         ? 0.0
-                         : state.sample.force_error /
-                               std::max(state.sample.normal_force, least_share_ * largest));
+  for (const PressState& state : states) {
+    const double force = state.sample.normal_force, error = state.sample.force_error,
+                 least = least_share_ * largest;
+    constexpr double none = 1e-3;  // of that, a force is round-off where it should vanish
+    const bool vanishes = error == 0.0 || (std::isnan(error) && force < none * least);
+    errors.push_back(vanishes ? 0.0 : error / std::max(force, least));
+  }
   return errors;
 }
 

@@ -37,7 +37,7 @@ class MeshHistory {
   /// Each sample from the finest mesh on which it has been computed, with its `force_error`.
   std::vector<PressState> best() const;
   /// Error of sample `index` on the finest mesh that has it: the safety times max(e, m w, b), and
-  /// the steps' share; NaN while e is. 0 where nothing touches.
+  /// the steps' share; NaN while e is. Where nothing touches the largest force of a coarser mesh.
   ///
   /// e: estimate_force_error with the node spacing h at this sample's contact edge as the measure
   /// of a mesh: adaptive meshes are refined here for one sample and there for another, and a mesh

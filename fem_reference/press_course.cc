@@ -29,6 +29,10 @@ meshes::PressPose PressCourse::at(double s) const {
   return {indentation, path_.slope() * indentation};
 }
 
+double PressCourse::stage(std::size_t sample) const {
+  return motion_ ? double(motion_->samples().at(sample).stage) + 1.0 : path_.stage(sample);
+}
+
 double PressCourse::acceleration(double s) const {
   return motion_ ? motion_->at(touch_time_ + time(s)).acceleration : 0.0;
 }

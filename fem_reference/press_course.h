@@ -25,6 +25,8 @@ class PressCourse {
 
   /// Where output is wanted, increasing; every leg ends at one.
   const std::vector<double>& samples() const { return samples_; }
+  /// The stage of a program in which a sample lies, from 1; NaN without one.
+  double stage(std::size_t sample) const;
   meshes::PressPose at(double s) const;
   /// Since first touch [s].
   double time(double s) const { return s / speed_; }

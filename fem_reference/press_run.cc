@@ -9,6 +9,7 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "fem_reference/mesh_history.h"
 #include "fem_reference/press.h"
@@ -198,7 +199,9 @@ class PressRun {
   void press_on(ContinuumPress& press) {
     const std::size_t total = places_.size();
     for (std::size_t i = history_.finest().states.size(); i < total; ++i) {
-      history_.add(press.advance(places_[i]));
+      PressState state = press.advance(places_[i]);
+      state.sample.stage = course_.stage(i);
+      history_.add(std::move(state));
       keep_sample(press, i);
       progress_.report("press", i + 1, total,
                        "mesh " + std::to_string(history_.meshes().size()) + ": " +

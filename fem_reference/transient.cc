@@ -35,7 +35,8 @@ class TransientRun {
                const std::function<bool()>& stop_requested)
       : folder_(folder),
         job_(job),
-        places_(PressCourse(job.protocol, true).samples()),
+        course_(job.protocol, true),
+        places_(course_.samples()),
         progress_(progress),
         stop_requested_(stop_requested) {}
 
@@ -148,6 +149,7 @@ class TransientRun {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       try {
         states_.push_back(press->advance(places_[i]));
+        states_.back().sample.stage = course_.stage(i);
       } catch (...) {
         steps_ = press->steps();
         throw;
@@ -238,6 +240,7 @@ class TransientRun {
 
   const fs::path folder_;
   const ReferenceJob& job_;
+  const PressCourse course_;
   const std::vector<double> places_;  ///< of the samples on the course [m]
   RunProgress progress_;
   const std::function<bool()>& stop_requested_;

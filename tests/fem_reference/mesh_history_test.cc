@@ -140,6 +140,35 @@ TEST(MeshHistory, ErrorIndicatorsRaiseTheBar) {
   EXPECT_NEAR(history.error(0).value, 0.2 * 1.01, 1e-12);
 }
 
+TEST(MeshHistory, AddsWhatTheStepsAreOff) {
+  MeshHistory history = three_meshes();
+  const double before = history.error(0).value;
+  history.set_step_errors({1e-3, 0.0});
+  EXPECT_NEAR(history.error(0).value, before + 1e-3 * 1.01, 1e-12);
+}
+
+TEST(MeshHistory, SmallForcesOfAProgramNeedNoBetterErrorThanLargeOnes) {
+  const auto with = [](double least_share) {
+    MeshHistory history(1.0, least_share);
+    for (const double spacing : {coarse, medium, fine}) {
+      history.start_mesh(mesh(std::size_t(1e-7 / (spacing * spacing * spacing))));
+      history.add(state(1e-3, 1.0 + 100.0 * spacing * spacing, spacing));
+      history.add(state(1e-3, 0.01 + 100.0 * spacing * spacing, spacing));
+      PressState open = state(0.0, 0.0, 0.0);
+      open.contact.clear();
+      open.energy = 0.0;
+      history.add(open);
+    }
+    return history;
+  };
+  const MeshHistory strict = with(0.0), program = with(0.1);
+  EXPECT_EQ(program.error(2).value, 0.0);
+  EXPECT_NEAR(program.worst_relative_error(), 0.1 * strict.worst_relative_error(), 1e-6);
+  const double between = 0.5 * strict.worst_relative_error();
+  EXPECT_EQ(strict.beyond(between), (std::vector<char>{0, 1, 0}));
+  EXPECT_EQ(program.beyond(between), (std::vector<char>{0, 0, 0}));
+}
+
 TEST(MeshHistory, AddsUpTheTimeOfAMesh) {
   MeshHistory history = three_meshes();
   EXPECT_EQ(history.meshes()[0].wall_time, 1.0);

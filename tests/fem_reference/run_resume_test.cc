@@ -19,6 +19,25 @@ ReferenceJob small_job() {
   return job;
 }
 
+/// A rubber that relaxes remembers what was before.
+TEST(Interrupted, GoesOnWithWhatTheRubberRemembers) {
+  const TemporaryFolder parent;
+  ReferenceJob job = small_job();
+  job.strain = fingertip::fem_reference::Strain::finite;
+  job.protocol.speed = 0.01;
+  job.rubber.relaxation = {{{0.3, 0.02}, {0.2, 0.2}}, true};
+  job.symmetry = fingertip::fem_reference::Symmetry::axisymmetric;
+  const fs::path undisturbed = run_folder(parent, "undisturbed", job);
+  ASSERT_EQ(carry_out(undisturbed), 0);
+  const fs::path folder = run_folder(parent, "stopped", job);
+  FemProgram program(folder, {folder.string()});
+  ASSERT_TRUE(program.runs_until([&] { return samples_of(folder).size() >= 2; }));
+  program.send(SIGTERM);
+  EXPECT_EQ(program.wait(), 130);
+  ASSERT_EQ(carry_out(folder), 0);
+  expect_same_results(undisturbed, folder);
+}
+
 /// Both signals ask it to stop; the same job done again in the folder ends as if undisturbed.
 TEST(Interrupted, KeepsItsSamplesAndCanBeDoneAgain) {
   const TemporaryFolder parent;

@@ -175,6 +175,36 @@ TEST(ReferenceRun, CarriesOutTiltFrictionAndLargeStrain) {
   EXPECT_LT(summary.at("samples")[1].at("min_jacobian"), 1.0);
 }
 
+/// Error bars of every row, in the order of time, at rest and in motion; to where nothing touches.
+TEST(ReferenceRun, GoesThroughAProgramOfARubberThatRelaxes) {
+  const TemporaryFolder parent;
+  ReferenceJob job;
+  job.press_to({5e-4, 1e-3});
+  job.protocol.contact = ContactMode::frictionless;
+  job.protocol.program = {{1e-3, 0.05, 0.0}, {1e-3, 0.0, 0.1}, {0.0, 0.05, 0.0}};
+  job.rubber.relaxation = {{{0.3, 0.01}, {0.2, 0.1}}, false};
+  job.refinement = 0.3;
+  job.tolerance = 0.02;
+  for (const auto analysis :
+       {fem_reference::Analysis::static_press, fem_reference::Analysis::transient}) {
+    job.analysis = analysis;
+    const fs::path folder = run_folder(parent, std::string(name(analysis)), job);
+    ASSERT_EQ(carry_out(folder), 0);
+    const auto samples = samples_of(folder);
+    ASSERT_EQ(samples.size(), 2U + 10U + 2U);
+    EXPECT_EQ(samples[1].stage, 1.0);
+    EXPECT_EQ(samples[2].stage, 2.0);
+    EXPECT_EQ(samples.back().stage, 3.0);
+    EXPECT_LT(samples[11].normal_force, 0.9 * samples[1].normal_force);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      EXPECT_GE(samples[i].force_error, 0.0) << i;
+      EXPECT_LT(samples[i].force_error, 0.1 * samples[1].normal_force) << i;
+    }
+    EXPECT_NEAR(samples.back().normal_force / samples[1].normal_force, 0.0, 0.02);
+    EXPECT_EQ(summary_of(folder).at("status"), "ok");
+  }
+}
+
 TEST(ReferenceRun, KeepsItsSamplesWhenTheToleranceIsOutOfReach) {
   const TemporaryFolder parent;
   ReferenceJob job = small_job();

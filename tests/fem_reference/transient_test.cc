@@ -106,17 +106,18 @@ TEST(GeneralisedAlpha, FollowsAModeOfARubberThatRelaxes) {
   const Eigen::EigenSolver<Eigen::Matrix3d> solver(rates);
   const Eigen::Vector3cd start =
       solver.eigenvectors().fullPivLu().solve(Eigen::Vector3cd(1.0, 0.0, 0.0));
-  const Eigen::Vector3cd end = (solver.eigenvalues() * time).array().exp() * start.array();
+  const Eigen::Vector3cd end =
+      ((solver.eigenvalues() * time).array().exp() * start.array()).matrix();
   const double exact = (solver.eigenvectors() * end)[0].real();
   std::vector<double> errors;
-  for (const int steps : {64, 128, 256}) {
+  for (const int steps : {256, 512, 1024}) {
     LinearMemory<3> memory(*vibration.body, job);
     const double found = vibration.amplitude_after(time, steps, std::move(memory));
     errors.push_back(std::abs(found - exact));
   }
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2.0, 0.15);
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2.0, 0.1);
-  EXPECT_LT(errors[2], 0.02);
+  EXPECT_LT(errors[2], 1e-3);
 }
 
 TEST(GeneralisedAlpha, KeepsWhatMovesUniformlyAndKnowsItsMass) {
@@ -289,15 +290,16 @@ TEST(TransientPress, BalancesEnergyAndMomentumOfARubberThatRelaxesOnAProgram) {
     press.job.protocol.program = {{2e-3, 0.1, 0.0}, {2e-3, 0.0, 0.05}, {5e-4, 0.05, 0.0}};
     const auto transient = press.transient();
     const PressCourse course(press.job.protocol, true);
-    double most_inertia = 0.0;
+    double most_inertia = 0.0, most_work = 0.0;
     for (const double place : course.samples()) {
       const PressState state = transient->advance(place);
       const TransientStep& now = transient->steps().back();
       // Of the bond itself, whose nodes the rod's acceleration loads, too.
       EXPECT_NEAR(transient->bond_force() / state.sample.normal_force, 1.0, 1e-6) << place;
       const double spent = now.kinetic_energy + now.elastic_energy + now.dissipated_energy;
-      EXPECT_LT(spent, now.work * (1 + 3e-3)) << place;
-      EXPECT_GT(spent, now.work * (1 - 1e-2)) << place;
+      most_work = std::max(most_work, now.work);
+      EXPECT_LT(spent, now.work + 3e-3 * most_work) << place;
+      EXPECT_GT(spent, now.work - 1e-2 * most_work) << place;
       most_inertia = std::max(most_inertia, std::abs(now.contact_force / now.normal_force - 1.0));
     }
     EXPECT_GT(most_inertia, 1e-3);
