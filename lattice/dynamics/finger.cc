@@ -127,11 +127,6 @@ CellExtremes Finger::internal_forces(const State& state, double time, VectorFiel
   return internal_.accumulate(state, time, now_.relaxing, force);
 }
 
-BranchEnergy Finger::branch_energy() const {
-  Team team = team_;  // a handle
-  return lattice::branch_energy(*model_, now_.relaxing, now_.state, now_.time, team);
-}
-
 Finger::Trial Finger::attempt(const State& state, const RodState& rod, const Plane& plane,
                               double time, VectorField& force) {
   Trial trial;

@@ -91,7 +91,9 @@ class Finger {
   /// Forces of springs and cells alone [N].
   CellExtremes internal_forces(const State& state, double time, VectorField& force);
   /// What holds the stress of a rubber that relaxes, at the present state.
-  BranchEnergy branch_energy() const;
+  BranchEnergy branch_energy() const {
+    return internal_.branch_energy(now_.state, now_.time, now_.relaxing);
+  }
   /// Takes note of the present state as one that a step starts from: anchors of the contact,
   /// bond(), extremes().
   void start_step();

@@ -28,6 +28,7 @@ InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
   std::copy(model.stiffness.begin(), model.stiffness.end(), arrays_.stiffness);
   std::copy(model.damping.begin(), model.damping.end(), arrays_.damping);
   if (!rates_) damped_ = VectorField(model.points());
+  if (!model.relaxation.empty()) lagging_ = State(model);
   if (!model.relaxation.bulk) lag_ = VectorField(model.points());
 }
 

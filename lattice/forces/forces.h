@@ -29,6 +29,10 @@ class InternalForces {
                           VectorField& force);
   /// The same, and the memory is brought to this state when it is time to.
   CellExtremes note(const State& state, double time, RelaxingMemory& memory, VectorField& force);
+  /// What the branches hold and lose at a state that follows `memory`.
+  BranchEnergy branch_energy(const State& state, double time, const RelaxingMemory& memory) const {
+    return lattice::branch_energy(*model_, memory, state, time, *team_, lagging_);
+  }
 
  private:
   const VectorField& damped(const State& state);
@@ -45,8 +49,9 @@ class InternalForces {
   CellForces cells_, shear_;                ///< `shear_`: what relaxes where the bulk does not
   bool rates_ = true;  ///< else one pass at u + tau v serves stiffness and damping
   kernel::Arrays arrays_{};
-  VectorField damped_;  ///< u + tau v, and what relaxes
-  VectorField lag_;     ///< what relaxes where the bulk does not
+  VectorField damped_;     ///< u + tau v, and what relaxes
+  VectorField lag_;        ///< what relaxes where the bulk does not
+  mutable State lagging_;  ///< scratch
   std::vector<kernel::Fading> fading_;
 };
 

@@ -59,14 +59,15 @@ void add_lags(const LatticeModel& model, const RelaxingMemory& memory, const ker
               const State& state, Team& team, VectorField& sum, RelaxingMemory* noted) {
   const std::vector<std::uint32_t>& blocks = model.blocks;
   const std::size_t branches = std::size_t(past.branches);
+  const double share = past.share, at_start = past.first, at_end = past.second;
   /// Of eight points from `first` on.
-  const auto hold = [&](std::size_t c, std::size_t first) {
+  const auto hold = [&, share, at_start, at_end](std::size_t c, std::size_t first) {
     const double *u = state.displacement.component[c].data() + first,
                  *start = memory.lag[branches].component[c].data() + first,
                  *end = memory.lag[branches + 1].component[c].data() + first;
     double* s = sum.component[c].data() + first;
     for (std::size_t i = 0; i < lanes; ++i)
-      s[i] += past.share * u[i] + (past.first * start[i] + past.second * end[i]);
+      s[i] += share * u[i] + (at_start * start[i] + at_end * end[i]);
   };
   const auto fade = [&](std::size_t c, std::size_t first) {
     const double *u = state.displacement.component[c].data() + first,
@@ -102,23 +103,30 @@ void add_lags(const LatticeModel& model, const RelaxingMemory& memory, const ker
 }
 
 BranchEnergy branch_energy(const LatticeModel& model, const RelaxingMemory& memory,
-                           const State& state, double time, Team& team) {
+                           const State& state, double time, Team& team, State& lagging) {
   BranchEnergy energy;
   if (memory.lag.empty()) return energy;
-  RelaxingMemory now = memory;
-  std::vector<kernel::Fading> fading;
-  const kernel::Past past = find_past(model, memory, time, false, fading);
-  State lagging(model);
-  add_lags(model, memory, past, state, team, lagging.displacement, &now);
-  for (std::size_t n = 0; n < fading.size(); ++n) {
-    lagging.displacement = now.lag[n];
+  for (std::size_t n = 0; n < model.relaxation.branches.size(); ++n) {
+    const double own = model.relaxation.branches[n].time, b = model.relaxation.excess(n);
+    const meshes::Fading fading(time - memory.time, own);
+    const double keep = fading.keep, gain = fading.gain * b;
+    team.split(model.blocks.size(), lagging_at_once, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double *u = state.displacement.component[c].data(),
+                     *before = memory.displacement.component[c].data(),
+                     *h = memory.lag[n].component[c].data();
+        double* now = lagging.displacement.component[c].data();
+        for (std::size_t block = begin; block < end; ++block)
+          for (std::size_t i = model.blocks[block]; i < model.blocks[block] + lanes; ++i)
+            now[i] = keep * h[i] + gain * (u[i] - before[i]);
+      }
+    });
     const CellLattice& cells = model.cell_lattice;
     const double held = model.relaxation.bulk ? elastic_energy(model, lagging, team)
                                               : cell_energy(cells, cells.material.shear_alone(),
-                                                            lagging.displacement, team),
-                 stored = held / model.relaxation.excess(n);
-    energy.stored += stored;
-    energy.dissipation += 2.0 * stored / model.relaxation.branches[n].time;
+                                                            lagging.displacement, team);
+    energy.stored += held / b;
+    energy.dissipation += 2.0 * held / (b * own);
   }
   return energy;
 }

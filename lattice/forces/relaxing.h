@@ -46,6 +46,6 @@ struct BranchEnergy {
   double dissipation = 0.0;  ///< sum of b/tau d·K d [W]
 };
 BranchEnergy branch_energy(const LatticeModel& model, const RelaxingMemory& memory,
-                           const State& state, double time, Team& team);
+                           const State& state, double time, Team& team, State& scratch);
 
 }  // namespace fingertip::lattice

@@ -323,7 +323,7 @@ TEST(RelaxingLattice, EnergyNeverGrowsWithoutInput) {
       if (n % 10 == 0)
         window += 10.0 / per_window *
                   (lattice::kinetic_energy(model, middle) + lattice::elastic_energy(model, middle) +
-                   lattice::branch_energy(model, memory, middle, time, team).stored);
+                   forces.branch_energy(middle, time, memory).stored);
       time += step;
       if ((n + 1) % per_window != 0) continue;
       if (n + 1 == per_window) {
