@@ -72,7 +72,7 @@ calibration::Material fitted(lattice::ModelKind model) {
   m.model = model;
   m.spacing = 1e-2 / 8.0;
   m.kinematics = default_kinematics(model);
-  m.rubber = {5000.0, 1800.0, 900.0, 1.0 / 3.0e3, {}};
+  m.rubber = {5000.0, 1800.0, 900.0, 1.0 / 3.0e3, {}, {}};
   m.constants = lattice::hookean_constants(m.rubber, m.spacing);
   m.ligament_stiffness = 1.25;
   m.contact_stiffness = 0.7;
