@@ -181,6 +181,7 @@ TEST(ReferenceRun, GoesThroughAProgramOfARubberThatRelaxes) {
   ReferenceJob job;
   job.press_to({5e-4, 1e-3});
   job.protocol.contact = ContactMode::frictionless;
+  job.protocol.speed = 0.05;
   job.protocol.program = {{1e-3, 0.05, 0.0}, {1e-3, 0.0, 0.1}, {0.0, 0.05, 0.0}};
   job.rubber.relaxation = {{{0.3, 0.01}, {0.2, 0.1}}, false};
   job.refinement = 0.3;
@@ -198,7 +199,9 @@ TEST(ReferenceRun, GoesThroughAProgramOfARubberThatRelaxes) {
     EXPECT_LT(samples[11].normal_force, 0.9 * samples[1].normal_force);
     for (std::size_t i = 0; i < samples.size(); ++i) {
       EXPECT_GE(samples[i].force_error, 0.0) << i;
-      EXPECT_LT(samples[i].force_error, 0.1 * samples[1].normal_force) << i;
+      // In motion what still shakes in a hold differs where steps are doubled.
+      const bool shakes = analysis == fem_reference::Analysis::transient;
+      EXPECT_LT(samples[i].force_error, (shakes ? 0.2 : 0.05) * samples[1].normal_force) << i;
     }
     EXPECT_NEAR(samples.back().normal_force / samples[1].normal_force, 0.0, 0.02);
     EXPECT_EQ(summary_of(folder).at("status"), "ok");
