@@ -69,7 +69,7 @@ double covariance(const Place& a, const Place& b) {
 }
 
 /// Cells through the thickness, and depths between which the ratio of two theories is straight.
-constexpr double coarse_cells = 3.0;
+constexpr double coarse_cells = 5.0;
 constexpr std::size_t coarse_depths = 8;
 
 std::vector<double> forces(PressSetup press, ModelKind model, Kinematics kinematics) {

@@ -27,9 +27,9 @@ namespace fingertip::calibration {
 Eigen::MatrixXd lattice_covariance(const std::vector<lattice::PressSetup>& presses);
 
 /// By how much forces of law A exceed those of small strain under `press`, relative, at every
-/// sample: by static lattices of three cells through the thickness, whose own errors nearly cancel
-/// in the ratio (2.7 instead of 1.5 % at 0.05 cm of the default finger, from 0.1 cm on within 1 %
-/// of the force and 4 % of the excess). Between at most eight computed depths linear. Poisson's
+/// sample: by static lattices of five cells through the thickness, whose own errors nearly cancel
+/// in the ratio (within 1.3 % of the force at 0.05 cm of the default finger, from 0.1 cm on within
+/// 1 % of the force and 4 % of the excess). Between at most eight computed depths linear. Poisson's
 /// ratio is the setup's rubber's, but at least 0. Throws as run_static_press does.
 Eigen::VectorXd excess_of_finite_strain(lattice::PressSetup press);
 

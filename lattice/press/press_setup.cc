@@ -72,10 +72,39 @@ void add_step_control(std::vector<Violation>& found, const PressSetup& setup) {
 
 namespace {
 
+void add_relaxation(std::vector<Violation>& found, const PressSetup& setup) {
+  const meshes::Relaxation& relaxation = setup.rubber.relaxation;
+  if (relaxation.empty()) return;
+  const auto refuse = [&](const char* rule, const char* remedy) {
+    found.push_back({"rubber.relaxation", std::to_string(relaxation.branches.size()) + " branches",
+                     rule, remedy});
+  };
+  const LatticeSettings& lattice = setup.lattice;
+  const bool springs = lattice.model == ModelKind::central,
+             finite = lattice.kinematics == Kinematics::finite;
+  if (setup.protocol.mode == meshes::DriveMode::equilibrium)
+    refuse("a lattice in equilibrium knows no time, and a rubber that relaxes depends on it",
+           "take press.mode = quasi-static or pid; without rubber.relaxation an equilibrium is "
+           "that after long times");
+  else if (lattice.model == ModelKind::published || (finite && lattice.model != ModelKind::network))
+    refuse("the published lattice does not relax, and at large strain no springs do",
+           "take lattice.model = hookean at small strain, network at large");
+  else if (finite && setup.integrator == Integrator::energy_controlled)
+    refuse("at large strain the stress that relaxes is not known by an energy",
+           "take run.integrator = symplectic-euler or runge-kutta");
+  else if (finite && !relaxation.bulk)
+    refuse("at large strain the lattice relaxes as a whole",
+           "take rubber.relaxation_bulk = true, or lattice.kinematics = small");
+  else if (springs && !relaxation.bulk)
+    refuse("springs have no bulk modulus of their own that could stay",
+           "take lattice.model = hookean, or rubber.relaxation_bulk = true");
+}
+
 /// Of what the lattice cannot do: contact, model and integrator.
 std::vector<Violation> beyond_the_model(const PressSetup& setup) {
   const meshes::PressProtocol& protocol = setup.protocol;
   std::vector<Violation> found;
+  add_relaxation(found, setup);
   if (protocol.mode == meshes::DriveMode::equilibrium) {
     if (protocol.contact == meshes::ContactMode::coulomb) {
       found.push_back({"press.contact", "coulomb",
@@ -136,39 +165,10 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
   return found;
 }
 
-void add_relaxation(std::vector<Violation>& found, const PressSetup& setup) {
-  const meshes::Relaxation& relaxation = setup.rubber.relaxation;
-  if (relaxation.empty()) return;
-  const auto refuse = [&](const char* rule, const char* remedy) {
-    found.push_back({"rubber.relaxation", std::to_string(relaxation.branches.size()) + " branches",
-                     rule, remedy});
-  };
-  const LatticeSettings& lattice = setup.lattice;
-  const bool springs = lattice.model == ModelKind::central,
-             finite = lattice.kinematics == Kinematics::finite;
-  if (setup.protocol.mode == meshes::DriveMode::equilibrium)
-    refuse("a lattice in equilibrium knows no time, and a rubber that relaxes depends on it",
-           "take press.mode = quasi-static or pid; without rubber.relaxation an equilibrium is "
-           "that after long times");
-  else if (lattice.model == ModelKind::published || (finite && lattice.model != ModelKind::network))
-    refuse("the published lattice does not relax, and at large strain no springs do",
-           "take lattice.model = hookean at small strain, network at large");
-  else if (finite && setup.integrator == Integrator::energy_controlled)
-    refuse("at large strain the stress that relaxes is not known by an energy",
-           "take run.integrator = symplectic-euler or runge-kutta");
-  else if (finite && !relaxation.bulk)
-    refuse("at large strain the lattice relaxes as a whole",
-           "take rubber.relaxation_bulk = true, or lattice.kinematics = small");
-  else if (springs && !relaxation.bulk)
-    refuse("springs have no bulk modulus of their own that could stay",
-           "take lattice.model = hookean, or rubber.relaxation_bulk = true");
-}
-
 }  // namespace
 
 std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
   std::vector<Violation> found = beyond_the_model(setup);
-  add_relaxation(found, setup);
   add_light_rod(found, setup);
   return found;
 }

@@ -101,6 +101,7 @@ Value read_terms(const Key& key, const toml::node& node) {
     if (pair == nullptr || pair->size() != 2) refuse(rule, advice);
     for (const bool number : {first, !first}) {
       const toml::node& part = pair->at(number == first ? 0 : 1);
+      if (part.is_number() != number) refuse(rule, advice);
       value.numbers.push_back((number ? read_number(key, part) : read_quantity(key, part)).number);
     }
   }

@@ -49,6 +49,7 @@ Job modes_job(const lattice::PressSetup& setup, int count) {
                 {"lattice", meshes::json_of(setup.lattice)},
                 {"modes", count}};
   job.inputs["rubber"].erase("retardation_time");  // undamped
+  job.inputs["rubber"].erase("relaxation");        // after long times
   job.inputs["rubber"].erase("energy");            // at rest
   job.source_hash = source_hash::lattice;
   job.weight = 2.0 * std::pow(setup.geometry.tip_radius / (12.0 * setup.lattice.spacing), 6);

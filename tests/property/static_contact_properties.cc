@@ -129,7 +129,9 @@ bool frictionless_contact_only_pushes(Against against) {
       RC_ASSERT((force - push * normal).norm() <= 1e-14 * push);
       const bool pushes_where_crossed = gap < 0.0 ? push > 0.0 : push == 0.0;
       RC_ASSERT(pushes_where_crossed);
-      if (gap < 0.0) work += 0.5 * point.stiffness * gap * gap;
+      if (gap < 0.0)
+        work += point.stiffness *
+                lattice::kernel::TiePush<double>(c.specimen.body.contact, -gap).energy;
     }
     RC_ASSERT(std::abs(c.contact->energy(u) - work) <= 1e-12 * work);
     check_derivatives(c, u);

@@ -22,6 +22,7 @@ namespace {
   const bool rates = finite || !model.proportional_damping;
   kernel::Arrays a{};
   for (std::size_t c = 0; c < 3; ++c) {
+    a.displacement[c] = state.displacement.component[c].data();
     a.velocity[c] = state.velocity.component[c].data();
     a.force[c] = force.component[c].data();
   }

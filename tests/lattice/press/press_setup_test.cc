@@ -63,6 +63,39 @@ TEST(PressSetup, OnlyThePublishedModelIsPressedStraightOnAStraightGrid) {
   EXPECT_EQ(keys_of(setup.violations()), Keys{"lattice.rotation"});
 }
 
+TEST(PressSetup, RelaxesInTimeAndWhereItsCellsCan) {
+  using lattice::Kinematics;
+  using lattice::ModelKind;
+  lattice::PressSetup usual = valid_setup();
+  usual.rubber.relaxation = {{{0.3, 0.1}}, true};
+  EXPECT_TRUE(usual.violations().empty());
+  const auto refused = [](const lattice::PressSetup& setup) {
+    return keys_of(setup.violations()) == Keys{"rubber.relaxation"};
+  };
+  lattice::PressSetup setup = usual;
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
+  EXPECT_TRUE(refused(setup));
+  setup = usual;
+  setup.lattice.model = ModelKind::published;
+  EXPECT_TRUE(refused(setup));
+  setup = usual;
+  setup.lattice.kinematics = Kinematics::finite;
+  EXPECT_TRUE(refused(setup));
+  setup.lattice.model = ModelKind::network;
+  EXPECT_TRUE(setup.violations().empty());
+  setup.integrator = lattice::Integrator::energy_controlled;
+  EXPECT_TRUE(refused(setup));
+  setup.integrator = lattice::Integrator::runge_kutta;
+  EXPECT_TRUE(setup.violations().empty());
+  setup.rubber.relaxation.bulk = false;
+  EXPECT_TRUE(refused(setup));
+  setup = usual;
+  setup.lattice.model = ModelKind::central;
+  EXPECT_TRUE(setup.violations().empty());
+  setup.rubber.relaxation.bulk = false;
+  EXPECT_TRUE(refused(setup));
+}
+
 TEST(PressSetup, AMovingRodDoesNotTurnACorner) {
   lattice::PressSetup setup = valid_setup();
   setup.protocol.lateral_path = meshes::LateralPath::after;
