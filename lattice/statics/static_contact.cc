@@ -156,9 +156,8 @@ int StaticContact::release_pulled(const VectorXd& displacement) {
   int count = 0;
   for (std::size_t i = 0; i < body_->outer.size(); ++i) {
     if (!anchored_[i] || released_[i]) continue;
-    const Vector3 stretch =
-        position(body_->outer[i], displacement) - plane_.point(place_) - anchor_[i];
-    if (stretch.dot(anchor_normal_[i]) <= gap_noise) continue;
+    const double push = tie_force(i, displacement).dot(anchor_normal_[i]);
+    if (push >= -gap_noise * body_->outer[i].stiffness) continue;
     anchored_[i] = 0;
     released_[i] = 1;
     ++count;

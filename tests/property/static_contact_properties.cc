@@ -177,7 +177,12 @@ bool sticking_contact_holds_what_it_touched() {
       const Vector3 last = position(point, u) - c.plane.point(c.depth);
       const double before = first.dot(c.plane.normal), after = last.dot(c.plane.normal);
       const Vector3 back = after / (before - after) * (last - first);
-      const Vector3 expected = after < 0.0 ? Vector3(point.stiffness * back) : Vector3::Zero();
+      // Beyond what a linear tie would push, that of a layer that stiffens.
+      const double more =
+          lattice::kernel::TiePush<double>(c.specimen.body.contact, std::max(-after, 0.0)).length -
+          std::max(-after, 0.0);
+      const Vector3 expected =
+          after < 0.0 ? Vector3(point.stiffness * (back + more * c.plane.normal)) : Vector3::Zero();
       crossed += after < 0.0 ? 1 : 0;
       RC_ASSERT((c.contact->tie_force(i, u) - expected).norm() <=
                 1e-11 * point.stiffness * c.specimen.geometry.tip_radius);

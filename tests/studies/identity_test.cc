@@ -215,6 +215,8 @@ const Sets no_continuum = {"reference."}, no_fit = {"calibration."}, no_grasp = 
 /// A lattice that moves does so diagonally; one at rest knows no coefficient of friction.
 const Sets diagonal = {"press.lateral_path", "press.lateral_samples"},
            no_friction = {"press.friction"};
+/// Refused where a lattice in equilibrium takes part.
+const Sets relaxation = {"rubber.relaxation", "rubber.relaxation_bulk"};
 /// The continuum beside a fit is what the fit needs.
 const Sets beside = {"reference.mode",  "reference.strain", "reference.law",
                      "reference.modes", "reference.fields", "reference.field_sectors"};
@@ -241,8 +243,8 @@ const World worlds[] = {
              no_rod,
              no_time,
              no_friction,
-             {"rubber.density", "rubber.retardation_time", "rubber.relaxation",
-              "rubber.relaxation_bulk"}})},
+             relaxation,
+             {"rubber.density", "rubber.retardation_time"}})},
     {"lattice's modes",
      {"press.mode=static"},
      lattice_modes,
@@ -252,8 +254,8 @@ const World worlds[] = {
              no_grasp,
              no_rod,
              no_time,
-             {"press.", "obstacle.", "rubber.retardation_time", "rubber.relaxation",
-              "rubber.relaxation_bulk"}})},
+             relaxation,
+             {"press.", "obstacle.", "rubber.retardation_time"}})},
     {"grasp",
      {},
      grasp,
@@ -349,6 +351,7 @@ const World worlds[] = {
              follow_up,
              beside,
              own_depths,
+             relaxation,
              {"calibration.data", "calibration.forward", "calibration.poisson_range"}})},
     {"fit of the damping",
      {"calibration.problem=damping", "calibration.points=2", "lattice.spacing=tip_radius/6"},
@@ -364,6 +367,7 @@ const World worlds[] = {
              beside,
              own_depths,
              controllers,
+             relaxation,
              // Presses come from far enough; tau alone is free.
              {"press.clearance", "calibration.data", "calibration.forward",
               "calibration.poisson_range", "calibration.parameters", "calibration.profile"}})},
