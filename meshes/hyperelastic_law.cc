@@ -141,7 +141,7 @@ double divided_difference(double n, double apart) {
 Vector3d free_of_volume(const Vector3d& v) {
   return v.array() - v.mean();
 }
-Matrix3d free_of_volume(const Vector3d& diagonal, bool) {
+Matrix3d diagonal_free_of_volume(const Vector3d& diagonal) {
   Matrix3d m = diagonal.asDiagonal();
   m.colwise() -= diagonal / 3.0;
   m.rowwise() -= diagonal.transpose() / 3.0;
@@ -171,7 +171,7 @@ void add_excess(const StrainEnergy& energy, const Vector3d& logs, double J, doub
   if (energy.isochoric()) {
     const Vector3d free = free_of_volume(first), one = Vector3d::Ones();
     change = free - 2.0 / 3.0 * chi * one;
-    curvature = free_of_volume(second, true) -
+    curvature = diagonal_free_of_volume(second) -
                 2.0 / 3.0 * (one * free.transpose() + free * one.transpose()) +
                 4.0 / 9.0 * chi * one * one.transpose();
   }
@@ -210,7 +210,7 @@ Spectral spectral_of(const StrainEnergy& energy, const Matrix3d& F, double J, do
   s.change = gamma.asDiagonal();
   if (energy.isochoric()) {
     s.tau = free_of_volume(s.tau);
-    s.change = free_of_volume(gamma, true);
+    s.change = diagonal_free_of_volume(gamma);
   }
   add_excess(energy, logs, J, excess, s);
   return s;

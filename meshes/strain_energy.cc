@@ -152,7 +152,8 @@ std::vector<Violation> StrainEnergy::violations() const {
     if (std::abs(sum - 1.0) > 1e-9)
       refuse("rubber.ogden", sum, "mu_i/G must sum to 1", "let the mu_i sum to the shear modulus");
   }
-  if (!found.empty()) return found;
+  const bool always_stable = law == RubberLaw::linear || law == RubberLaw::neo_hookean;
+  if (!found.empty() || always_stable) return found;
   if (const auto fails = first_instability(*this, 0.5, 2.0)) {
     found.push_back(
         {std::string("rubber.") + std::string(key_of(law)), std::string(name(law)),

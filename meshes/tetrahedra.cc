@@ -68,12 +68,13 @@ class Borders {
         next_[a].insert(b);
         next_[b].insert(a);
       }
+    for (const auto& [vertex, others] : next_) corners_[vertex] = turns(vertex, others);
   }
 
   std::vector<Polyline> polylines() {
     std::vector<Polyline> lines;
     for (const auto& [vertex, others] : next_) {
-      if (!is_corner(vertex)) continue;
+      if (!corners_.at(vertex)) continue;
       while (!next_.at(vertex).empty()) lines.push_back(line_from(vertex));
     }
     for (const auto& [vertex, others] : next_)  // those without a corner
@@ -84,18 +85,16 @@ class Borders {
  private:
   const Vector3& at(int vertex) const { return surface_.mesh.vertices[std::size_t(vertex)]; }
 
-  bool is_corner(int vertex) {
-    const auto [known, is_new] = corners_.try_emplace(vertex, true);
-    const std::set<int>& others = next_.at(vertex);
-    if (!is_new || others.size() != 2) return known->second;
+  /// Whether a line ends there.
+  bool turns(int vertex, const std::set<int>& others) const {
+    if (others.size() != 2) return true;
     const Vector3 before = at(vertex) - at(*others.begin()),
                   after = at(*others.rbegin()) - at(vertex);
-    return known->second = before.dot(after) < corner_cosine * before.norm() * after.norm();
+    return before.dot(after) < corner_cosine * before.norm() * after.norm();
   }
 
   /// Takes the edges it goes along.
   Polyline line_from(int start) {
-    for (const auto& [vertex, others] : next_) is_corner(vertex);
     Polyline line{point_of(at(start))};
     for (int here = start;;) {
       const int there = *next_.at(here).begin();
@@ -109,7 +108,7 @@ class Borders {
 
   const PartedSurface& surface_;
   std::map<int, std::set<int>> next_;
-  std::map<int, bool> corners_;  ///< as told before edges were taken
+  std::map<int, bool> corners_;  ///< where a line ends, before edges were taken
 };
 
 struct Sizes {

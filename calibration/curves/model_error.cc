@@ -6,6 +6,7 @@
 
 #include "lattice/model/constants.h"
 #include "lattice/press/static_press.h"
+#include "meshes/interpolation.h"
 #include "meshes/solid.h"
 
 namespace fingertip::calibration {
@@ -82,15 +83,6 @@ std::vector<double> forces(PressSetup press, ModelKind model, Kinematics kinemat
   return result;
 }
 
-/// Straight lines from the origin through (xs, ys).
-double between(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
-  const auto above = std::ranges::lower_bound(xs, x);
-  if (above == xs.end()) return ys.back();
-  const std::size_t i = std::size_t(above - xs.begin());
-  const double x0 = i > 0 ? xs[i - 1] : 0.0, y0 = i > 0 ? ys[i - 1] : 0.0;
-  return y0 + (ys[i] - y0) * (x - x0) / (xs[i] - x0);
-}
-
 }  // namespace
 
 Eigen::MatrixXd lattice_covariance(const std::vector<PressSetup>& presses) {
@@ -122,11 +114,14 @@ Eigen::VectorXd excess_of_finite_strain(PressSetup press) {
   press.protocol.depth = press.protocol.samples.back();
   const auto small = forces(press, ModelKind::hookean, Kinematics::small);
   const auto finite = forces(press, ModelKind::network, Kinematics::finite);
-  std::vector<double> ratio;
-  for (std::size_t i = 0; i < small.size(); ++i) ratio.push_back(finite[i] / small[i] - 1.0);
+  std::vector<double> depths{0.0}, ratio{0.0};
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    depths.push_back(press.protocol.samples[i]);
+    ratio.push_back(finite[i] / small[i] - 1.0);
+  }
   Eigen::VectorXd result{Index(wanted.size())};
   for (std::size_t i = 0; i < wanted.size(); ++i)
-    result(Index(i)) = between(press.protocol.samples, ratio, wanted[i]);
+    result(Index(i)) = meshes::interpolated(depths, ratio, wanted[i]);
   return result;
 }
 

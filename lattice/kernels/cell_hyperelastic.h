@@ -1,5 +1,5 @@
 /// Laws of large strain beyond `network` for packs of cells: what meshes/hyperelastic_law.h is for
-/// one point, and a bound on the tangent that steps rest on. Formulas: README of this folder.
+/// one point, and a bound on the tangent that steps rest on. Formulas: meshes/LAWS.md.
 #pragma once
 
 #include "lattice/kernels/cell_material.h"
@@ -214,19 +214,22 @@ struct Hyperelastic : PackAlgebra<Pack> {
   static Powers powers(const CellStrainEnergy& law, const Pack (&log_l)[3], const Pack& scale) {
     Powers p;
     p.energy = 0.0;
-    for (int k = 0; k < 3; ++k) p.tau[k] = p.gamma[k] = p.power[k] = p.slope[k] = p.secant[k] = 0.0;
+    Pack inverse[3];
+    for (int k = 0; k < 3; ++k) {
+      p.tau[k] = p.gamma[k] = p.power[k] = p.slope[k] = p.secant[k] = 0.0;
+      inverse[k] = Algebra::exp(Pack(-2.0) * log_l[k]);
+    }
     for (int i = 0; i < 6; i += 2) {
       const double mu = law.shape[i], alpha = law.shape[i + 1];
       if (mu == 0.0) continue;
       for (int k = 0; k < 3; ++k) {
         const Pack more = Algebra::expm1(Pack(alpha) * log_l[k]), l = Pack(1.0) + more;
-        const Pack inverse = Algebra::exp(Pack(-2.0) * log_l[k]);
         p.energy += Pack(2.0 * mu / (alpha * alpha)) * more;
         p.tau[k] += Pack(2.0 * mu / alpha) * l;
         p.gamma[k] += Pack(2.0 * mu) * l;
-        p.power[k] += Pack(mu / 3.0) * l * inverse * scale;
-        p.slope[k] += Pack(mu / 3.0 * (alpha - 2.0)) * l * inverse * scale;
-        p.secant[k] += Pack(mu < 0.0 ? -mu : mu) * l * inverse * scale;
+        p.power[k] += Pack(mu / 3.0) * l * inverse[k] * scale;
+        p.slope[k] += Pack(mu / 3.0 * (alpha - 2.0)) * l * inverse[k] * scale;
+        p.secant[k] += Pack(mu < 0.0 ? -mu : mu) * l * inverse[k] * scale;
       }
     }
     return p;

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
+#include "meshes/interpolation.h"
 #include "studies/run/json_file.h"
 
 namespace fingertip::studies {
@@ -13,15 +13,6 @@ using Eigen::Index;
 using nlohmann::ordered_json;
 
 namespace {
-
-/// y at x by straight lines, constant beyond the ends.
-double interpolated(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
-  const auto above = std::ranges::lower_bound(xs, x);
-  if (above == xs.begin()) return ys.front();
-  if (above == xs.end()) return ys.back();
-  const std::size_t i = std::size_t(above - xs.begin());
-  return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
-}
 
 std::string statement(const ordered_json& parameters) {
   std::string text =
@@ -45,12 +36,12 @@ Eigen::VectorXd lattice_error(const calibration::Curve& curve, const std::vector
   std::vector<double> depths, relative;
   for (const meshes::PressSample& sample : continuum.samples()) {
     depths.push_back(sample.indentation);
-    relative.push_back(1.0 -
-                       sample.normal_force / interpolated(curve.x, fitted, sample.indentation));
+    relative.push_back(1.0 - sample.normal_force /
+                                 meshes::interpolated(curve.x, fitted, sample.indentation));
   }
   Eigen::VectorXd error(Index(fitted.size()));
   for (std::size_t i = 0; i < fitted.size(); ++i)
-    error(Index(i)) = fitted[i] * interpolated(depths, relative, curve.x[i]);
+    error(Index(i)) = fitted[i] * meshes::interpolated(depths, relative, curve.x[i]);
   return error;
 }
 

@@ -1,9 +1,9 @@
 #include "studies/run/plate_factor.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "meshes/interpolation.h"
 #include "meshes/press_response.h"
 #include "studies/run/jobs.h"
 
@@ -20,13 +20,7 @@ const std::vector<double> compressions = {0.02, 0.05, 0.1, 0.2, 0.3, deepest_stu
 }  // namespace
 
 double PlateFactor::at(double mean_stretch) const {
-  if (mean_stretch >= 1.0) return 1.0;
-  const auto next = std::ranges::lower_bound(stretch, mean_stretch);
-  if (next == stretch.begin()) return factor.front();
-  if (next == stretch.end()) return factor.back();
-  const std::size_t i = std::size_t(next - stretch.begin());
-  const double share = (mean_stretch - stretch[i - 1]) / (stretch[i] - stretch[i - 1]);
-  return factor[i - 1] + share * (factor[i] - factor[i - 1]);
+  return mean_stretch >= 1.0 ? 1.0 : meshes::interpolated(stretch, factor, mean_stretch);
 }
 
 ReferenceJob stuck_cylinder(const Plates& plates, const SizedLaw& law) {
