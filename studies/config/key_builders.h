@@ -46,6 +46,8 @@ inline constexpr Kind kind_of<meshes::Vector3> = Kind::numbers;
 template <>
 inline constexpr Kind kind_of<std::vector<double>> = Kind::number_pair;
 template <>
+inline constexpr Kind kind_of<std::vector<meshes::RelaxationBranch>> = Kind::terms;
+template <>
 inline constexpr Kind kind_of<std::vector<meshes::PressStage>> = Kind::stages;
 template <>
 inline constexpr Kind kind_of<std::vector<std::string>> = Kind::texts;
@@ -67,6 +69,9 @@ std::string literal_of(const T& member) {
     return number_literal(member);
   } else if constexpr (std::is_enum_v<T>) {
     return '"' + std::string(name(member)) + '"';
+  } else if constexpr (std::is_same_v<T, meshes::RelaxationBranch>) {
+    return '[' + number_literal(member.share) + ", " + quantity_literal(member.time, "s", "s") +
+           ']';
   } else if constexpr (std::is_same_v<T, meshes::PressStage>) {
     if (!member.moves()) return "[\"hold\", " + quantity_literal(member.hold, "s", "s") + ']';
     return '[' + quantity_literal(member.indentation, "m", "cm") + ", " +
@@ -99,6 +104,10 @@ void store(const Value& value, T& member) {
     member = meshes::Vector3(value.numbers.data());
   } else if constexpr (std::is_same_v<T, std::vector<double>>) {
     member = value.numbers;
+  } else if constexpr (std::is_same_v<T, std::vector<meshes::RelaxationBranch>>) {
+    member.clear();
+    for (std::size_t i = 0; i + 1 < value.numbers.size(); i += 2)
+      member.push_back({value.numbers[i], value.numbers[i + 1]});
   } else if constexpr (std::is_same_v<T, std::vector<meshes::PressStage>>) {
     member.clear();
     for (std::size_t i = 0; i + 2 < value.numbers.size(); i += 3)

@@ -97,21 +97,12 @@ std::vector<Key> specimen_keys() {
   const auto relaxation = [](auto member) {
     return at(&Config::press, &lattice::PressSetup::rubber, &Rubber::relaxation, member);
   };
-  using Branches = std::vector<meshes::RelaxationBranch>;
   Key branches = plain("rubber", "relaxation", any,
                        "Prony series: pairs of a share g of G0 and its time, [[0.2, \"0.1 s\"], "
                        "...]; E and G are those after long times",
-                       at(&Config::coefficients, &LawCoefficients::ogden));
-  branches.kind = Kind::terms;
+                       relaxation(&meshes::Relaxation::branches));
   branches.number_first = true;
   branches.unit = "s";
-  branches.assign = [target = relaxation(&meshes::Relaxation::branches)](Config& config,
-                                                                         const Value& value) {
-    Branches& series = target(config);
-    series.clear();
-    for (std::size_t i = 0; i + 1 < value.numbers.size(); i += 2)
-      series.push_back({value.numbers[i], value.numbers[i + 1]});
-  };
   return {
       choice("geometry", "shape",
              {{"dome", "the paper's finger: hemisphere and sleeve on a rod"},
