@@ -46,27 +46,11 @@ struct Terms {
          mixed_second = 0.0, curvature = 0.0;
 };
 
-/// W/G without volume: dW/dI1, dW/dI2, d²W/dI1² and W less its part in I2.
-struct Invariants {
-  double energy, first, second, curvature;
-};
-
-Invariants invariants_of(const StrainEnergy& energy, double I1) {
-  const auto& s = energy.shape;
-  const double x = I1 - 3.0;
-  switch (energy.law) {
-    case RubberLaw::yeoh:
-      return {x * (0.5 + x * (s[0] + x * s[1])), 0.5 + x * (2.0 * s[0] + 3.0 * x * s[1]), 0.0,
-              2.0 * s[0] + 6.0 * x * s[1]};
-    case RubberLaw::mooney_rivlin:
-      return {0.5 * (1.0 - s[0]) * x, 0.5 * (1.0 - s[0]), 0.5 * s[0], 0.0};
-    case RubberLaw::gent: {
-      const double left = 1.0 - x / s[0];
-      if (!(left > 0.0)) throw std::domain_error("the gent law is stretched beyond its limit Jm");
-      return {-0.5 * s[0] * std::log1p(-x / s[0]), 0.5 / left, 0.0, 0.5 / (s[0] * left * left)};
-    }
-    default: return {0.5 * x, 0.5, 0.0, 0.0};
-  }
+InvariantSlopes slopes_within_limit(const StrainEnergy& energy, double I1) {
+  const InvariantSlopes d = invariant_slopes(energy, I1 - 3.0);
+  if (energy.law == RubberLaw::gent && std::isinf(d.energy))
+    throw std::domain_error("the gent law is stretched beyond its limit Jm");
+  return d;
 }
 
 double second_invariant(const Matrix3d& F, double I1) {
@@ -87,7 +71,7 @@ Terms terms_of_invariants(const StrainEnergy& energy, double G, const Matrix3d& 
   const bool two = energy.law == RubberLaw::mooney_rivlin;
   Terms t;
   if (!energy.isochoric()) {
-    const Invariants d = invariants_of(energy, I1);
+    const InvariantSlopes d = slopes_within_limit(energy, I1);
     t.energy = G * d.energy;
     t.along = 2.0 * G * d.first;
     t.second = 2.0 * G * d.second;
@@ -98,7 +82,7 @@ Terms terms_of_invariants(const StrainEnergy& energy, double G, const Matrix3d& 
     return t;
   }
   const double root = std::cbrt(J), a = 1.0 / (root * root), b = a * a;
-  const Invariants d = invariants_of(energy, a * I1);
+  const InvariantSlopes d = slopes_within_limit(energy, a * I1);
   const double first = G * d.first * a * I1, curve = G * d.curvature * a * I1;
   t.energy = G * d.energy;
   t.along = 2.0 * G * d.first * a;

@@ -50,29 +50,6 @@ std::optional<double> leaves(const StrainEnergy& energy, SheetTest test, double 
   return std::nullopt;
 }
 
-/// Of a law of I1 and I2: W/G is e, dW/dI1, dW/dI2, d²W/dI1².
-struct Invariant {
-  double energy, first, second, curvature;
-};
-
-Invariant of_invariants(const StrainEnergy& energy, double above) {
-  const auto& s = energy.shape;
-  switch (energy.law) {
-    case RubberLaw::yeoh:
-      return {above * (0.5 + above * (s[0] + above * s[1])),
-              0.5 + above * (2.0 * s[0] + 3.0 * above * s[1]), 0.0,
-              2.0 * s[0] + 6.0 * above * s[1]};
-    case RubberLaw::mooney_rivlin:
-      return {0.5 * (1.0 - s[0]) * above, 0.5 * (1.0 - s[0]), 0.5 * s[0], 0.0};
-    case RubberLaw::gent: {
-      const double left = 1.0 - above / s[0];
-      if (!(left > 0.0)) return {std::numeric_limits<double>::infinity(), 0.0, 0.0, 0.0};
-      return {-0.5 * s[0] * std::log(left), 0.5 / left, 0.0, 0.5 / (s[0] * left * left)};
-    }
-    default: return {0.5 * above, 0.5, 0.0, 0.0};
-  }
-}
-
 PrincipalResponse of_ogden(const StrainEnergy& energy, const Three& stretch) {
   PrincipalResponse r;
   for (std::size_t term = 0; term < 3; ++term) {
@@ -106,7 +83,7 @@ PrincipalResponse principal_response(const StrainEnergy& energy, const Three& st
   Three square;
   std::ranges::transform(stretch, square.begin(), [](double l) { return l * l; });
   const double I1 = square[0] + square[1] + square[2];
-  const Invariant d = of_invariants(energy, I1 - 3.0);
+  const InvariantSlopes d = invariant_slopes(energy, I1 - 3.0);
   PrincipalResponse r;
   r.energy = d.energy;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -119,6 +96,24 @@ PrincipalResponse principal_response(const StrainEnergy& energy, const Three& st
   const double I2 = square[0] * square[1] + square[1] * square[2] + square[2] * square[0];
   r.energy += d.second * (I2 - 3.0);
   return r;
+}
+
+InvariantSlopes invariant_slopes(const StrainEnergy& energy, double above) {
+  const auto& s = energy.shape;
+  switch (energy.law) {
+    case RubberLaw::yeoh:
+      return {above * (0.5 + above * (s[0] + above * s[1])),
+              0.5 + above * (2.0 * s[0] + 3.0 * above * s[1]), 0.0,
+              2.0 * s[0] + 6.0 * above * s[1]};
+    case RubberLaw::mooney_rivlin:
+      return {0.5 * (1.0 - s[0]) * above, 0.5 * (1.0 - s[0]), 0.5 * s[0], 0.0};
+    case RubberLaw::gent: {
+      const double left = 1.0 - above / s[0];
+      if (!(left > 0.0)) return {std::numeric_limits<double>::infinity(), 0.0, 0.0, 0.0};
+      return {-0.5 * s[0] * std::log1p(-above / s[0]), 0.5 / left, 0.0, 0.5 / (s[0] * left * left)};
+    }
+    default: return {0.5 * above, 0.5, 0.0, 0.0};
+  }
 }
 
 double StrainEnergy::lambda_share() const {

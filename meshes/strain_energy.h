@@ -70,6 +70,14 @@ struct StrainEnergy {
   std::vector<Violation> violations() const;
 };
 
+/// W over G of a law of the invariants, at I1 - 3: less its part in I2, which is `second` (I2 - 3),
+/// with dW/dI1, dW/dI2 and d²W/dI1². Infinite energy where a gent law is stretched beyond its
+/// limit.
+struct InvariantSlopes {
+  double energy = 0.0, first = 0.0, second = 0.0, curvature = 0.0;
+};
+InvariantSlopes invariant_slopes(const StrainEnergy& energy, double above);
+
 /// W over G of an incompressible body and its derivatives with respect to the logarithms of the
 /// stretches; `kirchhoff` is known but for a pressure.
 struct PrincipalResponse {
