@@ -181,6 +181,10 @@ PressPose PressPath::at(double s) const {
   return {corner_, lateral_ * (std::abs(step - whole) < rounding ? whole : step) / steps_};
 }
 
+bool PressProtocol::goes_back() const {
+  return !std::ranges::is_sorted(program, {}, &PressStage::indentation);
+}
+
 std::vector<Violation> PressProtocol::violations(const Geometry& geometry) const {
   std::vector<Violation> found;
   const auto require = [&](bool holds, const char* key, std::string value, const char* rule,

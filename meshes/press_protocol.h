@@ -78,6 +78,9 @@ struct PressProtocol {
   /// Whether a second phase follows the press: a lateral motion at full depth.
   bool slides_after() const { return lateral_path == LateralPath::after && lateral != 0.0; }
 
+  /// Whether some stage of a program goes back up.
+  bool goes_back() const;
+
   std::vector<Violation> violations(const Geometry& geometry) const;
 };
 

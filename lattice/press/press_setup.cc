@@ -1,6 +1,5 @@
 #include "lattice/press/press_setup.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "lattice/model/rod.h"
@@ -130,9 +129,7 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
     };
     straight("press.tilt", protocol.tilt, " rad");
     straight("press.lateral", protocol.lateral, " m");
-    const bool goes_up =
-        !std::ranges::is_sorted(protocol.program, {}, &meshes::PressStage::indentation);
-    if (goes_up && protocol.contact == meshes::ContactMode::stick)
+    if (protocol.goes_back() && protocol.contact == meshes::ContactMode::stick)
       found.push_back(
           {"press.program", std::to_string(protocol.program.size()) + " stages",
            "the published lattice, moving, sticks till the end, as the paper has it: on "

@@ -79,7 +79,7 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOu
   summary.warnings = scaling_notes(setup);
   summary.program = stage_entries(setup.protocol, outcome.trace);
   if (!summary.program.empty()) summary.work_in = outcome.work_in;
-  if (goes_back(setup.protocol)) summary.loop_area = outcome.work;
+  if (setup.protocol.goes_back()) summary.loop_area = outcome.work;
   if (!summary.controlled()) return summary;
   summary.tracking = tracking_of(setup, outcome);
   if (!outcome.trace.empty()) {

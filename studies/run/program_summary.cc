@@ -66,13 +66,4 @@ std::vector<StageEntry> stage_entries(const PressProtocol& protocol,
   return entries;
 }
 
-bool goes_back(const PressProtocol& protocol) {
-  double reached = 0.0;
-  for (const meshes::PressStage& stage : protocol.program) {
-    if (stage.indentation < reached) return true;
-    reached = stage.indentation;
-  }
-  return false;
-}
-
 }  // namespace fingertip::studies

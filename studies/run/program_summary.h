@@ -18,7 +18,4 @@ std::vector<StageEntry> stage_entries(const meshes::PressProtocol& protocol,
 std::vector<StageEntry> stage_entries(const meshes::PressProtocol& protocol,
                                       const meshes::PressResponse& response);
 
-/// Whether some stage goes back up.
-bool goes_back(const meshes::PressProtocol& protocol);
-
 }  // namespace fingertip::studies
