@@ -25,15 +25,6 @@ using meshes::VolumetricLaw;
 
 namespace {
 
-ReferenceJob meridian_press(ContactMode contact = ContactMode::frictionless,
-                            Strain strain = Strain::linear) {
-  ReferenceJob job = small_press();
-  job.symmetry = Symmetry::axisymmetric;
-  job.protocol.contact = contact;
-  job.strain = strain;
-  return job;
-}
-
 /// Meshes refined until the error estimate meets the job's tolerance at its samples.
 std::vector<PressState> converged(const ReferenceJob& job) {
   Pressing pressing(job);

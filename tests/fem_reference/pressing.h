@@ -16,6 +16,17 @@ inline fingertip::fem_reference::ReferenceJob small_press() {
   return job;
 }
 
+/// The same on the meridian.
+inline fingertip::fem_reference::ReferenceJob meridian_press(
+    fingertip::meshes::ContactMode contact = fingertip::meshes::ContactMode::frictionless,
+    fingertip::fem_reference::Strain strain = fingertip::fem_reference::Strain::linear) {
+  fingertip::fem_reference::ReferenceJob job = small_press();
+  job.symmetry = fingertip::fem_reference::Symmetry::axisymmetric;
+  job.protocol.contact = contact;
+  job.strain = strain;
+  return job;
+}
+
 /// Mesh and press; collective.
 class Pressing {
  public:

@@ -23,10 +23,7 @@ namespace {
 
 ReferenceJob relaxing_press(Strain strain = Strain::linear,
                             ContactMode contact = ContactMode::frictionless) {
-  ReferenceJob job = small_press();
-  job.symmetry = Symmetry::axisymmetric;
-  job.strain = strain;
-  job.protocol.contact = contact;
+  ReferenceJob job = meridian_press(contact, strain);
   job.protocol.speed = 0.01;
   job.press_to({1e-4, 3e-4, 6e-4, 1e-3});
   job.rubber.energy.volumetric = meshes::VolumetricLaw::quadratic;
