@@ -30,10 +30,9 @@ class TransientModel;
 
 /// The press of ContinuumPress at the job's speed: small strain, frictionless or stick, along the
 /// axis, Kelvin-Voigt damping C = tau K of the moduli after long times, relaxation, consistent mass
-/// M. In the rod's frame, which is inertial
-/// because the rod's speed is constant, the tip starts at rest and the plane comes at that speed,
-/// first touching at time 0. A program's rod accelerates by a(t): in its frame -rho a acts on the
-/// rubber, and the rod carries its mass. No gravity.
+/// M. In the rod's frame, which is inertial because the rod's speed is constant, the tip starts at
+/// rest and the plane comes at that speed, first touching at time 0. A program's rod accelerates by
+/// a(t): in its frame -rho a acts on the rubber, and the rod carries its mass. No gravity.
 ///
 /// The force on the rod is the resultant of the bond, including what damping adds; by the balance
 /// of momentum it is the plane's force less the rate of the rubber's momentum.
@@ -60,8 +59,7 @@ class TransientPress {
   void set_step_factor(double factor);
 
   /// Presses on to a place [m] of the job's PressCourse, beyond the present one; without a program
-  /// an indentation. Throws
-  /// NotConverged; Interrupted between steps once `stop_requested` says so.
+  /// an indentation. Throws NotConverged; Interrupted between steps once `stop_requested` says so.
   PressState advance(double place);
 
   /// normal_force of the last step once more, from the residual at the bond instead of the balance

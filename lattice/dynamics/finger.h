@@ -79,9 +79,9 @@ class Finger {
   const MassScaling* mass_scaling() const { return now_.scaling.get(); }
 
   /// For integrators of their own: forces at a state that is only tried, at a time not before the
-  /// last start_step(); nothing changes. `force`
-  /// receives all forces on the particles [N] (CutSurfaces::attempt). Throws
-  /// std::logic_error for the published model, whose surfaces act between steps.
+  /// last start_step(); nothing changes. `force` receives all forces on the particles [N]
+  /// (CutSurfaces::attempt). Throws std::logic_error for the published model, whose surfaces act
+  /// between steps.
   struct Trial {
     CutSurfaces::Trial surfaces;
     CellExtremes extremes;

@@ -15,8 +15,8 @@ struct CellExtremes {
   /// Largest factor by which the largest eigenvalue of a cell's d²W/dF² can exceed that at rest,
   /// be it over all dF or over those of plane waves, a (x) n. `network`: with X = |G - lambda ln J|
   /// the larger of (G + (X + lambda) g)/(lambda + 2G) (waves) and (G + (X + 3 lambda) g)/(3 lambda
-  /// + 2G); other laws of large strain by
-  /// kernels/cell_hyperelastic.h; `volume`: J² g (1 + |J - 1|/J).
+  /// + 2G); other laws of large strain by kernels/cell_hyperelastic.h; `volume`: J² g (1 +
+  /// |J - 1|/J).
   double stiffening = 1.0;
   double thickening = 1.0;  ///< the same for the viscosity: `network` g, `volume` J² g
   double fastest = 0.0;     ///< largest |dJ/dt|/J [1/s]; 0 where tau = 0

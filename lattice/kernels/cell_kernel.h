@@ -51,8 +51,8 @@ struct CellArrays {
 struct CellBounds {
   double smallest_jacobian = 1.0;
   /// network: largest (|G - lambda ln J| + lambda) g [Pa], laws that hold their fibres: that of
-  /// cell_hyperelastic.h, volume: J² g (1 + |J - 1|/|J|), with g
-  /// at least the largest eigenvalue of F⁻¹F⁻ᵀ (Gershgorin).
+  /// cell_hyperelastic.h, volume: J² g (1 + |J - 1|/|J|), with g at least the largest eigenvalue of
+  /// F⁻¹F⁻ᵀ (Gershgorin).
   double tangent = 0.0;
   double beyond = 0.0;             ///< laws that hold fibres: what all dF have beyond waves [Pa]
   double viscosity = 1.0;          ///< network: largest g, volume: J² g
