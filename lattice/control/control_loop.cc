@@ -1,6 +1,7 @@
 #include "lattice/control/control_loop.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fingertip::lattice {
 
@@ -18,6 +19,7 @@ void ControlLoop::reset() {
   hardware_.reset();
   servo_.reset();
   cycle_ = next_reading_ = 0;
+  is_measured_ = false;
   readings_.clear();
   pending_.clear();
   measured_ = {};
@@ -33,11 +35,15 @@ void ControlLoop::take_measurements(double now) {
   }
 }
 
-void ControlLoop::sample() {
+const Measurement& ControlLoop::measure() {
+  if (std::exchange(is_measured_, true)) return measured_;
   take_measurements(finger_->time());
   measured_ = readings_.front();
   readings_.pop_front();
-  const Command command = controller_->command(measured_);
+  return measured_;
+}
+
+void ControlLoop::command(const Command& command) {
   if (!std::visit([](const auto& value) { return finite(value); }, command)) {
     throw ControllerFailed("the controller commanded what is not a finite number");
   }
@@ -50,6 +56,7 @@ void ControlLoop::sample() {
   pending_.push_back(
       {now + hardware_.settings().actuator_latency, hardware_.act(commanded_, period_)});
   ++cycle_;
+  is_measured_ = false;
 }
 
 /// Passes through the moments at which a command begins to act or a measurement is taken.

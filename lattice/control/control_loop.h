@@ -24,7 +24,11 @@ class ControlLoop {
 
   /// Asks the controller for its next command. Throws ControllerFailed when it has none, or one
   /// that is no number.
-  void sample();
+  void sample() { command(controller_->command(measure())); }
+  /// The two halves of sample(), for whoever commands in the controller's place: what is measured
+  /// in this cycle, taken once, and its command.
+  const Measurement& measure();
+  void command(const Command& command);
   /// Lets the finger go on for a period; returns whether it did, or `after_step` said stop.
   bool advance(const VirtualFinger::StepObserver& after_step = {});
 
@@ -52,6 +56,7 @@ class ControlLoop {
   double period_;
   long cycle_ = 0;                    ///< number of the next sample
   long next_reading_ = 0;             ///< number of the next measurement to take
+  bool is_measured_ = false;          ///< in this cycle
   std::deque<Measurement> readings_;  ///< taken, not yet due
   std::deque<Pending> pending_;       ///< commands that do not act yet
   Measurement measured_;

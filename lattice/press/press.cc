@@ -43,19 +43,6 @@ LatticeCensus take_census(const PressSetup& setup, const LatticeModel& model) {
   return census;
 }
 
-/// Scaled masses as far as they serve.
-FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way) {
-  FingerSetup finger = finger_setup(setup, way);
-  if (setup.integrator != Integrator::mass_scaled) return finger;
-  const ScalingChoice choice = choose_scaling(setup);
-  if (choice.scaled) {
-    finger.time_step = choice.step;
-  } else {
-    finger.integrator = Integrator::symplectic_euler;
-  }
-  return finger;
-}
-
 /// One press from start to depth, or to the end of its program.
 class Press {
  public:

@@ -1,5 +1,7 @@
 #include "lattice/press/press_task.h"
 
+#include "lattice/press/press_deviation.h"
+
 namespace fingertip::lattice {
 
 using meshes::Vector3;
@@ -29,6 +31,18 @@ FingerSetup finger_setup(const PressSetup& setup, const PressWay& way) {
   finger.tolerance = setup.tolerance;
   finger.energy_bound = setup.energy_bound;
   finger.threads = setup.threads;
+  return finger;
+}
+
+FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way) {
+  FingerSetup finger = finger_setup(setup, way);
+  if (setup.integrator != Integrator::mass_scaled) return finger;
+  const ScalingChoice choice = choose_scaling(setup);
+  if (choice.scaled) {
+    finger.time_step = choice.step;
+  } else {
+    finger.integrator = Integrator::symplectic_euler;
+  }
   return finger;
 }
 

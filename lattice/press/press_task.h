@@ -35,6 +35,9 @@ struct PressWay {
 /// The finger of `setup`, clear of the plane.
 FingerSetup finger_setup(const PressSetup& setup, const PressWay& way);
 
+/// The same as it is pressed: with scaled masses as far as they serve.
+FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way);
+
 /// What the controller is asked to do: to follow the way of the press.
 ControlTask control_task(const PressSetup& setup, const PressWay& way, const RodBody& rod);
 

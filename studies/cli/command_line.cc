@@ -44,8 +44,7 @@ constexpr Verb verbs[] = {
     {"report", "write report.html anew", "RUN", "run folders", units_option},
     {"sweep", "run a verb for all combinations of values, whole or in shards", "VERB",
      "press (default), modes, reference or grasp", everything},
-    {"export", "write an undamped lattice ([exchange]) for LAMMPS", "", "",
-     config_options | out_options},
+    {"export", "write the finger for other programs", "", "", config_options | out_options},
     {"import", "take back what LAMMPS made of it: table, deviation, time, frames", "RUN",
      "folder of an export", 0U},
     {"check", "check a configuration file", "FILE", "the file", config_options},
@@ -121,9 +120,14 @@ void add_sweep(CLI::App& sub, CommandLine& line) {
   sub.add_flag("--list", line.list, "tell the points instead of computing them");
 }
 
-void add_export(CLI::App& sub) {
-  sub.add_option("--format", "of which program; lammps is the only one")
-      ->check(CLI::IsMember({"lammps"}));
+void add_export(CLI::App& sub, CommandLine& line) {
+  sub.add_option(
+         "--format", line.format,
+         "lammps: an undamped lattice ([exchange]); pressure-law: pressure over penetration "
+         "fitted to the continuum")
+      ->check(CLI::IsMember({"lammps", "pressure-law"}))
+      ->capture_default_str();
+  sub.add_flag("--lossy", line.lossy, "go on where the format cannot say all of the model");
 }
 
 void add_import(CLI::App& sub, CommandLine& line) {
@@ -174,7 +178,7 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
   }
   if (name == "live") add_live(sub, line);
   if (name == "sweep") add_sweep(sub, line);
-  if (name == "export") add_export(sub);
+  if (name == "export") add_export(sub, line);
   if (name == "import") add_import(sub, line);
   if (name == "bench") add_bench(sub, line);
   if (name == "validate") sub.add_flag("--all", line.all, "every case in studies/cases");

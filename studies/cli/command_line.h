@@ -29,6 +29,8 @@ struct CommandLine {
   bool running = false;              ///< live: at the start
   double rate = 1.0;                 ///< live: wanted real-time factor, 0: any
   std::optional<double> exit_after;  ///< live: wall time [s]
+  std::string format = "lammps";     ///< of export
+  bool lossy = false;                ///< export --lossy
   bool compare = false;              ///< import --compare
   bool frames = false;               ///< import --frames
   bool quick = false;                ///< bench --quick

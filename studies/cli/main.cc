@@ -5,7 +5,6 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <map>
 #include <new>
 
 #include "lattice/control/controller.h"
@@ -18,20 +17,6 @@
 namespace {
 
 using namespace fingertip;
-
-int dispatch(const studies::CommandLine& line) {
-  static const std::map<std::string, int (*)(const studies::CommandLine&)> verbs = {
-      {"validate", studies::run_validate},   {"press", studies::run_press},
-      {"live", studies::run_live},           {"modes", studies::run_modes},
-      {"grasp", studies::run_grasp},         {"reference", studies::run_reference},
-      {"calibrate", studies::run_calibrate}, {"compare", studies::run_compare},
-      {"export", studies::run_export},       {"import", studies::run_import},
-      {"report", studies::run_report},       {"check", studies::run_check},
-      {"explain", studies::run_explain},     {"init", studies::run_init},
-      {"doctor", studies::run_doctor},       {"bench", studies::run_bench},
-      {"sweep", studies::run_sweep},         {"shape", studies::run_shape}};
-  return verbs.at(line.verb)(line);
-}
 
 /// Messages quote files and command lines: what would steer a terminal is shown as a question mark,
 /// and of a very long message the ends.
@@ -53,7 +38,7 @@ int run(int argc, char** argv) {
   try {
     const auto parsed = studies::parse_command_line(argc, argv);
     if (const int* code = std::get_if<int>(&parsed)) return *code;
-    return dispatch(std::get<studies::CommandLine>(parsed));
+    return studies::run_verb(std::get<studies::CommandLine>(parsed));
   } catch (const studies::ConfigError& error) {
     for (const studies::Problem& problem : error.problems()) complain(to_string(problem));
     return 2;

@@ -12,6 +12,9 @@ namespace fingertip::studies {
   throw ConfigError({{place, "", "", rule, remedy}});
 }
 
+/// The verb that the line names.
+int run_verb(const CommandLine& line);
+
 int run_validate(const CommandLine& line);
 int run_press(const CommandLine& line);
 int run_live(const CommandLine& line);

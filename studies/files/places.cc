@@ -1,13 +1,21 @@
 #include "studies/files/places.h"
 
+#include <dlfcn.h>
+
 #include <cstdlib>
+#include <string_view>
 
 namespace fingertip::studies {
 
 namespace fs = std::filesystem;
 
 fs::path executable_folder() {
-  return fs::read_symlink("/proc/self/exe").parent_path();
+  Dl_info own{};
+  if (dladdr(reinterpret_cast<const void*>(&executable_folder), &own) == 0 ||
+      own.dli_fname == nullptr || !std::string_view(own.dli_fname).ends_with(".so"))
+    return fs::read_symlink("/proc/self/exe").parent_path();
+  // PLACE/python/fingertip/_core.so beside PLACE/bin
+  return fs::canonical(own.dli_fname).parent_path().parent_path().parent_path() / "bin";
 }
 
 fs::path reference_program() {

@@ -5,10 +5,11 @@
 
 namespace fingertip::studies {
 
-/// The folder of this executable.
+/// The folder of the project's programs: where this code's own file is, or of the Python module
+/// the programs' one beside it, `bin`.
 std::filesystem::path executable_folder();
 
-/// fingertip-fem beside this executable; need not exist.
+/// fingertip-fem there; need not exist.
 std::filesystem::path reference_program();
 
 /// $XDG_CACHE_HOME/fingertip, else ~/.cache/fingertip.

@@ -1,6 +1,7 @@
 #include "studies/run/interrupt.h"
 
 #include <csignal>
+#include <optional>
 
 namespace fingertip::studies {
 
@@ -8,6 +9,13 @@ namespace {
 
 // A signal handler can reach nothing but a global; it is written here and only here.
 volatile std::sig_atomic_t stop_requested = 0;
+
+/// What the signals meant before; empty while nobody watches.
+struct Before {
+  struct sigaction interrupt {
+  }, terminate{};
+};
+std::optional<Before> before;
 
 extern "C" void request_stop(int signal) {
   stop_requested = 1;
@@ -21,8 +29,18 @@ void watch_for_interrupts() {
   action.sa_handler = request_stop;
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESTART;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  Before found;
+  sigaction(SIGINT, &action, &found.interrupt);
+  sigaction(SIGTERM, &action, &found.terminate);
+  if (!before) before = found;
+}
+
+void stop_watching() {
+  if (!before) return;
+  sigaction(SIGINT, &before->interrupt, nullptr);
+  sigaction(SIGTERM, &before->terminate, nullptr);
+  before.reset();
+  stop_requested = 0;
 }
 
 bool interrupted() {

@@ -1,0 +1,200 @@
+#include "calibration/contact_laws/pressure_law.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "calibration/surrogate/non_negative.h"
+#include "meshes/errors.h"
+#include "meshes/files.h"
+#include "meshes/shape.h"
+#include "meshes/surface_points.h"
+
+namespace fingertip::calibration {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Patches across the half width of the contact at the smallest depth that matters.
+constexpr double patches = 80.0;
+/// That depth over the whole.
+constexpr double shallow = 1.0 / 12.0;
+/// Finest patches that surface_points makes, and the coarsest that make sense, over the radius.
+constexpr double finest = 1e-3, coarsest = 1e-2;
+/// Exponents of power laws among which is sought.
+constexpr double largest_exponent = 4.0;
+
+void check(const ForceCurve& curve) {
+  const auto refuse = [](const std::string& value, const char* rule) {
+    throw meshes::InvalidInput({"force curve", value, rule, "press deeper, or at more depths"});
+  };
+  if (curve.indentation.size() < 2 || curve.force.size() != curve.indentation.size())
+    refuse(std::to_string(curve.indentation.size()) + " samples", "needs two samples or more");
+  double depth = 0.0, force = 0.0;
+  for (std::size_t i = 0; i < curve.force.size(); ++i) {
+    if (!(curve.indentation[i] > depth && curve.force[i] > force))
+      refuse(
+          meshes::to_text(curve.force[i]) + " N at " + meshes::to_text(curve.indentation[i]) + " m",
+          "indentation and force must grow from first touch on");
+    depth = curve.indentation[i];
+    force = curve.force[i];
+  }
+}
+
+/// Forces of laws with coefficient one over those of the curve: a row per sample.
+template <typename Laws>
+MatrixXd shares(const ForceCurve& curve, const GapField& field, const Laws& laws) {
+  MatrixXd matrix(Eigen::Index(curve.force.size()), Eigen::Index(laws.size()));
+  for (Eigen::Index j = 0; j < matrix.rows(); ++j)
+    for (Eigen::Index k = 0; k < matrix.cols(); ++k)
+      matrix(j, k) = force_of(laws[std::size_t(k)], field, curve.indentation[std::size_t(j)]) /
+                     curve.force[std::size_t(j)];
+  return matrix;
+}
+
+/// Coefficients >= 0 by which the laws add up to the curve.
+template <typename Laws>
+VectorXd sized(const ForceCurve& curve, const GapField& field, const Laws& laws) {
+  MatrixXd matrix = shares(curve, field, laws);
+  const VectorXd size = matrix.colwise().norm();  // d³ in metres is small beside d
+  matrix *= size.cwiseInverse().asDiagonal();
+  return non_negative_least_squares(matrix, VectorXd::Ones(matrix.rows())).cwiseQuotient(size);
+}
+
+/// From 0 to 1 between two penetrations.
+struct Ramp {
+  double begin = 0.0, end = 0.0;
+  double at(double d) const { return std::clamp((d - begin) / (end - begin), 0.0, 1.0); }
+};
+
+/// More samples than a table has knots: a pressure that met as many forces as it has knots would
+/// swing from knot to knot. Between samples, and before the first one, F is a power of d.
+ForceCurve refined(const ForceCurve& curve) {
+  constexpr int pieces = 4;
+  ForceCurve fine;
+  double from = 0.5 * curve.indentation.front();
+  for (std::size_t i = 0; i < curve.force.size(); ++i) {
+    const std::size_t other = i == 0 ? 1 : i - 1;
+    const double to = curve.indentation[i];
+    const double exponent =
+        std::log(curve.force[other] / curve.force[i]) / std::log(curve.indentation[other] / to);
+    for (int piece = i == 0 ? 0 : 1; piece <= pieces; ++piece) {
+      const double d = from + (to - from) * piece / pieces;
+      fine.indentation.push_back(d);
+      fine.force.push_back(curve.force[i] * std::pow(d / to, exponent));
+    }
+    from = to;
+  }
+  return fine;
+}
+
+}  // namespace
+
+double GapField::overlap(double indentation) const {
+  const auto end = std::ranges::lower_bound(gap, indentation);
+  return std::accumulate(area.begin(), area.begin() + (end - gap.begin()), 0.0);
+}
+
+GapField gap_field(const meshes::Geometry& geometry, const meshes::Obstacle& obstacle,
+                   double depth) {
+  const auto shape = meshes::shape_of(geometry);
+  const double narrow =
+      std::sqrt(2.0 * meshes::relative_radius(*shape, obstacle) * shallow * depth);
+  const double radius = geometry.tip_radius;
+  const double spacing = std::clamp(narrow / patches, finest * radius, coarsest * radius);
+  const double touch = meshes::first_touch(geometry, 0.0, obstacle);
+  std::vector<std::pair<double, double>> patch;
+  for (const meshes::SurfacePoint& point :
+       meshes::surface_points(geometry, meshes::Surface::outer, spacing)) {
+    const double gap = touch - meshes::height(obstacle, point.position) - point.position.z();
+    if (point.normal.z() > 0.0 && gap < depth)
+      patch.emplace_back(std::max(gap, 0.0), point.area * point.normal.z());
+  }
+  std::ranges::sort(patch);
+  GapField field;
+  for (const auto& [gap, area] : patch) {
+    field.gap.push_back(gap);
+    field.area.push_back(area);
+  }
+  return field;
+}
+
+double PressureTable::at(double d) const {
+  if (!(d > 0.0) || penetration.size() < 2) return 0.0;
+  const auto above = std::upper_bound(penetration.begin() + 1, penetration.end() - 1, d);
+  const auto i = std::size_t(above - penetration.begin());
+  const double slope = (pressure[i] - pressure[i - 1]) / (penetration[i] - penetration[i - 1]);
+  return pressure[i - 1] + slope * (d - penetration[i - 1]);
+}
+
+double PowerLaw::at(double d) const {
+  return d > 0.0 ? stiffness * std::pow(d, exponent) : 0.0;
+}
+
+double PressurePolynomial::at(double d) const {
+  return d > 0.0 ? d * (first + d * (second + d * third)) : 0.0;
+}
+
+bool PressurePolynomial::grows_to(double d) const {
+  const auto slope = [&](double at) { return first + at * (2.0 * second + at * 3.0 * third); };
+  const double turn = third > 0.0 ? std::clamp(-second / (3.0 * third), 0.0, d) : 0.0;
+  return std::min({slope(0.0), slope(turn), slope(d)}) >= 0.0;
+}
+
+PressureTable fitted_table(const ForceCurve& curve, const GapField& field) {
+  check(curve);
+  const double first = curve.indentation.front();
+  std::vector<double> knots = {0.25 * first, 0.5 * first};
+  knots.insert(knots.end(), curve.indentation.begin(), curve.indentation.end());
+  std::vector<Ramp> ramps;
+  double begin = 0.0;
+  for (const double end : knots) ramps.push_back({std::exchange(begin, end), end});
+  const VectorXd rise = sized(refined(curve), field, ramps);
+  PressureTable table{{0.0}, {0.0}};
+  for (std::size_t k = 0; k < ramps.size(); ++k) {
+    table.penetration.push_back(ramps[k].end);
+    table.pressure.push_back(table.pressure.back() + rise[Eigen::Index(k)]);
+  }
+  return table;
+}
+
+PowerLaw fitted_power(const ForceCurve& curve, const GapField& field) {
+  check(curve);
+  const auto with = [&](double exponent) {
+    // Of penetrations over the depth, lest stiffness become a number without bounds.
+    const double depth = curve.indentation.back();
+    const std::vector<PowerLaw> law{{std::pow(depth, -exponent), exponent}};
+    const VectorXd share = shares(curve, field, law).col(0);
+    const double size = share.sum() / share.squaredNorm();
+    return std::pair(PowerLaw{size * law[0].stiffness, exponent},
+                     (size * share.array() - 1.0).square().sum());
+  };
+  constexpr int bits = std::numeric_limits<double>::digits / 2;
+  const auto found = boost::math::tools::brent_find_minima(
+      [&](double exponent) { return with(exponent).second; }, 0.0, largest_exponent, bits);
+  return with(found.first).first;
+}
+
+PressurePolynomial fitted_polynomial(const ForceCurve& curve, const GapField& field) {
+  check(curve);
+  const std::vector<PressurePolynomial> powers{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  const VectorXd free = shares(curve, field, powers)
+                            .colPivHouseholderQr()
+                            .solve(VectorXd::Ones(Eigen::Index(curve.force.size())));
+  const PressurePolynomial law{free[0], free[1], free[2]};
+  if (law.grows_to(curve.indentation.back())) return law;
+  const VectorXd size = sized(curve, field, powers);
+  return {size[0], size[1], size[2]};
+}
+
+PressurePolynomial fitted_line(const ForceCurve& curve, const GapField& field) {
+  check(curve);
+  return {sized(curve, field, std::vector<PressurePolynomial>{{1.0, 0.0, 0.0}})[0], 0.0, 0.0};
+}
+
+}  // namespace fingertip::calibration

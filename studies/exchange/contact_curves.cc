@@ -1,0 +1,116 @@
+#include "studies/exchange/contact_curves.h"
+
+#include <fmt/format.h>
+
+#include "meshes/files.h"
+#include "meshes/press_response.h"
+#include "meshes/shape.h"
+#include "studies/files/shown_units.h"
+#include "studies/run/jobs.h"
+#include "studies/run/press_setup.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+using meshes::Obstacle;
+using meshes::ObstacleShape;
+
+constexpr int samples = 12;
+
+std::string name_of(const Obstacle& obstacle) {
+  return obstacle.is_plane() ? "plane"
+                             : fmt::format("{} of {}", meshes::name(obstacle.shape),
+                                           shown_units().length.text(obstacle.radius));
+}
+
+std::vector<Obstacle> pressed(const Config& config) {
+  const Obstacle& own = config.press.protocol.obstacle;
+  Obstacle large = own, small = own;
+  if (own.is_plane()) {
+    large.shape = small.shape = ObstacleShape::sphere;
+    large.radius = meshes::shape_of(config.press.geometry)->pole_radius();
+  } else {
+    large.radius = 2.0 * own.radius;
+  }
+  small.radius = own.is_plane() ? 0.5 * large.radius : 0.5 * own.radius;
+  return {own, large, small};
+}
+
+void refuse_what_is_not_straight(const LoadedConfig& loaded) {
+  const meshes::PressProtocol& protocol = loaded.config.press.protocol;
+  std::vector<meshes::Violation> found;
+  const auto refuse = [&](const char* key, const std::string& value, const char* remedy) {
+    found.push_back({key, value,
+                     "a law of pressure over penetration is fitted to a press straight down",
+                     remedy});
+  };
+  if (protocol.tilt != 0.0)
+    refuse("press.tilt", meshes::to_text(protocol.tilt) + " rad", "choose 0");
+  if (protocol.lateral != 0.0)
+    refuse("press.lateral", meshes::to_text(protocol.lateral) + " m", "choose 0");
+  if (!protocol.program.empty())
+    refuse("press.program", std::to_string(protocol.program.size()) + " stages",
+           "leave it out; press.depth says how deep");
+  if (!found.empty()) throw loaded.locate(found);
+}
+
+}  // namespace
+
+ContactCurves::ContactCurves(const LoadedConfig& loaded) {
+  refuse_what_is_not_straight(loaded);
+  const double depth = loaded.config.press.protocol.depth;
+  for (const Obstacle& obstacle : pressed(loaded.config)) {
+    LoadedConfig own = loaded;
+    fem_reference::ReferenceJob& reference = own.config.reference;
+    meshes::PressProtocol& protocol = reference.protocol;
+    protocol.obstacle = obstacle;
+    protocol.samples.clear();
+    for (int i = 1; i <= samples; ++i) protocol.samples.push_back(depth * (double(i) / samples));
+    reference.analysis = fem_reference::Analysis::static_press;
+    if (!loaded.entries.at("reference.strain").given)
+      reference.strain = fem_reference::Strain::finite;
+    reference.write_fields = false;
+    const bool fitted = jobs_.empty();
+    jobs_.push_back({fmt::format("continuum/{}", jobs_.size() + 1),
+                     reference_job(continuum_setup(own)), !fitted});
+    curves_.push_back({name_of(obstacle), obstacle, fitted, {}, {}});
+  }
+}
+
+std::vector<ContactCurve> ContactCurves::read(const std::filesystem::path& folder) const {
+  std::vector<ContactCurve> curves = curves_;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const std::filesystem::path file = folder / jobs_[i].name / "response.csv";
+    if (!std::filesystem::exists(file)) continue;
+    const auto response = meshes::PressResponse::read_csv(file);
+    if (response.samples().size() != std::size_t(samples)) continue;
+    for (const meshes::PressSample& sample : response.samples()) {
+      curves[i].forces.indentation.push_back(sample.indentation);
+      curves[i].forces.force.push_back(sample.normal_force);
+      curves[i].force_error.push_back(sample.force_error);
+    }
+  }
+  return curves;
+}
+
+std::vector<Problem> lost_in_contact(const LoadedConfig& loaded) {
+  const lattice::PressSetup& press = loaded.config.press;
+  std::vector<Problem> lost;
+  const auto add = [&](const char* key, const char* rule, const char* remedy) {
+    const Entry& entry = loaded.entries.at(key);
+    lost.push_back({entry.place, key, entry.literal, rule, remedy});
+  };
+  if (press.protocol.contact == meshes::ContactMode::stick)
+    add("press.contact",
+        "rubber that sticks is stiffer than rubber that slips, by traction along the surface that "
+        "a "
+        "law of pressure has not: the other program would add its own friction to it",
+        "choose frictionless, or say --lossy");
+  if (!press.rubber.relaxation.empty())
+    add("rubber.relaxation", "a law of pressure over penetration knows no time",
+        "leave it out: the forces are then those after long times; or say --lossy");
+  return lost;
+}
+
+}  // namespace fingertip::studies

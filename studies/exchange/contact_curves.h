@@ -1,0 +1,48 @@
+/// The continuum's forces that contact laws of other programs are fitted to and judged by.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibration/contact_laws/pressure_law.h"
+#include "studies/config/loader.h"
+#include "studies/run/job.h"
+
+namespace fingertip::studies {
+
+/// A press against one obstacle.
+struct ContactCurve {
+  std::string name;  ///< "plane", "sphere of 5 mm"
+  meshes::Obstacle obstacle;
+  bool fitted = false;              ///< else predicted
+  calibration::ForceCurve forces;   ///< empty where the press did not converge
+  std::vector<double> force_error;  ///< estimated [N]
+
+  bool empty() const { return forces.force.empty(); }
+};
+
+/// Presses of the configuration's finger against its own obstacle, which is fitted, and against two
+/// of other radii: of a plane balls of the pole's radius and of half of it, else the same shape at
+/// twice and half the radius. Twelve depths to press.depth.
+class ContactCurves {
+ public:
+  /// Throws ConfigError for what no such law can carry: a tilt, a lateral motion, a program.
+  explicit ContactCurves(const LoadedConfig& loaded);
+
+  /// The continuum's jobs; the own obstacle's must converge, others are exhibits. At large strain
+  /// unless reference.strain is given.
+  const std::vector<PlannedJob>& jobs() const { return jobs_; }
+  /// What they left below `folder`, in the same order.
+  std::vector<ContactCurve> read(const std::filesystem::path& folder) const;
+
+ private:
+  std::vector<ContactCurve> curves_;
+  std::vector<PlannedJob> jobs_;
+};
+
+/// What a law of pressure over penetration cannot say of this press, with what to do; the first
+/// word is the key.
+std::vector<Problem> lost_in_contact(const LoadedConfig& loaded);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,71 @@
+#include "studies/python/errors.h"
+
+#include <pybind11/pybind11.h>
+
+#include <exception>
+#include <filesystem>
+
+#include "lattice/control/controller.h"
+#include "meshes/cannot_write.h"
+#include "meshes/errors.h"
+#include "studies/config/loader.h"
+#include "studies/run/job.h"
+
+namespace fingertip::studies {
+
+namespace py = pybind11;
+
+namespace {
+
+/// Raises a class of fingertip/errors.py.
+template <typename... Arguments>
+void raise(const char* name, Arguments&&... arguments) {
+  const py::object type = py::module_::import("fingertip.errors").attr(name);
+  const py::object error = type(std::forward<Arguments>(arguments)...);
+  PyErr_SetObject(type.ptr(), error.ptr());
+}
+
+py::list told(const std::vector<Problem>& problems) {
+  py::list list;
+  for (const Problem& problem : problems)
+    list.append(
+        py::make_tuple(problem.place, problem.key, problem.value, problem.rule, problem.remedy));
+  return list;
+}
+
+py::list told(const std::vector<meshes::Violation>& violations) {
+  py::list list;
+  for (const meshes::Violation& violation : violations)
+    list.append(
+        py::make_tuple("", violation.key, violation.value, violation.rule, violation.remedy));
+  return list;
+}
+
+}  // namespace
+
+void translate_errors() {
+  // The more special ones first.
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const ConfigError& error) {
+      raise("ConfigError", told(error.problems()));
+    } catch (const meshes::InvalidInput& error) {
+      raise("ConfigError", told(error.violations()));
+    } catch (const ProcessLost& error) {
+      raise("ProcessLost", error.what());
+    } catch (const meshes::NotConverged& error) {
+      raise("NotConverged", error.what());
+    } catch (const lattice::ControllerFailed& error) {
+      raise("ControllerFailed", error.what());
+    } catch (const meshes::CannotWrite& error) {
+      raise("CannotWrite", error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
+      raise("CannotWrite", error.what());
+    } catch (const meshes::Interrupted& error) {
+      PyErr_SetString(PyExc_KeyboardInterrupt, error.what());
+    }
+  });
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,72 @@
+#include "studies/python/keys.h"
+
+#include <pybind11/stl.h>
+
+#include "studies/config/key_table.h"
+
+namespace fingertip::studies {
+
+namespace py = pybind11;
+
+namespace {
+
+const char* name(Kind kind) {
+  using enum Kind;
+  switch (kind) {
+    case quantity: return "quantity";
+    case quantities: return "quantities";
+    case number: return "number";
+    case terms: return "terms";
+    case stages: return "stages";
+    case numbers: return "numbers";
+    case number_pair: return "number_pair";
+    case integer: return "integer";
+    case boolean: return "boolean";
+    case choice: return "choice";
+    case source: return "source";
+    case text: return "text";
+    case file: return "file";
+    case texts: return "texts";
+    case files: return "files";
+  }
+  return "";
+}
+
+py::dict told(const Key& key) {
+  py::list choices;
+  for (const Choice& choice : key.choices)
+    choices.append(py::make_tuple(choice.word, choice.meaning));
+  py::dict entry;
+  entry["name"] = key.full_name();
+  entry["kind"] = name(key.kind);
+  entry["default"] = key.preset;
+  entry["unit"] = key.unit;
+  entry["help"] = key.help;
+  entry["allowed"] = key.allowed();
+  entry["rule"] = key.rule;
+  entry["choices"] = choices;
+  return entry;
+}
+
+}  // namespace
+
+void add_keys(py::module_& module) {
+  module.def(
+      "keys",
+      [] {
+        py::list all;
+        for (const Key& key : key_table()) all.append(told(key));
+        return all;
+      },
+      "Every key of the configuration: name, kind, default, unit, help, allowed, rule, choices.");
+  module.def(
+      "sections",
+      [] {
+        py::dict all;
+        for (const Section& section : sections()) all[py::str(section.name)] = section.help;
+        return all;
+      },
+      "The sections of the configuration and what they are about.");
+}
+
+}  // namespace fingertip::studies
