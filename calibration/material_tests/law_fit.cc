@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numeric>
 
@@ -261,20 +262,24 @@ TestMisfit predict(const LawFit& fit, const MaterialTest& test, TestWeights weig
 
 namespace {
 
+/// Fits by their names, from which others begin.
+using Fits = std::map<std::string, LawFit>;
+
+const LawFit& fitted(const std::vector<MaterialTest>& tests, const LawChoice& choice,
+                     const LawFitOptions& options, Fits& done);
+
 /// The search for a law and its relaxation: from the law alone, then from a branch less.
 CurveFitOptions starts_of(const std::vector<MaterialTest>& tests,
                           const std::vector<std::vector<double>>& scales, const LawChoice& choice,
-                          const LawFitOptions& options) {
+                          const LawFitOptions& options, Fits& done) {
   CurveFitOptions fit = law_starts(tests, scales, choice, options);
   if (choice.branches > 0) {
-    const auto with = [&](int branches) {
-      return fit_law(tests, {choice.law, choice.terms, branches}, options);
+    const auto with = [&](int branches) -> const LawFit& {
+      return fitted(tests, {choice.law, choice.terms, branches}, options, done);
     };
-    const LawFit without = with(0);
-    add_branches(tests, scales, choice, without,
-                 choice.branches == 1 ? without : with(choice.branches - 1), fit);
+    add_branches(tests, scales, choice, with(0), with(choice.branches - 1), fit);
   } else if (choice.law == meshes::RubberLaw::ogden && choice.terms > 1) {
-    add_term_to(fit_law(tests, {choice.law, choice.terms - 1}, options), fit);
+    add_term_to(fitted(tests, {choice.law, choice.terms - 1}, options, done), fit);
   }
   add_bulk_modulus(tests, fit);
   fit.max_iterations = 200;
@@ -290,10 +295,8 @@ void check_points(Index points, Index coefficients, const LawChoice& choice) {
                       "give further tests, or a law of fewer coefficients"});
 }
 
-}  // namespace
-
-LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
-               const LawFitOptions& options) {
+LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
+                const LawFitOptions& options, Fits& done) {
   check_tests(tests);
   LawFit result;
   result.times = observed_times(tests);
@@ -308,7 +311,7 @@ LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
     curves.push_back(scaled_curve(test, scales.back()));
     points += Index(test.stress.size());
   }
-  CurveFitOptions fit = starts_of(tests, scales, choice, options);
+  CurveFitOptions fit = starts_of(tests, scales, choice, options, done);
   std::vector<MaterialParameter> parameters;
   for (const FreeParameter& free : fit.free) parameters.push_back(free.parameter);
   check_points(points, Index(parameters.size()), choice);
@@ -321,10 +324,13 @@ LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
   result.choice = choice;
   result.fit = fit_curves(curves, addresses, fit);
   if (const auto sorted = sorted_branches(choice, result.fit.estimates)) {
-    for (std::size_t i = 0; i < fit.free.size(); ++i) fit.free[i].start = (*sorted)(Index(i));
+    for (Index i = 0; i < sorted->size(); ++i) fit.free[std::size_t(i)].start = (*sorted)(i);
     fit.other_starts.clear();
     result.fit = fit_curves(curves, addresses, fit);
   }
+  // Squares of the number of points, which a ranking would keep for every law.
+  result.fit.whitening.resize(0, 0);
+  result.fit.influence.resize(0, 0);
   result.law = sized_law(choice, result.fit.estimates);
   result.relaxation = relaxation_of(choice, result.fit.estimates);
   if (parameters.back() == MaterialParameter::bulk_modulus)
@@ -342,15 +348,32 @@ LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
   return result;
 }
 
+const LawFit& fitted(const std::vector<MaterialTest>& tests, const LawChoice& choice,
+                     const LawFitOptions& options, Fits& done) {
+  const auto known = done.find(name(choice));
+  if (known != done.end()) return known->second;
+  LawFit fit = fit_with(tests, choice, options, done);
+  return done.emplace(name(choice), std::move(fit)).first->second;
+}
+
+}  // namespace
+
+LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
+               const LawFitOptions& options) {
+  Fits done;
+  return fit_with(tests, choice, options, done);
+}
+
 std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
                               const std::vector<MaterialTest>& held_back,
                               const std::vector<LawChoice>& laws, const LawFitOptions& options) {
   check_tests(tests);
   std::vector<LawFit> ranking;
+  Fits done;
   for (const LawChoice& law : laws) {
     LawFit fit;
     try {
-      fit = fit_law(tests, law, options);
+      fit = fitted(tests, law, options, done);
       for (const MaterialTest& test : held_back)
         fit.predicted.push_back(predict(fit, test, options.weights));
       add_predictions(fit);

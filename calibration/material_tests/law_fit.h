@@ -59,7 +59,9 @@ struct TestMisfit {
 
 struct LawFit {
   LawChoice choice;
-  CurveFit fit;  ///< over scaled stresses; coefficients, then bulk_modulus where it was sought
+  /// Over scaled stresses, without whitening and influence; coefficients, then bulk_modulus where
+  /// it was sought.
+  CurveFit fit;
   SizedLaw law;
   meshes::Relaxation relaxation;       ///< the fastest branch first
   std::optional<double> bulk_modulus;  ///< [Pa]; none: no volumetric test

@@ -78,16 +78,16 @@ void TestReader::read_kind() {
   for (const TestCourse course : {TestCourse::relaxation, TestCourse::cycles})
     if (kind == name(course)) found_.course = course;
   if (found_.course == TestCourse::slow) {
-    for (const char* key : {"time", "deformation"})
-      if (test_.has_own(key))
-        test_.refuse(key, "", "belongs to tests of the kinds relaxation and cycles",
-                     "write kind = \"cycles\" and deformation = \"uniaxial\", or leave it out");
     if (!kind ||
         std::ranges::find(kinds, *kind, [](const auto& k) { return k.first; }) == kinds.end())
       test_.refuse("kind", kind.value_or(""),
                    fmt::format("must be one of {}, relaxation, cycles",
                                fmt::join(kinds | std::views::keys, ", ")),
                    "give one of them");
+    for (const char* key : {"time", "deformation"})
+      if (test_.has_own(key))
+        test_.refuse(key, "", "belongs to tests of the kinds relaxation and cycles",
+                     "write kind = \"cycles\" and deformation = \"uniaxial\", or leave it out");
     found_.kind = test_.word("kind", kinds);
     return;
   }

@@ -144,7 +144,7 @@ TEST_F(TimedFiles, RefusalsNameFileLineKeyAndRemedy) {
                  {"held for 0.75 s after a ramp of 1.25 s", "at least as long as its ramp",
                   "kind = \"cycles\""});
   expect_refused(by_column, "t,l,s\n0,1,0\n100,1.2,5\n200,1.5,9\n", {"the strain is held for 0 s"});
-  expect_refused(by_column, "t,s\n0,1\n1,1\n", {"data.csv:1", "the column 'l' is missing"});
+  expect_refused(by_column, "t,s\n0,1\n1,1\n", {"data.csv", "the column 'l' is missing"});
   expect_refused(by_value, "t,s\n-5,1\n1,1\n", {"not negative", "from = \"hold\""});
   expect_refused(by_value, "t,s\n5,1\n,1\n6,\n", {"fewer than two rows"});
   std::string text = by_value;
