@@ -97,8 +97,10 @@ std::vector<Violation> MaterialTest::violations() const {
   if (!std::ranges::all_of(constraint, positive))
     refuse("constraint", "not positive", "factors on the force must be finite and positive",
            "give none, or all");
-  if (rate && !positive(*rate))
-    refuse("rate", to_text(*rate), "a rate must be positive", "leave it out where it is unknown");
+  // Beyond, times are no numbers.
+  if (rate && !(*rate >= 1e-12 && *rate <= 1e12))
+    refuse("rate", to_text(*rate), "a rate must be positive, from 1e-12 to 1e12 1/s",
+           "leave it out where it is unknown");
   return found;
 }
 

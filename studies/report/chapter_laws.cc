@@ -65,15 +65,15 @@ Panel test_panel(const LawResult& result, const LawTestEntry& test) {
   if (over_time) panel.log_x = 10;
   const LawEntry &taken = result.taken(), &first = result.file.laws.front();
   const auto rows = rows_of(result, taken.law, test);
-  Style points{"#555555", "", 1.0, 6, false};
-  points.point_size = 0.4;
+  Style points{"#888888", "", 1.0, 6, false};
+  points.point_size = 0.5;
   panel.series.push_back(stress_series(rows, over_time, Side::measured, "measured", points));
   if (first.law != taken.law)
     panel.series.push_back(stress_series(rows_of(result, first.law, test), over_time,
                                          Side::computed, first.law,
                                          {second_colour, "(6,3)", 1.6, 0, true}));
   panel.series.push_back(
-      stress_series(rows, over_time, Side::computed, taken.law, {fit_colour, "", 2.0, 0, true}));
+      stress_series(rows, over_time, Side::computed, taken.law, {fit_colour, "", 1.4, 0, true}));
   return panel;
 }
 

@@ -172,8 +172,8 @@ TEST(FuzzData, MaterialTests) {
           "strain = {value = 50, is = \"engineering\", unit = \"%\"}\n" + cut + rows,
       "[[test]]\nkind = \"cycles\"\ndeformation = \"planar\"\npoints = 3\n" + common + column +
           time + cut + rows,
-      "[about]\nmaterial = \"m\"\n[data]\n" + common + column +
-          "[[test]]\nkind = \"uniaxial\"\nrate = \"1 1/s\"\nrows = [1, 3]\n" + cut + rows};
+      "[about]\nmaterial = \"m\"\n[data]\n" + column +
+          "[[test]]\nkind = \"uniaxial\"\nrate = \"1 1/s\"\nrows = [1, 3]\n" + common + cut + rows};
   const std::vector<std::string> words = {"[[test]]\n",
                                           "kind = \"cycles\"\n",
                                           "from = \"hold\"",

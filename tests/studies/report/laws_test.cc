@@ -112,9 +112,10 @@ TEST_F(LawsReport, NamesWhatIsMissingOrDamaged) {
   fs::remove(run_ / "law_data.csv");
   EXPECT_TRUE(has(report_testing::visible_text(report()), "law_data.csv"));
   write_text(run_ / "laws.json", "{\"problem\": \"material\"");
-  const auto damage = studies::write_report(run_);
-  ASSERT_FALSE(damage.empty());
-  EXPECT_TRUE(has(damage.front().key, "laws.json"));
+  bool told = false;
+  for (const auto& damage : studies::write_report(run_))
+    told = told || has(damage.key + damage.value + damage.rule, "laws.json");
+  EXPECT_TRUE(told);
 }
 
 }  // namespace
