@@ -266,8 +266,13 @@ const Linearisation& CurveResiduals::at(const Eigen::VectorXd& parameters) {
   Index first = 0;
   for (const Curve& curve : *curves_)
     for (const double measured : curve.y) now.residuals(first++) -= measured;
-  now.residuals.head(row) = whitening_ * now.residuals.head(row);
-  now.jacobian.topRows(row) = whitening_ * now.jacobian.topRows(row);
+  if (has_sigma_ && options_->model_covariance.size() > 0) {
+    now.residuals.head(row) = whitening_ * now.residuals.head(row);
+    now.jacobian.topRows(row) = whitening_ * now.jacobian.topRows(row);
+  } else {  // diagonal, of thousands of values perhaps
+    now.residuals.head(row).array() *= whitening_.diagonal().array();
+    now.jacobian.topRows(row).array().colwise() *= whitening_.diagonal().array();
+  }
   for (Index j = 0; j < parameters.size(); ++j) {
     const auto& prior = options_->free[std::size_t(j)].prior;
     if (!prior) continue;

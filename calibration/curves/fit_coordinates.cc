@@ -34,7 +34,12 @@ bool varies_by_logarithm(const FreeParameter& free) {
     case MaterialParameter::ogden_mu2:
     case MaterialParameter::ogden_mu3:
     case MaterialParameter::gent_jm:
-    case MaterialParameter::bulk_modulus: return true;
+    case MaterialParameter::bulk_modulus:
+    case MaterialParameter::relaxation_tau1:
+    case MaterialParameter::relaxation_tau2:
+    case MaterialParameter::relaxation_tau3:
+    case MaterialParameter::relaxation_tau4:
+    case MaterialParameter::relaxation_tau5: return true;
     default: return false;
   }
 }

@@ -154,6 +154,16 @@ std::string_view name(MaterialParameter parameter) {
     case MaterialParameter::ogden_alpha3: return "ogden_alpha3";
     case MaterialParameter::gent_jm: return "gent_jm";
     case MaterialParameter::bulk_modulus: return "bulk_modulus";
+    case MaterialParameter::relaxation_g1: return "relaxation_g1";
+    case MaterialParameter::relaxation_tau1: return "relaxation_tau1";
+    case MaterialParameter::relaxation_g2: return "relaxation_g2";
+    case MaterialParameter::relaxation_tau2: return "relaxation_tau2";
+    case MaterialParameter::relaxation_g3: return "relaxation_g3";
+    case MaterialParameter::relaxation_tau3: return "relaxation_tau3";
+    case MaterialParameter::relaxation_g4: return "relaxation_g4";
+    case MaterialParameter::relaxation_tau4: return "relaxation_tau4";
+    case MaterialParameter::relaxation_g5: return "relaxation_g5";
+    case MaterialParameter::relaxation_tau5: return "relaxation_tau5";
   }
   return "unknown";
 }
@@ -168,8 +178,18 @@ std::string_view unit(MaterialParameter parameter) {
     case MaterialParameter::ogden_alpha1:
     case MaterialParameter::ogden_alpha2:
     case MaterialParameter::ogden_alpha3:
-    case MaterialParameter::gent_jm: return "1";
-    case MaterialParameter::retardation_time: return "s";
+    case MaterialParameter::gent_jm:
+    case MaterialParameter::relaxation_g1:
+    case MaterialParameter::relaxation_g2:
+    case MaterialParameter::relaxation_g3:
+    case MaterialParameter::relaxation_g4:
+    case MaterialParameter::relaxation_g5: return "1";
+    case MaterialParameter::retardation_time:
+    case MaterialParameter::relaxation_tau1:
+    case MaterialParameter::relaxation_tau2:
+    case MaterialParameter::relaxation_tau3:
+    case MaterialParameter::relaxation_tau4:
+    case MaterialParameter::relaxation_tau5: return "s";
     default: return "Pa";
   }
 }

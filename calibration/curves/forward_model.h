@@ -41,6 +41,17 @@ enum class MaterialParameter {
   ogden_alpha3,
   gent_jm,       ///< largest I1 - 3
   bulk_modulus,  ///< K, all else held [Pa]
+  // Branches of meshes/relaxation.h, the moduli after long times held.
+  relaxation_g1,    ///< share of G0
+  relaxation_tau1,  ///< [s]
+  relaxation_g2,
+  relaxation_tau2,
+  relaxation_g3,
+  relaxation_tau3,
+  relaxation_g4,
+  relaxation_tau4,
+  relaxation_g5,
+  relaxation_tau5,
 };
 
 /// The enumerator's name.

@@ -56,17 +56,22 @@ std::string card_toml(const LawCard& card) {
   for (std::size_t i = 0; i < names.size(); ++i)
     text += lines_of(name(names[i]), card.coefficients[i], unit(names[i]));
   if (card.bulk_modulus) text += lines_of("bulk_modulus", *card.bulk_modulus, "Pa");
-  text += "\n[rubber]  # at small strain, of the coefficients\nyoungs_modulus = " +
-          quantity_text(card.bulk_modulus ? 9.0 * k * g / (3.0 * k + g) : 3.0 * g, "Pa") +
-          "\nshear_modulus = " + quantity_text(g, "Pa") + '\n';
+  text +=
+      "\n[rubber]  # at small strain, of the coefficients, after long times\nyoungs_modulus = " +
+      quantity_text(card.bulk_modulus ? 9.0 * k * g / (3.0 * k + g) : 3.0 * g, "Pa") +
+      "\nshear_modulus = " + quantity_text(g, "Pa") + '\n';
   text += "\n[validity]\nsmallest_stretch = " + to_text(card.tested[0]) +
           "\nlargest_stretch = " + to_text(card.tested[1]) + '\n';
   if (card.rates)
     text += "slowest_rate = " + quantity_text((*card.rates)[0], "1/s") +
             "\nfastest_rate = " + quantity_text((*card.rates)[1], "1/s") + '\n';
+  if (card.times)
+    text += "shortest_time = " + quantity_text((*card.times)[0], "s") +
+            "\nlongest_time = " + quantity_text((*card.times)[1], "s") + '\n';
   for (const CardTest& test : card.tests)
     text +=
         "\n[[test]]\nname = " + toml_text(test.name) + "\nkind = " + toml_text(name(test.kind)) +
+        (test.course == TestCourse::slow ? "" : "\ncourse = " + toml_text(name(test.course))) +
         "\nuse = " + toml_text(test.fitted ? "fit" : "predict") +
         "\npoints = " + std::to_string(test.points) +
         "\nrms_error = " + to_text(test.rms_relative) +
@@ -117,6 +122,9 @@ class CardReader : TomlFile {
     if (find("validity", "slowest_rate") != nullptr)
       card.rates = {number("validity", "slowest_rate", "1/s"),
                     number("validity", "fastest_rate", "1/s")};
+    if (find("validity", "shortest_time") != nullptr)
+      card.times = {number("validity", "shortest_time", "s"),
+                    number("validity", "longest_time", "s")};
     read_tests(card);
     read_about(card);
     refuse_unknown_keys(card);
@@ -160,7 +168,7 @@ class CardReader : TomlFile {
     for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
       const toml::table* one = list->get(i)->as_table();
       CardTest test;
-      bool complete = one != nullptr && one->size() == 6;
+      bool complete = one != nullptr && one->size() == (one->contains("course") ? 7 : 6);
       if (complete) {
         const auto kind = (*one)["kind"].value<std::string>(),
                    use = (*one)["use"].value<std::string>();
@@ -170,7 +178,10 @@ class CardReader : TomlFile {
         const auto points = (*one)["points"].value<std::int64_t>();
         const auto rms = (*one)["rms_error"].value<double>(),
                    largest = (*one)["largest_error"].value<double>();
-        complete = (*one)["name"].is_string() && found != known.end() && points && *points > 0 &&
+        for (const TestCourse course : values(TestCourse()))
+          if ((*one)["course"].value<std::string>() == name(course)) test.course = course;
+        complete = (one->contains("course") == (test.course != TestCourse::slow)) &&
+                   (*one)["name"].is_string() && found != known.end() && points && *points > 0 &&
                    rms && largest && (use == "fit" || use == "predict");
         if (complete)
           test = {*(*one)["name"].value<std::string>(),
@@ -178,12 +189,15 @@ class CardReader : TomlFile {
                   use == "fit",
                   std::size_t(*points),
                   *rms,
-                  *largest};
+                  *largest,
+                  test.course};
       }
       if (!complete)
-        fail(int(list->get(i)->source().begin.line), "test", "",
-             "a test has name, kind, use (fit or predict), points, rms_error and largest_error",
-             "run calibrate again");
+        fail(
+            int(list->get(i)->source().begin.line), "test", "",
+            "a test has name, kind, use (fit or predict), points, rms_error and largest_error, and "
+            "in time a course (relaxation or cycles)",
+            "run calibrate again");
       card.tests.push_back(test);
     }
   }
@@ -216,6 +230,8 @@ class CardReader : TomlFile {
                                                  "validity.largest_stretch",
                                                  "validity.slowest_rate",
                                                  "validity.fastest_rate",
+                                                 "validity.shortest_time",
+                                                 "validity.longest_time",
                                                  "about.material",
                                                  "about.source",
                                                  "about.licence",
@@ -248,6 +264,10 @@ SizedLaw LawCard::law() const {
   return sized_law(choice, estimates_of(*this));
 }
 
+meshes::Relaxation LawCard::relaxation() const {
+  return relaxation_of(choice, estimates_of(*this));
+}
+
 std::vector<Violation> LawCard::violations() const {
   std::vector<Violation> found;
   const auto refuse = [&](const char* key, const std::string& value, const char* rule,
@@ -275,6 +295,9 @@ std::vector<Violation> LawCard::violations() const {
     refuse("law", name(choice), "the coefficients must make a positive shear modulus",
            "correct them");
   }
+  for (const Violation& broken : relaxation().violations())
+    refuse("law.relaxation_g1", broken.value, broken.rule.c_str(),
+           "correct the shares and times of [law]");
   if (bulk_modulus && !(bulk_modulus->value > 0.0 && std::isfinite(bulk_modulus->value)))
     refuse("law.bulk_modulus", to_text(bulk_modulus->value), "must be positive", "leave it out");
   if (!(tested[0] > 0.0 && tested[0] <= 1.0 && tested[1] >= 1.0 && std::isfinite(tested[1])))
@@ -283,6 +306,10 @@ std::vector<Violation> LawCard::violations() const {
   if (rates && !((*rates)[0] > 0.0 && (*rates)[0] <= (*rates)[1] && std::isfinite((*rates)[1])))
     refuse("validity.slowest_rate", to_text((*rates)[0]), "rates are positive and in order",
            "correct them");
+  if (times.has_value() != (choice.branches > 0) ||
+      (times && !((*times)[0] > 0.0 && (*times)[0] <= (*times)[1] && std::isfinite((*times)[1]))))
+    refuse("validity.shortest_time", times ? to_text((*times)[0]) + " s" : "none",
+           "a law that relaxes has its range of times, positive and in order", "correct them");
   return found;
 }
 
@@ -297,11 +324,12 @@ LawCard card_of(const LawFit& fit, const std::vector<MaterialTest>& tests,
   for (Eigen::Index i = 0; i < own; ++i) card.coefficients.push_back(value(i));
   if (fit.bulk_modulus) card.bulk_modulus = value(own);
   card.tested = fit.tested;
+  if (fit.choice.branches > 0) card.times = fit.times;
   const auto add = [&](const std::vector<MaterialTest>& from,
                        const std::vector<TestMisfit>& misfits, bool fitted) {
     for (std::size_t i = 0; i < misfits.size(); ++i) {
       card.tests.push_back({from[i].name, from[i].kind, fitted, misfits[i].points,
-                            misfits[i].rms_relative, misfits[i].largest_relative});
+                            misfits[i].rms_relative, misfits[i].largest_relative, from[i].course});
       if (!fitted) continue;
       card.provenance += (card.provenance.empty() ? "" : "; ") + from[i].source;
       if (const auto& rate = from[i].rate; rate && !card.rates)

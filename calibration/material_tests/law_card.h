@@ -20,6 +20,7 @@ struct CardTest {
   bool fitted = true;  ///< else predicted
   std::size_t points = 0;
   double rms_relative = 0.0, largest_relative = 0.0;  ///< TestMisfit's
+  TestCourse course = TestCourse::slow;
 };
 
 /// A number with its 95 % interval; no interval where both ends are NaN.
@@ -34,6 +35,8 @@ struct LawCard {
   std::optional<CardValue> bulk_modulus;       ///< none: no test tells it
   std::array<double, 2> tested = {1.0, 1.0};   ///< principal stretches of the fitted tests
   std::optional<std::array<double, 2>> rates;  ///< nominal strain rates [1/s], where known
+  /// LawFit::times [s], where the law has branches.
+  std::optional<std::array<double, 2>> times = {};
   std::vector<CardTest> tests;
   std::vector<std::string> contradictions;  ///< what speaks against it, in plain sentences
   std::string material, source, licence;    ///< may be empty
@@ -41,7 +44,8 @@ struct LawCard {
   std::string program, date;                ///< may be empty
   std::string statement;                    ///< what it is good for, in words
 
-  SizedLaw law() const;  ///< throws as sized_law does
+  SizedLaw law() const;  ///< after long times; throws as sized_law does
+  meshes::Relaxation relaxation() const;
   /// Every broken rule, with keys of material.toml.
   std::vector<meshes::Violation> violations() const;
 };
@@ -50,9 +54,10 @@ struct LawCard {
 LawCard card_of(const LawFit& fit, const std::vector<MaterialTest>& tests,
                 const std::vector<MaterialTest>& held_back);
 
-/// material.toml: [law], [rubber] with E and G that follow (E for incompressible rubber where K is
-/// unknown), [validity], [[test]], [about]. Written atomically, read back to the same bits. Throws
-/// InvalidInput for a card that breaks a rule, std::runtime_error when it cannot be written.
+/// material.toml: [law] with coefficients, shares and times, [rubber] with E and G that follow (E
+/// for incompressible rubber where K is unknown), [validity], [[test]], [about]. Written
+/// atomically, read back to the same bits. Throws InvalidInput for a card that breaks a rule,
+/// std::runtime_error when it cannot be written.
 void write_law_card(const LawCard& card, const std::filesystem::path& file);
 
 /// Throws InvalidInput naming file, line and key: a file that cannot be read, a missing or unknown

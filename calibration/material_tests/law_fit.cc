@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <numeric>
 
 #include "calibration/curves/fit_statistics.h"
 #include "calibration/material_tests/law_starts.h"
+#include "calibration/material_tests/relaxation_starts.h"
 #include "calibration/words.h"
 #include "meshes/errors.h"
 #include "meshes/press_response.h"
@@ -51,12 +54,9 @@ std::vector<double> scales_of(const MaterialTest& test, TestWeights weights) {
 }
 
 Curve scaled_curve(const MaterialTest& test, const std::vector<double>& scales) {
-  Curve curve{test.name,
-              std::string(name(test.kind)) + " [1]",
-              "stress over its scale [1]",
-              test.deformation,
-              test.stress,
-              test.sigma};
+  Curve curve{test.name,   "point [1]", "stress over its scale [1]",
+              test.stress, test.stress, test.sigma};
+  std::iota(curve.x.begin(), curve.x.end(), 1.0);
   for (std::size_t i = 0; i < scales.size(); ++i) {
     curve.y[i] /= scales[i];
     if (!curve.sigma.empty()) curve.sigma[i] /= scales[i];
@@ -183,6 +183,18 @@ void add_misfits(LawFit& result) {
                                       "): " + misfit.structure.statement);
 }
 
+/// Loops that the law does not make, or makes too large.
+void add_loops(LawFit& result) {
+  for (const std::vector<TestMisfit>* list : {&result.fitted, &result.predicted})
+    for (const TestMisfit& misfit : *list) {
+      const double measured = misfit.loop_measured, computed = misfit.loop_computed;
+      if (!(std::abs(computed - measured) > miss * std::abs(measured))) continue;
+      result.contradictions.push_back("the loops of " + misfit.test + " hold " +
+                                      rounded(measured, 3) + " J/m^3, those of the law " +
+                                      rounded(computed, 3));
+    }
+}
+
 void add_predictions(LawFit& result) {
   for (const TestMisfit& misfit : result.predicted) {
     if (misfit.largest_relative <= miss && misfit.rms_relative <= miss) continue;
@@ -241,43 +253,86 @@ TestMisfit predict(const LawFit& fit, const MaterialTest& test, TestWeights weig
   misfit.largest_relative = residuals.cwiseAbs().maxCoeff() / largest(test.stress);
   misfit.within = freedom > 0 ? double(inside) / double(misfit.points) : meshes::unknown;
   misfit.structure = residual_structure(residuals);
+  if (test.course == TestCourse::cycles) {
+    misfit.loop_measured = loop_area(test, test.stress);
+    misfit.loop_computed = loop_area(test, misfit.stress);
+  }
   return misfit;
 }
 
-LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
-               const LawFitOptions& options) {
-  check_tests(tests);
-  std::vector<std::vector<double>> scales;
-  std::vector<Curve> curves;
-  for (const MaterialTest& test : tests) {
-    scales.push_back(scales_of(test, options.weights));
-    curves.push_back(scaled_curve(test, scales.back()));
-  }
+namespace {
+
+/// Fits by their names, from which others begin.
+using Fits = std::map<std::string, LawFit>;
+
+const LawFit& fitted(const std::vector<MaterialTest>& tests, const LawChoice& choice,
+                     const LawFitOptions& options, Fits& done);
+
+/// The search for a law and its relaxation: from the law alone, then from a branch less.
+CurveFitOptions starts_of(const std::vector<MaterialTest>& tests,
+                          const std::vector<std::vector<double>>& scales, const LawChoice& choice,
+                          const LawFitOptions& options, Fits& done) {
   CurveFitOptions fit = law_starts(tests, scales, choice, options);
-  if (choice.law == meshes::RubberLaw::ogden && choice.terms > 1)
-    add_term_to(fit_law(tests, {choice.law, choice.terms - 1}, options), fit);
+  if (choice.branches > 0) {
+    const auto with = [&](int branches) -> const LawFit& {
+      return fitted(tests, {choice.law, choice.terms, branches}, options, done);
+    };
+    add_branches(tests, scales, choice, with(0), with(choice.branches - 1), fit);
+  } else if (choice.law == meshes::RubberLaw::ogden && choice.terms > 1) {
+    add_term_to(fitted(tests, {choice.law, choice.terms - 1}, options, done), fit);
+  }
   add_bulk_modulus(tests, fit);
   fit.max_iterations = 200;
   fit.relative_singular_value = 0.0;  // closed forms have no error: intervals tell what is open
+  return fit;
+}
+
+void check_points(Index points, Index coefficients, const LawChoice& choice) {
+  if (points > coefficients) return;
+  throw InvalidInput({"tests", std::to_string(points) + " points",
+                      "more points than the " + std::to_string(coefficients) + " coefficients of " +
+                          name(choice) + " are needed",
+                      "give further tests, or a law of fewer coefficients"});
+}
+
+LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
+                const LawFitOptions& options, Fits& done) {
+  check_tests(tests);
+  LawFit result;
+  result.times = observed_times(tests);
+  if (choice.branches > 0 && !result.times)
+    throw InvalidInput({"tests", name(choice), "a relaxation shows in tests with times alone",
+                        "give a relaxation test or cycles, or a law without prony"});
+  std::vector<std::vector<double>> scales;
+  std::vector<Curve> curves;
+  Index points = 0;
+  for (const MaterialTest& test : tests) {
+    scales.push_back(scales_of(test, options.weights));
+    curves.push_back(scaled_curve(test, scales.back()));
+    points += Index(test.stress.size());
+  }
+  CurveFitOptions fit = starts_of(tests, scales, choice, options, done);
   std::vector<MaterialParameter> parameters;
   for (const FreeParameter& free : fit.free) parameters.push_back(free.parameter);
-  Index points = 0;
-  for (const Curve& curve : curves) points += Index(curve.y.size());
-  if (points <= Index(parameters.size()))
-    throw InvalidInput({"tests", std::to_string(points) + " points",
-                        "more points than the " + std::to_string(parameters.size()) +
-                            " coefficients of " + name(choice) + " are needed",
-                        "give further tests, or a law of fewer coefficients"});
+  check_points(points, Index(parameters.size()), choice);
   std::vector<std::unique_ptr<LawModel>> models;
   std::vector<ForwardModel*> addresses;
   for (std::size_t t = 0; t < tests.size(); ++t) {
     models.push_back(std::make_unique<LawModel>(tests[t], scales[t], choice, parameters));
     addresses.push_back(models.back().get());
   }
-  LawFit result;
   result.choice = choice;
   result.fit = fit_curves(curves, addresses, fit);
+  if (const auto sorted = sorted_branches(choice, result.fit.estimates)) {
+    for (Index i = 0; i < sorted->size(); ++i) fit.free[std::size_t(i)].start = (*sorted)(i);
+    fit.other_starts.clear();
+    result.fit = fit_curves(curves, addresses, fit);
+  }
+  // Squares of the number of points, which a ranking would keep for every law.
+  result.fit.whitening.resize(0, 0);
+  result.fit.influence.resize(0, 0);
   result.law = sized_law(choice, result.fit.estimates);
+  result.relaxation = relaxation_of(choice, result.fit.estimates);
   if (parameters.back() == MaterialParameter::bulk_modulus)
     result.bulk_modulus = result.fit.estimates(result.fit.estimates.size() - 1);
   result.aicc = corrected_criterion(result.fit, points, !curves.front().sigma.empty());
@@ -286,8 +341,27 @@ LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
     result.fitted.push_back(predict(result, test, options.weights));
   add_instabilities(result, options);
   add_open_coefficients(result);
+  if (result.times) result.open_branches = open_branches(result.relaxation, *result.times);
+  result.contradictions.insert(result.contradictions.end(), result.open_branches.begin(),
+                               result.open_branches.end());
   add_misfits(result);
   return result;
+}
+
+const LawFit& fitted(const std::vector<MaterialTest>& tests, const LawChoice& choice,
+                     const LawFitOptions& options, Fits& done) {
+  const auto known = done.find(name(choice));
+  if (known != done.end()) return known->second;
+  LawFit fit = fit_with(tests, choice, options, done);
+  return done.emplace(name(choice), std::move(fit)).first->second;
+}
+
+}  // namespace
+
+LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
+               const LawFitOptions& options) {
+  Fits done;
+  return fit_with(tests, choice, options, done);
 }
 
 std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
@@ -295,13 +369,15 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
                               const std::vector<LawChoice>& laws, const LawFitOptions& options) {
   check_tests(tests);
   std::vector<LawFit> ranking;
+  Fits done;
   for (const LawChoice& law : laws) {
     LawFit fit;
     try {
-      fit = fit_law(tests, law, options);
+      fit = fitted(tests, law, options, done);
       for (const MaterialTest& test : held_back)
         fit.predicted.push_back(predict(fit, test, options.weights));
       add_predictions(fit);
+      add_loops(fit);
     } catch (const std::exception& error) {
       fit = LawFit();
       fit.choice = law;
@@ -328,6 +404,7 @@ const LawFit* recommended(const std::vector<LawFit>& ranking) {
   };
   const auto settled = [&](const LawFit& fit) {
     return stable(fit) && fit.fit.converged && fit.fit.unidentifiable.empty() &&
+           fit.open_branches.empty() &&
            std::ranges::none_of(fit.fit.at_bound, [](bool at) { return at; });
   };
   auto found = std::ranges::find_if(ranking, settled);
@@ -344,6 +421,7 @@ meshes::Rubber rubber_of(const LawFit& fit, double poissons_ratio) {
   rubber.youngs_modulus =
       fit.bulk_modulus ? 9.0 * k * g / (3.0 * k + g) : 2.0 * g * (1.0 + poissons_ratio);
   rubber.energy = fit.law.energy;
+  rubber.relaxation = fit.relaxation;
   return rubber;
 }
 

@@ -10,6 +10,8 @@
 #include "calibration/curves/residual_structure.h"
 #include "calibration/material_tests/law_model.h"
 #include "calibration/material_tests/material_test.h"
+#include "meshes/press_response.h"
+#include "meshes/relaxation.h"
 #include "meshes/rubber.h"
 
 namespace fingertip::calibration {
@@ -49,20 +51,29 @@ struct TestMisfit {
   /// hang together, and specimens differ: a share far below 0.95 says that they do.
   double within = 0.0;
   bool in_range = true;        ///< the stretches are among those of the fitted tests
-  std::vector<double> stress;  ///< of the law at the test's deformations [Pa]
+  std::vector<double> stress;  ///< of the law at the test's points [Pa]
+  /// Of cycles: loop_area of the stresses measured and of the law's [J/m³]; else NaN.
+  double loop_measured = meshes::unknown, loop_computed = meshes::unknown;
   ResidualStructure structure;
 };
 
 struct LawFit {
   LawChoice choice;
-  CurveFit fit;  ///< over scaled stresses; coefficients, then bulk_modulus where it was sought
+  /// Over scaled stresses, without whitening and influence; coefficients, then bulk_modulus where
+  /// it was sought.
+  CurveFit fit;
   SizedLaw law;
+  meshes::Relaxation relaxation;       ///< the fastest branch first
   std::optional<double> bulk_modulus;  ///< [Pa]; none: no volumetric test
   /// n ln(S/n) + 2k + 2k(k + 1)/(n - k - 1), n residuals of weighted sum of squares S, k the
   /// coefficients and, without sigma, the deviation (Hurvich & Tsai, Biometrika 76, 297, 1989);
   /// with sigma S + 2k + ... Infinite where n <= k + 1.
   double aicc = 0.0;
   std::array<double, 2> tested = {1.0, 1.0};  ///< principal stretches of the fitted tests
+  /// Where the fitted tests tell how stress fades, from when to when [s] (observed_times).
+  std::optional<std::array<double, 2>> times;
+  /// Branches outside of those times, which the tests hardly know, and what would show them.
+  std::vector<std::string> open_branches;
   std::vector<TestMisfit> fitted, predicted;
   /// Drucker's rule: within the stretches tested, used, and between 0.5 and 2, which presses ask.
   std::optional<meshes::Instability> unstable_in_tests, unstable_in_use, unstable_in_press;
@@ -73,9 +84,10 @@ struct LawFit {
   std::string failure;
 };
 
-/// Least squares over all tests together. Throws InvalidInput for tests that break their rules,
-/// fewer points than coefficients, some tests with sigma and some without, and where all tests are
-/// volumetric; NotConverged where no start has an answer.
+/// Least squares over all tests together. Slow tests count at their rate, those without one as
+/// after long times. Throws InvalidInput for tests that break their rules, fewer points than
+/// coefficients, some tests with sigma and some without, and where all tests are volumetric,
+/// branches where all tests are slow; NotConverged where no start has an answer.
 LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
                const LawFitOptions& options = {});
 
@@ -93,12 +105,12 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
 /// Into the order of rank_laws.
 void sort_ranking(std::vector<LawFit>& ranking);
 
-/// The first of a ranking that is stable in the tests and in the range of use, no coefficient open
-/// or at a bound; else the first that is stable, else the first. Null without any fit.
+/// The first of a ranking that is stable in the tests and in the range of use, no coefficient or
+/// branch open or at a bound; else the first that is stable, else the first. Null without any fit.
 const LawFit* recommended(const std::vector<LawFit>& ranking);
 
-/// E, G and the energy of a fit as a rubber; nu is that of `bulk_modulus`, or `poissons_ratio`
-/// where it is unknown. Its rules may be broken: Rubber::violations tells.
+/// E, G, the energy and the relaxation of a fit as a rubber; nu is that of `bulk_modulus`, or
+/// `poissons_ratio` where it is unknown. Its rules may be broken: Rubber::violations tells.
 meshes::Rubber rubber_of(const LawFit& fit, double poissons_ratio);
 
 }  // namespace fingertip::calibration

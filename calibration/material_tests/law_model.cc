@@ -17,11 +17,9 @@ using Three = std::array<double, 3>;
 
 namespace {
 
-/// Difference of two Kirchhoff stresses to the stress that is measured.
 double measured_stress(const Three& kirchhoff, TestKind kind, StressMeasure measure, double l) {
-  if (kind == TestKind::simple_shear) return (kirchhoff[0] - kirchhoff[2]) / std::sqrt(4.0 + l * l);
-  const double difference = kirchhoff[0] - kirchhoff[kind == TestKind::uniaxial ? 1 : 2];
-  return measure == StressMeasure::cauchy ? difference : difference / l;
+  const auto parts = stress_parts(kind, kirchhoff, l), weights = part_weights(kind, measure, l);
+  return parts[0] * weights[0] + parts[1] * weights[1];
 }
 
 /// d(kirchhoff)/d(alpha) of 2 mu/alpha (l^alpha - 1) at mu = 1.
@@ -77,7 +75,8 @@ Three by_coefficient(const LawChoice& choice, const VectorXd& c, Index i, const 
 
 std::string name(const LawChoice& choice) {
   const bool series = choice.law == RubberLaw::yeoh || choice.law == RubberLaw::ogden;
-  return std::string(name(choice.law)) + (series ? "-" + std::to_string(choice.terms) : "");
+  return std::string(name(choice.law)) + (series ? "-" + std::to_string(choice.terms) : "") +
+         (choice.branches > 0 ? "+prony-" + std::to_string(choice.branches) : "");
 }
 
 const std::vector<LawChoice>& known_laws() {
@@ -89,12 +88,30 @@ const std::vector<LawChoice>& known_laws() {
 }
 
 std::optional<LawChoice> law_named(std::string_view text) {
-  for (const LawChoice& law : known_laws())
-    if (name(law) == text) return law;
+  for (LawChoice law : known_laws())
+    for (law.branches = 0; law.branches <= most_branches; ++law.branches)
+      if (name(law) == text) return law;
   return std::nullopt;
 }
 
 std::vector<MaterialParameter> coefficients(const LawChoice& choice) {
+  using enum MaterialParameter;
+  static_assert(int(relaxation_tau5) - int(relaxation_g1) + 1 == 2 * most_branches);
+  std::vector<MaterialParameter> all = law_coefficients(choice);
+  for (int i = 0; i < 2 * choice.branches; ++i)
+    all.push_back(MaterialParameter(int(relaxation_g1) + i));
+  return all;
+}
+
+meshes::Relaxation relaxation_of(const LawChoice& choice, const VectorXd& c) {
+  meshes::Relaxation relaxation;
+  const Index own = Index(law_coefficients(choice).size());
+  for (Index i = 0; i < choice.branches; ++i)
+    relaxation.branches.push_back({c(own + 2 * i), c(own + 2 * i + 1)});
+  return relaxation;
+}
+
+std::vector<MaterialParameter> law_coefficients(const LawChoice& choice) {
   using enum MaterialParameter;
   const auto first = [&](std::vector<MaterialParameter> all, int count) {
     all.resize(std::size_t(count));
@@ -117,7 +134,7 @@ SizedLaw sized_law(const LawChoice& choice, const VectorXd& c) {
   law.energy.volumetric = meshes::VolumetricLaw::quadratic;
   double& g = law.shear_modulus;
   auto& shape = law.energy.shape;
-  const Index count = Index(coefficients(choice).size());
+  const Index count = Index(law_coefficients(choice).size());
   switch (choice.law) {
     case RubberLaw::yeoh: g = 2.0 * c(0); break;
     case RubberLaw::mooney_rivlin: g = 2.0 * (c(0) + c(1)); break;
@@ -154,36 +171,91 @@ LawModel::LawModel(MaterialTest test, std::vector<double> scales, LawChoice choi
     : test_(std::move(test)),
       scales_(std::move(scales)),
       choice_(choice),
-      parameters_(std::move(parameters)) {}
+      parameters_(std::move(parameters)),
+      course_(test_) {}
 
-CurveSlopes LawModel::evaluate(const VectorXd& parameters) {
+CurveSlopes LawModel::volume(const VectorXd& parameters) const {
   const Index points = Index(test_.deformation.size()), all = Index(parameters_.size());
   const Index own = Index(coefficients(choice_).size());
-  const SizedLaw law = sized_law(choice_, parameters);
+  if (all <= own)
+    throw meshes::InvalidInput({"test " + test_.name, "volumetric",
+                                "an incompressible law says nothing of a volume",
+                                "free the bulk modulus"});
   CurveSlopes result{VectorXd(points), Eigen::MatrixXd::Zero(points, all)};
   for (Index p = 0; p < points; ++p) {
-    const double at = test_.deformation[std::size_t(p)];
-    double factor = 1.0 / scales_[std::size_t(p)];
-    if (test_.kind == TestKind::volumetric) {
-      if (all <= own)
-        throw meshes::InvalidInput({"test " + test_.name, "volumetric",
-                                    "an incompressible law says nothing of a volume",
-                                    "free the bulk modulus"});
-      result.value(p) = factor * mean_stress(parameters(own), at);
-      result.jacobian(p, own) = factor * mean_stress(1.0, at);
-      continue;
+    const double at = test_.deformation[std::size_t(p)], scale = scales_[std::size_t(p)];
+    result.value(p) = mean_stress(parameters(own), at) / scale;
+    result.jacobian(p, own) = mean_stress(1.0, at) / scale;
+  }
+  return result;
+}
+
+void LawModel::add_parts(const SizedLaw& law, const VectorXd& parameters, double deformation,
+                         Eigen::Ref<Eigen::RowVectorXd> row) const {
+  const Three stretch = principal_stretches(test_.kind, deformation);
+  const auto response = principal_response(law.energy, stretch);
+  if (!std::isfinite(response.energy))
+    throw meshes::NotConverged("the stretch " + meshes::to_text(deformation) +
+                               " is beyond the limit of the gent law");
+  const auto put = [&](Index column, const Three& kirchhoff, double factor) {
+    const auto parts = stress_parts(test_.kind, kirchhoff, deformation);
+    row(column) = factor * parts[0];
+    row(column + 1) = factor * parts[1];
+  };
+  put(0, response.kirchhoff, law.shear_modulus);
+  for (Index i = 0; 2 * i + 3 < row.size(); ++i)
+    put(2 * i + 2, by_coefficient(choice_, parameters, i, stretch), 1.0);
+}
+
+PartTable LawModel::lasting_parts(const VectorXd& parameters) const {
+  const SizedLaw law = sized_law(choice_, parameters);
+  const std::vector<double>& states = course_.states();
+  PartTable parts(Index(states.size()), 2 + 2 * Index(law_coefficients(choice_).size()));
+  for (std::size_t i = 0; i < states.size(); ++i)
+    add_parts(law, parameters, states[i], parts.row(Index(i)));
+  return parts;
+}
+
+double LawModel::scaled(std::size_t p, const Eigen::RowVector2d& parts) const {
+  const auto weights = part_weights(test_.kind, test_.measure, test_.deformation[p]);
+  const double factor = test_.constraint.empty() ? 1.0 : test_.constraint[p];
+  return factor / scales_[p] * (weights[0] * parts(0) + weights[1] * parts(1));
+}
+
+CurveSlopes LawModel::evaluate(const VectorXd& parameters) {
+  if (test_.kind == TestKind::volumetric) return volume(parameters);
+  const Index points = Index(test_.deformation.size()), all = Index(parameters_.size());
+  const Index own = Index(law_coefficients(choice_).size());
+  CurveSlopes result{VectorXd(points), Eigen::MatrixXd::Zero(points, all)};
+  const meshes::Relaxation relaxation = relaxation_of(choice_, parameters);
+  double left = 1.0;
+  for (const auto& branch : relaxation.branches) left -= branch.share;
+  if (!(left > 0.0)) throw meshes::NotConverged("the shares of the branches sum to 1 or more");
+  const auto add = [&](Index column, const PartTable& parts, Index from, double factor) {
+    for (Index p = 0; p < points; ++p) {
+      double& to = column < 0 ? result.value(p) : result.jacobian(p, column);
+      to += factor * scaled(std::size_t(p), parts.row(p).segment<2>(from));
     }
-    if (!test_.constraint.empty()) factor *= test_.constraint[std::size_t(p)];
-    const Three stretch = principal_stretches(test_.kind, at);
-    const double stress = test_stress(law, test_.kind, test_.measure, at);
-    if (!std::isfinite(stress))
-      throw meshes::NotConverged("the stretch " + meshes::to_text(at) +
-                                 " is beyond the limit of the gent law");
-    result.value(p) = factor * stress;
-    for (Index i = 0; i < own; ++i)
-      result.jacobian(p, i) =
-          factor * measured_stress(by_coefficient(choice_, parameters, i, stretch), test_.kind,
-                                   test_.measure, at);
+  };
+  result.value.setZero();
+  if (relaxation.empty() || course_.empty()) {
+    const SizedLaw law = sized_law(choice_, parameters);
+    PartTable parts(points, 2 + 2 * own);
+    for (Index p = 0; p < points; ++p)
+      add_parts(law, parameters, test_.deformation[std::size_t(p)], parts.row(p));
+    for (Index i = -1; i < own; ++i) add(i, parts, 2 * i + 2, 1.0);
+    return result;
+  }
+  const PartTable lasting = lasting_parts(parameters), now = course_.now(lasting);
+  for (Index i = -1; i < own; ++i) add(i, now, 2 * i + 2, 1.0);
+  for (std::size_t n = 0; n < relaxation.branches.size(); ++n) {
+    const FadingCourse::Branch branch = course_.branch(lasting, relaxation.branches[n].time);
+    const double b = relaxation.excess(n);
+    for (Index i = -1; i < own; ++i) add(i, branch.held, 2 * i + 2, b);
+    // b_n = g_n/left.
+    for (std::size_t m = 0; m < relaxation.branches.size(); ++m)
+      add(own + 2 * Index(m), branch.held, 0, (b + (m == n ? 1.0 : 0.0)) / left);
+    add(own + 2 * Index(n) + 1, branch.by_time, 0, b);
   }
   return result;
 }

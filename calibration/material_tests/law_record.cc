@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "calibration/material_tests/relaxation_starts.h"
 #include "calibration/words.h"
 
 namespace fingertip::calibration {
@@ -25,17 +26,24 @@ ParameterEntry law_parameter(const LawFit& fit, std::size_t i) {
 }
 
 LawTestEntry law_test(const MaterialTest& test, const TestMisfit& misfit, const char* use) {
-  return {test.name,
-          std::string(name(test.kind)),
-          use,
-          misfit.points,
-          misfit.rms,
-          misfit.rms_relative,
-          misfit.largest_relative,
-          misfit.sum_of_squares,
-          misfit.within,
-          misfit.in_range,
-          {misfit.structure.runs, misfit.structure.probability, misfit.structure.statement}};
+  LawTestEntry entry;
+  entry.name = test.name;
+  entry.kind = name(test.kind);
+  entry.use = use;
+  entry.points = misfit.points;
+  entry.rms = misfit.rms;
+  entry.rms_relative = misfit.rms_relative;
+  entry.largest_relative = misfit.largest_relative;
+  entry.sum_of_squares = misfit.sum_of_squares;
+  entry.within = misfit.within;
+  entry.in_range = misfit.in_range;
+  entry.structure = {misfit.structure.runs, misfit.structure.probability,
+                     misfit.structure.statement};
+  entry.course = name(test.course);
+  entry.rate = test.rate;
+  entry.loop_measured = misfit.loop_measured;
+  entry.loop_computed = misfit.loop_computed;
+  return entry;
 }
 
 std::optional<InstabilityEntry> instability_entry(const std::optional<meshes::Instability>& at) {
@@ -86,6 +94,10 @@ LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<Materia
   const auto range = stretch_range(tests);
   file.smallest_stretch = range[0];
   file.largest_stretch = range[1];
+  if (const auto times = observed_times(tests)) {
+    file.shortest_time = (*times)[0];
+    file.longest_time = (*times)[1];
+  }
   for (const LawFit& fit : ranking) file.laws.push_back(law_entry(fit, tests, held_back));
   const LawFit* best = recommended(ranking);
   if (best == nullptr) {
@@ -118,7 +130,8 @@ std::vector<LawDataRow> law_data(const std::vector<LawFit>& ranking,
         for (std::size_t i = 0; i < from[t].stress.size(); ++i) {
           const double computed = misfits[t].stress[i];
           rows.push_back({name(fit.choice), from[t].name, use, from[t].deformation[i],
-                          from[t].stress[i], std::isfinite(computed) ? computed : unknown});
+                          from[t].stress[i], std::isfinite(computed) ? computed : unknown,
+                          from[t].time.empty() ? unknown : from[t].time[i]});
         }
     };
     add(tests, fit.fitted, "fit");

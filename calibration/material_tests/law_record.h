@@ -21,16 +21,21 @@ struct LawTestEntry {
          sum_of_squares = meshes::unknown, within = meshes::unknown;
   bool in_range = true;
   StructureEntry structure;
+  std::string course = "slow";
+  std::optional<double> rate;
+  double loop_measured = meshes::unknown, loop_computed = meshes::unknown;
 };
 constexpr auto fields_of(const LawTestEntry*) {
-  using meshes::named;
+  using meshes::named, meshes::newer;
   using Whole = LawTestEntry;
-  return named(
-      "name kind use points rms rms_relative largest_relative sum_of_squares within in_range "
-      "structure",
-      &Whole::name, &Whole::kind, &Whole::use, &Whole::points, &Whole::rms, &Whole::rms_relative,
-      &Whole::largest_relative, &Whole::sum_of_squares, &Whole::within, &Whole::in_range,
-      &Whole::structure);
+  return std::tuple_cat(
+      named("name kind use points rms rms_relative largest_relative sum_of_squares within in_range "
+            "structure",
+            &Whole::name, &Whole::kind, &Whole::use, &Whole::points, &Whole::rms,
+            &Whole::rms_relative, &Whole::largest_relative, &Whole::sum_of_squares, &Whole::within,
+            &Whole::in_range, &Whole::structure),
+      newer(named("course rate loop_measured loop_computed", &Whole::course, &Whole::rate,
+                  &Whole::loop_measured, &Whole::loop_computed)));
 }
 
 /// Where a law stops being stable.
@@ -71,21 +76,25 @@ constexpr auto fields_of(const LawEntry*) {
 struct LawsFile {
   std::string problem, weights, recommended;
   double smallest_stretch = meshes::unknown, largest_stretch = meshes::unknown;
-  std::vector<LawEntry> laws;  ///< the least AICc first
+  double shortest_time = meshes::unknown, longest_time = meshes::unknown;  ///< of tests in time
+  std::vector<LawEntry> laws;                                              ///< the least AICc first
   std::string statement;
 };
 constexpr auto fields_of(const LawsFile*) {
-  using meshes::named;
+  using meshes::named, meshes::newer;
   using Whole = LawsFile;
-  return named("problem weights recommended smallest_stretch largest_stretch laws statement",
-               &Whole::problem, &Whole::weights, &Whole::recommended, &Whole::smallest_stretch,
-               &Whole::largest_stretch, &Whole::laws, &Whole::statement);
+  return std::tuple_cat(
+      named("problem weights recommended smallest_stretch largest_stretch laws statement",
+            &Whole::problem, &Whole::weights, &Whole::recommended, &Whole::smallest_stretch,
+            &Whole::largest_stretch, &Whole::laws, &Whole::statement),
+      newer(named("shortest_time longest_time", &Whole::shortest_time, &Whole::longest_time)));
 }
 
 /// law_data.csv: a measured stress beside those of a law.
 struct LawDataRow {
   std::string law, test, use;
   double deformation = meshes::unknown, measured = meshes::unknown, computed = meshes::unknown;
+  double time = meshes::unknown;  ///< none of slow tests
 };
 constexpr auto fields_of(const LawDataRow*) {
   using meshes::field;
@@ -95,7 +104,8 @@ constexpr auto fields_of(const LawDataRow*) {
                     field("use", &Row::use),
                     field("deformation", &Row::deformation),
                     field("measured [Pa]", &Row::measured),
-                    field("computed [Pa]", &Row::computed)};
+                    field("computed [Pa]", &Row::computed),
+                    field("time [s]", &Row::time, meshes::Presence::newer)};
 }
 
 /// What the ranking says, as a file; `ranking` of rank_laws is not empty.

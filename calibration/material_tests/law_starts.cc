@@ -76,7 +76,7 @@ double largest_invariant(const std::vector<MaterialTest>& tests) {
   double largest = 0.0;
   for (const MaterialTest& test : tests) {
     if (test.kind == TestKind::volumetric) continue;
-    for (const double deformation : test.deformation) {
+    for (const double deformation : test.all_deformations()) {
       const auto l = principal_stretches(test.kind, deformation);
       largest = std::max(largest, l[0] * l[0] + l[1] * l[1] + l[2] * l[2] - 3.0);
     }

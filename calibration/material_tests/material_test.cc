@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include "meshes/files.h"
 
@@ -36,6 +38,31 @@ std::string_view name(StressMeasure measure) {
   return measure == StressMeasure::nominal ? "nominal" : "true";
 }
 
+std::string_view name(TestCourse course) {
+  switch (course) {
+    case TestCourse::slow: return "slow";
+    case TestCourse::relaxation: return "relaxation";
+    case TestCourse::cycles: return "cycles";
+  }
+  return "unknown";
+}
+
+double StrainPath::at(double when) const {
+  const auto next = std::ranges::upper_bound(time, when);
+  if (next == time.begin()) return deformation.front();
+  const std::size_t i = std::size_t(next - time.begin()) - 1;
+  if (i + 1 == time.size() || time[i] == when) return deformation[i];
+  const double part = (when - time[i]) / (time[i + 1] - time[i]);
+  return deformation[i] + part * (deformation[i + 1] - deformation[i]);
+}
+
+double StrainPath::held_from(double rest) const {
+  const double held = deformation.back(), close = 0.02 * std::abs(held - rest);
+  std::size_t i = deformation.size() - 1;
+  while (i > 0 && std::abs(deformation[i - 1] - held) <= close) --i;
+  return time[i];
+}
+
 std::vector<Violation> MaterialTest::violations() const {
   std::vector<Violation> found;
   const auto refuse = [&](const char* what, const std::string& value, const std::string& rule,
@@ -50,12 +77,15 @@ std::vector<Violation> MaterialTest::violations() const {
            "complete the lists");
   for (std::size_t i = 0; i < deformation.size(); ++i) {
     const double value = deformation[i];
-    if (value > 0.0 && value <= most_stretch && (i == 0 || value > deformation[i - 1])) continue;
+    if (course != TestCourse::slow ||
+        (value > 0.0 && value <= most_stretch && (i == 0 || value > deformation[i - 1])))
+      continue;
     refuse("deformation", to_text(value),
            "must be positive, at most 20 and increase from point to point",
            "sort the points, and look at the definition of strain and its unit");
     break;
   }
+  if (course != TestCourse::slow) std::ranges::move(time_violations(), std::back_inserter(found));
   const auto finite = [](double value) { return std::isfinite(value); };
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (!std::ranges::all_of(stress, finite))
@@ -67,9 +97,86 @@ std::vector<Violation> MaterialTest::violations() const {
   if (!std::ranges::all_of(constraint, positive))
     refuse("constraint", "not positive", "factors on the force must be finite and positive",
            "give none, or all");
-  if (rate && !positive(*rate))
-    refuse("rate", to_text(*rate), "a rate must be positive", "leave it out where it is unknown");
+  // Beyond, times are no numbers.
+  if (rate && !(*rate >= 1e-12 && *rate <= 1e12))
+    refuse("rate", to_text(*rate), "a rate must be positive, from 1e-12 to 1e12 1/s",
+           "leave it out where it is unknown");
   return found;
+}
+
+std::vector<Violation> MaterialTest::time_violations() const {
+  std::vector<Violation> found;
+  const auto refuse = [&](const char* what, const std::string& value, const char* rule,
+                          const char* remedy) {
+    found.push_back({"test " + name + ", " + what, value, rule, remedy});
+  };
+  if (kind == TestKind::volumetric)
+    refuse("kind", "volumetric", "a change of volume is told in equilibrium alone",
+           "give the test without times");
+  if (time.size() != stress.size() || path.empty() || path.time.size() != path.deformation.size()) {
+    refuse("time", std::to_string(time.size()) + " values",
+           "every stress has its time, and the specimen a deformation in time",
+           "complete the lists");
+    return found;
+  }
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::ranges::all_of(time, finite) || !std::ranges::all_of(path.time, finite) ||
+      std::ranges::adjacent_find(time, std::greater_equal()) != time.end() ||
+      !std::ranges::is_sorted(path.time))
+    refuse("time", "", "times must be finite and increase", "sort the points by their time");
+  else if (!time.empty() && (time.front() < path.time.front() || time.back() > path.time.back()))
+    refuse("time", to_text(time.front()) + " s to " + to_text(time.back()) + " s",
+           "the deformation must be known as long as stresses are", "complete its course");
+  for (const double value : all_deformations()) {
+    const double size = kind == TestKind::simple_shear ? std::abs(value) : value;
+    if (size <= most_stretch && (kind == TestKind::simple_shear || value > 0.0)) continue;
+    refuse("deformation", to_text(value), "a stretch is positive, and no deformation exceeds 20",
+           "look at the definition of strain and its unit");
+    break;
+  }
+  const auto rests = [&](double value) { return value == rest_of(kind); };
+  if (std::ranges::all_of(all_deformations(), rests))
+    refuse("deformation", to_text(rest_of(kind)), "the specimen is never deformed",
+           "give another column");
+  if (!constraint.empty())
+    refuse("constraint", "given", "what plates hold is known in equilibrium alone",
+           "give a test between plates that slip");
+  return found;
+}
+
+std::vector<double> MaterialTest::all_deformations() const {
+  std::vector<double> all = deformation;
+  all.insert(all.end(), path.deformation.begin(), path.deformation.end());
+  return all;
+}
+
+double rest_of(TestKind kind) {
+  return kind == TestKind::simple_shear ? 0.0 : 1.0;
+}
+
+std::array<double, 2> observed_times(const MaterialTest& test) {
+  const double start = test.path.time.front(), last = test.time.back() - start;
+  if (test.course == TestCourse::cycles || test.time.size() < 2)
+    return {last / double(std::max<std::size_t>(1, test.time.size() - 1)), last};
+  const double held = test.path.held_from(rest_of(test.kind)), ramp = held - start;
+  const auto after = std::ranges::upper_bound(test.time, held);
+  const double first = after == test.time.end() ? last : *after - held;
+  return {std::max(ramp, first), last};
+}
+
+double loop_area(const MaterialTest& test, const std::vector<double>& stress) {
+  const std::size_t n = stress.size();
+  const auto nominal = [&](std::size_t i) {
+    const bool force =
+        test.measure == StressMeasure::nominal || test.kind == TestKind::simple_shear;
+    return force ? stress[i] : stress[i] / test.deformation[i];
+  };
+  double area = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = (i + 1) % n;
+    area += 0.5 * (nominal(i) + nominal(next)) * (test.deformation[next] - test.deformation[i]);
+  }
+  return area;
 }
 
 std::array<double, 3> principal_stretches(TestKind kind, double deformation) {
@@ -91,7 +198,7 @@ std::array<double, 2> stretch_range(const std::vector<MaterialTest>& tests) {
   std::array<double, 2> range = {1.0, 1.0};
   for (const MaterialTest& test : tests) {
     if (test.kind == TestKind::volumetric) continue;
-    for (const double deformation : test.deformation)
+    for (const double deformation : test.all_deformations())
       for (const double stretch : principal_stretches(test.kind, deformation))
         range = {std::min(range[0], stretch), std::max(range[1], stretch)};
   }

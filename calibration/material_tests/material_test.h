@@ -34,27 +34,75 @@ constexpr auto values(StressMeasure) {
   return std::array{StressMeasure::nominal, StressMeasure::cauchy};
 }
 
+/// How a specimen's deformation goes in time.
+enum class TestCourse {
+  slow,        ///< at its `rate`, or so slowly that the rubber is in equilibrium
+  relaxation,  ///< brought to a deformation, which is held
+  cycles,      ///< any other course
+};
+std::string_view name(TestCourse course);
+constexpr auto values(TestCourse) {
+  return std::array{TestCourse::slow, TestCourse::relaxation, TestCourse::cycles};
+}
+
+/// A deformation in time, linear from corner to corner. Two corners of one time are a sudden
+/// change; where the first is not rest, so is what comes before it.
+struct StrainPath {
+  std::vector<double> time;         ///< never decreasing [s]
+  std::vector<double> deformation;  ///< as that of a test, in shear of any sign
+
+  bool empty() const { return time.empty(); }
+  /// Between the corners, after a sudden change [time within the path, not empty].
+  double at(double when) const;
+  /// When the last deformation is reached within 2 % of its distance from `rest`.
+  double held_from(double rest) const;
+};
+
 /// SI.
 struct MaterialTest {
   std::string name;  ///< for people
   TestKind kind = TestKind::uniaxial;
   StressMeasure measure = StressMeasure::nominal;
-  std::vector<double> deformation;  ///< increasing, positive; meaning: TestKind
-  std::vector<double> stress;       ///< positive in tension [Pa]
-  std::vector<double> sigma = {};   ///< standard deviation of every stress [Pa]; empty: unknown
+  /// Positive; meaning: TestKind. Increasing where the course is slow.
+  std::vector<double> deformation;
+  std::vector<double> stress;      ///< positive in tension [Pa]
+  std::vector<double> sigma = {};  ///< standard deviation of every stress [Pa]; empty: unknown
   /// Where the plates hold the ends of a cylinder: the force over that between plates that slip, at
   /// every deformation; empty: 1.
   std::vector<double> constraint = {};
   std::optional<double> rate = {};  ///< nominal strain rate [1/s], where known
-  std::string source = {};          ///< file with its SHA-256, author; may be empty
-  std::string licence = {};         ///< of the data; may be empty
+  TestCourse course = TestCourse::slow;
+  /// Of a course that is not slow: when every stress was measured, increasing [s], and how the
+  /// specimen was deformed from before the first of them until the last. Before it was at rest.
+  std::vector<double> time = {};
+  StrainPath path = {};
+  std::string source = {};   ///< file with its SHA-256, author; may be empty
+  std::string licence = {};  ///< of the data; may be empty
 
   /// Every broken rule.
   std::vector<meshes::Violation> violations() const;
+  /// Of every point and every corner of the path.
+  std::vector<double> all_deformations() const;
+
+ private:
+  std::vector<meshes::Violation> time_violations() const;
 };
 
-/// The principal stretches of an incompressible body in a test at `deformation` > 0; of volume 1
-/// but in a volumetric test, J^(1/3) each.
+/// The deformation of a specimen at rest: 0 in shear, else 1.
+double rest_of(TestKind kind);
+
+/// From the first time that a test tells of how its stress fades to the last [s]: of a relaxation
+/// after a ramp, which hides what is faster, from the ramp's duration or the first stress after it,
+/// whichever is later; of cycles from their mean step in time. Not for a slow course.
+std::array<double, 2> observed_times(const MaterialTest& test);
+
+/// What was done to a specimen of volume 1 m³, less what it gave back: the area within the curve of
+/// nominal stress over deformation, its ends joined by a straight line [J/m³]. `stress`: at the
+/// test's points, by its measure.
+double loop_area(const MaterialTest& test, const std::vector<double>& stress);
+
+/// The principal stretches of an incompressible body in a test at `deformation`, > 0 but in shear;
+/// of volume 1 but in a volumetric test, J^(1/3) each.
 std::array<double, 3> principal_stretches(TestKind kind, double deformation);
 
 /// The smallest and largest principal stretch over all tests but volumetric ones; {1, 1} for none.

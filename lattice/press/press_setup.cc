@@ -83,7 +83,7 @@ void add_relaxation(std::vector<Violation>& found, const PressSetup& setup) {
              finite = lattice.kinematics == Kinematics::finite;
   if (setup.protocol.mode == meshes::DriveMode::equilibrium)
     refuse("a lattice in equilibrium knows no time, and a rubber that relaxes depends on it",
-           "take press.mode = quasi-static or pid; without rubber.relaxation an equilibrium is "
+           "take press.mode = quasi-static or pid; with rubber.relaxation = [] an equilibrium is "
            "that after long times");
   else if (lattice.model == ModelKind::published || (finite && lattice.model != ModelKind::network))
     refuse("the published lattice does not relax, and at large strain no springs do",

@@ -25,19 +25,19 @@ std::string share_text(double share) {
 /// "test 1.2 %, sheet* 14 %": errors of one law.
 void print_ranking(const calibration::LawsFile& file) {
   const double least = file.laws.front().aicc;
-  fmt::print("{:<15}{:>3}{:>10}  {:<11}", "law", "k", "AICc", "stable");
+  fmt::print("{:<23}{:>3}{:>10}  {:<11}", "law", "k", "AICc", "stable");
   for (const LawTestEntry& test : file.laws.front().tests)
     fmt::print("  {:>18.18}", test.name + (test.use == "fit" ? "" : "*"));
   fmt::print("\n");
   for (const LawEntry& law : file.laws) {
     if (!law.failure.empty()) {
-      fmt::print("{:<15} no fit: {}\n", law.law, law.failure);
+      fmt::print("{:<23} no fit: {}\n", law.law, law.failure);
       continue;
     }
     const auto& unstable = law.unstable_in_tests ? law.unstable_in_tests
                            : law.unstable_in_use ? law.unstable_in_use
                                                  : law.unstable_in_press;
-    fmt::print("{:<15}{:>3}{:>10.1f}  {:<11}", law.law, law.parameters.size(), law.aicc - least,
+    fmt::print("{:<23}{:>3}{:>10.1f}  {:<11}", law.law, law.parameters.size(), law.aicc - least,
                unstable ? fmt::format("to {:.3g}", unstable->stretch) : "yes");
     for (const LawTestEntry& test : law.tests)
       fmt::print("  {:>18}",
@@ -58,6 +58,10 @@ void print_coefficients(const LawEntry& law) {
                value(parameter.lower), value(parameter.upper),
                shown == nullptr ? parameter.unit : std::string(shown->ascii));
   }
+  for (const LawTestEntry& test : law.tests)
+    if (std::isfinite(test.loop_measured))
+      fmt::print("loops of {}: {:.4g} J/m^3 measured, {:.4g} by the law\n", test.name,
+                 test.loop_measured, test.loop_computed);
   for (const std::string& sentence : law.contradictions) fmt::print("- {}\n", sentence);
 }
 

@@ -1,4 +1,5 @@
 /// The keys of [calibration].
+#include "calibration/material_tests/law_model.h"
 #include "studies/config/key_builders.h"
 #include "studies/config/key_sections.h"
 
@@ -98,7 +99,12 @@ std::vector<Key> calibration_keys() {
                          at(&Config::calibration, &Order::tests))),
       of_material(with_rule(
           entry("laws", any, "laws that are tried; none: all of them", &Order::laws),
-          "neo-hookean, mooney-rivlin, gent, yeoh-2, yeoh-3, ogden-1, ogden-2, ogden-3", {})),
+          "neo-hookean, mooney-rivlin, gent, yeoh-2, yeoh-3, ogden-1, ogden-2, ogden-3; \"yeoh-2+"
+          "prony-1\": with so many branches of a relaxation, not up to calibration.branches",
+          {})),
+      of_material(entry("branches", {0, calibration::most_branches, true},
+                        "most branches of a relaxation, where tests are given in time",
+                        &Order::branches)),
       of_material(choice("calibration", "weights",
                          {{"test", "the root mean square stress of each test"},
                           {"stress", "the same for all: small stresses count little"},

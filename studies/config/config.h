@@ -84,7 +84,8 @@ struct CalibrationSettings {
   int evaluations = 50;  ///< most that a search may do
   unsigned seed = 1;
   std::filesystem::path tests;    ///< what describes the material tests; absolute, empty for none
-  std::vector<std::string> laws;  ///< of calibration::known_laws; empty: all
+  std::vector<std::string> laws;  ///< of calibration::law_named; empty: all known_laws
+  int branches = 3;               ///< most of a relaxation that is fitted
   calibration::TestWeights weights = calibration::TestWeights::test;
   std::vector<double> stretch_range = {0.5, 2.0};  ///< principal stretches of use
 };

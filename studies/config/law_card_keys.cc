@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "calibration/words.h"
 #include "meshes/files.h"
 
 namespace fingertip::studies {
@@ -44,8 +45,19 @@ std::vector<std::pair<std::string, std::string>> keys_of(const LawCard& card) {
       [[fallthrough]];
     default: keys.emplace_back("rubber.shear_modulus", pascals(c[0].value));
   }
-  if (card.bulk_modulus)
+  if (card.bulk_modulus) {
     keys.emplace_back("rubber.bulk_modulus", pascals(card.bulk_modulus->value));
+    keys.emplace_back("rubber.volumetric",
+                      '"' + std::string(name(card.law().energy.volumetric)) + '"');
+  }
+  if (const meshes::Relaxation relaxation = card.relaxation(); !relaxation.empty()) {
+    std::string list;
+    for (const meshes::RelaxationBranch& branch : relaxation.branches)
+      list += (list.empty() ? "[" : ", [") + meshes::to_text(branch.share) + ", \"" +
+              meshes::to_text(branch.time) + " s\"]";
+    keys.emplace_back("rubber.relaxation", '[' + list + ']');
+    keys.emplace_back("rubber.relaxation_bulk", relaxation.bulk ? "true" : "false");
+  }
   return keys;
 }
 
@@ -58,7 +70,16 @@ std::vector<std::string> card_warnings(const LawCard& card, const LoadedConfig& 
     const double along = 1.0 - depth / press.geometry.thickness();
     used = {along, 1.0 / std::sqrt(along)};
   }
-  return calibration::warnings(card, used);
+  std::vector<std::string> found = calibration::warnings(card, used);
+  const double duration = depth / press.protocol.speed;
+  if (card.times && !press.rubber.relaxation.empty() &&
+      (duration < (*card.times)[0] || duration > (*card.times)[1]))
+    found.insert(found.begin(), "pressing takes " + calibration::rounded(duration, 3) +
+                                    " s, and the tests tell how stress fades from " +
+                                    calibration::rounded((*card.times)[0], 3) + " to " +
+                                    calibration::rounded((*card.times)[1], 3) +
+                                    " s: beyond, it is a guess");
+  return found;
 }
 
 }  // namespace fingertip::studies

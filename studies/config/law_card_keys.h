@@ -11,11 +11,12 @@
 namespace fingertip::studies {
 
 /// Keys "rubber.yeoh" and their values as TOML literals, "[\"7.7e3 Pa\", ...]". Without a bulk
-/// modulus nothing is said of the volume.
+/// modulus nothing is said of the volume; with branches it relaxes as the shape does.
 std::vector<std::pair<std::string, std::string>> keys_of(const calibration::LawCard& card);
 
 /// What to beware of where `loaded` uses the card; the mean stretch of the rubber above the
-/// contact, 1 - depth/thickness, stands for the stretches of a press on a dome.
+/// contact, 1 - depth/thickness, stands for the stretches of a press on a dome, depth over speed
+/// for its time.
 std::vector<std::string> card_warnings(const calibration::LawCard& card,
                                        const LoadedConfig& loaded);
 

@@ -8,6 +8,7 @@
 #include "studies/report/calibration_chapters.h"
 #include "studies/report/chapters.h"
 #include "studies/report/grasp_run.h"
+#include "studies/report/law_chapter.h"
 #include "studies/report/moving_press.h"
 #include "studies/report/words.h"
 
@@ -88,6 +89,7 @@ class PageMaker {
     if (std::filesystem::exists(run_.folder / "grasp.csv"))
       return grasp_page({read_grasp(run_.folder, "", "grasp", reader_)});
     if (!run_.modes.empty()) return modes_page();
+    if (std::filesystem::exists(run_.folder / "laws.json")) return law_page();
     if (is_continuum(run_.folder)) return reference_page();
     if (!run_.moduli_fit.empty()) return moduli_page();
     if (run_.models.empty() && !run_.response.empty()) return static_page();
@@ -254,6 +256,20 @@ class PageMaker {
     page.answer = words([&] { return modes_answer(run_.modes); });
     add(page, [&] { return modes_chapter(run_.modes); });
     end(page);
+    return page;
+  }
+
+  /// The run of a `calibrate` that fitted laws to material tests.
+  Page law_page() {
+    const LawResult laws = reader_.attempt([&] { return read_laws(run_.folder, reader_); });
+    Page page;
+    page.title = "Soft fingertip: laws of a rubber";
+    page.subtitle = words(
+        [&] { return with_case(run_, "Laws fitted to material tests, and what they predict"); });
+    page.answer = words([&] { return law_answer(laws); });
+    add(page, [&] { return law_chapter(laws); });
+    end(page);
+    page.not_run = missing_law_parts(laws);
     return page;
   }
 

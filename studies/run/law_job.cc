@@ -31,6 +31,9 @@ ordered_json test_inputs(const MaterialTest& test) {
           {"stress", test.stress},
           {"sigma", test.sigma},
           {"rate", test.rate.value_or(0.0)},
+          {"course", name(test.course)},
+          {"time", test.time},
+          {"path", {test.path.time, test.path.deformation}},
           {"source", test.source}};
 }
 
@@ -77,11 +80,20 @@ void write_cards(const std::vector<LawFit>& ranking, const LawInput& input,
 
 std::vector<LawFit> ranked(const LawInput& input, const JobContext& context) {
   std::vector<LawFit> ranking;
-  for (std::size_t i = 0; i < input.laws.size(); ++i) {
-    if (!context.report(double(i) / double(input.laws.size()), name(input.laws[i])))
+  // A law and its branches begin from each other.
+  const auto alike = [](const calibration::LawChoice& a, const calibration::LawChoice& b) {
+    return a.law == b.law && a.terms == b.terms;
+  };
+  for (auto from = input.laws.begin(); from != input.laws.end();) {
+    const auto to =
+        std::find_if(from, input.laws.end(), [&](const auto& law) { return !alike(law, *from); });
+    const double done = double(from - input.laws.begin()) / double(input.laws.size());
+    if (!context.report(done, name(*from)))
       throw meshes::Interrupted("the fit of laws was stopped");
-    auto one = rank_laws(input.tests.fitted, input.tests.held_back, {input.laws[i]}, input.options);
-    ranking.push_back(std::move(one.front()));
+    for (LawFit& fit :
+         rank_laws(input.tests.fitted, input.tests.held_back, {from, to}, input.options))
+      ranking.push_back(std::move(fit));
+    from = to;
   }
   calibration::sort_ranking(ranking);
   return ranking;
@@ -145,12 +157,28 @@ void run_laws(LawInput input, const fs::path& folder, const JobContext& context)
   context.log(file.statement);
 }
 
+/// Where a fitted test goes in time, every law that names no branches with none up to so many.
+std::vector<calibration::LawChoice> with_branches(const std::vector<calibration::LawChoice>& asked,
+                                                  const MaterialTestFile& tests, int most) {
+  const bool in_time = std::ranges::any_of(tests.fitted, [](const MaterialTest& test) {
+    return test.course != calibration::TestCourse::slow;
+  });
+  std::vector<calibration::LawChoice> laws;
+  for (calibration::LawChoice law : asked) {
+    laws.push_back(law);
+    if (!in_time || law.branches > 0) continue;
+    for (law.branches = 1; law.branches <= most; ++law.branches) laws.push_back(law);
+  }
+  return laws;
+}
+
 }  // namespace
 
 LawInput law_input(const LoadedConfig& loaded) {
   const CalibrationSettings& settings = loaded.config.calibration;
   LawInput input;
   std::vector<meshes::Violation> found;
+  std::vector<calibration::LawChoice> asked;
   if (settings.tests.empty())
     found.push_back({"calibration.tests", "none", "material tests are described by a file",
                      "write calibration.tests = \"tests.toml\""});
@@ -160,11 +188,14 @@ LawInput law_input(const LoadedConfig& loaded) {
     for (const auto& each : calibration::known_laws())
       names += (names.empty() ? "" : ", ") + name(each);
     if (known)
-      input.laws.push_back(*known);
+      asked.push_back(*known);
     else
-      found.push_back({"calibration.laws", law, "must be among " + names, "take some of them"});
+      found.push_back({"calibration.laws", law,
+                       "must be among " + names + ", of a relaxation with +prony-1 to +prony-" +
+                           std::to_string(calibration::most_branches) + " behind",
+                       "take some of them"});
   }
-  if (input.laws.empty()) input.laws = calibration::known_laws();
+  if (asked.empty()) asked = calibration::known_laws();
   input.options.weights = settings.weights;
   input.options.seed = settings.seed;
   input.options.range_of_use = {settings.stretch_range[0], settings.stretch_range[1]};
@@ -182,6 +213,7 @@ LawInput law_input(const LoadedConfig& loaded) {
            broken.remedy});
     throw loaded.locate(found);
   }
+  input.laws = with_branches(asked, input.tests, settings.branches);
   return input;
 }
 

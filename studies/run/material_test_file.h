@@ -29,15 +29,18 @@ struct MaterialTestFile {
 ///
 ///   [about]  material, source, licence: texts
 ///   [data]   what tests have in common: any key of a test but `name` and `path`
-///   [[test]] name, path (or a list of paths: repeats, averaged), use ("fit" or "predict"), kind,
+///   [[test]] name, path (or a list of paths: repeats, averaged), use ("fit" or "predict"),
+///            kind (of deformation; or "relaxation", "cycles", then with `deformation`),
 ///            separator ("comma", "semicolon", "tab", "whitespace"), skip (lines), header
 ///            (true, false), decimal ("point", "comma"), rows ([first, last] of the data),
 ///            strain = {column, is, sign}  is: stretch, engineering, logarithmic, displacement
 ///                                         (with unit), shear, volume-ratio, volume-change
 ///            stress = {column, is, unit, sign}  is: nominal, true, force, pressure
-///            sigma = {column, unit}, area, length, diameter, height, speed (quantities),
-///            range ([from, to] of the strain as it stands in the file), points, plates ("slip",
-///            "stick")
+///            time = {column, unit, from}  from: ramp, hold; strain = {value, is, sign} where a
+///                                         relaxation holds it
+///            rate (quantity), sigma = {column, unit}, area, length, diameter, height, speed
+///            (quantities), range ([from, to] of the strain as it stands in the file), points,
+///            plates ("slip", "stick")
 ///
 /// A column is a name of the header or a number from 1. `area` serves forces, `length` (gauge
 /// length, or height) displacements and the rate; both follow from `diameter` and `height`. Paths
@@ -45,7 +48,8 @@ struct MaterialTestFile {
 /// than a tenth do, the curve turns back and `rows` must choose a branch. Repeats, and files of
 /// more than 200 rows, become `points` (2 to 1000; 200) stresses at equal steps of the strain as it
 /// stands in the files, from the largest start to the smallest end, by linear interpolation, and
-/// their mean. Throws InvalidInput naming file, line, key, value, rule and remedy.
+/// their mean. Tests in time: timed_test.h. Throws InvalidInput naming file, line, key, value, rule
+/// and remedy.
 MaterialTestFile read_material_tests(const std::filesystem::path& file);
 
 }  // namespace fingertip::studies

@@ -6,6 +6,7 @@
 
 #include "calibration/curves/remembered_model.h"
 #include "calibration/material.h"
+#include "calibration/material_tests/law_model.h"
 #include "calibration/surrogate/surrogate.h"
 #include "campaign.h"
 #include "fem_reference/job.h"
@@ -17,6 +18,7 @@
 #include "studies/run/cache.h"
 #include "studies/run/curve_file.h"
 #include "studies/run/json_file.h"
+#include "studies/run/material_test_file.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;
@@ -151,6 +153,65 @@ TEST(FuzzData, MeasuredCurves) {
                  EXPECT_TRUE(all_finite(curve.x) && all_finite(curve.y) && all_finite(curve.sigma));
                  EXPECT_TRUE(increasing(curve.x) && curve.x.front() > 0.0);
                  for (const double sigma : curve.sigma) EXPECT_GT(sigma, 0.0);
+               }));
+}
+
+// Descriptions of material tests, in time and not, with the data that belong to them.
+TEST(FuzzData, MaterialTests) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "tests.toml", data = folder / "data.csv";
+  const std::string rows = "t,l,s\n0,1,0\n0.1,1.2,5\n0.2,1.5,9\n1,1.5,8\n2,1.501,7\n";
+  const std::string cut = "\n====\n";  // between description and data
+  const std::string common =
+      "path = \"data.csv\"\nstress = {column = \"s\", is = \"nominal\", unit = \"kPa\"}\n";
+  const std::string column = "strain = {column = \"l\", is = \"stretch\"}\n",
+                    time = "time = {column = \"t\", unit = \"s\"}\n";
+  const std::vector<std::string> seeds = {
+      "[[test]]\nkind = \"relaxation\"\n" + common + column + time + cut + rows,
+      "[[test]]\nkind = \"relaxation\"\nrate = \"5 1/s\"\n" + common + time +
+          "strain = {value = 50, is = \"engineering\", unit = \"%\"}\n" + cut + rows,
+      "[[test]]\nkind = \"cycles\"\ndeformation = \"planar\"\npoints = 3\n" + common + column +
+          time + cut + rows,
+      "[about]\nmaterial = \"m\"\n[data]\n" + column +
+          "[[test]]\nkind = \"uniaxial\"\nrate = \"1 1/s\"\nrows = [1, 3]\n" + common + cut + rows};
+  const std::vector<std::string> words = {"[[test]]\n",
+                                          "kind = \"cycles\"\n",
+                                          "from = \"hold\"",
+                                          "value = -1",
+                                          "deformation = \"simple-shear\"\n",
+                                          "use = \"predict\"\n",
+                                          "rate = \"1e300 1/s\"\n",
+                                          "unit = \"ms\"",
+                                          "rows = [1, 2]\n",
+                                          "1e59",
+                                          "-1e-300",
+                                          "nan",
+                                          "0,1,1\n",
+                                          "points = 2\n",
+                                          "sign = -1",
+                                          "{",
+                                          "}",
+                                          "\"",
+                                          "=",
+                                          "is = \"logarithmic\"",
+                                          "length = \"1 mm\"\n"};
+  fuzz::attack({seeds, words}, fuzz::refusing<InvalidInput>([&](const std::string& input) {
+                 const std::size_t at = input.find(cut);
+                 write_text(file, input.substr(0, at));
+                 write_text(data, at == input.npos ? rows : input.substr(at + cut.size()));
+                 const studies::MaterialTestFile found = studies::read_material_tests(file);
+                 EXPECT_FALSE(found.fitted.empty());
+                 for (const calibration::MaterialTest& test : found.fitted) {
+                   EXPECT_TRUE(test.violations().empty());
+                   EXPECT_TRUE(all_finite(test.stress) && all_finite(test.all_deformations()));
+                   EXPECT_TRUE(increasing(test.time));
+                   if (test.kind == calibration::TestKind::volumetric) continue;
+                   const calibration::LawChoice law{meshes::RubberLaw::neo_hookean, 1, 1};
+                   calibration::LawModel model(test, std::vector<double>(test.stress.size(), 1.0),
+                                               law, coefficients(law));
+                   const auto answer = model.evaluate(Eigen::Vector3d(1e4, 0.3, 0.5));
+                   EXPECT_TRUE(answer.value.allFinite() && answer.jacobian.allFinite());
+                 }
                }));
 }
 

@@ -184,7 +184,7 @@ const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawA
     "geometry.shape", "geometry.profile", "geometry.file", "geometry.unit", "geometry.bond",
     "geometry.endpoint",
     // Its keys count, and of material tests what they say (law_job_test).
-    "rubber.card", "calibration.tests", "calibration.laws", "calibration.weights",
+    "rubber.card", "calibration.tests", "calibration.laws", "calibration.weights", "calibration.branches",
     "calibration.stretch_range"};
 /// Of the fit of constants to moduli, which a hookean lattice has in closed form.
 const Sets moduli_fit = {"calibration.starts", "calibration.seed", "calibration.isotropy_weight",

@@ -119,6 +119,103 @@ TEST_F(LawJob, EveryLawsCardBecomesKeysAndBack) {
   }
 }
 
+/// Ramp and hold of a neo-Hookean rubber of G = 20 kPa, 30 % of which fade in 2 s.
+class RelaxingLawJob : public LawJob {
+ protected:
+  void SetUp() override {
+    const double b = 0.3 / 0.7, s = 20.0 * (1.3 - 1.0 / (1.3 * 1.3));
+    std::string hold = "time,stress\n", slow = "stretch,stress\n";
+    for (int i = 1; i <= 80; ++i) {
+      const double t = 0.05 * std::pow(2000.0, i / 80.0);
+      hold += std::to_string(t) + "," + std::to_string(s * (1.0 + b * std::exp(-t / 2.0))) + "\n";
+    }
+    for (int i = 1; i <= 20; ++i) {
+      const double l = 1.0 + 0.03 * i;
+      slow += std::to_string(l) + "," + std::to_string(20.0 * (l - 1.0 / (l * l))) + "\n";
+    }
+    write_text(folder_ / "hold.csv", hold);
+    write_text(folder_ / "slow.csv", slow);
+    write_text(folder_ / "tests.toml",
+               "[data]\nstress = {column = \"stress\", is = \"nominal\", unit = \"kPa\"}\n"
+               "[[test]]\nkind = \"relaxation\"\npath = \"hold.csv\"\n"
+               "time = {column = \"time\"}\nstrain = {value = 1.3, is = \"stretch\"}\n"
+               "[[test]]\nkind = \"uniaxial\"\npath = \"slow.csv\"\n"
+               "strain = {column = \"stretch\", is = \"stretch\"}\n");
+  }
+};
+
+TEST_F(RelaxingLawJob, TriesBranchesWhereATestGoesInTime) {
+  const auto names = [&](const std::vector<std::string>& sets) {
+    std::string all;
+    for (const auto& law : law_input(configured(sets)).laws) all += name(law) + " ";
+    return all;
+  };
+  const std::string one = "calibration.laws=[\"gent\"]";
+  EXPECT_EQ(names({one}), "gent gent+prony-1 gent+prony-2 gent+prony-3 ");
+  EXPECT_EQ(names({one, "calibration.branches=0"}), "gent ");
+  EXPECT_EQ(names({"calibration.laws=[\"gent+prony-2\", \"yeoh-2\"]", "calibration.branches=1"}),
+            "gent+prony-2 yeoh-2 yeoh-2+prony-1 ");
+  const std::string key = law_job(law_input(configured({one}))).key();
+  EXPECT_NE(law_job(law_input(configured({one, "calibration.branches=2"}))).key(), key);
+  std::string text = read_text(folder_ / "hold.csv");
+  write_text(folder_ / "hold.csv", text.replace(text.find("0.05"), 4, "0.04"));
+  EXPECT_NE(law_job(law_input(configured({one}))).key(), key);
+}
+
+TEST_F(RelaxingLawJob, ACardIsTheKeysGivenByHand) {
+  run(law_input(configured({"calibration.laws=[\"neo-hookean\"]"})));
+  const auto card = calibration::read_law_card(folder_ / "material.toml");
+  ASSERT_EQ(name(card.choice), "neo-hookean+prony-1");
+  EXPECT_NEAR(card.relaxation().branches[0].share, 0.3, 1e-3);
+  EXPECT_NEAR(card.relaxation().branches[0].time, 2.0, 1e-2);
+  const std::string use = "rubber.card=" + (folder_ / "material.toml").string();
+  const LoadedConfig by_card =
+      load_config({{}, {use, "rubber.poissons_ratio=0.45", "lattice.model=network"}, {}});
+  std::vector<std::string> sets = {"rubber.poissons_ratio=0.45", "lattice.model=network"};
+  for (const auto& [key, literal] : keys_of(card)) sets.push_back(key + "=" + literal);
+  const LoadedConfig by_hand = load_config({{}, sets, {}});
+  const meshes::Rubber &a = by_card.config.press.rubber, &b = by_hand.config.press.rubber;
+  EXPECT_EQ(a.relaxation, b.relaxation);
+  EXPECT_EQ(a.relaxation.branches.at(0).share, card.relaxation().branches[0].share);
+  EXPECT_DOUBLE_EQ(a.relaxation.branches[0].time, card.relaxation().branches[0].time);
+  EXPECT_EQ(a.shear_modulus, b.shear_modulus);
+  EXPECT_EQ(a.youngs_modulus, b.youngs_modulus);
+  EXPECT_EQ(a.energy, b.energy);
+  // Another relaxation contradicts the card, none is its rubber after long times.
+  EXPECT_THROW(load_config({{}, {use, "rubber.relaxation=[[0.1, \"1 s\"]]"}, {}}), ConfigError);
+  const LoadedConfig lasting = load_config({{}, {use, "rubber.relaxation=[]"}, {}});
+  EXPECT_TRUE(lasting.config.press.rubber.relaxation.empty());
+  EXPECT_EQ(lasting.config.press.rubber.shear_modulus, a.shear_modulus);
+}
+
+TEST_F(RelaxingLawJob, APressOfOtherTimesIsTold) {
+  run(law_input(configured({"calibration.laws=[\"neo-hookean\"]"})));
+  const std::string use = "rubber.card=" + (folder_ / "material.toml").string();
+  const auto told = [&](const char* speed) {
+    for (const std::string& note : load_config({{}, {use, speed}, {}}).notes)
+      if (note.find("pressing takes") != note.npos) return true;
+    return false;
+  };
+  EXPECT_FALSE(told("press.speed=1 cm/s"));
+  EXPECT_TRUE(told("press.speed=100 cm/s"));
+}
+
+/// A test that a volumetric one joins knows what a change of volume costs.
+TEST_F(LawJob, AVolumetricTestSetsWhatVolumeCosts) {
+  write_text(folder_ / "bulk.csv", "J,p\n0.97,60\n0.98,40\n0.99,20\n");
+  write_text(folder_ / "tests.toml",
+             read_text(folder_ / "tests.toml") +
+                 "[[test]]\nkind = \"volumetric\"\npath = \"bulk.csv\"\n"
+                 "strain = {column = \"J\", is = \"volume-ratio\"}\n"
+                 "stress = {column = \"p\", is = \"pressure\", unit = \"kPa\"}\n");
+  run(law_input(configured({"calibration.laws=[\"neo-hookean\"]"})));
+  const std::string use = "rubber.card=" + (folder_ / "material.toml").string();
+  const auto& rubber = load_config({{}, {use}, {}}).config.press.rubber;
+  EXPECT_EQ(rubber.energy.volumetric, meshes::VolumetricLaw::quadratic);
+  EXPECT_NEAR(rubber.bulk_modulus(), 2e6, 2e4);
+  EXPECT_THROW(load_config({{}, {use, "rubber.volumetric=logarithmic"}, {}}), ConfigError);
+}
+
 TEST_F(LawJob, KnowsWhatItsResultDependsOn) {
   const std::string key = law_job(law_input(configured())).key();
   EXPECT_EQ(law_job(law_input(configured())).key(), key);

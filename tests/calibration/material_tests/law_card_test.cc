@@ -53,6 +53,55 @@ class Cards : public testing::Test {
   TemporaryFolder folder_;
 };
 
+LawCard relaxing_card() {
+  LawCard card = ogden_card();
+  card.choice.branches = 2;
+  for (const double value : {0.15, 0.012345678901234567, 0.3, 4.5})
+    card.coefficients.push_back({value, 0.9 * value, 1.1 * value});
+  card.times = {0.003, 60.5};
+  card.tests.push_back(
+      {"ramp and hold", TestKind::uniaxial, true, 90, 0.01, 0.03, TestCourse::relaxation});
+  return card;
+}
+
+TEST_F(Cards, ARelaxationIsReadBackToTheSameBits) {
+  const LawCard written = relaxing_card();
+  write_law_card(written, file());
+  const LawCard read = read_law_card(file());
+  EXPECT_EQ(read.choice, written.choice);
+  EXPECT_EQ(read.relaxation(), written.relaxation());
+  EXPECT_EQ(read.relaxation().branches.at(0).time, 0.012345678901234567);
+  EXPECT_EQ(read.coefficients.back().upper, written.coefficients.back().upper);
+  EXPECT_EQ(read.times, written.times);
+  EXPECT_EQ(read.tests.back().course, TestCourse::relaxation);
+  EXPECT_EQ(read.tests.front().course, TestCourse::slow);
+}
+
+TEST_F(Cards, ARelaxationThatIsNoneIsRefused) {
+  const auto refused = [&](const std::string& from, const std::string& to, const char* part) {
+    write_law_card(relaxing_card(), file());
+    std::string text = read_text(file());
+    const auto at = text.find(from);
+    ASSERT_NE(at, text.npos) << from;
+    write_text(file(), text.replace(at, from.size(), to));
+    try {
+      read_law_card(file());
+      ADD_FAILURE() << "accepted: " << to;
+    } catch (const meshes::InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  refused("relaxation_g2 = 0.3", "relaxation_g2 = 0.9", "sum to less than 1");
+  refused("relaxation_g2 = 0.3", "relaxation_g2 = -0.3", "must be positive");
+  refused("relaxation_tau2 = \"4.5 s\"", "relaxation_tau2 = \"0 s\"", "must be positive");
+  refused("relaxation_tau2 = \"4.5 s\"", "relaxation_tau2 = \"4.5 m\"", "relaxation_tau2");
+  refused("shortest_time = \"0.003 s\"\n", "", "shortest_time");
+  refused("course = \"relaxation\"", "course = \"slow\"", "a course (relaxation or cycles)");
+  refused("+prony-2", "", "no such key");
+  refused("+prony-2", "+prony-3", "relaxation_g3");
+  refused("+prony-2", "+prony-7", "must be one of");
+}
+
 TEST_F(Cards, ReadBackToTheSameBits) {
   const LawCard written = ogden_card();
   write_law_card(written, file());

@@ -1,0 +1,139 @@
+/// `calibrate` of material tests in time: from files to a card, and a press with it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// A neo-Hookean rubber of G = 14 kPa, a quarter of which fades in 20 ms: held at once at 1.3, and
+/// sheared to and fro at 5 Hz by small amounts after a second's rest.
+class MaterialInTime : public testing::Test {
+ protected:
+  void SetUp() override {
+    const double b = 0.25 / 0.75, stress = 14.0 * (1.3 - 1.0 / (1.3 * 1.3));
+    std::ostringstream hold;
+    hold << "t [ms],s [kPa]\n";
+    for (int i = 0; i < 50; ++i) {
+      const double t = std::pow(1000.0, i / 49.0);
+      hold << t << ',' << stress * (1.0 + b * std::exp(-t / 20.0)) << '\n';
+    }
+    std::ostringstream cycles;
+    cycles.precision(12);
+    cycles << "t,g,s\n";
+    double held = 0.0, before = 0.0;
+    for (int i = 0; i <= 200; ++i) {
+      const double g = 0.02 * std::sin(2.0 * M_PI * i / 100.0), keep = std::exp(-0.1);
+      held = keep * held + (1.0 - keep) / 0.1 * (g - before);
+      before = g;
+      cycles << 2e-3 * i << ',' << g << ',' << 14.0 * (g + b * held) << '\n';
+    }
+    write_text(folder_ / "hold.csv", hold.str());
+    write_text(folder_ / "cycles.csv", cycles.str());
+    describe("cycles.csv");
+  }
+  void describe(const std::string& cycles) const {
+    write_text(
+        folder_ / "tests.toml",
+        "[[test]]\nkind = \"relaxation\"\npath = \"hold.csv\"\n"
+        "time = {column = 1, unit = \"ms\"}\nstrain = {value = 1.3, is = \"stretch\"}\n"
+        "stress = {column = 2, is = \"nominal\", unit = \"kPa\"}\n"
+        "[[test]]\nkind = \"cycles\"\ndeformation = \"simple-shear\"\nname = \"to and fro\"\n"
+        "path = \"" +
+            cycles +
+            "\"\ntime = {column = \"t\"}\nstrain = {column = \"g\", is = \"shear\"}\n"
+            "stress = {column = \"s\", is = \"nominal\", unit = \"kPa\"}\n");
+  }
+  ProgramResult fit() const {
+    return run_program(folder_.path(), {"calibrate", "--set", "calibration.problem=material",
+                                        "--set", "calibration.tests=tests.toml", "--set",
+                                        "calibration.laws=[\"neo-hookean\"]", "--out", "laws"});
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(MaterialInTime, FromFilesToACardThatPressesAsItsKeysDo) {
+  const ProgramResult fitted = fit();
+  ASSERT_EQ(fitted.code, 0) << fitted.err;
+  EXPECT_NE(fitted.out.find("loops of to and fro: "), std::string::npos) << fitted.out;
+  const std::string card = contents(folder_ / "laws/material.toml");
+  EXPECT_NE(card.find("name = \"neo-hookean+prony-1\""), std::string::npos) << card;
+  EXPECT_NE(card.find("relaxation_tau1_interval"), std::string::npos);
+  const auto number_after = [&](const std::string& key) {
+    const std::string mark = "\n" + key + " = ";
+    std::string text = card.substr(card.find(mark) + mark.size());
+    text = text.substr(0, text.find('\n'));
+    std::erase(text, '"');
+    return text;
+  };
+  const std::string g = number_after("shear_modulus"), share = number_after("relaxation_g1"),
+                    tau = number_after("relaxation_tau1");
+  EXPECT_NEAR(std::stod(share), 0.25, 1e-3);
+  EXPECT_NEAR(std::stod(tau), 0.02, 1e-4);
+  const auto press = [&](const std::string& out, std::vector<std::string> keys) {
+    std::vector<std::string> all = {"press",
+                                    "--set",
+                                    "press.mode=quasi-static",
+                                    "--set",
+                                    "press.speed=5 cm/s",
+                                    "--set",
+                                    "press.depth=0.05 cm",
+                                    "--set",
+                                    "lattice.model=network",
+                                    "--set",
+                                    "lattice.spacing=tip_radius/5",
+                                    "--set",
+                                    "rubber.poissons_ratio=0.45",
+                                    "--out",
+                                    out};
+    for (const std::string& key : keys) all.insert(all.end(), {"--set", key});
+    return run_program(folder_.path(), all);
+  };
+  const ProgramResult by_card = press("card", {"rubber.card=laws/material.toml"});
+  ASSERT_EQ(by_card.code, 0) << by_card.err;
+  const ProgramResult by_hand =
+      press("hand", {"rubber.shear_modulus=" + g, "rubber.law=neo-hookean",
+                     "rubber.relaxation=[[" + share + ", \"" + tau + "\"]]"});
+  ASSERT_EQ(by_hand.code, 0) << by_hand.err;
+  const std::string response = contents(folder_ / "card/response.csv");
+  EXPECT_GT(response.size(), 200u);
+  EXPECT_EQ(response, contents(folder_ / "hand/response.csv"));
+  const ProgramResult lasting =
+      press("lasting", {"rubber.card=laws/material.toml", "rubber.relaxation=[]"});
+  ASSERT_EQ(lasting.code, 0) << lasting.err;
+  EXPECT_NE(response, contents(folder_ / "lasting/response.csv"));
+  // In equilibrium there is no time.
+  const ProgramResult refused =
+      run_program(folder_.path(), {"press", "--set", "press.mode=static", "--set",
+                                   "lattice.model=network", "--set", "rubber.poissons_ratio=0.45",
+                                   "--set", "rubber.card=laws/material.toml", "--out", "static"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("laws/material.toml"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("rubber.relaxation = []"), std::string::npos) << refused.err;
+}
+
+TEST_F(MaterialInTime, TellsFileAndLineOfTimesThatStepBack) {
+  write_text(folder_ / "bad.csv", "t,g,s\n0,0,0\n1,0.1,1\n0.5,0.2,2\n");
+  describe("bad.csv");
+  const ProgramResult refused = fit();
+  EXPECT_EQ(refused.code, 2);
+  for (const char* part : {"calibration.tests", "bad.csv:4", "0.5 after 1", "times must increase",
+                           "rows = [first, last]"})
+    EXPECT_NE(refused.err.find(part), std::string::npos) << part << " in " << refused.err;
+}
+
+}  // namespace
