@@ -33,14 +33,14 @@ std::vector<std::vector<double>> rows(const MatrixXd& matrix) {
 /// What is at its bound: of E it may be Poisson's ratio.
 std::optional<std::string> bound_of(const CurveFit& fit, std::size_t i) {
   if (!fit.at_bound[i]) return std::nullopt;
-  return fit.poissons_ratio_bound ? "poissons_ratio" : std::string(name(fit.parameters[i]));
+  return fit.poissons_ratio_bound ? "poissons_ratio" : fit.labels[i];
 }
 
 ParameterEntry parameter_entry(const FitRecord& record, std::size_t i) {
   const CurveFit& fit = record.fit;
   const FreeParameter& free = record.options.free[i];
   ParameterEntry entry;
-  entry.name = name(free.parameter);
+  entry.name = label(free);
   entry.unit = unit(free.parameter);
   entry.estimate = fit.estimates(Index(i));
   entry.standard_error = fit.standard_errors(Index(i));
@@ -59,7 +59,7 @@ std::vector<DirectionEntry> directions(const FitRecord& record,
   for (const Direction& direction : found) {
     meshes::Entries<double> changes;
     for (std::size_t i = 0; i < record.fit.parameters.size(); ++i)
-      changes[std::string(name(record.fit.parameters[i]))] = direction.changes(Index(i));
+      changes[record.fit.labels[i]] = direction.changes(Index(i));
     result.push_back(
         {changes, direction.relative_singular_value, direction.interval, direction.statement});
   }

@@ -91,6 +91,12 @@ bool is_modulus(MaterialParameter parameter) {
          parameter == MaterialParameter::shear_modulus || parameter == MaterialParameter::modulus;
 }
 
+bool is_of_the_rig(MaterialParameter parameter) {
+  return parameter == MaterialParameter::touch_offset ||
+         parameter == MaterialParameter::compliance ||
+         parameter == MaterialParameter::force_offset || parameter == MaterialParameter::drift;
+}
+
 bool is_of_the_rubber(MaterialParameter parameter) {
   return is_modulus(parameter) || parameter == MaterialParameter::lame_shear ||
          parameter == MaterialParameter::lambda;
@@ -154,6 +160,10 @@ std::string_view name(MaterialParameter parameter) {
     case MaterialParameter::ogden_alpha3: return "ogden_alpha3";
     case MaterialParameter::gent_jm: return "gent_jm";
     case MaterialParameter::bulk_modulus: return "bulk_modulus";
+    case MaterialParameter::touch_offset: return "touch_offset";
+    case MaterialParameter::compliance: return "compliance";
+    case MaterialParameter::force_offset: return "force_offset";
+    case MaterialParameter::drift: return "drift";
   }
   return "unknown";
 }
@@ -170,6 +180,10 @@ std::string_view unit(MaterialParameter parameter) {
     case MaterialParameter::ogden_alpha3:
     case MaterialParameter::gent_jm: return "1";
     case MaterialParameter::retardation_time: return "s";
+    case MaterialParameter::touch_offset: return "m";
+    case MaterialParameter::compliance: return "m/N";
+    case MaterialParameter::force_offset: return "N";
+    case MaterialParameter::drift: return "N/s";
     default: return "Pa";
   }
 }

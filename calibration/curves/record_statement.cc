@@ -37,12 +37,14 @@ std::string estimates(const CurveFit& fit) {
   std::string text;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const MaterialParameter parameter = fit.parameters[i];
-    text += (text.empty() ? "" : "; ") + std::string(name(parameter)) + " = " +
+    text += (text.empty() ? "" : "; ") + fit.labels[i] + " = " +
             with_unit(fit.estimates(Index(i)), parameter);
     const bool by_ratio = fit.poissons_ratio_bound && is_modulus(parameter);
     if (by_ratio) continue;
     const double lower = fit.lower(Index(i)), upper = fit.upper(Index(i));
-    const bool open = upper - lower > 2.0 * std::abs(fit.estimates(Index(i)));
+    // What is of the rig may well be zero.
+    const bool open =
+        !is_of_the_rig(parameter) && upper - lower > 2.0 * std::abs(fit.estimates(Index(i)));
     text += fit.at_bound[i] ? " (at its bound)"
             : open          ? " (open: the 95 % interval exceeds it)"
                             : " (95 %: " + rounded(lower, 5) + " to " + rounded(upper, 5) + ")";
@@ -99,8 +101,8 @@ std::string other_minima(const CurveFit& fit) {
     if (same || 2.0 * (minimum.loss - best->loss) > as_good || !fit.chi_square) continue;
     std::string text = " Another answer describes the data as well:";
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-      text += " " + std::string(name(fit.parameters[i])) + " = " +
-              with_unit(minimum.estimates(Index(i)), fit.parameters[i]);
+      text +=
+          " " + fit.labels[i] + " = " + with_unit(minimum.estimates(Index(i)), fit.parameters[i]);
     return text + ".";
   }
   return "";
