@@ -16,7 +16,8 @@ struct Curve {
   /// Standard deviation of every y, > 0; empty where unknown, in all curves of a fit or in none:
   /// then every y of every curve counts as equally uncertain.
   std::vector<double> sigma;
-  bool is_travel = false;  ///< x is the travel of a machine, whose zero is anywhere
+  std::vector<double> time = {};  ///< of every value [s]; empty where unknown or of no interest
+  bool is_travel = false;         ///< x is the travel of a machine, whose zero is anywhere
 };
 
 }  // namespace fingertip::calibration

@@ -124,6 +124,35 @@ ValidityEntry validity_entry(const Material& material) {
           std::string(lattice::name(material.kinematics.value_or(lattice::Kinematics::small)))};
 }
 
+std::optional<RigFile> rig_file(const FitRecord& record) {
+  if (record.rig.empty()) return std::nullopt;
+  RigFile file;
+  for (const RigValue& each : record.rig) {
+    RigEntry entry{each.of, each.place.has_value(), each.held, unknown, unknown};
+    if (each.place) {
+      const Index i = Index(*each.place);
+      entry.value = record.fit.estimates(i);
+      entry.lower = record.fit.lower(i);
+      entry.upper = record.fit.upper(i);
+    }
+    using enum MaterialParameter;
+    (each.quantity == touch_offset   ? file.touch_offset
+     : each.quantity == compliance   ? file.compliance
+     : each.quantity == force_offset ? file.force_offset
+                                     : file.drift)
+        .push_back(std::move(entry));
+  }
+  return file;
+}
+
+std::vector<AccusationEntry> accusation_entries(const FitRecord& record) {
+  std::vector<AccusationEntry> entries;
+  for (const Accusation& each : record.lack_of_fit)
+    entries.push_back(
+        {each.name, each.of, each.cause, each.unit, each.amount, each.decrease, each.probability});
+  return entries;
+}
+
 std::vector<MinimumEntry> minima(const CurveFit& fit) {
   std::vector<MinimumEntry> result;
   for (const Minimum& minimum : fit.minima)
@@ -241,6 +270,8 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
   fit.wall_time = record.wall_time;
   fit.validity = validity_entry(record.material);
   fit.failed = failed_tests(record);
+  fit.rig = rig_file(record);
+  fit.lack_of_fit = accusation_entries(record);
   fit.statement = fit_statement(record);
   meshes::write_json_file(fit, file);
 }
@@ -253,7 +284,8 @@ void write_fit_data(const FitRecord& record, const std::filesystem::path& file) 
     for (std::size_t i = 0; i < curve.x.size(); ++i)
       rows.push_back({curve.name, curve.x[i], curve.y[i],
                       curve.sigma.empty() ? unknown : curve.sigma[i], computed.fitted[c](Index(i)),
-                      computed.left_out[c](Index(i))});
+                      computed.left_out[c](Index(i)),
+                      record.indentation.empty() ? unknown : record.indentation[c][i]});
   }
   meshes::write_rows(rows, file);
 }

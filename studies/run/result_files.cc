@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* entry = "files";  ///< of the marker
-constexpr const char* seal = "digest";  ///< of the marker without it
+constexpr const char* files_entry = "files";  ///< of the marker
+constexpr const char* seal = "digest";        ///< of the marker without it
 
 bool is_marker(const fs::path& file) {
   return file.filename() == marker_name || file.filename() == attempt_name;
@@ -41,8 +41,8 @@ std::string damaged_result(const fs::path& folder) {
   std::string name = marker_name;
   try {
     const auto marker = read_marker(folder);
-    if (!marker.contains(entry) || !marker[entry].is_object()) return name;
-    for (const auto& [file, digest] : marker[entry].items()) {
+    if (!marker.contains(files_entry) || !marker[files_entry].is_object()) return name;
+    for (const auto& [file, digest] : marker[files_entry].items()) {
       name = file;
       if (sha256(meshes::read_text(folder / file)) != digest) return name;
     }
@@ -53,7 +53,7 @@ std::string damaged_result(const fs::path& folder) {
 }
 
 bool is_whole_result(const fs::path& folder) {
-  return read_marker(folder).value(entry, nlohmann::ordered_json()) == result_digests(folder);
+  return read_marker(folder).value(files_entry, nlohmann::ordered_json()) == result_digests(folder);
 }
 
 nlohmann::ordered_json read_marker(const fs::path& folder) {
@@ -77,7 +77,7 @@ void rewrite_result(const fs::path& folder, const std::string& name,
                     const nlohmann::ordered_json& content) {
   write_json(content, folder / name);
   auto marker = read_marker(folder);
-  marker[entry][name] = sha256(meshes::read_text(folder / name));
+  marker[files_entry][name] = sha256(meshes::read_text(folder / name));
   write_marker(std::move(marker), folder);
 }
 
