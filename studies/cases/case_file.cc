@@ -98,7 +98,9 @@ LoadedConfig run_config(const Case& study_case, const CaseRun& run) {
   const auto kind = std::ranges::find(run_kinds(), run.kind, &RunKind::name);
   if (kind->at_rest) sets.emplace_back("press.mode=static");
   try {
-    return study_case.loaded.with(sets);
+    LoadedConfig loaded = study_case.loaded.with(sets);
+    const bool in_time = run.is("variant") && !loaded.config.press.protocol.program.empty();
+    return in_time ? loaded.with({"press.mode=quasi-static"}) : loaded;
   } catch (const ConfigError& error) {
     throw at_run(error, run);
   }

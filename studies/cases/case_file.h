@@ -25,7 +25,8 @@ struct RunKind {
   std::string name;    ///< KIND
   std::string verb;    ///< what its runs compute; empty: they say it themselves
   std::string folder;  ///< of its runs, below that of the case's run; empty: no such folder
-  bool at_rest;        ///< static presses, measured against the continuum of their kinematics
+  bool at_rest;        ///< static presses (variants with a program: quasi-static), measured against
+                       ///< the continuum of their kinematics
   std::set<std::string> entries;  ///< beside name, series, x and set
 };
 

@@ -37,8 +37,8 @@ toml::table parsed(const fs::path& file) {
   }
 }
 
-/// Keys that follow from what a run is: a press in equilibrium, measured against the continuum of
-/// its own kinematics, or one in time, beside the transient continuum.
+/// Keys that follow from what a run is: a press in equilibrium, or slow, measured against the
+/// continuum of its own kinematics, or one in time, beside the transient continuum.
 bool is_derived(const std::string& key, const std::string& kind) {
   static const std::set<std::string> keys = {"press.mode", "reference.strain", "reference.law",
                                              "reference.mode"};
@@ -242,10 +242,11 @@ class CaseReader {
         problem(value, "case.variant.set", name, "must be a full key and its value",
                 "put the key in quotes: \"" + name + ".key\" = value");
       } else if (is_derived(name, run.kind)) {
-        problem(value, name, toml_literal(value),
-                "a variant is a static press, measured against the continuum of its kinematics, a "
-                "press is measured against the transient one",
-                "leave it out, or set lattice.kinematics");
+        problem(
+            value, name, toml_literal(value),
+            "a variant is a static press, with a program a quasi-static one, measured against the "
+            "continuum of its kinematics, a press is measured against the transient one",
+            "leave it out, or set lattice.kinematics");
       } else {
         run.sets.push_back(setting(name, value, file_.parent_path()));
       }

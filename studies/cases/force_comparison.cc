@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/report/comparison_data.h"
 #include "studies/report/run_data.h"
+#include "studies/run/program_summary.h"
 
 namespace fingertip::studies {
 
@@ -19,6 +21,23 @@ double estimated_force_error(const PressResponse& continuum, double depth) {
       continuum.samples(), {},
       [&](const meshes::PressSample& sample) { return std::abs(sample.indentation - depth); });
   return nearest->force_error / nearest->normal_force;
+}
+
+/// What followed the first loading.
+void compare_later(const PressResponse& response, const PressResponse& reference,
+                   ForceComparison& result) {
+  if (reference.following().empty() || response.empty() ||
+      !reporting::same_stages(response, reference))
+    return;
+  const double most =
+      std::ranges::max(reference.samples(), {}, &meshes::PressSample::normal_force).normal_force;
+  for (std::size_t i = 0; i < reference.following().size(); ++i) {
+    const meshes::PressSample& wanted = reference.following()[i];
+    const double force = response.following()[i].normal_force;
+    result.later.push_back({wanted.stage, response.following()[i].time, wanted.indentation, force,
+                            wanted.normal_force, (force - wanted.normal_force) / most});
+  }
+  result.loop_error = work_along(response) / work_along(reference) - 1.0;
 }
 
 }  // namespace
@@ -48,6 +67,7 @@ ForceComparison compare_forces(const PressResponse& response, const PressRespons
   const double reached =
       response.empty() || reference.empty() ? 0.0 : std::min(response.depth(), reference.depth());
   if (reached > 0.0) result.l2_error = relative_l2_force_error(response, reference, 0.0, reached);
+  compare_later(response, reference, result);
   return result;
 }
 

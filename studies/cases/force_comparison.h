@@ -15,12 +15,23 @@ double larger(double a, double b);
 /// The largest magnitude; NaN with a gap, or without values.
 double largest(const std::vector<double>& values);
 
+/// A force after the first loading of a program, beside the reference's at the same moment.
+struct LaterForce {
+  double stage = 0.0, time = 0.0, indentation = 0.0;  ///< time [s] since the press began
+  double force = 0.0, reference_force = 0.0;          ///< [N]
+  double error = 0.0;  ///< their difference over the reference's largest force
+};
+
 /// Depth by depth. NaN where a press did not get that far.
 struct ForceComparison {
   std::vector<double> depth, force, reference_force;  ///< [m], [N]
   std::vector<double> reference_error;                ///< estimated, relative
   std::vector<double> error;                          ///< force over reference_force minus 1
   double l2_error = meshes::unknown;  ///< relative L2 error of the force curve, as far as both go
+  std::vector<LaterForce> later;      ///< empty without a program, or where the stages differ
+  /// Area of the loop of force and indentation over the reference's minus 1
+  /// (work_along).
+  double loop_error = meshes::unknown;
 };
 
 /// At `depths`.

@@ -86,6 +86,23 @@ double youngs_modulus_error(const Evidence& run) {
   return largest(errors);
 }
 
+/// Of the forces after the first loading, over the largest of the continuum's.
+double later_error(const Evidence& run) {
+  std::vector<double> errors;
+  for (const LaterForce& later : run.result.forces.later) errors.push_back(later.error);
+  return largest(errors);
+}
+
+/// Of the forces in holds, over the continuum's own.
+double hold_error(const Evidence& run) {
+  const std::vector<meshes::PressStage>& program = run.result.setup.protocol.program;
+  std::vector<double> errors;
+  for (const LaterForce& later : run.result.forces.later)
+    if (!program.at(std::size_t(later.stage) - 1).moves())
+      errors.push_back(later.force / later.reference_force - 1.0);
+  return largest(errors);
+}
+
 bool is_held(const Evidence& run) {
   return run.grasp().fate == "held";
 }
@@ -172,6 +189,9 @@ std::vector<RunMeasure> all_measures() {
       {"worst_error",
        {"variant", "prediction"},
        [](R run) { return largest(run.result.forces.error); }},
+      {"hold_error", {"variant"}, hold_error},
+      {"later_error", {"variant"}, later_error},
+      {"loop_error", {"variant"}, [](R run) { return std::abs(run.result.forces.loop_error); }},
       {"held", {"grasp"}, [](R run) { return is_held(run) ? 1.0 : 0.0; }},
       {"lost", {"grasp"}, [](R run) { return is_held(run) ? 0.0 : 1.0; }},
       {"surplus",

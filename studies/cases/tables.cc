@@ -97,6 +97,17 @@ void write_table(const std::vector<std::string>& heads, const Members& rows,
   meshes::write_atomically(file, [&](std::ostream& out) { out << text; });
 }
 
+/// later.csv, where there is something to tell.
+void write_later(const Members& variants, const std::filesystem::path& file) {
+  std::vector<LaterRow> rows;
+  for (const RunResult* result : variants)
+    for (const LaterForce& later : result->forces.later)
+      rows.push_back({result->run->series, result->run->name, result->against, later.stage,
+                      later.time, later.indentation, later.force, later.reference_force,
+                      later.error});
+  if (!rows.empty()) meshes::write_rows(rows, file);
+}
+
 }  // namespace
 
 std::vector<std::string> table_columns() {
@@ -109,6 +120,7 @@ void write_tables(const Case& study_case, const RunResults& results,
                   const std::filesystem::path& folder) {
   write_table(meshes::column_names<VariantRow>(), members(results, "variant"),
               folder / "variants.csv");
+  write_later(members(results, "variant"), folder / "later.csv");
   write_table(meshes::column_names<TransferRow>(), members(results, "prediction"),
               folder / "transfer.csv");
   for (const CaseTable& table : study_case.tables)

@@ -18,6 +18,7 @@
 #include "studies/run/json_file.h"
 #include "studies/run/press_notes.h"
 #include "studies/run/press_setup.h"
+#include "studies/run/program_summary.h"
 #include "studies/run/result_files.h"
 #include "studies/run/tracking.h"
 
@@ -182,19 +183,19 @@ void print_control(const PressSummary& summary) {
   fmt::print("{}\n", text);
 }
 
-/// How each stage of a program went, and what the press cost.
-void print_program(const PressSummary& summary) {
+/// How each stage of a program went, and what the press cost; NaN: not known, or no loop [J].
+void print_program(const std::vector<StageEntry>& program, double work_in, double loop_area) {
   const ShownUnits& units = shown_units();
   double largest = 0.0;
-  for (const StageEntry& stage : summary.program)
+  for (const StageEntry& stage : program)
     largest = std::fmax(largest, std::fmax(stage.begin_force, stage.end_force));
   // What is no more than round-off is not told by its digits.
   const auto known = [&](double force) {
     if (std::isnan(force)) return std::string("?");
     return units.force.text(std::abs(force) < 1e-6 * largest ? 0.0 : force);
   };
-  for (std::size_t i = 0; i < summary.program.size(); ++i) {
-    const StageEntry& stage = summary.program[i];
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    const StageEntry& stage = program[i];
     std::string text = (stage.moves() ? "to " : "hold at ") + units.length.text(stage.indentation);
     if (!std::isnan(stage.speed)) text += " at " + units.speed.text(stage.speed);
     if (!std::isnan(stage.end)) text += fmt::format(", {:.4g} to {:.4g} s", stage.begin, stage.end);
@@ -203,16 +204,14 @@ void print_program(const PressSummary& summary) {
       text += fmt::format(", relaxed by {:.3g} %", 100.0 * stage.relaxation);
     fmt::print("stage {}: {}\n", i + 1, text);
   }
-  if (std::isnan(summary.work_in)) return;
-  fmt::print("work put in: {:.4g} mJ", 1e3 * summary.work_in);
-  if (!std::isnan(summary.loop_area))
-    fmt::print(", not given back (area of the loop): {:.4g} mJ", 1e3 * summary.loop_area);
-  fmt::print("\n");
+  if (!std::isnan(work_in)) fmt::print("work put in: {:.4g} mJ\n", 1e3 * work_in);
+  if (!std::isnan(loop_area))
+    fmt::print("work not given back (area of the loop): {:.4g} mJ\n", 1e3 * loop_area);
 }
 
 void print_press_facts(const std::filesystem::path& folder, bool reused) {
   const auto summary = struct_of<PressSummary>(read_entry(folder / "summary.json"));
-  print_program(summary);
+  print_program(summary.program, summary.work_in, summary.loop_area);
   if (summary.rests()) {
     const StaticCensusEntry& census = summary.static_census;
     fmt::print("{} particles ({} of the tip), {} Newton iterations\n", census.particles,
@@ -313,6 +312,9 @@ int run_reference(const CommandLine& line) {
       fmt::print("{}\n", heading(reference));
       if (press) {
         print_response(folder, reference.protocol);
+        const auto response = meshes::PressResponse::read_csv(folder / "response.csv");
+        print_program(stage_entries(reference.protocol, response), meshes::unknown,
+                      reference.protocol.goes_back() ? work_along(response) : meshes::unknown);
         if (reference.estimate_error) print_accuracy(folder, reference);
       } else {
         print_frequencies(folder);

@@ -211,6 +211,32 @@ constexpr auto fields_of(const VariantRow*) {
                     field("status", &Row::status)};
 }
 
+/// later.csv: a force of a study's press after its first loading, beside its continuum's.
+struct LaterRow {
+  std::string series;
+  std::string name;
+  std::string continuum;
+  double stage = meshes::unknown;
+  double time = meshes::unknown;
+  double indentation = meshes::unknown;
+  double normal_force = meshes::unknown;
+  double reference_force = meshes::unknown;
+  double error = meshes::unknown;  ///< of the force, over the continuum's largest
+};
+constexpr auto fields_of(const LaterRow*) {
+  using meshes::field;
+  using Row = LaterRow;
+  return std::tuple{field("series", &Row::series),
+                    field("name", &Row::name),
+                    field("continuum", &Row::continuum),
+                    field("stage", &Row::stage),
+                    field("time [s]", &Row::time),
+                    field("indentation [m]", &Row::indentation),
+                    field("normal_force [N]", &Row::normal_force),
+                    field("reference_force [N]", &Row::reference_force),
+                    field("error_over_largest_force", &Row::error)};
+}
+
 /// transfer.csv: a force that a fit predicts beside the continuum's.
 struct TransferRow {
   std::string fit;

@@ -175,6 +175,19 @@ void add_figures(ChapterData& chapter, const StudyEntry& study,
   chapter.figures.push_back(variant_force_figure(presses));
 }
 
+/// Programs: what followed the first loading.
+void add_later_figures(ChapterData& chapter, const std::vector<LaterRow>& table) {
+  WordList all;
+  const std::vector<std::string> series = series_of(table);
+  for (Figure& figure : variant_later_figures(table)) {
+    Words& words = all.emplace_back();
+    words["figure"] = figure.name;
+    words["series"] = series[all.size() - 1];
+    chapter.figures.push_back(std::move(figure));
+  }
+  chapter["later"] = std::move(all);
+}
+
 }  // namespace
 
 std::string variants_answer(const RunData& run) {
@@ -203,6 +216,7 @@ Chapter variants_chapter(const RunData& run) {
   chapter["refinements"] = std::move(series);
   chapter["refined"] = refined;
   add_figures(chapter, run.study, presses);
+  add_later_figures(chapter, run.later);
   chapter.tables["budgets"] = budget_table(run.study.budgets);
   chapter.tables["series"] = series_table(run.study, presses, refined);
   chapter.tables["presses"] = press_table(presses);

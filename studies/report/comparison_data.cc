@@ -99,8 +99,8 @@ std::vector<double> compared_depths(const std::vector<ComparedCurve>& curves) {
   return {depths.begin(), depths.end()};
 }
 
-/// Whether what follows the first loading was asked at the same moments of the same stages. Times
-/// count from the end of the first loading, wherever a run begins to count.
+}  // namespace
+
 bool same_stages(const meshes::PressResponse& a, const meshes::PressResponse& b) {
   const auto one = a.following(), other = b.following();
   if (one.size() != other.size()) return false;
@@ -119,6 +119,8 @@ bool same_stages(const meshes::PressResponse& a, const meshes::PressResponse& b)
   }
   return true;
 }
+
+namespace {
 
 /// Fills Comparison::following, and tells of curves that have no part in it.
 void compare_following(Comparison& comparison) {

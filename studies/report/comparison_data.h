@@ -62,6 +62,10 @@ struct Comparison {
   }
 };
 
+/// Whether what follows the first loading was asked at the same moments of the same stages. Times
+/// count from the end of the first loading, wherever a run begins to count.
+bool same_stages(const meshes::PressResponse& a, const meshes::PressResponse& b);
+
 /// Reads the curves of `runs`, the continuum first: the others are measured against it, wherever it
 /// was named. Throws InvalidInput when there are fewer than two.
 Comparison read_comparison(const std::vector<std::filesystem::path>& runs, FolderReader& reader);

@@ -147,8 +147,8 @@ class PageMaker {
 
   /// A study has its presses to show, and nothing of the core case.
   Page study_page() {
-    Page page = headed("Soft fingertip: a study of lattices at rest",
-                       "A study of mass-spring fingertips in equilibrium against a continuum of "
+    Page page = headed("Soft fingertip: a study of lattices",
+                       "A study of mass-spring fingertips against a continuum of "
                        "the same specimen");
     add(page, [&] { return variants_chapter(run_); });
     end(page);

@@ -212,6 +212,7 @@ RunData read_run(const fs::path& folder, FolderReader& reader) {
   run.published_study = reader.rows<PublishedStudyRow>(folder / "published_study.csv");
   run.equilibrium_study = reader.rows<EquilibriumStudyRow>(folder / "equilibrium_study.csv");
   run.variants = reader.rows<VariantRow>(folder / "variants.csv");
+  run.later = reader.rows<LaterRow>(folder / "later.csv");
   const auto& models = run.summary.models;
   for (const std::string& name : ordered_models(models)) {
     run.models.push_back(

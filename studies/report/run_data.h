@@ -93,6 +93,7 @@ struct RunData {
   std::vector<PublishedStudyRow> published_study;
   std::vector<EquilibriumStudyRow> equilibrium_study;
   std::vector<VariantRow> variants;
+  std::vector<LaterRow> later;
   std::vector<ModelData> models;  ///< published, central, hookean, then any others
 
   const ModelData* model(const std::string& name) const;

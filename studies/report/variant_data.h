@@ -25,6 +25,7 @@ std::vector<VariantPress> read_variants(const std::vector<VariantRow>& table);
 
 /// Series in the order of their first presses; the empty name, too.
 std::vector<std::string> series_of(const std::vector<VariantPress>& presses);
+std::vector<std::string> series_of(const std::vector<LaterRow>& table);
 
 /// Force error against the study's abscissa, a panel for each of up to four depths. No panel when
 /// no press has an x.
@@ -39,5 +40,9 @@ Figure variant_force_figure(const std::vector<VariantPress>& presses);
 
 /// Force error against indentation, a figure per series (the legends need the room).
 std::vector<Figure> variant_depth_figures(const std::vector<VariantPress>& presses);
+
+/// Of programs: force against time and its distance from the continuum's over the largest force, a
+/// figure per series of `table`.
+std::vector<Figure> variant_later_figures(const std::vector<LaterRow>& table);
 
 }  // namespace fingertip::studies::reporting

@@ -35,11 +35,24 @@ std::vector<VariantPress> read_variants(const std::vector<VariantRow>& table) {
   return presses;
 }
 
-std::vector<std::string> series_of(const std::vector<VariantPress>& presses) {
+namespace {
+
+template <typename Row>
+std::vector<std::string> found_series(const std::vector<Row>& rows) {
   std::vector<std::string> names;
-  for (const VariantPress& press : presses)
-    if (std::ranges::find(names, press.series) == names.end()) names.push_back(press.series);
+  for (const Row& row : rows)
+    if (std::ranges::find(names, row.series) == names.end()) names.push_back(row.series);
   return names;
+}
+
+}  // namespace
+
+std::vector<std::string> series_of(const std::vector<VariantPress>& presses) {
+  return found_series(presses);
+}
+
+std::vector<std::string> series_of(const std::vector<LaterRow>& table) {
+  return found_series(table);
 }
 
 namespace {
@@ -131,6 +144,31 @@ Range with_room_for_legend(const Panel& panel) {
   return {0.0, std::fmax(most, 1e-3) * (1.1 + 0.06 * double(labels))};
 }
 
+/// The curves of a series of programs.
+void add_later(const std::vector<LaterRow>& table, const std::string& series, Panel& force,
+               Panel& distance) {
+  std::vector<std::string> presses;
+  std::set<std::string> continua;
+  for (const LaterRow& row : table) {
+    if (row.series != series || std::ranges::find(presses, row.name) != presses.end()) continue;
+    presses.push_back(row.name);
+    const Style style = numbered_style(presses.size() - 1);
+    Series pressed{row.name, row.name, {}, {}, {}, style}, error = pressed;
+    Series wanted{continua.empty() ? "continuum" : "", row.continuum, {}, {}, {}, {}};
+    wanted.style = {"#000000", "(2,3)", 1.4, 0, true};
+    for (const LaterRow& own : table) {
+      if (own.series != series || own.name != row.name) continue;
+      for (Series* curve : {&pressed, &error, &wanted}) curve->x.push_back(own.time);
+      pressed.y.push_back(shown_units().force(own.normal_force));
+      wanted.y.push_back(shown_units().force(own.reference_force));
+      error.y.push_back(100.0 * own.error);
+    }
+    if (continua.insert(row.continuum).second) force.series.push_back(std::move(wanted));
+    force.series.push_back(std::move(pressed));
+    distance.series.push_back(std::move(error));
+  }
+}
+
 std::vector<VariantPress> presses_of(const std::vector<VariantPress>& presses,
                                      const std::string& series) {
   std::vector<VariantPress> own;
@@ -212,6 +250,26 @@ Figure variant_force_figure(const std::vector<VariantPress>& presses) {
   }
   lay_out(figure);
   return figure;
+}
+
+std::vector<Figure> variant_later_figures(const std::vector<LaterRow>& table) {
+  std::vector<Figure> figures;
+  for (const std::string& series : series_of(table)) {
+    Panel force, distance;
+    force.x_label = distance.x_label = "time [s]";
+    force.y_label = shown_units().force.label("normal force");
+    distance.y_label = "error over largest force [%]";
+    force.key = "outside right top";
+    distance.key.clear();
+    distance.band = Band{-1.0, 1.0};
+    add_later(table, series, force, distance);
+    figures.push_back({fmt::format("variants_later_{}", figures.size() + 1),
+                       860,
+                       640,
+                       1,
+                       {std::move(force), std::move(distance)}});
+  }
+  return figures;
 }
 
 std::vector<Figure> variant_depth_figures(const std::vector<VariantPress>& presses) {

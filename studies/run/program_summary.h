@@ -14,8 +14,14 @@ namespace fingertip::studies {
 std::vector<StageEntry> stage_entries(const meshes::PressProtocol& protocol,
                                       const std::vector<lattice::TraceRow>& trace);
 
-/// Of a press without time, its forces from its response; a hold changes nothing.
+/// Of a press without a trace, its forces from its response. Where that knows no time a hold
+/// changes nothing.
 std::vector<StageEntry> stage_entries(const meshes::PressProtocol& protocol,
                                       const meshes::PressResponse& response);
+
+/// What is put in and not given back on the way from first touch along all samples [J]: the area
+/// below force over indentation, leg by leg by monotone cubics (Fritsch & Carlson 1980). Of a
+/// program that ends where nothing touches, the area of its loop.
+double work_along(const meshes::PressResponse& response);
 
 }  // namespace fingertip::studies

@@ -87,6 +87,23 @@ TEST(Variants, AreStaticPressesAgainstTheContinuumOfTheirKinematics) {
   EXPECT_EQ(strains, (std::set<std::string>{"linear", "finite"}));
 }
 
+TEST(Variants, WithAProgramMoveSlowlyBesideTheContinuumOfTheSameProgram) {
+  const TemporaryFolder folder;
+  const Case study_case = case_with(folder,
+                                    "variant = [ { name = \"a\", set = { \"press.program\" = "
+                                    "[[\"0.2 cm\", \"1 cm/s\"], [\"hold\", "
+                                    "\"1 s\"]] } } ]\n");
+  const auto jobs = planned_jobs(study_case);
+  ASSERT_EQ(jobs.size(), 2U);
+  for (const PlannedJob& job : jobs) {
+    const auto& protocol = job.job.inputs["protocol"];
+    EXPECT_EQ(protocol["program"].size(), 2U);
+    if (job.job.kind == "press") {
+      EXPECT_EQ(protocol["mode"], "quasi-static");
+    }
+  }
+}
+
 TEST(Variants, ParametersOfARunAreTheStudyAgain) {
   const TemporaryFolder folder;
   const Case first = load_case(find_case("03"), {});
@@ -127,6 +144,34 @@ TEST(Variants, ProblemsAreToldWithTheLineOfTheVariant) {
                                                      "\"variants.worst_eror\"\nlimit = 1\n"),
                   "variants.worst_error"));
   EXPECT_EQ(refusal(folder, variant_with("\"lattice.spacing\" = \"tip_radius/7\"")), "");
+}
+
+TEST(VariantMeasures, ProgramsAreMeasuredAfterTheirFirstLoading) {
+  const auto sample = [](double indentation, double force, double stage, double time) {
+    return fingertip::meshes::PressSample{
+        .indentation = indentation, .normal_force = force, .time = time, .stage = stage};
+  };
+  const fingertip::meshes::PressResponse wanted(
+      {sample(1e-3, 1.0, 1, 0.1), sample(2e-3, 4.0, 1, 0.2), sample(2e-3, 3.0, 2, 1.2),
+       sample(1e-3, 0.5, 3, 1.3), sample(0.0, 0.0, 3, 1.4)});
+  // 1 % off at the end of the hold, 0.02 N of 4 N off on the way back; it began 0.1 s earlier.
+  const fingertip::meshes::PressResponse pressed(
+      {sample(1e-3, 1.0, 1, 0.2), sample(2e-3, 4.0, 1, 0.3), sample(2e-3, 3.03, 2, 1.3),
+       sample(1e-3, 0.48, 3, 1.4), sample(0.0, 0.0, 3, 1.5)});
+  const Case study_case = series_at({1});
+  RunResult result = finished_run(study_case.runs[0], {});
+  result.setup.protocol.program = {{2e-3, 0.01}, {.indentation = 2e-3, .hold = 1.0}, {0.0, 0.01}};
+  result.forces = compare_forces(pressed, wanted, {1e-3, 2e-3});
+  const Measures measures = measures_of_run(study_case, result, {});
+  EXPECT_NEAR(measures.at("worst_error"), 0.0, 1e-12);
+  EXPECT_NEAR(measures.at("hold_error"), 0.01, 1e-12);
+  EXPECT_NEAR(measures.at("later_error"), 0.03 / 4.0, 1e-12);
+  // Straight lines between so few: up 0.5 + 2.5 mJ, back 1.75 + 0.25 and 1.755 + 0.24 mJ.
+  EXPECT_NEAR(measures.at("loop_error"), 1.005 / 1.0 - 1.0, 1e-12);
+  // Other stages: nothing to compare.
+  result.forces =
+      compare_forces(wanted, fingertip::meshes::PressResponse({sample(2e-3, 4.0, 1, 0.2)}), {2e-3});
+  EXPECT_FALSE(measures_of_run(study_case, result, {}).contains("hold_error"));
 }
 
 TEST(VariantMeasures, OrderIsTheSlopeInLogarithms) {

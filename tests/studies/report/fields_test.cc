@@ -206,6 +206,7 @@ TEST_F(Fields, MissingColumnsOfFurtherTablesAreNamed) {
   expect(SnapshotPointRow{}, "hookean/snapshot_points.csv");
   expect(ContactRow{}, "contact.csv");
   expect(VariantRow{}, "variants.csv");
+  expect(LaterRow{}, "later.csv");
   expect(LatticeModeRow{}, "modes.csv");
   expect(fem_reference::ModeRow{}, "modes.csv");
   expect(TransferRow{}, "transfer.csv");
