@@ -218,6 +218,42 @@ constexpr auto fields_of(const ProfileEntry*) {
                &Whole::first_values, &Whole::second_values, &Whole::increase);
 }
 
+/// A quantity of a rig in SI; of a fitted one its 95 % interval.
+struct RigEntry {
+  std::string of;
+  bool fitted = false;
+  double value = meshes::unknown, lower = meshes::unknown, upper = meshes::unknown;
+};
+constexpr auto fields_of(const RigEntry*) {
+  using meshes::named;
+  using Whole = RigEntry;
+  return named("of fitted value lower upper", &Whole::of, &Whole::fitted, &Whole::value,
+               &Whole::lower, &Whole::upper);
+}
+
+/// What machines add to presses over their travel, per file or machine.
+struct RigFile {
+  std::vector<RigEntry> touch_offset, compliance, force_offset, drift;
+};
+constexpr auto fields_of(const RigFile*) {
+  using meshes::named;
+  using Whole = RigFile;
+  return named("touch_offset compliance force_offset drift", &Whole::touch_offset,
+               &Whole::compliance, &Whole::force_offset, &Whole::drift);
+}
+
+/// What the model of a fit may have left out.
+struct AccusationEntry {
+  std::string name, of, cause, unit;
+  double amount = meshes::unknown, decrease = meshes::unknown, probability = meshes::unknown;
+};
+constexpr auto fields_of(const AccusationEntry*) {
+  using meshes::named;
+  using Whole = AccusationEntry;
+  return named("name of cause unit amount decrease probability", &Whole::name, &Whole::of,
+               &Whole::cause, &Whole::unit, &Whole::amount, &Whole::decrease, &Whole::probability);
+}
+
 /// Where the result may be used.
 struct ValidityEntry {
   double largest_strain_measure = meshes::unknown, spacing = meshes::unknown,
@@ -277,6 +313,8 @@ struct FitFile {
   double wall_time = meshes::unknown;
   ValidityEntry validity;
   std::vector<std::string> failed;
+  std::optional<RigFile> rig;
+  std::vector<AccusationEntry> lack_of_fit;
   std::string statement;
 
   bool empty() const { return problem.empty(); }
@@ -301,7 +339,8 @@ constexpr auto fields_of(const FitFile*) {
             &Whole::residual_deviation, &Whole::minima, &Whole::x_quantity, &Whole::y_quantity,
             &Whole::curves, &Whole::residuals, &Whole::influence, &Whole::profile,
             &Whole::iterations, &Whole::evaluations, &Whole::wall_time, &Whole::validity),
-      newer(named("failed", &Whole::failed)), named("statement", &Whole::statement));
+      newer(named("failed rig lack_of_fit", &Whole::failed, &Whole::rig, &Whole::lack_of_fit)),
+      named("statement", &Whole::statement));
 }
 
 /// What a fit to moduli, which has no curves, has in common with others.

@@ -28,14 +28,18 @@ struct FitDataRow {
   double sigma = meshes::unknown;
   double fitted = meshes::unknown;
   double left_out = meshes::unknown;
+  double indentation = meshes::unknown;  ///< of a press over travel, as fitted; 0 before touch
 };
 constexpr auto fields_of(const FitDataRow*) {
   using meshes::field, meshes::Presence;
   using Row = FitDataRow;
-  return std::tuple{
-      field("curve", &Row::curve),       field("x", &Row::x),
-      field("measured", &Row::measured), field("sigma", &Row::sigma, Presence::newer),
-      field("fitted", &Row::fitted),     field("left_out", &Row::left_out, Presence::newer)};
+  return std::tuple{field("curve", &Row::curve),
+                    field("x", &Row::x),
+                    field("measured", &Row::measured),
+                    field("sigma", &Row::sigma, Presence::newer),
+                    field("fitted", &Row::fitted),
+                    field("left_out", &Row::left_out, Presence::newer),
+                    field("indentation", &Row::indentation, Presence::newer)};
 }
 
 /// surrogate.csv: the smoothed force with its band.

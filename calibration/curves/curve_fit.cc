@@ -131,6 +131,10 @@ double add_squares(CurveFit& fit, const CurveResiduals& residuals, const Lineari
 
 }  // namespace
 
+std::string label(const FreeParameter& free) {
+  return std::string(name(free.parameter)) + (free.of.empty() ? "" : " (" + free.of + ")");
+}
+
 CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
                     const CurveFitOptions& options) {
   check_curve_fit(curves, options);
@@ -141,6 +145,7 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
 
   CurveFit fit;
   fit.parameters = names(options);
+  for (const FreeParameter& free : options.free) fit.labels.push_back(label(free));
   fit.minima = minima_from(residuals, options);
   const Minimum& best = best_of(fit.minima, residuals);
   fit.estimates = best.estimates;

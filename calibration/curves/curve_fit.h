@@ -20,8 +20,9 @@ struct Prior {
   double deviation = 0.0;  ///< > 0
 };
 
-/// E, G, bond, contact and times are positive and vary by their logarithm; k1, k2, k3 >= 0, kappa
-/// and lambda vary in units of `scale`. Bounds and start are in the parameter's unit.
+/// E, G, bond, contact and times are positive and vary by their logarithm; k1, k2, k3 >= 0, kappa,
+/// lambda and what is of a rig vary in units of `scale`. Bounds and start are in the parameter's
+/// unit.
 struct FreeParameter {
   MaterialParameter parameter = MaterialParameter::youngs_modulus;
   double start = 0.0;
@@ -29,7 +30,11 @@ struct FreeParameter {
   double upper = std::numeric_limits<double>::infinity();
   std::optional<Prior> prior = std::nullopt;  ///< only where sigma is given, to weigh it against
   double scale = 0.0;                         ///< typical size; 0: |start|
+  std::string of = {};  ///< the file or rig, where several have a parameter of this name
 };
+
+/// "touch_offset", or with its file or rig "touch_offset (second.csv)".
+std::string label(const FreeParameter& free);
 
 struct CurveFitOptions {
   std::vector<FreeParameter> free;
@@ -88,6 +93,7 @@ struct Minimum {
 /// Everything local is linearised at the estimates.
 struct CurveFit {
   std::vector<MaterialParameter> parameters;
+  std::vector<std::string> labels;  ///< theirs, for people
   Eigen::VectorXd estimates;
   /// sigma given: (Jᵀ J)⁻¹ with J whitened by sigma and model_covariance, priors as further rows;
   /// not given: times the residual variance, and what model_covariance makes of the estimates. With

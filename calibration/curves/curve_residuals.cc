@@ -24,9 +24,11 @@ void add_values(std::vector<Violation>& found, const Curve& curve, const std::st
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     const double depth = curve.x[i];
-    if (!positive(depth) || (i > 0 && depth <= curve.x[i - 1])) {
+    const bool allowed = curve.is_travel ? std::isfinite(depth) : positive(depth);
+    if (!allowed || (i > 0 && depth <= curve.x[i - 1])) {
       found.push_back({key + ".x", to_text(depth),
-                       "abscissae must be finite, positive and increasing",
+                       curve.is_travel ? "positions must be finite and increasing"
+                                       : "abscissae must be finite, positive and increasing",
                        "sort the points and remove those before contact or twice there"});
       break;
     }

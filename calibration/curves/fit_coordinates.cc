@@ -58,7 +58,11 @@ double lower_bound(const FreeParameter& free) {
     case MaterialParameter::mooney_c01:
     case MaterialParameter::ogden_alpha1:
     case MaterialParameter::ogden_alpha2:
-    case MaterialParameter::ogden_alpha3: return free.lower;
+    case MaterialParameter::ogden_alpha3:
+    case MaterialParameter::touch_offset:
+    case MaterialParameter::compliance:
+    case MaterialParameter::force_offset:
+    case MaterialParameter::drift: return free.lower;
     default: return std::max(0.0, free.lower);
   }
 }

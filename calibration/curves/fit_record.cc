@@ -33,14 +33,14 @@ std::vector<std::vector<double>> rows(const MatrixXd& matrix) {
 /// What is at its bound: of E it may be Poisson's ratio.
 std::optional<std::string> bound_of(const CurveFit& fit, std::size_t i) {
   if (!fit.at_bound[i]) return std::nullopt;
-  return fit.poissons_ratio_bound ? "poissons_ratio" : std::string(name(fit.parameters[i]));
+  return fit.poissons_ratio_bound ? "poissons_ratio" : fit.labels[i];
 }
 
 ParameterEntry parameter_entry(const FitRecord& record, std::size_t i) {
   const CurveFit& fit = record.fit;
   const FreeParameter& free = record.options.free[i];
   ParameterEntry entry;
-  entry.name = name(free.parameter);
+  entry.name = label(free);
   entry.unit = unit(free.parameter);
   entry.estimate = fit.estimates(Index(i));
   entry.standard_error = fit.standard_errors(Index(i));
@@ -59,7 +59,7 @@ std::vector<DirectionEntry> directions(const FitRecord& record,
   for (const Direction& direction : found) {
     meshes::Entries<double> changes;
     for (std::size_t i = 0; i < record.fit.parameters.size(); ++i)
-      changes[std::string(name(record.fit.parameters[i]))] = direction.changes(Index(i));
+      changes[record.fit.labels[i]] = direction.changes(Index(i));
     result.push_back(
         {changes, direction.relative_singular_value, direction.interval, direction.statement});
   }
@@ -122,6 +122,35 @@ ValidityEntry validity_entry(const Material& material) {
   return {pressed ? *validity.largest_indentation / *validity.thickness : unknown, material.spacing,
           material.rubber.poissons_ratio(), std::string(lattice::name(material.model)),
           std::string(lattice::name(material.kinematics.value_or(lattice::Kinematics::small)))};
+}
+
+std::optional<RigFile> rig_file(const FitRecord& record) {
+  if (record.rig.empty()) return std::nullopt;
+  RigFile file;
+  for (const RigValue& each : record.rig) {
+    RigEntry entry{each.of, each.place.has_value(), each.held, unknown, unknown};
+    if (each.place) {
+      const Index i = Index(*each.place);
+      entry.value = record.fit.estimates(i);
+      entry.lower = record.fit.lower(i);
+      entry.upper = record.fit.upper(i);
+    }
+    using enum MaterialParameter;
+    (each.quantity == touch_offset   ? file.touch_offset
+     : each.quantity == compliance   ? file.compliance
+     : each.quantity == force_offset ? file.force_offset
+                                     : file.drift)
+        .push_back(std::move(entry));
+  }
+  return file;
+}
+
+std::vector<AccusationEntry> accusation_entries(const FitRecord& record) {
+  std::vector<AccusationEntry> entries;
+  for (const Accusation& each : record.lack_of_fit)
+    entries.push_back(
+        {each.name, each.of, each.cause, each.unit, each.amount, each.decrease, each.probability});
+  return entries;
 }
 
 std::vector<MinimumEntry> minima(const CurveFit& fit) {
@@ -241,6 +270,8 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
   fit.wall_time = record.wall_time;
   fit.validity = validity_entry(record.material);
   fit.failed = failed_tests(record);
+  fit.rig = rig_file(record);
+  fit.lack_of_fit = accusation_entries(record);
   fit.statement = fit_statement(record);
   meshes::write_json_file(fit, file);
 }
@@ -253,7 +284,8 @@ void write_fit_data(const FitRecord& record, const std::filesystem::path& file) 
     for (std::size_t i = 0; i < curve.x.size(); ++i)
       rows.push_back({curve.name, curve.x[i], curve.y[i],
                       curve.sigma.empty() ? unknown : curve.sigma[i], computed.fitted[c](Index(i)),
-                      computed.left_out[c](Index(i))});
+                      computed.left_out[c](Index(i)),
+                      record.indentation.empty() ? unknown : record.indentation[c][i]});
   }
   meshes::write_rows(rows, file);
 }

@@ -9,9 +9,18 @@
 #include "calibration/curves/curve.h"
 #include "calibration/curves/curve_checks.h"
 #include "calibration/curves/curve_fit.h"
+#include "calibration/curves/suspects.h"
 #include "calibration/material.h"
 
 namespace fingertip::calibration {
+
+/// A quantity of a rig, fitted or held.
+struct RigValue {
+  MaterialParameter quantity = MaterialParameter::touch_offset;
+  std::string of;                    ///< the file or machine it belongs to
+  double held = 0.0;                 ///< in the parameter's unit, where it is not fitted
+  std::optional<std::size_t> place;  ///< among the parameters, where it is
+};
 
 /// Everything that is told of a fit.
 struct FitRecord {
@@ -29,7 +38,10 @@ struct FitRecord {
   std::vector<LeftOut> left_out;   ///< per curve, or none
   std::optional<Profile> profile;  ///< over these two:
   MaterialParameter profile_first{}, profile_second{};
-  double wall_time = 0.0;  ///< [s]
+  std::vector<RigValue> rig;                     ///< of presses over travel
+  std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
+  std::vector<Accusation> lack_of_fit;           ///< gravest first
+  double wall_time = 0.0;                        ///< [s]
 };
 
 /// Order in the residuals of a curve: whitened where sigma is given, so that known errors of the

@@ -84,17 +84,17 @@ std::string open_combination(const Eigen::VectorXd& change, const Eigen::VectorX
 
 /// `change` is the direction in the parameters' units.
 std::string statement_of(const Direction& direction, const Eigen::VectorXd& change,
-                         const std::vector<MaterialParameter>& parameters) {
-  const std::string changes = describe_changes(direction.changes, parameters);
-  if (parameters.size() == 1)
-    return "the curves do not determine " + std::string(name(parameters.front())) +
-           ": its 95 % interval " + interval_text(direction.interval) + " of its size";
+                         const CurveFit& fit) {
+  const std::string changes = describe_changes(direction.changes, fit.labels);
+  if (fit.labels.size() == 1)
+    return "the curves do not determine " + fit.labels.front() + ": its 95 % interval " +
+           interval_text(direction.interval) + " of its size";
   return "the curves hardly see the change " + changes +
          " (of each parameter over its size): along it the 95 % interval " +
          interval_text(direction.interval) + ", and the values respond " +
          number(direction.relative_singular_value) +
          " times as strongly as to the best-seen change" +
-         open_combination(change, direction.changes, parameters);
+         open_combination(change, direction.changes, fit.parameters);
 }
 
 }  // namespace
@@ -139,8 +139,7 @@ void describe_sensitivity(CurveFit& fit, const Eigen::MatrixXd& priors,
     // A step t along unit/largest is the coordinate unit·change times `largest`.
     const double interval = quantile * largest * std::sqrt(unit.dot(relative * unit));
     Direction direction{normalised(unit), share, interval, {}};
-    direction.statement =
-        statement_of(direction, sizes.cwiseProduct(direction.changes), fit.parameters);
+    direction.statement = statement_of(direction, sizes.cwiseProduct(direction.changes), fit);
     const double from_priors = (priors * sizes.cwiseProduct(unit)).norm();
     const bool closed = from_priors > value && interval <= 1.0;
     (closed ? fit.only_from_priors : fit.unidentifiable).push_back(direction);
@@ -148,11 +147,11 @@ void describe_sensitivity(CurveFit& fit, const Eigen::MatrixXd& priors,
 }
 
 std::string describe_changes(const Eigen::VectorXd& changes,
-                             const std::vector<MaterialParameter>& parameters) {
+                             const std::vector<std::string>& labels) {
   std::string text;
   for (Index i = 0; i < changes.size(); ++i) {
     if (std::abs(changes(i)) < visible_change) continue;
-    text += (text.empty() ? "" : ", ") + std::string(name(parameters[std::size_t(i)])) +
+    text += (text.empty() ? "" : ", ") + labels[std::size_t(i)] +
             (changes(i) < 0.0 ? " - " : " + ") + number(std::abs(changes(i)));
   }
   return text;

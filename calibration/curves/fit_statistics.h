@@ -38,7 +38,7 @@ class Sensitivity {
 };
 
 /// Fills in singular values, unidentifiable and only_from_priors of `fit`, whose parameters,
-/// estimates, jacobian and covariance are known. `priors` are the priors' rows over their
+/// labels, estimates, jacobian and covariance are known. `priors` are the priors' rows over their
 /// deviations; `quantile` is the 95 % interval's half width over a standard error. A direction is
 /// open where the curves' singular value is below `threshold` times the largest, or where their own
 /// interval along it exceeds the sizes.
@@ -47,6 +47,6 @@ void describe_sensitivity(CurveFit& fit, const Eigen::MatrixXd& priors,
 
 /// "youngs_modulus + 1, shear_modulus - 0.75": changes over the parameters' sizes.
 std::string describe_changes(const Eigen::VectorXd& changes,
-                             const std::vector<MaterialParameter>& parameters);
+                             const std::vector<std::string>& labels);
 
 }  // namespace fingertip::calibration

@@ -91,6 +91,12 @@ bool is_modulus(MaterialParameter parameter) {
          parameter == MaterialParameter::shear_modulus || parameter == MaterialParameter::modulus;
 }
 
+bool is_of_the_rig(MaterialParameter parameter) {
+  return parameter == MaterialParameter::touch_offset ||
+         parameter == MaterialParameter::compliance ||
+         parameter == MaterialParameter::force_offset || parameter == MaterialParameter::drift;
+}
+
 bool is_of_the_rubber(MaterialParameter parameter) {
   return is_modulus(parameter) || parameter == MaterialParameter::lame_shear ||
          parameter == MaterialParameter::lambda;
@@ -164,6 +170,10 @@ std::string_view name(MaterialParameter parameter) {
     case MaterialParameter::relaxation_tau4: return "relaxation_tau4";
     case MaterialParameter::relaxation_g5: return "relaxation_g5";
     case MaterialParameter::relaxation_tau5: return "relaxation_tau5";
+    case MaterialParameter::touch_offset: return "touch_offset";
+    case MaterialParameter::compliance: return "compliance";
+    case MaterialParameter::force_offset: return "force_offset";
+    case MaterialParameter::drift: return "drift";
   }
   return "unknown";
 }
@@ -190,6 +200,10 @@ std::string_view unit(MaterialParameter parameter) {
     case MaterialParameter::relaxation_tau3:
     case MaterialParameter::relaxation_tau4:
     case MaterialParameter::relaxation_tau5: return "s";
+    case MaterialParameter::touch_offset: return "m";
+    case MaterialParameter::compliance: return "m/N";
+    case MaterialParameter::force_offset: return "N";
+    case MaterialParameter::drift: return "N/s";
     default: return "Pa";
   }
 }

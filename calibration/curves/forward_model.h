@@ -52,12 +52,17 @@ enum class MaterialParameter {
   relaxation_tau4,
   relaxation_g5,
   relaxation_tau5,
+  // What a machine adds, rig_model.h.
+  touch_offset,  ///< travel at first touch [m]
+  compliance,    ///< of the machine [m/N]
+  force_offset,  ///< what the load cell tells without a load [N]
+  drift,         ///< by how much that changes in time [N/s]
 };
 
 /// The enumerator's name.
 std::string_view name(MaterialParameter parameter);
 
-/// "Pa", "N/m", "s" or "1".
+/// "Pa", "N/m", "s", "m", "m/N", "N", "N/s" or "1".
 std::string_view unit(MaterialParameter parameter);
 
 /// Value in a setup, in the parameter's unit; lame_shear and lambda are the rubber's. NaN for
@@ -79,6 +84,9 @@ class ForwardModel {
   /// side, one model is not.
   virtual CurveSlopes evaluate(const Eigen::VectorXd& parameters) = 0;
 };
+
+/// touch_offset, compliance, force_offset, drift: they belong to a machine or to one of its files.
+bool is_of_the_rig(MaterialParameter parameter);
 
 /// E, G and modulus: what describes a rubber by its engineering moduli.
 bool is_modulus(MaterialParameter parameter);

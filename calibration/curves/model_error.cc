@@ -83,6 +83,33 @@ std::vector<double> forces(PressSetup press, ModelKind model, Kinematics kinemat
   return result;
 }
 
+/// Few cells and depths.
+void make_coarse(PressSetup& press) {
+  press.lattice.spacing =
+      std::min(press.geometry.thickness() / coarse_cells, press.geometry.coarsest_spacing());
+  press.rubber.youngs_modulus =
+      std::max(press.rubber.youngs_modulus, 2.0 * press.rubber.shear_modulus);
+  const double depth = press.protocol.samples.back();
+  press.protocol.samples.clear();
+  for (std::size_t i = 1; i <= coarse_depths; ++i)
+    press.protocol.samples.push_back(depth * double(i) / double(coarse_depths));
+  press.protocol.depth = press.protocol.samples.back();
+}
+
+/// Of `other` over `own`, known at the samples of `press`, at the `wanted` depths.
+Eigen::VectorXd excess(const PressSetup& press, const std::vector<double>& own,
+                       const std::vector<double>& other, const std::vector<double>& wanted) {
+  std::vector<double> depths{0.0}, ratio{0.0};
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    depths.push_back(press.protocol.samples[i]);
+    ratio.push_back(other[i] / own[i] - 1.0);
+  }
+  Eigen::VectorXd result{Index(wanted.size())};
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    result(Index(i)) = meshes::interpolated(depths, ratio, wanted[i]);
+  return result;
+}
+
 }  // namespace
 
 Eigen::MatrixXd lattice_covariance(const std::vector<PressSetup>& presses) {
@@ -104,25 +131,19 @@ Eigen::MatrixXd lattice_covariance(const std::vector<PressSetup>& presses) {
 
 Eigen::VectorXd excess_of_finite_strain(PressSetup press) {
   const std::vector<double> wanted = press.protocol.samples;
-  press.lattice.spacing =
-      std::min(press.geometry.thickness() / coarse_cells, press.geometry.coarsest_spacing());
-  press.rubber.youngs_modulus =
-      std::max(press.rubber.youngs_modulus, 2.0 * press.rubber.shear_modulus);
-  press.protocol.samples.clear();
-  for (std::size_t i = 1; i <= coarse_depths; ++i)
-    press.protocol.samples.push_back(wanted.back() * double(i) / double(coarse_depths));
-  press.protocol.depth = press.protocol.samples.back();
-  const auto small = forces(press, ModelKind::hookean, Kinematics::small);
-  const auto finite = forces(press, ModelKind::network, Kinematics::finite);
-  std::vector<double> depths{0.0}, ratio{0.0};
-  for (std::size_t i = 0; i < small.size(); ++i) {
-    depths.push_back(press.protocol.samples[i]);
-    ratio.push_back(finite[i] / small[i] - 1.0);
-  }
-  Eigen::VectorXd result{Index(wanted.size())};
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    result(Index(i)) = meshes::interpolated(depths, ratio, wanted[i]);
-  return result;
+  make_coarse(press);
+  return excess(press, forces(press, ModelKind::hookean, Kinematics::small),
+                forces(press, ModelKind::network, Kinematics::finite), wanted);
+}
+
+Eigen::VectorXd excess_of_other_contact(PressSetup press) {
+  const std::vector<double> wanted = press.protocol.samples;
+  make_coarse(press);
+  PressSetup other = press;
+  using enum meshes::ContactMode;
+  other.protocol.contact = press.protocol.contact == stick ? frictionless : stick;
+  return excess(press, forces(press, ModelKind::hookean, Kinematics::small),
+                forces(other, ModelKind::hookean, Kinematics::small), wanted);
 }
 
 }  // namespace fingertip::calibration

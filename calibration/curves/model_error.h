@@ -33,4 +33,9 @@ Eigen::MatrixXd lattice_covariance(const std::vector<lattice::PressSetup>& press
 /// ratio is the setup's rubber's, but at least 0. Throws as run_static_press does.
 Eigen::VectorXd excess_of_finite_strain(lattice::PressSetup press);
 
+/// By how much forces under the other contact exceed those under `press`'s own, relative, at every
+/// sample, in the same way at small strain: sticking instead of frictionless or of Coulomb's, and
+/// frictionless instead of sticking.
+Eigen::VectorXd excess_of_other_contact(lattice::PressSetup press);
+
 }  // namespace fingertip::calibration

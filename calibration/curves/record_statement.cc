@@ -37,12 +37,14 @@ std::string estimates(const CurveFit& fit) {
   std::string text;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const MaterialParameter parameter = fit.parameters[i];
-    text += (text.empty() ? "" : "; ") + std::string(name(parameter)) + " = " +
+    text += (text.empty() ? "" : "; ") + fit.labels[i] + " = " +
             with_unit(fit.estimates(Index(i)), parameter);
     const bool by_ratio = fit.poissons_ratio_bound && is_modulus(parameter);
     if (by_ratio) continue;
     const double lower = fit.lower(Index(i)), upper = fit.upper(Index(i));
-    const bool open = upper - lower > 2.0 * std::abs(fit.estimates(Index(i)));
+    // What is of the rig may well be zero.
+    const bool open =
+        !is_of_the_rig(parameter) && upper - lower > 2.0 * std::abs(fit.estimates(Index(i)));
     text += fit.at_bound[i] ? " (at its bound)"
             : open          ? " (open: the 95 % interval exceeds it)"
                             : " (95 %: " + rounded(lower, 5) + " to " + rounded(upper, 5) + ")";
@@ -99,8 +101,8 @@ std::string other_minima(const CurveFit& fit) {
     if (same || 2.0 * (minimum.loss - best->loss) > as_good || !fit.chi_square) continue;
     std::string text = " Another answer describes the data as well:";
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-      text += " " + std::string(name(fit.parameters[i])) + " = " +
-              with_unit(minimum.estimates(Index(i)), fit.parameters[i]);
+      text +=
+          " " + fit.labels[i] + " = " + with_unit(minimum.estimates(Index(i)), fit.parameters[i]);
     return text + ".";
   }
   return "";
@@ -116,11 +118,85 @@ std::string structures(const FitRecord& record) {
   return text;
 }
 
+/// Interval of a parameter over the one it would have if the other were known: more is told.
+constexpr double much_wider = 3.0;
+
+/// How many times the interval of parameter `i` would narrow by a rigid blank pressed to the same
+/// forces, f = (x - x0)/c with a touch x0 of its own, which shows the compliance `j` alone.
+double narrowed_by_blank(const FitRecord& record, Index i, Index j) {
+  const CurveFit& fit = record.fit;
+  std::vector<double> forces, deviations;
+  for (std::size_t c = 0; c < record.curves.size(); ++c) {
+    const Curve& curve = record.curves[c];
+    for (std::size_t k = 0; k < curve.y.size(); ++k) {
+      forces.push_back(curve.y[k]);
+      deviations.push_back(curve.sigma.empty() ? fit.residual_deviation : curve.sigma[k]);
+    }
+  }
+  const Index count = Index(forces.size());
+  const Eigen::VectorXd force = Eigen::VectorXd::Map(forces.data(), count),
+                        weight = Eigen::VectorXd::Map(deviations.data(), count).cwiseInverse();
+  // A blank on a rigid machine has no travel at all: then the compliance is known.
+  const double soft = std::max(std::abs(fit.estimates(j)), 1e-6 * fit.standard_errors(j));
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count, fit.estimates.size());
+  rows.col(j) = -force.cwiseProduct(weight) / soft;
+  return 1.0 / narrowing(fit.covariance, rows, -weight / soft)(i);
+}
+
+/// Compliances take their share of a travel as a softer rubber does.
+std::string collinearity(const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  std::string text;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
+      const bool pair =
+          is_of_the_rubber(fit.parameters[i]) && fit.parameters[j] == MaterialParameter::compliance;
+      if (!pair || fit.parameters[i] == MaterialParameter::shear_modulus) continue;
+      const double correlation = fit.correlation(Index(i), Index(j));
+      const double times = 1.0 / std::sqrt(std::max(1e-12, 1.0 - correlation * correlation));
+      if (times < much_wider) continue;
+      text += " " + fit.labels[i] + " and " + fit.labels[j] +
+              " are nearly collinear (correlation " + rounded(correlation, 3) +
+              "): if the compliance were known, the interval of " + fit.labels[i] + " would be " +
+              rounded(times, 2) +
+              " times narrower. What tells them apart: a rigid blank in place of the finger, which "
+              "shows the compliance alone (pressed to the same forces it would make the interval " +
+              rounded(narrowed_by_blank(record, Index(i), Index(j)), 2) +
+              " times narrower); a press against another obstacle; a deeper one.";
+    }
+  return text;
+}
+
+/// A cause counts as told by data where chance makes its decrease less often than this.
+constexpr double by_no_chance = 1e-3;
+
+/// What freeing the gravest suspects would do, where the fit misses its data.
+std::string lack_of_fit(const FitRecord& record) {
+  bool missed = record.fit.birge_ratio > 1.0;
+  if (!record.fit.chi_square_probability)
+    for (std::size_t c = 0; c < record.curves.size(); ++c)
+      missed = missed || structure_of(record, c).probability < improbable;
+  if (!missed) return "";
+  const auto all = record.fit.chi_square.value_or(record.fit.degrees_of_freedom);
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(record.lack_of_fit.size(), 3); ++i) {
+    const Accusation& each = record.lack_of_fit[i];
+    if (each.probability > by_no_chance) break;
+    const std::string named = each.name + (each.of.empty() ? "" : " (" + each.of + ")");
+    text += (i == 0 ? " What is missed looks most like " : "; then ") + named +
+            ", which alone would "
+            "take away " +
+            percent(std::min(1.0, each.decrease / all)) + " of the misfit (" + each.cause + ")";
+  }
+  return text.empty() ? text : text + ".";
+}
+
 }  // namespace
 
 std::string fit_statement(const FitRecord& record) {
   std::string text = estimates(record.fit) + misfit(record) + open_directions(record.fit) +
-                     other_minima(record.fit) + structures(record);
+                     other_minima(record.fit) + collinearity(record) + structures(record) +
+                     lack_of_fit(record);
   for (const std::string& failed : failed_tests(record)) text += " Not accepted: " + failed + ".";
   return text;
 }

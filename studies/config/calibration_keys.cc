@@ -84,6 +84,37 @@ Key range_key() {
       "the lower one first; for experiment", {});
 }
 
+/// Files with a column `position` know the travel of a machine only.
+Key rig_key() {
+  Key key;
+  key.section = "calibration";
+  key.name = "rig";
+  key.kind = Kind::fields;
+  key.preset = "{}";
+  key.fields = {
+      {"touch_offset", "m", "0.1 mm", "travel at first touch, of each file; fitted unless given"},
+      {"compliance", "m/N", "0.1 mm/N", "of frame, load cell and grips; 0 unless given"},
+      {"force_offset", "N", "0.02 N", "what the load cell tells without load; 0 unless given"},
+      {"drift", "N/s", "0.001 N/s", "of that in the file's column time; 0 unless given"}};
+  key.help = "the machine of files that tell its travel in a column position";
+  key.rule =
+      "each is \"fit\", a quantity, or a quantity with its standard deviation before the fit, "
+      "\"0.1 +- 0.02 mm/N\"";
+  key.assign = [](Config& config, const Value& value) {
+    RigSettings& rig = config.calibration.rig = {};
+    const std::pair<std::string_view, RigSetting*> entries[] = {{"touch_offset", &rig.touch_offset},
+                                                                {"compliance", &rig.compliance},
+                                                                {"force_offset", &rig.force_offset},
+                                                                {"drift", &rig.drift}};
+    for (std::size_t i = 0; i < value.words.size(); ++i)
+      for (const auto& [name, setting] : entries)
+        if (name == value.words[i])
+          *setting = {value.numbers[3 * i] == 1.0, value.numbers[3 * i + 1],
+                      value.numbers[3 * i + 2]};
+  };
+  return key;
+}
+
 }  // namespace
 
 std::vector<Key> calibration_keys() {
@@ -132,6 +163,10 @@ std::vector<Key> calibration_keys() {
                 "last, finite-strain the moduli and law A's, damping the last alone",
                 {}),
       forward_key(),
+      only_with("calibration.problem", {"experiment"}, rig_key()),
+      only_with("calibration.problem", {"experiment"},
+                entry("machine", any, "name of the machine: files of one share a compliance",
+                      &Order::machine)),
       entry("prior", {0.0, 10.0, true},
             "relative standard deviation of constants about those of the moduli, ten times that "
             "for bond and contact; 0: no prior",

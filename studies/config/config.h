@@ -64,6 +64,21 @@ constexpr auto values(ForwardKind) {
   return std::array{ForwardKind::lattice, ForwardKind::continuum};
 }
 
+/// What is known beforehand of a quantity of a rig; SI.
+struct RigSetting {
+  bool fitted = false;
+  double value = 0.0;      ///< where it is not fitted; the mean of its prior
+  double deviation = 0.0;  ///< of the prior; 0: none
+};
+
+/// The machine that measured a force against the travel of its crosshead (key calibration.rig).
+struct RigSettings {
+  RigSetting touch_offset{true};  ///< travel at first touch [m]
+  RigSetting compliance;          ///< [m/N]
+  RigSetting force_offset;        ///< [N]
+  RigSetting drift;               ///< of the force [N/s]
+};
+
 /// Section [calibration]; the key table says what the entries mean.
 struct CalibrationSettings {
   CalibrationProblem problem = CalibrationProblem::moduli;
@@ -73,6 +88,8 @@ struct CalibrationSettings {
   int points = 6;
   std::vector<std::string> parameters;  ///< empty: the problem's own
   ForwardKind forward = ForwardKind::lattice;
+  RigSettings rig;
+  std::string machine;        ///< files of one name share a compliance
   double prior = 0.02;        ///< relative; 0: none
   double model_error = 0.01;  ///< relative
   double robust_width = 0.0;

@@ -31,6 +31,7 @@ std::string_view kind_name(const Key& key) {
     case Kind::file: return "path";
     case Kind::texts: return "list of texts";
     case Kind::files: return "list of paths";
+    case Kind::fields: return "table";
   }
   return "";
 }
@@ -38,6 +39,8 @@ std::string_view kind_name(const Key& key) {
 /// "Pa; > 0 Pa; greater than youngs_modulus/3": unit, range and rule in one line.
 std::string constraints(const Key& key) {
   std::string text(kind_name(key));
+  for (const Field& field : key.fields)
+    text += (&field == &key.fields.front() ? " of " : ", ") + field.name + " [" + field.unit + "]";
   if (!key.unit.empty()) text += " in units of " + key.unit;
   if (!key.allowed().empty()) text += "; " + key.allowed();
   if (!key.rule.empty()) text += "; " + key.rule;
@@ -60,6 +63,12 @@ nlohmann::json element_schema(const Key& key) {
       break;
     }
     case Kind::boolean: return {{"type", "boolean"}};
+    case Kind::fields:
+      schema = {{"type", "object"}, {"additionalProperties", false}};
+      for (const Field& field : key.fields)
+        schema["properties"][field.name] = {{"type", "string"},
+                                            {"description", field.help + " [" + field.unit + "]"}};
+      return schema;
     case Kind::choice:
       schema["enum"] = json::array();
       for (const Choice& choice : key.choices) schema["enum"].push_back(choice.word);
@@ -153,6 +162,8 @@ std::string explanation(const Key& key) {
   for (const Choice& choice : key.choices) {
     text += fmt::format("  {:<18} {}\n", choice.word, choice.meaning);
   }
+  for (const Field& field : key.fields)
+    text += fmt::format("  {:<18} {}, e.g. \"{}\"\n", field.name, field.help, field.example);
   if (key.kind == Kind::source) text += fmt::format("  {:<18} {}\n", "PATH", "a file");
   if (!key.rule.empty()) text += fmt::format("  rule:    {}\n", key.rule);
   if (!key.matters_with.empty())

@@ -28,14 +28,21 @@ enum class Kind {
   file,         ///< path of a file, or an empty text for none
   texts,        ///< list of texts
   files,        ///< list of paths of files
+  fields,       ///< table of Key::fields
 };
 
 /// A value read from text, in SI.
 struct Value {
   double number = 0.0;          ///< quantity, number, integer, boolean (0 or 1)
-  std::vector<double> numbers;  ///< quantities, terms, numbers; three of a stage as in PressStage
+  std::vector<double> numbers;  ///< quantities, terms, numbers; three of a stage as in PressStage;
+                                ///< three of a field: 1 for "fit", the quantity, its deviation
   std::string word;  ///< choice, source, text, file; for a quantity the word given instead of one
-  std::vector<std::string> words;  ///< texts, files
+  std::vector<std::string> words;  ///< texts, files; of fields the names given
+};
+
+/// An entry of a key that is a table: "fit", a quantity, or a quantity with its standard deviation.
+struct Field {
+  std::string name, unit, example, help;
 };
 
 struct Choice {
@@ -60,6 +67,7 @@ struct Key {
   std::string unit;    ///< SI unit; empty for what is no quantity
   Range range;         ///< in SI
   std::vector<Choice> choices;
+  std::vector<Field> fields;
   std::size_t length = 0;     ///< of a list of quantities; 0: any
   bool number_first = false;  ///< of terms
   std::string word;           ///< word accepted instead of a quantity: "auto", "tip_radius/N"

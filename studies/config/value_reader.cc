@@ -205,6 +205,54 @@ Value read_texts(const Key& key, const toml::node& node) {
   return value;
 }
 
+/// "fit", "0.1 mm/N", or with its standard deviation "0.1 +- 0.02 mm/N": 1 for fit, value,
+/// deviation.
+std::array<double, 3> read_field(const Field& field, const toml::node& node) {
+  const std::string advice = "write \"fit\", or e.g. \"" + field.example +
+                             "\", with a standard deviation \"" +
+                             field.example.substr(0, field.example.find(' ')) + " +- 0.02" +
+                             field.example.substr(field.example.find(' ')) + '"';
+  const auto text = node.value_exact<std::string>();
+  if (!text) refuse(field.name + " must be a text", advice);
+  if (*text == "fit") return {1.0, 0.0, 0.0};
+  try {
+    const auto sign = text->find("+-");
+    if (sign == text->npos) return {0.0, parse_quantity(*text, field.unit, field.example), 0.0};
+    const std::string after = text->substr(sign + 2);
+    const double deviation = parse_quantity(after, field.unit, field.example);
+    // Both numbers have the unit that stands at the end.
+    const auto unit = after.find_first_not_of(" 0123456789.eE+-");
+    const auto gap = after.find_last_of("0123456789. ", unit);
+    const double mean = parse_quantity(text->substr(0, sign) + " " + after.substr(gap + 1),
+                                       field.unit, field.example);
+    if (!(deviation > 0.0)) refuse(field.name + ": a standard deviation is positive", advice);
+    return {1.0, mean, deviation};
+  } catch (const UnitError& error) {
+    refuse(error.rule.starts_with(field.name) ? error.rule : field.name + ": " + error.rule,
+           advice);
+  }
+}
+
+Value read_fields(const Key& key, const toml::node& node) {
+  const Field& first = key.fields.front();
+  std::vector<std::string> names;
+  for (const Field& field : key.fields) names.push_back(field.name);
+  const auto* table = node.as_table();
+  if (table == nullptr)
+    refuse("must be a table", "write e.g. {" + first.name + " = \"" + first.example + "\"}");
+  Value value;
+  for (const auto& [name, entry] : *table) {
+    const auto field = std::ranges::find(key.fields, name.str(), &Field::name);
+    if (field == key.fields.end())
+      refuse("knows no " + std::string(name.str()),
+             "did you mean " + nearest_word(std::string(name.str()), names) + "?");
+    const std::array<double, 3> numbers = read_field(*field, entry);
+    value.words.push_back(field->name);
+    value.numbers.insert(value.numbers.end(), numbers.begin(), numbers.end());
+  }
+  return value;
+}
+
 bool is_choice(const Key& key, const std::string& word) {
   return std::ranges::any_of(key.choices,
                              [&](const Choice& choice) { return choice.word == word; });
@@ -235,6 +283,7 @@ Value read_value(const Key& key, const toml::node& node) {
     case Kind::quantities: return read_quantities(key, node);
     case Kind::terms: return read_terms(key, node);
     case Kind::stages: return read_stages(node);
+    case Kind::fields: return read_fields(key, node);
     case Kind::number: return read_number(key, node);
     case Kind::numbers: return read_numbers(key, node);
     case Kind::number_pair: return read_number_pair(key, node);
@@ -291,6 +340,13 @@ std::string toml_literal(const toml::node& node) {
     }
     return "[" + text + "]";
   }
+  if (const auto* table = node.as_table()) {
+    std::string text;
+    for (const auto& [name, entry] : *table)
+      text += (text.empty() ? "" : ", ") + toml_literal(toml::value<std::string>(name.str())) +
+              " = " + toml_literal(entry);
+    return "{" + text + "}";
+  }
   if (const auto* number = node.as_integer()) return std::to_string(number->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
   // What no key takes, for the message that refuses it.
@@ -298,7 +354,7 @@ std::string toml_literal(const toml::node& node) {
   node.visit([&text](const auto& value) {
     if constexpr (!toml::is_table<decltype(value)>) text << value;
   });
-  return node.is_table() ? "{...}" : text.str();
+  return text.str();
 }
 
 std::string unquoted(const std::string& literal) {

@@ -28,6 +28,7 @@ const char* name(Kind kind) {
     case file: return "file";
     case texts: return "texts";
     case files: return "files";
+    case fields: return "fields";
   }
   return "";
 }

@@ -189,7 +189,10 @@ PlannedJob CalibrationStages::surrogate(const fs::path& run) const {
     uncertainty.parameters = parameters_of(setup_.input);
     // As wide as the intervals.
     uncertainty.covariance =
-        std::pow(fit.at("birge_ratio").get<double>(), 2) * matrix_of(fit.at("covariance"));
+        std::pow(fit.at("birge_ratio").get<double>(), 2) *
+        matrix_of(fit.at("covariance"))
+            .topLeftCorner(Eigen::Index(uncertainty.parameters.size()),
+                           Eigen::Index(uncertainty.parameters.size()));
   }
   return {place("surrogate"), surrogate_job(setup, uncertainty), false};
 }

@@ -60,6 +60,7 @@ class CurveReader {
   void read_header(const Line& line);
   void choose_pair(std::size_t line);
   void choose_sigma(std::size_t line);
+  bool is_travel() const { return quantities_.x.name == measured::travel.x.name; }
   void note_unused();
   std::optional<std::size_t> find(string_view name, std::size_t line);
   Column column(std::size_t index, const Quantity& quantity, std::size_t line);
@@ -78,7 +79,7 @@ class CurveReader {
   std::vector<string_view> cells_;  ///< of the row at hand
   CurveQuantities quantities_;
   Column x_, y_;
-  std::optional<Column> sigma_;
+  std::optional<Column> sigma_, time_;
   bool own_error_ = false;  ///< sigma_ is a program's force_error, which may be unknown
   std::vector<CurveRow> rows_;
   std::size_t data_rows_ = 0, before_start_ = 0, without_error_ = 0;
@@ -184,7 +185,8 @@ void CurveReader::choose_sigma(std::size_t line) {
 void CurveReader::note_unused() {
   std::string unused;
   for (std::size_t i = 0; i < titles_.size(); ++i)
-    if (i != x_.index && i != y_.index && !(sigma_ && i == sigma_->index))
+    if (i != x_.index && i != y_.index && !(sigma_ && i == sigma_->index) &&
+        !(time_ && i == time_->index))
       unused += (unused.empty() ? "" : ", ") + titles_[i].written;
   if (!unused.empty()) result_.notes.push_back("columns that are not used: " + unused);
 }
@@ -197,6 +199,8 @@ void CurveReader::read_header(const Line& line) {
   choose_pair(line.number);
   problems_.throw_if_any();
   choose_sigma(line.number);
+  if (const auto time = find("time", line.number); time && is_travel())
+    time_ = column(*time, {"time", "s"}, line.number);
   problems_.throw_if_any();
   note_unused();
 }
@@ -248,15 +252,17 @@ void CurveReader::read_row(const Line& line) {
   CurveRow row;
   row.line = line.number;
   const auto x = read_cell(x_, line.number), y = read_cell(y_, line.number);
+  const auto time = time_ ? read_cell(*time_, line.number) : 0.0;
   const bool known = read_sigma(row);
-  if (!x || !y || !known) return;
+  if (!x || !y || !known || !time) return;
+  row.time = *time;
   row.x = *x;
   row.y = *y;
   keep(row);
 }
 
 void CurveReader::keep(const CurveRow& row) {
-  if (row.x > 0.0) {
+  if (row.x > 0.0 || is_travel()) {
     rows_.push_back(row);
   } else if (quantities_.x.name == "stretch" || quantities_.x.name == "frequency") {
     problems_.add(row.line, x_.title, shown(cells_[x_.index]),
@@ -316,8 +322,10 @@ MeasuredFile CurveReader::read() {
   check_signs();
   problems_.throw_if_any();
   std::string name = std::move(result_.curve.name);
-  result_.curve =
-      curve_of(rows_, {result_.x_quantity, x_.unit, x_.factor}, problems_, result_.notes);
+  if (is_travel()) rows_ = loading(std::move(rows_), result_.notes);
+  result_.curve = curve_of(rows_, {result_.x_quantity, x_.unit, x_.factor, is_travel()}, problems_,
+                           result_.notes);
+  result_.curve.is_travel = is_travel();
   result_.curve.name = std::move(name);
   problems_.throw_if_any();
   for (const double x : result_.curve.x)

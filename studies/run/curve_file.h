@@ -24,6 +24,7 @@ struct CurveQuantities {
 /// The pairs that calibrations know.
 namespace measured {
 inline constexpr CurveQuantities press{{"indentation", "m"}, {"force", "N"}};
+inline constexpr CurveQuantities travel{{"position", "m"}, {"force", "N"}};
 inline constexpr CurveQuantities uniaxial{{"stretch", "1"}, {"nominal_stress", "Pa"}};
 inline constexpr CurveQuantities simple_shear{{"shear", "1"}, {"shear_stress", "Pa"}};
 inline constexpr CurveQuantities vibration{{"frequency", "Hz"}, {"loss_factor", "1"}};
@@ -57,7 +58,11 @@ struct MeasuredFile {
 ///   serves where it is known and positive in every row. Further columns are ignored with a note.
 /// - Rows with indentation, time or shear <= 0 lie before the start and are left out with a note;
 ///   stretch and frequency must be positive.
-/// - x must increase from row to row. More than 200 rows are averaged in at most 200 bins of equal
+/// - A position may have any sign and stand still or tremble: then its rows are averaged as below.
+///   Rows after the largest one, a hold or an unloading, are left out with a note that tells the
+///   loop's share of the work. A column time goes along.
+/// - Another x must increase from row to row. More than 200 rows are averaged in at most 200 bins
+/// of equal
 ///   width, with weights 1/sigma² and the mean's sigma (sum of the weights)^(-1/2), which supposes
 ///   independent errors; there the means of blocks of successive rows (a thousand blocks) may step
 ///   back by a bin's width and single rows by two: that is noise, and more is unloading.

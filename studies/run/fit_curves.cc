@@ -55,9 +55,13 @@ std::string even_samples(double depth, int count) {
 void check_condition(const LoadedConfig& loaded, const std::vector<std::string>& sets) {
   for (const std::string& setting : sets) {
     const std::string section = setting.substr(0, setting.find('.'));
-    if (section != "press" && section != "geometry" && section != "reference")
+    const std::string key(trimmed(std::string_view(setting).substr(0, setting.find('='))));
+    const bool of_rig = key == "calibration.rig" || key == "calibration.machine";
+    if (section != "press" && section != "geometry" && section != "reference" &&
+        section != "obstacle" && !of_rig)
       throw refused(loaded, "calibration.conditions", setting,
-                    "a curve's condition sets keys of press, geometry and reference",
+                    "a curve's condition sets keys of press, obstacle, geometry and reference, "
+                    "calibration.rig and calibration.machine",
                     "set rubber, lattice and calibration for the whole fit");
   }
 }
@@ -82,6 +86,10 @@ std::string described(const lattice::PressSetup& setup) {
     text += ", tilt " +
             meshes::to_text(std::round(setup.protocol.tilt * 1.8e6 / std::numbers::pi) / 1e4) +
             " deg";
+  const meshes::Obstacle& obstacle = setup.protocol.obstacle;
+  if (obstacle.shape != meshes::ObstacleShape::plane)
+    text += ", " + std::string(meshes::name(obstacle.shape)) + " of " +
+            meshes::to_text(1e3 * obstacle.radius) + " mm";
   if (setup.protocol.lateral != 0.0)
     text += ", lateral " + meshes::to_text(1e2 * setup.protocol.lateral) + " cm";
   return text;
@@ -157,7 +165,7 @@ std::vector<CurveQuantities> quantities_of(CalibrationProblem problem) {
     case CalibrationProblem::finite_strain: return {measured::uniaxial, measured::simple_shear};
     case CalibrationProblem::damping:
       return {measured::vibration, measured::creep, measured::relaxation};
-    default: return {measured::press};
+    default: return {measured::press, measured::travel};
   }
 }
 
@@ -193,8 +201,15 @@ void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const Measure
   std::vector<std::string> condition;
   for (const MeasuredSetting& setting : file.settings) condition.push_back(setting.assignment());
   condition.insert(condition.end(), further.begin(), further.end());
+  std::vector<double> depths = file.curve.x;
+  if (kind == CurveKind::press || kind == CurveKind::continuum) {
+    std::optional<Travel>& travel = fit.input.travels.emplace_back();
+    const auto own = under(loaded, condition, {"press.mode=static"}).config.calibration;
+    if (file.curve.is_travel) travel = travel_of(file.curve, own);
+    if (travel) depths = travel->depths;
+  }
   std::string samples;
-  for (const double depth : file.curve.x)
+  for (const double depth : depths)
     samples += (samples.empty() ? "\"" : ", \"") + meshes::to_text(depth) + " m\"";
   const bool ramp = kind == CurveKind::ramp;
   const LoadedConfig own =
@@ -204,8 +219,9 @@ void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const Measure
 }
 
 std::string with_unit(const std::string& quantity) {
-  for (const CurveQuantities& pair : {measured::press, measured::uniaxial, measured::simple_shear,
-                                      measured::vibration, measured::creep, measured::relaxation})
+  for (const CurveQuantities& pair :
+       {measured::press, measured::travel, measured::uniaxial, measured::simple_shear,
+        measured::vibration, measured::creep, measured::relaxation})
     for (const Quantity& axis : {pair.x, pair.y})
       if (axis.name == quantity) return quantity + " [" + std::string(axis.unit) + "]";
   return quantity;
@@ -254,6 +270,35 @@ void check_curves(const LoadedConfig& loaded, const FitInput& input) {
   }
 }
 
+/// Travels have their rigs. Indentations of the same fit are travels of a rig that is known.
+void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
+  FitInput& input = fit.input;
+  const auto given = [](const std::optional<Travel>& travel) { return travel.has_value(); };
+  if (std::ranges::none_of(input.travels, given)) {
+    input.travels.clear();
+    if (loaded.entries.at("calibration.rig").given)
+      throw refused(loaded, "calibration.rig", "", "no file has the column position",
+                    "name the travel of the machine so, or leave the rig out");
+    return;
+  }
+  CalibrationSettings rigid;
+  rigid.rig.touch_offset.fitted = false;
+  for (std::size_t i = 0; i < input.travels.size(); ++i) {
+    if (input.travels[i]) continue;
+    Travel& travel = input.travels[i].emplace(travel_of(input.curves[i], rigid));
+    // A machine of its own.
+    travel.machine = "indentation of " + input.curves[i].name;
+    input.presses[i].protocol.samples = travel.depths;
+    input.presses[i].protocol.depth = travel.depths.back();
+    input.continua[i].press_to(travel.depths);
+  }
+  try {
+    free_rigs(input);
+  } catch (const meshes::InvalidInput& error) {
+    throw loaded.locate(error.violations());
+  }
+}
+
 }  // namespace
 
 void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
@@ -285,6 +330,8 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
                                                          : settings_in(settings.conditions[i]);
       try {
         add_measured_press(fit, loaded, file, kind, condition);
+      } catch (const meshes::InvalidInput& error) {
+        throw placed_in(settings.data[i], file, loaded.locate(error.violations()));
       } catch (const ConfigError& error) {
         throw placed_in(settings.data[i], file, error);
       }
@@ -300,6 +347,7 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
     fit.input.conditions.push_back("");
     fit.input.kinds.push_back(kind);
   }
+  add_rigs(fit, loaded);
   check_curves(loaded, fit.input);
 }
 

@@ -12,6 +12,7 @@
 #include "fem_reference/job.h"
 #include "lattice/press/press_setup.h"
 #include "studies/config/config.h"
+#include "studies/run/fit_rig.h"
 #include "studies/run/job.h"
 
 namespace fingertip::studies {
@@ -28,6 +29,14 @@ enum class CurveKind {
   moving_press,  ///< the moving lattice
 };
 
+/// By how much another theory's forces exceed the model's, relative, at every sample of every
+/// press: a suspect where a fit misses its data, and no part of the model.
+struct Excess {
+  std::string name;        ///< "finite strain"
+  const char* cause = "";  ///< for people
+  std::vector<std::vector<double>> at_samples;
+};
+
 /// SI. `curves`, `conditions` and `kinds` have an entry per curve; `presses` and `continua` too
 /// where these are presses.
 struct FitInput {
@@ -37,6 +46,9 @@ struct FitInput {
   std::vector<CurveKind> kinds;
   std::vector<lattice::PressSetup> presses;
   std::vector<fem_reference::ReferenceJob> continua;  ///< the presses of a continuum
+  /// Per curve; empty where no curve is one over the travel of a machine. The samples of `presses`
+  /// and `continua` then are Travel::depths.
+  std::vector<std::optional<Travel>> travels;
   lattice::PressSetup base;   ///< of the configuration: rubber and lattice that are not sought
   bool rubber_known = false;  ///< the data were made of base.rubber
   calibration::CurveFitOptions options;
@@ -46,10 +58,11 @@ struct FitInput {
   bool scale_to_data = false;
   /// What the lattices are known to miss goes into the covariance of the forces.
   bool with_lattice_error = false;
-  /// Per curve, what the model may miss of every force, relative: the same; and what that is, for
-  /// people. None: nothing.
+  /// Per curve, what the model may miss of the force at every sample of its press, relative: the
+  /// same; and what that is, for people. None: nothing.
   std::vector<std::vector<double>> theory_error;
   std::string theory_error_of;
+  std::vector<Excess> excesses;
   bool density_known = true, retardation_time_known = true;  ///< of base.rubber, for material.toml
   std::vector<std::string> profile;                          ///< two parameters, or none
   std::string provenance, program;                           ///< for material.toml
@@ -61,7 +74,7 @@ inline constexpr const char* estimates_name = "estimates.toml";
 /// Whether the continuum answers for the curves.
 bool by_continuum(const FitInput& input);
 
-/// Of `input.options.free`.
+/// Of `input.options.free`, without those of rigs, which stand behind them.
 std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input);
 
 /// The fit. Files: calibration.json, estimates.toml (a material.toml, which says so where the fit

@@ -143,7 +143,7 @@ std::vector<double> start_ratios(const FitInput& input) {
 void check_profile(const LoadedConfig& loaded, const FitInput& input) {
   const auto known = [&](const std::string& word) {
     return std::ranges::any_of(input.options.free, [&](const FreeParameter& free) {
-      return calibration::name(free.parameter) == word;
+      return calibration::label(free) == word;
     });
   };
   const std::vector<std::string>& names = input.profile;
@@ -252,7 +252,6 @@ FitSetup assembled(const LoadedConfig& loaded) {
   fit.input.profile = wanted.profile;
   fit.input.density_known = loaded.entries.at("rubber.density").given;
   fit.input.retardation_time_known = loaded.entries.at("rubber.retardation_time").given;
-  check_profile(loaded, fit.input);
   bound_poissons_ratio(loaded, fit.input);
   const bool from_continuum =
       wanted.problem == CalibrationProblem::curve ||
@@ -262,6 +261,7 @@ FitSetup assembled(const LoadedConfig& loaded) {
   } else {
     add_measured_curves(fit, loaded);
   }
+  check_profile(loaded, fit.input);
   fit.input.scale_to_data = wanted.problem == CalibrationProblem::experiment ||
                             wanted.problem == CalibrationProblem::finite_strain;
   fit.input.start_ratios = start_ratios(fit.input);
@@ -269,8 +269,9 @@ FitSetup assembled(const LoadedConfig& loaded) {
   // A reference ends where every force is known that well.
   if (by_continuum(fit.input)) fit.input.theory_error_of = "the continuum's tolerance";
   if (by_continuum(fit.input))
-    for (const calibration::Curve& curve : fit.input.curves)
-      fit.input.theory_error.emplace_back(curve.x.size(), loaded.config.reference.tolerance);
+    for (const lattice::PressSetup& press : fit.input.presses)
+      fit.input.theory_error.emplace_back(press.protocol.samples.size(),
+                                          loaded.config.reference.tolerance);
   fit.input.with_lattice_error = std::ranges::all_of(fit.input.kinds, [](CurveKind kind) {
     return kind == CurveKind::press || kind == CurveKind::moving_press;
   });
@@ -298,6 +299,29 @@ std::vector<std::vector<double>> excess_of(const FitInput& input) {
   return excess;
 }
 
+/// What a small-strain fit leaves out, and what the other contact would change.
+void add_excesses(FitInput& input, const std::vector<std::vector<double>>& finite) {
+  if (input.problem != CalibrationProblem::experiment || input.presses.empty()) return;
+  if (!finite.empty() && input.theory_error != finite)
+    input.excesses.push_back({"finite strain",
+                              "the data go beyond small strain (leave lattice.kinematics out)",
+                              finite});
+  const bool slips = input.presses.front().protocol.contact != meshes::ContactMode::stick;
+  Excess other{slips ? "sticking" : "slip",
+               slips ? "the rubber sticks to the obstacle (press.contact = \"stick\")"
+                     : "the rubber slips on the obstacle (press.contact = \"frictionless\")",
+               {}};
+  try {
+    for (const lattice::PressSetup& press : input.presses) {
+      const Eigen::VectorXd own = calibration::excess_of_other_contact(press);
+      other.at_samples.emplace_back(own.begin(), own.end());
+    }
+    input.excesses.push_back(std::move(other));
+  } catch (const meshes::NotConverged&) {  // nothing is known of it
+  } catch (const meshes::InvalidInput&) {
+  }
+}
+
 /// The finite law knows these, too, and nobody chose small strain.
 bool may_be_finite(const LoadedConfig& loaded, const FitInput& input) {
   const auto given = [&](const char* key) { return loaded.entries.at(key).given; };
@@ -310,8 +334,8 @@ bool may_be_finite(const LoadedConfig& loaded, const FitInput& input) {
 
 /// Data beyond small strain are fitted by the finite law, or what it adds to the forces counts as
 /// uncertain; both are said before the fit.
-FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit) {
-  const auto excess = excess_of(fit.input);
+FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit,
+                             const std::vector<std::vector<double>>& excess) {
   double most = 0.0, depth = 0.0;
   for (std::size_t i = 0; i < excess.size(); ++i)
     if (std::abs(excess[i].back()) > most) {
@@ -371,7 +395,11 @@ fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
 }
 
 FitSetup fit_setup(const LoadedConfig& loaded) {
-  FitSetup fit = at_the_right_strain(loaded, assembled(loaded));
+  FitSetup first = assembled(loaded);
+  const auto excess = excess_of(first.input);
+  FitSetup fit = at_the_right_strain(loaded, std::move(first), excess);
+  const bool finite = fit.input.base.lattice.kinematics == lattice::Kinematics::finite;
+  add_excesses(fit.input, finite ? std::vector<std::vector<double>>{} : excess);
   set_budget(loaded, fit);
   return fit;
 }

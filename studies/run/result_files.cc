@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* files_entry = "files";  ///< of the marker
-constexpr const char* seal = "digest";  ///< of the marker without it
+constexpr const char* seal = "digest";        ///< of the marker without it
 
 bool is_marker(const fs::path& file) {
   return file.filename() == marker_name || file.filename() == attempt_name;

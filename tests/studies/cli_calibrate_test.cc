@@ -71,6 +71,54 @@ std::vector<std::string> with(std::vector<std::string> words,
 
 }  // namespace
 
+/// The lattice's own press as a machine tells it: the travel from 0.1 mm before touch, and a frame
+/// that gives way by 2 mm/N.
+TEST(Calibrate, FindsTheRubberBehindARig) {
+  const TemporaryFolder folder;
+  std::string samples;
+  for (int i = 1; i <= 12; ++i)
+    samples += (i > 1 ? ",\"" : "\"") + std::to_string(0.01 * i) + " cm\"";
+  const ProgramResult press = run_program(
+      folder.path(), {"press", "--set", "press.mode=static", "--set", "press.contact=frictionless",
+                      "--set", "lattice.spacing=tip_radius/5", "--set",
+                      "press.samples=[" + samples + "]", "--out", "press"});
+  ASSERT_EQ(press.code, 0) << press.err;
+  std::ostringstream csv;
+  csv << "# press.contact = \"frictionless\"\nposition [mm];force [mN];sigma [mN]\n0;0;0.01\n";
+  const auto response =
+      fingertip::meshes::PressResponse::read_csv(folder / "press" / "response.csv");
+  for (const auto& sample : response.samples())
+    csv << 0.1 + 1e3 * (sample.indentation + 2e-3 * sample.normal_force) << ';'
+        << 1e3 * sample.normal_force << ';' << 10.0 * sample.normal_force << '\n';
+  write_text(folder / "travel.csv", csv.str());
+  const auto fit = [&](const std::string& rig, const char* out) {
+    return run_program(folder.path(),
+                       with(experiment, {"--set", "calibration.data=[\"travel.csv\"]", "--set",
+                                         "calibration.parameters=[\"modulus\"]", "--set",
+                                         "calibration.rig=" + rig, "--out", out}));
+  };
+  const ProgramResult known = fit("{compliance = \"2 mm/N\"}", "known");
+  ASSERT_EQ(known.code, 0) << known.err;
+  const json found = read(folder / "known" / "calibration.json");
+  const json& modulus = found["parameters"][0];
+  constexpr double truth = 3922.66;
+  EXPECT_LT(modulus["lower"].get<double>(), truth);
+  EXPECT_GT(modulus["upper"].get<double>(), truth);
+  EXPECT_EQ(found["parameters"][1]["name"], "touch_offset");
+  EXPECT_NEAR(found["rig"]["touch_offset"][0]["value"].get<double>(), 1e-4, 2e-5);
+  EXPECT_EQ(found["rig"]["compliance"][0]["fitted"], false);
+  EXPECT_EQ(found["rig"]["compliance"][0]["value"], 2e-3);
+  // Its last column tells how deep the finger was.
+  EXPECT_NE(text_of(folder / "known" / "fit_data.csv").find("left_out,indentation"),
+            std::string::npos);
+  const ProgramResult wrong = fit("{comliance = \"2 mm/N\"}", "wrong");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("did you mean compliance?"), std::string::npos) << wrong.err;
+  const ProgramResult unit = fit("{compliance = \"0.1 +- 0.02 mm\"}", "unit");
+  EXPECT_EQ(unit.code, 2);
+  EXPECT_NE(unit.err.find("compliance: "), std::string::npos) << unit.err;
+}
+
 TEST(Calibrate, FindsTheRubberOfMeasuredPresses) {
   const TemporaryFolder folder;
   write_measured(folder.path(), "frictionless", "a.csv");

@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<CurveQuantities> every = {measured::press,        measured::uniaxial,
-                                            measured::simple_shear, measured::vibration,
-                                            measured::creep,        measured::relaxation};
+const std::vector<CurveQuantities> every = {
+    measured::press,     measured::travel, measured::uniaxial,  measured::simple_shear,
+    measured::vibration, measured::creep,  measured::relaxation};
 
 class MeasuredData : public testing::Test {
  protected:
@@ -372,4 +372,38 @@ TEST_F(MeasuredData, DamagedFilesAreRefusedOrSound) {
   }
   EXPECT_GT(accepted, 100);
   EXPECT_GT(refused, 100);
+}
+
+TEST_F(MeasuredData, TravelsMayBeginAnywhereAndTakeTheirTimesAlong) {
+  const MeasuredFile file =
+      read("time [s];position [mm];force [N]\n0;-0.5;0.001\n1;0.0;-0.001\n2;0.5;0.3\n");
+  EXPECT_TRUE(file.curve.is_travel);
+  EXPECT_EQ(file.x_quantity, "position");
+  EXPECT_EQ(file.curve.x, (std::vector<double>{-0.5e-3, 0.0, 0.5e-3}));
+  EXPECT_EQ(file.curve.time, (std::vector<double>{0.0, 1.0, 2.0}));
+}
+
+/// F = x up, F = 0.6 x down, from 0 to 1 mm: the loop takes 40 % of the work.
+TEST_F(MeasuredData, OfALoopTheLoadingIsTakenAndTheAreaTold) {
+  std::string text = "position [mm],force [N]\n";
+  for (int i = 0; i <= 50; ++i)
+    text += std::to_string(0.02 * i) + "," + std::to_string(0.02 * i) + "\n";
+  for (int i = 49; i >= 0; --i)
+    text += std::to_string(0.02 * i) + "," + std::to_string(0.012 * i) + "\n";
+  const MeasuredFile file = read(text);
+  EXPECT_EQ(file.curve.x.size(), 51U);
+  EXPECT_NEAR(file.curve.y.back(), 1.0, 1e-9);
+  ASSERT_EQ(file.notes.size(), 1U);
+  // The way from the last point up to the first one down is half of each.
+  EXPECT_NE(file.notes[0].find("the loop takes 39 %"), std::string::npos) << file.notes[0];
+}
+
+TEST_F(MeasuredData, AnEncoderThatStandsStillIsAveraged) {
+  std::string text = "position [mm],force [N]\n";
+  for (int i = 0; i < 100; ++i)
+    text += std::to_string(0.01 * (i / 2)) + "," + std::to_string(0.01 * i) + "\n";
+  const MeasuredFile file = read(text);
+  EXPECT_LE(file.curve.x.size(), 50U);
+  EXPECT_TRUE(std::ranges::is_sorted(file.curve.x, std::less_equal<>()));
+  EXPECT_NE(file.notes.back().find("averaged"), std::string::npos);
 }

@@ -185,7 +185,9 @@ const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawA
     "geometry.endpoint",
     // Its keys count, and of material tests what they say (law_job_test).
     "rubber.card", "calibration.tests", "calibration.laws", "calibration.weights", "calibration.branches",
-    "calibration.stretch_range"};
+    "calibration.stretch_range",
+    // Of measured files; see ChangesWithItsDataAndHowTheyWereTaken.
+    "calibration.rig", "calibration.machine"};
 /// Of the fit of constants to moduli, which a hookean lattice has in closed form.
 const Sets moduli_fit = {"calibration.starts", "calibration.seed", "calibration.isotropy_weight",
                          "calibration.bulk_weight"};
@@ -417,6 +419,15 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
         std::string("calibration.profile=[\"youngs_modulus\", \"shear_modulus\"]"),
         std::string("press.contact=frictionless"), std::string("geometry.tip_radius=1.1 cm")})
     EXPECT_TRUE(differs(experiment, matters)) << matters;
+  write_text(folder / "travel.csv",
+             "position [mm],force [mN],sigma [mN]\n0,0,1\n0.5,10,1\n1,25,1\n1.5,45,1\n");
+  const Sets travel = joined({experiment, {data("travel.csv")}});
+  for (const char* matters :
+       {"calibration.rig={touch_offset = \"0.1 mm\"}", "calibration.rig={compliance = \"fit\"}",
+        "calibration.rig={compliance = \"1 mm/N\"}",
+        "calibration.rig={touch_offset = \"0.1 +- 0.2 mm\"}",
+        "calibration.rig={force_offset = \"1 mN\"}", "calibration.machine=B"})
+    EXPECT_TRUE(differs(travel, matters)) << matters;
   // How fast the plane comes is all that the elastic press does not know.
   EXPECT_TRUE(differs(ramp, "press.speed=2 cm/s"));
   EXPECT_FALSE(differs(ramp, "press.clearance=1 mm"));

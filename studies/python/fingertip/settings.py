@@ -54,14 +54,16 @@ def literal(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False)
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(literal, value)) + "]"
-    raise TypeError(f"{value!r} is no value of a key: give a text, a number, a truth value or a list")
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{name} = {literal(one)}" for name, one in value.items()) + "}"
+    raise TypeError(f"{value!r} is no value of a key: give a text, a number, a truth value, a list or a dictionary")
 
 
 def sets(settings: Mapping[str, Any] | None, further: Mapping[str, Any]) -> list[str]:
     """Settings and keyword arguments as "section.key=value", the later ones last."""
     given: list[str] = []
     for name, value in (settings or {}).items():
-        if isinstance(value, Mapping):
+        if isinstance(value, Mapping) and "." not in name:
             given += [f"{name}.{key}={literal(one)}" for key, one in value.items()]
         else:
             given.append(f"{name}={literal(value)}")
@@ -99,6 +101,7 @@ def _type_of(key: Key) -> str:
         "stages": "Sequence[Sequence[str]]",
         "file": "str | PathLike[str]",
         "source": "str | PathLike[str]",
+        "fields": "Mapping[str, str]",
     }.get(key.kind, "str")
 
 
@@ -106,7 +109,7 @@ def stub() -> str:
     """The types of the keyword arguments, for editors and type checkers."""
     lines = [
         "from os import PathLike",
-        "from typing import Literal, Sequence, TypedDict",
+        "from typing import Literal, Mapping, Sequence, TypedDict",
         "",
         "class Keys(TypedDict, total=False):",
     ]

@@ -18,6 +18,13 @@ class Literals(unittest.TestCase):
         ]:  # fmt: skip
             self.assertEqual(settings.literal(value), text)
 
+    def test_are_tables_of_dictionaries(self):
+        rig = {"touch_offset": "fit", "compliance": "0.1 mm/N"}
+        text = 'calibration.rig={touch_offset = "fit", compliance = "0.1 mm/N"}'
+        for given in ({"calibration": {"rig": rig}}, {"calibration.rig": rig}):
+            self.assertEqual(settings.sets(given, {}), [text])
+        self.assertEqual(settings.sets(None, {"calibration_rig": rig}), [text])
+
     def test_of_other_things_are_refused(self):
         with self.assertRaises(TypeError):
             settings.literal(object())

@@ -1,0 +1,99 @@
+#include "calibration/curves/suspects.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+
+#include "calibration/curves/fit_statistics.h"
+#include "meshes/errors.h"
+
+namespace fingertip::calibration {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Less of a change than this is round-off of what the parameters do.
+constexpr double imitated = 1e-6;
+
+/// `vector` without its part in the columns of `matrix`.
+template <typename T>
+T without_columns(const T& vector, const MatrixXd& matrix) {
+  if (matrix.cols() == 0) return vector;
+  // Columns differ in their units.
+  MatrixXd scaled = matrix;
+  for (Index j = 0; j < scaled.cols(); ++j)
+    if (const double norm = scaled.col(j).norm(); norm > 0.0) scaled.col(j) /= norm;
+  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(scaled);
+  return vector - scaled * decomposition.solve(vector);
+}
+
+double probability_of(double decrease, const CurveFit& fit) {
+  if (fit.chi_square) return chi_square_above(decrease, 1);
+  const double freedom = fit.degrees_of_freedom - 1.0, rest = fit.degrees_of_freedom - decrease;
+  if (freedom < 1.0) return 1.0;
+  if (!(rest > 0.0)) return 0.0;
+  return cdf(
+      complement(boost::math::fisher_f(1.0, freedom), std::max(0.0, decrease * freedom / rest)));
+}
+
+}  // namespace
+
+std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& options,
+                                    const std::vector<Suspect>& suspects) {
+  const Index values = fit.jacobian.rows(), count = fit.jacobian.cols();
+  const Index priors = std::ranges::count_if(
+      options.free, [](const FreeParameter& free) { return bool(free.prior); });
+  VectorXd misfit(values);
+  Index row = 0;
+  for (const VectorXd& curve : fit.residuals) {
+    misfit.segment(row, curve.size()) = curve;
+    row += curve.size();
+  }
+  MatrixXd jacobian = MatrixXd::Zero(values + priors, count);
+  VectorXd residuals(values + priors);
+  jacobian.topRows(values) = fit.jacobian;
+  residuals.head(values) = fit.whitening * misfit;
+  for (Index j = 0; j < count; ++j)
+    if (const auto& prior = options.free[std::size_t(j)].prior) {
+      residuals(row) = (prior->mean - fit.estimates(j)) / prior->deviation;
+      jacobian(row++, j) = 1.0 / prior->deviation;
+    }
+  std::vector<Accusation> found;
+  for (const Suspect& suspect : suspects) {
+    if (suspect.change.size() != values)
+      throw meshes::InvalidInput(
+          {"suspects." + suspect.name, std::to_string(suspect.change.size()) + " values",
+           "a change has a number per value of all curves", "give one for these curves"});
+    VectorXd change = VectorXd::Zero(values + priors);
+    change.head(values) = fit.whitening * suspect.change;
+    const double size = change.norm();
+    change = without_columns(change, jacobian);
+    if (!(change.norm() > imitated * size)) continue;
+    const double shared = change.dot(residuals), square = change.squaredNorm();
+    const double decrease = shared * shared / square;
+    found.push_back({suspect.name, suspect.of, suspect.cause, suspect.unit, shared / square,
+                     decrease, probability_of(decrease, fit)});
+  }
+  std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);
+  return found;
+}
+
+VectorXd narrowing(const MatrixXd& covariance, const MatrixXd& rows, const MatrixXd& own) {
+  // In units of the standard errors, so that parameters of all units are alike.
+  const VectorXd errors = covariance.diagonal().cwiseSqrt();
+  const MatrixXd correlation =
+      errors.cwiseInverse().asDiagonal() * covariance * errors.cwiseInverse().asDiagonal();
+  const MatrixXd seen = without_columns(MatrixXd(rows * errors.asDiagonal()), own);
+  // (C⁻¹ + SᵀS)⁻¹ = C - C Sᵀ (1 + S C Sᵀ)⁻¹ S C, also for a C that is nearly singular.
+  const MatrixXd shared = seen * correlation;
+  const MatrixXd sum = MatrixXd::Identity(seen.rows(), seen.rows()) + shared * seen.transpose();
+  const MatrixXd after = correlation - shared.transpose() * sum.ldlt().solve(shared);
+  return after.diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,48 @@
+/// What a fit that misses its data may have missed, and what a further measurement would tell it.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "calibration/curves/curve_fit.h"
+
+namespace fingertip::calibration {
+
+/// Something that the model of a fit leaves out, by one number that is 0 there.
+struct Suspect {
+  std::string name;        ///< "compliance"
+  std::string of;          ///< the file or machine; empty: the one, or all of them
+  std::string cause;       ///< what usually makes it, for people
+  std::string unit = "1";  ///< of the number
+  /// d(values)/d(number) at the estimates, for all values of all curves in order [y per unit].
+  Eigen::VectorXd change;
+};
+
+/// What freeing that number beside the fit's own parameters would do, to first order.
+struct Accusation {
+  std::string name, of, cause, unit;
+  double amount = 0.0;       ///< the number then, in `unit`
+  double decrease = 0.0;     ///< of chi-square; without sigma of squares over their variance
+  double probability = 1.0;  ///< of at least that decrease if the number were 0
+};
+
+/// Rao's score test of every suspect, the largest decrease first: with whitened residuals r and
+/// changes v, both without what the fit's parameters can do (J and the priors' rows),
+///   amount = v.r/v.v,   decrease = (v.r)²/v.v,
+/// chi-square of one degree of freedom where sigma is given; else F of 1 and dof - 1 from
+/// decrease/((dof - decrease)/(dof - 1)). Suspects whose change the parameters imitate (less than
+/// 1e-6 of v is left) accuse nobody and are left out. Large amounts are beyond first order: the
+/// order still tells, the amounts do not. Throws InvalidInput for changes of another length.
+std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& options,
+                                    const std::vector<Suspect>& suspects);
+
+/// Standard errors of the parameters after further values, over those of `covariance`: 1 where
+/// they tell nothing. `rows` are the values' derivatives by the parameters over the values'
+/// deviations; `own` those by parameters that the further measurement brings along, such as its
+/// touch offset. To first order, from
+///   C' = (C⁻¹ + Rᵀ (1 - N N⁺) R)⁻¹.
+Eigen::VectorXd narrowing(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& rows,
+                          const Eigen::MatrixXd& own);
+
+}  // namespace fingertip::calibration

@@ -1,0 +1,231 @@
+#include "studies/run/fit_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "meshes/errors.h"
+#include "meshes/files.h"
+#include "meshes/interpolation.h"
+#include "studies/run/fit_input.h"
+
+namespace fingertip::studies {
+
+using calibration::Curve;
+using calibration::FreeParameter;
+using calibration::MaterialParameter;
+using calibration::RigQuantity;
+using meshes::InvalidInput;
+using meshes::to_text;
+
+namespace {
+
+constexpr const char* rig_key_name = "calibration.rig";
+
+/// Shares of the largest force between which F^(2/3) is taken as straight.
+constexpr double lowest_share = 0.05, highest_share = 0.4;
+/// The touch may turn out so much earlier, or later, than it seems; over the reach.
+constexpr double touch_range = 0.3;
+/// So much deeper than the touch tells at first the press is known.
+constexpr double reserve = 0.05;
+/// Compliances over reach/force: where a search starts, and between which it stays. Noise makes an
+/// estimate negative where there is none.
+constexpr double start_compliance = 0.05, lowest_compliance = -0.1, highest_compliance = 0.9;
+/// Bounds about the mean of a prior, in deviations.
+constexpr double prior_range = 6.0;
+
+/// Where the regression of F^(2/3) on the travel, less what the machine gives way, has no force.
+double apparent_touch(const Curve& curve, double zero, double compliance, double force) {
+  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const double f = curve.y[i] - zero;
+    if (f < lowest_share * force || f > highest_share * force) continue;
+    const double x = curve.x[i] - compliance * f - curve.x.front(), y = std::cbrt(f * f);
+    n += 1.0;
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
+  }
+  const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  if (n < 2.0 || !(slope > 0.0)) return curve.x.front();
+  return curve.x.front() + (sx - sy / slope) / n;
+}
+
+/// What is fitted has its start and bounds from `usual`, unless a prior gives them.
+FreeParameter free_of(MaterialParameter parameter, const RigSetting& setting, FreeParameter usual,
+                      const std::string& of) {
+  usual.parameter = parameter;
+  usual.of = of;
+  if (setting.deviation > 0.0) {
+    usual.start = setting.value;
+    usual.lower = setting.value - prior_range * setting.deviation;
+    usual.upper = setting.value + prior_range * setting.deviation;
+    usual.prior = calibration::Prior{setting.value, setting.deviation};
+  }
+  return usual;
+}
+
+bool same(const RigSetting& a, const RigSetting& b) {
+  return a.fitted == b.fitted && a.value == b.value && a.deviation == b.deviation;
+}
+
+/// Appends one and says where.
+RigQuantity append(FitInput& input, FreeParameter free) {
+  input.options.free.push_back(std::move(free));
+  return {0.0, Eigen::Index(input.options.free.size() - 1)};
+}
+
+void check_machines(const std::vector<std::optional<Travel>>& travels) {
+  std::map<std::string, RigSetting> known;
+  for (const std::optional<Travel>& travel : travels) {
+    if (!travel) continue;
+    const RigSetting& own = travel->settings.compliance;
+    const auto [other, first] = known.emplace(travel->machine, own);
+    if (!first && !same(other->second, own))
+      throw InvalidInput({rig_key_name, "two compliances",
+                          "files of one machine have one compliance",
+                          "name the machines: calibration.machine in calibration.conditions"});
+  }
+}
+
+}  // namespace
+
+std::vector<double> Travel::indentations(const Curve& curve,
+                                         const Eigen::VectorXd& parameters) const {
+  std::vector<double> result;
+  const double offset = rig.touch_offset.in(parameters), soft = rig.compliance.in(parameters),
+               zero = rig.force_offset.in(parameters);
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    result.push_back(std::max(0.0, curve.x[i] - offset - soft * std::max(0.0, curve.y[i] - zero)));
+  return result;
+}
+
+Travel travel_of(const Curve& curve, const CalibrationSettings& settings) {
+  Travel travel{settings.rig, settings.machine, 0.0, 0.0, 0.0, {}, {}};
+  const RigSettings& rig = travel.settings;
+  if ((rig.drift.fitted || rig.drift.value != 0.0) && curve.time.empty())
+    throw InvalidInput({rig_key_name, "drift", curve.name + " has no times",
+                        "give its column time, or leave the drift out"});
+  const double zero = rig.force_offset.fitted && rig.force_offset.deviation == 0.0
+                          ? curve.y.front()
+                          : rig.force_offset.value,
+               soft = rig.compliance.fitted ? 0.0 : rig.compliance.value;
+  travel.force = *std::ranges::max_element(curve.y) - zero;
+  const bool known = !rig.touch_offset.fitted || rig.touch_offset.deviation > 0.0;
+  travel.touch = known ? rig.touch_offset.value : apparent_touch(curve, zero, soft, travel.force);
+  travel.reach = curve.x.back() - travel.touch - soft * travel.force;
+  if (!(travel.force > 0.0) || !(travel.reach > 0.0))
+    throw InvalidInput(
+        {rig_key_name, "touch at " + to_text(1e3 * travel.touch) + " mm",
+         curve.name + " ends at " + to_text(1e3 * curve.x.back()) + " mm with the force " +
+             to_text(travel.force) + " N and does not press",
+         "correct touch_offset and compliance, or the column position, which grows as the finger "
+         "is pressed"});
+  const double early = rig.touch_offset.fitted ? (1.0 + reserve) * travel.reach : travel.reach;
+  travel.depths = calibration::depths_for_rig(early);
+  travel.rig = {{rig.touch_offset.value, {}},
+                {rig.compliance.value, {}},
+                {rig.force_offset.value, {}},
+                {rig.drift.value, {}}};
+  return travel;
+}
+
+void free_rigs(FitInput& input) {
+  check_machines(input.travels);
+  using enum MaterialParameter;
+  std::size_t count = 0;
+  std::map<std::string, RigQuantity> compliances;
+  for (const auto& travel : input.travels)
+    if (travel) ++count, compliances.emplace(travel->machine, RigQuantity{});
+  const std::size_t machines = compliances.size();
+  compliances.clear();
+  for (std::size_t i = 0; i < input.travels.size(); ++i) {
+    if (!input.travels[i]) continue;
+    Travel& travel = *input.travels[i];
+    const RigSettings& rig = travel.settings;
+    const Curve& curve = input.curves[i];
+    const std::string of = count > 1 ? curve.name : "";
+    if (rig.touch_offset.fitted)
+      travel.rig.touch_offset =
+          append(input, free_of(touch_offset, rig.touch_offset,
+                                {.start = travel.touch,
+                                 .lower = travel.touch - touch_range * travel.reach,
+                                 .upper = travel.touch + touch_range * travel.reach,
+                                 .scale = travel.reach},
+                                of));
+    const double soft = travel.reach / travel.force;
+    if (rig.compliance.fitted) {
+      if (!compliances.contains(travel.machine))
+        compliances[travel.machine] = append(input, free_of(compliance, rig.compliance,
+                                                            {.start = start_compliance * soft,
+                                                             .lower = lowest_compliance * soft,
+                                                             .upper = highest_compliance * soft,
+                                                             .scale = soft},
+                                                            machines > 1 ? travel.machine : ""));
+      travel.rig.compliance = compliances[travel.machine];
+    }
+    if (rig.force_offset.fitted)
+      travel.rig.force_offset =
+          append(input, free_of(force_offset, rig.force_offset,
+                                {.start = curve.y.front(), .scale = travel.force}, of));
+    if (rig.drift.fitted) {
+      const double span = curve.time.back() - curve.time.front();
+      travel.rig.drift = append(
+          input, free_of(drift, rig.drift, {.start = 0.0, .scale = travel.force / span}, of));
+    }
+  }
+}
+
+std::size_t material_parameters(const FitInput& input) {
+  return std::size_t(std::ranges::count_if(input.options.free, [](const FreeParameter& free) {
+    return !calibration::is_of_the_rig(free.parameter);
+  }));
+}
+
+std::vector<calibration::RigValue> rig_values(const FitInput& input) {
+  std::vector<calibration::RigValue> values;
+  const auto add = [&](MaterialParameter parameter, const std::string& of, const RigQuantity& own) {
+    values.push_back({parameter, of, own.value, {}});
+    if (own.place) values.back().place = std::size_t(*own.place);
+  };
+  std::vector<std::string> machines;
+  using enum MaterialParameter;
+  for (std::size_t i = 0; i < input.travels.size(); ++i) {
+    const Travel& travel = *input.travels[i];
+    const std::string& name = input.curves[i].name;
+    add(touch_offset, name, travel.rig.touch_offset);
+    add(force_offset, name, travel.rig.force_offset);
+    if (!input.curves[i].time.empty()) add(drift, name, travel.rig.drift);
+    if (std::ranges::find(machines, travel.machine) != machines.end()) continue;
+    machines.push_back(travel.machine);
+    add(compliance, travel.machine, travel.rig.compliance);
+  }
+  return values;
+}
+
+std::vector<double> depths_of_values(const FitInput& input, std::size_t i) {
+  if (!is_travel(input, i)) return input.curves[i].x;
+  Eigen::VectorXd start(Eigen::Index(input.options.free.size()));
+  for (Eigen::Index k = 0; k < start.size(); ++k)
+    start(k) = input.options.free[std::size_t(k)].start;
+  const Travel& travel = *input.travels[i];
+  std::vector<double> depths = travel.indentations(input.curves[i], start);
+  for (double& depth : depths) depth = std::max(depth, 0.01 * travel.depths.front());
+  return depths;
+}
+
+std::vector<double> at_values(const FitInput& input, std::size_t i,
+                              const std::vector<double>& at_samples) {
+  if (!is_travel(input, i)) return at_samples;
+  std::vector<double> result;
+  for (const double depth : depths_of_values(input, i))
+    result.push_back(meshes::interpolated(input.travels[i]->depths, at_samples, depth));
+  return result;
+}
+
+bool is_travel(const FitInput& input, std::size_t i) {
+  return i < input.travels.size() && input.travels[i];
+}
+
+}  // namespace fingertip::studies

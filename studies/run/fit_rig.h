@@ -1,0 +1,60 @@
+/// The rigs of measured presses: what of them is free, where a search starts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/curves/fit_record.h"
+#include "calibration/curves/rig_model.h"
+#include "studies/config/config.h"
+
+namespace fingertip::studies {
+
+struct FitInput;
+
+/// A curve of force over a machine's travel.
+struct Travel {
+  RigSettings settings;
+  std::string machine;         ///< files of one name share a compliance
+  double touch = 0.0;          ///< travel at which force seems to begin [m]
+  double reach = 0.0;          ///< travel from there to the curve's end [m]
+  double force = 0.0;          ///< largest, over the load cell's zero [N]
+  std::vector<double> depths;  ///< at which the press answers [m]
+  calibration::Rig rig;        ///< places among all free parameters of the fit
+
+  /// From these and a start of the fit's parameters: indentations of all values, 0 before touch.
+  std::vector<double> indentations(const calibration::Curve& curve,
+                                   const Eigen::VectorXd& parameters) const;
+};
+
+/// The settings that concern `curve`, and what its forces tell of the touch: F^(2/3) of Hertz is
+/// straight in delta, from 5 to 40 % of the largest force. Throws InvalidInput (key
+/// calibration.rig) for a travel that ends before the given touch, for no force, and for a drift
+/// without times.
+Travel travel_of(const calibration::Curve& curve, const CalibrationSettings& settings);
+
+/// Appends what of the rigs is fitted to the free parameters: an offset of touch, one of force and
+/// a drift per curve, a compliance per machine. Throws InvalidInput where files of one machine say
+/// different compliances.
+void free_rigs(FitInput& input);
+
+/// Of the fit's free parameters those that are not of a rig; they stand first.
+std::size_t material_parameters(const FitInput& input);
+
+/// What rigs are known or fitted by, for the record of a fit: an entry per curve, of the compliance
+/// per machine.
+std::vector<calibration::RigValue> rig_values(const FitInput& input);
+
+/// Whether curve `i` is one over travel.
+bool is_travel(const FitInput& input, std::size_t i);
+
+/// The indentations, > 0, of curve `i`'s values at the start of the search [m]: of a travel before
+/// touch a hundredth of the first depth that the press knows.
+std::vector<double> depths_of_values(const FitInput& input, std::size_t i);
+
+/// Of something known at the samples of press `i`, where its curve has a value: between them
+/// straight, constant beyond.
+std::vector<double> at_values(const FitInput& input, std::size_t i,
+                              const std::vector<double>& at_samples);
+
+}  // namespace fingertip::studies

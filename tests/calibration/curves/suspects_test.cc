@@ -1,0 +1,142 @@
+/// What a fit has missed and what would narrow it, against refits and against solved normal
+/// equations.
+#include "calibration/curves/suspects.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "meshes/errors.h"
+
+using namespace fingertip;
+using namespace fingertip::calibration;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using enum MaterialParameter;
+
+namespace {
+
+/// y = M p.
+class Linear final : public ForwardModel {
+ public:
+  explicit Linear(MatrixXd matrix) : matrix_(std::move(matrix)) {}
+  CurveSlopes evaluate(const VectorXd& parameters) override {
+    return {matrix_ * parameters, matrix_};
+  }
+
+ private:
+  MatrixXd matrix_;
+};
+
+constexpr int count = 30;
+
+/// Columns 1, x, x², sin 9x.
+MatrixXd columns() {
+  MatrixXd result(count, 4);
+  for (int i = 0; i < count; ++i) {
+    const double x = (i + 1.0) / count;
+    result.row(i) << 1.0, x, x * x, std::sin(9.0 * x);
+  }
+  return result;
+}
+
+Curve curve_of(const VectorXd& y, bool sigma) {
+  Curve curve;
+  for (int i = 0; i < count; ++i) curve.x.push_back((i + 1.0) / count);
+  curve.y.assign(y.begin(), y.end());
+  if (sigma) curve.sigma.assign(count, 0.01);
+  return curve;
+}
+
+VectorXd noisy(const VectorXd& p) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  VectorXd y = columns() * p;
+  for (double& value : y) value += noise(random);
+  return y;
+}
+
+/// The first two columns are fitted; kappa is no modulus, so that any sign is fine.
+CurveFitOptions options(int parameters) {
+  CurveFitOptions result;
+  const MaterialParameter free[] = {kappa, lambda, touch_offset, force_offset};
+  for (int i = 0; i < parameters; ++i)
+    result.free.push_back({.parameter = free[i], .start = 0.5, .scale = 1.0});
+  result.tolerance = 1e-9;
+  return result;
+}
+
+CurveFit fit_of(const Curve& curve, int parameters, const std::vector<int>& places) {
+  MatrixXd own(count, parameters);
+  for (int i = 0; i < parameters; ++i) own.col(i) = columns().col(places[std::size_t(i)]);
+  Linear model(own);
+  return fit_curves({curve}, {&model}, options(parameters));
+}
+
+std::vector<Suspect> both() {
+  return {{"square", "", "", "1", columns().col(2)}, {"wave", "", "", "1", columns().col(3)}};
+}
+
+TEST(Suspects, TellWhatARefitWithTheirNumberFreeFinds) {
+  const Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.3, 0.02)), true);
+  const CurveFit without = fit_of(curve, 2, {0, 1});
+  const auto found = accusations(without, options(2), both());
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].name, "square");
+  for (const Accusation& each : found) {
+    const CurveFit freed = fit_of(curve, 3, {0, 1, each.name == "square" ? 2 : 3});
+    EXPECT_NEAR(each.decrease, *without.chi_square - *freed.chi_square, 1e-6 * each.decrease);
+    EXPECT_NEAR(each.amount, freed.estimates(2), 1e-7);
+  }
+  EXPECT_LT(found[0].probability, 1e-6);
+}
+
+TEST(Suspects, WithoutSigmaAreJudgedByTheResidualVariance) {
+  const Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.3, 0.02)), false);
+  const auto found = accusations(fit_of(curve, 2, {0, 1}), options(2), both());
+  const CurveFit without = fit_of(curve, 2, {0, 1}), freed = fit_of(curve, 3, {0, 1, 2});
+  const double squares = without.residuals[0].squaredNorm(),
+               left = freed.residuals[0].squaredNorm();
+  const double variance = squares / without.degrees_of_freedom;
+  EXPECT_EQ(found[0].name, "square");
+  EXPECT_NEAR(found[0].decrease, (squares - left) / variance, 1e-6 * found[0].decrease);
+  EXPECT_LT(found[0].probability, 1e-6);
+}
+
+TEST(Suspects, AccuseNobodyOfNoise) {
+  const Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.0, 0.0)), true);
+  for (const Accusation& each : accusations(fit_of(curve, 2, {0, 1}), options(2), both()))
+    EXPECT_GT(each.probability, 0.01) << each.name;
+}
+
+TEST(Suspects, WhatTheParametersImitateIsLeftOut) {
+  const Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.3, 0.0)), true);
+  const VectorXd sum = 3.0 * columns().col(0) - columns().col(1);
+  EXPECT_TRUE(
+      accusations(fit_of(curve, 2, {0, 1}), options(2), {{"sum", "", "", "1", sum}}).empty());
+  EXPECT_THROW(accusations(fit_of(curve, 2, {0, 1}), options(2),
+                           {{"short", "", "", "1", VectorXd::Ones(3)}}),
+               meshes::InvalidInput);
+}
+
+/// Against the inverse of all normal equations, those of the further rows' own parameter included.
+TEST(Narrowing, IsThatOfAllNormalEquationsTogether) {
+  const MatrixXd first = 100.0 * columns().leftCols(2), further = 50.0 * columns().middleCols(1, 2);
+  const VectorXd own = columns().col(3);
+  MatrixXd normal = MatrixXd::Zero(3, 3);
+  normal.topLeftCorner(2, 2) = first.transpose() * first + further.transpose() * further;
+  normal.topRightCorner(2, 1) = further.transpose() * own;
+  normal.bottomLeftCorner(1, 2) = own.transpose() * further;
+  normal(2, 2) = own.squaredNorm();
+  const VectorXd after = MatrixXd(normal.inverse()).diagonal().head(2).cwiseSqrt();
+  const MatrixXd before = (first.transpose() * first).inverse();
+  const VectorXd found = narrowing(before, further, own);
+  for (Index i = 0; i < 2; ++i)
+    EXPECT_NEAR(found(i), after(i) / std::sqrt(before(i, i)), 1e-9 * found(i));
+  EXPECT_NEAR(narrowing(before, MatrixXd::Zero(4, 2), MatrixXd(4, 0))(0), 1.0, 1e-12);
+}
+
+}  // namespace
