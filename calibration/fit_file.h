@@ -121,6 +121,7 @@ struct ParameterEntry {
   double start = meshes::unknown;
   std::optional<PriorEntry> prior;
   double bias = meshes::unknown;
+  std::string interval;  ///< what it is: linear, profile, or either with both contacts
 };
 constexpr auto fields_of(const ParameterEntry*) {
   using meshes::named, meshes::newer;
@@ -129,7 +130,8 @@ constexpr auto fields_of(const ParameterEntry*) {
                               &Whole::name, &Whole::unit, &Whole::estimate, &Whole::standard_error,
                               &Whole::lower, &Whole::upper, &Whole::at_bound),
                         newer(named("bound_of", &Whole::bound_of)),
-                        named("start prior bias", &Whole::start, &Whole::prior, &Whole::bias));
+                        named("start prior bias", &Whole::start, &Whole::prior, &Whole::bias),
+                        newer(named("interval", &Whole::interval)));
 }
 
 /// What the runs test says of a curve's residuals.
@@ -254,6 +256,55 @@ constexpr auto fields_of(const AccusationEntry*) {
                &Whole::cause, &Whole::unit, &Whole::amount, &Whole::decrease, &Whole::probability);
 }
 
+/// What a further measurement would make of a parameter's 95 % interval.
+struct NarrowedEntry {
+  std::string name;
+  double lower = meshes::unknown, upper = meshes::unknown, times = meshes::unknown;
+};
+constexpr auto fields_of(const NarrowedEntry*) {
+  using meshes::named;
+  using Whole = NarrowedEntry;
+  return named("name lower upper times", &Whole::name, &Whole::lower, &Whole::upper, &Whole::times);
+}
+
+/// A further measurement, and what it would tell.
+struct NextEntry {
+  std::string name, press;
+  std::vector<NarrowedEntry> parameters;
+  std::string failure;
+};
+constexpr auto fields_of(const NextEntry*) {
+  using meshes::named;
+  using Whole = NextEntry;
+  return named("name press parameters failure", &Whole::name, &Whole::press, &Whole::parameters,
+               &Whole::failure);
+}
+
+/// What a parameter is with another contact.
+struct OtherEstimate {
+  std::string name;
+  double estimate = meshes::unknown, lower = meshes::unknown, upper = meshes::unknown;
+};
+constexpr auto fields_of(const OtherEstimate*) {
+  using meshes::named;
+  using Whole = OtherEstimate;
+  return named("name estimate lower upper", &Whole::name, &Whole::estimate, &Whole::lower,
+               &Whole::upper);
+}
+
+/// Where the contact is not known: the one that was taken, and the fit with the other.
+struct ContactEntry {
+  std::string taken, other;
+  double chi_square = meshes::unknown, residual_deviation = meshes::unknown;  ///< with the other
+  std::vector<OtherEstimate> parameters;
+};
+constexpr auto fields_of(const ContactEntry*) {
+  using meshes::named;
+  using Whole = ContactEntry;
+  return named("taken other chi_square residual_deviation parameters", &Whole::taken, &Whole::other,
+               &Whole::chi_square, &Whole::residual_deviation, &Whole::parameters);
+}
+
 /// Where the result may be used.
 struct ValidityEntry {
   double largest_strain_measure = meshes::unknown, spacing = meshes::unknown,
@@ -315,6 +366,8 @@ struct FitFile {
   std::vector<std::string> failed;
   std::optional<RigFile> rig;
   std::vector<AccusationEntry> lack_of_fit;
+  std::vector<NextEntry> next;
+  std::optional<ContactEntry> contact;
   std::string statement;
 
   bool empty() const { return problem.empty(); }
@@ -339,7 +392,8 @@ constexpr auto fields_of(const FitFile*) {
             &Whole::residual_deviation, &Whole::minima, &Whole::x_quantity, &Whole::y_quantity,
             &Whole::curves, &Whole::residuals, &Whole::influence, &Whole::profile,
             &Whole::iterations, &Whole::evaluations, &Whole::wall_time, &Whole::validity),
-      newer(named("failed rig lack_of_fit", &Whole::failed, &Whole::rig, &Whole::lack_of_fit)),
+      newer(named("failed rig lack_of_fit next contact", &Whole::failed, &Whole::rig,
+                  &Whole::lack_of_fit, &Whole::next, &Whole::contact)),
       named("statement", &Whole::statement));
 }
 

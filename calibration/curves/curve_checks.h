@@ -50,6 +50,23 @@ Profile profile_likelihood(const std::vector<Curve>& curves,
                            const CurveFit& fit, std::size_t first, std::size_t second,
                            const ProfileOptions& profile = {});
 
+/// The values of one parameter between which chi-square, least over all others, rises by less than
+/// the square of `half_width`, in units of sigma or of the residual deviation: of a quadratic loss
+/// estimate +- half_width standard errors. NaN at a side where it does not rise that much within
+/// the parameter's bounds or 30 standard errors, or where a model has no answer.
+struct ProfileInterval {
+  double lower = 0.0, upper = 0.0;
+};
+
+/// `place` in options.free; `half_width` > 0, 1.96 for 95 % of a normal distribution. The others
+/// are sought from where the covariance expects them; ends are found to 1e-3 of a standard error.
+/// Throws InvalidInput for a place beyond the parameters and a width that is not positive;
+/// Interrupted.
+ProfileInterval profile_interval(const std::vector<Curve>& curves,
+                                 const std::vector<ForwardModel*>& models,
+                                 const CurveFitOptions& options, const CurveFit& fit,
+                                 std::size_t place, double half_width);
+
 /// Where to start a fit of E and G: at every Poisson's ratio of `poissons_ratios` the rubber whose
 /// values meet the curves best, found from one evaluation, because forces and stresses at given
 /// kinematics are proportional to (E, G) at held nu. Of these the valleys are returned, whose loss

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// `model` with two parameters held.
+/// `model` with some parameters held.
 class HeldModel final : public ForwardModel {
  public:
   HeldModel(ForwardModel& model, const VectorXd& all, const std::vector<Index>& others)
@@ -46,34 +46,37 @@ VectorXd grid_of(const FreeParameter& free, double estimate, double error,
                              std::min(estimate + profile.half_width * error, free.upper));
 }
 
-/// The loss's valley, seen from two of its parameters.
+/// The loss's valley, seen from one or two of its parameters.
 class Valley {
  public:
   Valley(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
-         const CurveFitOptions& options, const CurveFit& fit, Index first, Index second)
+         const CurveFitOptions& options, const CurveFit& fit, std::vector<Index> profiled)
       : curves_(curves),
         options_(options),
         fit_(fit),
-        first_(first),
-        second_(second),
+        profiled_(std::move(profiled)),
         full_(curves, models, options),
         at_(fit.estimates) {
     for (Index i = 0; i < at_.size(); ++i)
-      if (i != first && i != second) others_.push_back(i);
+      if (std::ranges::find(profiled_, i) == profiled_.end()) others_.push_back(i);
     // A model of several curves stays one: it must not be evaluated side by side with itself.
     for (ForwardModel* model : models) {
       const auto held = held_.try_emplace(model, *model, at_, others_).first;
       addresses_.push_back(&held->second);
     }
     least_ = loss(at_);
+    // Losses are in units of the values' root mean square, not of the residuals' deviation.
+    if (!full_.has_sigma())
+      unit_ *= std::pow(std::max(fit.residual_deviation * full_.whitening()(0, 0), 1e-150), 2);
   }
 
-  /// Of the loss over that at the estimates; NaN where a model has no answer.
-  double increase(double first, double second) {
+  /// Of twice the loss over that at the estimates, in units of sigma or of the residual deviation;
+  /// NaN where a model has no answer.
+  double increase(const VectorXd& values) {
     try {
-      set(first, second);
+      set(values);
       if (!others_.empty()) refit();
-      return loss(at_) - least_;
+      return (loss(at_) - least_) / unit_;
     } catch (const meshes::InvalidInput&) {
       return std::numeric_limits<double>::quiet_NaN();
     } catch (const meshes::NotConverged&) {
@@ -86,12 +89,11 @@ class Valley {
     return 0.5 * full_.with_loss(full_.at(parameters)).residuals.squaredNorm();
   }
 
-  /// Holds the two; the others go where the covariance expects them, within their bounds.
-  void set(double first, double second) {
-    const std::vector<Index> profiled = {first_, second_};
-    const Eigen::Vector2d step(first - fit_.estimates(first_), second - fit_.estimates(second_));
-    const Eigen::Matrix2d own = fit_.covariance(profiled, profiled);
-    const Eigen::MatrixXd cross = fit_.covariance(others_, profiled);
+  /// Holds them; the others go where the covariance expects them, within their bounds.
+  void set(const VectorXd& values) {
+    const VectorXd step = values - fit_.estimates(profiled_);
+    const Eigen::MatrixXd own = fit_.covariance(profiled_, profiled_);
+    const Eigen::MatrixXd cross = fit_.covariance(others_, profiled_);
     at_ = fit_.estimates;
     const VectorXd shift = cross * own.fullPivLu().solve(step);
     for (std::size_t k = 0; k < others_.size(); ++k) {
@@ -100,8 +102,7 @@ class Valley {
       const double low = varies_by_logarithm(free) ? 0.1 * at_(i) : lower_bound(free);
       at_(i) = std::clamp(at_(i) + shift(Index(k)), std::max(low, free.lower), free.upper);
     }
-    at_(first_) = first;
-    at_(second_) = second;
+    at_(profiled_) = values;
   }
 
   void refit() {
@@ -121,13 +122,14 @@ class Valley {
   const std::vector<Curve>& curves_;
   const CurveFitOptions& options_;
   const CurveFit& fit_;
-  const Index first_, second_;
+  const std::vector<Index> profiled_;
   CurveResiduals full_;
   VectorXd at_;
   std::vector<Index> others_;
   std::map<ForwardModel*, HeldModel> held_;
   std::vector<ForwardModel*> addresses_;  ///< of the curves' models in held_
   double least_ = 0.0;
+  double unit_ = 0.5;  ///< the loss of a standard error
 };
 
 void check(const CurveFitOptions& options, std::size_t first, std::size_t second,
@@ -155,18 +157,73 @@ Profile profile_likelihood(const std::vector<Curve>& curves,
                    profile);
   };
   Profile result{grid(first), grid(second), Eigen::MatrixXd(profile.points, profile.points)};
-  Valley valley(curves, models, options, fit, Index(first), Index(second));
-  double unit = 0.5;
-  if (curves.front().sigma.empty()) {
-    // Losses are in units of the values' root mean square, not of the residuals' deviation.
-    const CurveResiduals residuals(curves, models, options);
-    unit *= std::pow(std::max(fit.residual_deviation * residuals.whitening()(0, 0), 1e-150), 2);
-  }
+  Valley valley(curves, models, options, fit, {Index(first), Index(second)});
   for (Index i = 0; i < profile.points; ++i)
     for (Index j = 0; j < profile.points; ++j)
       result.increase(i, j) =
-          valley.increase(result.first_values(i), result.second_values(j)) / unit;
+          valley.increase(Eigen::Vector2d(result.first_values(i), result.second_values(j)));
   return result;
+}
+
+namespace {
+
+/// Ends beyond so many standard errors count as open; an end is found to `close` of one.
+constexpr double farthest = 30.0, close_enough = 1e-3;
+
+/// The step in standard errors, of that sign, at which the root of the increase is `width`.
+double crossing(Valley& valley, double estimate, double error, double sign, double limit,
+                double width) {
+  const auto excess = [&](double step) {
+    const double increase = valley.increase(VectorXd::Constant(1, estimate + sign * step * error));
+    return std::sqrt(std::max(0.0, increase)) - width;  // NaN stays
+  };
+  double low = 0.0, at_low = -width, high = std::min(width, limit), at_high = excess(high);
+  while (at_high < 0.0) {
+    if (high >= limit) return std::numeric_limits<double>::quiet_NaN();
+    low = high;
+    at_low = at_high;
+    high = std::min(1.6 * high, limit);
+    at_high = excess(high);
+  }
+  // False position, each time toward the end that stays (Illinois).
+  for (int i = 0; i < 60 && std::isfinite(at_high) && high - low > close_enough; ++i) {
+    const double next = std::clamp((low * at_high - high * at_low) / (at_high - at_low),
+                                   low + 0.25 * close_enough, high - 0.25 * close_enough);
+    const double at_next = excess(next);
+    if (at_next < 0.0) {
+      low = next;
+      at_low = at_next;
+      at_high *= 0.5;
+    } else {
+      high = next;
+      at_high = at_next;
+      at_low *= 0.5;
+    }
+  }
+  return std::isfinite(at_high) ? 0.5 * (low + high) : at_high;
+}
+
+}  // namespace
+
+ProfileInterval profile_interval(const std::vector<Curve>& curves,
+                                 const std::vector<ForwardModel*>& models,
+                                 const CurveFitOptions& options, const CurveFit& fit,
+                                 std::size_t place, double half_width) {
+  check_curve_fit(curves, options);
+  if (place >= options.free.size() || !(half_width > 0.0) || !std::isfinite(half_width))
+    throw meshes::InvalidInput({"profile", std::to_string(place),
+                                "an interval is of a free parameter and has a positive width",
+                                "name one of them"});
+  const Index i = Index(place);
+  const FreeParameter& free = options.free[place];
+  const double estimate = fit.estimates(i), error = fit.standard_errors(i);
+  Valley valley(curves, models, options, fit, {i});
+  // What varies by its logarithm is positive.
+  const double lowest = varies_by_logarithm(free) ? 1e-3 * estimate : lower_bound(free);
+  const double down = std::min(farthest, (estimate - std::max(lowest, free.lower)) / error),
+               up = std::min(farthest, (free.upper - estimate) / error);
+  return {estimate - error * crossing(valley, estimate, error, -1.0, down, half_width),
+          estimate + error * crossing(valley, estimate, error, 1.0, up, half_width)};
 }
 
 }  // namespace fingertip::calibration

@@ -50,6 +50,7 @@ ParameterEntry parameter_entry(const FitRecord& record, std::size_t i) {
   entry.bound_of = bound_of(fit, i);
   entry.start = free.start;
   if (free.prior) entry.prior = {free.prior->mean, free.prior->deviation};
+  entry.interval = i < record.profiled.size() && record.profiled[i] ? "profile" : "linear";
   return entry;
 }
 
@@ -153,6 +154,21 @@ std::vector<AccusationEntry> accusation_entries(const FitRecord& record) {
   return entries;
 }
 
+/// The intervals after a measurement, about the same estimates.
+std::vector<NextEntry> next_entries(const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  std::vector<NextEntry> entries;
+  for (const Prospect& each : record.next) {
+    NextEntry& entry = entries.emplace_back(NextEntry{each.name, each.press, {}, each.failure});
+    for (Index i = 0; i < each.times.size(); ++i) {
+      const double p = fit.estimates(i), times = each.times(i);
+      entry.parameters.push_back({fit.labels[std::size_t(i)], p - (p - fit.lower(i)) / times,
+                                  p + (fit.upper(i) - p) / times, times});
+    }
+  }
+  return entries;
+}
+
 std::vector<MinimumEntry> minima(const CurveFit& fit) {
   std::vector<MinimumEntry> result;
   for (const Minimum& minimum : fit.minima)
@@ -245,6 +261,11 @@ ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
       VectorXd((record.fit.whitening * all).segment(first, residuals[curve].size())));
 }
 
+std::size_t rubber_parameters(const CurveFit& fit) {
+  return std::size_t(std::ranges::count_if(
+      fit.parameters, [](MaterialParameter parameter) { return !is_of_the_rig(parameter); }));
+}
+
 double worst_relative_residual(const FitRecord& record) {
   double worst = 0.0;
   for (std::size_t c = 0; c < record.curves.size(); ++c)
@@ -272,6 +293,7 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
   fit.failed = failed_tests(record);
   fit.rig = rig_file(record);
   fit.lack_of_fit = accusation_entries(record);
+  fit.next = next_entries(record);
   fit.statement = fit_statement(record);
   meshes::write_json_file(fit, file);
 }

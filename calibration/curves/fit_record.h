@@ -9,6 +9,7 @@
 #include "calibration/curves/curve.h"
 #include "calibration/curves/curve_checks.h"
 #include "calibration/curves/curve_fit.h"
+#include "calibration/curves/design.h"
 #include "calibration/curves/suspects.h"
 #include "calibration/material.h"
 
@@ -41,7 +42,9 @@ struct FitRecord {
   std::vector<RigValue> rig;                     ///< of presses over travel
   std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
   std::vector<Accusation> lack_of_fit;           ///< gravest first
-  double wall_time = 0.0;                        ///< [s]
+  std::vector<Prospect> next;                    ///< further measurements, best first
+  std::vector<bool> profiled;  ///< per parameter: its interval is the profile's; or empty
+  double wall_time = 0.0;      ///< [s]
 };
 
 /// Order in the residuals of a curve: whitened where sigma is given, so that known errors of the
@@ -53,6 +56,9 @@ double worst_relative_residual(const FitRecord& record);
 
 /// What was found, how sure that is, what the data leave open and whether the model describes them.
 std::string fit_statement(const FitRecord& record);
+
+/// Of the parameters those that are not of a rig; they stand first.
+std::size_t rubber_parameters(const CurveFit& fit);
 
 /// Half width of the 95 % interval of Poisson's ratio where E and G are sought; else 0.
 double poissons_ratio_interval(const CurveFit& fit);

@@ -118,9 +118,6 @@ std::string structures(const FitRecord& record) {
   return text;
 }
 
-/// Interval of a parameter over the one it would have if the other were known: more is told.
-constexpr double much_wider = 3.0;
-
 /// How many times the interval of parameter `i` would narrow by a rigid blank pressed to the same
 /// forces, f = (x - x0)/c with a touch x0 of its own, which shows the compliance `j` alone.
 double narrowed_by_blank(const FitRecord& record, Index i, Index j) {
@@ -197,6 +194,9 @@ std::string fit_statement(const FitRecord& record) {
   std::string text = estimates(record.fit) + misfit(record) + open_directions(record.fit) +
                      other_minima(record.fit) + collinearity(record) + structures(record) +
                      lack_of_fit(record);
+  const std::string next =
+      prospect_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
+  if (!next.empty()) text += " " + next;
   for (const std::string& failed : failed_tests(record)) text += " Not accepted: " + failed + ".";
   return text;
 }

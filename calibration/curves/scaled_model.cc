@@ -72,6 +72,10 @@ void ScaledModel::ask(int first) {
 }
 
 ScaledModel::ValueAndSlope ScaledModel::at(double nu) {
+  if (parameters_ == std::vector{MaterialParameter::modulus}) {
+    if (held_forces_.size() == 0) held_forces_ = solver_({held_.poissons_ratio()}).at(0);
+    return {held_forces_, VectorXd::Zero(held_forces_.size())};  // no slope is felt at held nu
+  }
   const double t = xi_of(nu) / node_distance;
   const int first = std::max(int(std::floor(t)) - 1, lowest_node_);
   ask(first);

@@ -19,7 +19,7 @@ namespace fingertip::calibration {
 /// phi is asked at nodes xi = h k of xi = -ln(1 - 2 nu), h = 1/4: they crowd toward nu = 1/2 as the
 /// bulk modulus grows. Between them it is the cubic through the four nearest, whose error is
 /// (9/16)/24 h^4 of d^4 phi/d xi^4: below 1e-4 of phi = e^xi, the confined layer. The four are
-/// asked together.
+/// asked together. Of `modulus` alone, which holds nu, phi is asked at that nu and nowhere else.
 class ScaledModel final : public ForwardModel {
  public:
   /// F/G at each of these Poisson's ratios [curve's unit/Pa, of a press m²].
@@ -51,6 +51,7 @@ class ScaledModel final : public ForwardModel {
   double lowest_ratio_;
   int lowest_node_;
   std::map<int, Eigen::VectorXd> nodes_;
+  Eigen::VectorXd held_forces_;  ///< phi at the ratio of `held_`, where it is held; else empty
 };
 
 }  // namespace fingertip::calibration

@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "studies/cli/fit_screen.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
+#include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
 #include "studies/run/calibration_stages.h"
 #include "studies/run/json_file.h"
@@ -45,13 +47,6 @@ void print_moduli(const ordered_json& content) {
              achieved["poissons_ratio_100"].get<double>());
   fmt::print("{:<22}{:>14.6f}{:>14.6f}\n", "anisotropy A", 1.0,
              achieved["anisotropy"].get<double>());
-}
-
-/// A value as the table of units shows it, and its unit.
-std::pair<double, std::string> as_shown(double value, const std::string& si) {
-  const ShownUnit* unit = shown_units().of(si);
-  return unit == nullptr ? std::pair(value, si)
-                         : std::pair((*unit)(value), std::string(unit->ascii));
 }
 
 void print_parameters(const ordered_json& content) {
@@ -124,6 +119,7 @@ int verdict(const ordered_json& content, bool written) {
 
 int run_calibrate(const CommandLine& line) {
   const LoadedConfig loaded = load_checked(line);
+  if (line.plan) return run_plan(line, loaded);
   if (loaded.config.calibration.problem == CalibrationProblem::material)
     return run_material(line, loaded);
   CalibrationStages stages(
@@ -147,6 +143,9 @@ int run_calibrate(const CommandLine& line) {
     }
     print_rubber(content);
     print_constants(content);
+    if (content.contains("next"))
+      print_next(struct_of<std::vector<calibration::NextEntry>>(
+          JsonEntry(content["next"], folder / "calibration.json")));
     if (!computed) fmt::print("(result from an earlier run with the same input)\n");
     fmt::print("run folder: {}\n", folder.string());
     return verdict(content, written);

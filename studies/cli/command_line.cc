@@ -181,6 +181,9 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
   if (name == "export") add_export(sub, line);
   if (name == "import") add_import(sub, line);
   if (name == "bench") add_bench(sub, line);
+  if (name == "calibrate")
+    sub.add_flag("--plan", line.plan,
+                 "tell what presses would tell before they are made; no measured file is read");
   if (name == "validate") sub.add_flag("--all", line.all, "every case in studies/cases");
   if (name == "explain") {
     sub.add_flag("--schema", line.schema, "JSON Schema of configuration files");

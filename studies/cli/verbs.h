@@ -24,6 +24,8 @@ int run_reference(const CommandLine& line);
 int run_calibrate(const CommandLine& line);
 /// calibrate with calibration.problem = "material".
 int run_material(const CommandLine& line, const LoadedConfig& loaded);
+/// calibrate --plan.
+int run_plan(const CommandLine& line, const LoadedConfig& loaded);
 int run_compare(const CommandLine& line);
 int run_report(const CommandLine& line);
 int run_export(const CommandLine& line);

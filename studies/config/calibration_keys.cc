@@ -40,6 +40,15 @@ std::string_view name(ForwardKind forward) {
   return forward == ForwardKind::lattice ? "lattice" : "continuum";
 }
 
+std::string_view name(IntervalKind kind) {
+  switch (kind) {
+    case IntervalKind::automatic: return "auto";
+    case IntervalKind::linear: return "linear";
+    case IntervalKind::profile: return "profile";
+  }
+  return "unknown";
+}
+
 namespace {
 
 /// A key for a member of the settings.
@@ -82,6 +91,17 @@ Key range_key() {
       entry("poisson_range", {-0.99, 0.4999, true}, "Poisson's ratios between which is sought",
             &CalibrationSettings::poisson_range),
       "the lower one first; for experiment", {});
+}
+
+Key candidates_key() {
+  return with_rule(
+      entry("candidates", any,
+            "further measurements of which is told how they would narrow the intervals; []: none",
+            &CalibrationSettings::candidates),
+      "repeat, shallow (half as deep), deep (half as deep again), blank (a rigid one, for the "
+      "compliance), ball, plane, contact (the other one), as far as the continuum presses them on "
+      "its meridian; or conditions, \"obstacle.shape=sphere; obstacle.radius=5 mm\"",
+      {});
 }
 
 /// Files with a column `position` know the travel of a machine only.
@@ -165,6 +185,21 @@ std::vector<Key> calibration_keys() {
       forward_key(),
       only_with("calibration.problem", {"experiment"}, rig_key()),
       only_with("calibration.problem", {"experiment"},
+                entry("noise", {0.0, 1.0, true},
+                      "relative standard deviation of the forces that calibrate --plan plans",
+                      &Order::noise)),
+      only_with("calibration.problem", {"experiment"},
+                quantity("calibration", "noise_force", "N", "N", not_negative,
+                         "standard deviation of these that is there whatever the force",
+                         at(&Config::calibration, &Order::noise_force))),
+      only_with("calibration.problem", {"experiment"}, candidates_key()),
+      only_with("calibration.problem", {"experiment"},
+                choice("calibration", "contact",
+                       {{"both", "where press.contact is not given, sticking and frictionless"},
+                        {"given", "press.contact, also where that is its default"}},
+                       "with which contacts measured presses are fitted",
+                       at(&Config::calibration, &Order::contact_as_given))),
+      only_with("calibration.problem", {"experiment"},
                 entry("machine", any, "name of the machine: files of one share a compliance",
                       &Order::machine)),
       entry("prior", {0.0, 10.0, true},
@@ -183,6 +218,17 @@ std::vector<Key> calibration_keys() {
             &Order::evaluations),
       entry("profile", any, "two free parameters to draw chi-square over, or none",
             &Order::profile),
+      only_with("calibration.problem", {"experiment"},
+                choice("calibration", "intervals",
+                       {{"auto",
+                         "profile where the modulus alone is sought of the rubber, which "
+                         "costs no press, else linear"},
+                        {"linear", "of the covariance at the estimates"},
+                        {"profile",
+                         "up to where chi-square, least over the other parameters, has "
+                         "risen: also where ellipses do not hold"}},
+                       "what 95 % intervals of parameters are",
+                       at(&Config::calibration, &Order::intervals))),
       entry(
           "bias", any,
           "run the continuum at the estimates, too, and tell what the lattice's error does to them",

@@ -79,6 +79,18 @@ struct RigSettings {
   RigSetting drift;               ///< of the force [N/s]
 };
 
+/// What intervals of parameters are (key calibration.intervals).
+enum class IntervalKind {
+  automatic,  ///< profile where the models answer from what they know, else linear
+  linear,     ///< of the covariance at the estimates
+  profile,    ///< where chi-square, least over the other parameters, has risen
+};
+std::string_view name(IntervalKind kind);
+constexpr auto values(IntervalKind) {
+  using enum IntervalKind;
+  return std::array{automatic, linear, profile};
+}
+
 /// Section [calibration]; the key table says what the entries mean.
 struct CalibrationSettings {
   CalibrationProblem problem = CalibrationProblem::moduli;
@@ -89,12 +101,19 @@ struct CalibrationSettings {
   std::vector<std::string> parameters;  ///< empty: the problem's own
   ForwardKind forward = ForwardKind::lattice;
   RigSettings rig;
-  std::string machine;        ///< files of one name share a compliance
-  double prior = 0.02;        ///< relative; 0: none
-  double model_error = 0.01;  ///< relative
+  std::string machine;       ///< files of one name share a compliance
+  double noise = 0.01;       ///< relative, of forces that are planned
+  double noise_force = 0.0;  ///< and whatever the force [N]
+  /// Further measurements that a fit weighs: names of studies/run/fit_plan.h, or conditions.
+  std::vector<std::string> candidates = {"repeat", "shallow", "deep",   "blank",
+                                         "ball",   "plane",   "contact"};
+  bool contact_as_given = false;  ///< else both contacts are fitted where none is given
+  double prior = 0.02;            ///< relative; 0: none
+  double model_error = 0.01;      ///< relative
   double robust_width = 0.0;
   std::vector<double> poisson_range = {0.0, 0.4999};  ///< lowest, highest
   std::vector<std::string> profile;
+  IntervalKind intervals = IntervalKind::automatic;
   bool bias = false, surrogate = false;
   double isotropy_weight = 0.0, bulk_weight = 0.0;
   int starts = 10;

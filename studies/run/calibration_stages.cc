@@ -8,6 +8,7 @@
 #include "calibration/result_io.h"
 #include "meshes/press_response.h"
 #include "studies/run/fit_bias.h"
+#include "studies/run/fit_contact.h"
 #include "studies/run/fit_setup.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -26,6 +27,8 @@ using nlohmann::ordered_json;
 /// Indentations at which a lattice is judged by its continuum; between them its relative error is
 /// taken as linear.
 constexpr std::size_t bias_samples = 8;
+
+constexpr const char* other_contact_name = "fit_other_contact";
 
 /// Evenly chosen, the last one always.
 std::vector<double> thinned(const std::vector<double>& x, std::size_t count) {
@@ -77,6 +80,7 @@ CalibrationStages::CalibrationStages(LoadedConfig loaded, std::string folder, Fa
   } else {
     setup_ = fit_setup(loaded_);
     loaded_ = setup_.loaded;
+    other_contact_ = with_other_contact(setup_);
   }
 }
 
@@ -92,7 +96,7 @@ std::vector<PlannedJob> CalibrationStages::next(const fs::path& run) {
   std::vector<PlannedJob> jobs;
   while (jobs.empty() && stage_ != Stage::done) {
     if (stage_ == Stage::data) jobs = data_jobs();
-    if (stage_ == Stage::fit) jobs = {fit(run)};
+    if (stage_ == Stage::fit) jobs = fits(run);
     if (stage_ == Stage::follow_up) jobs = follow_up_jobs(run);
     if (stage_ == Stage::finish) finish(run);
     stage_ = Stage(int(stage_) + 1);
@@ -102,7 +106,8 @@ std::vector<PlannedJob> CalibrationStages::next(const fs::path& run) {
 
 double CalibrationStages::later_weight() const {
   double weight = 0.0;
-  if (stage_ <= Stage::fit) weight += by_moduli() ? moduli_weight : fit_weight;
+  if (stage_ <= Stage::fit)
+    weight += by_moduli() ? moduli_weight : fit_weight * (other_contact_ ? 2.0 : 1.0);
   if (stage_ > Stage::follow_up) return weight;
   if (loaded_.config.calibration.surrogate) weight += surrogate_weight;
   if (measures_bias())
@@ -137,14 +142,18 @@ void CalibrationStages::take_continuum_data(const fs::path& run) {
   }
 }
 
-PlannedJob CalibrationStages::fit(const fs::path& run) {
+std::vector<PlannedJob> CalibrationStages::fits(const fs::path& run) {
   if (by_moduli())
-    return {folder_,
-            moduli_job(loaded_.config.press.rubber,
-                       fit_options(loaded_, loaded_.config.press.lattice.model)),
-            false};
+    return {{folder_,
+             moduli_job(loaded_.config.press.rubber,
+                        fit_options(loaded_, loaded_.config.press.lattice.model)),
+             false}};
   if (setup_.data_from_continuum) take_continuum_data(run);
-  return {place("fit"), fit_job(setup_.input), false};
+  std::vector<PlannedJob> jobs = {{place("fit"), fit_job(setup_.input), false}};
+  // That the other contact has no answer is no failure of the fit.
+  if (other_contact_)
+    jobs.push_back({place(other_contact_name), fit_job(other_contact_->input), true});
+  return jobs;
 }
 
 /// Of a lattice that answered for measured forces: the continuum at the estimates tells its error.
@@ -188,11 +197,10 @@ PlannedJob CalibrationStages::surrogate(const fs::path& run) const {
     const ordered_json fit = read_json(run / place("fit") / "calibration.json");
     uncertainty.parameters = parameters_of(setup_.input);
     // As wide as the intervals.
-    uncertainty.covariance =
-        std::pow(fit.at("birge_ratio").get<double>(), 2) *
-        matrix_of(fit.at("covariance"))
-            .topLeftCorner(Eigen::Index(uncertainty.parameters.size()),
-                           Eigen::Index(uncertainty.parameters.size()));
+    uncertainty.covariance = std::pow(fit.at("birge_ratio").get<double>(), 2) *
+                             matrix_of(fit.at("covariance"))
+                                 .topLeftCorner(Eigen::Index(uncertainty.parameters.size()),
+                                                Eigen::Index(uncertainty.parameters.size()));
   }
   return {place("surrogate"), surrogate_job(setup, uncertainty), false};
 }
@@ -250,6 +258,10 @@ void CalibrationStages::finish(const fs::path& run) const {
     ordered_json calibration = read_json(run / place("fit") / "calibration.json");
     ordered_json summary = read_json(run / place("fit") / "summary.json");
     if (use && measures_bias()) calibration = with_bias(std::move(calibration), run);
+    const fs::path other = run / place(other_contact_name) / "calibration.json";
+    if (other_contact_ && fs::exists(other))
+      add_other_contact(read_json(other), contact_name(setup_), contact_name(*other_contact_),
+                        calibration);
     summary["statement"] = calibration["statement"];
     write_json(summary, target / "summary.json");
     write_json(calibration, target / "calibration.json");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace fingertip::studies {
 /// continuum that makes data or judges the lattice, the fit, the surrogate.
 ///   reference_N/   continuum of curve N
 ///   fit/           the fit itself (moduli: in the calibration's folder)
+///   fit_other_contact/  beside it, where the contact is not known
 ///   continuum_N/   that answers for curve N, run by the fit at Poisson's ratios
 ///   bias_N/        continuum of curve N at the estimates
 ///   surrogate/     the calibrated lattice's press, smoothed
@@ -52,7 +54,7 @@ class CalibrationStages {
   std::string place(const std::string& name) const;
   std::vector<PlannedJob> data_jobs();
   void take_continuum_data(const std::filesystem::path& run);
-  PlannedJob fit(const std::filesystem::path& run);
+  std::vector<PlannedJob> fits(const std::filesystem::path& run);
   std::vector<PlannedJob> follow_up_jobs(const std::filesystem::path& run);
   PlannedJob surrogate(const std::filesystem::path& run) const;
   PlannedJob bias(const std::filesystem::path& run, std::size_t curve) const;
@@ -67,6 +69,7 @@ class CalibrationStages {
   Failed failed_;
   Stage stage_ = Stage::data;
   FitSetup setup_;  ///< empty for the moduli
+  std::optional<FitSetup> other_contact_;
 };
 
 }  // namespace fingertip::studies

@@ -23,9 +23,6 @@ ConfigError refused(const LoadedConfig& loaded, const std::string& key, const st
   return loaded.locate({{key, value, rule, remedy}});
 }
 
-namespace {
-
-/// "press.contact = stick; press.tilt=20 deg" as --set texts.
 std::vector<std::string> settings_in(std::string_view condition) {
   std::vector<std::string> sets;
   std::size_t begin = 0;
@@ -42,6 +39,8 @@ std::vector<std::string> settings_in(std::string_view condition) {
   }
   return sets;
 }
+
+namespace {
 
 /// Samples 1/n, 2/n ... 1 of the depth.
 std::string even_samples(double depth, int count) {
@@ -66,13 +65,21 @@ void check_condition(const LoadedConfig& loaded, const std::vector<std::string>&
   }
 }
 
-/// The press of one curve: the configuration, the condition's settings, then what the problem asks.
+}  // namespace
+
 LoadedConfig under(const LoadedConfig& loaded, const std::vector<std::string>& condition,
                    const std::vector<std::string>& derived) {
   check_condition(loaded, condition);
   std::vector<std::string> sets = condition;
   sets.insert(sets.end(), derived.begin(), derived.end());
   return loaded.with(sets);
+}
+
+std::string samples_setting(const std::vector<double>& depths) {
+  std::string list;
+  for (const double depth : depths)
+    list += (list.empty() ? "\"" : ", \"") + meshes::to_text(depth) + " m\"";
+  return "press.samples=[" + list + "]";
 }
 
 std::vector<std::string> conditions_of(const LoadedConfig& loaded) {
@@ -95,12 +102,16 @@ std::string described(const lattice::PressSetup& setup) {
   return text;
 }
 
+namespace {
+
 /// Two files of one stem, or two fingers under one contact.
 void name_once(const std::vector<Curve>& others, Curve& curve) {
   const std::string name = curve.name;
   for (int copy = 2; std::ranges::find(others, curve.name, &Curve::name) != others.end(); ++copy)
     curve.name = name + " (" + std::to_string(copy) + ")";
 }
+
+}  // namespace
 
 void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
   const lattice::PressSetup press = press_setup(own);
@@ -121,6 +132,12 @@ void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve cur
   fit.input.presses.push_back(press);
   fit.input.continua.push_back(continuum_beside(own, press.lattice.kinematics));
 }
+
+CurveKind press_kind(const CalibrationSettings& settings) {
+  return settings.forward == ForwardKind::continuum ? CurveKind::continuum : CurveKind::press;
+}
+
+namespace {
 
 /// The start of a driven rod shakes the tip; this long a way dies the shaking out before touch.
 constexpr double run_up = 0.1;  // [s]
@@ -175,7 +192,7 @@ CurveKind kind_of(const MeasuredFile& file, const CalibrationSettings& settings)
   if (file.x_quantity == "frequency") return CurveKind::loss_factor;
   if (file.y_quantity == "creep") return CurveKind::creep;
   if (file.x_quantity == "time") return CurveKind::ramp;
-  return settings.forward == ForwardKind::continuum ? CurveKind::continuum : CurveKind::press;
+  return press_kind(settings);
 }
 
 std::string place_in(const std::filesystem::path& file, std::size_t line) {
@@ -208,14 +225,13 @@ void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const Measure
     if (file.curve.is_travel) travel = travel_of(file.curve, own);
     if (travel) depths = travel->depths;
   }
-  std::string samples;
-  for (const double depth : depths)
-    samples += (samples.empty() ? "\"" : ", \"") + meshes::to_text(depth) + " m\"";
   const bool ramp = kind == CurveKind::ramp;
   const LoadedConfig own =
       ramp ? under(loaded, condition, {"press.mode=static"})
-           : under(loaded, condition, {"press.mode=static", "press.samples=[" + samples + "]"});
+           : under(loaded, condition, {"press.mode=static", samples_setting(depths)});
   add_press(fit, own, kind, file.curve);
+  fit.contact_known = fit.contact_known && own.entries.at("press.contact").given;
+  fit.settings.push_back(std::move(condition));
 }
 
 std::string with_unit(const std::string& quantity) {

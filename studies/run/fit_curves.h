@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "studies/run/fit_setup.h"
 
@@ -9,6 +11,30 @@ namespace fingertip::studies {
 
 ConfigError refused(const LoadedConfig& loaded, const std::string& key, const std::string& value,
                     const std::string& rule, const std::string& remedy);
+
+/// "press.contact = stick; press.tilt=20 deg" as --set texts.
+std::vector<std::string> settings_in(std::string_view condition);
+
+/// Of calibration.conditions; without any one that changes nothing.
+std::vector<std::string> conditions_of(const LoadedConfig& loaded);
+
+/// The press of one curve: the configuration, the condition's settings, then what the problem asks.
+/// Throws ConfigError for a condition that sets what is common to all curves.
+LoadedConfig under(const LoadedConfig& loaded, const std::vector<std::string>& condition,
+                   const std::vector<std::string>& derived);
+
+/// A setting of press.samples.
+std::string samples_setting(const std::vector<double>& depths);
+
+/// Contact, tilt, obstacle and lateral motion in words.
+std::string described(const lattice::PressSetup& setup);
+
+/// Lattice or continuum, as calibration.forward says.
+CurveKind press_kind(const CalibrationSettings& settings);
+
+/// Appends a press with its curve, named by its condition where it has no name. Throws ConfigError
+/// for a motion that no fit knows.
+void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, calibration::Curve curve);
 
 /// A curve per condition, whose y the continuum will make.
 void add_continuum_curves(FitSetup& fit, const LoadedConfig& loaded);

@@ -37,6 +37,20 @@ struct Excess {
   std::vector<std::vector<double>> at_samples;
 };
 
+struct FitInput;
+
+/// A measurement that might follow, of which the fit tells what it would tell.
+struct Candidate {
+  std::string name;    ///< "ball"
+  std::string press;   ///< for people: contact, obstacle, depth
+  double depth = 0.0;  ///< its largest indentation [m]
+  bool blank = false;  ///< a rigid blank in place of the finger, pressed to the forces of the fit
+  /// The press behind its rig, as the one curve of a fit of the same rubber; none: the first press
+  /// of the fit itself, so that nothing is computed for it.
+  std::shared_ptr<const FitInput> input;
+  std::string refused;  ///< why it cannot be; empty: it can
+};
+
 /// SI. `curves`, `conditions` and `kinds` have an entry per curve; `presses` and `continua` too
 /// where these are presses.
 struct FitInput {
@@ -65,7 +79,10 @@ struct FitInput {
   std::vector<Excess> excesses;
   bool density_known = true, retardation_time_known = true;  ///< of base.rubber, for material.toml
   std::vector<std::string> profile;                          ///< two parameters, or none
+  bool profile_intervals = false;                            ///< else those of the covariance
   std::string provenance, program;                           ///< for material.toml
+  std::string place = "continuum";    ///< stem of the folders of the continua that answer
+  std::vector<Candidate> candidates;  ///< of presses; in the order of calibration.candidates
 };
 
 /// What the fit has found, as a material, whether it may be used or not.
@@ -76,6 +93,9 @@ bool by_continuum(const FitInput& input);
 
 /// Of `input.options.free`, without those of rigs, which stand behind them.
 std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input);
+
+/// What a fit or a plan depends on.
+nlohmann::ordered_json fit_inputs(const FitInput& input);
 
 /// The fit. Files: calibration.json, estimates.toml (a material.toml, which says so where the fit
 /// failed its own tests; none where the estimates are no material), fit_data.csv, summary.json;

@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "calibration/curves/curve_checks.h"
+#include "calibration/curves/fit_statistics.h"
 #include "calibration/curves/model_error.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/fields_json.h"
 #include "source_hash.h"
 #include "studies/run/fit_material.h"
 #include "studies/run/fit_models.h"
+#include "studies/run/fit_prospects.h"
 #include "studies/run/fit_suspects.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -40,6 +42,25 @@ void add_profile(const FitInput& input, const std::vector<ForwardModel*>& models
                                                    record.fit, first, second, grid);
   record.profile_first = record.fit.parameters[first];
   record.profile_second = record.fit.parameters[second];
+}
+
+/// Intervals up to where chi-square has risen, in place of those of the covariance where both ends
+/// are found.
+void add_intervals(const std::vector<ForwardModel*>& models, calibration::FitRecord& record) {
+  calibration::CurveFit& fit = record.fit;
+  const double half_width = fit.birge_ratio * (record.curves.front().sigma.empty()
+                                                   ? calibration::student_95(fit.degrees_of_freedom)
+                                                   : calibration::normal_95());
+  record.profiled.assign(fit.labels.size(), false);
+  for (std::size_t i = 0; i < fit.labels.size(); ++i) {
+    if (fit.at_bound[i]) continue;
+    const auto own =
+        calibration::profile_interval(record.curves, models, record.options, fit, i, half_width);
+    if (!std::isfinite(own.lower) || !std::isfinite(own.upper)) continue;
+    fit.lower(Eigen::Index(i)) = own.lower;
+    fit.upper(Eigen::Index(i)) = own.upper;
+    record.profiled[i] = true;
+  }
 }
 
 void write(const calibration::FitRecord& record, const fs::path& folder) {
@@ -82,30 +103,13 @@ calibration::FitRecord described(const FitInput& input) {
   return record;
 }
 
-/// The presses as the errors of their lattice depend on them: at the indentations of all values.
-std::vector<lattice::PressSetup> presses_of_values(const FitInput& input) {
-  std::vector<lattice::PressSetup> presses = input.presses;
-  for (std::size_t i = 0; i < presses.size(); ++i)
-    if (is_travel(input, i)) presses[i].protocol.samples = depths_of_values(input, i);
-  return presses;
-}
-
 /// Relative errors of all values times `forces`.
 void put_model_error(FitInput& input, const Eigen::VectorXd& forces) {
   Eigen::MatrixXd& covariance = input.options.model_covariance;
-  const Eigen::Index count = forces.size();
-  covariance = input.with_lattice_error ? calibration::lattice_covariance(presses_of_values(input))
-                                        : Eigen::MatrixXd::Zero(count, count);
-  std::vector<double> theory;
-  for (std::size_t i = 0; i < input.theory_error.size(); ++i) {
-    const std::vector<double> curve = at_values(input, i, input.theory_error[i]);
-    theory.insert(theory.end(), curve.begin(), curve.end());
-  }
-  if (!theory.empty()) {
-    const auto excess = Eigen::VectorXd::Map(theory.data(), count);
-    covariance += excess * excess.transpose();
-  }
-  covariance = forces.asDiagonal() * covariance * forces.asDiagonal();
+  covariance = forces.asDiagonal() *
+               relative_model_error(presses_of_values(input), input.with_lattice_error,
+                                    theory_at_values(input)) *
+               forces.asDiagonal();
   // What is known of the models stands in the covariance: intervals alone tell what is open.
   input.options.relative_singular_value = 0.0;
 }
@@ -161,6 +165,9 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   calibration::FitRecord record = described(input);
   record.fit = search(input, models);
   record.options = input.options;
+  stage = "intervals";
+  if (input.profile_intervals && record.fit.converged && record.fit.degrees_of_freedom > 0)
+    add_intervals(list, record);
   stage = "curves left out";
   if (input.curves.size() > 1)
     record.left_out = calibration::leave_one_out(input.curves, list, record.options, record.fit);
@@ -169,6 +176,14 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   stage = "lack of fit";
   record.lack_of_fit =
       calibration::accusations(record.fit, record.options, suspects_of(input, record.fit, models));
+  if (record.fit.converged && !input.candidates.empty())
+    record.next =
+        outlook(input, models, record.fit.estimates, record.fit.residual_deviation, folder, context,
+                [&](double, const std::string& name) {
+                  stage = "further measurement, " + name;
+                  return go_on();
+                })
+            .prospects;
   record.rig = rig_values(input);
   for (std::size_t i = 0; i < input.travels.size(); ++i)
     record.indentation.push_back(models.indentations(i, record.fit.estimates));
@@ -179,7 +194,9 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   context.log(calibration::fit_statement(record));
 }
 
-ordered_json inputs_of(const FitInput& input) {
+}  // namespace
+
+ordered_json fit_inputs(const FitInput& input) {
   ordered_json inputs = {
       {"problem", name(input.problem)},
       {"geometry", meshes::json_of(input.base.geometry)},
@@ -189,6 +206,7 @@ ordered_json inputs_of(const FitInput& input) {
       {"robust_width", input.options.robust_width},
       {"starts", input.start_ratios},
       {"profile", input.profile},
+      {"profile_intervals", input.profile_intervals},
       {"scale_to_data", input.scale_to_data},
       {"lattice_error", input.with_lattice_error},
       {"theory_error", input.theory_error},
@@ -208,10 +226,13 @@ ordered_json inputs_of(const FitInput& input) {
                               {"upper", free.upper},
                               {"mean", free.prior ? free.prior->mean : 0.0},
                               {"prior", free.prior ? free.prior->deviation : 0.0}});
+  inputs["candidates"] = ordered_json::array();
+  for (const Candidate& each : input.candidates) {
+    inputs["candidates"].push_back({each.name, each.press, each.depth, each.refused});
+    if (each.input) inputs["candidates"].back().push_back(curve_inputs(*each.input, 0));
+  }
   return inputs;
 }
-
-}  // namespace
 
 bool by_continuum(const FitInput& input) {
   return !input.kinds.empty() && input.kinds.front() == CurveKind::continuum;
@@ -227,7 +248,7 @@ std::vector<MaterialParameter> parameters_of(const FitInput& input) {
 Job fit_job(const FitInput& input) {
   Job job;
   job.kind = "fit";
-  job.inputs = inputs_of(input);
+  job.inputs = fit_inputs(input);
   job.source_hash = source_hash::calibration;
   job.weight = fit_weight;
   job.resumable = true;

@@ -57,7 +57,7 @@ std::unique_ptr<ForwardModel> model_of(const FitInput& input, std::size_t i,
                                                                 go_on);
     case CurveKind::continuum:
       return std::make_unique<calibration::ScaledModel>(continuum_model(
-          input.continua[i], parameters, fmt::format("continuum_{}", i + 1), context));
+          input.continua[i], parameters, fmt::format("{}_{}", input.place, i + 1), context));
     case CurveKind::uniaxial:
       return std::make_unique<calibration::UniaxialModel>(x, parameters, input.base.rubber);
     case CurveKind::simple_shear:
@@ -179,7 +179,9 @@ std::unique_ptr<calibration::RigModel> FitModels::behind_rig(const FitInput& inp
                                                              const calibration::Rig& rig,
                                                              const calibration::Curve& curve,
                                                              Eigen::Index parameters) const {
-  return std::make_unique<calibration::RigModel>(*remembering_[i], input.travels[i]->depths,
+  const std::vector<double>& depths =
+      is_travel(input, i) ? input.travels[i]->depths : input.presses[i].protocol.samples;
+  return std::make_unique<calibration::RigModel>(*remembering_[i], depths,
                                                  Eigen::Index(material_parameters(input)), rig,
                                                  curve.x, curve.time, parameters);
 }

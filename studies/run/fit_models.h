@@ -30,7 +30,8 @@ class FitModels {
   /// What answers for every curve.
   std::vector<calibration::ForwardModel*> addresses() const;
 
-  /// The press of curve `i` at the travels of `curve` behind `rig`, by so many `parameters`.
+  /// The press of curve `i` at the travels of `curve` behind `rig`, by so many `parameters`; of a
+  /// curve over indentation between its samples.
   std::unique_ptr<calibration::RigModel> behind_rig(const FitInput& input, std::size_t i,
                                                     const calibration::Rig& rig,
                                                     const calibration::Curve& curve,

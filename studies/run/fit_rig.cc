@@ -166,9 +166,10 @@ void free_rigs(FitInput& input) {
       travel.rig.compliance = compliances[travel.machine];
     }
     if (rig.force_offset.fitted)
-      travel.rig.force_offset =
-          append(input, free_of(force_offset, rig.force_offset,
-                                {.start = curve.y.front(), .scale = travel.force}, of));
+      travel.rig.force_offset = append(
+          input,
+          free_of(force_offset, rig.force_offset,
+                  {.start = curve.y.empty() ? 0.0 : curve.y.front(), .scale = travel.force}, of));
     if (rig.drift.fitted) {
       const double span = curve.time.back() - curve.time.front();
       travel.rig.drift = append(

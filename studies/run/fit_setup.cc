@@ -10,6 +10,7 @@
 #include "meshes/files.h"
 #include "studies/run/continuum_model.h"
 #include "studies/run/fit_curves.h"
+#include "studies/run/fit_plan.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/provenance.h"
 
@@ -238,7 +239,17 @@ void check_model(const LoadedConfig& loaded) {
                   "take calibration.problem = \"material\", which fits every law");
 }
 
-FitSetup assembled(const LoadedConfig& loaded) {
+/// Forces are proportional to a modulus at held Poisson's ratio: to ask for others costs nothing.
+bool has_profile_intervals(const CalibrationSettings& wanted, const FitInput& input) {
+  if (wanted.problem != CalibrationProblem::experiment) return false;
+  if (wanted.intervals != IntervalKind::automatic) return wanted.intervals == IntervalKind::profile;
+  return parameters_of(input) == std::vector{modulus};
+}
+
+/// Where the presses of a fit come from.
+enum class Presses { made, planned };
+
+FitSetup assembled(const LoadedConfig& loaded, Presses presses) {
   const CalibrationSettings& wanted = loaded.config.calibration;
   check_model(loaded);
   check_data(loaded);
@@ -256,7 +267,9 @@ FitSetup assembled(const LoadedConfig& loaded) {
   const bool from_continuum =
       wanted.problem == CalibrationProblem::curve ||
       (wanted.problem == CalibrationProblem::damping && wanted.data.empty());
-  if (from_continuum) {
+  if (presses == Presses::planned) {
+    add_planned_curves(fit, loaded);
+  } else if (from_continuum) {
     add_continuum_curves(fit, loaded);
   } else {
     add_measured_curves(fit, loaded);
@@ -265,6 +278,7 @@ FitSetup assembled(const LoadedConfig& loaded) {
   fit.input.scale_to_data = wanted.problem == CalibrationProblem::experiment ||
                             wanted.problem == CalibrationProblem::finite_strain;
   fit.input.start_ratios = start_ratios(fit.input);
+  fit.input.profile_intervals = has_profile_intervals(wanted, fit.input);
   check_models(loaded, fit.input);
   // A reference ends where every force is known that well.
   if (by_continuum(fit.input)) fit.input.theory_error_of = "the continuum's tolerance";
@@ -334,7 +348,7 @@ bool may_be_finite(const LoadedConfig& loaded, const FitInput& input) {
 
 /// Data beyond small strain are fitted by the finite law, or what it adds to the forces counts as
 /// uncertain; both are said before the fit.
-FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit,
+FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit, Presses presses,
                              const std::vector<std::vector<double>>& excess) {
   double most = 0.0, depth = 0.0;
   for (std::size_t i = 0; i < excess.size(); ++i)
@@ -349,7 +363,7 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit,
       "{:.0f} % stiffer than small strain has it",
       100.0 * depth, 100.0 * most);
   if (may_be_finite(loaded, fit.input)) {
-    FitSetup finite = assembled(loaded.with({"lattice.model=network"}));
+    FitSetup finite = assembled(loaded.with({"lattice.model=network"}), presses);
     finite.notes.push_back(said +
                            ": the finite law is fitted, lattice.model = network (small "
                            "strain on request: lattice.kinematics = small)");
@@ -380,6 +394,18 @@ void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
                   fit.input.options.max_evaluations));
 }
 
+FitSetup set_up(const LoadedConfig& loaded, Presses presses) {
+  FitSetup first = assembled(loaded, presses);
+  const auto excess = excess_of(first.input);
+  FitSetup fit = at_the_right_strain(loaded, std::move(first), presses, excess);
+  const bool finite = fit.input.base.lattice.kinematics == lattice::Kinematics::finite;
+  if (presses == Presses::made)
+    add_excesses(fit.input, finite ? std::vector<std::vector<double>>{} : excess);
+  set_budget(loaded, fit);
+  fit.input.candidates = candidates_of(fit.loaded, fit);
+  return fit;
+}
+
 }  // namespace
 
 fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
@@ -395,13 +421,15 @@ fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
 }
 
 FitSetup fit_setup(const LoadedConfig& loaded) {
-  FitSetup first = assembled(loaded);
-  const auto excess = excess_of(first.input);
-  FitSetup fit = at_the_right_strain(loaded, std::move(first), excess);
-  const bool finite = fit.input.base.lattice.kinematics == lattice::Kinematics::finite;
-  add_excesses(fit.input, finite ? std::vector<std::vector<double>>{} : excess);
-  set_budget(loaded, fit);
-  return fit;
+  return set_up(loaded, Presses::made);
+}
+
+FitSetup plan_setup(const LoadedConfig& loaded) {
+  const CalibrationProblem problem = loaded.config.calibration.problem;
+  if (problem != CalibrationProblem::experiment)
+    throw refused(loaded, "calibration.problem", std::string(name(problem)),
+                  "a plan is one of measured presses", "take the problem experiment");
+  return set_up(loaded, Presses::planned);
 }
 
 }  // namespace fingertip::studies

@@ -15,11 +15,17 @@ struct FitSetup {
   LoadedConfig loaded;  ///< what is fitted: the configuration, or that at finite strain
   FitInput input;
   bool data_from_continuum = false;
+  std::vector<std::vector<std::string>> settings;  ///< of measured or planned presses, as --set
+  bool contact_known = true;                       ///< of all of them, not by default
   std::vector<std::string> notes;  ///< on measured files, strain and budget; for people
 };
 
 /// Throws ConfigError with every problem of [calibration], of a condition or a measured file.
 FitSetup fit_setup(const LoadedConfig& loaded);
+
+/// The same of presses that are planned: no file is read, y and sigma are empty. Throws ConfigError
+/// also for another problem than experiment.
+FitSetup plan_setup(const LoadedConfig& loaded);
 
 /// The continuum beside a press: static, linear or law A as `kinematics` says, without fields.
 fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,

@@ -15,8 +15,10 @@
 #include "studies/config/key_table.h"
 #include "studies/config/value_reader.h"
 #include "studies/run/calibration_stages.h"
+#include "studies/run/fit_setup.h"
 #include "studies/run/grasp_job.h"
 #include "studies/run/jobs.h"
+#include "studies/run/plan_job.h"
 #include "studies/run/press_setup.h"
 #include "tests/fingers.h"
 #include "tests/stl_text.h"
@@ -184,10 +186,12 @@ const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawA
     "geometry.shape", "geometry.profile", "geometry.file", "geometry.unit", "geometry.bond",
     "geometry.endpoint",
     // Its keys count, and of material tests what they say (law_job_test).
-    "rubber.card", "calibration.tests", "calibration.laws", "calibration.weights", "calibration.branches",
-    "calibration.stretch_range",
+    "rubber.card", "calibration.tests", "calibration.laws", "calibration.weights",
+    "calibration.branches", "calibration.stretch_range",
     // Of measured files; see ChangesWithItsDataAndHowTheyWereTaken.
-    "calibration.rig", "calibration.machine"};
+    "calibration.rig", "calibration.machine", "calibration.candidates", "calibration.intervals",
+    // Of plans; see IdentityOfAPlan. The other contact is another fit.
+    "calibration.noise", "calibration.noise_force", "calibration.contact"};
 /// Of the fit of constants to moduli, which a hookean lattice has in closed form.
 const Sets moduli_fit = {"calibration.starts", "calibration.seed", "calibration.isotropy_weight",
                          "calibration.bulk_weight"};
@@ -417,7 +421,9 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
         std::string("calibration.forward=continuum"), std::string("calibration.prior=0.1"),
         std::string("calibration.robust_width=3.0"), std::string("calibration.evaluations=60"),
         std::string("calibration.profile=[\"youngs_modulus\", \"shear_modulus\"]"),
-        std::string("press.contact=frictionless"), std::string("geometry.tip_radius=1.1 cm")})
+        std::string("calibration.candidates=[\"repeat\"]"),
+        std::string("calibration.intervals=profile"), std::string("press.contact=frictionless"),
+        std::string("geometry.tip_radius=1.1 cm")})
     EXPECT_TRUE(differs(experiment, matters)) << matters;
   write_text(folder / "travel.csv",
              "position [mm],force [mN],sigma [mN]\n0,0,1\n0.5,10,1\n1,25,1\n1.5,45,1\n");
@@ -431,6 +437,28 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
   // How fast the plane comes is all that the elastic press does not know.
   EXPECT_TRUE(differs(ramp, "press.speed=2 cm/s"));
   EXPECT_FALSE(differs(ramp, "press.clearance=1 mm"));
+}
+
+TEST(IdentityOfAPlan, ChangesWithItsPressesAndTheirNoise) {
+  const Identity plan = [](const LoadedConfig& loaded) {
+    const CalibrationSettings& settings = loaded.config.calibration;
+    return plan_job(plan_setup(loaded).input, {settings.noise, settings.noise_force}).key();
+  };
+  const Sets base = {"calibration.problem=experiment", "lattice.model=network",
+                     "lattice.spacing=tip_radius/6", "press.depth=1 mm",
+                     "calibration.candidates=[\"repeat\"]"};
+  const auto key = identity_of(plan, base);
+  ASSERT_TRUE(key);
+  for (const char* matters :
+       {"calibration.noise=0.02", "calibration.noise_force=1 mN", "calibration.points=7",
+        "press.depth=1.1 mm", "press.contact=frictionless", "calibration.candidates=[]",
+        "calibration.rig={compliance = \"fit\"}", "calibration.data=[\"a.csv\"]",
+        "calibration.conditions=[\"obstacle.shape=sphere; obstacle.radius=5 mm\"]",
+        "rubber.youngs_modulus=5 kPa"}) {
+    const auto other = identity_of(plan, joined({base, {matters}}));
+    EXPECT_TRUE(other) << matters;
+    EXPECT_NE(other, key) << matters;
+  }
 }
 
 /// An equilibrium knows time where the rubber relaxes, and there alone.

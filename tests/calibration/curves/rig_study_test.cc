@@ -8,6 +8,7 @@
 #include <memory>
 #include <random>
 
+#include "calibration/curves/curve_checks.h"
 #include "calibration/curves/curve_fit.h"
 #include "calibration/curves/fit_record.h"
 #include "calibration/curves/rig_model.h"
@@ -172,4 +173,87 @@ TEST(RigStudy, ARigHeldAtZeroIsNamed) {
     EXPECT_TRUE(found[0].name == "touch_offset" || found[0].name == "compliance") << found[0].name;
     EXPECT_LT(found[0].probability, 1e-3);
   }
+}
+
+namespace {
+
+/// One force over travel from before touch on, with noise that is the same for all forces: the
+/// touch is where a curve that starts flat leaves zero.
+struct FlatStart {
+  std::vector<Curve> curves;
+  Layer press{finger, depths_for_rig(1.3 * deepest)};
+  std::unique_ptr<RigModel> model;
+  CurveFitOptions options;
+
+  FlatStart(unsigned seed, double sigma) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> deviate(0.0, sigma);
+    Curve curve;
+    curve.is_travel = true;
+    for (int i = -10; i <= 12; ++i) {
+      const double delta = 0.05 * deepest * i;
+      curve.x.push_back(offset + delta);
+      curve.y.push_back((delta > 0.0 ? modulus_value * layer(finger, delta) : 0.0) +
+                        deviate(random));
+      curve.sigma.push_back(sigma);
+    }
+    curves.push_back(curve);
+    options.free = {{.parameter = modulus, .start = 1.5e5},
+                    {.parameter = touch_offset, .start = 0.0, .scale = deepest}};
+    Rig rig;
+    rig.touch_offset.place = 1;
+    model = std::make_unique<RigModel>(press, depths_for_rig(1.3 * deepest), 1, rig, curve.x,
+                                       std::vector<double>(), 2);
+  }
+};
+
+}  // namespace
+
+/// The profile against chi-square itself: at every modulus the best touch by a scan of its own.
+TEST(RigStudy, TheProfilesEndsAreWhereChiSquareHasRisen) {
+  FlatStart study(3, 0.4);
+  const CurveFit fit = fit_curves(study.curves, {study.model.get()}, study.options);
+  const Curve& curve = study.curves[0];
+  const auto chi_square = [&](double e, double touch) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      const double delta = curve.x[i] - touch, force = delta > 0.0 ? e * layer(finger, delta) : 0.0;
+      sum += std::pow((curve.y[i] - force) / curve.sigma[i], 2);
+    }
+    return sum;
+  };
+  const auto least = [&](double e) {
+    double best = 1e300;
+    for (int k = -4000; k <= 4000; ++k)
+      best = std::min(best, chi_square(e, fit.estimates(1) + 2.5e-7 * k));
+    return best;
+  };
+  const ProfileInterval interval =
+      profile_interval(study.curves, {study.model.get()}, study.options, fit, 0, 1.96);
+  const double level = chi_square(fit.estimates(0), fit.estimates(1)) + 1.96 * 1.96;
+  EXPECT_NEAR(least(interval.lower), level, 0.02);
+  EXPECT_NEAR(least(interval.upper), level, 0.02);
+  // Skew: a stiffer rubber that is touched later meets the flat start as well.
+  EXPECT_GT(interval.upper - fit.estimates(0), 1.1 * (fit.estimates(0) - interval.lower));
+}
+
+/// Where the linearised interval of the touch is off, the profile's covers the truth as often as it
+/// says: 95 % of 200, within three deviations of that count.
+TEST(RigStudy, TheProfilesIntervalsCoverTheTruth) {
+  int modulus_covered = 0, touch_covered = 0;
+  constexpr int trials = 200;
+  for (unsigned seed = 1; seed <= trials; ++seed) {
+    FlatStart study(seed, 0.4);
+    const CurveFit fit = fit_curves(study.curves, {study.model.get()}, study.options);
+    const auto covers = [&](std::size_t place, double truth) {
+      const ProfileInterval own =
+          profile_interval(study.curves, {study.model.get()}, study.options, fit, place, 1.96);
+      return !(own.lower > truth) && !(own.upper < truth);
+    };
+    modulus_covered += covers(0, modulus_value);
+    touch_covered += covers(1, offset);
+  }
+  const double slack = 3.0 * std::sqrt(trials * 0.95 * 0.05);
+  EXPECT_NEAR(modulus_covered, 0.95 * trials, slack);
+  EXPECT_NEAR(touch_covered, 0.95 * trials, slack);
 }

@@ -108,12 +108,25 @@ TEST(ScaledModel, IsExactForCubics) {
   }
 }
 
+/// Where Poisson's ratio is held nothing lies between nodes.
+TEST(ScaledModel, AsksOnceWhereTheRatioIsHeld) {
+  std::vector<std::vector<double>> asked;
+  ScaledModel model(Formula{hertz, &asked}, {modulus}, rubber);
+  for (const double e : {3000.0, 4000.0, 5000.0}) {
+    const CurveSlopes got = model.evaluate(VectorXd::Constant(1, e));
+    EXPECT_LT((got.jacobian * e - got.value).norm(), 1e-13 * got.value.norm());
+  }
+  ASSERT_EQ(asked.size(), 1u);
+  EXPECT_EQ(asked[0], std::vector{rubber.poissons_ratio()});
+}
+
 /// The solver is asked for four neighbours at once, and never twice.
 TEST(ScaledModel, AsksWhereTheSearchIs) {
   std::vector<std::vector<double>> asked;
-  ScaledModel model(Formula{hertz, &asked}, {modulus}, rubber);
-  for (const double e : {3000.0, 4000.0, 5000.0}) model.evaluate(VectorXd::Constant(1, e));
-  ASSERT_EQ(asked.size(), 1u) << "the ratio is held";
+  ScaledModel model(Formula{hertz, &asked}, {shear_modulus}, rubber);
+  for (const double factor : {1.0, 0.9995, 1.0005})
+    model.evaluate(VectorXd::Constant(1, factor * rubber.shear_modulus));
+  ASSERT_EQ(asked.size(), 1u) << "they share their nodes";
   ASSERT_EQ(asked[0].size(), 4u);
   EXPECT_LT(asked[0][1], rubber.poissons_ratio());
   EXPECT_GT(asked[0][2], rubber.poissons_ratio());

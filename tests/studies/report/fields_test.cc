@@ -11,6 +11,7 @@
 #include "meshes/press_columns.h"
 #include "page_check.h"
 #include "studies/files/grasp_summary.h"
+#include "studies/files/plan_file.h"
 #include "studies/report/calibration_data.h"
 #include "studies/report/grasp_run.h"
 #include "studies/report/report.h"
@@ -314,6 +315,7 @@ TEST(FieldReference, NamesEveryField) {
   field_names<calibration::ModuliFile>(names);
   field_names<calibration::FitFile>(names);
   field_names<calibration::SurrogateFile>(names);
+  field_names<PlanFile>(names);
   for (const std::string& name : names) {
     const std::string bare = name.substr(0, name.find(" ["));
     EXPECT_TRUE(told.contains(name) || told.contains(bare)) << name;

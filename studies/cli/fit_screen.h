@@ -1,0 +1,18 @@
+/// What the screens of a fit and of a plan have in common.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibration/fit_file.h"
+
+namespace fingertip::studies {
+
+/// A value as the table of units shows it, and its unit.
+std::pair<double, std::string> as_shown(double value, const std::string& si);
+
+/// A row per further measurement: by how many times it would narrow the interval of each parameter.
+void print_next(const std::vector<calibration::NextEntry>& next);
+
+}  // namespace fingertip::studies
