@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "studies/bench/pace.h"
+#include "studies/run/fit_curves.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_setup.h"
@@ -28,13 +29,6 @@ fem_reference::ReferenceJob setup_for(const LoadedConfig& loaded, bool finite,
 }
 
 }  // namespace
-
-std::string samples_setting(const std::vector<double>& depths) {
-  std::string text;
-  for (const double depth : depths)
-    text += fmt::format("{}\"{:.9g} m\"", text.empty() ? "" : ",", depth);
-  return "press.samples=[" + text + "]";
-}
 
 std::vector<double> truth_depths(const BenchPlan& plan) {
   // Dense enough for the interpolation between them to be off by less than a tenth of a per cent.

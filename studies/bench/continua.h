@@ -17,9 +17,6 @@ namespace fingertip::studies {
 /// before.
 std::vector<double> truth_depths(const BenchPlan& plan);
 
-/// The setting that asks for these indentations [m]: 'press.samples=["0.001 m"]'.
-std::string samples_setting(const std::vector<double>& depths);
-
 /// Sticking contact, law A at finite strain or small strain, to the plan's depth.
 Job truth_job(const LoadedConfig& loaded, const BenchPlan& plan, bool finite);
 

@@ -8,6 +8,7 @@
 #include "lattice/press/press.h"
 #include "studies/bench/continua.h"
 #include "studies/bench/pace.h"
+#include "studies/run/fit_curves.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_setup.h"

@@ -130,6 +130,30 @@ double open_directions(const Evidence& run) {
   return fit.empty() ? meshes::unknown : double(fit.unidentifiable.size());
 }
 
+/// 1/times: how much of its interval a parameter keeps where the one that is most like it is known.
+double told_apart(const Evidence& run) {
+  const auto& rows = run.result.found.correlation;
+  if (rows.empty()) return meshes::unknown;
+  double least = 1.0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      least = std::min(least, std::sqrt(std::max(0.0, 1.0 - rows[i][j] * rows[i][j])));
+  return least;
+}
+
+/// 0 where the gravest suspect of a misfit, beyond chance, is one of `names`; else 1.
+RunMeasure suspects_first(const char* name, std::vector<std::string> names) {
+  return {name, {"fit"}, [names](const Evidence& run) {
+            const calibration::FitFile& fit = run.result.found;
+            if (fit.empty()) return meshes::unknown;
+            constexpr double by_no_chance = 1e-3;
+            const bool named =
+                !fit.lack_of_fit.empty() && fit.lack_of_fit.front().probability < by_no_chance &&
+                std::ranges::find(names, fit.lack_of_fit.front().name) != names.end();
+            return named ? 0.0 : 1.0;
+          }};
+}
+
 // The table.
 
 /// How a press's controller did.
@@ -210,6 +234,11 @@ std::vector<RunMeasure> all_measures() {
       {"load_error", {"grasp"}, [](R run) { return relative_error(run.grasp().held_load, 1.0); }},
       {"momentum_defect", {"grasp"}, [](R run) { return run.grasp().momentum_defect; }},
       {"open_directions", {"fit"}, open_directions},
+      {"told_apart", {"fit"}, told_apart},
+      {"fit_probability", {"fit"}, [](R run) { return run.result.found.chi_square_probability; }},
+      suspects_first("rig_unnamed", {"touch_offset", "compliance"}),
+      suspects_first("strain_unnamed", {"finite strain"}),
+      suspects_first("contact_unnamed", {"sticking", "slip"}),
       {"claims_certainty", {"fit"}, [](R run) {
          const double open = open_directions(run);
          return std::isnan(open) ? open : open > 0.0 ? 0.0 : 1.0;
@@ -217,6 +246,7 @@ std::vector<RunMeasure> all_measures() {
   // What a fit's parameter should be: the case's own rubber.
   const std::pair<std::string, double (*)(const Rubber&)> parameters[] = {
       {"youngs_modulus", [](const Rubber& r) { return r.youngs_modulus; }},
+      {"modulus", [](const Rubber& r) { return r.youngs_modulus; }},
       {"shear_modulus", [](const Rubber& r) { return r.shear_modulus; }},
       {"lame_shear", [](const Rubber& r) { return r.shear_modulus; }},
       {"lambda", [](const Rubber& r) { return r.lame_lambda(); }},

@@ -23,7 +23,7 @@ std::vector<std::string> conditions_of(const LoadedConfig& loaded);
 LoadedConfig under(const LoadedConfig& loaded, const std::vector<std::string>& condition,
                    const std::vector<std::string>& derived);
 
-/// A setting of press.samples.
+/// The setting that asks for these indentations [m]: 'press.samples=["0.001 m"]'.
 std::string samples_setting(const std::vector<double>& depths);
 
 /// Contact, tilt, obstacle and lateral motion in words.

@@ -95,6 +95,27 @@ TEST(FitMeasures, APredictionOfASeriesIsAskedOfItsFitsAlone) {
   EXPECT_FALSE(measures.contains("bad.stick"));
 }
 
+/// Correlations of 0.6 and 0.8: of what is most alike 0.6 of an interval stays.
+TEST(FitMeasures, TellWhatAMisfitIsPutDownTo) {
+  const Case study_case = two_fits();
+  RunResult fit = finished_run(study_case.runs[0], {});
+  fit.found = found[0];
+  fit.found.parameters[0].name = "modulus";
+  fit.found.correlation = {{1.0, 0.6, -0.8}, {0.6, 1.0, 0.0}, {-0.8, 0.0, 1.0}};
+  fit.found.chi_square_probability = 1e-5;
+  fit.found.lack_of_fit = {{"compliance", "", "", "m/N", 1.0, 20.0, 1e-5},
+                           {"finite strain", "", "", "1", 1.0, 18.0, 1e-5}};
+  auto measures = measures_of_run(study_case, fit, {});
+  EXPECT_NEAR(measures.at("told_apart"), 0.6, 1e-12);
+  EXPECT_DOUBLE_EQ(measures.at("fit_probability"), 1e-5);
+  EXPECT_DOUBLE_EQ(measures.at("rig_unnamed"), 0.0);
+  EXPECT_DOUBLE_EQ(measures.at("strain_unnamed"), 1.0);
+  EXPECT_DOUBLE_EQ(measures.at("contact_unnamed"), 1.0);
+  EXPECT_NEAR(measures.at("modulus_error"), 0.01, 1e-12);
+  fit.found.lack_of_fit[0].probability = 0.2;
+  EXPECT_DOUBLE_EQ(measures_of_run(study_case, fit, {}).at("rig_unnamed"), 1.0) << "by chance";
+}
+
 TEST(FitMeasures, EveryMeasureHasAName) {
   const Case study_case = two_fits();
   const std::vector<std::string> names = measure_names(study_case);
