@@ -83,6 +83,29 @@ std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& 
   return found;
 }
 
+Accusation accusation(const CurveFit& before, const CurveFit& after, const Suspect& what) {
+  if (before.chi_square.has_value() != after.chi_square.has_value())
+    throw meshes::InvalidInput({"suspects." + what.name, "sigma of one fit alone",
+                                "chi-square is compared with chi-square",
+                                "do both fits with the same curves and loss"});
+  const auto squares = [](const CurveFit& fit) {
+    double sum = 0.0;
+    for (const VectorXd& curve : fit.residuals) sum += curve.squaredNorm();
+    return sum;
+  };
+  const double variance = std::max(std::pow(before.residual_deviation, 2), 1e-300);
+  const double decrease =
+      std::max(0.0, before.chi_square ? *before.chi_square - *after.chi_square
+                                      : (squares(before) - squares(after)) / variance);
+  return {what.name,
+          what.of,
+          what.cause,
+          what.unit,
+          after.estimates(after.estimates.size() - 1),
+          decrease,
+          probability_of(decrease, before)};
+}
+
 VectorXd narrowing(const MatrixXd& covariance, const MatrixXd& rows, const MatrixXd& own) {
   // In units of the standard errors, so that parameters of all units are alike.
   const VectorXd errors = covariance.diagonal().cwiseSqrt();

@@ -37,6 +37,12 @@ struct Accusation {
 std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& options,
                                     const std::vector<Suspect>& suspects);
 
+/// The same of a fit that was done again with the number free, `after`, whose last parameter it is:
+/// what chi-square, or without sigma the squares over the variance of `before`, has lost indeed.
+/// Where a model is far from its data, as with a touch at the wrong place, first order misleads.
+/// `what` needs no change. Throws InvalidInput for fits of which only one knows sigma.
+Accusation accusation(const CurveFit& before, const CurveFit& after, const Suspect& what);
+
 /// Standard errors of the parameters after further values, over those of `covariance`: 1 where
 /// they tell nothing. `rows` are the values' derivatives by the parameters over the values'
 /// deviations; `own` those by parameters that the further measurement brings along, such as its

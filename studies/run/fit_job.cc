@@ -174,8 +174,7 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   stage = "profile";
   if (!input.profile.empty()) add_profile(input, list, record);
   stage = "lack of fit";
-  record.lack_of_fit =
-      calibration::accusations(record.fit, record.options, suspects_of(input, record.fit, models));
+  record.lack_of_fit = accusations_of(input, record.fit, record.options, models);
   if (record.fit.converged && !input.candidates.empty())
     record.next =
         outlook(input, models, record.fit.estimates, record.fit.residual_deviation, folder, context,

@@ -186,6 +186,10 @@ std::unique_ptr<calibration::RigModel> FitModels::behind_rig(const FitInput& inp
                                                  curve.x, curve.time, parameters);
 }
 
+Eigen::VectorXd FitModels::press_forces(std::size_t i, const Eigen::VectorXd& rubber) const {
+  return remembering_[i]->evaluate(rubber).value;
+}
+
 std::vector<double> FitModels::indentations(std::size_t i,
                                             const Eigen::VectorXd& parameters) const {
   if (rigs_.empty()) return {};

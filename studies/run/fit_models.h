@@ -37,6 +37,10 @@ class FitModels {
                                                     const calibration::Curve& curve,
                                                     Eigen::Index parameters) const;
 
+  /// What the press of curve `i` answers for the rubber's parameters: at the depths of its travel,
+  /// or at its values [N].
+  Eigen::VectorXd press_forces(std::size_t i, const Eigen::VectorXd& rubber) const;
+
   /// Indentations of the values of curve `i` at the parameters, 0 before touch; empty without rig.
   std::vector<double> indentations(std::size_t i, const Eigen::VectorXd& parameters) const;
 

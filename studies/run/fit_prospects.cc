@@ -294,8 +294,9 @@ Joint with_blank(Joint joint, const VectorXd& parameters, const VectorXd& standa
   const auto compliance =
       std::ranges::find(joint.free, MaterialParameter::compliance, &FreeParameter::parameter);
   const Index place = compliance - joint.free.begin();
-  // On a rigid machine a blank has no travel at all: then the compliance is known.
-  const double soft = std::max(std::abs(parameters(place)), 1e-6 * standard_errors(place));
+  // Of what may be zero as far as the presses tell its error is the size: a blank on a rigid
+  // machine has no travel at all.
+  const double soft = std::max(std::abs(parameters(place)), standard_errors(place));
   const VectorXd forces = joint.forces;
   joint.free.push_back({.parameter = MaterialParameter::touch_offset});
   MatrixXd rows = MatrixXd::Zero(forces.size(), Index(joint.free.size()));

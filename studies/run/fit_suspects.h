@@ -8,11 +8,13 @@
 
 namespace fingertip::studies {
 
-/// Of measured presses: touch offset and zero of the force of every curve and compliance of every
-/// machine where they are not fitted, drift where there are times, and what FitInput::excesses
-/// knows (finite strain, the other contact). At the estimates of `fit`.
-std::vector<calibration::Suspect> suspects_of(const FitInput& input,
-                                              const calibration::CurveFit& fit,
-                                              const FitModels& models);
+/// Of measured presses, at the estimates of `fit`, the gravest first: touch offset and zero of the
+/// force of every curve and compliance of every machine where they are not fitted, drift where
+/// there are times, each fitted together with the scale of the forces and the rig's own parameters;
+/// and to first order what FitInput::excesses knows (finite strain, the other contact).
+std::vector<calibration::Accusation> accusations_of(const FitInput& input,
+                                                    const calibration::CurveFit& fit,
+                                                    const calibration::CurveFitOptions& options,
+                                                    const FitModels& models);
 
 }  // namespace fingertip::studies
