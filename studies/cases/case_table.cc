@@ -238,7 +238,8 @@ class CaseReader {
   void read_settings(const toml::table& settings, CaseRun& run) {
     for (const auto& [key, value] : settings) {
       const std::string name(key.str());
-      if (value.is_table()) {
+      const Key* known = find_key(name);
+      if (value.is_table() && (known == nullptr || known->kind != Kind::fields)) {
         problem(value, "case.variant.set", name, "must be a full key and its value",
                 "put the key in quotes: \"" + name + ".key\" = value");
       } else if (is_derived(name, run.kind)) {

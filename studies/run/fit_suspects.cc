@@ -4,6 +4,8 @@
 #include <deque>
 #include <map>
 
+#include "calibration/curves/fit_statistics.h"
+
 namespace fingertip::studies {
 
 using calibration::Accusation;
@@ -21,6 +23,9 @@ namespace {
 constexpr MaterialParameter of_rigs[] = {MaterialParameter::touch_offset,
                                          MaterialParameter::compliance,
                                          MaterialParameter::force_offset, MaterialParameter::drift};
+
+/// A misfit that chance makes less often than this is one.
+constexpr double by_no_chance = 1e-3;
 
 const char* cause_of(MaterialParameter parameter) {
   switch (parameter) {
@@ -58,6 +63,13 @@ class ScaledPress final : public calibration::ForwardModel {
   VectorXd forces_;
 };
 
+/// One of `of_rigs` of a curve, or of the curves of a machine.
+struct Freed {
+  Index kind = 0;
+  std::string of;
+  std::vector<std::size_t> curves;
+};
+
 /// Fits of the forces' scale, of what of the rigs is fitted and of one thing more.
 class Trials {
  public:
@@ -81,50 +93,66 @@ class Trials {
     }
     for (std::size_t i = 0; i < input.curves.size(); ++i)
       presses_.emplace_back(models.press_forces(i, fit.estimates.head(Index(rubber))));
-    before_ = fitted(options_, Index(-1), {});
+    before_ = fitted({});
   }
 
   /// Throws as fits do.
-  Accusation of(const Suspect& what, Index k, const std::vector<std::size_t>& curves) {
-    calibration::CurveFitOptions options = options_;
-    FreeParameter free{.parameter = of_rigs[k]};
+  Accusation of(const Suspect& what, const Freed& freed) {
+    return calibration::accusation(before_, fitted({freed}), what);
+  }
+
+  /// Chi-square, or squares over their variance, that is left with all of these freed.
+  double left(const std::vector<Freed>& freed) {
+    return squares_of(before_) - calibration::accusation(before_, fitted(freed), {}).decrease;
+  }
+  double before() const { return squares_of(before_); }
+  int freedom() const { return before_.degrees_of_freedom; }
+
+ private:
+  static constexpr int most_trials = 200;
+  static constexpr double lowest_compliance = 0.1, highest_compliance = 0.9;
+
+  static double squares_of(const calibration::CurveFit& fit) {
+    return fit.chi_square.value_or(double(fit.degrees_of_freedom));
+  }
+
+  FreeParameter parameter_of(const Freed& freed) const {
+    FreeParameter free{.parameter = of_rigs[freed.kind]};
     double reach = 0.0, force = 0.0, span = 0.0;
-    for (const std::size_t i : curves) {
+    for (const std::size_t i : freed.curves) {
       const Curve& curve = input_.curves[i];
       reach = std::max(reach, curve.x.back() - curve.x.front());
       force = std::max(force, *std::ranges::max_element(curve.y));
       if (!curve.time.empty()) span = std::max(span, curve.time.back() - curve.time.front());
       if (is_travel(input_, i)) {
         Rig rig = input_.travels[i]->rig;
-        free.start = quantity_of(rig, k).value;
+        free.start = quantity_of(rig, freed.kind).value;
       }
     }
     const double scales[] = {reach, reach / force, force, force / std::max(span, 1e-9)};
-    free.scale = scales[k];
-    if (of_rigs[k] == MaterialParameter::compliance) {
+    free.scale = scales[freed.kind];
+    free.of = freed.of;
+    if (of_rigs[freed.kind] == MaterialParameter::compliance) {
       free.lower = free.start - lowest_compliance * free.scale;
       free.upper = free.start + highest_compliance * free.scale;
     }
-    options.free.push_back(free);
-    return calibration::accusation(before_, fitted(options, k, curves), what);
+    return free;
   }
 
- private:
-  static constexpr int most_trials = 200;
-  static constexpr double lowest_compliance = 0.1, highest_compliance = 0.9;
-
-  calibration::CurveFit fitted(const calibration::CurveFitOptions& options, Index k,
-                               const std::vector<std::size_t>& curves) {
+  calibration::CurveFit fitted(const std::vector<Freed>& freed) {
+    calibration::CurveFitOptions options = options_;
+    for (const Freed& each : freed) options.free.push_back(parameter_of(each));
+    const Index count = Index(options.free.size()), own = Index(options_.free.size());
     std::vector<std::unique_ptr<calibration::RigModel>> models;
     std::vector<calibration::ForwardModel*> list;
-    const Index count = Index(options.free.size());
     for (std::size_t i = 0; i < input_.curves.size(); ++i) {
       const bool travel = is_travel(input_, i);
       Rig rig = travel ? input_.travels[i]->rig : Rig{};
       for (Index q = 0; q < 4; ++q)
         if (auto& place = quantity_of(rig, q).place) place = *place - shift_;
-      if (k >= 0 && std::ranges::find(curves, i) != curves.end())
-        quantity_of(rig, k).place = count - 1;
+      for (std::size_t f = 0; f < freed.size(); ++f)
+        if (std::ranges::find(freed[f].curves, i) != freed[f].curves.end())
+          quantity_of(rig, freed[f].kind).place = own + Index(f);
       models.push_back(std::make_unique<calibration::RigModel>(
           presses_[i], travel ? input_.travels[i]->depths : input_.presses[i].protocol.samples, 1,
           rig, input_.curves[i].x, input_.curves[i].time, count));
@@ -162,38 +190,66 @@ Stack stacked(const FitInput& input, const calibration::CurveFit& fit) {
 
 namespace {
 
-/// The rig's quantities that the fit holds, each freed alone.
-void add_rigs(const FitInput& input, Trials& trials, std::vector<Accusation>& found) {
+/// The rig's quantities that the fit holds.
+std::vector<Freed> held_by(const FitInput& input) {
+  std::vector<Freed> held;
   const std::size_t curves = input.curves.size();
   std::map<std::string, std::vector<std::size_t>> machines;
   for (std::size_t i = 0; i < curves; ++i)
     machines[is_travel(input, i) ? input.travels[i]->machine : ""].push_back(i);
-  const auto tried = [&](Index k, const std::string& of, const std::vector<std::size_t>& which) {
-    const MaterialParameter parameter = of_rigs[k];
-    const Suspect what{std::string(calibration::name(parameter)),
-                       of,
-                       cause_of(parameter),
-                       std::string(calibration::unit(parameter)),
-                       {}};
-    try {
-      found.push_back(trials.of(what, k, which));
-    } catch (const meshes::NotConverged&) {  // nothing is known of it
-    } catch (const meshes::InvalidInput&) {
-    }
-  };
   for (Index k = 0; k < 4; ++k) {
     if (of_rigs[k] == MaterialParameter::compliance) {
       for (const auto& [machine, which] : machines)
         if (!is_fitted(input, which.front(), k))
-          tried(k, machines.size() == 1 ? "" : machine, which);
+          held.push_back({k, machines.size() == 1 ? "" : machine, which});
       continue;
     }
     for (std::size_t i = 0; i < curves; ++i) {
       const bool no_times = of_rigs[k] == MaterialParameter::drift && input.curves[i].time.empty();
       if (!no_times && !is_fitted(input, i, k))
-        tried(k, curves == 1 ? "" : input.curves[i].name, {i});
+        held.push_back({k, curves == 1 ? "" : input.curves[i].name, {i}});
     }
   }
+  return held;
+}
+
+/// What throws tells nothing.
+template <typename Do>
+void if_it_can_be(const Do& act) {
+  try {
+    act();
+  } catch (const meshes::NotConverged&) {
+  } catch (const meshes::InvalidInput&) {
+  }
+}
+
+/// The two kinds of a rig's quantities that explain most together, where none does alone.
+std::vector<std::string> best_pair(Trials& trials, const std::vector<Freed>& held,
+                                   const std::vector<Accusation>& found) {
+  double least = trials.before();
+  for (const Accusation& each : found) least = std::min(least, trials.before() - each.decrease);
+  if (trials.freedom() < 3 ||
+      calibration::chi_square_above(std::max(0.0, least), trials.freedom() - 1) > by_no_chance)
+    return {};
+  std::vector<std::string> pair;
+  for (Index a = 0; a < 4; ++a)
+    for (Index b = a + 1; b < 4; ++b) {
+      std::vector<Freed> both;
+      for (const Freed& each : held)
+        if (each.kind == a || each.kind == b) both.push_back(each);
+      const auto is = [&](Index kind) {
+        return std::ranges::find(both, kind, &Freed::kind) != both.end();
+      };
+      if (!is(a) || !is(b)) continue;
+      if_it_can_be([&] {
+        const double left = trials.left(both);
+        if (left >= least) return;
+        least = left;
+        pair = {std::string(calibration::name(of_rigs[a])),
+                std::string(calibration::name(of_rigs[b]))};
+      });
+    }
+  return pair;
 }
 
 }  // namespace
@@ -215,13 +271,29 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
     }
   }
   found = calibration::accusations(fit, options, suspects);
-  try {
+  const auto gravest_first = [&] {
+    std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);
+  };
+  gravest_first();
+  if_it_can_be([&] {  // a press without forces has no rig
     Trials trials(input, fit, options, models);
-    add_rigs(input, trials, found);
-  } catch (const meshes::NotConverged&) {  // a press without forces has no rig
-  } catch (const meshes::InvalidInput&) {
-  }
-  std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);
+    const std::vector<Freed> held = held_by(input);
+    for (const Freed& each : held)
+      if_it_can_be([&] {
+        const MaterialParameter parameter = of_rigs[each.kind];
+        found.push_back(trials.of({std::string(calibration::name(parameter)),
+                                   each.of,
+                                   cause_of(parameter),
+                                   std::string(calibration::unit(parameter)),
+                                   {}},
+                                  each));
+      });
+    gravest_first();
+    const std::vector<std::string> pair = best_pair(trials, held, found);
+    std::ranges::stable_partition(found, [&](const Accusation& each) {
+      return std::ranges::find(pair, each.name) != pair.end();
+    });
+  });
   return found;
 }
 

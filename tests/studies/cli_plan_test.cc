@@ -171,6 +171,33 @@ TEST(Plan, RefusesWhatIsNoPlan) {
           "one per file");
 }
 
+/// Touch and compliance wrongly held at zero: the fit says that it misses its data, and one of the
+/// two stands first.
+TEST(Plan, NamesARigThatIsHeldAtZero) {
+  const TemporaryFolder folder;
+  const std::string rig =
+      "calibration.rig={touch_offset = \"0.1 +- 1 mm\", compliance = \"2 mm/N\"}";
+  const ProgramResult planned = run_program(
+      folder.path(), with(experiment, {rig, "calibration.data=[\"a.csv\"]", "calibration.points=30",
+                                       "calibration.candidates=[]"}) +
+                         Words{"--plan", "--out", "plan"});
+  ASSERT_EQ(planned.code, 0) << planned.err;
+  write_measured(folder.path(), folder / "plan/planned_presses.csv");
+  const ProgramResult run = run_program(
+      folder.path(),
+      with(experiment, {"calibration.data=[\"a.csv\"]", "calibration.candidates=[]",
+                        "calibration.rig={touch_offset = \"0 mm\", compliance = \"0 mm/N\"}"}) +
+          Words{"--out", "fit"});
+  EXPECT_EQ(run.code, 4) << run.err;
+  const json fit = read(folder / "fit/calibration.json");
+  EXPECT_LT(fit["chi_square_probability"].get<double>(), 1e-3);
+  const json& first = fit["lack_of_fit"][0];
+  EXPECT_TRUE(first["name"] == "touch_offset" || first["name"] == "compliance")
+      << fit["lack_of_fit"];
+  EXPECT_LT(first["probability"].get<double>(), 1e-3);
+  EXPECT_NE(run.out.find("What is missed looks most like"), std::string::npos) << run.out;
+}
+
 /// A contact that nobody told: both are fitted, and the intervals cover both.
 TEST(Plan, FitsBothContactsWhereNoneIsTold) {
   const TemporaryFolder folder;

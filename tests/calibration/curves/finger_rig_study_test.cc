@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <random>
 
@@ -31,8 +32,8 @@ struct Table {
   std::vector<double> depths, forces;
 
   explicit Table(const std::string& name) {
-    const auto response =
-        meshes::PressResponse::read_csv(std::string(FINGERTIP_PRESS_DATA) + "/" + name + ".csv");
+    const auto response = meshes::PressResponse::read_csv(
+        std::filesystem::path(FINGERTIP_PRESS_DATA) / (name + ".csv"));
     for (const auto& sample : response.samples()) {
       depths.push_back(sample.indentation);
       forces.push_back(sample.normal_force);
