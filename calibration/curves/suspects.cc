@@ -75,9 +75,10 @@ std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& 
     change = without_columns(change, jacobian);
     if (!(change.norm() > imitated * size)) continue;
     const double shared = change.dot(residuals), square = change.squaredNorm();
-    const double decrease = shared * shared / square;
-    found.push_back({suspect.name, suspect.of, suspect.cause, suspect.unit, shared / square,
-                     decrease, probability_of(decrease, fit)});
+    const double amount = std::clamp(shared / square, suspect.least, suspect.most);
+    const double decrease = std::max(0.0, amount * (2.0 * shared - amount * square));
+    found.push_back({suspect.name, suspect.of, suspect.cause, suspect.unit, amount, decrease,
+                     probability_of(decrease, fit)});
   }
   std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);
   return found;

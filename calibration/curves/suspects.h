@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct Suspect {
   std::string unit = "1";  ///< of the number
   /// d(values)/d(number) at the estimates, for all values of all curves in order [y per unit].
   Eigen::VectorXd change;
+  /// What the number can be at all: of another theory, which is 1, no more than that by far.
+  double least = -std::numeric_limits<double>::infinity(),
+         most = std::numeric_limits<double>::infinity();
 };
 
 /// What freeing that number beside the fit's own parameters would do, to first order.
@@ -29,7 +33,7 @@ struct Accusation {
 
 /// Rao's score test of every suspect, the largest decrease first: with whitened residuals r and
 /// changes v, both without what the fit's parameters can do (J and the priors' rows),
-///   amount = v.r/v.v,   decrease = (v.r)²/v.v,
+///   amount a = v.r/v.v within the suspect's bounds,   decrease = 2 a v.r - a² v.v,
 /// chi-square of one degree of freedom where sigma is given; else F of 1 and dof - 1 from
 /// decrease/((dof - decrease)/(dof - 1)). Suspects whose change the parameters imitate (less than
 /// 1e-6 of v is left) accuse nobody and are left out. Large amounts are beyond first order: the

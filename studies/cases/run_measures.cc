@@ -141,16 +141,21 @@ double told_apart(const Evidence& run) {
   return least;
 }
 
-/// 0 where the gravest suspect of a misfit, beyond chance, is one of `names`; else 1.
-RunMeasure suspects_first(const char* name, std::vector<std::string> names) {
-  return {name, {"fit"}, [names](const Evidence& run) {
+/// So many the statement of a fit names.
+constexpr std::size_t told_suspects = 3;
+
+/// 0 where one of `names` is among the first `count` suspects of a misfit and beyond chance;
+/// else 1.
+RunMeasure suspects(const char* name, std::size_t count, std::vector<std::string> names) {
+  return {name, {"fit"}, [count, names](const Evidence& run) {
             const calibration::FitFile& fit = run.result.found;
             if (fit.empty()) return meshes::unknown;
             constexpr double by_no_chance = 1e-3;
-            const bool named =
-                !fit.lack_of_fit.empty() && fit.lack_of_fit.front().probability < by_no_chance &&
-                std::ranges::find(names, fit.lack_of_fit.front().name) != names.end();
-            return named ? 0.0 : 1.0;
+            for (std::size_t i = 0; i < std::min(count, fit.lack_of_fit.size()); ++i)
+              if (fit.lack_of_fit[i].probability < by_no_chance &&
+                  std::ranges::find(names, fit.lack_of_fit[i].name) != names.end())
+                return 0.0;
+            return 1.0;
           }};
 }
 
@@ -236,9 +241,9 @@ std::vector<RunMeasure> all_measures() {
       {"open_directions", {"fit"}, open_directions},
       {"told_apart", {"fit"}, told_apart},
       {"fit_probability", {"fit"}, [](R run) { return run.result.found.chi_square_probability; }},
-      suspects_first("rig_unnamed", {"touch_offset", "compliance"}),
-      suspects_first("strain_unnamed", {"finite strain"}),
-      suspects_first("contact_unnamed", {"sticking", "slip"}),
+      suspects("rig_unnamed", 1, {"touch_offset", "compliance"}),
+      suspects("strain_unnamed", told_suspects, {"finite strain"}),
+      suspects("contact_unnamed", told_suspects, {"sticking", "slip"}),
       {"claims_certainty", {"fit"}, [](R run) {
          const double open = open_directions(run);
          return std::isnan(open) ? open : open > 0.0 ? 0.0 : 1.0;

@@ -24,6 +24,9 @@ constexpr MaterialParameter of_rigs[] = {MaterialParameter::touch_offset,
                                          MaterialParameter::compliance,
                                          MaterialParameter::force_offset, MaterialParameter::drift};
 
+/// Another theory is there or not; coarse lattices tell its forces to a half.
+constexpr double most_excess = 1.5;
+
 /// A misfit that chance makes less often than this is one.
 constexpr double by_no_chance = 1e-3;
 
@@ -262,8 +265,8 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
   const Stack stack = stacked(input, fit);
   std::vector<Suspect> suspects;
   for (const Excess& excess : input.excesses) {
-    Suspect& suspect = suspects.emplace_back(
-        Suspect{excess.name, "", excess.cause, "1", VectorXd::Zero(stack.values)});
+    Suspect& suspect = suspects.emplace_back(Suspect{
+        excess.name, "", excess.cause, "1", VectorXd::Zero(stack.values), 0.0, most_excess});
     for (std::size_t i = 0; i < input.curves.size(); ++i) {
       const std::vector<double> relative = at_values(input, i, excess.at_samples[i]);
       suspect.change.segment(stack.first[i], Index(relative.size())) =

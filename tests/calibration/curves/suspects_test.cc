@@ -94,6 +94,28 @@ TEST(Suspects, TellWhatARefitWithTheirNumberFreeFinds) {
   EXPECT_LT(found[0].probability, 1e-6);
 }
 
+/// A number that is held at its bound: the fit to data without so much of the change.
+TEST(Suspects, StayWithinTheirBounds) {
+  Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.3, 0.0)), true);
+  const CurveFit without = fit_of(curve, 2, {0, 1});
+  Suspect square = both()[0];
+  ASSERT_EQ(square.name, "square");
+  square.least = 0.0;
+  square.most = 0.1;
+  const auto found = accusations(without, options(2), {square});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].amount, 0.1);
+  for (std::size_t i = 0; i < curve.y.size(); ++i) curve.y[i] -= 0.1 * square.change(Index(i));
+  const CurveFit less = fit_of(curve, 2, {0, 1});
+  EXPECT_NEAR(found[0].decrease, *without.chi_square - *less.chi_square,
+              1e-6 * *without.chi_square);
+  square.change = -square.change;
+  const auto none = accusations(without, options(2), {square});
+  EXPECT_EQ(none[0].amount, 0.0);
+  EXPECT_EQ(none[0].decrease, 0.0);
+  EXPECT_EQ(none[0].probability, 1.0);
+}
+
 TEST(Suspects, WithoutSigmaAreJudgedByTheResidualVariance) {
   const Curve curve = curve_of(noisy(Eigen::Vector4d(1.0, 2.0, 0.3, 0.02)), false);
   const auto found = accusations(fit_of(curve, 2, {0, 1}), options(2), both());
