@@ -125,8 +125,11 @@ void add_export(CLI::App& sub, CommandLine& line) {
          "--format", line.format,
          "lammps: an undamped lattice ([exchange]); fitted to the continuum, pressure-law: "
          "pressure over penetration, mujoco: a rigid geom and a flex, drake: a hydroelastic ball, "
-         "sofa, vtk: a soft body of tetrahedra, all: each of them and a table of their errors")
-      ->check(CLI::IsMember({"lammps", "pressure-law", "mujoco", "drake", "sofa", "vtk", "all"}))
+         "sofa, vtk: a soft body of tetrahedra, all: each of them and a table of their errors, "
+         "fmu: "
+         "the lattice as a functional mock-up unit")
+      ->check(
+          CLI::IsMember({"lammps", "pressure-law", "mujoco", "drake", "sofa", "vtk", "all", "fmu"}))
       ->capture_default_str();
   sub.add_flag("--lossy", line.lossy, "go on where the format cannot say all of the model");
 }
