@@ -5,6 +5,7 @@
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/exchange/contact_export.h"
+#include "studies/exchange/fmu_files.h"
 #include "studies/exchange/lammps_files.h"
 #include "studies/exchange/lammps_import.h"
 #include "studies/run/interrupt.h"
@@ -94,6 +95,19 @@ int export_contact(const CommandLine& line) {
   });
 }
 
+int export_fmu(const CommandLine& line) {
+  const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::press);
+  const FmuExport unit = fmu_export(loaded);
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const fs::path& folder = session.folder().path();
+    write_fmu(unit, folder);
+    if (line.quiet) return 0;
+    fmt::print("finger.fmu: FMI 2.0 for co-simulation, step {:.4g} s\nhow to use it: {}\n",
+               unit.period, (folder / "README.md").string());
+    return 0;
+  });
+}
+
 int export_lammps(const CommandLine& line) {
   const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::modes);
   const UndampedBody body = undamped_body(loaded);
@@ -117,7 +131,9 @@ int export_lammps(const CommandLine& line) {
 }  // namespace
 
 int run_export(const CommandLine& line) {
-  return line.format == "lammps" ? export_lammps(line) : export_contact(line);
+  return line.format == "lammps" ? export_lammps(line)
+         : line.format == "fmu"  ? export_fmu(line)
+                                 : export_contact(line);
 }
 
 int run_import(const CommandLine& line) {
