@@ -1,6 +1,7 @@
 #include "calibration/contact_laws/pressure_law.h"
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>

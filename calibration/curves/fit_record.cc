@@ -104,7 +104,24 @@ CurveEntry curve_entry(const FitRecord& record, std::size_t i) {
                       without.failure.empty() ? without.worst_relative_error : unknown,
                       without.failure};
   }
+  const Course& course = curve.course;
+  if (course.rows > 0)
+    entry.course = {course.rows,       course.noise,  course.loop,  course.hold_time,
+                    course.relaxation, course.back_x, course.back_y};
   return entry;
+}
+
+std::vector<RepeatsEntry> repeats_entries(const FitRecord& record) {
+  std::vector<RepeatsEntry> entries;
+  for (const Repeats& each : record.repeats) {
+    RepeatsEntry& entry = entries.emplace_back();
+    for (const std::size_t curve : each.curves) entry.curves.push_back(record.curves[curve].name);
+    entry.factors = each.factors, entry.factor_errors = each.factor_errors;
+    entry.deviation = each.deviation, entry.probability = each.probability;
+    entry.travel = each.travel, entry.mean = each.mean;
+    entry.scatter = each.scatter, entry.noise = each.noise;
+  }
+  return entries;
 }
 
 std::optional<ProfileEntry> profile_entry(const FitRecord& record) {
@@ -272,6 +289,7 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
   fit.failed = failed_tests(record);
   fit.rig = rig_file(record);
   fit.lack_of_fit = accusation_entries(record);
+  fit.repeats = repeats_entries(record);
   fit.statement = fit_statement(record);
   meshes::write_json_file(fit, file);
 }

@@ -9,6 +9,7 @@
 #include "calibration/curves/curve.h"
 #include "calibration/curves/curve_checks.h"
 #include "calibration/curves/curve_fit.h"
+#include "calibration/curves/repeats.h"
 #include "calibration/curves/suspects.h"
 #include "calibration/material.h"
 
@@ -41,6 +42,7 @@ struct FitRecord {
   std::vector<RigValue> rig;                     ///< of presses over travel
   std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
   std::vector<Accusation> lack_of_fit;           ///< gravest first
+  std::vector<Repeats> repeats;                  ///< groups of curves
   double wall_time = 0.0;                        ///< [s]
 };
 

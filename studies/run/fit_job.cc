@@ -11,6 +11,7 @@
 #include "source_hash.h"
 #include "studies/run/fit_material.h"
 #include "studies/run/fit_models.h"
+#include "studies/run/fit_repeats.h"
 #include "studies/run/fit_suspects.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -160,6 +161,13 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
 
   calibration::FitRecord record = described(input);
   record.fit = search(input, models);
+  stage = "repeats";
+  record.repeats = repeats_in(input, record.fit);
+  if (scatter(record.repeats)) {
+    record.fit = fit_with_scatter(input, list, record.fit, record.repeats);
+    record.model_error +=
+        std::string(record.model_error.empty() ? "" : " and ") + "the scatter between repeats";
+  }
   record.options = input.options;
   stage = "curves left out";
   if (input.curves.size() > 1)

@@ -144,7 +144,7 @@ TEST(FuzzData, MeasuredCurves) {
                                                 measured::creep,        measured::relaxation};
   fuzz::attack({seeds, words}, fuzz::refusing<ConfigError>([&](const std::string& input) {
                  write_text(file, input);
-                 const MeasuredFile measured = read_measured(file, allowed);
+                 const MeasuredFile measured = read_measured({file}, allowed).at(0);
                  const calibration::Curve& curve = measured.curve;
                  EXPECT_FALSE(curve.x.empty());
                  EXPECT_LE(curve.x.size(), 200U);
