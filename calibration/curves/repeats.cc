@@ -111,11 +111,12 @@ void tell_scatter(Repeats& repeats, const std::vector<Curve>& curves,
     double noise = 0.0, mean = 0.0, squares = 0.0;
     for (const std::size_t i : repeats.curves) {
       const VectorXd net = values_of(curves[i]) - zero[i];
-      forces.push_back(meshes::interpolated(curves[i].x, {net.begin(), net.end()}, at + touch[i]));
+      const std::vector<double> force(net.begin(), net.end());
+      forces.push_back(meshes::interpolated(curves[i].x, force, at + touch[i]));
       mean += forces.back() / count;
       noise += std::pow(curves[i].course.noise, 2) / count;
     }
-    for (const double force : forces) squares += std::pow(force - mean, 2);
+    for (const double each : forces) squares += std::pow(each - mean, 2);
     repeats.travel.push_back(at);
     repeats.mean.push_back(mean);
     repeats.scatter.push_back(std::sqrt(squares / (count - 1.0)));

@@ -408,3 +408,54 @@ TEST_F(MeasuredData, AnEncoderThatStandsStillIsAveraged) {
   EXPECT_TRUE(std::ranges::is_sorted(file.curve.x, std::less_equal<>()));
   EXPECT_NE(file.notes.back().find("averaged"), std::string::npos);
 }
+
+/// Up to 1 mm in 100 s with a hold of 100 s half way and one at the end: in each the force falls by
+/// a tenth.
+TEST_F(MeasuredData, HoldsAreToldAndCut) {
+  std::string text = "time [s],position [mm],force [N]\n";
+  int second = 0;
+  const auto row = [&](double x, double force) {
+    text += std::to_string(second++) + "," + std::to_string(x) + "," + std::to_string(force) + "\n";
+  };
+  const auto hold = [&](double x) {
+    for (int i = 1; i <= 100; ++i) row(x, x * (1.0 - 0.1 * (1.0 - std::exp(-0.1 * i))));
+  };
+  for (int i = 0; i <= 200; ++i) row(0.0025 * i, 0.0025 * i);
+  hold(0.5);
+  for (int i = 201; i <= 400; ++i) row(0.0025 * i, 0.0025 * i);
+  hold(1.0);
+  for (int i = 400; i >= 0; --i) row(0.0025 * i, 0.002 * i);
+  const MeasuredFile file = read(text);
+  const auto& course = file.curve.course;
+  EXPECT_EQ(course.rows, 1002U);
+  // Means of the first and last ten rows.
+  double first = 0.0;
+  for (int i = 1; i <= 10; ++i) first += 0.1 * (1.0 - 0.1 * (1.0 - std::exp(-0.1 * i)));
+  EXPECT_NEAR(course.relaxation, 1.0 - 0.9 / first, 2e-3);
+  EXPECT_NEAR(course.hold_time, 99.0, 5.0);
+  // The work is 0.5 N mm, 0.4 N mm come back: the triangle of a fifth.
+  EXPECT_NEAR(course.loop, 0.2, 0.01);
+  EXPECT_GE(course.back_x.size(), 100U);
+  for (std::size_t i = 0; i < file.curve.x.size(); ++i)
+    EXPECT_NEAR(file.curve.y[i], 1e3 * file.curve.x[i], 2e-3) << i << ": nothing relaxed is fitted";
+  const std::string notes = testing::PrintToString(file.notes);
+  EXPECT_NE(notes.find("a hold, "), std::string::npos) << notes;
+  EXPECT_NE(notes.find("the force falls by"), std::string::npos) << notes;
+}
+
+/// Rows that become ever sparser stand nowhere still.
+TEST_F(MeasuredData, DenseRowsAreNoHold) {
+  std::string text = "position [mm],force [N]\n";
+  for (int i = 0; i < 190; ++i) {
+    const double x = std::pow(10.0, -3.0 + 4.0 * i / 190.0);
+    text += std::to_string(x) + "," + std::to_string(x) + "\n";
+  }
+  EXPECT_EQ(read(text).curve.x.size(), 190U);
+}
+
+TEST_F(MeasuredData, NoiseIsThatOfSingleRows) {
+  for (const int rows : {150, 20000}) {
+    const double noise = read(dense({.force_noise = 3.0, .rows = rows})).curve.course.noise;
+    EXPECT_NEAR(noise, 3e-3, rows > 1000 ? 0.1e-3 : 0.9e-3) << rows;
+  }
+}

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <random>
 
 #include "calibration/curves/curve_fit.h"
 #include "meshes/errors.h"
@@ -277,6 +278,28 @@ TEST_F(MachineFiles, Spreadsheet) {
                                grouped(1e3 * row.force, 2, ','));
           }),
       "position = {column = 2, unit = \"um\"}\nforce = {column = 3, unit = \"mN\"}\n");
+}
+
+/// Ten thousand rows with noise in force and travel: means in bins have the modulus of the press.
+TEST_F(MachineFiles, ThinningBiasesNothing) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  constexpr int files = 24;
+  double sum = 0.0, squares = 0.0;
+  for (int file = 0; file < files; ++file) {
+    std::string text = "position [mm],force [N]\n";
+    for (int i = 0; i < 10000; ++i) {
+      const double x = 3.0 * i / 1e4;
+      text += fmt::format("{:.6f},{:.6f}\n", x + 5e-4 * normal(random),
+                          hertz(youngs_modulus, 1e-3 * x - touch) + 0.05 * normal(random));
+    }
+    const auto curve = read(text)[0].curve;
+    EXPECT_LE(curve.x.size(), 200U);
+    const double error = fitted_modulus(curve) / youngs_modulus - 1.0;
+    sum += error / files, squares += error * error / files;
+  }
+  EXPECT_LT(std::sqrt(squares), 5e-3);
+  EXPECT_LT(std::abs(sum), 3.0 * std::sqrt(squares / files));
 }
 
 TEST_F(MachineFiles, SeveralTestsInOneFileAreCurves) {

@@ -145,8 +145,7 @@ TEST_F(MaterialFiles, RefusalsNameFileLineKeyAndRemedy) {
   const std::string file = (folder_ / "tests.toml").string();
   expect_refused(with("separatr = \"comma\""), two_rows,
                  {file + ":10: test[1].separatr = comma: no such key"});
-  expect_refused(with("separator = \"comma\""), two_rows,
-                 {"data.csv", "column 2 is missing"});
+  expect_refused(with("separator = \"comma\""), two_rows, {"data.csv", "column 2 is missing"});
   expect_refused(with("kind = 3"), two_rows, {"tests.toml:10", "not valid TOML"});
   expect_refused(with("strain = {column = 7, is = \"stretch\"}"), two_rows,
                  {"data.csv", "column 7 is missing"});
