@@ -12,6 +12,7 @@
 #include "studies/run/curve_file.h"
 #include "studies/run/curve_text.h"
 #include "studies/run/digest.h"
+#include "studies/run/fit_repeats.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {
@@ -288,10 +289,8 @@ void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
     Travel& travel = input.travels[i].emplace(travel_of(input.curves[i], rigid));
     // A machine of its own.
     travel.machine = "indentation of " + input.curves[i].name;
-    input.presses[i].protocol.samples = travel.depths;
-    input.presses[i].protocol.depth = travel.depths.back();
-    input.continua[i].press_to(travel.depths);
   }
+  share_depths(input);
   try {
     free_rigs(input);
   } catch (const meshes::InvalidInput& error) {

@@ -35,14 +35,33 @@ std::vector<Eigen::VectorXd> zeros(const FitInput& input, const Eigen::VectorXd&
   return all;
 }
 
-}  // namespace
-
-std::vector<calibration::Repeats> repeats_in(const FitInput& input,
-                                             const calibration::CurveFit& fit) {
+/// Curves of the same press, by what they have in common.
+std::map<std::string, std::vector<std::size_t>> groups_of(const FitInput& input) {
   std::map<std::string, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < input.presses.size(); ++i)
     if (input.kinds[i] == CurveKind::press || input.kinds[i] == CurveKind::continuum)
       groups[press_of(input, i)].push_back(i);
+  return groups;
+}
+
+}  // namespace
+
+void share_depths(FitInput& input) {
+  for (const auto& [press, curves] : groups_of(input)) {
+    const auto reach = [&](std::size_t i) { return input.travels[i]->depths.back(); };
+    const std::size_t deepest = *std::ranges::max_element(curves, {}, reach);
+    for (const std::size_t i : curves) {
+      Travel& travel = *input.travels[i];
+      travel.depths = input.travels[deepest]->depths;
+      input.presses[i].protocol.samples = travel.depths;
+      input.presses[i].protocol.depth = travel.depths.back();
+      input.continua[i].press_to(travel.depths);
+    }
+  }
+}
+
+std::vector<calibration::Repeats> repeats_in(const FitInput& input,
+                                             const calibration::CurveFit& fit) {
   std::vector<std::size_t> nuisance(input.options.free.size() - material_parameters(input));
   std::iota(nuisance.begin(), nuisance.end(), material_parameters(input));
   std::vector<double> touch;
@@ -50,7 +69,7 @@ std::vector<calibration::Repeats> repeats_in(const FitInput& input,
     touch.push_back(is_travel(input, i) ? input.travels[i]->rig.touch_offset.in(fit.estimates)
                                         : 0.0);
   std::vector<calibration::Repeats> found;
-  for (const auto& [press, curves] : groups)
+  for (const auto& [press, curves] : groups_of(input))
     if (curves.size() > 1)
       found.push_back(calibration::repeats_of(curves, input.curves, fit, nuisance, touch,
                                               zeros(input, fit.estimates)));

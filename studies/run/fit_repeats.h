@@ -8,6 +8,9 @@
 
 namespace fingertip::studies {
 
+/// Repeats are computed as one press: all take the depths of the one that went deepest.
+void share_depths(FitInput& input);
+
 /// Groups of two curves or more of presses that differ by nothing but their rows: the same finger,
 /// obstacle, contact and machine.
 std::vector<calibration::Repeats> repeats_in(const FitInput& input,
