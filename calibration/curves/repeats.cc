@@ -1,5 +1,6 @@
 #include "calibration/curves/repeats.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -41,11 +42,11 @@ VectorXd force_of_curve(const std::vector<Curve>& curves, const CurveFit& fit,
   return all;
 }
 
-/// Factors by linear least squares beside what each repeat has for itself.
-void fit_factors(Repeats& repeats, const std::vector<Curve>& curves, const CurveFit& fit,
-                 const std::vector<std::size_t>& nuisance, const std::vector<VectorXd>& zero) {
+/// Factors by linear least squares beside what each repeat has for itself; how the parameters then
+/// change.
+VectorXd fit_factors(Repeats& repeats, const std::vector<Curve>& curves, const CurveFit& fit,
+                     const std::vector<std::size_t>& nuisance, const std::vector<VectorXd>& zero) {
   const Index rows = row_count(curves), count = Index(repeats.curves.size());
-  std::vector<Index> own;
   VectorXd residuals = VectorXd::Zero(rows);
   Index values = 0;
   for (const std::size_t curve : repeats.curves) {
@@ -57,6 +58,7 @@ void fit_factors(Repeats& repeats, const std::vector<Curve>& curves, const Curve
     columns.col(k) =
         fit.whitening * force_of_curve(curves, fit, zero, repeats.curves[std::size_t(k)]);
   Index used = count;
+  std::vector<std::size_t> places;
   for (const std::size_t parameter : nuisance) {
     // Only the group's rows: others have theirs.
     VectorXd column = VectorXd::Zero(rows);
@@ -64,7 +66,9 @@ void fit_factors(Repeats& repeats, const std::vector<Curve>& curves, const Curve
       const Index from = first_row(curves, curve), size = Index(curves[curve].y.size());
       column.segment(from, size) = fit.jacobian.col(Index(parameter)).segment(from, size);
     }
-    if (column.norm() > 0.0) columns.col(used++) = column;
+    if (!(column.norm() > 0.0)) continue;
+    columns.col(used++) = column;
+    places.push_back(parameter);
   }
   const MatrixXd used_columns = columns.leftCols(used);
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(used_columns);
@@ -79,6 +83,10 @@ void fit_factors(Repeats& repeats, const std::vector<Curve>& curves, const Curve
     repeats.factors.push_back(1.0 + found(k));
     repeats.factor_errors.push_back(std::sqrt(scale * covariance(k, k)));
   }
+  VectorXd changes = VectorXd::Zero(fit.estimates.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    changes(Index(places[i])) = found(count + Index(i));
+  return changes;
 }
 
 /// Method of moments.
@@ -128,13 +136,48 @@ void tell_scatter(Repeats& repeats, const std::vector<Curve>& curves,
 
 Repeats repeats_of(const std::vector<std::size_t>& group, const std::vector<Curve>& curves,
                    const CurveFit& fit, const std::vector<std::size_t>& nuisance,
-                   const std::vector<double>& touch, const std::vector<VectorXd>& zero) {
+                   const std::vector<RigQuantity>& touch, const std::vector<VectorXd>& zero) {
   Repeats repeats;
   repeats.curves = group;
-  fit_factors(repeats, curves, fit, nuisance, zero);
+  const VectorXd own = fit.estimates + fit_factors(repeats, curves, fit, nuisance, zero);
   find_deviation(repeats);
-  tell_scatter(repeats, curves, touch, zero);
+  std::vector<double> touches;
+  for (const RigQuantity& each : touch) touches.push_back(each.in(own));
+  tell_scatter(repeats, curves, touches, zero);
   return repeats;
+}
+
+CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
+               const std::vector<Curve>& curves, const std::vector<VectorXd>& zero) {
+  CurveFit result = fit;
+  Index count = 0;
+  for (const Repeats& group : repeats) count += Index(group.curves.size());
+  const Index rows = fit.jacobian.rows(), parameters = fit.jacobian.cols();
+  // A common factor is the modulus' own.
+  const int freedom = fit.degrees_of_freedom - int(count) + int(repeats.size());
+  if (fit.chi_square || count == 0 || freedom < 1) return result;
+  result.jacobian.conservativeResize(rows, parameters + count);
+  VectorXd residuals(rows);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    residuals.segment(first_row(curves, i), fit.residuals[i].size()) = fit.residuals[i];
+  Index column = parameters;
+  for (const Repeats& group : repeats)
+    for (const std::size_t curve : group.curves)
+      result.jacobian.col(column++) = fit.whitening * force_of_curve(curves, fit, zero, curve);
+  // Columns differ in their units.
+  const VectorXd sizes = result.jacobian.colwise().norm().cwiseMax(1e-300).transpose();
+  const MatrixXd scaled = result.jacobian * sizes.cwiseInverse().asDiagonal();
+  const VectorXd all = fit.whitening * residuals;
+  const VectorXd left = all - scaled * scaled.completeOrthogonalDecomposition().solve(all);
+  const VectorXd plain = fit.whitening.ldlt().solve(left);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    result.residuals[i] = plain.segment(first_row(curves, i), fit.residuals[i].size());
+  // Their variance is told by what is left.
+  const double scale = std::sqrt(double(freedom) / std::max(left.squaredNorm(), 1e-300));
+  result.whitening *= scale;
+  result.jacobian *= scale;
+  result.degrees_of_freedom = freedom;
+  return result;
 }
 
 MatrixXd covariance_of(const std::vector<Repeats>& repeats, const std::vector<Curve>& curves,

@@ -7,6 +7,7 @@
 
 #include "calibration/curves/curve.h"
 #include "calibration/curves/curve_fit.h"
+#include "calibration/curves/rig_model.h"
 
 namespace fingertip::calibration {
 
@@ -32,7 +33,14 @@ struct Repeats {
 /// curve of the fit.
 Repeats repeats_of(const std::vector<std::size_t>& group, const std::vector<Curve>& curves,
                    const CurveFit& fit, const std::vector<std::size_t>& nuisance,
-                   const std::vector<double>& touch, const std::vector<Eigen::VectorXd>& zero);
+                   const std::vector<RigQuantity>& touch, const std::vector<Eigen::VectorXd>& zero);
+
+/// The fit as if every repeat had a factor of its own on its force, to first order: residuals
+/// without it, and columns for it behind those of the parameters, which only `accusations` knows to
+/// take. What is left is what the model misses. With chi-square the scatter is in the whitening,
+/// and the fit is returned as it is.
+CurveFit apart(const CurveFit& fit, const std::vector<Repeats>& repeats,
+               const std::vector<Curve>& curves, const std::vector<Eigen::VectorXd>& zero);
 
 /// What the scatter adds to the covariance of all values: every repeat's force is off by a factor
 /// of its own, deviation² F Fᵀ for each of them, F the fitted force over its zero.

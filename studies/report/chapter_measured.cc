@@ -32,7 +32,8 @@ double misfit_of(const FitCurve& curve) {
 
 Table file_table(const Fit& fit) {
   Table table;
-  const bool any = std::ranges::any_of(fit.curves, [](const FitCurve& c) { return c.course; });
+  const bool any =
+      std::ranges::any_of(fit.curves, [](const FitCurve& c) { return c.course.has_value(); });
   if (!any) return table;
   table.header = {plain("File"),   plain("Rows"), plain("Points", "fitted"), plain("Noise"),
                   plain("Misfit"), plain("Loop"), plain("Relaxation")};
@@ -214,8 +215,9 @@ Chapter rig_chapter(const Fit& fit, const std::string& prefix) {
 }  // namespace
 
 std::vector<Chapter> measured_chapters(const Fit& fit, const std::string& prefix) {
-  const bool told = !fit.file.repeats.empty() ||
-                    std::ranges::any_of(fit.curves, [](const FitCurve& c) { return c.course; });
+  const bool told =
+      !fit.file.repeats.empty() ||
+      std::ranges::any_of(fit.curves, [](const FitCurve& c) { return c.course.has_value(); });
   std::vector<Chapter> chapters;
   if (told) chapters.push_back(measured_chapter(fit, prefix));
   chapters.push_back(rig_chapter(fit, prefix));

@@ -168,6 +168,9 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
     record.model_error +=
         std::string(record.model_error.empty() ? "" : " and ") + "the scatter between repeats";
   }
+  const calibration::CurveFit own =
+      scatter(record.repeats) ? fit_apart(input, record.fit, record.repeats) : record.fit;
+  if (scatter(record.repeats)) record.own_residuals = own.residuals;
   record.options = input.options;
   stage = "curves left out";
   if (input.curves.size() > 1)
@@ -176,7 +179,7 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   if (!input.profile.empty()) add_profile(input, list, record);
   stage = "lack of fit";
   record.lack_of_fit =
-      calibration::accusations(record.fit, record.options, suspects_of(input, record.fit, models));
+      calibration::accusations(own, record.options, suspects_of(input, record.fit, models));
   record.rig = rig_values(input);
   for (std::size_t i = 0; i < input.travels.size(); ++i)
     record.indentation.push_back(models.indentations(i, record.fit.estimates));

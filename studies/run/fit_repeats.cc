@@ -64,16 +64,21 @@ std::vector<calibration::Repeats> repeats_in(const FitInput& input,
                                              const calibration::CurveFit& fit) {
   std::vector<std::size_t> nuisance(input.options.free.size() - material_parameters(input));
   std::iota(nuisance.begin(), nuisance.end(), material_parameters(input));
-  std::vector<double> touch;
+  std::vector<calibration::RigQuantity> touch;
   for (std::size_t i = 0; i < input.curves.size(); ++i)
-    touch.push_back(is_travel(input, i) ? input.travels[i]->rig.touch_offset.in(fit.estimates)
-                                        : 0.0);
+    touch.push_back(is_travel(input, i) ? input.travels[i]->rig.touch_offset
+                                        : calibration::RigQuantity());
   std::vector<calibration::Repeats> found;
   for (const auto& [press, curves] : groups_of(input))
     if (curves.size() > 1)
       found.push_back(calibration::repeats_of(curves, input.curves, fit, nuisance, touch,
                                               zeros(input, fit.estimates)));
   return found;
+}
+
+calibration::CurveFit fit_apart(const FitInput& input, const calibration::CurveFit& fit,
+                                const std::vector<calibration::Repeats>& repeats) {
+  return calibration::apart(fit, repeats, input.curves, zeros(input, fit.estimates));
 }
 
 bool scatter(const std::vector<calibration::Repeats>& repeats) {

@@ -16,6 +16,10 @@ void share_depths(FitInput& input);
 std::vector<calibration::Repeats> repeats_in(const FitInput& input,
                                              const calibration::CurveFit& fit);
 
+/// What repeats leave, each with its own factor (calibration::apart).
+calibration::CurveFit fit_apart(const FitInput& input, const calibration::CurveFit& fit,
+                                const std::vector<calibration::Repeats>& repeats);
+
 /// Whether repeats scatter by more than their errors.
 bool scatter(const std::vector<calibration::Repeats>& repeats);
 

@@ -81,7 +81,7 @@ Answer answer(const Experiment& experiment) {
   Answer result;
   result.alone = fit_curves(experiment.curves, models, options);
   result.repeats = repeats_of(group, experiment.curves, result.alone, {},
-                              std::vector<double>(group.size(), 0.0), zero);
+                              std::vector<RigQuantity>(group.size()), zero);
   options.model_covariance = covariance_of({result.repeats}, experiment.curves, result.alone, zero);
   result.together = fit_curves(experiment.curves, models, options);
   return result;
@@ -106,6 +106,28 @@ TEST(Repeats, FactorsAreThoseOfThePresses) {
   ASSERT_EQ(found.repeats.travel.size(), 40U);
   EXPECT_NEAR(found.repeats.travel[19], 1.5e-3, 1e-15);
   EXPECT_NEAR(found.repeats.scatter[19] / found.repeats.mean[19], std::sqrt(squares) / mean, 1e-6);
+}
+
+/// Factors that differ leave residuals with an order; with a factor each only noise is left.
+TEST(Repeats, ApartTheyLeaveNoise) {
+  std::mt19937 random(6);
+  const Experiment experiment = repeated({0.05, 0.005, false}, 4, random);
+  const Answer found = answer(experiment);
+  const CurveFit left = apart(found.alone, {found.repeats}, experiment.curves,
+                              std::vector<VectorXd>(4, VectorXd::Zero(30)));
+  EXPECT_EQ(left.jacobian.cols(), 5);
+  EXPECT_EQ(left.degrees_of_freedom, 120 - 4);
+  const double largest = modulus_value * 0.16 * std::pow(3e-3, 1.5);
+  double squares = 0.0, before = 0.0, white = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    squares += left.residuals[k].squaredNorm() / 116.0;
+    before += found.alone.residuals[k].squaredNorm() / 119.0;
+    white += (left.whitening(0, 0) * left.residuals[k]).squaredNorm();
+  }
+  // The deviation of 116 values is known to 7 %.
+  EXPECT_NEAR(std::sqrt(squares) / largest, 0.005, 0.001);
+  EXPECT_GT(std::sqrt(before) / largest, 0.01);
+  EXPECT_NEAR(white, 116.0, 1e-6);
 }
 
 /// The method of moments: the square of the deviation is right in the mean.
