@@ -92,6 +92,7 @@ Chapter quality_chapter(const Fit& fit, const std::string& prefix) {
   chapter["statement"] = fit.file.statement;
   add_goodness(chapter, fit);
   chapter["left_out"] = left_out;
+  chapter["travel"] = fit.file.rig.has_value();
   chapter["noise"] = std::ranges::any_of(
       fit.curves, [](const FitCurve& curve) { return curve.course && curve.course->noise > 0.0; });
   chapter.figures = curve_figures(fit, prefix);
@@ -158,6 +159,7 @@ std::string fit_answer(const Fit& fit) {
   words["one"] = fit.curves.size() == 1;
   words["worst"] = if_known(worst, percent_magnitude(worst));
   words["left_out"] = if_known(left_out, percent_magnitude(left_out));
+  words["travel"] = fit.file.rig.has_value();
   words["open"] = !fit.file.unidentifiable.empty();
   return sentences("answer_fit", words);
 }

@@ -91,21 +91,21 @@ Answer answer(const Experiment& experiment) {
 
 TEST(Repeats, FactorsAreThoseOfThePresses) {
   std::mt19937 random(1);
-  const Experiment experiment = repeated({0.1, 1e-9}, 4, random);
+  const Experiment experiment = repeated({0.1, 1e-5}, 4, random);
   const Answer found = answer(experiment);
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_NEAR(found.repeats.factors[k] * found.alone.estimates(0) / modulus_value,
-                experiment.factors[k], 1e-7);
+                experiment.factors[k], 1e-4);
   // Without noise the deviation is that of the factors as they are.
   double mean = 0.0, squares = 0.0;
   for (const double factor : found.repeats.factors) mean += factor / 4.0;
   for (const double factor : found.repeats.factors) squares += std::pow(factor - mean, 2) / 3.0;
-  EXPECT_NEAR(found.repeats.deviation, std::sqrt(squares), 1e-6);
+  EXPECT_NEAR(found.repeats.deviation, std::sqrt(squares), 1e-4);
   EXPECT_LT(found.repeats.probability, 1e-6);
   // At half the travel: mean and deviation of four numbers.
   ASSERT_EQ(found.repeats.travel.size(), 40U);
   EXPECT_NEAR(found.repeats.travel[19], 1.5e-3, 1e-15);
-  EXPECT_NEAR(found.repeats.scatter[19] / found.repeats.mean[19], std::sqrt(squares) / mean, 1e-6);
+  EXPECT_NEAR(found.repeats.scatter[19] / found.repeats.mean[19], std::sqrt(squares) / mean, 1e-4);
 }
 
 /// Factors that differ leave residuals with an order; with a factor each only noise is left.
