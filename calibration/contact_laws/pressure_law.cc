@@ -25,27 +25,12 @@ using Eigen::VectorXd;
 constexpr double patches = 80.0;
 /// That depth over the whole.
 constexpr double shallow = 1.0 / 12.0;
+/// Difference of gaps over the depth that no force shows.
+constexpr double same_gap = 5e-4;
 /// Finest patches that surface_points makes, and the coarsest that make sense, over the radius.
 constexpr double finest = 1e-3, coarsest = 1e-2;
 /// Exponents of power laws among which is sought.
 constexpr double largest_exponent = 4.0;
-
-void check(const ForceCurve& curve) {
-  const auto refuse = [](const std::string& value, const char* rule) {
-    throw meshes::InvalidInput({"force curve", value, rule, "press deeper, or at more depths"});
-  };
-  if (curve.indentation.size() < 2 || curve.force.size() != curve.indentation.size())
-    refuse(std::to_string(curve.indentation.size()) + " samples", "needs two samples or more");
-  double depth = 0.0, force = 0.0;
-  for (std::size_t i = 0; i < curve.force.size(); ++i) {
-    if (!(curve.indentation[i] > depth && curve.force[i] > force))
-      refuse(
-          meshes::to_text(curve.force[i]) + " N at " + meshes::to_text(curve.indentation[i]) + " m",
-          "indentation and force must grow from first touch on");
-    depth = curve.indentation[i];
-    force = curve.force[i];
-  }
-}
 
 /// Forces of laws with coefficient one over those of the curve: a row per sample.
 template <typename Laws>
@@ -96,6 +81,23 @@ ForceCurve refined(const ForceCurve& curve) {
 
 }  // namespace
 
+void check_growth(const ForceCurve& curve) {
+  const auto refuse = [](const std::string& value, const char* rule) {
+    throw meshes::InvalidInput({"force curve", value, rule, "press deeper, or at more depths"});
+  };
+  if (curve.indentation.size() < 2 || curve.force.size() != curve.indentation.size())
+    refuse(std::to_string(curve.indentation.size()) + " samples", "needs two samples or more");
+  double depth = 0.0, force = 0.0;
+  for (std::size_t i = 0; i < curve.force.size(); ++i) {
+    if (!(curve.indentation[i] > depth && curve.force[i] > force))
+      refuse(
+          meshes::to_text(curve.force[i]) + " N at " + meshes::to_text(curve.indentation[i]) + " m",
+          "indentation and force must grow from first touch on");
+    depth = curve.indentation[i];
+    force = curve.force[i];
+  }
+}
+
 double GapField::overlap(double indentation) const {
   const auto end = std::ranges::lower_bound(gap, indentation);
   return std::accumulate(area.begin(), area.begin() + (end - gap.begin()), 0.0);
@@ -117,10 +119,18 @@ GapField gap_field(const meshes::Geometry& geometry, const meshes::Obstacle& obs
       patch.emplace_back(std::max(gap, 0.0), point.area * point.normal.z());
   }
   std::ranges::sort(patch);
-  GapField field;
+  GapField field;  // patches of nearly the same gap as one, at the middle of theirs
+  double begin = -1.0;
   for (const auto& [gap, area] : patch) {
-    field.gap.push_back(gap);
-    field.area.push_back(area);
+    if (gap > begin + same_gap * depth) {
+      begin = gap;
+      field.gap.push_back(gap);
+      field.area.push_back(area);
+      continue;
+    }
+    double &mean = field.gap.back(), &sum = field.area.back();
+    sum += area;
+    mean += (gap - mean) * area / sum;
   }
   return field;
 }
@@ -148,7 +158,7 @@ bool PressurePolynomial::grows_to(double d) const {
 }
 
 PressureTable fitted_table(const ForceCurve& curve, const GapField& field) {
-  check(curve);
+  check_growth(curve);
   const double first = curve.indentation.front();
   std::vector<double> knots = {0.25 * first, 0.5 * first};
   knots.insert(knots.end(), curve.indentation.begin(), curve.indentation.end());
@@ -165,7 +175,7 @@ PressureTable fitted_table(const ForceCurve& curve, const GapField& field) {
 }
 
 PowerLaw fitted_power(const ForceCurve& curve, const GapField& field) {
-  check(curve);
+  check_growth(curve);
   const auto with = [&](double exponent) {
     // Of penetrations over the depth, lest stiffness become a number without bounds.
     const double depth = curve.indentation.back();
@@ -182,7 +192,7 @@ PowerLaw fitted_power(const ForceCurve& curve, const GapField& field) {
 }
 
 PressurePolynomial fitted_polynomial(const ForceCurve& curve, const GapField& field) {
-  check(curve);
+  check_growth(curve);
   const std::vector<PressurePolynomial> powers{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
   const VectorXd free = shares(curve, field, powers)
                             .colPivHouseholderQr()
@@ -194,7 +204,7 @@ PressurePolynomial fitted_polynomial(const ForceCurve& curve, const GapField& fi
 }
 
 PressurePolynomial fitted_line(const ForceCurve& curve, const GapField& field) {
-  check(curve);
+  check_growth(curve);
   return {sized(curve, field, std::vector<PressurePolynomial>{{1.0, 0.0, 0.0}})[0], 0.0, 0.0};
 }
 

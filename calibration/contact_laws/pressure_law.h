@@ -63,6 +63,9 @@ struct ForceCurve {
   std::vector<double> indentation, force;  ///< [m], [N], positive and increasing
 };
 
+/// Throws InvalidInput unless the curve has two samples or more, increasing and positive.
+void check_growth(const ForceCurve& curve);
+
 /// The laws whose relative errors of force have the least sum of squares on the curve. The table
 /// has a knot at every indentation of it, and two before, and never falls: where a curve asks for
 /// that, forces are not met. Throws InvalidInput unless the curve has two samples or more,

@@ -123,9 +123,13 @@ void add_sweep(CLI::App& sub, CommandLine& line) {
 void add_export(CLI::App& sub, CommandLine& line) {
   sub.add_option(
          "--format", line.format,
-         "lammps: an undamped lattice ([exchange]); pressure-law: pressure over penetration "
-         "fitted to the continuum")
-      ->check(CLI::IsMember({"lammps", "pressure-law"}))
+         "lammps: an undamped lattice ([exchange]); fitted to the continuum, pressure-law: "
+         "pressure over penetration, mujoco: a rigid geom and a flex, drake: a hydroelastic ball, "
+         "sofa, vtk: a soft body of tetrahedra, all: each of them and a table of their errors, "
+         "fmu: "
+         "the lattice as a functional mock-up unit")
+      ->check(
+          CLI::IsMember({"lammps", "pressure-law", "mujoco", "drake", "sofa", "vtk", "all", "fmu"}))
       ->capture_default_str();
   sub.add_flag("--lossy", line.lossy, "go on where the format cannot say all of the model");
 }

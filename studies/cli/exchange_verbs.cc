@@ -4,9 +4,10 @@
 
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
+#include "studies/exchange/contact_export.h"
+#include "studies/exchange/fmu_files.h"
 #include "studies/exchange/lammps_files.h"
 #include "studies/exchange/lammps_import.h"
-#include "studies/exchange/pressure_law_files.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_setup.h"
@@ -76,27 +77,8 @@ fs::path exported(const CommandLine& line) {
   return folder;
 }
 
-/// "1.2 %", or what stands for nothing known.
-std::string share(double value) {
-  return std::isnan(value) ? "?" : fmt::format("{:.2g} %", 100.0 * value);
-}
-
-void print_pressure_law(const PressureLawExport& made) {
-  using Depth = TransferDepthEntry;
-  const PressureLawFile& law = made.law;
-  fmt::print("largest force error     table     power  polynomial      line\n");
-  for (const bool fitted : {true, false})
-    fmt::print("{:<20}{:>9}{:>10}{:>12}{:>10}\n",
-               fitted ? law.obstacle + ", fitted" : std::string("others, predicted"),
-               share(made.transfer.worst(&Depth::table_error, fitted)),
-               share(made.transfer.worst(&Depth::power_error, fitted)),
-               share(made.transfer.worst(&Depth::polynomial_error, fitted)),
-               share(made.transfer.worst(&Depth::line_error, fitted)));
-  fmt::print("p = {:.4g} d^{:.3f} [Pa, m]; hydroelastic modulus {:.4g} Pa over {:.3g} m\n",
-             law.stiffness, law.exponent, law.hydroelastic_modulus, law.extent);
-}
-
-int export_pressure_law(const CommandLine& line) {
+/// Laws of contact, fitted to the continuum.
+int export_contact(const CommandLine& line) {
   const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::modes);
   const std::vector<Problem> lost = lost_in_contact(loaded);
   if (!lost.empty() && !line.lossy) throw ConfigError(lost);
@@ -104,11 +86,24 @@ int export_pressure_law(const CommandLine& line) {
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const fs::path& folder = session.folder().path();
     session.run_all(curves.jobs());
-    const PressureLawExport made = pressure_law_export(loaded, curves.read(folder), lost);
-    write_pressure_law(made, folder);
+    const ContactExport made = contact_export(line.format, loaded, curves.read(folder), lost);
+    write_contact_export(made, folder);
     if (line.quiet) return 0;
-    print_pressure_law(made);
-    fmt::print("how to use it: {}\n", (folder / "README.md").string());
+    fmt::print("{}{}how to use it: {}\n", transfer_lines(made.transfer), made.said,
+               (folder / "README.md").string());
+    return 0;
+  });
+}
+
+int export_fmu(const CommandLine& line) {
+  const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::press);
+  const FmuExport unit = fmu_export(loaded);
+  return run_in_folder(line, loaded, {}, [&](Session& session) {
+    const fs::path& folder = session.folder().path();
+    write_fmu(unit, folder);
+    if (line.quiet) return 0;
+    fmt::print("finger.fmu: FMI 2.0 for co-simulation, step {:.4g} s\nhow to use it: {}\n",
+               unit.period, (folder / "README.md").string());
     return 0;
   });
 }
@@ -136,7 +131,9 @@ int export_lammps(const CommandLine& line) {
 }  // namespace
 
 int run_export(const CommandLine& line) {
-  return line.format == "lammps" ? export_lammps(line) : export_pressure_law(line);
+  return line.format == "lammps" ? export_lammps(line)
+         : line.format == "fmu"  ? export_fmu(line)
+                                 : export_contact(line);
 }
 
 int run_import(const CommandLine& line) {

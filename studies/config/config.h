@@ -164,8 +164,9 @@ struct ExchangeSettings {
   bool has_wall = false;        ///< an elastic wall comes
   double wall_stiffness = 1.0;  ///< over that of an axis spring
   long steps = 1000;
-  long every = 100;         ///< steps between frames; 0: none
-  double agitation = 0.01;  ///< random displacements at the start over the spacing
+  long every = 100;            ///< steps between frames; 0: none
+  double agitation = 0.01;     ///< random displacements at the start over the spacing
+  std::optional<double> edge;  ///< of tetrahedra [m]; empty: as the finger's size asks for
 };
 
 /// SI throughout. The spring constants in `press.lattice` are empty until

@@ -49,6 +49,10 @@ std::vector<Key> exchange_keys() {
             "largest random displacement of a mass along an axis at the start, in spacings; "
             "velocities are as large, times the frequency of an axis spring",
             exchange(&ExchangeSettings::agitation)),
+      quantity("exchange", "edge", "mm", "m", positive,
+               "edges of the tetrahedra of a soft body (mujoco); auto: a quarter of the radius, at "
+               "most half of the thinnest wall",
+               exchange(&ExchangeSettings::edge)),
   };
 }
 

@@ -2,54 +2,13 @@
 /// overlap.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "meshes/file_fields.h"
-#include "studies/exchange/contact_curves.h"
+#include "studies/exchange/contact_export.h"
 
 namespace fingertip::studies {
-
-/// A force at one of five depths, beside what each law makes of it; SI. NaN: not known.
-struct TransferDepthEntry {
-  double indentation = meshes::unknown, force = meshes::unknown, force_error = meshes::unknown;
-  double table_error = meshes::unknown, power_error = meshes::unknown,
-         polynomial_error = meshes::unknown, line_error = meshes::unknown;  ///< relative
-};
-constexpr auto fields_of(const TransferDepthEntry*) {
-  using Whole = TransferDepthEntry;
-  return meshes::named(
-      "indentation force force_error table_error power_error polynomial_error line_error",
-      &Whole::indentation, &Whole::force, &Whole::force_error, &Whole::table_error,
-      &Whole::power_error, &Whole::polynomial_error, &Whole::line_error);
-}
-
-/// One obstacle.
-struct TransferObstacleEntry {
-  std::string obstacle;
-  bool fitted = false;
-  std::vector<TransferDepthEntry> depths;
-};
-constexpr auto fields_of(const TransferObstacleEntry*) {
-  using Whole = TransferObstacleEntry;
-  return meshes::named("obstacle fitted depths", &Whole::obstacle, &Whole::fitted, &Whole::depths);
-}
-
-/// transfer.json
-struct TransferFile {
-  std::string format, how;
-  std::vector<std::string> lost;
-  std::vector<TransferObstacleEntry> obstacles;
-
-  /// Largest magnitude over the depths of the fitted obstacle, or of the others.
-  double worst(double TransferDepthEntry::*error, bool fitted) const;
-};
-constexpr auto fields_of(const TransferFile*) {
-  using Whole = TransferFile;
-  return meshes::named("format how lost obstacles", &Whole::format, &Whole::how, &Whole::lost,
-                       &Whole::obstacles);
-}
 
 /// pressure_law.json: p in Pa over d in m.
 struct PressureLawFile {
@@ -73,18 +32,10 @@ constexpr auto fields_of(const PressureLawFile*) {
       &Whole::hydroelastic_modulus, &Whole::penetration, &Whole::pressure);
 }
 
-struct PressureLawExport {
-  PressureLawFile law;
-  TransferFile transfer;
-};
-
-/// Fits the laws to the first curve and judges them by all. Throws InvalidInput where that curve
-/// does not grow.
-PressureLawExport pressure_law_export(const LoadedConfig& loaded,
-                                      const std::vector<ContactCurve>& curves,
-                                      const std::vector<Problem>& lost);
-
-/// Writes pressure_law.json, pressure_table.csv, transfer.json and README.md.
-void write_pressure_law(const PressureLawExport& made, const std::filesystem::path& folder);
+/// Fits the laws to the first curve and judges them by all: pressure_law.json, pressure_table.csv.
+/// Throws InvalidInput where that curve does not grow.
+ContactExport pressure_law_export(const LoadedConfig& loaded,
+                                  const std::vector<ContactCurve>& curves,
+                                  const std::vector<Problem>& lost);
 
 }  // namespace fingertip::studies

@@ -10,7 +10,6 @@
 
 #include "lattice/control/control_loop.h"
 #include "lattice/press/press_task.h"
-#include "studies/config/loader.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {
@@ -32,20 +31,11 @@ class Nobody final : public lattice::Controller {
   void reset() override {}
 };
 
-lattice::PressSetup setup_of(const std::string& config, std::vector<std::string> sets) {
-  sets.emplace_back("press.mode=pid");
-  const LoadedConfig loaded = load_config({config, std::move(sets), {}});
-  lattice::PressSetup setup = press_setup(with_material(loaded, LatticeUse::press));
-  const auto violations = setup.violations();
-  if (!violations.empty()) throw loaded.locate(violations);
-  return setup;
-}
-
 /// The finger of a press, its sensors and actuators, and nobody who controls it.
 class Finger {
  public:
   Finger(const std::string& config, const std::vector<std::string>& sets)
-      : setup_(setup_of(config, sets)),
+      : setup_(free_press({config, sets, {}})),
         way_(setup_.protocol, setup_.geometry),
         finger_(lattice::pressed_finger(setup_, way_)),
         task_(lattice::control_task(setup_, way_, finger_.rod_body())),

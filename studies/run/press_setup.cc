@@ -165,6 +165,15 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded) {
   return setup;
 }
 
+lattice::PressSetup free_press(ConfigSource source) {
+  source.sets.emplace_back("press.mode=pid");
+  const LoadedConfig loaded = load_config(source);
+  lattice::PressSetup setup = press_setup(with_material(loaded, LatticeUse::press));
+  const std::vector<meshes::Violation> broken = setup.violations();
+  if (!broken.empty()) throw loaded.locate(broken);
+  return setup;
+}
+
 fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded) {
   std::vector<meshes::Violation> broken = loaded.config.reference.violations();
   for (meshes::Violation& violation : broken) {

@@ -23,6 +23,10 @@ LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use);
 /// go with the model, and for a material.toml that cannot be used; NotConverged when a fit fails.
 lattice::PressSetup press_setup(const LoadedConfig& loaded);
 
+/// The press of a finger whose rod nobody moves but the caller (press.mode pid), for loops of
+/// others. Throws as press_setup and for every rule it breaks.
+lattice::PressSetup free_press(ConfigSource source);
+
 /// The continuum's job. Throws ConfigError.
 fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded);
 

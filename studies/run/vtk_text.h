@@ -12,7 +12,7 @@
 namespace fingertip::studies::vtk {
 
 /// VTK's numbers for kinds of cells.
-inline constexpr std::uint8_t vertex = 1, line = 3, triangle = 5, quadrangle = 9;
+inline constexpr std::uint8_t vertex = 1, line = 3, triangle = 5, quadrangle = 9, tetrahedron = 10;
 
 /// First lines of a file, `type` is UnstructuredGrid or Collection.
 std::string file_head(const char* type);

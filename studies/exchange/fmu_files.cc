@@ -1,0 +1,152 @@
+#include "studies/exchange/fmu_files.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <ostream>
+
+#include "meshes/errors.h"
+#include "meshes/files.h"
+#include "studies/config/key_table.h"
+#include "studies/files/places.h"
+#include "studies/files/process.h"
+#include "studies/fmu/fmu_variables.h"
+#include "studies/run/digest.h"
+#include "studies/run/press_setup.h"
+#include "studies/run/provenance.h"
+
+namespace fingertip::studies {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* identifier = "fingertip_fmu";  ///< of the shared object
+
+/// Sections that a finger depends on which somebody else moves.
+constexpr std::array sections_of_a_finger = {"geometry", "rubber",   "lattice", "rod",
+                                             "press",    "obstacle", "run"};
+
+/// The file that a key names, absolute; empty where it names none.
+fs::path file_of(const Config& config, const std::string& key) {
+  if (key == "geometry.profile") return config.profile;
+  if (key == "geometry.file") return config.solid.file;
+  if (key == "lattice.constants") return config.constants_file;
+  if (key == "rubber.card") return config.card;
+  return {};
+}
+
+/// What was given, with its files beside it.
+std::string settings_of(const LoadedConfig& loaded, std::vector<fs::path>& files) {
+  std::string text;
+  for (const char* section : sections_of_a_finger) {
+    std::string keys;
+    for (const Key& key : key_table()) {
+      const Entry& entry = loaded.entries.at(key.full_name());
+      if (key.section != section || !entry.given || key.full_name() == "press.mode") continue;
+      std::string literal = entry.literal;
+      if (const fs::path file = file_of(loaded.config, key.full_name()); !file.empty()) {
+        files.push_back(file);
+        literal = '"' + file.filename().string() + '"';
+      }
+      keys += key.name + " = " + literal + "\n";
+    }
+    if (!keys.empty()) text += fmt::format("[{}]\n{}\n", section, keys);
+  }
+  return text;
+}
+
+std::string description_of(const FmuExport& unit) {
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<fmiModelDescription fmiVersion=\"2.0\" modelName=\"finger\" guid=\"{}\"\n"
+      "    description=\"a rubber fingertip as a lattice of masses and springs\" "
+      "generationTool=\"fingertip {}\" variableNamingConvention=\"flat\">\n"
+      "  <CoSimulation modelIdentifier=\"{}\" canHandleVariableCommunicationStepSize=\"true\" "
+      "canGetAndSetFMUstate=\"true\"/>\n  <UnitDefinitions>\n"
+      "    <Unit name=\"m\"><BaseUnit m=\"1\"/></Unit>\n"
+      "    <Unit name=\"m/s\"><BaseUnit m=\"1\" s=\"-1\"/></Unit>\n"
+      "    <Unit name=\"rad/s\"><BaseUnit rad=\"1\" s=\"-1\"/></Unit>\n"
+      "    <Unit name=\"N\"><BaseUnit kg=\"1\" m=\"1\" s=\"-2\"/></Unit>\n"
+      "    <Unit name=\"N.m\"><BaseUnit kg=\"1\" m=\"2\" s=\"-2\"/></Unit>\n"
+      "    <Unit name=\"1\"><BaseUnit/></Unit>\n  </UnitDefinitions>\n"
+      "  <DefaultExperiment startTime=\"0\" stepSize=\"{}\"/>\n  <ModelVariables>\n",
+      sha256(unit.settings + program_version()).substr(0, 32), program_version(), identifier,
+      meshes::to_text(unit.period));
+  std::string outputs;
+  for (std::size_t i = 0; i < fmu_variables.size(); ++i) {
+    const FmuVariable& variable = fmu_variables[i];
+    text += fmt::format(
+        "    <ScalarVariable name=\"{}\" valueReference=\"{}\" causality=\"{}\" "
+        "variability=\"continuous\" description=\"{}\"><Real unit=\"{}\"{}/></ScalarVariable>\n",
+        variable.name, i, variable.input ? "input" : "output", variable.description, variable.unit,
+        variable.input ? " start=\"0\"" : "");
+    if (!variable.input) outputs += fmt::format("      <Unknown index=\"{}\"/>\n", i + 1);
+  }
+  return text + "  </ModelVariables>\n  <ModelStructure>\n    <Outputs>\n" + outputs +
+         "    </Outputs>\n    <InitialUnknowns>\n" + outputs +
+         "    </InitialUnknowns>\n  </ModelStructure>\n</fmiModelDescription>\n";
+}
+
+std::string fmu_readme(const FmuExport& unit) {
+  std::string text = fmt::format(
+      "# A finger as a functional mock-up unit\n\n"
+      "`finger.fmu`: FMI 2.0 for co-simulation, Linux on x86-64. The lattice stands clear of the "
+      "obstacle; the master moves its rod by a\nwrench and steps it, best by {} s, the period of "
+      "its control loop.\n\n| variable | | unit | |\n|---|---|---|---|\n",
+      meshes::to_text(unit.period));
+  for (const FmuVariable& variable : fmu_variables)
+    text += fmt::format("| `{}` | {} | {} | {} |\n", variable.name,
+                        variable.input ? "input" : "output", variable.unit, variable.description);
+  return text +
+         "\nIt needs the Debian 12 libraries of fingertip where it runs. Its forces are those of "
+         "the lattice: `fingertip compare` tells how far\nthey are from the continuum's.\n";
+}
+
+void copy_into(const fs::path& file, const fs::path& folder) {
+  std::error_code failure;
+  fs::copy_file(file, folder / file.filename(), fs::copy_options::overwrite_existing, failure);
+  if (failure)
+    throw meshes::InvalidInput({file.string(), failure.message(), "must be there and readable",
+                                "./fingertip export builds what it needs"});
+}
+
+}  // namespace
+
+FmuExport fmu_export(const LoadedConfig& loaded) {
+  FmuExport unit;
+  unit.settings = settings_of(loaded, unit.files);
+  lattice::PressSetup setup = press_setup(loaded);
+  unit.period = setup.controller.period;
+  unit.description = description_of(unit);
+  return unit;
+}
+
+void write_fmu(const FmuExport& unit, const fs::path& folder) {
+  const fs::path zip = program_on_path("zip");
+  if (zip.empty())
+    throw meshes::InvalidInput({"zip", "not found", "packs the unit", "install Debian's zip"});
+  const fs::path content = folder / "content", resources = content / "resources",
+                 binaries = content / "binaries/linux64";
+  fs::create_directories(resources);
+  fs::create_directories(binaries);
+  const auto write = [](const fs::path& file, const std::string& text) {
+    meshes::write_atomically(file, [&](std::ostream& out) { out << text; });
+  };
+  write(content / "modelDescription.xml", unit.description);
+  write(resources / fmu_settings, unit.settings);
+  for (const fs::path& file : unit.files) copy_into(file, resources);
+  copy_into(executable_folder() / (std::string(identifier) + ".so"), binaries);
+  Command pack{
+      {zip.string(), "-q", "-X", "-r", (fs::absolute(folder) / "finger.fmu").string(), "."}, {}};
+  pack.folder = content;
+  fs::remove(folder / "finger.fmu");
+  if (run_process(pack, folder / "zip.log") != 0)
+    throw meshes::InvalidInput(
+        {"zip", (folder / "zip.log").string(), "could not pack the unit", "see its log"});
+  fs::remove_all(content);
+  fs::remove(folder / "zip.log");
+  write(folder / "README.md", fmu_readme(unit));
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,26 @@
+/// The lattice as a functional mock-up unit (FMI 2.0, co-simulation): finger.fmu.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "studies/config/loader.h"
+
+namespace fingertip::studies {
+
+struct FmuExport {
+  std::string settings;                      ///< parameters.toml among its resources
+  std::string description;                   ///< modelDescription.xml
+  std::vector<std::filesystem::path> files;  ///< that the settings name, to lie beside them
+  double period = 0.0;                       ///< of the control loop, the step that it suggests [s]
+};
+
+/// Of a finger that is pressed by whoever steps it. Throws ConfigError for what free_press refuses.
+FmuExport fmu_export(const LoadedConfig& loaded);
+
+/// Writes finger.fmu, with `zip`, and README.md. Throws InvalidInput where the program or the
+/// shared object is missing.
+void write_fmu(const FmuExport& unit, const std::filesystem::path& folder);
+
+}  // namespace fingertip::studies

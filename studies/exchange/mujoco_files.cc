@@ -1,0 +1,219 @@
+#include "studies/exchange/mujoco_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "calibration/contact_laws/soft_contact.h"
+#include "meshes/files.h"
+#include "meshes/shape.h"
+#include "studies/exchange/soft_body.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+using namespace calibration;
+using meshes::to_text;
+
+/// Of the geom's carriage [kg]; its contact's stiffness in MuJoCo's units goes with it.
+constexpr double carriage = 0.1;
+/// Time step times the angular frequency of the stiffest spring, and the longest step [s].
+constexpr double calm = 0.3, longest_step = 1e-3;
+/// The servo's stiffness over the contact's.
+constexpr double servo = 10.0;
+constexpr double vertex_impedance = 0.9;  ///< of a flex's contacts, constant
+constexpr double least_damping = 1e-4;    ///< of a flex [s]; without any it would ring for ever
+
+std::string comment(const LoadedConfig& loaded, const ContactCurve& curve) {
+  return fmt::format(
+      "<!-- {}, E = {:.6g} Pa, nu = {:.4g}, fitted to {:.4g} mm on a {}; pole up, SI. README.md "
+      "says how to use it. -->\n",
+      loaded.config.press.geometry.shape_name(), loaded.config.press.rubber.youngs_modulus,
+      loaded.config.press.rubber.poissons_ratio(), 1e3 * curve.forces.indentation.back(),
+      curve.name);
+}
+
+/// The obstacle as a geom over the origin.
+std::string obstacle_geom(const LoadedConfig& loaded, const meshes::Obstacle& obstacle) {
+  using meshes::ObstacleShape;
+  const std::string at = fmt::format("<geom name=\"obstacle\" pos=\"{} 0 {}\" ",
+                                     to_text(obstacle.along_x() ? 0.0 : obstacle.offset),
+                                     to_text(obstacle.is_plane() ? 0.0 : obstacle.radius));
+  switch (obstacle.shape) {
+    case ObstacleShape::plane:
+      return at + "type=\"plane\" euler=\"180 0 0\" size=\".05 .05 .01\"/>";
+    case ObstacleShape::sphere:
+      return at + fmt::format("type=\"sphere\" size=\"{}\"/>", to_text(obstacle.radius));
+    case ObstacleShape::cylinder:
+      return at + fmt::format("type=\"capsule\" euler=\"{}\" size=\"{} .1\"/>",
+                              obstacle.along_x() ? "0 90 0" : "90 0 0", to_text(obstacle.radius));
+    case ObstacleShape::edge: break;
+  }
+  throw ConfigError({{loaded.entries.at("obstacle.shape").place, "obstacle.shape", "edge",
+                      "MuJoCo has no rounded edge", "press a cylinder of the same radius"}});
+}
+
+std::string friction_of(const LoadedConfig& loaded) {
+  const meshes::PressProtocol& protocol = loaded.config.press.protocol;
+  switch (protocol.contact) {
+    case meshes::ContactMode::frictionless: return "condim=\"1\"";
+    case meshes::ContactMode::coulomb:
+      return fmt::format("condim=\"3\" friction=\"{} 0 0\"", to_text(protocol.friction));
+    case meshes::ContactMode::stick: return "condim=\"3\" friction=\"10 0 0\"";
+  }
+  return "";
+}
+
+/// Largest dF/dr of a contact up to a penetration [N/m].
+double stiffest(const SoftContact& contact, double depth) {
+  double most = 0.0;
+  for (int i = 0; i < 100; ++i)
+    most =
+        std::max(most, 100.0 / depth *
+                           (contact.force(depth * (i + 1) / 100) - contact.force(depth * i / 100)));
+  return most;
+}
+
+std::string rigid_model(const LoadedConfig& loaded, const ContactCurve& curve,
+                        const SoftContact& contact) {
+  const double gain = servo * stiffest(contact, curve.forces.indentation.back());
+  const double step = std::min(longest_step, calm / std::sqrt(gain / carriage));
+  const double k = contact.stiffness / carriage;
+  const double radius = meshes::shape_of(loaded.config.press.geometry)->pole_radius();
+  return "<mujoco model=\"rigid finger\">\n" + comment(loaded, curve) +
+         fmt::format(
+             "<compiler angle=\"degree\"/>\n"
+             "<option timestep=\"{:.3g}\" integrator=\"implicitfast\" cone=\"elliptic\" "
+             "gravity=\"0 0 0\"/>\n"
+             "<worldbody>\n  {}\n  <body name=\"finger\" pos=\"0 0 {}\">\n"
+             "    <joint name=\"press\" type=\"slide\" axis=\"0 0 1\"/>\n"
+             "    <geom name=\"tip\" type=\"sphere\" size=\"{}\" mass=\"{}\" "
+             "priority=\"1\" {}\n"
+             "          solref=\"{:.9g} {:.9g}\" solimp=\"{:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\"/>\n"
+             "  </body>\n</worldbody>\n<actuator>\n"
+             "  <position name=\"press\" joint=\"press\" kp=\"{:.6g}\" dampratio=\"1\"/>\n"
+             "</actuator>\n</mujoco>\n",
+             step, obstacle_geom(loaded, curve.obstacle), to_text(-radius), to_text(radius),
+             to_text(carriage), friction_of(loaded), -k, -2.0 * std::sqrt(k), contact.dmin,
+             contact.dmax, contact.width, contact.midpoint, contact.power, gain);
+}
+
+/// Young's modulus and Poisson's ratio that MuJoCo's flex needs for those of the rubber. Its energy
+/// is mu E:E + lambda (tr E)², with lambda of its `young` and `poisson`, twice the law's second
+/// term (measured with 3.14), so it must be given half of lambda.
+struct FlexModuli {
+  double young, poisson;
+  FlexModuli(double youngs_modulus, double poissons_ratio)
+      : poisson(poissons_ratio / (2.0 - 2.0 * poissons_ratio)) {
+    young = youngs_modulus * (1.0 + poisson) / (1.0 + poissons_ratio);
+  }
+};
+
+std::string flex_model(const LoadedConfig& loaded, const ContactCurve& curve,
+                       const SoftBody& flex) {
+  const meshes::Rubber& rubber = loaded.config.press.rubber;
+  const meshes::Tetrahedra& mesh = flex.body.mesh;
+  const double mass = rubber.density * flex.body.volume();
+  const double vertex = mass / double(mesh.vertices.size());
+  // Force of a vertex: its mass times k r/(1 - d).
+  const double k = flex.stiffness * (1.0 - vertex_impedance) / vertex;
+  const FlexModuli moduli(flex.youngs_modulus, flex.poissons_ratio);
+  std::string text =
+      "<mujoco model=\"soft finger\">\n" + comment(loaded, curve) +
+      fmt::format(
+          "<compiler angle=\"degree\"/>\n"
+          "<option timestep=\"{:.3g}\" integrator=\"discrete\" solver=\"CG\" cone=\"elliptic\" "
+          "gravity=\"0 0 0\"/>\n"
+          "<worldbody>\n  <body name=\"obstacle\" mocap=\"true\" pos=\"0 0 {}\">\n    {}\n"
+          "  </body>\n  <flexcomp name=\"finger\" type=\"direct\" dim=\"3\" mass=\"{:.9g}\" "
+          "radius=\"1e-9\"\n    point=\"",
+          std::min(longest_step, calm * std::sqrt(1.0 / k) * 2.0), to_text(flex.body.top()),
+          obstacle_geom(loaded, curve.obstacle), mass);
+  for (const meshes::Vector3& v : mesh.vertices)
+    fmt::format_to(std::back_inserter(text), "{:.9g} {:.9g} {:.9g}  ", v.x(), v.y(), v.z());
+  text += "\"\n    element=\"";
+  for (const auto& t : mesh.tetrahedra)
+    fmt::format_to(std::back_inserter(text), "{} {} {} {}  ", t[0], t[1], t[2], t[3]);
+  fmt::format_to(
+      std::back_inserter(text),
+      "\">\n    <contact {} priority=\"1\" solref=\"{:.9g} {:.9g}\" solimp=\"{} {} 1e-3\" "
+      "selfcollide=\"none\" internal=\"false\"/>\n"
+      "    <elasticity young=\"{:.9g}\" poisson=\"{:.9g}\" damping=\"{:.4g}\"/>\n    <pin id=\"",
+      friction_of(loaded), -k, -2.0 * std::sqrt(k), vertex_impedance, vertex_impedance,
+      moduli.young, moduli.poisson, std::max(rubber.retardation_time, least_damping));
+  for (std::size_t v = 0; v < flex.body.held.size(); ++v)
+    if (flex.body.held[v]) text += std::to_string(v) + " ";
+  return text + "\"/>\n  </flexcomp>\n</worldbody>\n</mujoco>\n";
+}
+
+std::string mujoco_readme(const ContactCurve& curve, const SoftContact& contact,
+                          const std::optional<SoftBody>& flex) {
+  std::string text = fmt::format(
+      "# A finger for MuJoCo\n\n"
+      "`finger_rigid.xml`: a rigid sphere whose contact gives way as the finger does. The servo "
+      "`press` moves it up against the obstacle:\n"
+      "its target is the indentation, in metres.\n\n"
+      "    F(r) = K r d²/(dmax² (1 - d)),  K = {:.6g} N/m,  d from solimp = {:.4g} {:.4g} {:.4g} "
+      "{:.4g} {:.4g}\n\n"
+      "MuJoCo's `solref` are accelerations, so they depend on what the geom hangs on. On your own "
+      "robot, once the model\nis compiled:\n"
+      "```python\n"
+      "A = model.body_invweight0[model.geom(\"tip\").bodyid[0], 0]  # add that of what is touched\n"
+      "model.geom_solref[model.geom(\"tip\").id] = [-{:.6g} * A, -2 * ({:.6g} * A)**0.5]\n"
+      "```\n"
+      "Damping is the critical one, chosen for calm. The contact is the same on every obstacle; "
+      "the finger is not.\n\n",
+      contact.stiffness, contact.dmin, contact.dmax, contact.width, contact.midpoint, contact.power,
+      contact.stiffness, contact.stiffness);
+  if (!flex) {
+    text += fmt::format(
+        "There is no flex: its forces are foretold under a plane only, and this is a {}.\n\n",
+        curve.name);
+    return text;
+  }
+  const FlexModuli moduli(flex->youngs_modulus, flex->poissons_ratio);
+  return text +
+         fmt::format(
+             "`finger_flex.xml`: a flex, bonded where the finger is (`pin`). The mocap body "
+             "`obstacle` presses: lower its z by the indentation.\n{} MuJoCo 3.14 counts lambda of "
+             "a flex twice (measured), so the file says\nyoung = {:.6g}, poisson = {:.4g}, whose "
+             "forces are those of E and nu.{}\n\n",
+             description(*flex), moduli.young, moduli.poisson, flex->limit(curve));
+}
+
+}  // namespace
+
+ContactExport mujoco_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
+                            const std::vector<Problem>& lost) {
+  const ContactCurve& own = curves.front();
+  const SoftContact contact = fitted_soft_contact(own.forces);
+  ContactExport made;
+  made.files.push_back({"finger_rigid.xml", rigid_model(loaded, own, contact)});
+  std::vector<ForetoldModel> models = {{"rigid geom", [contact](const ContactCurve& curve) {
+                                          std::vector<double> forces;
+                                          for (const double at : curve.forces.indentation)
+                                            forces.push_back(contact.force(at));
+                                          return forces;
+                                        }}};
+  std::optional<SoftBody> flex;
+  if (own.obstacle.is_plane()) {
+    flex = fitted_soft_body(loaded, own);
+    made.files.push_back({"finger_flex.xml", flex_model(loaded, own, *flex)});
+    models.push_back(foretold("flex", *flex));
+  }
+  made.readme = mujoco_readme(own, contact, flex);
+  made.said = fmt::format("rigid geom: K = {:.4g} N/m\n", contact.stiffness);
+  if (flex) made.said += "flex: " + summary(*flex, own) + "\n";
+  made.transfer = transfer_of(
+      "mujoco",
+      "Force in MuJoCo at rest over that of the continuum: of the geom from its contact's formula, "
+      "of the flex from an equilibrium of the same tetrahedra and contacts",
+      lost, curves, models);
+  return made;
+}
+
+}  // namespace fingertip::studies

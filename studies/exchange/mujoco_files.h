@@ -1,0 +1,15 @@
+/// A finger for MuJoCo: a rigid geom with a fitted contact, and a flex of tetrahedra.
+#pragma once
+
+#include <vector>
+
+#include "studies/exchange/contact_export.h"
+
+namespace fingertip::studies {
+
+/// finger_rigid.xml, and against a plane finger_flex.xml, whose modulus is fitted, too. Throws
+/// ConfigError where MuJoCo has no such obstacle.
+ContactExport mujoco_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
+                            const std::vector<Problem>& lost);
+
+}  // namespace fingertip::studies

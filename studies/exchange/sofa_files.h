@@ -1,0 +1,17 @@
+/// A finger of tetrahedra for SOFA, and for whoever reads VTK's meshes.
+#pragma once
+
+#include <vector>
+
+#include "studies/exchange/contact_export.h"
+
+namespace fingertip::studies {
+
+/// finger.scn: the soft body under a plane. Throws as fitted_soft_body().
+ContactExport sofa_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
+                          const std::vector<Problem>& lost);
+/// finger.vtu: its mesh with moduli, density and what is held. Throws as fitted_soft_body().
+ContactExport vtk_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
+                         const std::vector<Problem>& lost);
+
+}  // namespace fingertip::studies

@@ -1,0 +1,89 @@
+#include "studies/exchange/soft_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "meshes/files.h"
+#include "meshes/shape.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+/// Stiffness of a vertex behind the plane over E times the edges' length: vertices sink in by a few
+/// hundredths of an edge.
+constexpr double vertex_stiffness = 10.0;
+
+ConfigError refused(const LoadedConfig& loaded, const char* key, const std::string& value,
+                    const char* rule, const char* remedy) {
+  return ConfigError({{loaded.entries.at(key).place, key, value, rule, remedy}});
+}
+
+}  // namespace
+
+double SoftBody::shear_modulus() const {
+  return 0.5 * youngs_modulus / (1.0 + poissons_ratio);
+}
+
+double SoftBody::lambda() const {
+  return 2.0 * shear_modulus() * poissons_ratio / (1.0 - 2.0 * poissons_ratio);
+}
+
+std::string SoftBody::limit(const ContactCurve& curve) const {
+  if (forces.size() == curve.forces.force.size()) return "";
+  return fmt::format(" Beyond {:.3g} mm it finds no equilibrium: elements collapse.",
+                     1e3 * curve.forces.indentation[forces.size() - 1]);
+}
+
+SoftBody fitted_soft_body(const LoadedConfig& loaded, const ContactCurve& curve) {
+  const lattice::PressSetup& press = loaded.config.press;
+  if (!curve.obstacle.is_plane())
+    throw refused(loaded, "obstacle.shape", std::string(meshes::name(curve.obstacle.shape)),
+                  "the forces of a body of tetrahedra are foretold under a plane",
+                  "choose obstacle.shape = \"plane\"");
+  SoftBody soft;
+  soft.edge = loaded.config.exchange.edge.value_or(
+      std::min(0.25 * press.geometry.tip_radius, 0.5 * meshes::shape_of(press.geometry)->wall()));
+  soft.poissons_ratio = press.rubber.poissons_ratio();
+  soft.body = calibration::tetrahedral_body(press.geometry, soft.edge);
+  soft.forces = calibration::forces_of(
+      soft.body, {soft.poissons_ratio, vertex_stiffness * soft.edge}, curve.forces.indentation);
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < soft.forces.size(); ++i) {
+    const double ratio = soft.forces[i] / curve.forces.force[i];
+    sum += ratio;
+    squares += ratio * ratio;
+  }
+  if (!(squares > 0.0))
+    throw refused(loaded, "exchange.edge", meshes::to_text(soft.edge) + " m",
+                  "tetrahedra of that size bear no press", "choose smaller ones");
+  soft.youngs_modulus = sum / squares;
+  soft.stiffness = vertex_stiffness * soft.edge * soft.youngs_modulus;
+  for (double& force : soft.forces) force *= soft.youngs_modulus;
+  return soft;
+}
+
+ForetoldModel foretold(const std::string& name, const SoftBody& body) {
+  return {name, [forces = body.forces](const ContactCurve& curve) {
+            std::vector<double> known(curve.forces.force.size(), meshes::unknown);
+            if (curve.obstacle.is_plane()) std::ranges::copy(forces, known.begin());
+            return known;
+          }};
+}
+
+std::string description(const SoftBody& body) {
+  return fmt::format(
+      "{} vertices, {} tetrahedra with edges of {:.3g} mm. Linear tetrahedra are too stiff, the "
+      "more the coarser; St. Venant-Kirchhoff's\nlaw is too soft in compression. E = {:.6g} Pa "
+      "(mu = {:.6g}, lambda = {:.6g}) is what meets the continuum's forces best with\nnu = {:.4g}.",
+      body.body.mesh.vertices.size(), body.body.mesh.tetrahedra.size(), 1e3 * body.edge,
+      body.youngs_modulus, body.shear_modulus(), body.lambda(), body.poissons_ratio);
+}
+
+std::string summary(const SoftBody& body, const ContactCurve& curve) {
+  return fmt::format("E = {:.4g} Pa with nu = {:.3g}, {} vertices.{}", body.youngs_modulus,
+                     body.poissons_ratio, body.body.mesh.vertices.size(), body.limit(curve));
+}
+
+}  // namespace fingertip::studies

@@ -1,0 +1,219 @@
+// Fingers for simulators whose contact is a law: what is written, and what these programs make of
+// it.
+
+#include <gtest/gtest.h>
+
+#include <boost/property_tree/xml_parser.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#ifdef FINGERTIP_SDFORMAT
+#include <sdf/Collision.hh>
+#include <sdf/Geometry.hh>
+#include <sdf/Link.hh>
+#include <sdf/Model.hh>
+#include <sdf/Root.hh>
+#include <sdf/Sphere.hh>
+#endif
+
+#include "tests/studies/program.h"
+#include "tests/temporary_folder.h"
+
+using nlohmann::json;
+
+namespace {
+
+namespace tree = boost::property_tree;
+
+/// A quick continuum: small strain, wide bars; and few tetrahedra.
+std::vector<std::string> contact_export(const std::string& format,
+                                        const std::vector<std::string>& more) {
+  std::vector<std::string> words = {"export", "--format", format, "--out", "run"};
+  for (const char* set : {"reference.strain=linear", "reference.tolerance=0.02", "press.depth=2 mm",
+                          "exchange.edge=8 mm"})
+    words.insert(words.end(), {"--set", set});
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+const std::vector<std::string> slips = {"--set", "press.contact=frictionless"};
+
+/// The file as a tree; throws where it is not well-formed.
+tree::ptree parsed(const std::filesystem::path& file) {
+  tree::ptree found;
+  tree::read_xml(file.string(), found);
+  return found;
+}
+
+std::vector<double> numbers_of(const tree::ptree& node, const std::string& attribute) {
+  std::istringstream text(node.get<std::string>("<xmlattr>." + attribute));
+  return {std::istream_iterator<double>(text), {}};
+}
+
+const json& model_of(const json& obstacle, const std::string& name) {
+  for (const json& model : obstacle["models"])
+    if (model["model"] == name) return model;
+  throw std::runtime_error("no model " + name);
+}
+
+}  // namespace
+
+TEST(ContactExport, EveryFormatIsWrittenWithTheForceErrorToExpect) {
+  const TemporaryFolder folder;
+  const ProgramResult made = run_program(folder.path(), contact_export("all", slips));
+  ASSERT_EQ(made.code, 0) << made.err;
+  for (const char* told : {"pressure-law: table", "mujoco: flex", "drake: hydroelastic ball"})
+    EXPECT_NE(made.out.find(told), std::string::npos) << made.out;
+  const json transfer = json::parse(read_text(folder / "run/transfer.json"));
+  ASSERT_EQ(transfer["obstacles"].size(), 3U);
+  EXPECT_TRUE(transfer["lost"].empty());
+  const json& plane = transfer["obstacles"][0];
+  EXPECT_TRUE(plane["fitted"].get<bool>());
+  ASSERT_EQ(plane["force"].size(), 5U);
+  const json &table = model_of(plane, "pressure-law: table"),
+             &power = model_of(plane, "pressure-law: power");
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_LT(std::abs(table["error"][i].get<double>()), 0.01);
+    EXPECT_LT(std::abs(power["error"][i].get<double>()), 0.1);
+    EXPECT_NEAR(power["force"][i].get<double>() / plane["force"][i].get<double>() - 1.0,
+                power["error"][i].get<double>(), 1e-12);
+  }
+  EXPECT_NEAR(table["carries_to"].get<double>(), 2e-3, 1e-12);
+  // A foundation takes a ball of half the relative radius for half as stiff, a half space for
+  // 1/sqrt(2): at the least depth the truth is between. A contact of the penetration alone takes it
+  // for as stiff as the plane.
+  const json& ball = transfer["obstacles"][1];
+  EXPECT_EQ(ball["obstacle"], "sphere of 10 mm");
+  const double error = model_of(ball, "pressure-law: table")["error"][0];
+  EXPECT_LT(error, -0.1);
+  EXPECT_GT(error, 1.0 / std::sqrt(2.0) - 1.0 - 0.02);
+  EXPECT_GT(model_of(ball, "mujoco: rigid geom")["error"][0].get<double>(), 0.3);
+  EXPECT_TRUE(model_of(ball, "mujoco: flex")["error"][0].is_null());
+
+  const json law = json::parse(read_text(folder / "run/pressure-law/pressure_law.json"));
+  EXPECT_GT(law["exponent"].get<double>(), 0.5);  // Hertz' on a half space
+  EXPECT_NEAR(law["hydroelastic_modulus"].get<double>() / law["line"].get<double>(), 0.01, 1e-9);
+  EXPECT_TRUE(read_text(folder / "run/pressure-law/pressure_table.csv")
+                  .starts_with("penetration [m],pressure"));
+  for (const char* format : {"", "pressure-law/", "mujoco/", "drake/", "sofa/", "vtk/"})
+    EXPECT_NE(read_text(folder / "run" / format / "README.md").find("Force error to expect"),
+              std::string::npos);
+}
+
+TEST(ContactExport, SoftBodiesAreTheSameForEveryProgram) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(folder.path(), contact_export("all", slips)).code, 0);
+  const tree::ptree scene = parsed(folder / "run/sofa/finger.scn").get_child("Node.Node");
+  const tree::ptree flex =
+      parsed(folder / "run/mujoco/finger_flex.xml").get_child("mujoco.worldbody.flexcomp");
+  const tree::ptree& mesh = scene.get_child("TetrahedronSetTopologyContainer");
+  const std::vector<double> places = numbers_of(mesh, "position");
+  EXPECT_EQ(places, numbers_of(flex, "point"));
+  EXPECT_EQ(numbers_of(mesh, "tetrahedra"), numbers_of(flex, "element"));
+  EXPECT_EQ(numbers_of(scene.get_child("FixedProjectiveConstraint"), "indices"),
+            numbers_of(flex.get_child("pin"), "id"));
+  EXPECT_EQ(numbers_of(scene.get_child("UniformMass"), "totalMass"), numbers_of(flex, "mass"));
+  // mu and lambda there are those of half of lambda here.
+  const std::vector<double> law =
+      numbers_of(scene.get_child("TetrahedronHyperelasticityFEMForceField"), "ParameterSet");
+  ASSERT_EQ(law.size(), 2U);
+  const double young = numbers_of(flex.get_child("elasticity"), "young")[0],
+               poisson = numbers_of(flex.get_child("elasticity"), "poisson")[0];
+  const double mu = 0.5 * young / (1.0 + poisson),
+               lambda = 2.0 * mu * poisson / (1.0 - 2.0 * poisson);
+  EXPECT_NEAR(mu / law[0], 1.0, 1e-7);
+  EXPECT_NEAR(2.0 * lambda / law[1], 1.0, 1e-7);
+  // The plane touches the highest vertex; a vertex behind it is pushed as MuJoCo pushes it.
+  double top = 0.0;
+  for (std::size_t i = 2; i < places.size(); i += 3) top = std::max(top, places[i]);
+  const tree::ptree& plane = scene.get_child("PlaneForceField");
+  EXPECT_NEAR(numbers_of(plane, "d")[0], -top, 1e-12);
+  const double vertex = numbers_of(flex, "mass")[0] / (double(places.size()) / 3.0);
+  const std::vector<double> solref = numbers_of(flex.get_child("contact"), "solref"),
+                            solimp = numbers_of(flex.get_child("contact"), "solimp");
+  EXPECT_NEAR(-solref[0] * vertex / (1.0 - solimp[0]) / numbers_of(plane, "stiffness")[0], 1.0,
+              1e-7);
+  const tree::ptree piece =
+      parsed(folder / "run/vtk/finger.vtu").get_child("VTKFile.UnstructuredGrid.Piece");
+  EXPECT_EQ(std::size_t(numbers_of(piece, "NumberOfPoints")[0]), places.size() / 3);
+  EXPECT_EQ(std::size_t(numbers_of(piece, "NumberOfCells")[0]),
+            numbers_of(mesh, "tetrahedra").size() / 4);
+}
+
+TEST(ContactExport, MuJoCoPressesAsForetold) {
+  const std::string library = FINGERTIP_MUJOCO;
+  if (!std::filesystem::exists(library))
+    GTEST_SKIP() << "MuJoCo is not installed: ./fingertip test installs it";
+  const TemporaryFolder folder;
+  const ProgramResult made = run_program(folder.path(), contact_export("mujoco", slips));
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string press =
+      "node '" FINGERTIP_SOURCES "/tests/studies/exchange/press_in_mujoco.mjs' '" + library +
+      "' '" + (folder / "run").string() + "' > '" + (folder / "forces.json").string() + "'";
+  ASSERT_EQ(std::system(press.c_str()), 0);
+  const json forces = json::parse(read_text(folder / "forces.json"));
+  const json models =
+      json::parse(read_text(folder / "run/transfer.json"))["obstacles"][0]["models"];
+  int compared = 0;
+  for (const auto& [file, model] : {std::pair("finger_rigid.xml", 0), {"finger_flex.xml", 1}})
+    for (std::size_t i = 0; i < 5; ++i) {
+      const json& foretold = models[std::size_t(model)]["force"][i];
+      ASSERT_EQ(foretold.is_null(), forces[file][i].is_null());
+      if (foretold.is_null()) continue;
+      ++compared;
+      EXPECT_NEAR(forces[file][i].get<double>() / foretold.get<double>(), 1.0, 0.01)
+          << file << ", depth " << i;
+    }
+  EXPECT_GE(compared, 8);
+}
+
+TEST(ContactExport, LibsdformatAcceptsDrakesFile) {
+#ifdef FINGERTIP_SDFORMAT
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(folder.path(), contact_export("drake", slips)).code, 0);
+  sdf::Root root;
+  const sdf::Errors errors = root.Load((folder / "run/finger.sdf").string());
+  for (const sdf::Error& error : errors) ADD_FAILURE() << error.Message();
+  ASSERT_NE(root.Model(), nullptr);
+  const sdf::Collision* collision = root.Model()->LinkByIndex(0)->CollisionByIndex(0);
+  const auto properties = collision->Element()->GetElement("drake:proximity_properties");
+  EXPECT_GT(properties->Get<double>("drake:hydroelastic_modulus"), 0.0);
+  EXPECT_NEAR(collision->Geom()->SphereShape()->Radius(), 0.01, 1e-12);
+#else
+  GTEST_SKIP() << "libsdformat is not installed: ./fingertip test installs it";
+#endif
+}
+
+TEST(ContactExport, WhatAFormatCannotSayIsRefusedUnlessAskedFor) {
+  const TemporaryFolder folder;
+  const ProgramResult sticks = run_program(folder.path(), contact_export("pressure-law", {}));
+  EXPECT_EQ(sticks.code, 2);
+  EXPECT_NE(sticks.err.find("press.contact"), std::string::npos) << sticks.err;
+  EXPECT_NE(sticks.err.find("--lossy"), std::string::npos) << sticks.err;
+  const ProgramResult tilted = run_program(
+      folder.path(), contact_export("drake", {"--lossy", "--set", "press.tilt=0.1 rad"}));
+  EXPECT_EQ(tilted.code, 2);
+  EXPECT_NE(tilted.err.find("press.tilt"), std::string::npos) << tilted.err;
+  EXPECT_TRUE(made_in(folder.path()).empty());
+  ASSERT_EQ(run_program(folder.path(), contact_export("pressure-law", {"--lossy"})).code, 0);
+  const json transfer = json::parse(read_text(folder / "run/transfer.json"));
+  ASSERT_EQ(transfer["lost"].size(), 1U);
+  EXPECT_NE(transfer["lost"][0].get<std::string>().find("press.contact"), std::string::npos);
+}
+
+TEST(ContactExport, SoftBodiesUnderOtherThanPlanesAreLeftOut) {
+  const TemporaryFolder folder;
+  std::vector<std::string> ball = slips;
+  ball.insert(ball.end(), {"--set", "obstacle.shape=sphere", "--set", "obstacle.radius=8 mm"});
+  const ProgramResult alone = run_program(folder.path(), contact_export("sofa", ball));
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_NE(alone.err.find("obstacle.shape"), std::string::npos) << alone.err;
+  ball.push_back("--force");
+  const ProgramResult all = run_program(folder.path(), contact_export("all", ball));
+  ASSERT_EQ(all.code, 0) << all.err;
+  EXPECT_NE(all.out.find("sofa: "), std::string::npos) << all.out;
+  EXPECT_FALSE(std::filesystem::exists(folder / "run/sofa"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run/mujoco/finger_rigid.xml"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "run/mujoco/finger_flex.xml"));
+}
