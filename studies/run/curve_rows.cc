@@ -166,8 +166,14 @@ std::vector<Hold> holds_in(const std::vector<CurveRow>& rows, double width) {
   std::ranges::nth_element(counts, middle);
   const std::size_t usual = *middle, least_count = std::max(hold_rows, hold_share * usual);
   std::erase_if(stretches, [&](const Hold& h) { return h.end - h.first < least_count; });
-  // At either end the machine still moves.
-  for (Hold& hold : stretches) hold.first += usual, hold.end -= usual;
+  // At its begin the machine still moves.
+  for (Hold& hold : stretches) {
+    std::vector<double> xs;
+    for (std::size_t i = hold.first; i < hold.end; ++i) xs.push_back(rows[i].x);
+    const auto half = xs.begin() + std::ptrdiff_t(xs.size() / 2);
+    std::ranges::nth_element(xs, half);
+    while (rows[hold.first].x < *half) ++hold.first;
+  }
   // Dense rows on the way are no hold.
   std::erase_if(stretches, [&](const Hold& hold) {
     const std::size_t quarter = std::max<std::size_t>(1, (hold.end - hold.first) / 4);
