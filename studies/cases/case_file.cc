@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
+#include "studies/files/places.h"
 
 namespace fingertip::studies {
 
@@ -42,7 +43,8 @@ bool is_asked(const CaseRun& prediction, const CaseRun& fit) {
 
 fs::path cases_folder() {
   const char* const chosen = std::getenv("FINGERTIP_CASES");
-  return chosen != nullptr && *chosen != '\0' ? fs::path(chosen) : fs::path(FINGERTIP_CASES_FOLDER);
+  return chosen != nullptr && *chosen != '\0' ? fs::path(chosen)
+                                              : data_folder("cases", FINGERTIP_CASES_FOLDER);
 }
 
 std::vector<fs::path> all_cases() {

@@ -18,6 +18,7 @@
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
 #include "studies/config/value_reader.h"
+#include "studies/files/places.h"
 
 namespace fingertip::studies {
 
@@ -100,7 +101,7 @@ class CaseReader {
   void take_core_runs() {
     static const Case core = [] {
       Case study_case;
-      const fs::path file = fs::path(FINGERTIP_CASES_FOLDER) / core_case / "case.toml";
+      const fs::path file = data_folder("cases", FINGERTIP_CASES_FOLDER) / core_case / "case.toml";
       CaseReader reader(file, study_case);
       reader.is_core_ = true;
       std::vector<Problem> problems = reader.read();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
+#include <sstream>
 
 #include "studies/config/key_table.h"
 #include "studies/run/provenance.h"
@@ -189,6 +190,8 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
   if (name == "explain") {
     sub.add_flag("--schema", line.schema, "JSON Schema of configuration files");
     sub.add_flag("--markdown", line.markdown, "reference page of all keys");
+    sub.add_flag("--man", line.man, "manual page: fingertip explain --man | man -l -");
+    sub.add_flag("--completion", line.completion, "completion of commands, for bash to source");
   }
   sub.add_flag("--quiet", line.quiet, "print errors only");
   sub.callback([&line, name] { line.verb = name; });
@@ -236,7 +239,40 @@ ProgressStyle style(const std::string& word, bool quiet) {
   return ::isatty(STDERR_FILENO) == 1 ? ProgressStyle::tty : ProgressStyle::lines;
 }
 
+/// The words of "TEXT:{a,b}".
+std::vector<std::string> choices_of(const std::string& type) {
+  std::vector<std::string> found;
+  const std::size_t begin = type.find('{'), end = type.find('}');
+  if (begin == type.npos || end == type.npos) return found;
+  std::istringstream list(type.substr(begin + 1, end - begin - 1));
+  for (std::string word; std::getline(list, word, ',');) found.push_back(word);
+  return found;
+}
+
 }  // namespace
+
+std::vector<VerbWords> verb_words() {
+  CommandLine line;
+  std::string progress, resume;
+  CLI::App app;
+  std::vector<VerbWords> all;
+  for (const Verb& verb : verbs) {
+    add_verb(app, verb, line, progress, resume);
+    VerbWords words{verb.name, verb.help, verb.argument, verb.argument_help, {}};
+    for (const CLI::Option* option : app.get_subcommand(verb.name)->get_options()) {
+      if (option->get_lnames().empty()) continue;
+      const std::string type = option->get_type_name();
+      const std::vector<std::string> choices = choices_of(type);
+      std::string value =
+          option->get_items_expected_max() == 0 ? "" : type.substr(0, type.find(':'));
+      if (!choices.empty()) value = "WORD";
+      words.options.push_back(
+          {"--" + option->get_lnames().front(), value, option->get_description(), choices});
+    }
+    all.push_back(std::move(words));
+  }
+  return all;
+}
 
 std::variant<CommandLine, int> parse_command_line(int argc, char** argv) {
   CommandLine line;

@@ -43,9 +43,22 @@ struct CommandLine {
   bool list = false;                 ///< sweep --list
   bool schema = false;               ///< explain --schema
   bool markdown = false;             ///< explain --markdown
+  bool man = false;                  ///< explain --man
+  bool completion = false;           ///< explain --completion
   ProgressStyle progress = ProgressStyle::off;
   std::vector<std::string> words;  ///< everything as typed, for the manifest
 };
+
+/// A verb as the parser knows it.
+struct VerbWords {
+  struct Option {
+    std::string name, value, help;     ///< "--out", "DIR"; no value of a flag
+    std::vector<std::string> choices;  ///< of the value; empty: any
+  };
+  std::string name, help, argument, argument_help;
+  std::vector<Option> options;
+};
+std::vector<VerbWords> verb_words();
 
 /// Either what to do or, after help, version or a refusal (already printed), the exit code.
 std::variant<CommandLine, int> parse_command_line(int argc, char** argv);

@@ -2,6 +2,7 @@
 
 #include "meshes/files.h"
 #include "studies/cases/case_file.h"
+#include "studies/cli/shell_texts.h"
 #include "studies/cli/verbs.h"
 #include "studies/config/documents.h"
 #include "studies/run/press_setup.h"
@@ -34,7 +35,9 @@ int run_check(const CommandLine& line) {
 int run_explain(const CommandLine& line) {
   if (line.schema) fmt::print("{}", json_schema());
   if (line.markdown) fmt::print("{}", markdown_reference());
-  if (line.schema || line.markdown) return 0;
+  if (line.man) fmt::print("{}", man_page());
+  if (line.completion) fmt::print("{}", bash_completion());
+  if (line.schema || line.markdown || line.man || line.completion) return 0;
   if (line.arguments.empty()) {
     fmt::print("{}\nfingertip explain section.key tells more about one.\n", key_overview());
     return 0;

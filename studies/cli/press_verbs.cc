@@ -252,6 +252,7 @@ int run_press(const CommandLine& line) {
   for (const auto& notes : {law_notes(setup), scaling_notes(setup)})
     loaded.notes.insert(loaded.notes.end(), notes.begin(), notes.end());
   const std::vector<std::string> warnings = loaded.notes;
+  if (loaded.config.automatic_integrator) loaded.notes.push_back(integrator_note(setup));
   if (const auto note = duration_note(setup, cores_for(loaded))) loaded.notes.push_back(*note);
   if (line.movie > 0 && setup.protocol.mode == meshes::DriveMode::equilibrium) {
     throw ConfigError({{"--movie", "press.mode", "static", "a press without time has no movie",

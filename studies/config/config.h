@@ -188,6 +188,8 @@ struct Config {
   std::optional<double> shore_hardness;           ///< Shore A, when given instead of E
   std::filesystem::path card;                     ///< of the rubber's law; absolute, or empty
   LawCoefficients coefficients;                   ///< as given; press.rubber has the law
+  /// Scaled masses where they keep to a press's force, else press.integrator as it stands.
+  bool automatic_integrator = false;
   ContinuumLaw continuum_law = ContinuumLaw::a;
   fem_reference::ReferenceJob reference;
   CalibrationSettings calibration;

@@ -484,6 +484,28 @@ std::vector<Key> reference_keys() {
   return keys;
 }
 
+/// "auto" is no integrator of its own: a press chooses one.
+Key integrator_key() {
+  Key key = choice(
+      "run", "integrator",
+      {{"symplectic-euler", "velocities first, then positions"},
+       {"explicit-euler", "as printed in the paper's Fig. 4; published lattice"},
+       {"runge-kutta", "order 5(4) by SUNDIALS ARKODE, see run.tolerance"},
+       {"mass-scaled",
+        "symplectic Euler at long steps, with inertia against deformation; for slow presses: fast "
+        "ones take plain masses unless run.time_step is given, and then tell the error"},
+       {"energy-controlled", "symplectic Euler, see run.energy_bound"},
+       {"auto",
+        "mass-scaled where that is faster and keeps the force within 2 %, else symplectic-euler"}},
+      "time integration of the lattice", at(&Config::press, &lattice::PressSetup::integrator));
+  key.assign = [assign = key.assign](Config& config, Value value) {
+    config.automatic_integrator = value.word == "auto";
+    if (config.automatic_integrator) value.word = "symplectic-euler";
+    assign(config, value);
+  };
+  return key;
+}
+
 std::vector<Key> run_keys() {
   return {
       plain("run", "threads", {0, 1024, true},
@@ -493,16 +515,7 @@ std::vector<Key> run_keys() {
              {{"si", "mN, mm, kPa"}, {"paper", "gf, cm, gf/cm^2, as in the paper of 1996"}},
              "units of screens, pages, figures and the live view; files keep theirs, and no result "
              "depends on it"),
-      choice(
-          "run", "integrator",
-          {{"symplectic-euler", "velocities first, then positions"},
-           {"explicit-euler", "as printed in the paper's Fig. 4; published lattice"},
-           {"runge-kutta", "order 5(4) by SUNDIALS ARKODE, see run.tolerance"},
-           {"mass-scaled",
-            "symplectic Euler at long steps, with inertia against deformation; for slow presses: "
-            "fast ones take plain masses unless run.time_step is given, and then tell the error"},
-           {"energy-controlled", "symplectic Euler, see run.energy_bound"}},
-          "time integration of the lattice", at(&Config::press, &lattice::PressSetup::integrator)),
+      integrator_key(),
       only_with("run.integrator", {"runge-kutta"},
                 plain("run", "tolerance", {0.0, 1.0, false},
                       "error of a step, relative to a strain of 1 % in root mean square",

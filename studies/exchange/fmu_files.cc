@@ -136,7 +136,7 @@ void write_fmu(const FmuExport& unit, const fs::path& folder) {
   write(content / "modelDescription.xml", unit.description);
   write(resources / fmu_settings, unit.settings);
   for (const fs::path& file : unit.files) copy_into(file, resources);
-  copy_into(executable_folder() / (std::string(identifier) + ".so"), binaries);
+  copy_into(passed_on(std::string(identifier) + ".so"), binaries);
   Command pack{
       {zip.string(), "-q", "-X", "-r", (fs::absolute(folder) / "finger.fmu").string(), "."}, {}};
   pack.folder = content;

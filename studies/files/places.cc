@@ -14,8 +14,22 @@ fs::path executable_folder() {
   if (dladdr(reinterpret_cast<const void*>(&executable_folder), &own) == 0 ||
       own.dli_fname == nullptr || !std::string_view(own.dli_fname).ends_with(".so"))
     return fs::read_symlink("/proc/self/exe").parent_path();
-  // PLACE/python/fingertip/_core.so beside PLACE/bin
-  return fs::canonical(own.dli_fname).parent_path().parent_path().parent_path() / "bin";
+  fs::path place = fs::canonical(own.dli_fname).parent_path();
+  while (place.has_relative_path() && !fs::exists(place / "bin" / "fingertip"))
+    place = place.parent_path();
+  return place / "bin";
+}
+
+fs::path data_folder(const std::string& name, const fs::path& source) {
+  const fs::path installed = executable_folder().parent_path() / "share/fingertip" / name;
+  return fs::exists(installed) ? installed : source;
+}
+
+fs::path passed_on(const std::string& name) {
+  const fs::path built = executable_folder() / name;
+  return fs::exists(built)
+             ? built
+             : executable_folder().parent_path() / FINGERTIP_LIBDIR / "fingertip" / name;
 }
 
 fs::path reference_program() {

@@ -2,12 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace fingertip::studies {
 
-/// The folder of the project's programs: where this code's own file is, or of the Python module
-/// the programs' one beside it, `bin`.
+/// The folder of the project's programs: where this code's own file is, or of the Python module the
+/// nearest `bin` above it that has them.
 std::filesystem::path executable_folder();
+
+/// A folder of data: PREFIX/share/fingertip/NAME where the programs are installed, else `source`.
+std::filesystem::path data_folder(const std::string& name, const std::filesystem::path& source);
+
+/// A shared object that the programs pass on: beside them as built, or in PREFIX's library folder.
+std::filesystem::path passed_on(const std::string& name);
 
 /// fingertip-fem there; need not exist.
 std::filesystem::path reference_program();

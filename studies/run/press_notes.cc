@@ -105,6 +105,19 @@ std::vector<std::string> scaling_notes(const PressSetup& setup) {
   return {deviation_note(setup, choice)};
 }
 
+std::string integrator_note(const PressSetup& setup) {
+  if (setup.integrator != Integrator::mass_scaled)
+    return fmt::format(
+        "run.integrator = auto: {}; scaled masses would not press this as well and faster",
+        lattice::name(setup.integrator));
+  const ScalingChoice choice = lattice::best_scaling(setup);
+  const double from = lattice::judged_from(setup);
+  return fmt::format(
+      "run.integrator = auto: mass-scaled, steps of {}, force within an estimated {} from {} on",
+      length_of(choice.step), percent(lattice::worst_of(choice.deviations, from).relative),
+      millimetres(from));
+}
+
 std::optional<std::string> duration_note(const PressSetup& setup, int threads) {
   constexpr double long_time = 30.0, worth_it = 5.0;  // [s]; times as fast
   if (setup.integrator != Integrator::symplectic_euler ||

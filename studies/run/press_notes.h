@@ -15,6 +15,8 @@ std::vector<std::string> law_notes(const lattice::PressSetup& setup);
 /// Where scaled masses change the force by more than lattice::tolerated_deviation, by how much and
 /// what would not; and that plain masses are pressed where scaled ones do not serve.
 std::vector<std::string> scaling_notes(const lattice::PressSetup& setup);
+/// What run.integrator = auto has taken for a press.
+std::string integrator_note(const lattice::PressSetup& setup);
 
 /// That a press takes long (above half a minute, roughly estimated, with so many threads), where
 /// scaled masses would be five times as fast; with what they would change of the force.

@@ -4,6 +4,7 @@
 
 #include "calibration/material.h"
 #include "calibration/words.h"
+#include "lattice/press/press_deviation.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/files.h"
 #include "studies/config/key_table.h"
@@ -146,6 +147,19 @@ LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use) {
   return complete;
 }
 
+namespace {
+
+/// Whether scaled masses can press it, faster, and keep the force.
+bool serves_scaled(lattice::PressSetup setup) {
+  setup.integrator = lattice::Integrator::mass_scaled;
+  if (setup.protocol.mode == meshes::DriveMode::equilibrium || setup.time_step ||
+      !setup.violations().empty())
+    return false;
+  return lattice::best_scaling(setup).scaled;
+}
+
+}  // namespace
+
 lattice::PressSetup press_setup(const LoadedConfig& loaded) {
   check_spacing(loaded);
   check_constants_source(loaded);
@@ -160,6 +174,8 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded) {
     setup.lattice.constants = resolve_constants(loaded);
   }
   choose_controller(loaded, setup);
+  if (loaded.config.automatic_integrator && serves_scaled(setup))
+    setup.integrator = lattice::Integrator::mass_scaled;
   const std::vector<meshes::Violation> broken = setup.violations();
   if (!broken.empty()) throw loaded.locate(broken);
   return setup;

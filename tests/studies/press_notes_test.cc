@@ -71,3 +71,21 @@ TEST(PressNotes, AStiffRubberIsOfferedScaledMasses) {
   central.emplace_back("lattice.model=central");
   EXPECT_FALSE(duration_note(setup_of(central), 1)) << "cannot be scaled";
 }
+
+TEST(PressNotes, TheIntegratorIsChosenByThePress) {
+  using fingertip::lattice::Integrator;
+  const auto chosen = [](std::vector<std::string> sets) {
+    sets.emplace_back("run.integrator=auto");
+    return setup_of(std::move(sets));
+  };
+  const auto slow = chosen({"press.speed=1 cm/s"});
+  EXPECT_EQ(slow.integrator, Integrator::mass_scaled);
+  EXPECT_TRUE(holds(integrator_note(slow), "mass-scaled, steps of 250 us"))
+      << integrator_note(slow);
+  for (const char* plain : {"press.speed=20 cm/s", "press.mode=static", "run.time_step=10 us",
+                            "lattice.model=published"}) {
+    const auto setup = chosen({plain});
+    EXPECT_EQ(setup.integrator, Integrator::symplectic_euler) << plain;
+    EXPECT_TRUE(holds(integrator_note(setup), "symplectic-euler")) << plain;
+  }
+}
