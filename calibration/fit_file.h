@@ -160,6 +160,36 @@ constexpr auto fields_of(const LeftOutEntry*) {
       newer(named("failure", &Whole::failure)));
 }
 
+/// Repeats of one press: curves of the same finger, pressed in the same way. SI, lists per repeat,
+/// or per step of the travel since touch.
+struct RepeatsEntry {
+  std::vector<std::string> curves;
+  std::vector<double> factors, factor_errors;
+  double deviation = meshes::unknown, probability = meshes::unknown;
+  std::vector<double> travel, mean, scatter, noise;
+};
+constexpr auto fields_of(const RepeatsEntry*) {
+  using meshes::named;
+  using Whole = RepeatsEntry;
+  return named("curves factors factor_errors deviation probability travel mean scatter noise",
+               &Whole::curves, &Whole::factors, &Whole::factor_errors, &Whole::deviation,
+               &Whole::probability, &Whole::travel, &Whole::mean, &Whole::scatter, &Whole::noise);
+}
+
+/// What a file tells besides the values that are fitted: Course.
+struct CourseEntry {
+  std::size_t rows = 0;
+  double noise = meshes::unknown, loop = meshes::unknown, hold_time = meshes::unknown,
+         relaxation = meshes::unknown;
+  std::vector<double> back_x, back_y;
+};
+constexpr auto fields_of(const CourseEntry*) {
+  using meshes::named;
+  using Whole = CourseEntry;
+  return named("rows noise loop hold_time relaxation back_x back_y", &Whole::rows, &Whole::noise,
+               &Whole::loop, &Whole::hold_time, &Whole::relaxation, &Whole::back_x, &Whole::back_y);
+}
+
 /// A curve of a fit.
 struct CurveEntry {
   std::string name, condition, x_quantity, y_quantity;
@@ -167,6 +197,7 @@ struct CurveEntry {
   double worst_relative_residual = meshes::unknown, rms_relative_residual = meshes::unknown;
   StructureEntry structure;
   std::optional<LeftOutEntry> left_out;
+  std::optional<CourseEntry> course;
 };
 constexpr auto fields_of(const CurveEntry*) {
   using meshes::named, meshes::newer;
@@ -176,7 +207,8 @@ constexpr auto fields_of(const CurveEntry*) {
       newer(named("x_quantity y_quantity", &Whole::x_quantity, &Whole::y_quantity)),
       named("points worst_relative_residual rms_relative_residual structure left_out",
             &Whole::points, &Whole::worst_relative_residual, &Whole::rms_relative_residual,
-            &Whole::structure, &Whole::left_out));
+            &Whole::structure, &Whole::left_out),
+      newer(named("course", &Whole::course)));
 }
 
 /// A combination of parameters that data do not determine.
@@ -368,6 +400,7 @@ struct FitFile {
   std::vector<AccusationEntry> lack_of_fit;
   std::vector<NextEntry> next;
   std::optional<ContactEntry> contact;
+  std::vector<RepeatsEntry> repeats;
   std::string statement;
 
   bool empty() const { return problem.empty(); }
@@ -392,8 +425,8 @@ constexpr auto fields_of(const FitFile*) {
             &Whole::residual_deviation, &Whole::minima, &Whole::x_quantity, &Whole::y_quantity,
             &Whole::curves, &Whole::residuals, &Whole::influence, &Whole::profile,
             &Whole::iterations, &Whole::evaluations, &Whole::wall_time, &Whole::validity),
-      newer(named("failed rig lack_of_fit next contact", &Whole::failed, &Whole::rig,
-                  &Whole::lack_of_fit, &Whole::next, &Whole::contact)),
+      newer(named("failed rig lack_of_fit next contact repeats", &Whole::failed, &Whole::rig,
+                  &Whole::lack_of_fit, &Whole::next, &Whole::contact, &Whole::repeats)),
       named("statement", &Whole::statement));
 }
 

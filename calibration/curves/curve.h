@@ -1,10 +1,23 @@
 /// A measured relation between two quantities, and how uncertain it is.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "meshes/press_response.h"
+
 namespace fingertip::calibration {
+
+/// What a file tells besides the values that are fitted; SI, NaN where unknown.
+struct Course {
+  std::size_t rows = 0;            ///< of the file; 0: unknown
+  double noise = meshes::unknown;  ///< standard deviation of a single row [y]
+  double loop = meshes::unknown;   ///< area between loading and unloading over the loading's work
+  /// Of the longest hold under load: how long [s], and the share by which the force falls.
+  double hold_time = meshes::unknown, relaxation = meshes::unknown;
+  std::vector<double> back_x, back_y;  ///< the way back, thinned
+};
 
 /// SI.
 struct Curve {
@@ -18,6 +31,7 @@ struct Curve {
   std::vector<double> sigma;
   std::vector<double> time = {};  ///< of every value [s]; empty where unknown or of no interest
   bool is_travel = false;         ///< x is the travel of a machine, whose zero is anywhere
+  Course course = {};
 };
 
 }  // namespace fingertip::calibration

@@ -71,13 +71,15 @@ struct RelativeSize {
   double worst = 0.0, rms = 0.0;
 };
 
-/// |residual| over |y|; where y is zero over the largest |y|.
-RelativeSize relative_size(const VectorXd& residuals, const std::vector<double>& y) {
+/// |residual| over |y|; where y is zero, and over a travel, whose touch is unknown, over the
+/// largest |y|.
+RelativeSize relative_size(const VectorXd& residuals, const Curve& curve) {
+  const std::vector<double>& y = curve.y;
   const VectorXd values = Eigen::Map<const VectorXd>(y.data(), Index(y.size()));
   const double largest = std::max(values.cwiseAbs().maxCoeff(), 1e-300);
   RelativeSize size;
   for (Index i = 0; i < values.size(); ++i) {
-    const double base = values(i) != 0.0 ? std::abs(values(i)) : largest;
+    const double base = values(i) != 0.0 && !curve.is_travel ? std::abs(values(i)) : largest;
     const double relative = std::abs(residuals(i)) / base;
     size.worst = std::max(size.worst, relative);
     size.rms += relative * relative / double(values.size());
@@ -89,7 +91,7 @@ RelativeSize relative_size(const VectorXd& residuals, const std::vector<double>&
 CurveEntry curve_entry(const FitRecord& record, std::size_t i) {
   const Curve& curve = record.curves[i];
   const ResidualStructure structure = structure_of(record, i);
-  const RelativeSize size = relative_size(record.fit.residuals[i], curve.y);
+  const RelativeSize size = relative_size(record.fit.residuals[i], curve);
   CurveEntry entry;
   entry.name = curve.name;
   entry.condition = record.conditions[i];
@@ -105,7 +107,24 @@ CurveEntry curve_entry(const FitRecord& record, std::size_t i) {
                       without.failure.empty() ? without.worst_relative_error : unknown,
                       without.failure};
   }
+  const Course& course = curve.course;
+  if (course.rows > 0)
+    entry.course = {course.rows,       course.noise,  course.loop,  course.hold_time,
+                    course.relaxation, course.back_x, course.back_y};
   return entry;
+}
+
+std::vector<RepeatsEntry> repeats_entries(const FitRecord& record) {
+  std::vector<RepeatsEntry> entries;
+  for (const Repeats& each : record.repeats) {
+    RepeatsEntry& entry = entries.emplace_back();
+    for (const std::size_t curve : each.curves) entry.curves.push_back(record.curves[curve].name);
+    entry.factors = each.factors, entry.factor_errors = each.factor_errors;
+    entry.deviation = each.deviation, entry.probability = each.probability;
+    entry.travel = each.travel, entry.mean = each.mean;
+    entry.scatter = each.scatter, entry.noise = each.noise;
+  }
+  return entries;
 }
 
 std::optional<ProfileEntry> profile_entry(const FitRecord& record) {
@@ -245,7 +264,9 @@ Columns columns(const FitRecord& record) {
 
 ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
   const std::vector<VectorXd>& residuals = record.fit.residuals;
-  if (record.curves[curve].sigma.empty()) return residual_structure(residuals[curve]);
+  if (record.curves[curve].sigma.empty())
+    return residual_structure(record.own_residuals.empty() ? residuals[curve]
+                                                           : record.own_residuals[curve]);
   Index count = 0, first = 0;
   for (std::size_t c = 0; c < residuals.size(); ++c) {
     if (c == curve) first = count;
@@ -268,11 +289,16 @@ std::size_t rubber_parameters(const CurveFit& fit) {
 
 double worst_relative_residual(const FitRecord& record) {
   double worst = 0.0;
-  for (std::size_t c = 0; c < record.curves.size(); ++c)
-    for (std::size_t i = 0; i < record.curves[c].y.size(); ++i)
-      if (record.curves[c].y[i] != 0.0)
-        worst =
-            std::max(worst, std::abs(record.fit.residuals[c](Index(i)) / record.curves[c].y[i]));
+  for (std::size_t c = 0; c < record.curves.size(); ++c) {
+    const Curve& curve = record.curves[c];
+    if (curve.is_travel) {
+      worst = std::max(worst, relative_size(record.fit.residuals[c], curve).worst);
+      continue;
+    }
+    for (std::size_t i = 0; i < curve.y.size(); ++i)
+      if (curve.y[i] != 0.0)
+        worst = std::max(worst, std::abs(record.fit.residuals[c](Index(i)) / curve.y[i]));
+  }
   return worst;
 }
 
@@ -294,6 +320,7 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
   fit.rig = rig_file(record);
   fit.lack_of_fit = accusation_entries(record);
   fit.next = next_entries(record);
+  fit.repeats = repeats_entries(record);
   fit.statement = fit_statement(record);
   meshes::write_json_file(fit, file);
 }

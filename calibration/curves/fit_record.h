@@ -10,6 +10,7 @@
 #include "calibration/curves/curve_checks.h"
 #include "calibration/curves/curve_fit.h"
 #include "calibration/curves/design.h"
+#include "calibration/curves/repeats.h"
 #include "calibration/curves/suspects.h"
 #include "calibration/material.h"
 
@@ -43,15 +44,19 @@ struct FitRecord {
   std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
   std::vector<Accusation> lack_of_fit;           ///< gravest first
   std::vector<Prospect> next;                    ///< further measurements, best first
-  std::vector<bool> profiled;  ///< per parameter: its interval is the profile's; or empty
-  double wall_time = 0.0;      ///< [s]
+  std::vector<bool> profiled;    ///< per parameter: its interval is the profile's; or empty
+  std::vector<Repeats> repeats;  ///< groups of curves
+  /// Where repeats scatter, what each leaves with a factor of its own on its force; else empty.
+  std::vector<Eigen::VectorXd> own_residuals;
+  double wall_time = 0.0;  ///< [s]
 };
 
 /// Order in the residuals of a curve: whitened where sigma is given, so that known errors of the
 /// model, which keep their sign, are no sign of something missed.
 ResidualStructure structure_of(const FitRecord& record, std::size_t curve);
 
-/// Largest |measured - fitted| over |measured| of all curves, where that is not zero.
+/// Largest |measured - fitted| over |measured| of all curves, where that is not zero; over a travel
+/// over the curve's largest.
 double worst_relative_residual(const FitRecord& record);
 
 /// What was found, how sure that is, what the data leave open and whether the model describes them.

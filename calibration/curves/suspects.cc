@@ -58,7 +58,7 @@ std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& 
   VectorXd residuals(values + priors);
   jacobian.topRows(values) = fit.jacobian;
   residuals.head(values) = fit.whitening * misfit;
-  for (Index j = 0; j < count; ++j)
+  for (Index j = 0; j < std::min(count, Index(options.free.size())); ++j)
     if (const auto& prior = options.free[std::size_t(j)].prior) {
       residuals(row) = (prior->mean - fit.estimates(j)) / prior->deviation;
       jacobian(row++, j) = 1.0 / prior->deviation;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
@@ -95,12 +96,36 @@ int export_contact(const CommandLine& line) {
   });
 }
 
+/// Forces of a lattice that another program marches, where its press is straight, and the README.
+void foretell(Session& session, const std::string& format, const std::string& readme,
+              const std::optional<ContactCurves>& curves, bool quiet) {
+  const fs::path& folder = session.folder().path();
+  ContactExport made{{}, readme, "", {format, "", {}, {}}, {}};
+  if (curves) {
+    session.run_all(curves->jobs());
+    made = lattice_export(format, readme, curves->read(folder));
+  }
+  write_contact_export(made, folder);
+  if (curves && !quiet) fmt::print("{}", transfer_lines(made.transfer));
+}
+
+/// Of a lattice that is pressed straight, and is a finger.
+std::optional<ContactCurves> lattice_curves(const LoadedConfig& loaded) {
+  const meshes::PressProtocol& protocol = loaded.config.press.protocol;
+  if (loaded.config.exchange.cube || protocol.tilt != 0.0 || protocol.lateral != 0.0 ||
+      !protocol.program.empty())
+    return std::nullopt;
+  return ContactCurves(loaded, ContactCurves::Of::lattice);
+}
+
 int export_fmu(const CommandLine& line) {
   const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::press);
   const FmuExport unit = fmu_export(loaded);
+  const auto curves = lattice_curves(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const fs::path& folder = session.folder().path();
     write_fmu(unit, folder);
+    foretell(session, "fmu", fmu_readme(unit), curves, line.quiet);
     if (line.quiet) return 0;
     fmt::print("finger.fmu: FMI 2.0 for co-simulation, step {:.4g} s\nhow to use it: {}\n",
                unit.period, (folder / "README.md").string());
@@ -114,11 +139,18 @@ int export_lammps(const CommandLine& line) {
   const std::vector<meshes::Violation> beyond = beyond_lammps(body.model);
   if (!beyond.empty()) throw loaded.locate(beyond);
   const ExchangeSettings& settings = loaded.config.exchange;
+  const auto curves = lattice_curves(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const fs::path& folder = session.folder().path();
     const LammpsCensus census = write_lammps(body, {settings.steps, settings.every}, folder);
     write_json(summary_of(body, census), folder / "summary.json");
     session.folder().log("dampers are left out: LAMMPS has none along bonds");
+    foretell(session, "lammps",
+             fmt::format("# A finger for LAMMPS\n\n`lattice.data`, `lattice.in`: {} masses, {} "
+                         "springs, without dampers, steps of {:.4g} s.\n\n    lmp -in {}\n    "
+                         "fingertip import --compare .\n\n",
+                         census.masses, census.springs, body.step, lammps_script),
+             curves, line.quiet);
     if (line.quiet) return 0;
     fmt::print("{} masses, {} springs, {} anchors, without dampers; step {:.3g} s\n", census.masses,
                census.springs, census.anchors, body.step);

@@ -71,10 +71,11 @@ Key problem_key() {
 }
 
 Key data_key() {
-  return with_rule(entry("data", any, "measured CSV files, a curve each, units in the header",
-                         &CalibrationSettings::data),
-                   "for experiment, finite-strain and damping; paths are relative to this file",
-                   {});
+  return with_rule(
+      entry("data", any,
+            "measured CSV files, units in the header, or TOML files that describe such",
+            &CalibrationSettings::data),
+      "for experiment, finite-strain and damping; paths are relative to this file", {});
 }
 
 Key forward_key() {
@@ -165,11 +166,11 @@ std::vector<Key> calibration_keys() {
       of_material(entry("stretch_range", {0.05, 20.0, true},
                         "principal stretches of use, in which a law must be stable",
                         &Order::stretch_range)),
-      entry(
-          "conditions", any,
-          "settings of presses in place of [press], \"press.contact=stick; press.tilt=20 deg\", a "
-          "curve each; none: the press itself",
-          &Order::conditions),
+      entry("conditions", any,
+            "settings of presses in place of [press], \"press.contact=stick; press.tilt=20 deg\", "
+            "for "
+            "each of data; none: the press itself",
+            &Order::conditions),
       quantity("calibration", "depth", "cm", "m", positive,
                "largest indentation of the continuum's curves",
                at(&Config::calibration, &CalibrationSettings::depth)),

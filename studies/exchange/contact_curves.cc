@@ -24,8 +24,9 @@ std::string name_of(const Obstacle& obstacle) {
                                            shown_units().length.text(obstacle.radius));
 }
 
-std::vector<Obstacle> pressed(const Config& config) {
+std::vector<Obstacle> pressed(const Config& config, ContactCurves::Of of) {
   const Obstacle& own = config.press.protocol.obstacle;
+  if (of == ContactCurves::Of::lattice) return {own};
   Obstacle large = own, small = own;
   if (own.is_plane()) {
     large.shape = small.shape = ObstacleShape::sphere;
@@ -35,6 +36,12 @@ std::vector<Obstacle> pressed(const Config& config) {
   }
   small.radius = own.is_plane() ? 0.5 * large.radius : 0.5 * own.radius;
   return {own, large, small};
+}
+
+std::vector<double> depths_to(double depth) {
+  std::vector<double> depths;
+  for (int i = 1; i <= samples; ++i) depths.push_back(depth * (double(i) / samples));
+  return depths;
 }
 
 void refuse_what_is_not_straight(const LoadedConfig& loaded) {
@@ -57,16 +64,15 @@ void refuse_what_is_not_straight(const LoadedConfig& loaded) {
 
 }  // namespace
 
-ContactCurves::ContactCurves(const LoadedConfig& loaded) {
+ContactCurves::ContactCurves(const LoadedConfig& loaded, Of of) {
   refuse_what_is_not_straight(loaded);
   const double depth = loaded.config.press.protocol.depth;
-  for (const Obstacle& obstacle : pressed(loaded.config)) {
+  for (const Obstacle& obstacle : pressed(loaded.config, of)) {
     LoadedConfig own = loaded;
     fem_reference::ReferenceJob& reference = own.config.reference;
     meshes::PressProtocol& protocol = reference.protocol;
     protocol.obstacle = obstacle;
-    protocol.samples.clear();
-    for (int i = 1; i <= samples; ++i) protocol.samples.push_back(depth * (double(i) / samples));
+    protocol.samples = depths_to(depth);
     reference.analysis = fem_reference::Analysis::static_press;
     if (!loaded.entries.at("reference.strain").given)
       reference.strain = fem_reference::Strain::finite;
@@ -74,12 +80,27 @@ ContactCurves::ContactCurves(const LoadedConfig& loaded) {
     const bool fitted = jobs_.empty();
     jobs_.push_back({fmt::format("continuum/{}", jobs_.size() + 1),
                      reference_job(continuum_setup(own)), !fitted});
-    curves_.push_back({name_of(obstacle), obstacle, fitted, {}, {}});
+    curves_.push_back({name_of(obstacle), obstacle, fitted, {}, {}, {}});
+  }
+  if (of == Of::lattice) {
+    LoadedConfig own = loaded;
+    meshes::PressProtocol& protocol = own.config.press.protocol;
+    protocol.mode = meshes::DriveMode::equilibrium;
+    protocol.samples = depths_to(depth);
+    jobs_.push_back({"lattice", press_job(press_setup(own)), true});
   }
 }
 
 std::vector<ContactCurve> ContactCurves::read(const std::filesystem::path& folder) const {
   std::vector<ContactCurve> curves = curves_;
+  if (jobs_.size() > curves.size()) {
+    const std::filesystem::path file = folder / jobs_.back().name / "response.csv";
+    if (std::filesystem::exists(file)) {
+      const auto response = meshes::PressResponse::read_csv(file);
+      for (const meshes::PressSample& sample : response.samples())
+        curves.front().lattice.push_back(sample.normal_force);
+    }
+  }
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const std::filesystem::path file = folder / jobs_[i].name / "response.csv";
     if (!std::filesystem::exists(file)) continue;

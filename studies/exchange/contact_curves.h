@@ -18,6 +18,7 @@ struct ContactCurve {
   bool fitted = false;              ///< else predicted
   calibration::ForceCurve forces;   ///< empty where the press did not converge
   std::vector<double> force_error;  ///< estimated [N]
+  std::vector<double> lattice;      ///< forces of the lattice at rest, where it was pressed [N]
 
   bool empty() const { return forces.force.empty(); }
 };
@@ -27,11 +28,13 @@ struct ContactCurve {
 /// twice and half the radius. Twelve depths to press.depth.
 class ContactCurves {
  public:
-  /// Throws ConfigError for what no such law can carry: a tilt, a lateral motion, a program.
-  explicit ContactCurves(const LoadedConfig& loaded);
+  enum class Of { contacts, lattice };
+  /// Of a lattice: its own obstacle alone, and the lattice at rest beside the continuum. Throws
+  /// ConfigError for what no such law can carry: a tilt, a lateral motion, a program.
+  explicit ContactCurves(const LoadedConfig& loaded, Of of = Of::contacts);
 
-  /// The continuum's jobs; the own obstacle's must converge, others are exhibits. At large strain
-  /// unless reference.strain is given.
+  /// The continuum's jobs; the own obstacle's must converge, others are exhibits, as the lattice's
+  /// is after them. The continuum is at large strain unless reference.strain is given.
   const std::vector<PlannedJob>& jobs() const { return jobs_; }
   /// What they left below `folder`, in the same order.
   std::vector<ContactCurve> read(const std::filesystem::path& folder) const;

@@ -66,6 +66,16 @@ ContactExport contact_export(const std::string& format, const LoadedConfig& load
   return make(loaded, curves, lost);
 }
 
+ContactExport lattice_export(const std::string& format, const std::string& readme,
+                             const std::vector<ContactCurve>& curves) {
+  ContactExport made;
+  made.readme = readme;
+  made.transfer = transfer_of(
+      format, "Force of the lattice at rest, which the other program marches, over the continuum's",
+      {}, curves, {lattice_at_rest()});
+  return made;
+}
+
 void write_contact_export(const ContactExport& made, const std::filesystem::path& folder) {
   const auto write = [&](const std::string& name, const std::string& text) {
     meshes::write_atomically(folder / name, [&](std::ostream& out) { out << text; });
@@ -76,8 +86,10 @@ void write_contact_export(const ContactExport& made, const std::filesystem::path
   }
   for (const ContactExport::File& file : made.files) write(file.name, file.text);
   write_json(json_of(made.transfer), folder / "transfer.json");
-  write("README.md", made.readme + transfer_chapters(made.transfer) +
-                         "\nNumbers: `transfer.json`. Runs they come from: `continuum/`.\n");
+  std::string readme = made.readme + transfer_chapters(made.transfer);
+  if (!made.transfer.obstacles.empty())
+    readme += "\nNumbers: `transfer.json`. Runs they come from: `continuum/`.\n";
+  write("README.md", readme);
 }
 
 }  // namespace fingertip::studies

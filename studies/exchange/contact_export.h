@@ -29,6 +29,11 @@ ContactExport contact_export(const std::string& format, const LoadedConfig& load
                              const std::vector<ContactCurve>& curves,
                              const std::vector<Problem>& lost);
 
+/// An export of the lattice itself beside the continuum: transfer.json and README.md, which begins
+/// with `readme`.
+ContactExport lattice_export(const std::string& format, const std::string& readme,
+                             const std::vector<ContactCurve>& curves);
+
 void write_contact_export(const ContactExport& made, const std::filesystem::path& folder);
 
 }  // namespace fingertip::studies

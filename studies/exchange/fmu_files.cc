@@ -88,21 +88,6 @@ std::string description_of(const FmuExport& unit) {
          "    </InitialUnknowns>\n  </ModelStructure>\n</fmiModelDescription>\n";
 }
 
-std::string fmu_readme(const FmuExport& unit) {
-  std::string text = fmt::format(
-      "# A finger as a functional mock-up unit\n\n"
-      "`finger.fmu`: FMI 2.0 for co-simulation, Linux on x86-64. The lattice stands clear of the "
-      "obstacle; the master moves its rod by a\nwrench and steps it, best by {} s, the period of "
-      "its control loop.\n\n| variable | | unit | |\n|---|---|---|---|\n",
-      meshes::to_text(unit.period));
-  for (const FmuVariable& variable : fmu_variables)
-    text += fmt::format("| `{}` | {} | {} | {} |\n", variable.name,
-                        variable.input ? "input" : "output", variable.unit, variable.description);
-  return text +
-         "\nIt needs the Debian 12 libraries of fingertip where it runs. Its forces are those of "
-         "the lattice: `fingertip compare` tells how far\nthey are from the continuum's.\n";
-}
-
 void copy_into(const fs::path& file, const fs::path& folder) {
   std::error_code failure;
   fs::copy_file(file, folder / file.filename(), fs::copy_options::overwrite_existing, failure);
@@ -120,6 +105,19 @@ FmuExport fmu_export(const LoadedConfig& loaded) {
   unit.period = setup.controller.period;
   unit.description = description_of(unit);
   return unit;
+}
+
+std::string fmu_readme(const FmuExport& unit) {
+  std::string text = fmt::format(
+      "# A finger as a functional mock-up unit\n\n"
+      "`finger.fmu`: FMI 2.0 for co-simulation, Linux on x86-64. The lattice stands clear of the "
+      "obstacle; the master moves its rod by a\nwrench and steps it, best by {} s, the period of "
+      "its control loop.\n\n| variable | | unit | |\n|---|---|---|---|\n",
+      meshes::to_text(unit.period));
+  for (const FmuVariable& variable : fmu_variables)
+    text += fmt::format("| `{}` | {} | {} | {} |\n", variable.name,
+                        variable.input ? "input" : "output", variable.unit, variable.description);
+  return text + "\nIt needs the Debian 12 libraries of fingertip where it runs.\n\n";
 }
 
 void write_fmu(const FmuExport& unit, const fs::path& folder) {
@@ -146,7 +144,6 @@ void write_fmu(const FmuExport& unit, const fs::path& folder) {
         {"zip", (folder / "zip.log").string(), "could not pack the unit", "see its log"});
   fs::remove_all(content);
   fs::remove(folder / "zip.log");
-  write(folder / "README.md", fmu_readme(unit));
 }
 
 }  // namespace fingertip::studies

@@ -19,7 +19,8 @@ struct FmuExport {
 /// Of a finger that is pressed by whoever steps it. Throws ConfigError for what free_press refuses.
 FmuExport fmu_export(const LoadedConfig& loaded);
 
-/// Writes finger.fmu, with `zip`, and README.md. Throws InvalidInput where the program or the
+std::string fmu_readme(const FmuExport& unit);
+/// Writes finger.fmu, with `zip`. Throws InvalidInput where the program or the
 /// shared object is missing.
 void write_fmu(const FmuExport& unit, const std::filesystem::path& folder);
 

@@ -62,6 +62,14 @@ std::string share(double value) {
 
 }  // namespace
 
+ForetoldModel lattice_at_rest() {
+  return {"lattice at rest", [](const ContactCurve& curve) {
+            std::vector<double> forces = curve.lattice;
+            forces.resize(curve.forces.force.size(), meshes::unknown);
+            return forces;
+          }};
+}
+
 TransferFile transfer_of(const std::string& format, const std::string& how,
                          const std::vector<Problem>& lost, const std::vector<ContactCurve>& curves,
                          const std::vector<ForetoldModel>& models) {
@@ -84,6 +92,7 @@ TransferFile transfer_of(const std::string& format, const std::string& how,
 }
 
 std::string transfer_chapters(const TransferFile& transfer) {
+  if (transfer.obstacles.empty()) return "";
   std::string text = "## Force error to expect\n" + transfer.how + ".\n";
   for (const TransferObstacleEntry& obstacle : transfer.obstacles) {
     if (obstacle.models.empty()) continue;

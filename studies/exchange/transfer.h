@@ -54,6 +54,9 @@ struct ForetoldModel {
   std::function<std::vector<double>(const ContactCurve&)> forces;
 };
 
+/// The lattice at rest, as the curves know it.
+ForetoldModel lattice_at_rest();
+
 /// Told are 1/6, 1/3, 1/2, 2/3 and all of the depth.
 TransferFile transfer_of(const std::string& format, const std::string& how,
                          const std::vector<Problem>& lost, const std::vector<ContactCurve>& curves,

@@ -10,14 +10,17 @@
 
 namespace fingertip::studies::reporting {
 
-/// Four chapters per fit: quality; parameters; what the data determine; moduli and surrogate. Those
-/// without files have no blocks.
+/// Chapters of each fit: quality; what was measured; parameters; the machine; what the data
+/// determine; moduli and surrogate. Those without files have no blocks.
 std::vector<Chapter> fit_chapters(const CalibrationData& data);
 /// Estimates with intervals, priors, bias and truth; correlation; other minima; where they hold.
 Chapter parameter_chapter(const Fit& fit, const std::string& prefix);
 /// What the data leave open in words, singular values and the profile; figures' names begin with
 /// `prefix`. Without blocks for a fit without parameters.
 Chapter identifiability_chapter(const Fit& fit, const std::string& prefix);
+/// Of measured presses: files with noise, loop, holds and repeats; the machine and what is like the
+/// misfit. Empty where files tell nothing of these.
+std::vector<Chapter> measured_chapters(const Fit& fit, const std::string& prefix);
 /// "E = 3.93 kPa (95 %: 3.8 … 4.1)"
 std::string estimate_words(const FitParameter& parameter);
 /// Fits against what they predict: table of the worst errors, and errors against indentation.

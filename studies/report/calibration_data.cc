@@ -76,6 +76,7 @@ FitCurve read_curve(const CurveEntry& entry, const FitFile& file) {
   curve.rms = entry.rms_relative_residual;
   curve.structure = entry.structure.statement;
   curve.structure_probability = entry.structure.probability;
+  curve.course = entry.course;
   if (entry.left_out) curve.left_out_error = entry.left_out->worst_relative_error;
   return curve;
 }

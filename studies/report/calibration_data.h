@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,8 @@ struct FitCurve {
   double structure_probability = meshes::unknown;
   double left_out_error = meshes::unknown;  ///< worst relative one of the fit without this curve
   std::vector<double> x, measured, sigma, fitted, left_out;
+
+  std::optional<calibration::CourseEntry> course;  ///< what the file tells besides
 
   /// Some point has its sigma.
   bool has_sigma() const;

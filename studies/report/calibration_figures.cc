@@ -91,11 +91,33 @@ bool spans_decades(const std::vector<const FitCurve*>& curves) {
   return least > 0.0 && most > 30.0 * least;
 }
 
-Series residuals(const FitCurve& curve, bool over_sigma, const Style& style) {
+/// Residuals of presses over travel are shown as forces: in percent they grow without bound at
+/// touch.
+bool as_forces(const std::vector<const FitCurve*>& curves) {
+  return std::ranges::all_of(
+      curves, [](const FitCurve* curve) { return curve->course && curve->course->noise > 0.0; });
+}
+
+/// What a residual is divided by.
+enum class ResidualUnit { sigma, percent, own };
+
+Series way_back(const FitCurve& curve, const Style& style) {
+  Series series{"", curve.name + " way back", {}, {}, {}, style};
+  series.x = scaled(curve.course->back_x, curve.x_quantity.factor);
+  series.y = scaled(curve.course->back_y, curve.y_quantity.factor);
+  series.style.point = 0;
+  series.style.width = 1.0;
+  series.style.dash = "(6,4)";
+  return series;
+}
+
+Series residuals(const FitCurve& curve, ResidualUnit shown, const Style& style) {
   Series series{"", curve.name, scaled(curve.x, curve.x_quantity.factor), {}, {}, style};
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     const double residual = curve.measured[i] - curve.fitted[i];
-    const double unit = over_sigma ? curve.sigma[i] : std::abs(curve.measured[i]) / 100.0;
+    const double unit = shown == ResidualUnit::sigma     ? curve.sigma[i]
+                        : shown == ResidualUnit::percent ? std::abs(curve.measured[i]) / 100.0
+                                                         : 1.0 / curve.y_quantity.factor;
     series.y.push_back(unit > 0.0 ? residual / unit : meshes::unknown);
   }
   series.style.width = 1.0;
@@ -112,17 +134,25 @@ Figure curve_figure(const std::vector<const FitCurve*>& curves, const std::strin
   Panel above, beneath;
   above.x_label = beneath.x_label = x.label();
   above.y_label = y.label();
-  beneath.y_label = over_sigma ? "residual / sigma" : "residual [% of measured]";
+  const bool forces = !over_sigma && as_forces(curves);
+  const ResidualUnit unit = over_sigma ? ResidualUnit::sigma
+                            : forces   ? ResidualUnit::own
+                                       : ResidualUnit::percent;
+  beneath.y_label = over_sigma ? "residual / sigma"
+                    : forces   ? "residual [" + y.unit + "]"
+                               : "residual [% of measured]";
   beneath.key.clear();
-  if (spans_decades(curves)) above.log_x = beneath.log_x = 10;
+  if (!forces && spans_decades(curves)) above.log_x = beneath.log_x = 10;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const FitCurve& curve = *curves[i];
     const Style style = curve_style(i, curves.size());
     above.series.push_back(line(curve, curve.fitted, "fitted", style, ""));
     if (any_finite(curve.left_out))
       above.series.push_back(line(curve, curve.left_out, "left out", style, left_out_dash));
+    if (curve.course && !curve.course->back_x.empty())
+      above.series.push_back(way_back(curve, style));
     above.series.push_back(points(curve, style, curves.size() <= most_labels));
-    beneath.series.push_back(residuals(curve, over_sigma, style));
+    beneath.series.push_back(residuals(curve, unit, style));
   }
   if (over_sigma) {
     double most = 3.0;
@@ -130,6 +160,11 @@ Figure curve_figure(const std::vector<const FitCurve*>& curves, const std::strin
       most = std::fmax(most, 1.1 * largest_magnitude(series.y));
     beneath.y_range = Range{-most, most};
     beneath.band = Band{-2.0, 2.0};
+  }
+  if (forces) {
+    double noise = 0.0;
+    for (const FitCurve* curve : curves) noise = std::fmax(noise, curve->course->noise);
+    beneath.band = Band{-2.0 * noise * y.factor, 2.0 * noise * y.factor};
   }
   add_line_kinds(above, left_out);
   figure.right_margin = legend_room;

@@ -92,6 +92,9 @@ Chapter quality_chapter(const Fit& fit, const std::string& prefix) {
   chapter["statement"] = fit.file.statement;
   add_goodness(chapter, fit);
   chapter["left_out"] = left_out;
+  chapter["travel"] = fit.file.rig.has_value();
+  chapter["noise"] = std::ranges::any_of(
+      fit.curves, [](const FitCurve& curve) { return curve.course && curve.course->noise > 0.0; });
   chapter.figures = curve_figures(fit, prefix);
   WordList figures;
   for (const Figure& figure : chapter.figures) figures.emplace_back()["figure"] = figure.name;
@@ -125,9 +128,11 @@ std::vector<Chapter> fit_chapters(const CalibrationData& data) {
     const std::string prefix = several ? fmt::format("fit_{}", i + 1) : "fit";
     if (fit.file.empty()) continue;
     chapters.push_back(quality_chapter(fit, prefix));
-    for (Chapter& part :
-         std::vector{parameter_chapter(fit, prefix), identifiability_chapter(fit, prefix),
-                     material_chapter(fit, prefix)}) {
+    std::vector<Chapter> parts = measured_chapters(fit, prefix);
+    parts.insert(parts.begin(), parameter_chapter(fit, prefix));
+    parts.push_back(identifiability_chapter(fit, prefix));
+    parts.push_back(material_chapter(fit, prefix));
+    for (Chapter& part : parts) {
       // Of several fits each is a chapter, lest there be more chapters than one can choose from.
       if (several)
         std::ranges::move(part.blocks, std::back_inserter(chapters.back().blocks));
@@ -154,6 +159,7 @@ std::string fit_answer(const Fit& fit) {
   words["one"] = fit.curves.size() == 1;
   words["worst"] = if_known(worst, percent_magnitude(worst));
   words["left_out"] = if_known(left_out, percent_magnitude(left_out));
+  words["travel"] = fit.file.rig.has_value();
   words["open"] = !fit.file.unidentifiable.empty();
   return sentences("answer_fit", words);
 }

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include "studies/config/units.h"
 #include "studies/run/curve_rows.h"
@@ -18,65 +21,75 @@ namespace {
 namespace fs = std::filesystem;
 using std::string_view;
 
-/// A title of the header.
-struct Title {
-  std::string written;  ///< "Normal force [mN]"
-  std::string name;     ///< "normal_force"
-  std::optional<std::string> unit;
-};
-
-Title title_of(string_view cell) {
-  Title title{shown(cell), "", {}};
-  for (const char c : trimmed(cell.substr(0, cell.find_first_of("[(/"))))
-    title.name += c == ' ' ? '_' : char(std::tolower(static_cast<unsigned char>(c)));
-  const auto open = cell.find('['), close = cell.find(']');
-  if (open != cell.npos && close == cell.size() - 1 && open < close)
-    title.unit = trimmed(cell.substr(open + 1, close - open - 1));
-  return title;
-}
-
 /// A column that is read.
 struct Column {
   std::size_t index = 0;
   std::string title, unit;
-  double factor = 1.0;  ///< SI over `unit`
+  double factor = 1.0;    ///< SI over `unit`, with the sign
+  bool is_clock = false;  ///< h:min:s may stand in it
 
   /// 1/1000 is no binary number, 1000 is: dividing by it rounds once, so that 0.3 mm is 3e-4 m.
   double si(double value) const {
     const double inverse = std::round(1.0 / factor);
-    return factor < 1.0 && 1.0 / inverse == factor ? value / inverse : value * factor;
+    return std::abs(factor) < 1.0 && 1.0 / inverse == factor ? value / inverse : value * factor;
   }
 };
 
+/// What people and machines call the same.
+constexpr std::pair<string_view, string_view> other_names[] = {
+    {"force", "normal_force"},       {"force", "load"},           {"force", "kraft"},
+    {"force", "standardkraft"},      {"force", "standard_force"}, {"position", "travel"},
+    {"position", "extension"},       {"position", "stroke"},      {"position", "crosshead"},
+    {"position", "displacement"},    {"position", "distance"},    {"position", "standardweg"},
+    {"position", "standard_travel"}, {"position", "weg"},         {"time", "zeit"}};
+
+/// How many titles have this name.
+std::ptrdiff_t count_of(const std::vector<TableTitle>& titles, string_view name) {
+  return std::ranges::count(titles, name, &TableTitle::name);
+}
+
+/// The name under which a quantity stands in these titles: its own, else another; empty: none.
+string_view name_among(const std::vector<TableTitle>& titles, string_view quantity) {
+  if (count_of(titles, quantity) > 0) return quantity;
+  for (const auto& [known, other] : other_names)
+    if (known == quantity && count_of(titles, other) > 0) return other;
+  return {};
+}
+
+/// The curves of one file.
 class CurveReader {
  public:
-  CurveReader(const fs::path& file, const std::vector<CurveQuantities>& allowed)
-      : problems_(file), allowed_(allowed), text_(text_of(file, problems_)) {
-    result_.curve.name = file.stem().string();
-  }
-  MeasuredFile read();
+  CurveReader(const CurveSource& source, const std::vector<CurveQuantities>& allowed)
+      : problems_(source.path),
+        source_(source),
+        allowed_(allowed),
+        text_(text_of(source.path, problems_)) {}
+  std::vector<MeasuredFile> read();
 
  private:
-  void read_header(const Line& line);
-  void choose_pair(std::size_t line);
-  void choose_sigma(std::size_t line);
+  TextTables tables();
+  void refuse_header();
+  MeasuredFile read_table(const TextTable& table);
+  void choose_pair();
+  void choose_sigma();
   bool is_travel() const { return quantities_.x.name == measured::travel.x.name; }
   void note_unused();
-  std::optional<std::size_t> find(string_view name, std::size_t line);
-  Column column(std::size_t index, const Quantity& quantity, std::size_t line);
+  const ColumnWish* wish(string_view quantity) const;
+  std::optional<std::size_t> find(string_view name);
+  Column column(std::size_t index, const Quantity& quantity);
   void read_setting(const Line& line);
-  void read_row(const Line& line);
-  std::optional<double> read_cell(const Column& column, std::size_t line);
-  bool read_sigma(CurveRow& row);
-  void keep(const CurveRow& row);
+  void read_row(std::size_t row);
+  std::optional<double> read_cell(const Column& column, std::size_t row);
+  bool read_sigma(CurveRow& row, std::size_t place);
+  void keep(const CurveRow& row, std::size_t place);
   void check_signs();
 
   FileProblems problems_;
+  const CurveSource& source_;
   const std::vector<CurveQuantities>& allowed_;
   std::string text_;
-  char separator_ = ',';
-  std::vector<Title> titles_;
-  std::vector<string_view> cells_;  ///< of the row at hand
+  std::vector<MeasuredSetting> settings_;
+  const TextTable* table_ = nullptr;  ///< at hand
   CurveQuantities quantities_;
   Column x_, y_;
   std::optional<Column> sigma_, time_;
@@ -100,114 +113,177 @@ void CurveReader::read_setting(const Line& line) {
   const std::string value(trimmed(comment.substr(equals + 1)));
   if (value.empty())
     problems_.add(line.number, key, "", "the value is missing", "write '# section.key = value'");
-  const auto earlier = std::ranges::find(result_.settings, key, &MeasuredSetting::key);
-  if (earlier != result_.settings.end())
+  const auto earlier = std::ranges::find(settings_, key, &MeasuredSetting::key);
+  if (earlier != settings_.end())
     problems_.add(line.number, key, shown(value),
                   fmt::format("is given already in line {}", earlier->line), "keep one of them");
   else
-    result_.settings.push_back({key, value, line.number});
+    settings_.push_back({key, value, line.number});
 }
 
-std::optional<std::size_t> CurveReader::find(string_view name, std::size_t line) {
-  std::optional<std::size_t> found;
-  for (std::size_t i = 0; i < titles_.size(); ++i) {
-    if (titles_[i].name != name && !(name == "force" && titles_[i].name == "normal_force"))
-      continue;
-    if (found)
-      problems_.add(line, titles_[i].written, "",
-                    "stands for the same as '" + titles_[*found].written + "'",
-                    "leave one of the two columns out");
-    else
-      found = i;
+const ColumnWish* CurveReader::wish(string_view quantity) const {
+  const auto found = std::ranges::find(source_.columns, quantity, &ColumnWish::quantity);
+  return found == source_.columns.end() ? nullptr : &*found;
+}
+
+std::optional<std::size_t> CurveReader::find(string_view name) {
+  const auto& titles = table_->titles;
+  if (!source_.columns.empty()) {
+    const ColumnWish* own = wish(name);
+    if (own == nullptr) return {};
+    return table_->needed[std::size_t(own - source_.columns.data())];
   }
-  return found;
+  const string_view here = name_among(titles, name);
+  if (here.empty()) return {};
+  const auto first = std::ranges::find(titles, here, &TableTitle::name);
+  for (auto next = first + 1; next != titles.end(); ++next)
+    if (next->name == here || (name == "force" && next->name == "normal_force"))
+      problems_.add(table_->header_line, next->written, "",
+                    "stands for the same as '" + first->written + "'",
+                    "leave one of the two columns out, or choose by a TOML file");
+  return std::size_t(first - titles.begin());
 }
 
-Column CurveReader::column(std::size_t index, const Quantity& quantity, std::size_t line) {
-  const Title& title = titles_[index];
+Column CurveReader::column(std::size_t index, const Quantity& quantity) {
+  const TableTitle& title = table_->titles[index];
   const std::string name(quantity.name), si(quantity.unit);
-  Column result{index, title.written, title.unit.value_or(""), 1.0};
+  const ColumnWish* own = wish(quantity.name);
+  const bool told = own != nullptr && !own->unit.empty();
+  Column result{index, title.written, told ? own->unit : title.unit.value_or(""), 1.0, si == "s"};
   const std::string remedy = "name the column for instance '" + name + " [" + si + "]'";
-  if (!title.unit) {
-    problems_.add(line, title.written, "", "the unit is missing: it stands in brackets at the end",
-                  remedy);
+  const bool clock =
+      result.is_clock && !table_->rows.empty() && result.unit != "s" &&
+      (!title.unit || title.unit->find(':') != std::string::npos || title.unit->empty());
+  if (clock && !told) {
+    result.unit = "s";  // as h:min:s it was read
+  } else if (!told && !title.unit) {
+    problems_.add(table_->header_line, title.written, "",
+                  "the unit is missing: it stands in brackets at the end", remedy);
   } else if (si == "1") {
     if (result.unit != "1")
-      problems_.add(line, title.written, "", "a number without dimension is marked [1]",
+      problems_.add(table_->header_line, title.written, "",
+                    "a number without dimension is marked [1]",
                     remedy + " (divide percents by 100)");
   } else {
     try {
       result.factor = parse_quantity("1 " + result.unit, si, si);
     } catch (const UnitError& error) {
-      problems_.add(line, title.written, "", error.rule, remedy);
+      problems_.add(table_->header_line, title.written, "", error.rule, remedy);
     }
   }
+  if (own != nullptr) result.factor *= own->sign;
   return result;
 }
 
-void CurveReader::choose_pair(std::size_t line) {
+void CurveReader::choose_pair() {
   for (const CurveQuantities& pair : allowed_) {
-    const auto x = find(pair.x.name, line), y = find(pair.y.name, line);
+    const auto x = find(pair.x.name), y = find(pair.y.name);
     if (!x || !y) continue;
     quantities_ = pair;
-    x_ = column(*x, pair.x, line);
-    y_ = column(*y, pair.y, line);
+    x_ = column(*x, pair.x);
+    y_ = column(*y, pair.y);
     result_.x_quantity = pair.x.name;
     result_.y_quantity = pair.y.name;
+    return;
+  }
+  throw std::logic_error("a table without its columns");
+}
+
+/// No line has the columns that are needed.
+void CurveReader::refuse_header() {
+  Lines lines(text_);
+  auto first = lines.next();
+  while (first && trimmed(first->text).front() == '#') first = lines.next();
+  if (!first) {
+    problems_.add(0, "", "", "the file holds no table",
+                  "write a header such as 'indentation [mm], force [mN]' and rows of numbers");
     return;
   }
   std::string pairs;
   for (const CurveQuantities& pair : allowed_)
     pairs += fmt::format("{}'{} [{}]' and '{} [{}]'", pairs.empty() ? "" : ", or ", pair.x.name,
                          pair.x.unit, pair.y.name, pair.y.unit);
-  const bool is_row = number_in(titles_.front().written).has_value();
+  char separator = ',';
+  for (const char known : {'\t', ',', ';'})
+    if (first->text.find(known) != first->text.npos) separator = known;
+  std::vector<string_view> cells;
+  split(first->text, separator, cells);
+  const bool is_row = number_in(cells.front()).has_value();
   constexpr std::size_t enough = 8;
   std::string header;
-  for (std::size_t i = 0; i < std::min(enough, titles_.size()); ++i)
-    header += (i > 0 ? ", " : "") + shown(titles_[i].written);
-  if (titles_.size() > enough) header += fmt::format(" and {} more", titles_.size() - enough);
-  problems_.add(line, "", "",
-                (is_row ? "the header is missing: the first line is '"
-                        : "the header has no pair of columns that can be used here: it is '") +
-                    header + "'",
-                "name the columns in the first line, separated by comma, semicolon or tab: " +
-                    pairs + ", in any unit");
+  for (std::size_t i = 0; i < std::min(enough, cells.size()); ++i)
+    header += (i > 0 ? ", " : "") + shown(cells[i]);
+  if (cells.size() > enough) header += fmt::format(" and {} more", cells.size() - enough);
+  problems_.add(
+      first->number, "", "",
+      (is_row ? "the header is missing: the first line is '"
+              : "the header has no pair of columns that can be used here, nor has any "
+                "line below: the first is '") +
+          header + "'",
+      "name the columns in the first line, separated by comma, semicolon or tab: " + pairs +
+          ", in any unit, or say which they are in a TOML file in place of this "
+          "one: [[press]] (studies/manual/files.md)");
 }
 
-void CurveReader::choose_sigma(std::size_t line) {
-  auto index = find("sigma", line);
-  own_error_ = !index && quantities_.y.name == "force";
-  if (own_error_) index = find("force_error", line);
-  if (index)
-    sigma_ = column(*index, {own_error_ ? "force_error" : "sigma", quantities_.y.unit}, line);
+void CurveReader::choose_sigma() {
+  auto index = find("sigma");
+  own_error_ = !index && quantities_.y.name == "force" && source_.columns.empty();
+  if (own_error_) index = find("force_error");
+  if (index) sigma_ = column(*index, {own_error_ ? "force_error" : "sigma", quantities_.y.unit});
 }
 
 void CurveReader::note_unused() {
   std::string unused;
-  for (std::size_t i = 0; i < titles_.size(); ++i)
+  for (std::size_t i = 0; i < table_->titles.size(); ++i)
     if (i != x_.index && i != y_.index && !(sigma_ && i == sigma_->index) &&
         !(time_ && i == time_->index))
-      unused += (unused.empty() ? "" : ", ") + titles_[i].written;
+      unused += (unused.empty() ? "" : ", ") + table_->titles[i].written;
   if (!unused.empty()) result_.notes.push_back("columns that are not used: " + unused);
 }
 
-void CurveReader::read_header(const Line& line) {
-  for (const char separator : {'\t', ',', ';'})
-    if (line.text.find(separator) != line.text.npos) separator_ = separator;
-  split(line.text, separator_, cells_);
-  for (const string_view cell : cells_) titles_.push_back(title_of(cell));
-  choose_pair(line.number);
+/// The file's tables; their columns are those of the source, or the first pair that is there.
+TextTables CurveReader::tables() {
+  TableLayout layout = source_.layout;
+  const std::string remedy = "compare the file with its description";
+  TextTables found;
+  if (!source_.columns.empty()) {
+    std::vector<std::string> columns;
+    for (const ColumnWish& each : source_.columns) columns.push_back(each.column);
+    DescribedColumns choose(columns);
+    if (choose.all_numbered()) layout.has_names = false;
+    found = tables_in(text_, layout, std::ref(choose), problems_);
+    if (found.tables.empty()) choose.refuse(problems_, remedy);
+  } else {
+    found = tables_in(
+        text_, layout,
+        [this](const std::vector<TableTitle>& titles, std::size_t) {
+          std::vector<std::size_t> needed;
+          const auto place = [&](string_view quantity) {
+            const string_view here = name_among(titles, quantity);
+            const auto at = std::ranges::find(titles, here, &TableTitle::name);
+            return here.empty() ? titles.size() : std::size_t(at - titles.begin());
+          };
+          for (const CurveQuantities& pair : allowed_) {
+            needed = {place(pair.x.name), place(pair.y.name)};
+            if (std::ranges::max(needed) < titles.size()) break;
+            needed.clear();
+          }
+          if (needed.empty()) return needed;
+          for (const char* further : {"sigma", "force_error", "time"})
+            if (const std::size_t at = place(further); at < titles.size()) needed.push_back(at);
+          return needed;
+        },
+        problems_);
+  }
+  for (const Line& comment : found.comments) read_setting(comment);
+  if (found.tables.empty() && source_.columns.empty()) refuse_header();
   problems_.throw_if_any();
-  choose_sigma(line.number);
-  if (const auto time = find("time", line.number); time && is_travel())
-    time_ = column(*time, {"time", "s"}, line.number);
-  problems_.throw_if_any();
-  note_unused();
+  return found;
 }
 
-std::optional<double> CurveReader::read_cell(const Column& column, std::size_t line) {
+std::optional<double> CurveReader::read_cell(const Column& column, std::size_t row) {
   constexpr double largest = 1e60;
-  const string_view cell = cells_[column.index];
+  const string_view cell = table_->rows[row][column.index];
   const auto value = number_in(cell);
   if (value && std::isfinite(*value)) {
     const double si = column.si(*value);
@@ -215,21 +291,21 @@ std::optional<double> CurveReader::read_cell(const Column& column, std::size_t l
     if (si == 0.0 ? *value == 0.0 : size >= 1.0 / largest && size <= largest) return si;
   }
   const bool comma = cell.find(',') != cell.npos;
-  problems_.add(line, column.title, shown(cell),
+  problems_.add(table_->lines[row], column.title, shown(cell),
                 cell.empty() ? "the cell is empty" : "must be a finite number of plausible size",
                 comma ? "write decimals with a point" : "correct or delete the row");
   return {};
 }
 
 /// False where the row cannot be used.
-bool CurveReader::read_sigma(CurveRow& row) {
+bool CurveReader::read_sigma(CurveRow& row, std::size_t place) {
   if (!sigma_) return true;
-  const string_view cell = cells_[sigma_->index];
+  const string_view cell = table_->rows[place][sigma_->index];
   if (own_error_ && (cell.empty() || number_in(cell) == 0.0)) {
     ++without_error_;
     return true;
   }
-  const auto sigma = read_cell(*sigma_, row.line);
+  const auto sigma = read_cell(*sigma_, place);
   if (!sigma) return false;
   row.sigma = *sigma;
   if (row.sigma > 0.0) return true;
@@ -238,34 +314,25 @@ bool CurveReader::read_sigma(CurveRow& row) {
   return false;
 }
 
-void CurveReader::read_row(const Line& line) {
-  split(line.text, separator_, cells_);
+void CurveReader::read_row(std::size_t place) {
   ++data_rows_;
-  if (cells_.size() != titles_.size()) {
-    const bool comma = separator_ == ',' && cells_.size() == 2 * titles_.size();
-    problems_.add(line.number, "", "",
-                  fmt::format("has {} cells, the header {} titles", cells_.size(), titles_.size()),
-                  comma ? "write decimals with a point, or separate cells by semicolons"
-                        : "give every row a cell per title; the file may be truncated");
-    return;
-  }
   CurveRow row;
-  row.line = line.number;
-  const auto x = read_cell(x_, line.number), y = read_cell(y_, line.number);
-  const auto time = time_ ? read_cell(*time_, line.number) : 0.0;
-  const bool known = read_sigma(row);
+  row.line = table_->lines[place];
+  const auto x = read_cell(x_, place), y = read_cell(y_, place);
+  const auto time = time_ ? read_cell(*time_, place) : 0.0;
+  const bool known = read_sigma(row, place);
   if (!x || !y || !known || !time) return;
   row.time = *time;
   row.x = *x;
   row.y = *y;
-  keep(row);
+  keep(row, place);
 }
 
-void CurveReader::keep(const CurveRow& row) {
+void CurveReader::keep(const CurveRow& row, std::size_t place) {
   if (row.x > 0.0 || is_travel()) {
     rows_.push_back(row);
   } else if (quantities_.x.name == "stretch" || quantities_.x.name == "frequency") {
-    problems_.add(row.line, x_.title, shown(cells_[x_.index]),
+    problems_.add(row.line, x_.title, shown(table_->rows[place][x_.index]),
                   std::string(quantities_.x.name) + " is positive", "correct or delete the row");
   } else {
     ++before_start_;
@@ -291,26 +358,36 @@ void CurveReader::check_signs() {
       std::ranges::count_if(rows_, [](const CurveRow& row) { return row.y < 0.0; });
   if (!(sum > 0.0))
     problems_.add(0, y_.title, fmt::format("sum of {} rows {:.3g} N", rows_.size(), sum),
-                  "forces are positive in compression", "change their sign");
+                  "forces are positive in compression",
+                  "change their sign, or say it: force = {column = ..., sign = -1}");
   else if (negative > 0)
     result_.notes.push_back(
         fmt::format("{} of {} forces are negative (adhesion, drift or noise) and count as they are",
                     negative, rows_.size()));
 }
 
-MeasuredFile CurveReader::read() {
-  Lines lines(text_);
-  while (const auto line = lines.next()) {
-    if (trimmed(line->text).front() == '#')
-      read_setting(*line);
-    else if (titles_.empty())
-      read_header(*line);
-    else
-      read_row(*line);
+MeasuredFile CurveReader::read_table(const TextTable& table) {
+  table_ = &table;
+  result_ = {};
+  rows_.clear();
+  sigma_.reset(), time_.reset();
+  data_rows_ = before_start_ = without_error_ = 0;
+  choose_pair();
+  problems_.throw_if_any();
+  choose_sigma();
+  if (const auto time = find("time"); time && is_travel()) time_ = column(*time, {"time", "s"});
+  problems_.throw_if_any();
+  note_unused();
+  std::size_t first = 0, end = table.rows.size();
+  if (const auto& chosen = source_.rows) {
+    if (!((*chosen)[0] >= 1.0 && (*chosen)[1] <= double(end)))
+      problems_.add(table.header_line, "rows", fmt::format("{} to {}", (*chosen)[0], (*chosen)[1]),
+                    fmt::format("the table has {} rows", end),
+                    "count them from 1, without the header");
+    problems_.throw_if_any();
+    first = std::size_t((*chosen)[0]) - 1, end = std::size_t((*chosen)[1]);
   }
-  if (titles_.empty())
-    problems_.add(0, "", "", "the file holds no table",
-                  "write a header such as 'indentation [mm], force [mN]' and rows of numbers");
+  for (std::size_t row = first; row < end; ++row) read_row(row);
   problems_.throw_if_any();
   if (without_error_ > 0) {
     for (CurveRow& row : rows_) row.sigma = 0.0;
@@ -321,12 +398,14 @@ MeasuredFile CurveReader::read() {
   }
   check_signs();
   problems_.throw_if_any();
-  std::string name = std::move(result_.curve.name);
-  if (is_travel()) rows_ = loading(std::move(rows_), result_.notes);
-  result_.curve = curve_of(rows_, {result_.x_quantity, x_.unit, x_.factor, is_travel()}, problems_,
-                           result_.notes);
+  calibration::Course course;
+  course.rows = rows_.size();
+  if (is_travel()) rows_ = loading(std::move(rows_), course, result_.notes);
+  if (const double noise = noise_of(rows_); noise > 0.0) course.noise = noise;
+  result_.curve = curve_of(rows_, {result_.x_quantity, x_.unit, std::abs(x_.factor), is_travel()},
+                           problems_, result_.notes);
   result_.curve.is_travel = is_travel();
-  result_.curve.name = std::move(name);
+  result_.curve.course = std::move(course);
   problems_.throw_if_any();
   for (const double x : result_.curve.x)
     result_.lines.push_back(
@@ -334,10 +413,32 @@ MeasuredFile CurveReader::read() {
   return std::move(result_);
 }
 
+std::vector<MeasuredFile> CurveReader::read() {
+  TextTables found = tables();
+  const std::size_t count = found.tables.size();
+  if (source_.block > count)
+    problems_.add(0, "block", std::to_string(source_.block),
+                  fmt::format("the file has {} tables", count), "count them from 1");
+  problems_.throw_if_any();
+  const std::string name = source_.name.empty() ? source_.path.stem().string() : source_.name;
+  std::vector<MeasuredFile> files;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (source_.block > 0 && source_.block != i + 1) continue;
+    MeasuredFile file = read_table(found.tables[i]);
+    file.settings = settings_;
+    if (files.empty())
+      file.notes.insert(file.notes.begin(), found.notes.begin(), found.notes.end());
+    file.curve.name = count > 1 ? fmt::format("{}, test {}", name, i + 1) : name;
+    files.push_back(std::move(file));
+  }
+  return files;
+}
+
 }  // namespace
 
-MeasuredFile read_measured(const fs::path& file, const std::vector<CurveQuantities>& allowed) {
-  return CurveReader(file, allowed).read();
+std::vector<MeasuredFile> read_measured(const CurveSource& source,
+                                        const std::vector<CurveQuantities>& allowed) {
+  return CurveReader(source, allowed).read();
 }
 
 }  // namespace fingertip::studies

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibration/curves/curve.h"
+#include "studies/run/curve_source.h"
 
 namespace fingertip::studies {
 
@@ -41,7 +42,8 @@ struct MeasuredSetting {
 };
 
 struct MeasuredFile {
-  calibration::Curve curve;            ///< SI; its name is the file's without extension
+  calibration::Curve
+      curve;  ///< SI; its name is the source's, with the number of the table of several
   std::string x_quantity, y_quantity;  ///< names of the pair found, e.g. "indentation", "force"
   std::vector<std::size_t>
       lines;  ///< of every point of the curve: its row, or the first of its bin
@@ -49,10 +51,10 @@ struct MeasuredFile {
   std::vector<std::string> notes;         ///< what was ignored, left out or averaged
 };
 
-/// Reads a CSV file in UTF-8: a header of titles `name [unit]` and rows of numbers with a decimal
-/// point, separated by comma, or by semicolon or tab where the header has them; empty lines and
-/// lines that start with # may stand anywhere. README tells the format to users.
-/// - The pair is the first of `allowed` whose columns are both there; `normal_force` is `force`.
+/// Reads the tables of a file, in general one, in UTF-8, UTF-16 or Latin-1 (text_table.h): a header
+/// of titles `name [unit]` and rows of numbers. studies/manual/files.md tells the format to users.
+/// - The pair is the first of `allowed` whose columns are both there, or what the source says.
+///   `normal_force`, `load`, `kraft` ... are `force`; `travel`, `extension`, `weg` ... `position`.
 ///   Units are any of the right dimension (units.h), [1] alone where there is none.
 /// - `sigma`, in a unit of y, is the standard deviation of every y. Without it a `force_error`
 ///   serves where it is known and positive in every row. Further columns are ignored with a note.
@@ -72,7 +74,7 @@ struct MeasuredFile {
 /// to do: unreadable or empty file, another encoding, no header, missing or wrong units, cells
 /// that are no finite numbers or absurdly large or small (beyond 1e-60 ... 1e60 SI), rows of
 /// another length, sigma <= 0, equal or decreasing x, a setting given twice.
-MeasuredFile read_measured(const std::filesystem::path& file,
-                           const std::vector<CurveQuantities>& allowed);
+std::vector<MeasuredFile> read_measured(const CurveSource& source,
+                                        const std::vector<CurveQuantities>& allowed);
 
 }  // namespace fingertip::studies

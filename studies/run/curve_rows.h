@@ -28,9 +28,19 @@ struct Abscissa {
 
 inline constexpr std::size_t most_rows = 200;
 
-/// Of a travel the rows up to the largest x; what comes later, and the area between loading and
-/// unloading over the work of the loading, is told in `notes`.
-std::vector<CurveRow> loading(std::vector<CurveRow> rows, std::vector<std::string>& notes);
+/// Of a travel the rows up to the largest x, without holds on the way. What comes later, holds and
+/// the way back, goes into `course`; both are told in `notes`.
+/// - The loop is the area between loading and unloading over the work of the loading.
+/// - Where the machine stands still (at the end, or on the way for five times as many rows as it
+///   takes elsewhere for 1/200 of its way) it holds; the force's fall there over the force then,
+///   both over that of the first row, is the relaxation of the longest hold.
+std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::Course& course,
+                              std::vector<std::string>& notes);
+
+/// Standard deviation of a single y: root mean square of third differences of successive rows over
+/// sqrt(20), which parabolas do not change. 0 for fewer than 8 rows. Of filtered forces, whose
+/// errors follow each other, it is too small.
+double noise_of(const std::vector<CurveRow>& rows);
 
 /// `rows` as a curve: as they are up to `most_rows`, which must increase in x, or averaged in bins
 /// (curve_file.h) with a note, as are fewer rows of a travel that does not increase strictly. Adds

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <fstream>
 
 namespace fingertip::studies {
@@ -45,6 +46,73 @@ std::string shown(string_view text) {
   return result + (text.size() > most ? "..." : "");
 }
 
+namespace {
+
+void append_utf8(std::string& text, std::uint32_t code) {
+  const auto put = [&](std::uint32_t byte) { text += char(static_cast<unsigned char>(byte)); };
+  const auto tail = [&](unsigned shift) { put(0x80 | ((code >> shift) & 0x3F)); };
+  if (code < 0x80) {
+    put(code);
+  } else if (code < 0x800) {
+    put(0xC0 | (code >> 6)), tail(0);
+  } else if (code < 0x10000) {
+    put(0xE0 | (code >> 12)), tail(6), tail(0);
+  } else {
+    put(0xF0 | (code >> 18)), tail(12), tail(6), tail(0);
+  }
+}
+
+/// None for half a character, and for a zero one.
+std::optional<std::string> from_utf16(string_view bytes, bool little) {
+  if (bytes.size() % 2 != 0) return {};
+  std::string text;
+  std::uint32_t high = 0;
+  for (std::size_t i = 0; i < bytes.size(); i += 2) {
+    const auto low_byte = static_cast<unsigned char>(bytes[i + (little ? 0 : 1)]),
+               high_byte = static_cast<unsigned char>(bytes[i + (little ? 1 : 0)]);
+    const std::uint32_t unit = low_byte | std::uint32_t(high_byte) << 8;
+    const bool first = unit >= 0xD800 && unit < 0xDC00, second = unit >= 0xDC00 && unit < 0xE000;
+    if (unit == 0 || second != (high != 0)) return {};
+    if (first) {
+      high = unit;
+    } else {
+      append_utf8(text, second ? 0x10000 + ((high - 0xD800) << 10) + (unit - 0xDC00) : unit);
+      high = 0;
+    }
+  }
+  if (high != 0) return {};
+  return text;
+}
+
+bool is_utf8(string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i++]);
+    const int tails = lead < 0x80   ? 0
+                      : lead < 0xC2 ? -1
+                      : lead < 0xE0 ? 1
+                      : lead < 0xF0 ? 2
+                      : lead < 0xF5 ? 3
+                                    : -1;
+    if (tails < 0) return false;
+    for (int k = 0; k < tails; ++k, ++i)
+      if (i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
+  }
+  return true;
+}
+
+/// Machines write UTF-16 with a byte order mark, and Latin-1 for the micro sign and umlauts.
+std::optional<std::string> in_utf8(string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes.substr(2), true);
+  if (bytes.starts_with("\xFE\xFF")) return from_utf16(bytes.substr(2), false);
+  if (bytes.find('\0') != bytes.npos) return {};
+  if (is_utf8(bytes)) return std::string(bytes);
+  std::string text;
+  for (const char c : bytes) append_utf8(text, static_cast<unsigned char>(c));
+  return text;
+}
+
+}  // namespace
+
 std::string text_of(const fs::path& file, FileProblems& problems) {
   std::string text;
   std::error_code none;
@@ -58,9 +126,11 @@ std::string text_of(const fs::path& file, FileProblems& problems) {
     in.read(text.data(), std::streamsize(text.size()));
     text.resize(std::size_t(in.gcount()));
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
-        text.find('\0') != text.npos)
-      problems.add(0, "", "", "is no plain text in UTF-8", "save it as CSV in UTF-8");
+    if (auto decoded = in_utf8(text))
+      text = std::move(*decoded);
+    else
+      problems.add(0, "", "", "is no plain text in UTF-8, UTF-16 or Latin-1",
+                   "save it as CSV in UTF-8");
   }
   problems.throw_if_any();
   return text;
@@ -80,14 +150,25 @@ std::optional<Line> Lines::next() {
 
 void split(string_view line, char separator, std::vector<string_view>& cells) {
   cells.clear();
+  const bool blanks = separator == ' ';
+  const string_view ends = blanks ? string_view(" \t") : string_view(&separator, 1);
+  if (blanks) line = trimmed(line);
   for (;;) {
-    const auto end = line.find(separator);
+    const auto begin =
+        std::min(line.find_first_not_of(separator == '\t' ? " " : " \t"), line.size());
+    // What stands in quotes may hold the separator.
+    std::size_t from = begin;
+    if (begin < line.size() && line[begin] == '"') {
+      const auto quote = line.find('"', begin + 1);
+      if (quote != line.npos) from = quote + 1;
+    }
+    const auto end = line.find_first_of(ends, from);
     string_view cell = trimmed(line.substr(0, end));
     if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
       cell = trimmed(cell.substr(1, cell.size() - 2));
     cells.push_back(cell);
     if (end == line.npos) return;
-    line.remove_prefix(end + 1);
+    line.remove_prefix(blanks ? std::min(line.find_first_not_of(ends, end), line.size()) : end + 1);
   }
 }
 

@@ -33,8 +33,9 @@ class FileProblems {
 /// What a message may show of a file's text: printable and at most 40 characters.
 std::string shown(std::string_view text);
 
-/// A file's text without byte order mark. Throws ConfigError, by `problems`, for what is no
-/// readable file and for text in UTF-16 or with zero bytes.
+/// A file's text in UTF-8 without byte order mark: UTF-16 with one and Latin-1, which is what is
+/// no UTF-8, are converted. Throws ConfigError, by `problems`, for what is no readable file and for
+/// text with zero characters or halves of them.
 std::string text_of(const std::filesystem::path& file, FileProblems& problems);
 
 struct Line {
@@ -53,7 +54,8 @@ class Lines {
   std::size_t number_ = 0;
 };
 
-/// Replaces `cells` by those of `line`, without blanks and double quotes around them.
+/// Replaces `cells` by those of `line`, without blanks and double quotes around them; a separator
+/// in quotes is part of its cell. The separator ' ' stands for any number of blanks and tabs.
 void split(std::string_view line, char separator, std::vector<std::string_view>& cells);
 
 /// The number that the whole cell is, with a decimal point; it may be infinite or NaN.

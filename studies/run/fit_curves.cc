@@ -12,6 +12,7 @@
 #include "studies/run/curve_file.h"
 #include "studies/run/curve_text.h"
 #include "studies/run/digest.h"
+#include "studies/run/fit_repeats.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {
@@ -261,8 +262,8 @@ void check_stretches(const std::filesystem::path& path, const MeasuredFile& file
 }
 
 /// What a fit refuses of its data as a whole is said of the files, before anything is computed.
-void check_curves(const LoadedConfig& loaded, const FitInput& input) {
-  const std::vector<std::filesystem::path>& files = loaded.config.calibration.data;
+void check_curves(const LoadedConfig& loaded, const FitInput& input,
+                  const std::vector<std::filesystem::path>& files) {
   try {
     calibration::check_curve_fit(input.curves, input.options);
   } catch (const meshes::InvalidInput& error) {
@@ -304,15 +305,58 @@ void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
     Travel& travel = input.travels[i].emplace(travel_of(input.curves[i], rigid));
     // A machine of its own.
     travel.machine = "indentation of " + input.curves[i].name;
-    input.presses[i].protocol.samples = travel.depths;
-    input.presses[i].protocol.depth = travel.depths.back();
-    input.continua[i].press_to(travel.depths);
   }
+  share_depths(input);
   try {
     free_rigs(input);
   } catch (const meshes::InvalidInput& error) {
     throw loaded.locate(error.violations());
   }
+}
+
+/// The files of an entry of calibration.data.
+std::vector<CurveSource> sources_of(const LoadedConfig& loaded,
+                                    const std::filesystem::path& entry) {
+  try {
+    return curve_sources(entry);
+  } catch (const meshes::InvalidInput& error) {
+    throw loaded.locate(error.violations());
+  }
+}
+
+void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSource& source,
+                        MeasuredFile file, const std::string& condition) {
+  const CalibrationSettings& settings = loaded.config.calibration;
+  const CurveKind kind = kind_of(file, settings);
+  const bool press =
+      kind == CurveKind::press || kind == CurveKind::continuum || kind == CurveKind::ramp;
+  if (!fit.input.curves.empty() && press == fit.input.presses.empty())
+    throw refused(loaded, "calibration.data", source.path.string(),
+                  "forces of presses and other tests do not go into one fit",
+                  "fit them one by one");
+  file.curve.x_quantity = with_unit(file.x_quantity);
+  file.curve.y_quantity = with_unit(file.y_quantity);
+  for (const std::string& note : file.notes) fit.notes.push_back(file.curve.name + ": " + note);
+  if (press) {
+    std::vector<std::string> sets = settings_in(source.condition);
+    std::ranges::copy(settings_in(condition), std::back_inserter(sets));
+    try {
+      add_measured_press(fit, loaded, file, kind, sets);
+    } catch (const meshes::InvalidInput& error) {
+      throw placed_in(source.path, file, loaded.locate(error.violations()));
+    } catch (const ConfigError& error) {
+      throw placed_in(source.path, file, error);
+    }
+    return;
+  }
+  check_stretches(source.path, file);
+  if (!condition.empty() || !source.condition.empty())
+    throw refused(loaded, "calibration.conditions", "",
+                  "conditions are those of presses; a test on a coupon has none", "leave them out");
+  name_once(fit.input.curves, file.curve);
+  fit.input.curves.push_back(std::move(file.curve));
+  fit.input.conditions.emplace_back();
+  fit.input.kinds.push_back(kind);
 }
 
 }  // namespace
@@ -327,44 +371,20 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
     throw refused(loaded, "calibration.conditions", "",
                   "there must be one per file of calibration.data, or none", "complete the list");
   fit.input.provenance = "measured data: ";
+  std::vector<std::filesystem::path> files;
   for (std::size_t i = 0; i < settings.data.size(); ++i) {
-    MeasuredFile file = read_measured(settings.data[i], quantities_of(settings.problem));
-    const CurveKind kind = kind_of(file, settings);
-    const bool press =
-        kind == CurveKind::press || kind == CurveKind::continuum || kind == CurveKind::ramp;
-    if (i > 0 && press == fit.input.presses.empty())
-      throw refused(loaded, "calibration.data", settings.data[i].string(),
-                    "forces of presses and other tests do not go into one fit",
-                    "fit them one by one");
-    file.curve.x_quantity = with_unit(file.x_quantity);
-    file.curve.y_quantity = with_unit(file.y_quantity);
-    fit.notes.insert(fit.notes.end(), file.notes.begin(), file.notes.end());
-    fit.input.provenance += (i > 0 ? ", " : "") + settings.data[i].filename().string() +
-                            " (SHA-256 " + sha256(content_of(settings.data[i])) + ")";
-    if (press) {
-      const auto condition = settings.conditions.empty() ? std::vector<std::string>{}
-                                                         : settings_in(settings.conditions[i]);
-      try {
-        add_measured_press(fit, loaded, file, kind, condition);
-      } catch (const meshes::InvalidInput& error) {
-        throw placed_in(settings.data[i], file, loaded.locate(error.violations()));
-      } catch (const ConfigError& error) {
-        throw placed_in(settings.data[i], file, error);
+    const auto condition = settings.conditions.empty() ? "" : settings.conditions[i];
+    for (const CurveSource& source : sources_of(loaded, settings.data[i])) {
+      fit.input.provenance += (files.empty() ? "" : ", ") + source.path.filename().string() +
+                              " (SHA-256 " + sha256(content_of(source.path)) + ")";
+      for (MeasuredFile& file : read_measured(source, quantities_of(settings.problem))) {
+        add_measured_curve(fit, loaded, source, std::move(file), condition);
+        files.push_back(source.path);
       }
-      continue;
     }
-    check_stretches(settings.data[i], file);
-    if (!settings.conditions.empty())
-      throw refused(loaded, "calibration.conditions", "",
-                    "conditions are those of presses; a test on a coupon has none",
-                    "leave them out");
-    name_once(fit.input.curves, file.curve);
-    fit.input.curves.push_back(file.curve);
-    fit.input.conditions.push_back("");
-    fit.input.kinds.push_back(kind);
   }
   add_rigs(fit, loaded);
-  check_curves(loaded, fit.input);
+  check_curves(loaded, fit.input, files);
 }
 
 }  // namespace fingertip::studies

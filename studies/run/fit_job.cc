@@ -13,6 +13,7 @@
 #include "studies/run/fit_material.h"
 #include "studies/run/fit_models.h"
 #include "studies/run/fit_prospects.h"
+#include "studies/run/fit_repeats.h"
 #include "studies/run/fit_suspects.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -164,6 +165,16 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
 
   calibration::FitRecord record = described(input);
   record.fit = search(input, models);
+  stage = "repeats";
+  record.repeats = repeats_in(input, record.fit);
+  if (scatter(record.repeats)) {
+    record.fit = fit_with_scatter(input, list, record.fit, record.repeats);
+    record.model_error +=
+        std::string(record.model_error.empty() ? "" : " and ") + "the scatter between repeats";
+  }
+  const calibration::CurveFit own =
+      scatter(record.repeats) ? fit_apart(input, record.fit, record.repeats) : record.fit;
+  if (scatter(record.repeats)) record.own_residuals = own.residuals;
   record.options = input.options;
   stage = "intervals";
   if (input.profile_intervals && record.fit.converged && record.fit.degrees_of_freedom > 0)
@@ -174,7 +185,7 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   stage = "profile";
   if (!input.profile.empty()) add_profile(input, list, record);
   stage = "lack of fit";
-  record.lack_of_fit = accusations_of(input, record.fit, record.options, models);
+  record.lack_of_fit = accusations_of(input, own, record.options, models);
   if (record.fit.converged && !input.candidates.empty())
     record.next =
         outlook(input, models, record.fit.estimates, record.fit.residual_deviation, folder, context,

@@ -9,7 +9,6 @@
 #include <set>
 #include <utility>
 
-#include "calibration/toml_depth.h"
 #include "meshes/csv_table.h"
 #include "meshes/errors.h"
 #include "meshes/text_file.h"
@@ -125,18 +124,11 @@ void TestReader::read_sizes() {
 }
 
 meshes::CsvTable TestReader::table_of(const fs::path& path) const {
-  meshes::CsvFormat format;
-  format.separator = test_.word<char>(
-      "separator", {{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"whitespace", ' '}}, ',');
-  format.decimal_comma = test_.word<bool>("decimal", {{"point", false}, {"comma", true}}, false);
-  if (format.decimal_comma && format.separator == ',')
-    test_.refuse("decimal", "comma", "commas cannot separate cells and decimals alike",
-                 "give another separator");
-  format.skip = std::size_t(test_.whole("skip", 0, 0, 1000000));
-  format.has_names = test_.flag("header", true);
-  format.complete = false;
-  format.remedy = compare_with_data_table;
-  return meshes::read_csv(path, format);
+  std::vector<std::string> wanted{stress_.column};
+  if (!strain_.value) wanted.push_back(strain_.column);
+  if (sigma_) wanted.push_back(sigma_->column);
+  if (found_.course != TestCourse::slow) wanted.push_back(test_.table("time")->column());
+  return described_table(path, layout_of(test_), wanted, result_.notes);
 }
 
 std::array<std::size_t, 2> TestReader::chosen_rows(const fs::path& path, std::size_t rows) const {
@@ -298,22 +290,10 @@ void note_rates(MaterialTestFile& file) {
                                     test.name));
 }
 
-toml::table parsed(const fs::path& file) {
-  const std::string text = meshes::read_text(file);
-  if (calibration::nests_too_deep(text))
-    throw InvalidInput({file.string(), "", "a key has hundreds of dotted parts", "mend the file"});
-  try {
-    return toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    throw InvalidInput({fmt::format("{}:{}", file.string(), error.source().begin.line), "",
-                        "not valid TOML: " + std::string(error.description()), "mend the line"});
-  }
-}
-
 }  // namespace
 
 MaterialTestFile read_material_tests(const fs::path& file) {
-  const toml::table root = parsed(file);
+  const toml::table root = parsed_description(file);
   MaterialTestFile result;
   const TestTable whole(file, root, "");
   whole.check_keys({"about", "data", "test"});

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "calibration/toml_depth.h"
 #include "meshes/errors.h"
+#include "meshes/text_file.h"
 #include "studies/config/units.h"
 #include "studies/config/value_reader.h"
 
@@ -138,15 +142,38 @@ std::string TestTable::column() const {
          "must be a column's name in the header, or its number from 1", "write e.g. column = 2");
 }
 
-namespace {
-
 double sign_of(const TestTable& table) {
   const long sign = table.whole("sign", 1, -1, 1);
   if (sign == 0) table.refuse("sign", "0", "must be 1 or -1", "write sign = -1 to turn it about");
   return double(sign);
 }
 
-}  // namespace
+TableLayout layout_of(const TestTable& table) {
+  TableLayout layout;
+  if (table.has("separator"))
+    layout.separator = table.word<char>(
+        "separator", {{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"whitespace", ' '}});
+  if (table.has("decimal"))
+    layout.decimal_comma = table.word<bool>("decimal", {{"point", false}, {"comma", true}});
+  if (layout.decimal_comma.value_or(false) && layout.separator == ',')
+    table.refuse("decimal", "comma", "commas cannot separate cells and decimals alike",
+                 "give another separator");
+  layout.skip = std::size_t(table.whole("skip", 0, 0, 1000000));
+  layout.has_names = table.flag("header", true);
+  return layout;
+}
+
+toml::table parsed_description(const fs::path& file) {
+  const std::string text = meshes::read_text(file);
+  if (calibration::nests_too_deep(text))
+    throw InvalidInput({file.string(), "", "a key has hundreds of dotted parts", "mend the file"});
+  try {
+    return toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw InvalidInput({fmt::format("{}:{}", file.string(), error.source().begin.line), "",
+                        "not valid TOML: " + std::string(error.description()), "mend the line"});
+  }
+}
 
 TestTable needed(const TestTable& test, string_view key, const char* example) {
   const auto table = test.table(key);
@@ -233,6 +260,44 @@ StressColumn stress_column(const TestTable& test, std::optional<double> area) {
     result.factor /= *area;
   }
   return result;
+}
+
+meshes::CsvTable described_table(const fs::path& file, TableLayout layout,
+                                 const std::vector<std::string>& columns,
+                                 std::vector<std::string>& notes) {
+  FileProblems problems(file);
+  DescribedColumns choose(columns);
+  if (choose.all_numbered()) layout.has_names = false;
+  try {
+    const std::string text = text_of(file, problems);
+    TextTables found = tables_in(text, layout, std::ref(choose), problems);
+    if (found.tables.empty()) choose.refuse(problems, compare_with_data_table);
+    if (found.tables.size() > 1)
+      problems.add(found.tables[1].header_line, "", "", "a second table begins here",
+                   "give each test a file of its own");
+    problems.throw_if_any();
+    for (const std::string& note : found.notes)
+      notes.push_back(file.filename().string() + ": " + note);
+    TextTable& table = found.tables.front();
+    meshes::CsvTable result;
+    result.file = file;
+    result.remedy = compare_with_data_table;
+    result.rows = std::move(table.rows);
+    result.lines = std::move(table.lines);
+    for (std::size_t i = 0; i < table.titles.size(); ++i) {
+      const auto& name = table.titles[i].written;
+      result.names.push_back(std::ranges::find(result.names, name) == result.names.end()
+                                 ? name
+                                 : fmt::format("column {}", i + 1));
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (!columns[i].starts_with('#')) result.names[table.needed[i]] = columns[i];
+    return result;
+  } catch (const ConfigError& error) {
+    const Problem& first = error.problems().front();
+    throw InvalidInput({first.place + (first.key.empty() ? "" : ", " + first.key), first.value,
+                        first.rule, first.remedy});
+  }
 }
 
 std::vector<double> column_numbers(const meshes::CsvTable& table, const std::string& column) {

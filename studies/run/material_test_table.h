@@ -14,6 +14,7 @@
 
 #include "calibration/material_tests/material_test.h"
 #include "meshes/csv_table.h"
+#include "studies/run/text_table.h"
 
 namespace fingertip::studies {
 
@@ -78,6 +79,15 @@ class TestTable {
   const toml::table* common_;
 };
 
+/// The TOML file. Throws InvalidInput with file and line.
+toml::table parsed_description(const std::filesystem::path& file);
+
+/// The keys separator, decimal, skip and header of a table.
+TableLayout layout_of(const TestTable& table);
+
+/// The key sign: 1 or -1; 1 where there is none.
+double sign_of(const TestTable& table);
+
 /// `test` must have the table.
 TestTable needed(const TestTable& test, std::string_view key, const char* example);
 
@@ -106,7 +116,13 @@ StressColumn stress_column(const TestTable& test, std::optional<double> area);
 /// What to do about a table of data that does not fit its description.
 inline constexpr const char* compare_with_data_table = "compare the file with its [data] table";
 
-/// The column of that name or number.
+/// The table of the file, which must be the only one, with these columns: names or numbers, "#3".
+/// `notes` tell what was found and passed over. Throws InvalidInput with file and line.
+meshes::CsvTable described_table(const std::filesystem::path& file, TableLayout layout,
+                                 const std::vector<std::string>& columns,
+                                 std::vector<std::string>& notes);
+
+/// Of such a table, the column of that name or number.
 std::vector<double> column_numbers(const meshes::CsvTable& table, const std::string& column);
 
 }  // namespace fingertip::studies

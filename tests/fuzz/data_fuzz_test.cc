@@ -1,5 +1,6 @@
 // Damaged measurements, materials and what runs have left behind.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -144,7 +145,7 @@ TEST(FuzzData, MeasuredCurves) {
                                                 measured::creep,        measured::relaxation};
   fuzz::attack({seeds, words}, fuzz::refusing<ConfigError>([&](const std::string& input) {
                  write_text(file, input);
-                 const MeasuredFile measured = read_measured(file, allowed);
+                 const MeasuredFile measured = read_measured({file}, allowed).at(0);
                  const calibration::Curve& curve = measured.curve;
                  EXPECT_FALSE(curve.x.empty());
                  EXPECT_LE(curve.x.size(), 200U);
@@ -153,6 +154,84 @@ TEST(FuzzData, MeasuredCurves) {
                  EXPECT_TRUE(all_finite(curve.x) && all_finite(curve.y) && all_finite(curve.sigma));
                  EXPECT_TRUE(increasing(curve.x) && curve.x.front() > 0.0);
                  for (const double sigma : curve.sigma) EXPECT_GT(sigma, 0.0);
+               }));
+}
+
+// Files of machines with their descriptions. What is refused is refused with file and line.
+TEST(FuzzData, PressFiles) {
+  using namespace studies;
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "press.toml", data = folder / "press.csv";
+  const std::string cut = "\n====\n";  // between description and data
+  const std::string path = "[[press]]\npath = \"press.csv\"\n";
+  std::string loop = "Zeit;Weg;Kraft\ns;mm;N\n";
+  for (int i = 0; i < 240; ++i)
+    loop += fmt::format("00:00:{:02d},5;{};{}\n", i % 60,
+                        i < 120   ? i
+                        : i < 180 ? 120
+                                  : 299 - i,
+                        i < 120 ? i * i : 13000 - i * i / 10);
+  const std::vector<std::string> seeds = {
+      path + cut + "remark\nposition [mm], force (N)\n0.1, 0\n0.2, 1.5\n0.4, 4\nMean, 2\n",
+      path + cut +
+          "Probe 1\nWeg [mm];Kraft [N]\n0,1;0\n0,2;1.234,5\n\nProbe 2\n"
+          "Weg [mm];Kraft [N]\n0,1;0\n0,2;1,5\n",
+      "[data]\nseparator = \"whitespace\"\nposition = {column = 2, unit = \"um\", sign = -1}\n"
+      "force = {column = \"fz\", unit = \"gf\"}\n" +
+          path + "rows = [1, 2]\n" + cut + "t z fz\n0 -10 0\n1 -20 1\n2 -30 3\n",
+      path + "decimal = \"comma\"\ncondition = \"press.contact = stick\"\n" + cut + loop,
+      path +
+          "header = false\nposition = {column = 1, unit = \"mm\"}\n"
+          "force = {column = 2, unit = \"N\"}\nsigma = {column = 3, unit = \"N\"}\n" +
+          cut + "ready\n\"0.1\",\"1,234.5\",1\n0.2,2000,1\n"};
+  const std::vector<std::string> words = {"[[press]]\n",
+                                          "path = \"press.csv\"\n",
+                                          "block = 2\n",
+                                          "skip = 1\n",
+                                          "header = false\n",
+                                          "sign = -1",
+                                          "column = 3",
+                                          "unit = \"mm\"",
+                                          "rows = [1, 2]\n",
+                                          "condition = \"\"\n",
+                                          "\"",
+                                          ";",
+                                          "\t",
+                                          ",",
+                                          "\xFF\xFE",
+                                          "\xB5m",
+                                          "sep=;\n",
+                                          "nan",
+                                          "1e61",
+                                          "12:00:00",
+                                          "Mean;1\n",
+                                          "Weg [mm];Kraft [N]\n",
+                                          "\xC2\xA0",
+                                          "1.234.567,8"};
+  fuzz::attack({seeds, words},
+               fuzz::refusing<InvalidInput, ConfigError>([&](const std::string& input) {
+                 const std::size_t at = input.find(cut);
+                 write_text(file, input.substr(0, at));
+                 write_text(data, at == input.npos ? loop : input.substr(at + cut.size()));
+                 try {
+                   for (const CurveSource& source : curve_sources(file))
+                     for (const MeasuredFile& measured :
+                          read_measured(source, {measured::press, measured::travel})) {
+                       const calibration::Curve& curve = measured.curve;
+                       EXPECT_FALSE(curve.x.empty());
+                       EXPECT_LE(curve.x.size(), 200U);
+                       EXPECT_EQ(curve.y.size(), curve.x.size());
+                       EXPECT_EQ(measured.lines.size(), curve.x.size());
+                       EXPECT_TRUE(all_finite(curve.x) && all_finite(curve.y));
+                       EXPECT_TRUE(all_finite(curve.sigma) && all_finite(curve.time));
+                       EXPECT_TRUE(increasing(curve.x));
+                     }
+                 } catch (const ConfigError& error) {
+                   for (const Problem& problem : error.problems())
+                     EXPECT_NE(problem.place.find(folder.path().string()), std::string::npos)
+                         << problem.place;
+                   throw;
+                 }
                }));
 }
 

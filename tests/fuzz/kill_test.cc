@@ -85,6 +85,26 @@ TEST(Kill, CalibrationToMeasuredForces) {
                  wanted_kills(), 4);
 }
 
+/// Two repeats behind a rig: starts, search, scatter, curves left out.
+TEST(Kill, CalibrationOfTravels) {
+  const TemporaryFolder data;
+  for (const char* name : {"a", "b"}) {
+    std::string text = "position [mm];force [mN]\n";
+    for (int i = 0; i <= 20; ++i) {
+      const double depth = 0.05 * i - 0.2, factor = *name == 'a' ? 30.0 : 33.0;
+      text += std::to_string(0.05 * i) + ";" +
+              std::to_string(depth > 0.0 ? factor * depth * std::sqrt(depth) : 0.0) + "\n";
+    }
+    write_text(data / (std::string(name) + ".csv"), text);
+  }
+  write_text(data / "presses.toml", "[[press]]\npath = [\"a.csv\", \"b.csv\"]\n");
+  kill_and_go_on({"calibrate", "--set", "calibration.problem=experiment", "--set",
+                  "calibration.data=[\"" + (data / "presses.toml").string() + "\"]", "--set",
+                  "lattice.spacing=tip_radius/4", "--set", "calibration.parameters=[\"modulus\"]",
+                  "--set", "calibration.rig={force_offset = \"fit\"}"},
+                 wanted_kills(), 8);
+}
+
 TEST(Kill, Sweep) {
   kill_and_go_on(
       {"sweep", "--set", "press.mode=static", "--set", "press.contact=frictionless", "--set",

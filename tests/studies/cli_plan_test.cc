@@ -134,8 +134,9 @@ TEST(Plan, ACandidateNarrowsAsThePlanOfBothDoes) {
   ASSERT_EQ(first["next"].size(), 1u);
   for (const char* name : {"modulus", "compliance"}) {
     const double found = width(parameter(first, name)) / width(parameter(second, name));
-    for (const json& each : first["next"][0]["parameters"])
+    for (const json& each : first["next"][0]["parameters"]) {
       if (each["name"] == name) EXPECT_NEAR(each["times"].get<double>(), found, 1e-3 * found);
+    }
   }
   EXPECT_TRUE(second["next"].empty());
 }

@@ -145,11 +145,10 @@ TEST_F(MaterialFiles, RefusalsNameFileLineKeyAndRemedy) {
   const std::string file = (folder_ / "tests.toml").string();
   expect_refused(with("separatr = \"comma\""), two_rows,
                  {file + ":10: test[1].separatr = comma: no such key"});
-  expect_refused(with("separator = \"comma\""), two_rows,
-                 {"data.csv", "at most that of the table, 1"});
+  expect_refused(with("separator = \"comma\""), two_rows, {"data.csv", "column 2 is missing"});
   expect_refused(with("kind = 3"), two_rows, {"tests.toml:10", "not valid TOML"});
   expect_refused(with("strain = {column = 7, is = \"stretch\"}"), two_rows,
-                 {"7", "at most that of the table, 2"});
+                 {"data.csv", "column 7 is missing"});
   expect_refused(with("strain = {column = \"x\", is = \"stretch\"}"), two_rows,
                  {"data.csv:1", "the column 'x' is missing"});
   expect_refused(with("strain = {column = 1, is = \"strech\"}"), two_rows,
@@ -170,7 +169,7 @@ TEST_F(MaterialFiles, RefusalsNameFileLineKeyAndRemedy) {
                  {"must be positive, at most 20"});
   expect_refused("[data]\n", "", {"names no test"});
   expect_refused(with("use = \"predict\""), two_rows, {"at least one test is fitted"});
-  expect_refused(two_columns, "1 2\n1 2 3\n", {"data.csv:2", "as many cells"});
+  expect_refused(two_columns, "1 2\n1 2 3\n", {"data.csv:2", "has 3 cells, the first row 2"});
   expect_refused(two_columns, "0 1\n1 2\n2 1.5\n3 1.2\n4 1.1\n", {"the curve turns back"});
   expect_refused("[[test]\n", "", {"tests.toml:1", "not valid TOML"});
 }

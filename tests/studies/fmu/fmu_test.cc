@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ using namespace fingertip;
 namespace {
 
 const std::vector<std::string> sets = {"lattice.spacing=tip_radius/5", "lattice.model=network",
-                                       "press.clearance=0.2 mm"};
+                                       "press.clearance=0.2 mm", "press.depth=1.5 mm",
+                                       "reference.tolerance=0.02"};
 
 std::string logged;  ///< what units told last
 
@@ -172,6 +174,15 @@ TEST_F(Fmu, WhatIsWrongIsToldToTheImporter) {
   EXPECT_NE(logged.find("begins at"), std::string::npos) << logged;
   EXPECT_EQ(step(unit, 0.0, 0.0), fmi2Error);
   release(unit);
+}
+
+TEST_F(Fmu, ItsForceErrorIsForetold) {
+  const auto transfer = nlohmann::json::parse(read_text(folder_ / "run/transfer.json"));
+  const auto& model = transfer["obstacles"][0]["models"][0];
+  EXPECT_EQ(model["model"], "lattice at rest");
+  for (std::size_t i = 1; i < 5; ++i)  // a coarse lattice, a few cells at first
+    EXPECT_LT(std::abs(model["error"][i].get<double>()), 0.1) << i;
+  EXPECT_NE(read_text(folder_ / "run/README.md").find("Force error to expect"), std::string::npos);
 }
 
 TEST_F(Fmu, DescriptionListsTheVariables) {

@@ -1,0 +1,95 @@
+#include "studies/run/curve_source.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "studies/config/units.h"
+#include "studies/run/material_test_table.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+namespace fs = std::filesystem;
+using std::string_view;
+
+/// A column's name and the SI unit of what stands in it.
+struct KnownColumn {
+  const char *quantity, *unit, *example;
+};
+constexpr KnownColumn known_columns[] = {{"position", "m", "mm"},
+                                         {"indentation", "m", "mm"},
+                                         {"force", "N", "N"},
+                                         {"time", "s", "s"},
+                                         {"sigma", "N", "N"}};
+
+const std::set<string_view> shared_press_keys = {"condition",   "block",    "separator", "decimal",
+                                                 "skip",        "header",   "rows",      "force",
+                                                 "indentation", "position", "time",      "sigma"};
+
+ColumnWish wish(const TestTable& table, const KnownColumn& known) {
+  table.check_keys({"column", "unit", "sign"});
+  ColumnWish found{known.quantity, table.column(), table.text("unit").value_or(""), 1.0};
+  if (!found.unit.empty())
+    table.number_of("unit", "1 " + found.unit, known.unit, std::string("1 ") + known.example);
+  found.sign = sign_of(table);
+  return found;
+}
+
+void add_press(const TestTable& press, std::vector<CurveSource>& sources) {
+  CurveSource source;
+  source.layout = layout_of(press);
+  source.rows = press.pair("rows");
+  source.block = std::size_t(press.whole("block", 0, 1, 1000000));
+  source.condition = press.text("condition").value_or("");
+  for (const KnownColumn& known : known_columns)
+    if (const auto table = press.table(known.quantity))
+      source.columns.push_back(wish(*table, known));
+  if (press.has("position") && press.has("indentation"))
+    press.refuse("indentation", "", "beside position", "leave one of the two out");
+  if (source.columns.empty() && !source.layout.has_names)
+    press.refuse("header", "false", "without a header the columns must be numbered",
+                 "write e.g. position = {column = 1, unit = \"mm\"}, and force alike");
+  if (!source.columns.empty() &&
+      ((!press.has("position") && !press.has("indentation")) || !press.has("force")))
+    press.refuse("force", "", "a press needs a force, and a position or an indentation",
+                 "give both, or neither where the file names them itself");
+  const std::vector<fs::path> paths = press.paths("path");
+  const auto name = press.text("name");
+  for (const fs::path& path : paths) {
+    source.path = path;
+    source.name = name && paths.size() == 1 ? *name
+                  : name                    ? *name + " " + path.stem().string()
+                                            : path.stem().string();
+    sources.push_back(source);
+  }
+}
+
+}  // namespace
+
+std::vector<CurveSource> curve_sources(const fs::path& entry) {
+  if (entry.extension() != ".toml") return {{entry, entry.stem().string()}};
+  const toml::table root = parsed_description(entry);
+  const TestTable whole(entry, root, "");
+  whole.check_keys({"data", "press"});
+  if (const auto data = whole.table("data")) data->check_keys(shared_press_keys);
+  const toml::array* presses = root["press"].as_array();
+  if (presses == nullptr || presses->empty())
+    whole.refuse("press", "", "the file names no press", "write [[press]] with path");
+  std::set<string_view> known = shared_press_keys;
+  known.insert({"name", "path"});
+  std::vector<CurveSource> sources;
+  std::size_t count = 0;
+  for (const toml::node& node : *presses) {
+    if (!node.is_table())
+      whole.refuse("press", "", "every press is a table", "write [[press]] above its keys");
+    const TestTable press(entry, *node.as_table(), fmt::format("press[{}]", ++count),
+                          root["data"].as_table());
+    press.check_keys(known);
+    add_press(press, sources);
+  }
+  return sources;
+}
+
+}  // namespace fingertip::studies
