@@ -193,6 +193,35 @@ Table suspect_table(const Fit& fit) {
   return table;
 }
 
+/// What further presses would tell, the best one first.
+Table next_table(const Fit& fit) {
+  Table table;
+  if (fit.file.next.empty()) return table;
+  table.header = {plain("Further press"), plain("Parameter"), plain("95 % interval then"),
+                  plain("Narrower", "times")};
+  for (const calibration::NextEntry& further : fit.file.next) {
+    if (!further.failure.empty()) {
+      Cell failure = plain(further.failure);
+      failure.words = true;
+      table.rows.push_back({plain(further.name, further.press), plain("–"), failure, plain("–")});
+    }
+    for (const calibration::NarrowedEntry& each : further.parameters) {
+      std::string unit;
+      for (const auto& parameter : fit.file.parameters)
+        if (parameter.name == each.name) unit = parameter.unit;
+      const auto shown = [&](double value) {
+        if (!std::isfinite(value)) return std::string("–");
+        return unit.empty() || unit == "1" ? number(value) : with_prefix(value, unit);
+      };
+      table.rows.push_back(
+          {&each == &further.parameters.front() ? plain(further.name, further.press) : plain(""),
+           plain(each.name), plain(shown(each.lower) + " … " + shown(each.upper)),
+           plain(number(each.times, 3))});
+    }
+  }
+  return table;
+}
+
 Chapter rig_chapter(const Fit& fit, const std::string& prefix) {
   constexpr double improbable = 1e-3;
   const auto& suspects = fit.file.lack_of_fit;
@@ -204,7 +233,8 @@ Chapter rig_chapter(const Fit& fit, const std::string& prefix) {
       suspects, [](const AccusationEntry& each) { return each.probability < improbable; });
   chapter.tables["rig"] = rig_table(fit);
   chapter.tables["suspects"] = suspect_table(fit);
-  if (!fit.file.rig && suspects.empty()) {
+  chapter.tables["next"] = next_table(fit);
+  if (!fit.file.rig && suspects.empty() && fit.file.next.empty()) {
     Chapter none;
     none.id = chapter.id;
     return none;

@@ -145,7 +145,7 @@ TEST(Calibrate, FindsTheRubberOfMeasuredPresses) {
   // Names of curves stand in quotes, whatever they say.
   const std::string name = fit["curves"][0]["name"];
   EXPECT_EQ(read_text(folder / "fit/fit_data.csv")
-                .find("curve,x,measured,sigma,fitted,left_out\n\"" + name + "\","),
+                .find("curve,x,measured,sigma,fitted,left_out,indentation\n\"" + name + "\","),
             0u);
   EXPECT_TRUE(fs::exists(folder / "fit/surrogate.json"));
 
@@ -317,7 +317,8 @@ TEST(Calibrate, ResumesAndDoesNotDependOnThreads) {
   const TemporaryFolder folder;
   write_measured(folder.path(), "frictionless", "a.csv");
   write_measured(folder.path(), "stick", "b.csv");
-  const auto data = with(experiment, {"--set", "calibration.data=[\"a.csv\",\"b.csv\"]"});
+  const auto data = with(experiment, {"--set", "calibration.data=[\"a.csv\",\"b.csv\"]", "--set",
+                                      "calibration.candidates=[]"});
   Program killed(folder.path(), with(data, {"--threads", "1", "--out", "killed"}));
   const fs::path evaluations = folder / "killed/fit/evaluations/curve_2.jsonl";
   for (int wait = 0; wait < 600 && !fs::exists(evaluations); ++wait)
@@ -373,7 +374,7 @@ TEST(Calibrate, RefusesWhatCannotBeFitted) {
        "calibration.conditions"},
       {{"--set", "calibration.data=[\"good.csv\"]", "--set",
         "calibration.conditions=[\"lattice.spacing=tip_radius/4\"]"},
-       "press, geometry and reference"},
+       "press, obstacle, geometry and reference"},
       {{"--set", "calibration.data=[\"good.csv\"]", "--set", "calibration.forward=continuum",
         "--set", "calibration.parameters=[\"k1\"]"},
        "moduli alone"},

@@ -160,7 +160,7 @@ TEST_F(Continuum, IsRunInsideTheFit) {
         {"calibrate", "--out", out, "--force", "--set", "calibration.problem=experiment", "--set",
          "calibration.forward=continuum", "--set", "calibration.data=[\"data.csv\"]", "--set",
          "lattice.model=network", "--set", "reference.tolerance=0.01", "--set",
-         "calibration.parameters=" + parameters});
+         "calibration.candidates=[]", "--set", "calibration.parameters=" + parameters});
     EXPECT_TRUE(result.code == 0 || result.code == 4) << result.err;
     return json::parse(read_text(folder_ / (out + "/calibration.json")))["parameters"];
   };
