@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <map>
+#include <optional>
 
 #include "calibration/curves/fit_statistics.h"
 #include "calibration/curves/model_error.h"
@@ -24,6 +25,11 @@ namespace {
 
 /// Another theory is there or not; coarse lattices tell its forces to a half.
 constexpr double most_excess = 1.5;
+
+constexpr const char* relaxation_name = "relaxation";
+
+/// Causes of smooth curves resemble each other: such a share of the best one's decrease is as good.
+constexpr double nearly_all = 0.9;
 
 /// A misfit that chance makes less often than this is one.
 constexpr double by_no_chance = 1e-3;
@@ -253,6 +259,33 @@ std::vector<Excess> excesses_of(const FitInput& input) {
   return excesses;
 }
 
+/// Of files that show a loop or a hold: a branch of the rubber that fades as long as their loading
+/// takes, which is where it bends the loading most. Without times the speed counts as constant.
+std::optional<Suspect> relaxation(const FitInput& input, const Stack& stack) {
+  Suspect suspect{relaxation_name,
+                  "",
+                  "the rubber's force falls with time, as its loop or hold shows; press slower, or "
+                  "give the rubber its branches (calibration.problem = \"material\")",
+                  "1",
+                  VectorXd::Zero(stack.values),
+                  0.0,
+                  0.0};
+  for (std::size_t i = 0; i < input.curves.size(); ++i) {
+    const Curve& curve = input.curves[i];
+    const VectorXd& forces = stack.fitted[i];
+    const std::vector<double>& times = curve.time.empty() ? curve.x : curve.time;
+    const double constant = times.back() - times.front();
+    if (!(constant > 0.0) || !(forces(forces.size() - 1) > 0.0)) continue;
+    const double shown = calibration::fading_of(curve.course, forces, curve.x, times, constant);
+    if (!(shown > 0.0)) continue;
+    suspect.most = std::max(suspect.most, std::min(1.0, most_excess * shown));
+    suspect.change.segment(stack.first[i], forces.size()) =
+        calibration::fading(forces, times, constant);
+  }
+  if (suspect.most == 0.0) return std::nullopt;
+  return suspect;
+}
+
 /// The two kinds of a rig's quantities that explain most together, where none does alone.
 std::vector<std::string> best_pair(Trials& trials, const std::vector<Freed>& held,
                                    const std::vector<Accusation>& found) {
@@ -307,9 +340,14 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
           stack.fitted[i].cwiseProduct(VectorXd::Map(relative.data(), Index(relative.size())));
     }
   }
+  if (auto fades = relaxation(input, stack)) suspects.push_back(*std::move(fades));
   found = calibration::accusations(fit, options, suspects);
   const auto gravest_first = [&] {
     std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);
+    // What explains as much and shows itself besides goes first: no other cause makes a loop.
+    const auto fades = std::ranges::find(found, relaxation_name, &Accusation::name);
+    if (fades != found.end() && fades->decrease > nearly_all * found.front().decrease)
+      std::rotate(found.begin(), fades, fades + 1);
   };
   gravest_first();
   if_it_can_be([&] {  // a press without forces has no rig
