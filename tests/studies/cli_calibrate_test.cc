@@ -59,6 +59,8 @@ const std::vector<std::string> experiment = {"calibrate",
                                              "--set",
                                              "calibration.bias=false",
                                              "--set",
+                                             "calibration.candidates=[]",
+                                             "--set",
                                              "lattice.kinematics=small",
                                              "--set",
                                              "lattice.spacing=tip_radius/5"};
@@ -367,8 +369,7 @@ TEST(Calibrate, ResumesAndDoesNotDependOnThreads) {
   const TemporaryFolder folder;
   write_measured(folder.path(), "frictionless", "a.csv");
   write_measured(folder.path(), "stick", "b.csv");
-  const auto data = with(experiment, {"--set", "calibration.data=[\"a.csv\",\"b.csv\"]", "--set",
-                                      "calibration.candidates=[]"});
+  const auto data = with(experiment, {"--set", "calibration.data=[\"a.csv\",\"b.csv\"]"});
   Program killed(folder.path(), with(data, {"--threads", "1", "--out", "killed"}));
   const fs::path evaluations = folder / "killed/fit/evaluations/curve_2.jsonl";
   for (int wait = 0; wait < 600 && !fs::exists(evaluations); ++wait)
