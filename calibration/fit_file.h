@@ -2,6 +2,8 @@
 /// surrogate.json. SI.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -179,15 +181,21 @@ constexpr auto fields_of(const RepeatsEntry*) {
 /// What a file tells besides the values that are fitted: Course.
 struct CourseEntry {
   std::size_t rows = 0;
-  double noise = meshes::unknown, loop = meshes::unknown, hold_time = meshes::unknown,
-         relaxation = meshes::unknown;
+  double noise = meshes::unknown, rows_per_value = 1.0, loop = meshes::unknown,
+         hold_time = meshes::unknown, relaxation = meshes::unknown;
   std::vector<double> back_x, back_y;
+
+  /// Of a value that is fitted, the mean of some rows.
+  double noise_of_value() const { return noise / std::sqrt(std::max(1.0, rows_per_value)); }
 };
 constexpr auto fields_of(const CourseEntry*) {
   using meshes::named;
   using Whole = CourseEntry;
-  return named("rows noise loop hold_time relaxation back_x back_y", &Whole::rows, &Whole::noise,
-               &Whole::loop, &Whole::hold_time, &Whole::relaxation, &Whole::back_x, &Whole::back_y);
+  return std::tuple_cat(
+      named("rows noise", &Whole::rows, &Whole::noise),
+      newer(named("rows_per_value", &Whole::rows_per_value)),
+      named("loop hold_time relaxation back_x back_y", &Whole::loop, &Whole::hold_time,
+            &Whole::relaxation, &Whole::back_x, &Whole::back_y));
 }
 
 /// A curve of a fit.

@@ -13,6 +13,7 @@ namespace fingertip::calibration {
 struct Course {
   std::size_t rows = 0;            ///< of the file; 0: unknown
   double noise = meshes::unknown;  ///< standard deviation of a single row [y]
+  double rows_per_value = 1.0;     ///< that were averaged
   double loop = meshes::unknown;   ///< area between loading and unloading over the loading's work
   /// Of the longest hold under load: how long [s], and the share by which the force falls.
   double hold_time = meshes::unknown, relaxation = meshes::unknown;

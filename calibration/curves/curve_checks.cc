@@ -62,11 +62,15 @@ LeftOut leave_out(const std::vector<Curve>& curves, const std::vector<ForwardMod
   } catch (const meshes::NotConverged& error) {
     result.failure = error.what();
   }
+  // Before touch a travel's forces are noise about zero.
+  const Curve& curve = curves[place];
+  const double largest = std::abs(
+      *std::ranges::max_element(curve.y, {}, [](double value) { return std::abs(value); }));
   for (Index i = 0; i < result.residuals.size(); ++i) {
-    const double measured = curves[place].y[std::size_t(i)];
-    if (measured != 0.0)
+    const double base = curve.is_travel ? largest : std::abs(curve.y[std::size_t(i)]);
+    if (base != 0.0)
       result.worst_relative_error =
-          std::max(result.worst_relative_error, std::abs(result.residuals(i) / measured));
+          std::max(result.worst_relative_error, std::abs(result.residuals(i)) / base);
   }
   return result;
 }

@@ -15,7 +15,8 @@ namespace fingertip::calibration {
 struct LeftOut {
   Eigen::VectorXd estimates;
   Eigen::VectorXd residuals;          ///< of the curve left out, measured minus predicted [y]
-  double worst_relative_error = 0.0;  ///< largest |residual/measured| where that is not zero
+  double worst_relative_error = 0.0;  ///< largest |residual/measured| where that is not
+                                      ///< zero; of a travel over its largest value
   std::string failure;                ///< why there is no such fit; all else is then empty
 };
 
@@ -52,8 +53,10 @@ Profile profile_likelihood(const std::vector<Curve>& curves,
 
 /// The values of one parameter between which chi-square, least over all others, rises by less than
 /// the square of `half_width`, in units of sigma or of the residual deviation: of a quadratic loss
-/// estimate +- half_width standard errors. NaN at a side where it does not rise that much within
-/// the parameter's bounds or 30 standard errors, or where a model has no answer.
+/// estimate +- half_width standard errors. Without sigma the models' errors, which then are no part
+/// of chi-square, widen both sides as independent ones (hypot). NaN at a side where it does not
+/// rise that much within the parameter's bounds or 30 standard errors, or where a model has no
+/// answer.
 struct ProfileInterval {
   double lower = 0.0, upper = 0.0;
 };

@@ -205,6 +205,18 @@ double crossing(Valley& valley, double estimate, double error, double sign, doub
 
 }  // namespace
 
+namespace {
+
+/// Where sigma is not given the models' errors are no part of the loss but come through it.
+double error_through_models(const std::vector<Curve>& curves, const CurveFitOptions& options,
+                            const CurveFit& fit, Index i) {
+  if (!curves.front().sigma.empty() || options.model_covariance.size() == 0) return 0.0;
+  const Eigen::RowVectorXd row = fit.influence.row(i);
+  return std::sqrt(std::max(0.0, (row * options.model_covariance * row.transpose()).value()));
+}
+
+}  // namespace
+
 ProfileInterval profile_interval(const std::vector<Curve>& curves,
                                  const std::vector<ForwardModel*>& models,
                                  const CurveFitOptions& options, const CurveFit& fit,
@@ -222,8 +234,12 @@ ProfileInterval profile_interval(const std::vector<Curve>& curves,
   const double lowest = varies_by_logarithm(free) ? 1e-3 * estimate : lower_bound(free);
   const double down = std::min(farthest, (estimate - std::max(lowest, free.lower)) / error),
                up = std::min(farthest, (free.upper - estimate) / error);
-  return {estimate - error * crossing(valley, estimate, error, -1.0, down, half_width),
-          estimate + error * crossing(valley, estimate, error, 1.0, up, half_width)};
+  const double through_models = half_width * error_through_models(curves, options, fit, i);
+  const auto end = [&](double sign, double reach) {
+    const double own = error * crossing(valley, estimate, error, sign, reach, half_width);
+    return estimate + sign * std::hypot(own, through_models);
+  };
+  return {end(-1.0, down), end(1.0, up)};
 }
 
 }  // namespace fingertip::calibration

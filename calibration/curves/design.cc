@@ -115,6 +115,10 @@ std::string prospect_statement(const std::vector<Prospect>& sorted,
                                const std::vector<std::string>& labels, std::size_t decisive) {
   if (sorted.empty() || sorted.front().times.size() == 0) return "";
   const Prospect& best = sorted.front();
+  constexpr double worth_it = 1.1;
+  const Eigen::Index asked = std::min<Index>(Index(decisive), best.times.size());
+  if (asked > 0 && best.times.head(asked).maxCoeff() < worth_it)
+    return "None of the further measurements tried would make the intervals a tenth narrower.";
   std::string gains;
   for (std::size_t i = 0; i < std::min(decisive, labels.size()); ++i)
     gains += (i == 0 ? "" : ", ") + labels[i] + " " + rounded(best.times(Index(i)), 3) + " times";

@@ -298,7 +298,7 @@ int run_modes(const CommandLine& line) {
 }
 
 int run_reference(const CommandLine& line) {
-  const LoadedConfig loaded = load_config(line.config);
+  const LoadedConfig loaded = with_material(load_config(line.config), LatticeUse::modes);
   // The usual spacing may be too coarse for a profile, which is nothing to the continuum.
   const bool asked = loaded.entries.at("lattice.spacing").given;
   if (loaded.config.press.geometry.is_dome() || asked) check_all(loaded);

@@ -163,7 +163,7 @@ Figure curve_figure(const std::vector<const FitCurve*>& curves, const std::strin
   }
   if (forces) {
     double noise = 0.0;
-    for (const FitCurve* curve : curves) noise = std::fmax(noise, curve->course->noise);
+    for (const FitCurve* curve : curves) noise = std::fmax(noise, curve->course->noise_of_value());
     beneath.band = Band{-2.0 * noise * y.factor, 2.0 * noise * y.factor};
   }
   add_line_kinds(above, left_out);

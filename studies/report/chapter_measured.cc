@@ -40,14 +40,14 @@ Table file_table(const Fit& fit) {
   for (const FitCurve& curve : fit.curves) {
     const CourseEntry course = curve.course.value_or(CourseEntry());
     const std::string unit = curve.y_quantity.si_unit;
-    const double misfit = misfit_of(curve), ratio = misfit / course.noise;
+    const double misfit = misfit_of(curve), noise = course.noise_of_value(), ratio = misfit / noise;
     const auto shown = [&](double value) {
       return std::isfinite(value) ? with_prefix(value, unit) : std::string("–");
     };
     const bool timed = course.hold_time > 0.0;
     table.rows.push_back(
         {plain(curve.name, curve.condition), plain(count(double(course.rows))),
-         plain(count(double(curve.x.size()))), plain(shown(course.noise)),
+         plain(count(double(curve.x.size()))), plain(shown(noise)),
          plain(shown(misfit), std::isfinite(ratio) ? number(ratio, 2) + " × noise" : ""),
          plain(share_words(course.loop)),
          plain(share_words(course.relaxation),

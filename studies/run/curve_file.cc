@@ -405,6 +405,8 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
   result_.curve = curve_of(rows_, {result_.x_quantity, x_.unit, std::abs(x_.factor), is_travel()},
                            problems_, result_.notes);
   result_.curve.is_travel = is_travel();
+  if (!result_.curve.x.empty())
+    course.rows_per_value = double(rows_.size()) / double(result_.curve.x.size());
   result_.curve.course = std::move(course);
   problems_.throw_if_any();
   for (const double x : result_.curve.x)

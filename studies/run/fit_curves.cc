@@ -244,7 +244,9 @@ std::string with_unit(const std::string& quantity) {
   return quantity;
 }
 
+/// Empty of what is no file; its reader says so.
 std::string content_of(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) return {};
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "calibration/curves/curve_checks.h"
 #include "calibration/curves/fit_statistics.h"
@@ -153,7 +154,9 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   const auto go_on = [&] {
     return context.report(
         std::min(1.0, double(evaluations) / budget),
-        fmt::format("{}: {} of at most {} evaluations", stage, evaluations, budget));
+        budget < std::numeric_limits<int>::max()
+            ? fmt::format("{}: {} of at most {} evaluations", stage, evaluations, budget)
+            : fmt::format("{}: {} evaluations", stage, evaluations));
   };
   const FitModels models(input, folder, context, go_on);
   const std::vector<ForwardModel*> list = models.addresses();

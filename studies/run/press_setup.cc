@@ -144,6 +144,14 @@ LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use) {
                                                  : calibration::lattice_warnings(material, press);
   const std::string place = loaded.config.constants_file.filename().string() + ": ";
   for (const std::string& warning : warnings) complete.notes.push_back(place + warning);
+  // The stiffness is the material's, of the lattice and of the continuum beside it.
+  meshes::Rubber& continuum = complete.config.reference.rubber;
+  continuum.density = press.rubber.density;
+  continuum.retardation_time = press.rubber.retardation_time;
+  for (meshes::Rubber* rubber : {&complete.config.press.rubber, &continuum}) {
+    rubber->youngs_modulus = material.rubber.youngs_modulus;
+    rubber->shear_modulus = material.rubber.shear_modulus;
+  }
   return complete;
 }
 
@@ -167,8 +175,6 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded) {
   if (loaded.config.constants == ConstantsSource::file) {
     const calibration::Material& material = material_of(loaded);
     setup = with_material(loaded, LatticeUse::press).config.press;
-    setup.rubber.youngs_modulus = material.rubber.youngs_modulus;
-    setup.rubber.shear_modulus = material.rubber.shear_modulus;
     setup.lattice.constants = calibration::at_spacing(material, setup.lattice.spacing);
   } else {
     setup.lattice.constants = resolve_constants(loaded);

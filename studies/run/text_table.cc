@@ -285,7 +285,9 @@ void TableFinder::tell() {
   if (commas_) notes.emplace_back("numbers are read with decimal commas");
   if (thousands_) notes.emplace_back("numbers are read with separators of thousands");
   if (above_ > 0 && !result_.tables.empty() && result_.tables.front().header_line > 0)
-    notes.push_back(fmt::format("{} lines above the table are not read", above_));
+    notes.push_back(fmt::format("{} above the table {} not read",
+                                above_ == 1 ? "1 line" : fmt::format("{} lines", above_),
+                                above_ == 1 ? "is" : "are"));
   constexpr std::size_t enough = 4;
   const std::size_t count = passed_.size();
   if (count == 0) return;

@@ -328,7 +328,7 @@ TEST_F(MachineFiles, LinesThatAreNotReadAreTold) {
       "0.3;0.5\nMean;0.23\n");
   ASSERT_EQ(files[0].curve.x.size(), 3U);
   const std::string notes = testing::PrintToString(files[0].notes);
-  EXPECT_NE(notes.find("1 lines above the table"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("1 line above the table is not read"), std::string::npos) << notes;
   EXPECT_NE(notes.find("line 5, 'Event: light off'; line 7, 'Mean;0.23'"), std::string::npos)
       << notes;
 }

@@ -164,6 +164,22 @@ TEST(MaterialOfAPress, WhatTheUserSaysIsKeptAndWarnedOf) {
   EXPECT_TRUE(notes({"press.mode=static"}).empty()) << "no file, nothing to warn of";
 }
 
+/// Exports and `reference` press the continuum of the same rubber, whatever moduli stand beside it.
+TEST(MaterialOfAPress, IsThatOfTheContinuumToo) {
+  const TemporaryFolder folder;
+  const auto sets = inside(folder, fitted(lattice::ModelKind::hookean));
+  for (const char* more : {"rubber.poissons_ratio=0.45", "rubber.youngs_modulus=3900 Pa",
+                           "rubber.density=1 g/cm^3", "press.depth=0.1 cm"}) {
+    const Config config =
+        with_material(load_config({{}, with(sets, more), {}}), LatticeUse::modes).config;
+    for (const fingertip::meshes::Rubber& rubber : {config.press.rubber, config.reference.rubber}) {
+      EXPECT_EQ(rubber.youngs_modulus, 5000.0) << more;
+      EXPECT_EQ(rubber.shear_modulus, 1800.0) << more;
+      EXPECT_EQ(rubber.density, config.press.rubber.density) << more;
+    }
+  }
+}
+
 TEST(MaterialOfAPress, IsReadOnce) {
   const TemporaryFolder folder;
   const LoadedConfig loaded =

@@ -128,6 +128,31 @@ TEST(CurveChecks, ProfileOfALinearModelIsItsEllipse) {
   }
 }
 
+/// Of a linear model the interval of the profile is that of the covariance, also where the model is
+/// known to err: with sigma that is part of chi-square, without it comes through.
+TEST(CurveChecks, ProfileIntervalOfALinearModelIsThatOfItsCovariance) {
+  const MatrixXd design = powers(abscissae, 2);
+  FormulaModel model = linear(design);
+  const VectorXd y = design * Eigen::Vector2d(3.0, -1.0) + wiggle(0.02);
+  for (const double sigma : {0.0, 0.02})
+    for (const double model_error : {0.0, 0.01, 0.3}) {
+      const Curve curve = curve_of(abscissae, y, sigma);
+      CurveFitOptions options = free_parameters({kappa, lambda});
+      if (model_error > 0.0)
+        options.model_covariance = model_error * model_error * y * y.transpose();
+      const CurveFit fit = fit_curves({curve}, {&model}, options);
+      for (Index i = 0; i < 2; ++i) {
+        const ProfileInterval own =
+            profile_interval({curve}, {&model}, options, fit, std::size_t(i), 2.0);
+        const double error = fit.standard_errors(i);
+        EXPECT_NEAR(own.lower, fit.estimates(i) - 2.0 * error, 3e-3 * error)
+            << sigma << ' ' << model_error;
+        EXPECT_NEAR(own.upper, fit.estimates(i) + 2.0 * error, 3e-3 * error)
+            << sigma << ' ' << model_error;
+      }
+    }
+}
+
 /// Bounds cut the grid off; a model without answer leaves a hole.
 TEST(CurveChecks, ProfileKeepsToBoundsAndLeavesHoles) {
   const MatrixXd design = powers(abscissae, 2);
