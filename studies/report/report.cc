@@ -159,9 +159,9 @@ class PageMaker {
 
   /// Fits have neither presses of models nor a continuum of their own.
   Page calibration_page() {
-    Page page = headed("Soft fingertip: a lattice fitted to curves",
-                       "Parameters of mass-spring fingertips from curves, and what the curves "
-                       "determine");
+    Page page = headed("Soft fingertip: fitted to curves",
+                       "What curves of force tell of a rubber or of a lattice, and what they leave "
+                       "open");
     end(page);
     return page;
   }
