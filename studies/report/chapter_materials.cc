@@ -91,6 +91,7 @@ Panel law_panel(const MaterialsData& data, const MaterialRunEntry& first) {
     add_test(result, first.law, test, place++, panel);
   }
   panel.y_range = range_of_dots(panel);
+  if (panel.y_range->from < 0.0) panel.key = "bottom right";
   return panel;
 }
 
@@ -140,7 +141,12 @@ MaterialsData read_materials(const RunData& run, FolderReader& reader) {
   for (const MaterialRunEntry& entry : data.runs) {
     if (std::ranges::find(data.fits, entry.folder, &MaterialsData::Fit::folder) != data.fits.end())
       continue;
-    data.fits.push_back({entry.folder, entry.series.empty() ? entry.name : entry.series,
+    // A series of several fits does not name one of them.
+    const bool alone = std::ranges::all_of(data.runs, [&](const MaterialRunEntry& other) {
+      return other.series != entry.series || other.folder == entry.folder;
+    });
+    data.fits.push_back({entry.folder,
+                         alone && !entry.series.empty() ? entry.series : run_label(entry),
                          read_laws(run.folder / entry.folder, reader)});
   }
   return data;

@@ -13,7 +13,7 @@ namespace fingertip::studies::reporting {
 /// The fits of a case. Several runs may ask of one and the same fit.
 struct MaterialsData {
   struct Fit {
-    std::string folder, label;  ///< label: of the first run that asks, its series or its name
+    std::string folder, label;  ///< label: the series of the runs that ask, or a run
     LawResult result;
   };
   std::vector<MaterialRunEntry> runs;
