@@ -53,7 +53,8 @@ TEST(Variants, EveryCaseOfTheProjectCanBePlanned) {
   ASSERT_FALSE(all_cases().empty());
   for (const fs::path& file : all_cases()) {
     const Case study_case = load_case(file, {});
-    if (missing_data(study_case).empty()) EXPECT_NO_THROW(check_case(study_case)) << file;
+    if (!missing_data(study_case).empty()) continue;
+    EXPECT_NO_THROW(check_case(study_case)) << file;
   }
 }
 
