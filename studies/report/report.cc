@@ -279,8 +279,12 @@ class PageMaker {
   Page materials_page() {
     Page page = headed("Soft fingertip: laws of rubbers",
                        "Laws fitted to material tests, and what they predict");
-    add(page, [&] { return materials_chapter(read_materials(run_, reader_)); });
+    const MaterialsData data = reader_.attempt([&] { return read_materials(run_, reader_); });
+    add(page, [&] { return materials_chapter(data); });
     end(page);
+    for (const MaterialsData::Fit& fit : data.fits)
+      if (fit.result.empty())
+        page.not_run.push_back({"Laws of " + fit.label, fit.folder + "/laws.json"});
     return page;
   }
 

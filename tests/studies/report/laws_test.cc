@@ -151,6 +151,8 @@ TEST_F(LawsReport, ACaseShowsItsFitsSideBySide) {
   EXPECT_FALSE(has(csv, "loops"));
   const std::string table = studies::verdict_text(run_);
   EXPECT_TRUE(has(table, "rubber, a branch") && has(table, "33 %")) << table;
+  fs::remove(fit / "laws.json");
+  EXPECT_TRUE(has(report_testing::visible_text(report()), "materials/a/laws/laws.json"));
 }
 
 TEST_F(LawsReport, NamesWhatIsMissingOrDamaged) {
