@@ -183,28 +183,24 @@ Table ranking_table(const LawResult& result) {
   return table;
 }
 
-Table squares_table(const std::vector<LawResult>& results, const std::vector<std::string>& labels) {
+Table squares_table(const std::vector<LawResult>& results) {
   Table table;
   table.graded = true;
   table.header = {plain("Law")};
   std::map<std::string, std::vector<Cell>> rows;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    for (const LawTestEntry& test : results[i].taken().tests) {
-      std::map<std::string, Cell> ratios;
-      for (const LawEntry& law : results[i].file.laws)
-        for (const LawTestEntry& own : law.tests)
-          if (own.name == test.name && own.use == test.use && std::isfinite(own.published)) {
-            const double ratio = own.sum_of_squares / own.published;
-            ratios[law.law] = {number(ratio), "", grade(ratio - 1.0)};
-          }
-      if (ratios.empty()) continue;
-      for (auto& [law, cell] : ratios) {
-        rows[law].resize(table.header.size(), plain("–"));
-        rows[law].push_back(std::move(cell));
+  const auto add = [&](const LawResult& result, const LawTestEntry& test) {
+    const std::size_t column = table.header.size();
+    for (const LawEntry& law : result.file.laws)
+      for (const LawTestEntry& own : law.tests) {
+        if (own.name != test.name || own.use != test.use || !std::isfinite(own.published)) continue;
+        const double ratio = own.sum_of_squares / own.published;
+        rows[law.law].resize(column, plain("–"));
+        rows[law.law].push_back({number(ratio), "", grade(ratio - 1.0)});
+        table.header.resize(column + 1, plain(test.name));
       }
-      table.header.push_back(plain(labels[i]));
-    }
-  }
+  };
+  for (const LawResult& result : results)
+    for (const LawTestEntry& test : result.taken().tests) add(result, test);
   for (auto& [law, row] : rows) {
     row.front() = plain(law);
     row.resize(table.header.size(), plain("–"));
@@ -261,7 +257,7 @@ Chapter law_chapter(const LawResult& result) {
       contradictions.empty() ? std::string() : std::to_string(contradictions.size());
   chapter["contradictions"] = std::move(contradictions);
   chapter.tables["ranking"] = ranking_table(result);
-  chapter.tables["squares"] = squares_table({result}, {"ours / published"});
+  chapter.tables["squares"] = squares_table({result});
   chapter.tables["coefficients"] = coefficient_table(taken);
   chapter.tables["tests"] = test_table(taken);
   return written(std::move(chapter));

@@ -159,12 +159,10 @@ Chapter materials_chapter(const MaterialsData& data) {
     chapter.figures.push_back(std::move(figure));
   chapter.tables["materials"] = run_table(data);
   std::vector<LawResult> results;
-  std::vector<std::string> labels;
   WordList fits;
   for (const MaterialsData::Fit& fit : data.fits) {
     if (fit.result.empty()) continue;
     results.push_back(fit.result);
-    labels.push_back(fit.label);
     Words& one = fits.emplace_back();
     one["table"] = fmt::format("ranking_{}", fits.size());
     one["label"] = fit.label;
@@ -173,7 +171,7 @@ Chapter materials_chapter(const MaterialsData& data) {
     chapter.tables[fmt::format("ranking_{}", fits.size())] = ranking_table(fit.result);
   }
   chapter["fits"] = std::move(fits);
-  chapter.tables["squares"] = squares_table(results, labels);
+  chapter.tables["squares"] = squares_table(results);
   return written(std::move(chapter));
 }
 

@@ -112,7 +112,7 @@ TEST_F(LawsReport, ShowsRankingTestsLoopsAndWhatContradicts) {
 
 TEST_F(LawsReport, TellsSumsOfSquaresThatOthersPublished) {
   const std::string text = report_testing::visible_text(report());
-  EXPECT_TRUE(has(text, "ours / published")) << text;
+  EXPECT_TRUE(has(text, "over those that others published")) << text;
   const auto file = studies::struct_of<LawsFile>(studies::read_entry(run_ / "laws.json"));
   for (const LawEntry& law : file.laws)
     for (const LawTestEntry& test : law.tests)
