@@ -64,10 +64,10 @@ PrincipalResponse of_ogden(const StrainEnergy& energy, const Three& stretch) {
     const double mu = energy.shape[2 * term], alpha = energy.shape[2 * term + 1];
     if (mu == 0.0) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double more = std::expm1(alpha * std::log(stretch[k]));
-      r.energy += 2.0 * mu / (alpha * alpha) * more;
-      r.kirchhoff[k] += 2.0 * mu / alpha * (more + 1.0);
-      r.tangent[k][k] += 2.0 * mu * (more + 1.0);
+      const double exponent = alpha * std::log(stretch[k]), power = std::exp(exponent);
+      r.energy += 2.0 * mu / (alpha * alpha) * std::expm1(exponent);
+      r.kirchhoff[k] += 2.0 * mu / alpha * power;
+      r.tangent[k][k] += 2.0 * mu * power;
     }
   }
   return r;
