@@ -88,7 +88,7 @@ TEST_F(MaterialCase, WithoutItsDataItSaysWhereTheyAre) {
             "its data are no part of the project: get the library, and name their folder in "
             "FINGERTIP_TEST_DATA");
   EXPECT_TRUE(has(refusal(folder_, table, settings_), "get the library"));
-  setenv("FINGERTIP_TEST_DATA", "/nowhere", 1);
+  setenv("FINGERTIP_TEST_DATA", (folder_ / "nowhere").c_str(), 1);
   EXPECT_NE(missing_data(study_case), "");
   // What a run keeps of its case tells it, too.
   write_text(folder_ / "again.toml", settings_ + study_case.text);

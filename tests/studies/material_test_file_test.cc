@@ -181,7 +181,7 @@ TEST_F(MaterialFiles, PathsMayBeginWithAnEnvironmentVariable) {
   elsewhere.replace(elsewhere.find(path), path.size(), "path = \"$FINGERTIP_TEST_DATA/data.csv\"");
   unsetenv("FINGERTIP_TEST_DATA");
   expect_refused(elsewhere, two_rows,
-                 {"tests.toml:8: test[1].path", "$FINGERTIP_TEST_DATA/data.csv",
+                 {"tests.toml:9: test[1].path", "$FINGERTIP_TEST_DATA/data.csv",
                   "no environment variable FINGERTIP_TEST_DATA is set", "folder of the data"});
   setenv("FINGERTIP_TEST_DATA", folder_.path().c_str(), 1);
   EXPECT_EQ(read(elsewhere, two_rows).fitted.at(0).stress,
