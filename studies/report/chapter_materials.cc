@@ -15,7 +15,7 @@ using calibration::LawEntry;
 using calibration::LawTestEntry;
 
 /// Of a test: so many are told apart in a panel, and so many make a smooth line.
-constexpr std::size_t most_dots = 40, most_line_points = 200;
+constexpr std::size_t most_dots = 40, most_line_points = 100;
 
 std::string run_label(const MaterialRunEntry& run) {
   return (run.series.empty() ? "" : run.series + ", ") + run.name;
