@@ -96,7 +96,7 @@ Panel law_panel(const MaterialsData& data, const MaterialRunEntry& first) {
 }
 
 Figure materials_figure(const MaterialsData& data) {
-  Figure figure{"materials", 860, 0, 2, {}};
+  Figure figure{"material_tests", 860, 0, 2, {}};
   for (auto run = data.runs.begin(); run != data.runs.end(); ++run) {
     const bool seen = std::any_of(data.runs.begin(), run, [&](const MaterialRunEntry& other) {
       return other.folder == run->folder && other.law == run->law;

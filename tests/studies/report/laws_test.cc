@@ -145,7 +145,7 @@ TEST_F(LawsReport, ACaseShowsItsFitsSideBySide) {
         "7.2×10¹⁸", "1.49", "rubber, no branch", "every law that was tried", "Sums of squared"})
     EXPECT_TRUE(has(text, part)) << part << "\n" << text;
   // What has no stretch for its abscissa is not drawn; what was measured is drawn once a panel.
-  const std::string csv = read_text(run_ / "figures/materials.csv");
+  const std::string csv = read_text(run_ / "figures/material_tests.csv");
   EXPECT_TRUE(has(csv, "rubber: neo-hookean+prony-1,\"tension, measured\"")) << csv.substr(0, 400);
   EXPECT_TRUE(has(csv, "\"tension, predicted\""));
   EXPECT_FALSE(has(csv, "loops"));
