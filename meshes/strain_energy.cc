@@ -28,10 +28,18 @@ bool stable(const StrainEnergy& energy, const Three& logs) {
   const PrincipalResponse r =
       principal_response(energy, {std::exp(logs[0]), std::exp(logs[1]), std::exp(logs[2])});
   const auto& t = r.tangent;
-  const double a = t[0][0] - 2.0 * t[0][2] + t[2][2], c = t[1][1] - 2.0 * t[1][2] + t[2][2],
-               b = t[0][1] - t[0][2] - t[1][2] + t[2][2];
   if (r.energy == std::numeric_limits<double>::infinity()) return true;  // locked, not soft
-  return a > 0.0 && c > 0.0 && a * c > b * b;
+  const double along_1 = t[0][0] - 2.0 * t[0][2] + t[2][2],
+               along_2 = t[1][1] - 2.0 * t[1][2] + t[2][2];
+  // The determinant of both as the sum of the tangent's cofactors: along_1 along_2 minus the mixed
+  // term's square would lose it where one direction is 1e16 times stiffer than the others.
+  double determinant = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    determinant += t[j][j] * t[k][k] - t[j][k] * t[j][k];
+    determinant += 2.0 * (t[i][j] * t[i][k] - t[j][k] * t[i][i]);
+  }
+  return along_1 > 0.0 && along_2 > 0.0 && determinant > 0.0;
 }
 
 /// As far as `end`; the last stable place is found by bisection.
@@ -56,10 +64,10 @@ PrincipalResponse of_ogden(const StrainEnergy& energy, const Three& stretch) {
     const double mu = energy.shape[2 * term], alpha = energy.shape[2 * term + 1];
     if (mu == 0.0) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double more = std::expm1(alpha * std::log(stretch[k]));
-      r.energy += 2.0 * mu / (alpha * alpha) * more;
-      r.kirchhoff[k] += 2.0 * mu / alpha * (more + 1.0);
-      r.tangent[k][k] += 2.0 * mu * (more + 1.0);
+      const double exponent = alpha * std::log(stretch[k]), power = std::exp(exponent);
+      r.energy += 2.0 * mu / (alpha * alpha) * std::expm1(exponent);
+      r.kirchhoff[k] += 2.0 * mu / alpha * power;
+      r.tangent[k][k] += 2.0 * mu * power;
     }
   }
   return r;

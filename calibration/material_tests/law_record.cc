@@ -25,7 +25,8 @@ ParameterEntry law_parameter(const LawFit& fit, std::size_t i) {
   return entry;
 }
 
-LawTestEntry law_test(const MaterialTest& test, const TestMisfit& misfit, const char* use) {
+LawTestEntry law_test(const LawChoice& law, const MaterialTest& test, const TestMisfit& misfit,
+                      const char* use) {
   LawTestEntry entry;
   entry.name = test.name;
   entry.kind = name(test.kind);
@@ -43,6 +44,8 @@ LawTestEntry law_test(const MaterialTest& test, const TestMisfit& misfit, const 
   entry.rate = test.rate;
   entry.loop_measured = misfit.loop_measured;
   entry.loop_computed = misfit.loop_computed;
+  if (const auto found = test.published.find(calibration::name(law)); found != test.published.end())
+    entry.published = found->second;
   return entry;
 }
 
@@ -69,9 +72,9 @@ LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
   entry.aicc = fit.aicc;
   entry.covariance = matrix_rows(fit.fit.covariance);
   for (std::size_t i = 0; i < tests.size(); ++i)
-    entry.tests.push_back(law_test(tests[i], fit.fitted[i], "fit"));
+    entry.tests.push_back(law_test(fit.choice, tests[i], fit.fitted[i], "fit"));
   for (std::size_t i = 0; i < held_back.size(); ++i)
-    entry.tests.push_back(law_test(held_back[i], fit.predicted[i], "predict"));
+    entry.tests.push_back(law_test(fit.choice, held_back[i], fit.predicted[i], "predict"));
   entry.unstable_in_tests = instability_entry(fit.unstable_in_tests);
   entry.unstable_in_use = instability_entry(fit.unstable_in_use);
   entry.unstable_in_press = instability_entry(fit.unstable_in_press);

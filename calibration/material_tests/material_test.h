@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -78,6 +79,8 @@ struct MaterialTest {
   StrainPath path = {};
   std::string source = {};   ///< file with its SHA-256, author; may be empty
   std::string licence = {};  ///< of the data; may be empty
+  /// Sums of squared residuals [Pa²] that fits of others left in this test, by names of laws.
+  std::map<std::string, double> published = {};
 
   /// Every broken rule.
   std::vector<meshes::Violation> violations() const;

@@ -28,7 +28,8 @@ const std::vector<RunKind>& run_kinds() {
       {"fit", "fit", "fits", true, {}},
       {"prediction", "press", "", true, {}},  // below each fit
       {"press", "press", "presses", false, {"beside", "continuum", "snapshots"}},
-      {"grasp", "grasp", "grasps", false, {}}};
+      {"grasp", "grasp", "grasps", false, {}},
+      {"material", "laws", "materials", false, {"law", "test"}}};
   return kinds;
 }
 
@@ -89,6 +90,15 @@ Case load_case(const fs::path& file, const ConfigSource& source) {
   if (!problems.empty()) throw ConfigError(problems);
   study_case.text = case_toml(study_case);
   return study_case;
+}
+
+std::string missing_data(const Case& study_case) {
+  const CaseData& data = study_case.data;
+  if (data.variable.empty()) return {};
+  const char* const folder = std::getenv(data.variable.c_str());
+  if (folder != nullptr && fs::is_directory(folder)) return {};
+  return fmt::format("its data are no part of the project: get {}, and name their folder in {}",
+                     data.source, data.variable);
 }
 
 LoadedConfig run_config(const Case& study_case, const CaseRun& run) {

@@ -46,6 +46,8 @@ struct CaseRun {
   std::string beside = {};  ///< full name of a run above, to compare forces with; or empty
   std::string varied = {};  ///< for tables: what its series varies here
   std::string when = {};    ///< only if its spacing is "coarser" or "another" than the case's
+  std::string law = {};     ///< of a fit of laws: which one is measured; empty: every one
+  std::string test = {};    ///< likewise, by which of the tests; empty: by all
   bool continuum = false;   ///< measured against a continuum: the transient one at the same speed
   bool snapshots = false;   ///< drawn in the report
   bool exhibit = false;     ///< may fail to converge without failing the case
@@ -75,11 +77,18 @@ struct CaseBudget {
   std::vector<std::string> parts;  ///< series
 };
 
+/// Files from elsewhere that a case reads.
+struct CaseData {
+  std::string variable;  ///< of the environment, which names their folder; empty: no such files
+  std::string source;    ///< where they are to be had
+};
+
 struct Case {
   std::string name;  ///< of its folder, e.g. "01_paper_rubber"
   std::string title;
   std::string description;
   std::string abscissa;  ///< label of the runs' x, with its unit in brackets
+  CaseData data;
   std::vector<CaseCriterion> criteria;
   std::vector<CaseRun> runs;     ///< by kind
   bool takes_core_runs = false;  ///< and tables, for the file names no runs
@@ -106,6 +115,10 @@ std::filesystem::path find_case(const std::string& name);
 /// Reads a case file, or any configuration file as a case without criteria. Further settings come
 /// from `source` (whose file is ignored). Throws ConfigError with all problems.
 Case load_case(const std::filesystem::path& file, const ConfigSource& source);
+
+/// Why the files that the case needs are not at hand, with the remedy, in one sentence; empty: it
+/// has them, or needs none.
+std::string missing_data(const Case& study_case);
 
 /// The case's configuration with the run's own settings, which come last. Throws ConfigError, see
 /// at_run.

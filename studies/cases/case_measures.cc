@@ -48,6 +48,8 @@ Measures all_measures_of(const Case& study_case, const RunResults& results) {
   }
   for (const std::string& series : series_names(results, "grasp"))
     all[series + ".limit_error"] = limit_error(members(results, "grasp", series));
+  for (const std::string& series : series_names(results, "material"))
+    all[series + ".end_ratio_span"] = end_ratio_span(members(results, "material", series));
   for (const CaseBudget& budget : study_case.budgets)
     all[budget.name + ".rest"] = largest(take_budget(budget, results).rest);
   // The press of the core case whose error is known by this name.

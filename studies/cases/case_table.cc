@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "calibration/material_tests/law_model.h"
 #include "calibration/toml_depth.h"
 #include "studies/cases/measures.h"
 #include "studies/cases/outputs.h"
@@ -49,7 +50,8 @@ bool is_derived(const std::string& key, const std::string& kind) {
 const std::map<std::string, std::string CaseRun::*>& run_texts() {
   static const std::map<std::string, std::string CaseRun::*> texts = {
       {"name", &CaseRun::name},     {"series", &CaseRun::series}, {"verb", &CaseRun::verb},
-      {"beside", &CaseRun::beside}, {"varied", &CaseRun::varied}, {"when", &CaseRun::when}};
+      {"beside", &CaseRun::beside}, {"varied", &CaseRun::varied}, {"when", &CaseRun::when},
+      {"law", &CaseRun::law},       {"test", &CaseRun::test}};
   return texts;
 }
 
@@ -125,12 +127,25 @@ class CaseReader {
       target_.description = text(node, "case.description");
     } else if (name == "x") {
       target_.abscissa = text(node, "case.x");
+    } else if (name == "data" && node.is_table()) {
+      read_data(*node.as_table());
     } else if (!list || !node.is_array_of_tables()) {
       problem(node, "case." + name, "", "unknown entry of [case]",
-              "use title, description, x, [[case.run]], [[case.variant]], [[case.budget]], "
-              "[[case.fit]], [[case.prediction]], [[case.press]], [[case.grasp]], [[case.table]] "
-              "and [[case.criteria]] with name, measure, limit");
+              "use title, description, x, [case.data], [[case.run]], [[case.variant]], "
+              "[[case.budget]], [[case.fit]], [[case.prediction]], [[case.press]], "
+              "[[case.grasp]], [[case.material]], [[case.table]] and [[case.criteria]] with name, "
+              "measure, limit");
     }
+  }
+
+  void read_data(const toml::table& table) {
+    target_.data = {table["folder"].value_or(std::string()),
+                    table["source"].value_or(std::string())};
+    if (target_.data.variable.empty() || target_.data.source.empty() || table.size() != 2)
+      problem(table, "case.data", target_.data.variable,
+              "needs exactly folder, the environment variable that names it, and source, where "
+              "the files are to be had",
+              "complete the entry");
   }
 
   template <class Reader>
@@ -202,6 +217,8 @@ class CaseReader {
     if (kind.verb.empty() && std::ranges::find(run_verbs(), run.verb) == run_verbs().end())
       problem_of("verb", run.verb, "must say what is run",
                  "use one of " + fmt::format("{}", fmt::join(run_verbs(), ", ")));
+    if (!run.law.empty() && !calibration::law_named(run.law))
+      problem_of("law", run.law, "must be a law of calibration.laws", "name one of those fitted");
     if (!run.when.empty() && run.when != "coarser" && run.when != "another")
       problem_of("when", run.when, "must be coarser or another",
                  "leave it out for a run that is always made");
@@ -357,6 +374,9 @@ std::string case_toml(const Case& study_case) {
   std::string text = fmt::format("\n[case]\ntitle = {}\ndescription = {}\n",
                                  quoted(study_case.title), quoted(study_case.description));
   if (!study_case.abscissa.empty()) text += "x = " + quoted(study_case.abscissa) + "\n";
+  if (const CaseData& data = study_case.data; !data.variable.empty())
+    text += fmt::format("\n[case.data]\nfolder = {}\nsource = {}\n", quoted(data.variable),
+                        quoted(data.source));
   if (!study_case.takes_core_runs) {
     for (const CaseRun& run : study_case.runs) text += run_toml(run);
     for (const CaseTable& table : study_case.tables)

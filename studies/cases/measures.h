@@ -48,6 +48,10 @@ SeriesMeasures measure_series(const Members& series);
 /// NaN unless there are both, and every grip that holds is stronger than every one that does not.
 double limit_error(const Members& series);
 
+/// The largest over the least end_ratio of a series of fits of laws: what their conditions explain,
+/// as a factor of stress. NaN unless all have one.
+double end_ratio_span(const Members& series);
+
 /// A press's force error in parts, per depth.
 struct Budget {
   std::vector<double> depth, total;

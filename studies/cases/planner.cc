@@ -11,6 +11,7 @@
 #include "studies/run/fit_setup.h"
 #include "studies/run/grasp_job.h"
 #include "studies/run/jobs.h"
+#include "studies/run/law_job.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {
@@ -56,11 +57,30 @@ calibration::FitFile fit_in(const JsonEntry& file) {
 
 void read_summary(const fs::path& place, RunResult& result) {
   const std::string& verb = result.run->verb;
-  const fs::path file = place / (verb == "fit" ? "calibration.json" : "summary.json");
+  const fs::path file = place / (verb == "fit"    ? "calibration.json"
+                                 : verb == "laws" ? "laws.json"
+                                                  : "summary.json");
   if (!fs::exists(file)) return;
   if (verb == "press") result.press = struct_of<PressSummary>(read_entry(file));
   if (verb == "grasp") result.grasp = struct_of<GraspSummary>(read_entry(file));
   if (verb == "fit") result.found = fit_in(read_entry(file));
+  if (verb == "laws") result.laws = struct_of<calibration::LawsFile>(read_entry(file));
+}
+
+/// Laws to material tests, the run's own law and test among them.
+LawInput laws_of(const LoadedConfig& loaded, const CaseRun& run) {
+  LawInput input = law_input(loaded);
+  const auto known = [&](const calibration::LawChoice& law) { return name(law) == run.law; };
+  if (!run.law.empty() && std::ranges::none_of(input.laws, known))
+    throw ConfigError({{run.place, "case.material.law", run.law, "is not fitted",
+                        "name one of calibration.laws"}});
+  std::vector<std::string> tests;
+  for (const auto* list : {&input.tests.fitted, &input.tests.held_back})
+    for (const calibration::MaterialTest& test : *list) tests.push_back(test.name);
+  if (!run.test.empty() && std::ranges::find(tests, run.test) == tests.end())
+    throw ConfigError({{run.place, "case.material.test", run.test, "there is no such test",
+                        "the nearest one is " + nearest_word(run.test, tests)}});
+  return input;
 }
 
 /// Continua first, then the longest, so that the lanes end together.
@@ -183,6 +203,7 @@ Job Planner::job_of(const LoadedConfig& loaded, RunResult& result) {
   if (verb == "press") return press_job(result.setup);
   if (verb == "grasp") return grasp_job(grasp_setup(loaded));
   if (verb == "reference") return reference_job(continuum_setup(loaded));
+  if (verb == "laws") return law_job(laws_of(loaded, *result.run));
   if (verb == "verification") return verification_job();
   if (verb == "moduli")
     return moduli_job(config.press.rubber, fit_options(loaded, config.press.lattice.model));
@@ -199,6 +220,7 @@ std::string Planner::planned(const RunResult& result, Job job) {
   std::string& folder = folder_of_key_[job.key()];
   if (!folder.empty()) return folder;
   folder = free_folder(*result.run);
+  if (result.run->is("material")) folder += "/laws";  // its plates stand beside it
   // Slower approaches take more steps.
   if (result.run->is("press")) job.weight *= 0.01 / result.setup.protocol.speed;
   jobs_.push_back({folder, std::move(job), result.run->exhibit || !result.run->is("run")});

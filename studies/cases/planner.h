@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calibration/fit_file.h"
+#include "calibration/material_tests/law_record.h"
 #include "studies/cases/case_file.h"
 #include "studies/cases/force_comparison.h"
 #include "studies/files/grasp_summary.h"
@@ -35,6 +36,7 @@ struct RunResult {
   PressSummary press = {};          ///< its summary.json, where it is a press ...
   GraspSummary grasp = {};          ///< ... or a grasp
   calibration::FitFile found = {};  ///< calibration.json of a fit; one to moduli has no curves
+  calibration::LawsFile laws = {};  ///< laws.json of a fit of laws
   ForceComparison forces = {};      ///< with what they are measured against
   ForceComparison change = {};      ///< with the press it stands beside, at that one's samples
   Measures measures = {};           ///< of this run alone, see measures.h

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "calibration/material_tests/law_record.h"
 #include "fem_reference/verification/verification_file.h"
 #include "lattice/press/trace.h"
 #include "meshes/table_rows.h"
@@ -141,6 +142,56 @@ double told_apart(const Evidence& run) {
   return least;
 }
 
+using calibration::LawTestEntry;
+
+/// How the run's laws meet the tests it asks of, those fitted ("fit") or held back ("predict");
+/// empty where a law has no fit.
+std::vector<LawTestEntry> law_tests(const Evidence& run, std::string_view use) {
+  const CaseRun& asked = *run.result.run;
+  std::vector<LawTestEntry> found;
+  for (const calibration::LawEntry& law : run.result.laws.laws) {
+    if (!asked.law.empty() && law.law != asked.law) continue;
+    if (!law.failure.empty()) return {};
+    for (const LawTestEntry& test : law.tests)
+      if (test.use == use && (asked.test.empty() || test.name == asked.test)) found.push_back(test);
+  }
+  return found;
+}
+
+/// The largest magnitude of `value` over the tests.
+RunMeasure of_laws(const char* name, const char* use, double (*value)(const LawTestEntry&)) {
+  return {name, {"material"}, [use, value](const Evidence& run) {
+            std::vector<double> values;
+            for (const LawTestEntry& test : law_tests(run, use)) values.push_back(value(test));
+            return largest(values);
+          }};
+}
+
+/// Of sums of squares over those that others published, where they did.
+double squares_error(const Evidence& run) {
+  std::vector<double> errors;
+  for (const LawTestEntry& test : law_tests(run, "fit"))
+    if (std::isfinite(test.published)) errors.push_back(test.sum_of_squares / test.published - 1.0);
+  return largest(errors);
+}
+
+/// Measured stress over that of the run's law where a predicted test goes farthest from rest.
+double end_ratio(const Evidence& run) {
+  const auto rows = run.rows<calibration::LawDataRow>("law_data.csv");
+  std::vector<double> ratios;
+  for (const LawTestEntry& test : law_tests(run, "predict")) {
+    const double rest = test.kind == "simple-shear" ? 0.0 : 1.0;
+    const calibration::LawDataRow* last = nullptr;
+    for (const auto& row : rows) {
+      if (row.law != run.result.run->law || row.use != "predict" || row.test != test.name) continue;
+      const auto distance = [&](const auto& at) { return std::abs(at.deformation - rest); };
+      if (last == nullptr || distance(row) > distance(*last)) last = &row;
+    }
+    ratios.push_back(last == nullptr ? meshes::unknown : last->measured / last->computed);
+  }
+  return largest(ratios);
+}
+
 /// So many the statement of a fit names.
 constexpr std::size_t told_suspects = 3;
 
@@ -238,6 +289,12 @@ std::vector<RunMeasure> all_measures() {
        }},
       {"load_error", {"grasp"}, [](R run) { return relative_error(run.grasp().held_load, 1.0); }},
       {"momentum_defect", {"grasp"}, [](R run) { return run.grasp().momentum_defect; }},
+      of_laws("fit_error", "fit", [](const LawTestEntry& test) { return test.rms_relative; }),
+      of_laws("predicted_error", "predict",
+              [](const LawTestEntry& test) { return test.rms_relative; }),
+      of_laws("outside", "predict", [](const LawTestEntry& test) { return 1.0 - test.within; }),
+      {"squares_error", {"material"}, squares_error},
+      {"end_ratio", {"material"}, end_ratio},
       {"open_directions", {"fit"}, open_directions},
       {"told_apart", {"fit"}, told_apart},
       {"fit_probability", {"fit"}, [](R run) { return run.result.found.chi_square_probability; }},

@@ -117,6 +117,17 @@ double limit_error(const Members& series) {
   return std::max(std::abs(weakest_held), std::abs(strongest_lost));
 }
 
+double end_ratio_span(const Members& series) {
+  std::vector<double> ratios;
+  for (const RunResult* fit : series) {
+    const auto found = fit->measures.find("end_ratio");
+    ratios.push_back(found == fit->measures.end() ? meshes::unknown : found->second);
+  }
+  if (ratios.empty() || std::isnan(largest(ratios))) return meshes::unknown;
+  const auto [least, most] = std::ranges::minmax(ratios);
+  return most / least;
+}
+
 Members soft_variants(const RunResults& results, const std::string& series) {
   Members found = members(results, "variant", series);
   std::erase_if(found, [](const RunResult* result) { return !(result->run->x >= 1.0); });

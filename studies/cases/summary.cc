@@ -163,6 +163,9 @@ CaseSummary summary_of(const Case& study_case, const Planner& planner, const Run
                                press->run->beside, press->run->snapshots, press->status});
   for (const RunResult* grasp : members(results, "grasp"))
     summary.grasps.push_back({grasp->run->series, grasp->run->name, grasp->folder, grasp->status});
+  for (const RunResult* fit : members(results, "material"))
+    summary.materials.push_back({fit->run->series, fit->run->name, fit->folder, fit->run->law,
+                                 fit->run->test, fit->status});
   summary.criteria = judged(study_case.criteria, take_measures(study_case, results));
   const bool passed = std::ranges::all_of(summary.criteria, &CriterionEntry::passed);
   summary.status = passed ? "ok" : "criteria failed";
@@ -173,6 +176,7 @@ void write_summary(const CaseSummary& summary, const RunResults& results, const 
   ordered_json content = json_of(summary);
   if (!summary.presses.empty()) add_measures(members(results, "press"), content["presses"]);
   if (!summary.grasps.empty()) add_measures(members(results, "grasp"), content["grasps"]);
+  if (!summary.materials.empty()) add_measures(members(results, "material"), content["materials"]);
   write_json(content, file);
 }
 

@@ -8,6 +8,9 @@ namespace fingertip::studies {
 namespace fs = std::filesystem;
 
 void check_case(const Case& study_case) {
+  if (const std::string missing = missing_data(study_case); !missing.empty())
+    throw ConfigError({{study_case.name, "case.data", study_case.data.variable,
+                        "the case cannot be carried out", missing}});
   Planner(study_case).next({});
 }
 

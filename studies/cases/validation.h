@@ -10,7 +10,7 @@ namespace fingertip::studies {
 enum class Verdict { passed, failed };
 
 /// Throws ConfigError for a case that cannot be carried out, with the line of the run that is to
-/// blame.
+/// blame, or whose data are not at hand.
 void check_case(const Case& study_case);
 
 /// Carries out the case's runs (planner.h), judges its criteria, and writes tables, summary.json

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "meshes/errors.h"
 #include "studies/cases/validation.h"
@@ -53,17 +54,24 @@ int validate_one(const CommandLine& line, const Case& study_case) {
 
 int run_validate(const CommandLine& line) {
   std::vector<Case> cases;
-  for (const fs::path& file : wanted_cases(line)) {
-    cases.push_back(load_case(file, line.config));
-    check_case(cases.back());
+  const std::vector<fs::path> files = wanted_cases(line);
+  const bool several = files.size() > 1;
+  for (const fs::path& file : files) {
+    Case study_case = load_case(file, line.config);
+    // Of several cases the others are carried out; one that is asked for alone is refused.
+    if (const std::string missing = missing_data(study_case); several && !missing.empty()) {
+      fmt::print(stderr, "fingertip: note: {} is skipped: {}\n", study_case.name, missing);
+      continue;
+    }
+    check_case(study_case);
+    cases.push_back(std::move(study_case));
   }
   int worst = 0;
   for (const Case& study_case : cases) {
     try {
-      worst =
-          std::max(worst, validate_one(line_for(line, study_case, cases.size() > 1), study_case));
+      worst = std::max(worst, validate_one(line_for(line, study_case, several), study_case));
     } catch (const meshes::NotConverged& error) {
-      if (cases.size() == 1) throw;
+      if (!several) throw;
       // The other cases still have something to say.
       fmt::print(stderr, "fingertip: error: {}: {}\n", study_case.name, error.what());
       worst = std::max(worst, 3);

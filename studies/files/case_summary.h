@@ -228,6 +228,23 @@ constexpr auto fields_of(const GraspEntry*) {
                &Whole::status);
 }
 
+/// A fit of laws to material tests, as one law and one test, or all (empty), are measured; see
+/// studies/manual/files.md for the measures.
+struct MaterialRunEntry {
+  std::string series, name, folder, law, test, status;
+  double fit_error = meshes::unknown, predicted_error = meshes::unknown, outside = meshes::unknown,
+         squares_error = meshes::unknown, end_ratio = meshes::unknown;
+};
+constexpr auto fields_of(const MaterialRunEntry*) {
+  using meshes::if_known, meshes::named;
+  using Whole = MaterialRunEntry;
+  return std::tuple_cat(named("series name folder law test status", &Whole::series, &Whole::name,
+                              &Whole::folder, &Whole::law, &Whole::test, &Whole::status),
+                        if_known(named("fit_error predicted_error outside squares_error end_ratio",
+                                       &Whole::fit_error, &Whole::predicted_error, &Whole::outside,
+                                       &Whole::squares_error, &Whole::end_ratio)));
+}
+
 /// summary.json of `validate`, by the kinds of the case's runs.
 struct CaseSummary {
   std::string case_name, title, description, status;
@@ -241,12 +258,13 @@ struct CaseSummary {
   std::optional<TransferEntry> calibration;
   std::vector<PressEntry> presses;
   std::vector<GraspEntry> grasps;
+  std::vector<MaterialRunEntry> materials;
   std::vector<CriterionEntry> criteria;
 
   bool has_target() const { return target.has_value(); }
   bool has_results() const {
     return target || verification || equilibrium || !models.empty() || variants || calibration ||
-           !presses.empty() || !grasps.empty();
+           !presses.empty() || !grasps.empty() || !materials.empty();
   }
 };
 constexpr auto fields_of(const CaseSummary*) {
@@ -257,9 +275,10 @@ constexpr auto fields_of(const CaseSummary*) {
             &Whole::status),
       if_known(named("target", &Whole::target)),
       only(&Whole::has_target, named("depths reference", &Whole::depths, &Whole::reference)),
-      if_known(named("verification equilibrium models variants calibration presses grasps",
-                     &Whole::verification, &Whole::equilibrium, &Whole::models, &Whole::variants,
-                     &Whole::calibration, &Whole::presses, &Whole::grasps)),
+      if_known(
+          named("verification equilibrium models variants calibration presses grasps materials",
+                &Whole::verification, &Whole::equilibrium, &Whole::models, &Whole::variants,
+                &Whole::calibration, &Whole::presses, &Whole::grasps, &Whole::materials)),
       named("criteria", &Whole::criteria));
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "studies/report/law_chapter.h"
 #include "studies/report/words.h"
@@ -21,19 +22,6 @@ constexpr const char* second_colour = "#D55E00";
 
 bool in_time(const LawTestEntry& test) {
   return test.course == "relaxation";
-}
-
-/// Every so many of the rows of a law and a test, the first and the last among them.
-std::vector<LawDataRow> rows_of(const LawResult& result, const std::string& law,
-                                const LawTestEntry& test) {
-  std::vector<LawDataRow> all;
-  for (const LawDataRow& row : result.rows)
-    if (row.law == law && row.test == test.name && row.use == test.use) all.push_back(row);
-  const std::size_t step = all.size() / most_points + 1;
-  std::vector<LawDataRow> some;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (i % step == 0 || i + 1 == all.size()) some.push_back(all[i]);
-  return some;
 }
 
 enum class Side { measured, computed };
@@ -64,12 +52,12 @@ Panel test_panel(const LawResult& result, const LawTestEntry& test) {
   panel.key = "";
   if (over_time) panel.log_x = 10;
   const LawEntry &taken = result.taken(), &first = result.file.laws.front();
-  const auto rows = rows_of(result, taken.law, test);
+  const auto rows = law_rows(result, taken.law, test, most_points);
   Style points{"#888888", "", 1.0, 6, false};
   points.point_size = 0.5;
   panel.series.push_back(stress_series(rows, over_time, Side::measured, "measured", points));
   if (first.law != taken.law)
-    panel.series.push_back(stress_series(rows_of(result, first.law, test), over_time,
+    panel.series.push_back(stress_series(law_rows(result, first.law, test, most_points), over_time,
                                          Side::computed, first.law,
                                          {second_colour, "(6,3)", 1.6, 0, true}));
   panel.series.push_back(
@@ -97,25 +85,6 @@ std::string stability(const LawEntry& law) {
                          : law.unstable_in_use ? law.unstable_in_use
                                                : law.unstable_in_press;
   return unstable ? "to stretch " + number(unstable->stretch, 3) : "yes";
-}
-
-Table ranking_table(const LawResult& result) {
-  Table table;
-  table.graded = true;
-  table.header = {plain("Law"), plain("Coefficients"), plain("AICc"), plain("Stable")};
-  for (const LawTestEntry& test : result.taken().tests)
-    table.header.push_back(plain(test.name + (test.use == "fit" ? "" : "*")));
-  const double least = result.file.laws.front().aicc;
-  for (const LawEntry& law : result.file.laws) {
-    if (!law.failure.empty()) continue;
-    std::vector<Cell> row = {plain(law.law, law.law == result.file.recommended ? "taken" : ""),
-                             plain(count(double(law.parameters.size()))),
-                             plain(number(law.aicc - least)), plain(stability(law))};
-    for (const LawTestEntry& test : law.tests)
-      row.push_back({percent_magnitude(test.rms_relative), "", grade(test.rms_relative)});
-    table.rows.push_back(std::move(row));
-  }
-  return table;
 }
 
 Table coefficient_table(const LawEntry& law) {
@@ -183,6 +152,63 @@ const LawEntry& LawResult::taken() const {
   return found == file.laws.end() ? file.laws.front() : *found;
 }
 
+std::vector<LawDataRow> law_rows(const LawResult& result, const std::string& law,
+                                 const LawTestEntry& test, std::size_t most) {
+  std::vector<LawDataRow> all;
+  for (const LawDataRow& row : result.rows)
+    if (row.law == law && row.test == test.name && row.use == test.use) all.push_back(row);
+  const std::size_t step = all.size() / most + 1;
+  std::vector<LawDataRow> some;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (i % step == 0 || i + 1 == all.size()) some.push_back(all[i]);
+  return some;
+}
+
+Table ranking_table(const LawResult& result) {
+  Table table;
+  table.graded = true;
+  table.header = {plain("Law"), plain("Coefficients"), plain("AICc"), plain("Stable")};
+  for (const LawTestEntry& test : result.taken().tests)
+    table.header.push_back(plain(test.name + (test.use == "fit" ? "" : "*")));
+  const double least = result.file.laws.front().aicc;
+  for (const LawEntry& law : result.file.laws) {
+    if (!law.failure.empty()) continue;
+    std::vector<Cell> row = {plain(law.law, law.law == result.file.recommended ? "taken" : ""),
+                             plain(count(double(law.parameters.size()))),
+                             plain(number(law.aicc - least)), plain(stability(law))};
+    for (const LawTestEntry& test : law.tests)
+      row.push_back({percent_magnitude(test.rms_relative), "", grade(test.rms_relative)});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table squares_table(const std::vector<LawResult>& results) {
+  Table table;
+  table.graded = true;
+  table.header = {plain("Law")};
+  std::map<std::string, std::vector<Cell>> rows;
+  const auto add = [&](const LawResult& result, const LawTestEntry& test) {
+    const std::size_t column = table.header.size();
+    for (const LawEntry& law : result.file.laws)
+      for (const LawTestEntry& own : law.tests) {
+        if (own.name != test.name || own.use != test.use || !std::isfinite(own.published)) continue;
+        const double ratio = own.sum_of_squares / own.published;
+        rows[law.law].resize(column, plain("–"));
+        rows[law.law].push_back({number(ratio), "", grade(ratio - 1.0)});
+        table.header.resize(column + 1, plain(test.name));
+      }
+  };
+  for (const LawResult& result : results)
+    for (const LawTestEntry& test : result.taken().tests) add(result, test);
+  for (auto& [law, row] : rows) {
+    row.front() = plain(law);
+    row.resize(table.header.size(), plain("–"));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 LawResult read_laws(const std::filesystem::path& folder, FolderReader& reader) {
   LawResult result;
   result.file = reader.take<calibration::LawsFile>(reader.json(folder / "laws.json"));
@@ -231,6 +257,7 @@ Chapter law_chapter(const LawResult& result) {
       contradictions.empty() ? std::string() : std::to_string(contradictions.size());
   chapter["contradictions"] = std::move(contradictions);
   chapter.tables["ranking"] = ranking_table(result);
+  chapter.tables["squares"] = squares_table({result});
   chapter.tables["coefficients"] = coefficient_table(taken);
   chapter.tables["tests"] = test_table(taken);
   return written(std::move(chapter));

@@ -30,7 +30,7 @@ std::string with_si(double value, const ShownUnit& unit) {
 std::string percent_digits(double fraction) {
   const double magnitude = std::abs(100.0 * fraction);
   if (magnitude < 1e-6) return "0";
-  if (magnitude < 0.01) return number(magnitude, 2);
+  if (magnitude < 0.01 || magnitude >= 1e6) return number(magnitude, 2);
   return fmt::format("{:.{}f}", magnitude, magnitude < 1.0 ? 2 : magnitude < 99.95 ? 1 : 0);
 }
 

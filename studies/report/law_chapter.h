@@ -21,6 +21,16 @@ struct LawResult {
 };
 LawResult read_laws(const std::filesystem::path& folder, FolderReader& reader);
 
+/// Every law that was fitted and its error of each test, the least AICc first.
+Table ranking_table(const LawResult& result);
+/// Sums of squares over those that others published: rows of laws, a column for each test of each
+/// result that has any. Without rows where nobody published any.
+Table squares_table(const std::vector<LawResult>& results);
+/// Every so many of the rows of a law and a test, the first and the last among them.
+std::vector<calibration::LawDataRow> law_rows(const LawResult& result, const std::string& law,
+                                              const calibration::LawTestEntry& test,
+                                              std::size_t most);
+
 /// Ranking, coefficients, tests measured and computed, what contradicts the law; without blocks for
 /// an empty result.
 Chapter law_chapter(const LawResult& result);

@@ -9,6 +9,7 @@
 #include "studies/report/chapters.h"
 #include "studies/report/grasp_run.h"
 #include "studies/report/law_chapter.h"
+#include "studies/report/materials_chapter.h"
 #include "studies/report/moving_press.h"
 #include "studies/report/words.h"
 
@@ -95,11 +96,12 @@ class PageMaker {
     if (run_.models.empty() && !run_.response.empty()) return static_page();
     const CalibrationData calibration = read_calibration(run_, reader_);
     const bool fits_alone = !calibration.empty() && run_.models.empty() && run_.variants.empty();
-    Page page = fits_alone                      ? calibration_page()
-                : !run_.summary.presses.empty() ? control_page()
-                : !run_.summary.grasps.empty()  ? grasp_page(case_grasps())
-                : run_.variants.empty()         ? core_page()
-                                                : study_page();
+    Page page = fits_alone                        ? calibration_page()
+                : !run_.summary.presses.empty()   ? control_page()
+                : !run_.summary.grasps.empty()    ? grasp_page(case_grasps())
+                : !run_.summary.materials.empty() ? materials_page()
+                : run_.variants.empty()           ? core_page()
+                                                  : study_page();
     if (!run_.status.empty() && run_.status != "ok")
       page.status = "Status of the run: " + run_.status;
     page.answer =
@@ -270,6 +272,19 @@ class PageMaker {
     add(page, [&] { return law_chapter(laws); });
     end(page);
     page.not_run = missing_law_parts(laws);
+    return page;
+  }
+
+  /// A case on material tests.
+  Page materials_page() {
+    Page page = headed("Soft fingertip: laws of rubbers",
+                       "Laws fitted to material tests, and what they predict");
+    const MaterialsData data = reader_.attempt([&] { return read_materials(run_, reader_); });
+    add(page, [&] { return materials_chapter(data); });
+    end(page);
+    for (const MaterialsData::Fit& fit : data.fits)
+      if (fit.result.empty())
+        page.not_run.push_back({"Laws of " + fit.label, fit.folder + "/laws.json"});
     return page;
   }
 

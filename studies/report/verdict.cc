@@ -9,6 +9,7 @@
 #include "studies/report/calibration_chapters.h"
 #include "studies/report/chapters.h"
 #include "studies/report/grasp_run.h"
+#include "studies/report/materials_chapter.h"
 #include "studies/report/moving_press.h"
 #include "studies/report/report.h"
 #include "studies/report/words.h"
@@ -248,6 +249,7 @@ std::string answer(const RunData& run, FolderReader& reader) {
       const std::vector<MovingPress> presses = read_moving_presses(run, reader);
       return compares_integrators(presses) ? integrators_answer(presses) : control_answer(presses);
     }
+    if (!run.summary.materials.empty()) return materials_answer(read_materials(run, reader));
     return run.summary.grasps.empty() ? models_answer(run) : grasp_answer(read_grasps(run, reader));
   };
   return joined(result(), criteria_sentence(run));
@@ -286,8 +288,9 @@ std::string verdict_text(const std::filesystem::path& run_folder) {
   std::string text = !run.variants.empty()          ? variants_text(run)
                      : !run.summary.presses.empty() ? moving_text(read_moving_presses(run, reader))
                      : !run.summary.grasps.empty()  ? grasp_text(read_grasps(run, reader))
-                     : fits_alone                   ? calibration_text(calibration)
-                                                    : text_table(run);
+                     : !run.summary.materials.empty() ? materials_text(read_materials(run, reader))
+                     : fits_alone                     ? calibration_text(calibration)
+                                                      : text_table(run);
   for (const CriterionEntry& criterion : run.summary.criteria) {
     text += fmt::format("{} {}: {} (limit {})\n", criterion.passed ? "met    " : "NOT MET",
                         criterion.name, plain_number(criterion.value, "{:.3g}"),

@@ -34,7 +34,8 @@ ordered_json test_inputs(const MaterialTest& test) {
           {"course", name(test.course)},
           {"time", test.time},
           {"path", {test.path.time, test.path.deformation}},
-          {"source", test.source}};
+          {"source", test.source},
+          {"published", test.published}};
 }
 
 ordered_json law_inputs(const LawInput& input) {

@@ -12,6 +12,7 @@
 #include "meshes/csv_table.h"
 #include "meshes/errors.h"
 #include "meshes/text_file.h"
+#include "studies/files/json_entry.h"
 #include "studies/run/digest.h"
 #include "studies/run/material_test_table.h"
 #include "studies/run/plate_factor.h"
@@ -35,9 +36,9 @@ constexpr long usual_points = 200, most_points = 1000;
 constexpr double noise_share = 0.1;
 
 const std::set<string_view> shared_keys = {
-    "use",   "kind", "deformation", "separator", "skip",   "header",   "decimal",
-    "rows",  "time", "strain",      "stress",    "sigma",  "area",     "length",
-    "speed", "rate", "range",       "points",    "plates", "diameter", "height"};
+    "use",   "kind",   "deformation", "separator", "skip",   "header",   "decimal", "rows",
+    "time",  "strain", "stress",      "sigma",     "area",   "length",   "speed",   "rate",
+    "range", "points", "plates",      "diameter",  "height", "published"};
 const std::set<string_view> about_keys = {"material", "source", "licence"};
 
 /// One [[test]].
@@ -58,6 +59,7 @@ class TestReader {
   StrainCurve curve_of(const fs::path& path);
   void convert(const StrainCurve& curve);
   void keep_known_compression();
+  void read_published();
 
   const TestTable& test_;
   MaterialTestFile& result_;
@@ -220,6 +222,30 @@ void TestReader::read_in_time(const fs::path& path) {
               std::size_t(test_.whole("points", usual, 2, most_points)), found_, result_.notes);
 }
 
+/// Sums of squares in a file of JSON, where others published them.
+void TestReader::read_published() {
+  const auto table = test_.table("published");
+  if (!table) return;
+  const auto unit = table->text("unit");
+  if (!unit) table->refuse("unit", "", "sums of squares need their unit", "write unit = \"kPa^2\"");
+  const double factor = table->number_of("unit", "1 " + *unit, "Pa^2", "1 kPa^2");
+  const JsonEntry file = read_entry(table->paths("path").front());
+  for (const std::string& law : table->keys()) {
+    if (law == "path" || law == "unit") continue;
+    const std::string place = table->text(law).value_or("");
+    if (!calibration::law_named(law) || place.empty())
+      table->refuse(law, place, "must be a law and its place in the file",
+                    "write e.g. yeoh-3 = \"material/yeoh/sum of squares\"");
+    JsonEntry entry = file;
+    for (const auto part : std::views::split(place, '/'))
+      entry = entry.need(std::string(part.begin(), part.end()));
+    const double sum = factor * entry.number();
+    if (!(sum > 0.0 && std::isfinite(sum)))
+      table->refuse(law, place, "the sum of squares there is not positive", "look at the file");
+    found_.published[law] = sum;
+  }
+}
+
 void TestReader::read() {
   read_kind();
   const std::vector<fs::path> paths = test_.paths("path");
@@ -249,6 +275,7 @@ void TestReader::read() {
                  broken.front().remedy);
   const bool held = test_.word<bool>("use", {{"fit", false}, {"predict", true}}, false);
   found_.licence = result_.licence;
+  read_published();
   (held ? result_.held_back : result_.fitted).push_back(found_);
   // Fitted ones come first.
   result_.stuck.insert(held ? result_.stuck.end()

@@ -40,7 +40,9 @@ struct MaterialTestFile {
 ///                                         relaxation holds it
 ///            rate (quantity), sigma = {column, unit}, area, length, diameter, height, speed
 ///            (quantities), range ([from, to] of the strain as it stands in the file), points,
-///            plates ("slip", "stick")
+///            plates ("slip", "stick"),
+///            published = {path, unit, LAW...}: sums of squares of other people's fits, in a file
+///                                         of JSON, LAW = "its/place"
 ///
 /// A column is a name of the header or a number from 1. `area` serves forces, `length` (gauge
 /// length, or height) displacements and the rate; both follow from `diameter` and `height`. Paths

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 
 #include "calibration/toml_depth.h"
@@ -62,6 +63,12 @@ bool TestTable::flag(string_view key, bool usual) const {
   return *value;
 }
 
+std::vector<std::string> TestTable::keys() const {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : own_) names.emplace_back(key.str());
+  return names;
+}
+
 std::optional<double> TestTable::number(string_view key) const {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
@@ -110,6 +117,17 @@ std::optional<TestTable> TestTable::table(string_view key) const {
   return TestTable(file_, *node->as_table(), place_ + "." + std::string(key));
 }
 
+fs::path TestTable::located(string_view key, const std::string& written) const {
+  if (!written.starts_with('$')) return file_.parent_path() / written;
+  const auto slash = std::min(written.find('/'), written.size());
+  const std::string variable = written.substr(1, slash - 1);
+  const char* const folder = std::getenv(variable.c_str());
+  if (folder == nullptr || *folder == '\0')
+    refuse(key, written, "no environment variable " + variable + " is set",
+           "set it to the folder of the data");
+  return fs::path(folder) / written.substr(std::min(slash + 1, written.size()));
+}
+
 std::vector<fs::path> TestTable::paths(string_view key) const {
   const toml::node* node = find(key);
   std::vector<fs::path> found;
@@ -118,7 +136,7 @@ std::vector<fs::path> TestTable::paths(string_view key) const {
     if (!written || written->empty())
       refuse(key, toml_literal(one), "must be the path of a file, or a list of paths",
              "put it in quotes");
-    found.push_back(file_.parent_path() / *written);
+    found.push_back(located(key, *written));
   };
   if (node != nullptr && node->is_array()) {
     for (const toml::node& one : *node->as_array()) add(one);

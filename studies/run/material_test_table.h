@@ -39,6 +39,8 @@ class TestTable {
   std::optional<std::string> text(std::string_view key) const;
   long whole(std::string_view key, long usual, long least, long most) const;
   bool flag(std::string_view key, bool usual) const;
+  /// Its own keys.
+  std::vector<std::string> keys() const;
   /// Finite.
   std::optional<double> number(std::string_view key) const;
   /// Positive, in the SI unit.
@@ -64,6 +66,8 @@ class TestTable {
   }
 
   std::optional<TestTable> table(std::string_view key) const;
+  /// Files, relative to the description; "$NAME/..." is below the folder that the environment
+  /// variable NAME names.
   std::vector<std::filesystem::path> paths(std::string_view key) const;
   /// The name of the column in the header, or its number.
   std::string column() const;
@@ -73,6 +77,7 @@ class TestTable {
     const toml::node* node = own_.get(key);
     return node == nullptr && common_ != nullptr ? common_->get(key) : node;
   }
+  std::filesystem::path located(std::string_view key, const std::string& written) const;
 
   const std::filesystem::path& file_;
   const toml::table& own_;

@@ -417,6 +417,14 @@ TEST(StrainEnergy, PrincipalResponseIsTheLawOfAnIncompressibleRubber) {
   }
 }
 
+/// With mu > 0 every term is convex in ln l, also where one direction is 1e20 times stiffer than
+/// the others.
+TEST(StrainEnergy, OgdensLawWithPositiveModuliIsStableHoweverSteep) {
+  for (const double alpha : {-20.0, -7.8, 0.5, 12.0})
+    EXPECT_FALSE(meshes::first_instability({RubberLaw::ogden, {}, {1.0, alpha}}, 0.1, 10.0))
+        << alpha;
+}
+
 /// dsigma:d(ln l) = 0 there: differences of Cauchy stresses change in a singular way.
 TEST(StrainEnergy, FindsWhereALawStopsBeingStable) {
   for (const StrainEnergy& law : shapes)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -124,6 +125,43 @@ TEST_F(MaterialInTime, FromFilesToACardThatPressesAsItsKeysDo) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("laws/material.toml"), std::string::npos) << refused.err;
   EXPECT_NE(refused.err.find("rubber.relaxation = []"), std::string::npos) << refused.err;
+}
+
+/// Of two cases one needs data that are not here: the other is carried out, and that is told.
+TEST_F(MaterialInTime, ACaseWithoutItsDataIsSkippedAmongOthers) {
+  const std::string fit =
+      "[calibration]\nproblem = \"material\"\nlaws = [\"neo-hookean\"]\nbranches = 1\n"
+      "[case]\ntitle = \"Branches\"\n";
+  const std::string run =
+      "[[case.material]]\nname = \"relaxing\"\nlaw = \"neo-hookean+prony-1\"\n"
+      "set = { \"calibration.tests\" = \"../../tests.toml\" }\n";
+  const std::string criterion =
+      "[[case.criteria]]\nname = \"met\"\nmeasure = \"relaxing.fit_error\"\nlimit = 0.001\n";
+  fs::create_directories(folder_ / "cases/21_here");
+  fs::create_directories(folder_ / "cases/22_elsewhere");
+  write_text(folder_ / "cases/21_here/case.toml", fit + run + criterion);
+  write_text(
+      folder_ / "cases/22_elsewhere/case.toml",
+      fit + "[case.data]\nfolder = \"FINGERTIP_NO_SUCH_DATA\"\nsource = \"the library\"\n" + run);
+  setenv("FINGERTIP_CASES", (folder_ / "cases").c_str(), 1);
+  const ProgramResult all = run_program(folder_.path(), {"validate", "--all", "--out", "all"});
+  const ProgramResult alone = run_program(folder_.path(), {"validate", "22", "--out", "alone"});
+  const ProgramResult checked =
+      run_program(folder_.path(), {"check", (folder_ / "cases/22_elsewhere/case.toml").string()});
+  unsetenv("FINGERTIP_CASES");
+  EXPECT_EQ(all.code, 0) << all.err << all.out;
+  const std::string told =
+      "22_elsewhere is skipped: its data are no part of the project: get the library, and name "
+      "their folder in FINGERTIP_NO_SUCH_DATA";
+  EXPECT_NE(all.err.find(told), std::string::npos) << all.err;
+  EXPECT_TRUE(fs::exists(folder_ / "all/21_here/materials/relaxing/laws/laws.json"));
+  EXPECT_FALSE(fs::exists(folder_ / "all/22_elsewhere"));
+  const auto summary = nlohmann::json::parse(contents(folder_ / "all/21_here/summary.json"));
+  EXPECT_EQ(summary["materials"][0]["law"], "neo-hookean+prony-1");
+  EXPECT_LT(summary["materials"][0]["fit_error"].get<double>(), 1e-3);
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_NE(alone.err.find("get the library"), std::string::npos) << alone.err;
+  EXPECT_EQ(checked.code, 0) << checked.err << "a case is right or wrong without its data";
 }
 
 TEST_F(MaterialInTime, TellsFileAndLineOfTimesThatStepBack) {

@@ -225,6 +225,13 @@ TEST_F(LawJob, KnowsWhatItsResultDependsOn) {
     EXPECT_NE(law_job(law_input(configured({set}))).key(), key) << set;
   describe("MPa");
   EXPECT_NE(law_job(law_input(configured())).key(), key);
+  describe("kPa");
+  EXPECT_EQ(law_job(law_input(configured())).key(), key);
+  write_text(folder_ / "theirs.json", "{\"sum\": 3.0}");
+  write_text(folder_ / "tests.toml",
+             read_text(folder_ / "tests.toml") +
+                 "[test.published]\npath = \"theirs.json\"\nunit = \"Pa^2\"\ngent = \"sum\"\n");
+  EXPECT_NE(law_job(law_input(configured())).key(), key) << "laws.json tells it";
 }
 
 TEST_F(LawJob, RefusesWithTheKeysPlace) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "meshes/errors.h"
 #include "studies/run/strain_grid.h"
@@ -172,6 +173,38 @@ TEST_F(MaterialFiles, RefusalsNameFileLineKeyAndRemedy) {
   expect_refused(two_columns, "1 2\n1 2 3\n", {"data.csv:2", "has 3 cells, the first row 2"});
   expect_refused(two_columns, "0 1\n1 2\n2 1.5\n3 1.2\n4 1.1\n", {"the curve turns back"});
   expect_refused("[[test]\n", "", {"tests.toml:1", "not valid TOML"});
+}
+
+TEST_F(MaterialFiles, PathsMayBeginWithAnEnvironmentVariable) {
+  std::string elsewhere = two_columns;
+  const std::string path = "path = \"data.csv\"";
+  elsewhere.replace(elsewhere.find(path), path.size(), "path = \"$FINGERTIP_TEST_DATA/data.csv\"");
+  unsetenv("FINGERTIP_TEST_DATA");
+  expect_refused(elsewhere, two_rows,
+                 {"tests.toml:9: test[1].path", "$FINGERTIP_TEST_DATA/data.csv",
+                  "no environment variable FINGERTIP_TEST_DATA is set", "folder of the data"});
+  setenv("FINGERTIP_TEST_DATA", folder_.path().c_str(), 1);
+  EXPECT_EQ(read(elsewhere, two_rows).fitted.at(0).stress,
+            read(two_columns, two_rows).fitted[0].stress);
+  unsetenv("FINGERTIP_TEST_DATA");
+}
+
+TEST_F(MaterialFiles, SumsOfSquaresThatOthersPublished) {
+  write_text(folder_ / "theirs.json", R"({"true": {"Yeoh 2": {"SSE": 2.5}, "bad": {"SSE": -1}}})");
+  const auto with = [](const std::string& entries) {
+    return two_columns + "[test.published]\npath = \"theirs.json\"\n" + entries;
+  };
+  const auto file = read(with("unit = \"kPa^2\"\nyeoh-2 = \"true/Yeoh 2/SSE\"\n"), two_rows);
+  const auto& published = file.fitted.at(0).published;
+  ASSERT_EQ(published.size(), 1u);
+  EXPECT_NEAR(published.at("yeoh-2"), 2.5e6, 1e-6);
+  expect_refused(with("yeoh-2 = \"true/Yeoh 2/SSE\"\n"), two_rows,
+                 {"published.unit", "their unit"});
+  expect_refused(with("unit = \"kPa\"\nyeoh-2 = \"true/Yeoh 2/SSE\"\n"), two_rows, {"kPa"});
+  expect_refused(with("unit = \"Pa^2\"\nyeo-2 = \"true\"\n"), two_rows, {"must be a law"});
+  expect_refused(with("unit = \"Pa^2\"\nyeoh-2 = \"true/Yeoh/SSE\"\n"), two_rows,
+                 {"theirs.json", "Yeoh"});
+  expect_refused(with("unit = \"Pa^2\"\nyeoh-2 = \"true/bad/SSE\"\n"), two_rows, {"not positive"});
 }
 
 }  // namespace

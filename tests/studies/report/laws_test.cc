@@ -8,6 +8,7 @@
 #include "meshes/fields_json.h"
 #include "meshes/table_rows.h"
 #include "page_check.h"
+#include "studies/files/read_fields.h"
 #include "studies/report/report.h"
 #include "synthetic_run.h"
 
@@ -39,6 +40,7 @@ MaterialTest hold() {
   for (int i = 0; i < 40; ++i) test.time.push_back(0.1 * std::pow(1000.0, i / 39.0));
   test.time.back() = 100.0;
   test.deformation.assign(test.time.size(), 1.3);
+  test.published = {{"neo-hookean", 1e7}};
   fill(test);
   return test;
 }
@@ -106,6 +108,51 @@ TEST_F(LawsReport, ShowsRankingTestsLoopsAndWhatContradicts) {
   EXPECT_TRUE(has(csv, "loops,measured,")) << csv.substr(0, 300);
   EXPECT_TRUE(has(csv, "tension (not fitted),neo-hookean+prony-1,"));
   EXPECT_TRUE(has(csv, "time [s]"));
+}
+
+TEST_F(LawsReport, TellsSumsOfSquaresThatOthersPublished) {
+  const std::string text = report_testing::visible_text(report());
+  EXPECT_TRUE(has(text, "over those that others published")) << text;
+  const auto file = studies::struct_of<LawsFile>(studies::read_entry(run_ / "laws.json"));
+  for (const LawEntry& law : file.laws)
+    for (const LawTestEntry& test : law.tests)
+      EXPECT_EQ(std::isfinite(test.published),
+                law.law == "neo-hookean" && test.kind == "uniaxial" && test.course == "relaxation");
+}
+
+/// Two runs of a case that ask of one fit.
+TEST_F(LawsReport, ACaseShowsItsFitsSideBySide) {
+  const fs::path fit = run_ / "materials/a/laws";
+  fs::create_directories(fit);
+  for (const char* file : {"laws.json", "law_data.csv"}) fs::rename(run_ / file, fit / file);
+  fs::remove(run_ / "manifest.json");
+  const auto entry = [](const char* name, const char* law, const char* test, const char* rest) {
+    return std::string("{\"series\": \"rubber\", \"name\": \"") + name +
+           "\", \"folder\": \"materials/a/laws\", \"law\": \"" + law + "\", \"test\": \"" + test +
+           "\", \"status\": \"finished\", " + rest + "}";
+  };
+  write_text(
+      run_ / "summary.json",
+      "{\"case\": \"c\", \"title\": \"Two <laws>\", \"description\": \"\", \"status\": \"ok\", "
+      "\"materials\": [" +
+          entry("no branch", "neo-hookean", "", "\"predicted_error\": 7.2e16") + ", " +
+          entry("a branch", "neo-hookean+prony-1", "tension",
+                "\"predicted_error\": 0.33, \"end_ratio\": 1.49") +
+          "], \"criteria\": []}");
+  const std::string html = report(), text = report_testing::visible_text(html);
+  for (const char* part :
+       {"Laws on material tests", "1 set of tests was fitted", "foretold best, within 33",
+        "7.2×10¹⁸", "1.49", "rubber, no branch", "every law that was tried", "Sums of squared"})
+    EXPECT_TRUE(has(text, part)) << part << "\n" << text;
+  // What has no stretch for its abscissa is not drawn; what was measured is drawn once a panel.
+  const std::string csv = read_text(run_ / "figures/material_tests.csv");
+  EXPECT_TRUE(has(csv, "rubber: neo-hookean+prony-1,\"tension, measured\"")) << csv.substr(0, 400);
+  EXPECT_TRUE(has(csv, "\"tension, predicted\""));
+  EXPECT_FALSE(has(csv, "loops"));
+  const std::string table = studies::verdict_text(run_);
+  EXPECT_TRUE(has(table, "rubber, a branch") && has(table, "33 %")) << table;
+  fs::remove(fit / "laws.json");
+  EXPECT_TRUE(has(report_testing::visible_text(report()), "materials/a/laws/laws.json"));
 }
 
 TEST_F(LawsReport, NamesWhatIsMissingOrDamaged) {
