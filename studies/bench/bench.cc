@@ -8,11 +8,11 @@
 #include "lattice/kernels/kernel.h"
 #include "studies/bench/continua.h"
 #include "studies/bench/kernels.h"
-#include "studies/bench/pace.h"
 #include "studies/bench/presses.h"
 #include "studies/bench/ratios.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/pace.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/provenance.h"
 

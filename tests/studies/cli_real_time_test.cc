@@ -1,0 +1,159 @@
+// --real-time with the real program. What a machine is fast enough for is not asked here, only that
+// whatever was chosen is told, kept and repeated.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "meshes/press_response.h"
+#include "program.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using fingertip::meshes::PressResponse;
+using nlohmann::json;
+
+namespace {
+
+std::vector<std::string> real_time_press(std::vector<std::string> more) {
+  std::vector<std::string> words = {"press", "--real-time",
+                                    "--set", "lattice.spacing=tip_radius/6",
+                                    "--set", "press.depth=0.1 cm"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+json object_in(const fs::path& file) {
+  return json::parse(read_text(file));
+}
+
+void put(const fs::path& file, const json& content) {
+  std::ofstream(file) << content.dump(2);
+}
+
+/// Of a machine on which the coarsest lattice is too slow, as under a sanitizer.
+bool too_slow(const ProgramResult& result) {
+  return result.code == 3 && result.err.find("not even the coarsest lattice") != std::string::npos;
+}
+
+}  // namespace
+
+TEST(RealTime, TheChoiceIsToldKeptAndCanBeRepeated) {
+  const TemporaryFolder folder;
+  const ProgramResult first = run_program(folder.path(), real_time_press({"--out", "a"}));
+  if (too_slow(first)) GTEST_SKIP() << "this machine keeps up with no lattice";
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_NE(first.err.find("expected real-time factor"), std::string::npos) << first.err;
+  EXPECT_NE(first.out.find("real-time factor"), std::string::npos) << first.out;
+  const json kept = object_in(folder / "a/real_time.json"),
+             summary = object_in(folder / "a/summary.json");
+  EXPECT_EQ(summary["real_time"], kept);
+  EXPECT_EQ(kept["spacing"], summary["spacing"]);
+  EXPECT_EQ(kept["threads"], summary["threads"]);
+  EXPECT_EQ(kept["slowest_factor"], summary["slowest_real_time_factor"]);
+  EXPECT_NEAR(kept["spacing_asked"].get<double>(), 0.01 / 6, 1e-15);
+  EXPECT_GE(kept["spacing"].get<double>(), 0.01 / 6 * (1.0 - 1e-12));
+  EXPECT_GE(kept["expected_factor"].get<double>(), 1.25);
+  EXPECT_FALSE(kept["trials"].empty());
+  EXPECT_EQ(
+      run_program(folder.path(), {"press", "--config", "a/parameters.toml", "--out", "b"}).code, 0);
+  EXPECT_EQ(read_text(folder / "a/response.csv"), read_text(folder / "b/response.csv"));
+  EXPECT_EQ(read_text(folder / "a/trace.csv"), read_text(folder / "b/trace.csv"));
+  // The machine's speed is no part of the result's identity.
+  EXPECT_EQ(object_in(folder / "a/finished.json")["key"],
+            object_in(folder / "b/finished.json")["key"]);
+}
+
+TEST(RealTime, ForceErrorsAreThoseOfTheRunsBelow) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(folder.path(), real_time_press({"--out", "a"}));
+  if (too_slow(result)) GTEST_SKIP() << "this machine keeps up with no lattice";
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json kept = object_in(folder / "a/real_time.json");
+  if (!kept.contains("force_error"))
+    GTEST_SKIP() << "no continuum: " << kept["force_error_of"].get<std::string>();
+  EXPECT_NE(kept["force_error_of"].get<std::string>().find("small strain"), std::string::npos);
+  const auto continuum = PressResponse::read_csv(folder / "a/continuum/1/response.csv"),
+             at_rest = PressResponse::read_csv(folder / "a/lattice/response.csv"),
+             press = PressResponse::read_csv(folder / "a/response.csv");
+  const json& errors = kept["force_error"];
+  ASSERT_EQ(errors["models"].size(), 2u);
+  for (const json& model : errors["models"]) {
+    const PressResponse& forces = model["model"] == "this press" ? press : at_rest;
+    for (std::size_t i = 0; i < errors["indentation"].size(); ++i) {
+      const double depth = errors["indentation"][i];
+      EXPECT_NEAR(model["error"][i].get<double>(),
+                  forces.normal_force_at(std::min(depth, forces.depth())) /
+                          continuum.normal_force_at(depth) -
+                      1.0,
+                  1e-9);
+    }
+  }
+}
+
+TEST(RealTime, AResumedRunKeepsTheChoice) {
+  const TemporaryFolder folder;
+  const auto words = real_time_press({"--out", "a"});
+  const ProgramResult first = run_program(folder.path(), words);
+  if (too_slow(first)) GTEST_SKIP() << "this machine keeps up with no lattice";
+  ASSERT_EQ(first.code, 0) << first.err;
+  // As a slower machine would have chosen.
+  json kept = object_in(folder / "a/real_time.json");
+  const json trials = kept["trials"];
+  kept["spacing"] = 0.01 / 4;
+  kept["integrator"] = "symplectic-euler";
+  put(folder / "a/real_time.json", kept);
+  auto resumed = words;
+  resumed.insert(resumed.end(), {"--resume", "auto"});
+  ASSERT_EQ(run_program(folder.path(), resumed).code, 0);
+  EXPECT_EQ(object_in(folder / "a/summary.json")["spacing"], 0.01 / 4);
+  EXPECT_NE(read_text(folder / "a/parameters.toml").find("tip_radius/4"), std::string::npos);
+  EXPECT_EQ(object_in(folder / "a/real_time.json")["trials"], trials) << "nothing was tried anew";
+  // Another press is another choice.
+  resumed.insert(resumed.end(), {"--set", "press.contact=stick"});
+  ASSERT_EQ(run_program(folder.path(), resumed).code, 0);
+  EXPECT_NE(object_in(folder / "a/real_time.json")["asked"], kept["asked"]);
+  kept["integrator"] = "guesswork";
+  kept["asked"] = object_in(folder / "a/real_time.json")["asked"];
+  put(folder / "a/real_time.json", kept);
+  const ProgramResult damaged = run_program(folder.path(), resumed);
+  EXPECT_EQ(damaged.code, 2);
+  EXPECT_NE(damaged.err.find("guesswork"), std::string::npos) << damaged.err;
+}
+
+TEST(RealTime, WhatNoMachineKeepsUpWithIsRefusedWithItsFigure) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(
+      folder.path(), real_time_press({"--set", "rubber.youngs_modulus=20 MPa", "--set",
+                                      "rubber.shear_modulus=7 MPa", "--set",
+                                      "run.integrator=symplectic-euler", "--out", "a"}));
+  EXPECT_TRUE(too_slow(result)) << result.code << result.err;
+  EXPECT_NE(result.err.find("a real-time factor of 0."), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder / "a"));
+}
+
+TEST(RealTime, AnEquilibriumHasNoTime) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program(folder.path(), real_time_press({"--set", "press.mode=static"}));
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("press.mode"), std::string::npos) << result.err;
+}
+
+TEST(Threads, TheFastestNumberGivesTheBitsOfOne) {
+  const TemporaryFolder folder;
+  for (const char* threads : {"0", "1", "2"}) {
+    const ProgramResult result =
+        run_program(folder.path(), {"press", "--set", "lattice.spacing=tip_radius/12", "--set",
+                                    "lattice.model=network", "--set", "run.integrator=mass-scaled",
+                                    "--set", "run.time_step=1 ms", "--set", "press.depth=0.03 cm",
+                                    "--threads", threads, "--out", threads});
+    ASSERT_EQ(result.code, 0) << result.err;
+    fs::remove_all(folder / "cache");
+    for (const char* file : {"response.csv", "trace.csv", "boundary.csv"})
+      EXPECT_EQ(read_text(folder / threads / file), read_text(folder / "0" / file)) << threads;
+  }
+  EXPECT_EQ(object_in(folder / "1/summary.json")["threads"], 1);
+  EXPECT_EQ(object_in(folder / "2/summary.json")["threads"], 2) << "what is given is taken";
+}
