@@ -170,9 +170,14 @@ double judged_from(const PressSetup& setup) {
   return setup.protocol.depth / 6.0 * (1.0 - round_off);
 }
 
-ScalingChoice best_scaling(const PressSetup& setup, double longest) {
+ScalingChoice best_scaling(const PressSetup& setup) {
+  constexpr double longest = 2.5e-4;  // [s]
+  return best_scaling(setup, longest, judged_from(setup));
+}
+
+ScalingChoice best_scaling(const PressSetup& setup, double longest, double from) {
   const auto worst = [&](double step) {
-    return worst_of(scaling_deviations(setup, step), judged_from(setup)).relative;
+    return worst_of(scaling_deviations(setup, step), from).relative;
   };
   const double plain = plain_step(setup);
   double step = longest;

@@ -60,10 +60,10 @@ struct ScalingChoice {
 /// at most `tolerated_deviation` from judged_from() on. A scaled step costs as much as two plain
 /// ones, so plain masses are chosen where that step would not be twice as long as theirs.
 ScalingChoice choose_scaling(const PressSetup& setup);
-/// The longest step that is taken where nobody asks for one [s].
-inline constexpr double longest_usual_step = 2.5e-4;
-/// As if `setup` asked for no step, with steps up to `longest` [s].
-ScalingChoice best_scaling(const PressSetup& setup, double longest = longest_usual_step);
+/// As if `setup` asked for no step.
+ScalingChoice best_scaling(const PressSetup& setup);
+/// The same with steps up to `longest` [s], judged from another indentation on [m].
+ScalingChoice best_scaling(const PressSetup& setup, double longest, double from);
 
 /// Largest stable step of plain masses on the infinite lattice, at rest [s].
 double plain_step(const PressSetup& setup);

@@ -242,6 +242,7 @@ void finish_real_time(Session& session, RealTimeRun& run, bool quiet) {
   const auto summary = struct_of<PressSummary>(read_entry(folder / "summary.json"));
   run.record.slowest_factor = summary.slowest_real_time_factor;
   run.record.whole_factor = summary.real_time_factor;
+  run.record.step = summary.step.step;
   run.find_force_error(session, meshes::PressResponse::read_csv(folder / "response.csv"));
   run.write(folder);
   auto told = read_json(folder / "summary.json");

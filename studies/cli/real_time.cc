@@ -143,11 +143,12 @@ std::string RealTimeRun::note() const {
   const bool as_asked = record.spacing >= record.spacing_asked * (1.0 - 1e-9) &&
                         record.spacing <= record.spacing_asked * (1.0 + 1e-9);
   return fmt::format(
-      "--real-time: spacing {}{}, {}, steps of {}, threads: {}; expected real-time factor in the "
+      "--real-time: spacing {}{}, {}, steps of {}{}, threads: {}; expected real-time factor in the "
       "slowest 10 ms: {:.3g}, from {}",
       spelt(record.spacing, geometry),
       as_asked ? ", as asked" : " where " + spelt(record.spacing_asked, geometry) + " was asked",
-      record.integrator, step_text(record.step), record.threads, record.expected_factor,
+      record.integrator, loaded.config.press.time_step ? "" : "about ", step_text(record.step),
+      record.threads, record.expected_factor,
       record.tried ? "a trial with this spacing" : "trials with other spacings");
 }
 

@@ -60,7 +60,8 @@ PaceCandidate candidate_at(const PressSetup& setup, bool scalable) {
   candidate.integrator = setup.integrator;
   const double period = setup.controller.period;
   if (scalable && !setup.time_step) {
-    const lattice::ScalingChoice scaling = lattice::best_scaling(setup, period);
+    const lattice::ScalingChoice scaling =
+        lattice::best_scaling(setup, period, pace_judged_from(setup));
     candidate.integrator = scaling.scaled ? Integrator::mass_scaled : Integrator::symplectic_euler;
     if (scaling.scaled) candidate.step = divided(period, scaling.step);
   }
@@ -70,6 +71,11 @@ PaceCandidate candidate_at(const PressSetup& setup, bool scalable) {
 }
 
 }  // namespace
+
+double pace_judged_from(const PressSetup& setup) {
+  constexpr double round_off = 1e-9;
+  return setup.protocol.depth / 3.0 * (1.0 - round_off);
+}
 
 double expected_factor(const PaceCandidate& candidate, std::vector<MeasuredPace> measured) {
   for (const MeasuredPace& own : measured)

@@ -50,11 +50,16 @@ struct PaceChoice {
 PaceChoice choose_pace(const std::vector<PaceCandidate>& candidates,
                        const std::vector<MeasuredPace>& measured);
 
+/// Where the choice of a step begins to look: a third of the depth [m]. Before, the grids that keep
+/// up are themselves off by more than their steps.
+double pace_judged_from(const lattice::PressSetup& setup);
+
 /// Spacings from the coarsest that the finger's shape allows, R/n with n growing by an eighth, to
 /// that of `asked`. Of each the integrator of `asked`, or, with `any_integrator`, scaled masses
 /// where they serve with steps up to the control period, else plain ones; the step that `asked`
 /// gives, else the longest that is stable and, of scaled masses, keeps the force within
-/// lattice::tolerated_deviation; the threads that `asked` gives, else those that are fastest.
+/// lattice::tolerated_deviation from pace_judged_from() on; the threads that `asked` gives, else
+/// those that are fastest.
 std::vector<PaceCandidate> pace_candidates(const lattice::PressSetup& asked, bool any_integrator,
                                            int cores);
 

@@ -23,7 +23,7 @@ using lattice::PressSetup;
 using Moment = std::chrono::steady_clock::time_point;
 
 constexpr double longest_trial = 0.3;  // of simulated time [s]
-constexpr int most_trials = 3;
+constexpr int most_trials = 10;
 
 Moment moment_in(double seconds) {
   using Clock = std::chrono::steady_clock;

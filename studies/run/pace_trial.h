@@ -10,10 +10,11 @@
 
 namespace fingertip::studies {
 
-/// Real-time factor in the slowest 10 ms from the first touch on, of the best of up to three
-/// presses of `setup` within `seconds` of wall time; the last may be cut off. The rod moves as
-/// prescribed, at press.speed, or faster so that a press takes 0.3 s of simulated time; a program
-/// is one press to its depth. Throws NotConverged, Interrupted, InvalidInput.
+/// Real-time factor in the slowest 10 ms from the first touch on, of the best of up to ten presses
+/// of `setup` that begin within half of `seconds` of wall time (others at work slow single ones);
+/// after `seconds` a press is cut off. The rod moves as prescribed, at press.speed, or faster so
+/// that a press takes 0.3 s of simulated time; a program is one press to its depth. Throws
+/// NotConverged, Interrupted, InvalidInput.
 double measured_factor(const lattice::PressSetup& setup, double seconds);
 
 struct PaceSearch {

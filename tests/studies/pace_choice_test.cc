@@ -156,7 +156,7 @@ TEST(PaceCandidates, StepsKeepTheForceAndAreAsLongAsThat) {
   for (const PaceCandidate& press : pace_candidates(setup, true, 2)) {
     setup.lattice.spacing = press.spacing;
     const auto worst = [&](double at) {
-      return lattice::worst_of(lattice::scaling_deviations(setup, at), lattice::judged_from(setup))
+      return lattice::worst_of(lattice::scaling_deviations(setup, at), pace_judged_from(setup))
           .relative;
     };
     if (press.integrator == Integrator::symplectic_euler) {
