@@ -12,6 +12,7 @@
 #include "studies/exchange/contact_curves.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
+#include "studies/run/asked_units.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -139,6 +140,7 @@ RealTimeRun real_time_run(const CommandLine& line) {
 }
 
 std::string RealTimeRun::note() const {
+  const ShowIn units(asked_units(loaded));
   const meshes::Geometry& geometry = loaded.config.press.geometry;
   const bool as_asked = record.spacing >= record.spacing_asked * (1.0 - 1e-9) &&
                         record.spacing <= record.spacing_asked * (1.0 + 1e-9);
