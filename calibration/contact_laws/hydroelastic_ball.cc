@@ -35,13 +35,9 @@ HydroelasticBall fitted_hydroelastic_ball(const ForceCurve& curve, const meshes:
                                           double radius) {
   check_growth(curve);
   HydroelasticBall ball{1.0, radius};
-  double sum = 0.0, squares = 0.0;
-  for (std::size_t i = 0; i < curve.force.size(); ++i) {
-    const double share = ball.force(obstacle, curve.indentation[i]) / curve.force[i];
-    sum += share;
-    squares += share * share;
-  }
-  ball.modulus = sum / squares;
+  std::vector<double> forces;
+  for (const double at : curve.indentation) forces.push_back(ball.force(obstacle, at));
+  ball.modulus = fitted_factor(forces, curve);
   return ball;
 }
 

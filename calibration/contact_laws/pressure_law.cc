@@ -98,6 +98,16 @@ void check_growth(const ForceCurve& curve) {
   }
 }
 
+double fitted_factor(const std::vector<double>& forces, const ForceCurve& curve) {
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const double share = forces[i] / curve.force[i];
+    sum += share;
+    squares += share * share;
+  }
+  return sum / squares;
+}
+
 double GapField::overlap(double indentation) const {
   const auto end = std::ranges::lower_bound(gap, indentation);
   return std::accumulate(area.begin(), area.begin() + (end - gap.begin()), 0.0);

@@ -63,6 +63,10 @@ struct ForceCurve {
   std::vector<double> indentation, force;  ///< [m], [N], positive and increasing
 };
 
+/// The factor on `forces`, at the first samples of the curve, whose relative errors have the least
+/// sum of squares; NaN where all forces are zero.
+double fitted_factor(const std::vector<double>& forces, const ForceCurve& curve);
+
 /// Throws InvalidInput unless the curve has two samples or more, increasing and positive.
 void check_growth(const ForceCurve& curve);
 

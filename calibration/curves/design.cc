@@ -95,6 +95,22 @@ void sort_prospects(std::vector<Prospect>& prospects, std::size_t decisive) {
                            [&](const Prospect& each) { return mean_gain(each, decisive); });
 }
 
+std::vector<NextEntry> next_entries(const std::vector<Prospect>& prospects,
+                                    const std::vector<std::string>& labels,
+                                    const Eigen::VectorXd& at, const Eigen::VectorXd& lower,
+                                    const Eigen::VectorXd& upper) {
+  std::vector<NextEntry> entries;
+  for (const Prospect& each : prospects) {
+    NextEntry& entry = entries.emplace_back(NextEntry{each.name, each.press, {}, each.failure});
+    for (Eigen::Index i = 0; i < each.times.size(); ++i) {
+      const double times = each.times(i);
+      entry.parameters.push_back({labels[std::size_t(i)], at(i) - (at(i) - lower(i)) / times,
+                                  at(i) + (upper(i) - at(i)) / times, times});
+    }
+  }
+  return entries;
+}
+
 std::string prospect_statement(const std::vector<Prospect>& sorted,
                                const std::vector<std::string>& labels, std::size_t decisive) {
   if (sorted.empty() || sorted.front().times.size() == 0) return "";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/curves/curve_fit.h"
+#include "calibration/fit_file.h"
 
 namespace fingertip::calibration {
 
@@ -48,6 +49,12 @@ struct Prospect {
 /// Best first: by the geometric mean of `times` of the first `decisive` parameters, what failed
 /// last.
 void sort_prospects(std::vector<Prospect>& prospects, std::size_t decisive);
+
+/// As entries of a file: the 95 % intervals, now from `lower` to `upper` about `at`, after each.
+std::vector<NextEntry> next_entries(const std::vector<Prospect>& prospects,
+                                    const std::vector<std::string>& labels,
+                                    const Eigen::VectorXd& at, const Eigen::VectorXd& lower,
+                                    const Eigen::VectorXd& upper);
 
 /// A sentence on the best one, for the `labels` of the parameters; empty where there is none.
 std::string prospect_statement(const std::vector<Prospect>& sorted,

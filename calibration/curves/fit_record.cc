@@ -173,21 +173,6 @@ std::vector<AccusationEntry> accusation_entries(const FitRecord& record) {
   return entries;
 }
 
-/// The intervals after a measurement, about the same estimates.
-std::vector<NextEntry> next_entries(const FitRecord& record) {
-  const CurveFit& fit = record.fit;
-  std::vector<NextEntry> entries;
-  for (const Prospect& each : record.next) {
-    NextEntry& entry = entries.emplace_back(NextEntry{each.name, each.press, {}, each.failure});
-    for (Index i = 0; i < each.times.size(); ++i) {
-      const double p = fit.estimates(i), times = each.times(i);
-      entry.parameters.push_back({fit.labels[std::size_t(i)], p - (p - fit.lower(i)) / times,
-                                  p + (fit.upper(i) - p) / times, times});
-    }
-  }
-  return entries;
-}
-
 std::vector<MinimumEntry> minima(const CurveFit& fit) {
   std::vector<MinimumEntry> result;
   for (const Minimum& minimum : fit.minima)
@@ -319,7 +304,8 @@ void write_fit_json(const FitRecord& record, const std::filesystem::path& file) 
   fit.failed = failed_tests(record);
   fit.rig = rig_file(record);
   fit.lack_of_fit = accusation_entries(record);
-  fit.next = next_entries(record);
+  fit.next = next_entries(record.next, record.fit.labels, record.fit.estimates, record.fit.lower,
+                          record.fit.upper);
   fit.repeats = repeats_entries(record);
   fit.statement = fit_statement(record);
   meshes::write_json_file(fit, file);

@@ -92,9 +92,7 @@ bool is_modulus(MaterialParameter parameter) {
 }
 
 bool is_of_the_rig(MaterialParameter parameter) {
-  return parameter == MaterialParameter::touch_offset ||
-         parameter == MaterialParameter::compliance ||
-         parameter == MaterialParameter::force_offset || parameter == MaterialParameter::drift;
+  return std::ranges::find(rig_parameters, parameter) != rig_parameters.end();
 }
 
 bool is_of_the_rubber(MaterialParameter parameter) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <map>
 #include <string_view>
@@ -85,7 +86,10 @@ class ForwardModel {
   virtual CurveSlopes evaluate(const Eigen::VectorXd& parameters) = 0;
 };
 
-/// touch_offset, compliance, force_offset, drift: they belong to a machine or to one of its files.
+/// What belongs to a machine or to one of its files.
+inline constexpr std::array rig_parameters{
+    MaterialParameter::touch_offset, MaterialParameter::compliance, MaterialParameter::force_offset,
+    MaterialParameter::drift};
 bool is_of_the_rig(MaterialParameter parameter);
 
 /// E, G and modulus: what describes a rubber by its engineering moduli.

@@ -118,6 +118,25 @@ std::string structures(const FitRecord& record) {
   return text;
 }
 
+/// Less of the loading's work than this is friction of a machine, too.
+constexpr double told_loop = 0.02;
+
+/// Loadings alone are fitted: what they hide of time is said whether they are met or not.
+std::string loops(const FitRecord& record) {
+  std::string text;
+  for (const Curve& curve : record.curves) {
+    if (!(curve.course.loop > told_loop)) continue;
+    text += " " + curve.name + ": loading and unloading differ by a loop of " +
+            percent(curve.course.loop) +
+            " of the loading's work, usually because the rubber relaxes; what is found holds for "
+            "this speed, and a rubber at rest is softer";
+    text += curve.course.relaxation > 0.0
+                ? " (by " + percent(curve.course.relaxation) + " in the longest hold)."
+                : " (by how much a hold would tell).";
+  }
+  return text;
+}
+
 /// How many times the interval of parameter `i` would narrow by a rigid blank pressed to the same
 /// forces, f = (x - x0)/c with a touch x0 of its own, which shows the compliance `j` alone.
 double narrowed_by_blank(const FitRecord& record, Index i, Index j) {
@@ -193,7 +212,7 @@ std::string lack_of_fit(const FitRecord& record) {
 std::string fit_statement(const FitRecord& record) {
   std::string text = estimates(record.fit) + misfit(record) + open_directions(record.fit) +
                      other_minima(record.fit) + collinearity(record) + structures(record) +
-                     lack_of_fit(record);
+                     loops(record) + lack_of_fit(record);
   const std::string next =
       prospect_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
   if (!next.empty()) text += " " + next;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct Rig {
   RigQuantity force_offset;  ///< F0 [N]
   RigQuantity drift;         ///< F1 [N/s]
 };
+
+/// Its quantities in the order of rig_parameters.
+inline constexpr std::array rig_members{&Rig::touch_offset, &Rig::compliance, &Rig::force_offset,
+                                        &Rig::drift};
 
 /// Indentations at which a press answers for a rig's curve, the last one `deepest` > 0 [m]: in
 /// steps of a quarter of ln(delta), so that ln F as a cubic is within 1e-4 of a smooth press.

@@ -8,6 +8,7 @@
 
 #include "calibration/curves/fit_statistics.h"
 #include "meshes/errors.h"
+#include "meshes/relaxation.h"
 
 namespace fingertip::calibration {
 
@@ -105,6 +106,54 @@ Accusation accusation(const CurveFit& before, const CurveFit& after, const Suspe
           after.estimates(after.estimates.size() - 1),
           decrease,
           probability_of(decrease, before)};
+}
+
+VectorXd fading(const VectorXd& forces, const std::vector<double>& times, double constant) {
+  if (forces.size() != Index(times.size()))
+    throw meshes::InvalidInput({"suspects.times", std::to_string(times.size()) + " values",
+                                "every force has its time", "give one for each"});
+  VectorXd change(forces.size());
+  double alive = forces.size() > 0 ? forces(0) : 0.0;  // of the branch, over its weight
+  for (Index k = 0; k < forces.size(); ++k) {
+    if (k > 0) {
+      const meshes::Fading step(times[std::size_t(k)] - times[std::size_t(k - 1)], constant);
+      alive = alive * step.keep + (forces(k) - forces(k - 1)) * step.gain;
+    }
+    change(k) = alive - forces(k);
+  }
+  return change;
+}
+
+double fading_of(const Course& course, const VectorXd& forces, const std::vector<double>& x,
+                 const std::vector<double>& times, double constant) {
+  const Index count = forces.size();
+  double weight = 0.0;
+  if (course.loop > 0.0) {
+    // There and back.
+    VectorXd both(2 * count);
+    both << forces, forces.reverse();
+    std::vector<double> when = times;
+    for (Index k = count; k-- > 0;) when.push_back(2.0 * times.back() - times[std::size_t(k)]);
+    const VectorXd change = fading(both, when, constant);
+    double done = 0.0, faded = 0.0, lost = 0.0;
+    for (Index k = 1; k < count; ++k) {
+      const double dx = x[std::size_t(k)] - x[std::size_t(k - 1)];
+      const auto gap = [&](Index i) { return change(i) - change(2 * count - 1 - i); };
+      done += 0.5 * (forces(k) + forces(k - 1)) * dx;
+      faded += 0.5 * (change(k) + change(k - 1)) * dx;
+      lost += 0.5 * (gap(k) + gap(k - 1)) * dx;
+    }
+    // loop = w lost / (done + w faded)
+    if (lost > 0.0) weight = course.loop * done / (lost - course.loop * faded);
+  }
+  if (course.relaxation > 0.0 && course.hold_time > 0.0) {
+    // relaxation = w alive fades / (1 + w (alive - 1))
+    const double alive = 1.0 + fading(forces, times, constant)(count - 1) / forces(count - 1),
+                 fades = -std::expm1(-course.hold_time / constant);
+    weight =
+        std::max(weight, course.relaxation / (alive * fades - course.relaxation * (alive - 1.0)));
+  }
+  return weight;
 }
 
 VectorXd narrowing(const MatrixXd& covariance, const MatrixXd& rows, const MatrixXd& own) {

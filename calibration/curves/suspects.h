@@ -47,6 +47,20 @@ std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& 
 /// `what` needs no change. Throws InvalidInput for fits of which only one knows sigma.
 Accusation accusation(const CurveFit& before, const CurveFit& after, const Suspect& what);
 
+/// Derivative of a loading's forces by the weight of one branch that fades with `constant` [s],
+/// where the forces without it are `forces` at `times` (increasing) [s], in proportion to the
+/// rubber's moduli: ∫ (exp(-(t-s)/c) - 1) dF(s) (Lee & Radok 1960; F straight between its values,
+/// and what there is at the first one as if just applied). Throws InvalidInput for lists of other
+/// lengths.
+Eigen::VectorXd fading(const Eigen::VectorXd& forces, const std::vector<double>& times,
+                       double constant);
+
+/// The weight of that branch that would make the loop or the fall in a hold which the curve's
+/// course tells, whichever needs more; 0 where it tells neither. The way back is taken as quick as
+/// the loading.
+double fading_of(const Course& course, const Eigen::VectorXd& forces, const std::vector<double>& x,
+                 const std::vector<double>& times, double constant);
+
 /// Standard errors of the parameters after further values, over those of `covariance`: 1 where
 /// they tell nothing. `rows` are the values' derivatives by the parameters over the values'
 /// deviations; `own` those by parameters that the further measurement brings along, such as its

@@ -243,6 +243,7 @@ std::vector<RunMeasure> all_measures() {
       {"fit_probability", {"fit"}, [](R run) { return run.result.found.chi_square_probability; }},
       suspects("rig_unnamed", 1, {"touch_offset", "compliance"}),
       suspects("strain_unnamed", told_suspects, {"finite strain"}),
+      suspects("relaxation_unnamed", told_suspects, {"relaxation"}),
       suspects("contact_unnamed", told_suspects, {"sticking", "slip"}),
       {"claims_certainty", {"fit"}, [](R run) {
          const double open = open_directions(run);

@@ -87,7 +87,8 @@ int export_contact(const CommandLine& line) {
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const fs::path& folder = session.folder().path();
     session.run_all(curves.jobs());
-    const ContactExport made = contact_export(line.format, loaded, curves.read(folder), lost);
+    const std::vector<ContactCurve> found = curves.read(folder);
+    const ContactExport made = contact_export(line.format, {loaded, found, lost});
     write_contact_export(made, folder);
     if (line.quiet) return 0;
     fmt::print("{}{}how to use it: {}\n", transfer_lines(made.transfer), made.said,
@@ -111,9 +112,7 @@ void foretell(Session& session, const std::string& format, const std::string& re
 
 /// Of a lattice that is pressed straight, and is a finger.
 std::optional<ContactCurves> lattice_curves(const LoadedConfig& loaded) {
-  const meshes::PressProtocol& protocol = loaded.config.press.protocol;
-  if (loaded.config.exchange.cube || protocol.tilt != 0.0 || protocol.lateral != 0.0 ||
-      !protocol.program.empty())
+  if (loaded.config.exchange.cube || !not_straight(loaded.config.press.protocol).empty())
     return std::nullopt;
   return ContactCurves(loaded, ContactCurves::Of::lattice);
 }

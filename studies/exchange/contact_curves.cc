@@ -44,8 +44,9 @@ std::vector<double> depths_to(double depth) {
   return depths;
 }
 
-void refuse_what_is_not_straight(const LoadedConfig& loaded) {
-  const meshes::PressProtocol& protocol = loaded.config.press.protocol;
+}  // namespace
+
+std::vector<meshes::Violation> not_straight(const meshes::PressProtocol& protocol) {
   std::vector<meshes::Violation> found;
   const auto refuse = [&](const char* key, const std::string& value, const char* remedy) {
     found.push_back({key, value,
@@ -59,13 +60,12 @@ void refuse_what_is_not_straight(const LoadedConfig& loaded) {
   if (!protocol.program.empty())
     refuse("press.program", std::to_string(protocol.program.size()) + " stages",
            "leave it out; press.depth says how deep");
-  if (!found.empty()) throw loaded.locate(found);
+  return found;
 }
 
-}  // namespace
-
 ContactCurves::ContactCurves(const LoadedConfig& loaded, Of of) {
-  refuse_what_is_not_straight(loaded);
+  const std::vector<meshes::Violation> found = not_straight(loaded.config.press.protocol);
+  if (!found.empty()) throw loaded.locate(found);
   const double depth = loaded.config.press.protocol.depth;
   for (const Obstacle& obstacle : pressed(loaded.config, of)) {
     LoadedConfig own = loaded;

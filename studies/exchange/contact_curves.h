@@ -45,6 +45,9 @@ class ContactCurves {
   std::vector<PlannedJob> jobs_;
 };
 
+/// What keeps a press from being one straight down: a tilt, a lateral motion, a program.
+std::vector<meshes::Violation> not_straight(const meshes::PressProtocol& protocol);
+
 /// What a law of pressure over penetration cannot say of this press, with what to do; the first
 /// word is the key.
 std::vector<Problem> lost_in_contact(const LoadedConfig& loaded);

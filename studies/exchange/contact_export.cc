@@ -15,8 +15,7 @@ namespace fingertip::studies {
 
 namespace {
 
-using Make = ContactExport (*)(const LoadedConfig&, const std::vector<ContactCurve>&,
-                               const std::vector<Problem>&);
+using Make = ContactExport (*)(const ContactSource&);
 
 const std::map<std::string, Make>& formats() {
   static const std::map<std::string, Make> all = {{"pressure-law", pressure_law_export},
@@ -28,26 +27,25 @@ const std::map<std::string, Make>& formats() {
 }
 
 /// Which contact model carries this finger: every format, and all models in one table.
-ContactExport all_of_them(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
-                          const std::vector<Problem>& lost) {
+ContactExport all_of_them(const ContactSource& source) {
   ContactExport made;
   made.readme =
       "# Which contact model carries this finger\n\n"
       "A folder per program, each with a README how to use it. The table tells how far the contact "
       "models of these programs follow the\nfinger where they are fitted to it, and on other "
       "obstacles.\n\n";
-  made.transfer =
-      transfer_of("all", "Force of a model at rest over that of the continuum", lost, curves, {});
+  made.transfer = transfer_of("all", "Force of a model at rest over that of the continuum",
+                              source.lost, source.curves, {});
   for (const auto& [format, make] : formats()) {
     ContactExport part;
     try {
-      part = make(loaded, curves, lost);
+      part = make(source);
     } catch (const ConfigError& error) {
       made.said += format + ": " + error.problems().front().rule + "\n";
       made.readme += "`" + format + "` is left out: " + error.problems().front().rule + ".\n\n";
       continue;
     }
-    for (std::size_t i = 0; i < curves.size(); ++i)
+    for (std::size_t i = 0; i < source.curves.size(); ++i)
       for (TransferModelEntry model : part.transfer.obstacles[i].models) {
         model.model = format + ": " + model.model;
         made.transfer.obstacles[i].models.push_back(std::move(model));
@@ -59,11 +57,14 @@ ContactExport all_of_them(const LoadedConfig& loaded, const std::vector<ContactC
 
 }  // namespace
 
-ContactExport contact_export(const std::string& format, const LoadedConfig& loaded,
-                             const std::vector<ContactCurve>& curves,
-                             const std::vector<Problem>& lost) {
+const SoftBody& ContactSource::soft() const {
+  if (!soft_) soft_ = fitted_soft_body(loaded, curves.front());
+  return *soft_;
+}
+
+ContactExport contact_export(const std::string& format, const ContactSource& source) {
   const Make make = format == "all" ? all_of_them : formats().at(format);
-  return make(loaded, curves, lost);
+  return make(source);
 }
 
 ContactExport lattice_export(const std::string& format, const std::string& readme,

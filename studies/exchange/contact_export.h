@@ -3,13 +3,34 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "studies/exchange/contact_curves.h"
+#include "studies/exchange/soft_body.h"
 #include "studies/exchange/transfer.h"
 
 namespace fingertip::studies {
+
+/// What an export is made of. The references must outlive it.
+class ContactSource {
+ public:
+  ContactSource(const LoadedConfig& own_loaded, const std::vector<ContactCurve>& own_curves,
+                const std::vector<Problem>& own_lost)
+      : loaded(own_loaded), curves(own_curves), lost(own_lost) {}
+
+  const LoadedConfig& loaded;
+  const std::vector<ContactCurve>& curves;  ///< the first one is fitted, all are judged
+  const std::vector<Problem>& lost;
+
+  /// The soft body of the first curve, fitted when it is asked for first. Throws as
+  /// fitted_soft_body().
+  const SoftBody& soft() const;
+
+ private:
+  mutable std::optional<SoftBody> soft_;
+};
 
 struct ContactExport {
   struct File {
@@ -25,9 +46,7 @@ struct ContactExport {
 /// Of "pressure-law", "mujoco", "drake", "sofa", "vtk", or "all" that can carry the press: fitted
 /// to the first curve, judged by all. Throws InvalidInput where that curve does not grow,
 /// ConfigError for what the format cannot carry.
-ContactExport contact_export(const std::string& format, const LoadedConfig& loaded,
-                             const std::vector<ContactCurve>& curves,
-                             const std::vector<Problem>& lost);
+ContactExport contact_export(const std::string& format, const ContactSource& source);
 
 /// An export of the lattice itself beside the continuum: transfer.json and README.md, which begins
 /// with `readme`.

@@ -59,14 +59,13 @@ std::string sdf(const LoadedConfig& loaded, const ContactCurve& curve,
 
 }  // namespace
 
-ContactExport drake_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
-                           const std::vector<Problem>& lost) {
-  const ContactCurve& own = curves.front();
-  const double radius = meshes::shape_of(loaded.config.press.geometry)->pole_radius();
+ContactExport drake_export(const ContactSource& source) {
+  const ContactCurve& own = source.curves.front();
+  const double radius = meshes::shape_of(source.loaded.config.press.geometry)->pole_radius();
   const HydroelasticBall ball =
       calibration::fitted_hydroelastic_ball(own.forces, own.obstacle, radius);
   ContactExport made;
-  made.files = {{"finger.sdf", sdf(loaded, own, ball)}};
+  made.files = {{"finger.sdf", sdf(source.loaded, own, ball)}};
   made.readme = fmt::format(
       "# A finger for Drake\n\n"
       "`finger.sdf`: a ball of {:.4g} mm, pole up at the origin, with hydroelastic contact. What "
@@ -81,12 +80,10 @@ ContactExport drake_export(const LoadedConfig& loaded, const std::vector<Contact
       "drake",
       "Force of the pressure field over the rigid obstacle's surface within the ball, over that of "
       "the continuum",
-      lost, curves, {{"hydroelastic ball", [ball](const ContactCurve& curve) {
-                        std::vector<double> forces;
-                        for (const double at : curve.forces.indentation)
-                          forces.push_back(ball.force(curve.obstacle, at));
-                        return forces;
-                      }}});
+      source.lost, source.curves,
+      {by_law("hydroelastic ball", [ball](const ContactCurve& curve, double at) {
+        return ball.force(curve.obstacle, at);
+      })});
   return made;
 }
 

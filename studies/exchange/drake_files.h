@@ -8,7 +8,6 @@
 namespace fingertip::studies {
 
 /// finger.sdf
-ContactExport drake_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
-                           const std::vector<Problem>& lost);
+ContactExport drake_export(const ContactSource& source);
 
 }  // namespace fingertip::studies

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 
 #include "calibration/contact_laws/soft_contact.h"
 #include "meshes/files.h"
@@ -116,9 +115,8 @@ struct FlexModuli {
 std::string flex_model(const LoadedConfig& loaded, const ContactCurve& curve,
                        const SoftBody& flex) {
   const meshes::Rubber& rubber = loaded.config.press.rubber;
-  const meshes::Tetrahedra& mesh = flex.body.mesh;
   const double mass = rubber.density * flex.body.volume();
-  const double vertex = mass / double(mesh.vertices.size());
+  const double vertex = mass / double(flex.body.mesh.vertices.size());
   // Force of a vertex: its mass times k r/(1 - d).
   const double k = flex.stiffness * (1.0 - vertex_impedance) / vertex;
   const FlexModuli moduli(flex.youngs_modulus, flex.poissons_ratio);
@@ -133,11 +131,7 @@ std::string flex_model(const LoadedConfig& loaded, const ContactCurve& curve,
           "radius=\"1e-9\"\n    point=\"",
           std::min(longest_step, calm * std::sqrt(1.0 / k) * 2.0), to_text(flex.body.top()),
           obstacle_geom(loaded, curve.obstacle), mass);
-  for (const meshes::Vector3& v : mesh.vertices)
-    fmt::format_to(std::back_inserter(text), "{:.9g} {:.9g} {:.9g}  ", v.x(), v.y(), v.z());
-  text += "\"\n    element=\"";
-  for (const auto& t : mesh.tetrahedra)
-    fmt::format_to(std::back_inserter(text), "{} {} {} {}  ", t[0], t[1], t[2], t[3]);
+  text += flex.places() + "\"\n    element=\"" + flex.tetrahedra();
   fmt::format_to(
       std::back_inserter(text),
       "\">\n    <contact {} priority=\"1\" solref=\"{:.9g} {:.9g}\" solimp=\"{} {} 1e-3\" "
@@ -145,13 +139,11 @@ std::string flex_model(const LoadedConfig& loaded, const ContactCurve& curve,
       "    <elasticity young=\"{:.9g}\" poisson=\"{:.9g}\" damping=\"{:.4g}\"/>\n    <pin id=\"",
       friction_of(loaded), -k, -2.0 * std::sqrt(k), vertex_impedance, vertex_impedance,
       moduli.young, moduli.poisson, std::max(rubber.retardation_time, least_damping));
-  for (std::size_t v = 0; v < flex.body.held.size(); ++v)
-    if (flex.body.held[v]) text += std::to_string(v) + " ";
-  return text + "\"/>\n  </flexcomp>\n</worldbody>\n</mujoco>\n";
+  return text + flex.held() + "\"/>\n  </flexcomp>\n</worldbody>\n</mujoco>\n";
 }
 
 std::string mujoco_readme(const ContactCurve& curve, const SoftContact& contact,
-                          const std::optional<SoftBody>& flex) {
+                          const SoftBody* flex) {
   std::string text = fmt::format(
       "# A finger for MuJoCo\n\n"
       "`finger_rigid.xml`: a rigid sphere whose contact gives way as the finger does. The servo "
@@ -169,7 +161,7 @@ std::string mujoco_readme(const ContactCurve& curve, const SoftContact& contact,
       "the finger is not.\n\n",
       contact.stiffness, contact.dmin, contact.dmax, contact.width, contact.midpoint, contact.power,
       contact.stiffness, contact.stiffness);
-  if (!flex) {
+  if (flex == nullptr) {
     text += fmt::format(
         "There is no flex: its forces are foretold under a plane only, and this is a {}.\n\n",
         curve.name);
@@ -187,32 +179,26 @@ std::string mujoco_readme(const ContactCurve& curve, const SoftContact& contact,
 
 }  // namespace
 
-ContactExport mujoco_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
-                            const std::vector<Problem>& lost) {
-  const ContactCurve& own = curves.front();
+ContactExport mujoco_export(const ContactSource& source) {
+  const ContactCurve& own = source.curves.front();
   const SoftContact contact = fitted_soft_contact(own.forces);
   ContactExport made;
-  made.files.push_back({"finger_rigid.xml", rigid_model(loaded, own, contact)});
-  std::vector<ForetoldModel> models = {{"rigid geom", [contact](const ContactCurve& curve) {
-                                          std::vector<double> forces;
-                                          for (const double at : curve.forces.indentation)
-                                            forces.push_back(contact.force(at));
-                                          return forces;
-                                        }}};
-  std::optional<SoftBody> flex;
-  if (own.obstacle.is_plane()) {
-    flex = fitted_soft_body(loaded, own);
-    made.files.push_back({"finger_flex.xml", flex_model(loaded, own, *flex)});
+  made.files.push_back({"finger_rigid.xml", rigid_model(source.loaded, own, contact)});
+  std::vector<ForetoldModel> models = {by_law(
+      "rigid geom", [contact](const ContactCurve&, double at) { return contact.force(at); })};
+  const SoftBody* flex = own.obstacle.is_plane() ? &source.soft() : nullptr;
+  if (flex != nullptr) {
+    made.files.push_back({"finger_flex.xml", flex_model(source.loaded, own, *flex)});
     models.push_back(foretold("flex", *flex));
   }
   made.readme = mujoco_readme(own, contact, flex);
   made.said = fmt::format("rigid geom: K = {:.4g} N/m\n", contact.stiffness);
-  if (flex) made.said += "flex: " + summary(*flex, own) + "\n";
+  if (flex != nullptr) made.said += "flex: " + summary(*flex, own) + "\n";
   made.transfer = transfer_of(
       "mujoco",
       "Force in MuJoCo at rest over that of the continuum: of the geom from its contact's formula, "
       "of the flex from an equilibrium of the same tetrahedra and contacts",
-      lost, curves, models);
+      source.lost, source.curves, models);
   return made;
 }
 

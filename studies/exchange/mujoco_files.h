@@ -9,7 +9,6 @@ namespace fingertip::studies {
 
 /// finger_rigid.xml, and against a plane finger_flex.xml, whose modulus is fitted, too. Throws
 /// ConfigError where MuJoCo has no such obstacle.
-ContactExport mujoco_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
-                            const std::vector<Problem>& lost);
+ContactExport mujoco_export(const ContactSource& source);
 
 }  // namespace fingertip::studies

@@ -40,21 +40,19 @@ std::string readme(const PressureLawFile& law) {
 
 }  // namespace
 
-ContactExport pressure_law_export(const LoadedConfig& loaded,
-                                  const std::vector<ContactCurve>& curves,
-                                  const std::vector<Problem>& lost) {
-  const lattice::PressSetup& press = loaded.config.press;
+ContactExport pressure_law_export(const ContactSource& source) {
+  const lattice::PressSetup& press = source.loaded.config.press;
   const double depth = press.protocol.depth;
   std::map<std::string, GapField> fields;
-  for (const ContactCurve& curve : curves)
+  for (const ContactCurve& curve : source.curves)
     fields.emplace(curve.name, gap_field(press.geometry, curve.obstacle, depth));
-  const GapField& own = fields.at(curves.front().name);
-  const ForceCurve& fitted = curves.front().forces;
+  const GapField& own = fields.at(source.curves.front().name);
+  const ForceCurve& fitted = source.curves.front().forces;
   const Laws laws{fitted_table(fitted, own), fitted_power(fitted, own),
                   fitted_polynomial(fitted, own), fitted_line(fitted, own)};
   PressureLawFile law;
   law.finger = press.geometry.shape_name();
-  law.obstacle = curves.front().name;
+  law.obstacle = source.curves.front().name;
   law.contact = meshes::name(press.protocol.contact);
   law.depth = depth;
   law.stiffness = laws.power.stiffness;
@@ -69,12 +67,9 @@ ContactExport pressure_law_export(const LoadedConfig& loaded,
   for (std::size_t i = 0; i < law.penetration.size(); ++i)
     table += meshes::to_text(law.penetration[i]) + ',' + meshes::to_text(law.pressure[i]) + '\n';
   const auto model = [&fields](const char* name, const auto& fitted_law) {
-    return ForetoldModel{name, [&fields, fitted_law](const ContactCurve& curve) {
-                           std::vector<double> forces;
-                           for (const double at : curve.forces.indentation)
-                             forces.push_back(force_of(fitted_law, fields.at(curve.name), at));
-                           return forces;
-                         }};
+    return by_law(name, [&fields, fitted_law](const ContactCurve& curve, double at) {
+      return force_of(fitted_law, fields.at(curve.name), at);
+    });
   };
   ContactExport made;
   made.files = {{"pressure_law.json", json_of(law).dump(2) + "\n"}, {"pressure_table.csv", table}};
@@ -86,7 +81,7 @@ ContactExport pressure_law_export(const LoadedConfig& loaded,
       transfer_of("pressure-law",
                   "Force of a law, integrated over the overlap of the undeformed bodies, over that "
                   "of the continuum",
-                  lost, curves,
+                  source.lost, source.curves,
                   {model("table", laws.table), model("power", laws.power),
                    model("polynomial", laws.polynomial), model("line", laws.line)});
   return made;

@@ -34,8 +34,6 @@ constexpr auto fields_of(const PressureLawFile*) {
 
 /// Fits the laws to the first curve and judges them by all: pressure_law.json, pressure_table.csv.
 /// Throws InvalidInput where that curve does not grow.
-ContactExport pressure_law_export(const LoadedConfig& loaded,
-                                  const std::vector<ContactCurve>& curves,
-                                  const std::vector<Problem>& lost);
+ContactExport pressure_law_export(const ContactSource& source);
 
 }  // namespace fingertip::studies

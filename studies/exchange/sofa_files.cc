@@ -23,7 +23,6 @@ const char* const same_tetrahedra =
 
 std::string scene(const LoadedConfig& loaded, const ContactCurve& curve, const SoftBody& soft) {
   const meshes::Rubber& rubber = loaded.config.press.rubber;
-  const meshes::Tetrahedra& mesh = soft.body.mesh;
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<!-- {}, fitted to {:.4g} mm on a plane; pole up, SI. README.md says how to use it. -->\n"
@@ -36,11 +35,7 @@ std::string scene(const LoadedConfig& loaded, const ContactCurve& curve, const S
       "    <TetrahedronSetTopologyContainer name=\"mesh\" position=\"",
       loaded.config.press.geometry.shape_name(), 1e3 * curve.forces.indentation.back(), sofa_step,
       to_text(rubber.retardation_time));
-  for (const meshes::Vector3& v : mesh.vertices)
-    fmt::format_to(std::back_inserter(text), "{:.9g} {:.9g} {:.9g}  ", v.x(), v.y(), v.z());
-  text += "\"\n      tetrahedra=\"";
-  for (const auto& t : mesh.tetrahedra)
-    fmt::format_to(std::back_inserter(text), "{} {} {} {}  ", t[0], t[1], t[2], t[3]);
+  text += soft.places() + "\"\n      tetrahedra=\"" + soft.tetrahedra();
   fmt::format_to(
       std::back_inserter(text),
       "\"/>\n    <TetrahedronSetGeometryAlgorithms template=\"Vec3d\"/>\n"
@@ -53,9 +48,7 @@ std::string scene(const LoadedConfig& loaded, const ContactCurve& curve, const S
       "    <FixedProjectiveConstraint indices=\"",
       rubber.density * soft.body.volume(), soft.shear_modulus(), soft.lambda(), -soft.body.top(),
       soft.stiffness);
-  for (std::size_t v = 0; v < soft.body.held.size(); ++v)
-    if (soft.body.held[v]) text += std::to_string(v) + " ";
-  return text + "\"/>\n  </Node>\n</Node>\n";
+  return text + soft.held() + "\"/>\n  </Node>\n</Node>\n";
 }
 
 std::string vtu(const LoadedConfig& loaded, const SoftBody& soft) {
@@ -84,22 +77,21 @@ std::string vtu(const LoadedConfig& loaded, const SoftBody& soft) {
          "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-ContactExport soft_export(const char* format, const std::string& readme, const SoftBody& soft,
-                          const std::vector<ContactCurve>& curves,
-                          const std::vector<Problem>& lost) {
+ContactExport soft_export(const char* format, const std::string& readme,
+                          const ContactSource& source) {
+  const SoftBody& soft = source.soft();
   ContactExport made;
-  made.readme = readme + description(soft) + soft.limit(curves.front()) + "\n\n";
-  made.said = summary(soft, curves.front()) + "\n";
-  made.transfer =
-      transfer_of(format, same_tetrahedra, lost, curves, {foretold("tetrahedra", soft)});
+  made.readme = readme + description(soft) + soft.limit(source.curves.front()) + "\n\n";
+  made.said = summary(soft, source.curves.front()) + "\n";
+  made.transfer = transfer_of(format, same_tetrahedra, source.lost, source.curves,
+                              {foretold("tetrahedra", soft)});
   return made;
 }
 
 }  // namespace
 
-ContactExport sofa_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
-                          const std::vector<Problem>& lost) {
-  const SoftBody soft = fitted_soft_body(loaded, curves.front());
+ContactExport sofa_export(const ContactSource& source) {
+  const SoftBody& soft = source.soft();
   ContactExport made = soft_export(
       "sofa",
       fmt::format(
@@ -109,21 +101,19 @@ ContactExport sofa_export(const LoadedConfig& loaded, const std::vector<ContactC
           "first, by the indentation to press. It pushes every vertex behind it with {:.6g} N/m, "
           "without friction.\n",
           -soft.body.top(), soft.stiffness),
-      soft, curves, lost);
-  made.files = {{"finger.scn", scene(loaded, curves.front(), soft)}};
+      source);
+  made.files = {{"finger.scn", scene(source.loaded, source.curves.front(), soft)}};
   return made;
 }
 
-ContactExport vtk_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
-                         const std::vector<Problem>& lost) {
-  const SoftBody soft = fitted_soft_body(loaded, curves.front());
+ContactExport vtk_export(const ContactSource& source) {
   ContactExport made = soft_export(
       "vtk",
       "# A finger as a mesh\n\n`finger.vtu` (ParaView, meshio): tetrahedra in metres, pole up; per "
       "cell `youngs_modulus` and `density` (SI),\n`poissons_ratio`; per point `held` (1 where the "
       "finger is bonded).\n",
-      soft, curves, lost);
-  made.files = {{"finger.vtu", vtu(loaded, soft)}};
+      source);
+  made.files = {{"finger.vtu", vtu(source.loaded, source.soft())}};
   return made;
 }
 

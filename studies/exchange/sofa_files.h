@@ -8,10 +8,8 @@
 namespace fingertip::studies {
 
 /// finger.scn: the soft body under a plane. Throws as fitted_soft_body().
-ContactExport sofa_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
-                          const std::vector<Problem>& lost);
+ContactExport sofa_export(const ContactSource& source);
 /// finger.vtu: its mesh with moduli, density and what is held. Throws as fitted_soft_body().
-ContactExport vtk_export(const LoadedConfig& loaded, const std::vector<ContactCurve>& curves,
-                         const std::vector<Problem>& lost);
+ContactExport vtk_export(const ContactSource& source);
 
 }  // namespace fingertip::studies

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "meshes/files.h"
 #include "meshes/shape.h"
@@ -30,6 +32,27 @@ double SoftBody::lambda() const {
   return 2.0 * shear_modulus() * poissons_ratio / (1.0 - 2.0 * poissons_ratio);
 }
 
+std::string SoftBody::places() const {
+  std::string text;
+  for (const meshes::Vector3& v : body.mesh.vertices)
+    fmt::format_to(std::back_inserter(text), "{:.9g} {:.9g} {:.9g}  ", v.x(), v.y(), v.z());
+  return text;
+}
+
+std::string SoftBody::tetrahedra() const {
+  std::string text;
+  for (const auto& t : body.mesh.tetrahedra)
+    fmt::format_to(std::back_inserter(text), "{} {} {} {}  ", t[0], t[1], t[2], t[3]);
+  return text;
+}
+
+std::string SoftBody::held() const {
+  std::string text;
+  for (std::size_t v = 0; v < body.held.size(); ++v)
+    if (body.held[v]) text += std::to_string(v) + " ";
+  return text;
+}
+
 std::string SoftBody::limit(const ContactCurve& curve) const {
   if (forces.size() == curve.forces.force.size()) return "";
   return fmt::format(" Beyond {:.3g} mm it finds no equilibrium: elements collapse.",
@@ -49,16 +72,10 @@ SoftBody fitted_soft_body(const LoadedConfig& loaded, const ContactCurve& curve)
   soft.body = calibration::tetrahedral_body(press.geometry, soft.edge);
   soft.forces = calibration::forces_of(
       soft.body, {soft.poissons_ratio, vertex_stiffness * soft.edge}, curve.forces.indentation);
-  double sum = 0.0, squares = 0.0;
-  for (std::size_t i = 0; i < soft.forces.size(); ++i) {
-    const double ratio = soft.forces[i] / curve.forces.force[i];
-    sum += ratio;
-    squares += ratio * ratio;
-  }
-  if (!(squares > 0.0))
+  soft.youngs_modulus = calibration::fitted_factor(soft.forces, curve.forces);
+  if (!std::isfinite(soft.youngs_modulus))
     throw refused(loaded, "exchange.edge", meshes::to_text(soft.edge) + " m",
                   "tetrahedra of that size bear no press", "choose smaller ones");
-  soft.youngs_modulus = sum / squares;
   soft.stiffness = vertex_stiffness * soft.edge * soft.youngs_modulus;
   for (double& force : soft.forces) force *= soft.youngs_modulus;
   return soft;

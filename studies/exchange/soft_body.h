@@ -17,8 +17,11 @@ struct SoftBody {
   double stiffness = 0.0;       ///< of a vertex behind the plane, force over depth [N/m]
   std::vector<double> forces;   ///< at the first indentations of the curve [N]
 
-  double shear_modulus() const;  ///< mu [Pa]
-  double lambda() const;         ///< [Pa]
+  double shear_modulus() const;    ///< mu [Pa]
+  double lambda() const;           ///< [Pa]
+  std::string places() const;      ///< of the vertices, as lists in XML
+  std::string tetrahedra() const;  ///< numbers of their vertices
+  std::string held() const;        ///< numbers of vertices
   /// " Beyond 2 mm ... collapse." where the curve goes on beyond the body's forces.
   std::string limit(const ContactCurve& curve) const;
 };

@@ -62,6 +62,15 @@ std::string share(double value) {
 
 }  // namespace
 
+ForetoldModel by_law(const std::string& name,
+                     const std::function<double(const ContactCurve&, double)>& force) {
+  return {name, [force](const ContactCurve& curve) {
+            std::vector<double> forces;
+            for (const double at : curve.forces.indentation) forces.push_back(force(curve, at));
+            return forces;
+          }};
+}
+
 ForetoldModel lattice_at_rest() {
   return {"lattice at rest", [](const ContactCurve& curve) {
             std::vector<double> forces = curve.lattice;

@@ -54,6 +54,9 @@ struct ForetoldModel {
   std::function<std::vector<double>(const ContactCurve&)> forces;
 };
 
+/// By a law: the force on a curve's obstacle at an indentation [m].
+ForetoldModel by_law(const std::string& name,
+                     const std::function<double(const ContactCurve&, double)>& force);
 /// The lattice at rest, as the curves know it.
 ForetoldModel lattice_at_rest();
 

@@ -20,10 +20,8 @@ namespace {
 
 class Unit {
  public:
-  Unit(const std::filesystem::path& resources, std::string name, std::string guid,
-       fmi2CallbackFunctions callbacks)
+  Unit(const std::filesystem::path& resources, std::string name, fmi2CallbackFunctions callbacks)
       : name_(std::move(name)),
-        guid_(std::move(guid)),
         callbacks_(callbacks),
         setup_(free_press({resources / fmu_settings, {}, {}})),
         way_(setup_.protocol, setup_.geometry),
@@ -98,7 +96,7 @@ class Unit {
   double time() const { return finger_.time(); }
 
  private:
-  std::string name_, guid_;
+  std::string name_;
   fmi2CallbackFunctions callbacks_;
   lattice::PressSetup setup_;
   lattice::PressWay way_;
@@ -150,6 +148,11 @@ fmi2Status not_there(fmi2Component component, const char* what) {
   return unit_of(component).refuse(std::string(what) + " is not there");
 }
 
+/// All variables are reals: of other types none may be asked for.
+fmi2Status none_of(fmi2Component component, std::size_t count, const char* what) {
+  return count == 0 ? fmi2OK : not_there(component, what);
+}
+
 }  // namespace
 
 FINGERTIP_FMI const char* fmi2GetTypesPlatform() {
@@ -164,7 +167,7 @@ FINGERTIP_FMI fmi2Status fmi2SetDebugLogging(fmi2Component, fmi2Boolean, std::si
   return fmi2OK;
 }
 
-FINGERTIP_FMI fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid,
+FINGERTIP_FMI fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String,
                                             fmi2String resources,
                                             const fmi2CallbackFunctions* callbacks, fmi2Boolean,
                                             fmi2Boolean) {
@@ -178,7 +181,7 @@ FINGERTIP_FMI fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2
   if (type != fmi2CoSimulation) return log("this unit is for co-simulation");
   if (resources == nullptr) return log("the location of the resources is missing");
   try {
-    return new Unit(path_of(resources), name ? name : "", guid ? guid : "", given);
+    return new Unit(path_of(resources), name ? name : "", given);
   } catch (const std::exception& error) {
     return log(error.what());
   }
@@ -220,30 +223,29 @@ FINGERTIP_FMI fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueRef
       [&] { return unit_of(component).set(references, count, values); });
 }
 
-/// All variables are reals.
 FINGERTIP_FMI fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference*,
                                         std::size_t count, fmi2Integer*) {
-  return count == 0 ? fmi2OK : not_there(component, "an integer variable");
+  return none_of(component, count, "an integer variable");
 }
 FINGERTIP_FMI fmi2Status fmi2SetInteger(fmi2Component component, const fmi2ValueReference*,
                                         std::size_t count, const fmi2Integer*) {
-  return count == 0 ? fmi2OK : not_there(component, "an integer variable");
+  return none_of(component, count, "an integer variable");
 }
 FINGERTIP_FMI fmi2Status fmi2GetBoolean(fmi2Component component, const fmi2ValueReference*,
                                         std::size_t count, fmi2Boolean*) {
-  return count == 0 ? fmi2OK : not_there(component, "a boolean variable");
+  return none_of(component, count, "a boolean variable");
 }
 FINGERTIP_FMI fmi2Status fmi2SetBoolean(fmi2Component component, const fmi2ValueReference*,
                                         std::size_t count, const fmi2Boolean*) {
-  return count == 0 ? fmi2OK : not_there(component, "a boolean variable");
+  return none_of(component, count, "a boolean variable");
 }
 FINGERTIP_FMI fmi2Status fmi2GetString(fmi2Component component, const fmi2ValueReference*,
                                        std::size_t count, fmi2String*) {
-  return count == 0 ? fmi2OK : not_there(component, "a text variable");
+  return none_of(component, count, "a text variable");
 }
 FINGERTIP_FMI fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference*,
                                        std::size_t count, const fmi2String*) {
-  return count == 0 ? fmi2OK : not_there(component, "a text variable");
+  return none_of(component, count, "a text variable");
 }
 
 FINGERTIP_FMI fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state) {

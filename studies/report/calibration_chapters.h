@@ -10,8 +10,8 @@
 
 namespace fingertip::studies::reporting {
 
-/// Chapters of each fit: quality; what was measured; parameters; the machine; what the data
-/// determine; moduli and surrogate. Those without files have no blocks.
+/// Several fits side by side; then chapters of each fit: quality; what was measured; parameters;
+/// the machine; what the data determine; moduli and surrogate. Those without files have no blocks.
 std::vector<Chapter> fit_chapters(const CalibrationData& data);
 /// Estimates with intervals, priors, bias and truth; correlation; other minima; where they hold.
 Chapter parameter_chapter(const Fit& fit, const std::string& prefix);
@@ -25,8 +25,8 @@ std::vector<Chapter> measured_chapters(const Fit& fit, const std::string& prefix
 std::string estimate_words(const FitParameter& parameter);
 /// Fits against what they predict: table of the worst errors, and errors against indentation.
 Chapter transfer_chapter(const CalibrationData& data);
-/// One fit's result in a few sentences.
-std::string fit_answer(const Fit& fit);
+/// The result of one fit in a few sentences, of several how many describe their data.
+std::string fits_answer(const CalibrationData& data);
 /// The run's result in one paragraph.
 std::string calibration_answer(const CalibrationData& data);
 /// Fits with their parameters and worst errors, as plain ASCII for a terminal.

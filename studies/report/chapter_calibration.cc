@@ -118,11 +118,68 @@ Chapter material_chapter(const Fit& fit, const std::string& prefix) {
   return written(std::move(chapter));
 }
 
+std::string estimates_of(const Fit& fit) {
+  std::vector<std::string> estimates;
+  for (const FitParameter& parameter : fit.parameters)
+    estimates.push_back(estimate_words(parameter));
+  return enumerate(estimates);
+}
+
+double worst_residual(const Fit& fit) {
+  double worst = meshes::unknown;
+  for (const FitCurve& curve : fit.curves) worst = std::fmax(worst, curve.worst);
+  return worst;
+}
+
+/// The result of one fit in a few sentences.
+std::string fit_answer(const Fit& fit) {
+  double left_out = meshes::unknown;
+  for (const FitCurve& curve : fit.curves) left_out = std::fmax(left_out, curve.left_out_error);
+  const double worst = worst_residual(fit);
+  Words words;
+  words["estimates"] = estimates_of(fit);
+  words["model"] = fit.model;
+  words["curves"] = std::to_string(fit.curves.size());
+  words["one"] = fit.curves.size() == 1;
+  words["worst"] = if_known(worst, percent_magnitude(worst));
+  words["left_out"] = if_known(left_out, percent_magnitude(left_out));
+  words["travel"] = fit.file.rig.has_value();
+  words["open"] = !fit.file.unidentifiable.empty();
+  return sentences("answer_fit", words);
+}
+
+/// A row per fit.
+Chapter fits_chapter(const CalibrationData& data) {
+  ChapterData chapter("fits");
+  Table& table = chapter.tables["fits"];
+  table.header = {plain("Fit"), plain("Curves"), words("Parameters"), plain("Worst residual"),
+                  plain("Its own tests")};
+  for (const Fit& fit : data.fits) {
+    if (fit.file.empty()) continue;
+    table.rows.push_back({plain(fit.name, fit.model), plain(std::to_string(fit.curves.size())),
+                          words(estimates_of(fit)), plain(percent_magnitude(worst_residual(fit))),
+                          plain(fit.file.failed.empty() ? "passed" : "not passed")});
+  }
+  return written(std::move(chapter));
+}
+
 }  // namespace
+
+std::string fits_answer(const CalibrationData& data) {
+  if (data.fits.size() == 1) return fit_answer(data.fits.front());
+  std::size_t failed = 0;
+  for (const Fit& fit : data.fits) failed += !fit.file.failed.empty();
+  Words words;
+  words["fits"] = std::to_string(data.fits.size());
+  words["failed"] = failed > 0 ? std::to_string(failed) : "";
+  words["one"] = failed == 1;
+  return sentences("answer_fits", words);
+}
 
 std::vector<Chapter> fit_chapters(const CalibrationData& data) {
   std::vector<Chapter> chapters;
   const bool several = data.fits.size() > 1;
+  if (several) chapters.push_back(fits_chapter(data));
   for (std::size_t i = 0; i < data.fits.size(); ++i) {
     const Fit& fit = data.fits[i];
     const std::string prefix = several ? fmt::format("fit_{}", i + 1) : "fit";
@@ -141,27 +198,6 @@ std::vector<Chapter> fit_chapters(const CalibrationData& data) {
     }
   }
   return chapters;
-}
-
-std::string fit_answer(const Fit& fit) {
-  std::vector<std::string> estimates;
-  for (const FitParameter& parameter : fit.parameters)
-    estimates.push_back(estimate_words(parameter));
-  double worst = meshes::unknown, left_out = meshes::unknown;
-  for (const FitCurve& curve : fit.curves) {
-    worst = std::fmax(worst, curve.worst);
-    left_out = std::fmax(left_out, curve.left_out_error);
-  }
-  Words words;
-  words["estimates"] = enumerate(estimates);
-  words["model"] = fit.model;
-  words["curves"] = std::to_string(fit.curves.size());
-  words["one"] = fit.curves.size() == 1;
-  words["worst"] = if_known(worst, percent_magnitude(worst));
-  words["left_out"] = if_known(left_out, percent_magnitude(left_out));
-  words["travel"] = fit.file.rig.has_value();
-  words["open"] = !fit.file.unidentifiable.empty();
-  return sentences("answer_fit", words);
 }
 
 std::vector<NotRun> missing_fit_parts(const CalibrationData& data) {

@@ -129,11 +129,7 @@ Chapter transfer_chapter(const CalibrationData& data) {
 std::string calibration_answer(const CalibrationData& data) {
   const std::string transfer = transfer_answer(data);
   if (!transfer.empty()) return transfer;
-  if (data.fits.size() == 1) return fit_answer(data.fits.front());
-  std::string text;
-  for (const Fit& fit : data.fits)
-    text += fmt::format("{}{}: {}", text.empty() ? "" : " ", fit.name, fit_answer(fit));
-  return text;
+  return fits_answer(data);
 }
 
 std::string calibration_text(const CalibrationData& data) {

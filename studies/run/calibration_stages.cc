@@ -7,6 +7,7 @@
 
 #include "calibration/result_io.h"
 #include "meshes/press_response.h"
+#include "studies/run/cache.h"
 #include "studies/run/fit_bias.h"
 #include "studies/run/fit_contact.h"
 #include "studies/run/fit_setup.h"
@@ -149,11 +150,36 @@ std::vector<PlannedJob> CalibrationStages::fits(const fs::path& run) {
                         fit_options(loaded_, loaded_.config.press.lattice.model)),
              false}};
   if (setup_.data_from_continuum) take_continuum_data(run);
-  std::vector<PlannedJob> jobs = {{place("fit"), fit_job(setup_.input), false}};
-  // That the other contact has no answer is no failure of the fit.
-  if (other_contact_)
-    jobs.push_back({place(other_contact_name), fit_job(other_contact_->input), true});
+  // Of two contacts one may have no answer.
+  const bool either = other_contact_.has_value();
+  std::vector<PlannedJob> jobs = {{place(fit_name_), fit_job(setup_.input), either}};
+  if (either) jobs.push_back({place(other_contact_name), fit_job(other_contact_->input), true});
   return jobs;
+}
+
+/// Where the contact is not known: the one that is taken without word, or the other one where only
+/// that has an answer.
+void CalibrationStages::choose_contact(const fs::path& run) {
+  if (!other_contact_) return;
+  const auto status = [&](const FitSetup& fit, const std::string& name) {
+    return marked_status(fit_job(fit.input), run / place(name));
+  };
+  const std::string own = status(setup_, fit_name_),
+                    other = status(*other_contact_, other_contact_name);
+  if (own == finished) return;
+  const std::string name = contact_name(setup_), rival = contact_name(*other_contact_);
+  if (other != finished)
+    throw meshes::NotConverged(
+        fmt::format("press.contact is not told; {}: {}; {}: {}", name, own, rival, other));
+  setup_ = *std::move(other_contact_);
+  other_contact_.reset();
+  loaded_ = setup_.loaded;
+  fit_name_ = other_contact_name;
+  contact_note_ = fmt::format(
+      " Whether the rubber sticks is not told (press.contact): {} is taken, since {} contact has "
+      "no "
+      "answer ({}).",
+      rival, name, own.substr(own.find(": ") + 2));
 }
 
 /// Of a lattice that answered for measured forces: the continuum at the estimates tells its error.
@@ -173,6 +199,7 @@ PlannedJob CalibrationStages::bias(const fs::path& run, std::size_t curve) const
 }
 
 std::vector<PlannedJob> CalibrationStages::follow_up_jobs(const fs::path& run) {
+  choose_contact(run);
   std::vector<PlannedJob> jobs;
   if (!usable(run)) return jobs;
   if (loaded_.config.calibration.surrogate) jobs.push_back(surrogate(run));
@@ -194,7 +221,7 @@ PlannedJob CalibrationStages::surrogate(const fs::path& run) const {
   const bool by_press = !by_moduli() && !setup_.input.presses.empty() &&
                         setup_.input.problem != CalibrationProblem::damping;
   if (by_press) {
-    const ordered_json fit = read_json(run / place("fit") / "calibration.json");
+    const ordered_json fit = read_json(run / place(fit_name_) / "calibration.json");
     uncertainty.parameters = parameters_of(setup_.input);
     // As wide as the intervals.
     uncertainty.covariance = std::pow(fit.at("birge_ratio").get<double>(), 2) *
@@ -207,12 +234,12 @@ PlannedJob CalibrationStages::surrogate(const fs::path& run) const {
 
 calibration::Material CalibrationStages::material(const fs::path& run) const {
   return calibration::read_material_toml(by_moduli() ? run / folder_ / "material.toml"
-                                                     : run / place("fit") / estimates_name);
+                                                     : run / place(fit_name_) / estimates_name);
 }
 
 bool CalibrationStages::usable(const fs::path& run) const {
   if (by_moduli()) return true;
-  const fs::path estimates = run / place("fit") / estimates_name;
+  const fs::path estimates = run / place(fit_name_) / estimates_name;
   return fs::exists(estimates) &&
          (failed_ == Failed::kept || calibration::read_material_toml(estimates).rejected.empty());
 }
@@ -250,18 +277,19 @@ void CalibrationStages::finish(const fs::path& run) const {
   if (by_moduli()) {
     complete_moduli(target / "material.toml");
   } else {
-    copy("fit", "fit_data.csv", "fit_data.csv");
+    copy(fit_name_, "fit_data.csv", "fit_data.csv");
     if (use)
-      copy("fit", estimates_name, "material.toml");
+      copy(fit_name_, estimates_name, "material.toml");
     else
       fs::remove(target / "material.toml");  // of an earlier attempt
-    ordered_json calibration = read_json(run / place("fit") / "calibration.json");
-    ordered_json summary = read_json(run / place("fit") / "summary.json");
+    ordered_json calibration = read_json(run / place(fit_name_) / "calibration.json");
+    ordered_json summary = read_json(run / place(fit_name_) / "summary.json");
     if (use && measures_bias()) calibration = with_bias(std::move(calibration), run);
     const fs::path other = run / place(other_contact_name) / "calibration.json";
     if (other_contact_ && fs::exists(other))
       add_other_contact(read_json(other), contact_name(setup_), contact_name(*other_contact_),
                         calibration);
+    calibration["statement"] = calibration["statement"].get<std::string>() + contact_note_;
     summary["statement"] = calibration["statement"];
     write_json(summary, target / "summary.json");
     write_json(calibration, target / "calibration.json");

@@ -17,10 +17,9 @@ namespace fingertip::studies {
 /// continuum that makes data or judges the lattice, the fit, the surrogate.
 ///   reference_N/   continuum of curve N
 ///   fit/           the fit itself (moduli: in the calibration's folder)
-///   fit_other_contact/  beside it, where the contact is not known
-///   continuum_N/   that answers for curve N, run by the fit at Poisson's ratios
-///   bias_N/        continuum of curve N at the estimates
-///   surrogate/     the calibrated lattice's press, smoothed
+///   fit_other_contact/  beside it, where the contact is not known; counts where `fit` has no
+///   answer continuum_N/   that answers for curve N, run by the fit at Poisson's ratios bias_N/
+///   continuum of curve N at the estimates surrogate/     the calibrated lattice's press, smoothed
 /// In the folder itself: calibration.json, material.toml, fit_data.csv, summary.json, surrogate.csv
 /// and .json.
 class CalibrationStages {
@@ -55,6 +54,7 @@ class CalibrationStages {
   std::vector<PlannedJob> data_jobs();
   void take_continuum_data(const std::filesystem::path& run);
   std::vector<PlannedJob> fits(const std::filesystem::path& run);
+  void choose_contact(const std::filesystem::path& run);
   std::vector<PlannedJob> follow_up_jobs(const std::filesystem::path& run);
   PlannedJob surrogate(const std::filesystem::path& run) const;
   PlannedJob bias(const std::filesystem::path& run, std::size_t curve) const;
@@ -70,6 +70,8 @@ class CalibrationStages {
   Stage stage_ = Stage::data;
   FitSetup setup_;  ///< empty for the moduli
   std::optional<FitSetup> other_contact_;
+  std::string fit_name_ = "fit";  ///< folder of the fit that counts
+  std::string contact_note_;      ///< for people
 };
 
 }  // namespace fingertip::studies

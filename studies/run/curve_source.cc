@@ -73,22 +73,9 @@ std::vector<CurveSource> curve_sources(const fs::path& entry) {
   const toml::table root = parsed_description(entry);
   const TestTable whole(entry, root, "");
   whole.check_keys({"data", "press"});
-  if (const auto data = whole.table("data")) data->check_keys(shared_press_keys);
-  const toml::array* presses = root["press"].as_array();
-  if (presses == nullptr || presses->empty())
-    whole.refuse("press", "", "the file names no press", "write [[press]] with path");
-  std::set<string_view> known = shared_press_keys;
-  known.insert({"name", "path"});
   std::vector<CurveSource> sources;
-  std::size_t count = 0;
-  for (const toml::node& node : *presses) {
-    if (!node.is_table())
-      whole.refuse("press", "", "every press is a table", "write [[press]] above its keys");
-    const TestTable press(entry, *node.as_table(), fmt::format("press[{}]", ++count),
-                          root["data"].as_table());
-    press.check_keys(known);
-    add_press(press, sources);
-  }
+  each_table(entry, root, "press", "path", shared_press_keys,
+             [&](const TestTable& press) { add_press(press, sources); });
   return sources;
 }
 

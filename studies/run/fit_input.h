@@ -29,14 +29,6 @@ enum class CurveKind {
   moving_press,  ///< the moving lattice
 };
 
-/// By how much another theory's forces exceed the model's, relative, at every sample of every
-/// press: a suspect where a fit misses its data, and no part of the model.
-struct Excess {
-  std::string name;        ///< "finite strain"
-  const char* cause = "";  ///< for people
-  std::vector<std::vector<double>> at_samples;
-};
-
 struct FitInput;
 
 /// A measurement that might follow, of which the fit tells what it would tell.
@@ -76,7 +68,6 @@ struct FitInput {
   /// same; and what that is, for people. None: nothing.
   std::vector<std::vector<double>> theory_error;
   std::string theory_error_of;
-  std::vector<Excess> excesses;
   bool density_known = true, retardation_time_known = true;  ///< of base.rubber, for material.toml
   std::vector<std::string> profile;                          ///< two parameters, or none
   bool profile_intervals = false;                            ///< else those of the covariance

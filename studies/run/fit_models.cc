@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "calibration/curves/curve_checks.h"
 #include "calibration/curves/damping_models.h"
@@ -24,10 +23,6 @@ using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::array<calibration::RigQuantity, 4> quantities_of(const calibration::Rig& rig) {
-  return {rig.touch_offset, rig.compliance, rig.force_offset, rig.drift};
-}
 
 /// The stiffness of a ramp errs by the square of the samples' distance.
 constexpr int ramp_samples = 40;
@@ -135,9 +130,11 @@ ordered_json curve_inputs(const FitInput& input, std::size_t i) {
   if (is_travel(input, i)) {
     inputs["time"] = curve.time;
     inputs["machine"] = input.travels[i]->machine;
-    for (const calibration::RigQuantity& each : quantities_of(input.travels[i]->rig))
+    for (const auto member : calibration::rig_members) {
+      const calibration::RigQuantity& each = input.travels[i]->rig.*member;
       inputs["rig"].push_back(each.place ? ordered_json{{"free", *each.place}}
                                          : ordered_json(each.value));
+    }
   }
   if (input.kinds[i] == CurveKind::continuum)
     inputs["continuum"] = reference_job(input.continua[i]).key();

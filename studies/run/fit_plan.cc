@@ -35,10 +35,7 @@ std::string in_words(const std::string& press, double depth) {
 Travel planned_travel(const RigSettings& rig, const std::string& machine, double deepest) {
   Travel travel{rig, machine, rig.touch_offset.value, deepest, 1.0, {}, {}};
   travel.depths = calibration::depths_for_rig(deepest);
-  travel.rig = {{rig.touch_offset.value, {}},
-                {rig.compliance.value, {}},
-                {rig.force_offset.value, {}},
-                {rig.drift.value, {}}};
+  travel.rig = rig_of(rig);
   return travel;
 }
 

@@ -19,7 +19,6 @@ using calibration::MaterialParameter;
 using calibration::Observations;
 using calibration::Prospect;
 using calibration::Rig;
-using calibration::RigQuantity;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -226,10 +225,8 @@ FitInput made_anew(const FitInput& input, double depth) {
       input.options.free.begin() + std::ptrdiff_t(material_parameters(input)));
   if (is_travel(input, 0)) {
     again.travels = {input.travels.front()};
-    for (RigQuantity* each :
-         {&again.travels[0]->rig.touch_offset, &again.travels[0]->rig.compliance,
-          &again.travels[0]->rig.force_offset, &again.travels[0]->rig.drift})
-      each->place.reset();
+    for (const auto member : calibration::rig_members)
+      (again.travels[0]->rig.*member).place.reset();
     free_rigs(again);
   }
   return again;

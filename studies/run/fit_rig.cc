@@ -7,7 +7,7 @@
 #include "meshes/errors.h"
 #include "meshes/files.h"
 #include "meshes/interpolation.h"
-#include "studies/run/fit_input.h"
+#include "studies/run/fit_models.h"
 
 namespace fingertip::studies {
 
@@ -101,6 +101,13 @@ std::vector<double> Travel::indentations(const Curve& curve,
   return result;
 }
 
+calibration::Rig rig_of(const RigSettings& settings) {
+  return {{settings.touch_offset.value},
+          {settings.compliance.value},
+          {settings.force_offset.value},
+          {settings.drift.value}};
+}
+
 Travel travel_of(const Curve& curve, const CalibrationSettings& settings) {
   Travel travel{settings.rig, settings.machine, 0.0, 0.0, 0.0, {}, {}};
   const RigSettings& rig = travel.settings;
@@ -124,10 +131,7 @@ Travel travel_of(const Curve& curve, const CalibrationSettings& settings) {
          "is pressed"});
   const double early = rig.touch_offset.fitted ? (1.0 + reserve) * travel.reach : travel.reach;
   travel.depths = calibration::depths_for_rig(early);
-  travel.rig = {{rig.touch_offset.value, {}},
-                {rig.compliance.value, {}},
-                {rig.force_offset.value, {}},
-                {rig.drift.value, {}}};
+  travel.rig = rig_of(rig);
   return travel;
 }
 
@@ -207,11 +211,8 @@ std::vector<calibration::RigValue> rig_values(const FitInput& input) {
 
 std::vector<double> depths_of_values(const FitInput& input, std::size_t i) {
   if (!is_travel(input, i)) return input.curves[i].x;
-  Eigen::VectorXd start(Eigen::Index(input.options.free.size()));
-  for (Eigen::Index k = 0; k < start.size(); ++k)
-    start(k) = input.options.free[std::size_t(k)].start;
   const Travel& travel = *input.travels[i];
-  std::vector<double> depths = travel.indentations(input.curves[i], start);
+  std::vector<double> depths = travel.indentations(input.curves[i], start_of(input.options));
   for (double& depth : depths) depth = std::max(depth, 0.01 * travel.depths.front());
   return depths;
 }

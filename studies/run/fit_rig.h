@@ -27,6 +27,9 @@ struct Travel {
                                    const Eigen::VectorXd& parameters) const;
 };
 
+/// Nothing of it free, at the settings' values.
+calibration::Rig rig_of(const RigSettings& settings);
+
 /// The settings that concern `curve`, and what its forces tell of the touch: F^(2/3) of Hertz is
 /// straight in delta, from 5 to 40 % of the largest force. Throws InvalidInput (key
 /// calibration.rig) for a travel that ends before the given touch, for no force, and for a drift

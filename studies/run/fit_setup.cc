@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "calibration/curves/forward_model.h"
-#include "calibration/curves/model_error.h"
 #include "meshes/files.h"
 #include "studies/run/continuum_model.h"
 #include "studies/run/fit_curves.h"
 #include "studies/run/fit_plan.h"
+#include "studies/run/fit_suspects.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/provenance.h"
 
@@ -293,49 +293,6 @@ FitSetup assembled(const LoadedConfig& loaded, Presses presses) {
   return fit;
 }
 
-/// Per press what finite strain adds to its forces, relative; empty where a theory of large strain
-/// is fitted, or where none could be pressed so far.
-std::vector<std::vector<double>> excess_of(const FitInput& input) {
-  std::vector<std::vector<double>> excess;
-  if (input.problem != CalibrationProblem::experiment ||
-      input.base.lattice.kinematics == lattice::Kinematics::finite)
-    return excess;
-  try {
-    for (const lattice::PressSetup& press : input.presses) {
-      const Eigen::VectorXd own = calibration::excess_of_finite_strain(press);
-      excess.emplace_back(own.begin(), own.end());
-    }
-  } catch (const meshes::NotConverged&) {
-    excess.clear();
-  } catch (const meshes::InvalidInput&) {
-    excess.clear();
-  }
-  return excess;
-}
-
-/// What a small-strain fit leaves out, and what the other contact would change.
-void add_excesses(FitInput& input, const std::vector<std::vector<double>>& finite) {
-  if (input.problem != CalibrationProblem::experiment || input.presses.empty()) return;
-  if (!finite.empty() && input.theory_error != finite)
-    input.excesses.push_back({"finite strain",
-                              "the data go beyond small strain (leave lattice.kinematics out)",
-                              finite});
-  const bool slips = input.presses.front().protocol.contact != meshes::ContactMode::stick;
-  Excess other{slips ? "sticking" : "slip",
-               slips ? "the rubber sticks to the obstacle (press.contact = \"stick\")"
-                     : "the rubber slips on the obstacle (press.contact = \"frictionless\")",
-               {}};
-  try {
-    for (const lattice::PressSetup& press : input.presses) {
-      const Eigen::VectorXd own = calibration::excess_of_other_contact(press);
-      other.at_samples.emplace_back(own.begin(), own.end());
-    }
-    input.excesses.push_back(std::move(other));
-  } catch (const meshes::NotConverged&) {  // nothing is known of it
-  } catch (const meshes::InvalidInput&) {
-  }
-}
-
 /// The finite law knows these, too, and nobody chose small strain.
 bool may_be_finite(const LoadedConfig& loaded, const FitInput& input) {
   const auto given = [&](const char* key) { return loaded.entries.at(key).given; };
@@ -396,11 +353,8 @@ void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
 
 FitSetup set_up(const LoadedConfig& loaded, Presses presses) {
   FitSetup first = assembled(loaded, presses);
-  const auto excess = excess_of(first.input);
+  const auto excess = excess_of_finite_strain(first.input);
   FitSetup fit = at_the_right_strain(loaded, std::move(first), presses, excess);
-  const bool finite = fit.input.base.lattice.kinematics == lattice::Kinematics::finite;
-  if (presses == Presses::made)
-    add_excesses(fit.input, finite ? std::vector<std::vector<double>>{} : excess);
   set_budget(loaded, fit);
   fit.input.candidates = candidates_of(fit.loaded, fit);
   return fit;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <deque>
 #include <map>
+#include <optional>
 
 #include "calibration/curves/fit_statistics.h"
+#include "calibration/curves/model_error.h"
 
 namespace fingertip::studies {
 
@@ -13,19 +15,21 @@ using calibration::Curve;
 using calibration::FreeParameter;
 using calibration::MaterialParameter;
 using calibration::Rig;
-using calibration::RigQuantity;
+using calibration::rig_members;
+using calibration::rig_parameters;
 using calibration::Suspect;
 using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
 
-constexpr MaterialParameter of_rigs[] = {MaterialParameter::touch_offset,
-                                         MaterialParameter::compliance,
-                                         MaterialParameter::force_offset, MaterialParameter::drift};
-
 /// Another theory is there or not; coarse lattices tell its forces to a half.
 constexpr double most_excess = 1.5;
+
+constexpr const char* relaxation_name = "relaxation";
+
+/// Causes of smooth curves resemble each other: such a share of the best one's decrease is as good.
+constexpr double nearly_all = 0.9;
 
 /// A misfit that chance makes less often than this is one.
 constexpr double by_no_chance = 1e-3;
@@ -42,16 +46,9 @@ const char* cause_of(MaterialParameter parameter) {
   }
 }
 
-RigQuantity& quantity_of(Rig& rig, Index k) {
-  RigQuantity* const all[] = {&rig.touch_offset, &rig.compliance, &rig.force_offset, &rig.drift};
-  return *all[k];
-}
-
-/// Whether the fit seeks that of `of_rigs` itself.
-bool is_fitted(const FitInput& input, std::size_t i, Index k) {
-  if (!is_travel(input, i)) return false;
-  Rig rig = input.travels[i]->rig;
-  return quantity_of(rig, k).place.has_value();
+/// Whether the fit seeks that of `rig_parameters` itself.
+bool is_fitted(const FitInput& input, std::size_t i, std::size_t k) {
+  return is_travel(input, i) && (input.travels[i]->rig.*rig_members[k]).place;
 }
 
 /// The press of a rubber that is found, times a factor.
@@ -66,9 +63,9 @@ class ScaledPress final : public calibration::ForwardModel {
   VectorXd forces_;
 };
 
-/// One of `of_rigs` of a curve, or of the curves of a machine.
+/// One of `rig_parameters` of a curve, or of the curves of a machine.
 struct Freed {
-  Index kind = 0;
+  std::size_t kind = 0;
   std::string of;
   std::vector<std::size_t> curves;
 };
@@ -120,22 +117,20 @@ class Trials {
   }
 
   FreeParameter parameter_of(const Freed& freed) const {
-    FreeParameter free{.parameter = of_rigs[freed.kind]};
+    FreeParameter free{.parameter = rig_parameters[freed.kind]};
     double reach = 0.0, force = 0.0, span = 0.0;
     for (const std::size_t i : freed.curves) {
       const Curve& curve = input_.curves[i];
       reach = std::max(reach, curve.x.back() - curve.x.front());
       force = std::max(force, *std::ranges::max_element(curve.y));
       if (!curve.time.empty()) span = std::max(span, curve.time.back() - curve.time.front());
-      if (is_travel(input_, i)) {
-        Rig rig = input_.travels[i]->rig;
-        free.start = quantity_of(rig, freed.kind).value;
-      }
+      if (is_travel(input_, i))
+        free.start = (input_.travels[i]->rig.*rig_members[freed.kind]).value;
     }
     const double scales[] = {reach, reach / force, force, force / std::max(span, 1e-9)};
     free.scale = scales[freed.kind];
     free.of = freed.of;
-    if (of_rigs[freed.kind] == MaterialParameter::compliance) {
+    if (rig_parameters[freed.kind] == MaterialParameter::compliance) {
       free.lower = free.start - lowest_compliance * free.scale;
       free.upper = free.start + highest_compliance * free.scale;
     }
@@ -151,11 +146,11 @@ class Trials {
     for (std::size_t i = 0; i < input_.curves.size(); ++i) {
       const bool travel = is_travel(input_, i);
       Rig rig = travel ? input_.travels[i]->rig : Rig{};
-      for (Index q = 0; q < 4; ++q)
-        if (auto& place = quantity_of(rig, q).place) place = *place - shift_;
+      for (const auto member : rig_members)
+        if (auto& place = (rig.*member).place) place = *place - shift_;
       for (std::size_t f = 0; f < freed.size(); ++f)
         if (std::ranges::find(freed[f].curves, i) != freed[f].curves.end())
-          quantity_of(rig, freed[f].kind).place = own + Index(f);
+          (rig.*rig_members[freed[f].kind]).place = own + Index(f);
       models.push_back(std::make_unique<calibration::RigModel>(
           presses_[i], travel ? input_.travels[i]->depths : input_.presses[i].protocol.samples, 1,
           rig, input_.curves[i].x, input_.curves[i].time, count));
@@ -189,10 +184,6 @@ Stack stacked(const FitInput& input, const calibration::CurveFit& fit) {
   return stack;
 }
 
-}  // namespace
-
-namespace {
-
 /// The rig's quantities that the fit holds.
 std::vector<Freed> held_by(const FitInput& input) {
   std::vector<Freed> held;
@@ -200,15 +191,16 @@ std::vector<Freed> held_by(const FitInput& input) {
   std::map<std::string, std::vector<std::size_t>> machines;
   for (std::size_t i = 0; i < curves; ++i)
     machines[is_travel(input, i) ? input.travels[i]->machine : ""].push_back(i);
-  for (Index k = 0; k < 4; ++k) {
-    if (of_rigs[k] == MaterialParameter::compliance) {
+  for (std::size_t k = 0; k < rig_members.size(); ++k) {
+    if (rig_parameters[k] == MaterialParameter::compliance) {
       for (const auto& [machine, which] : machines)
         if (!is_fitted(input, which.front(), k))
           held.push_back({k, machines.size() == 1 ? "" : machine, which});
       continue;
     }
     for (std::size_t i = 0; i < curves; ++i) {
-      const bool no_times = of_rigs[k] == MaterialParameter::drift && input.curves[i].time.empty();
+      const bool no_times =
+          rig_parameters[k] == MaterialParameter::drift && input.curves[i].time.empty();
       if (!no_times && !is_fitted(input, i, k))
         held.push_back({k, curves == 1 ? "" : input.curves[i].name, {i}});
     }
@@ -226,6 +218,74 @@ void if_it_can_be(const Do& act) {
   }
 }
 
+/// Of every press; empty where one of them finds no equilibrium.
+std::vector<std::vector<double>> excess_of(const FitInput& input,
+                                           Eigen::VectorXd (*theory)(lattice::PressSetup)) {
+  std::vector<std::vector<double>> excess;
+  if_it_can_be([&] {
+    for (const lattice::PressSetup& press : input.presses) {
+      const VectorXd own = theory(press);
+      excess.emplace_back(own.begin(), own.end());
+    }
+  });
+  if (excess.size() != input.presses.size()) excess.clear();
+  return excess;
+}
+
+/// By how much another theory's forces exceed the model's, relative, at every sample of every
+/// press.
+struct Excess {
+  std::string name;        ///< "finite strain"
+  const char* cause = "";  ///< for people
+  std::vector<std::vector<double>> at_samples;
+};
+
+/// What a small-strain fit leaves out, and what the other contact would change.
+std::vector<Excess> excesses_of(const FitInput& input) {
+  std::vector<Excess> excesses;
+  auto finite = excess_of_finite_strain(input);
+  if (!finite.empty() && input.theory_error != finite)
+    excesses.push_back({"finite strain",
+                        "the data go beyond small strain (leave lattice.kinematics out)",
+                        std::move(finite)});
+  const bool slips = input.presses.front().protocol.contact != meshes::ContactMode::stick;
+  auto other = excess_of(input, calibration::excess_of_other_contact);
+  if (!other.empty())
+    excesses.push_back({slips ? "sticking" : "slip",
+                        slips
+                            ? "the rubber sticks to the obstacle (press.contact = \"stick\")"
+                            : "the rubber slips on the obstacle (press.contact = \"frictionless\")",
+                        std::move(other)});
+  return excesses;
+}
+
+/// Of files that show a loop or a hold: a branch of the rubber that fades as long as their loading
+/// takes, which is where it bends the loading most. Without times the speed counts as constant.
+std::optional<Suspect> relaxation(const FitInput& input, const Stack& stack) {
+  Suspect suspect{relaxation_name,
+                  "",
+                  "the rubber's force falls with time, as its loop or hold shows; press slower, or "
+                  "give the rubber its branches (calibration.problem = \"material\")",
+                  "1",
+                  VectorXd::Zero(stack.values),
+                  0.0,
+                  0.0};
+  for (std::size_t i = 0; i < input.curves.size(); ++i) {
+    const Curve& curve = input.curves[i];
+    const VectorXd& forces = stack.fitted[i];
+    const std::vector<double>& times = curve.time.empty() ? curve.x : curve.time;
+    const double constant = times.back() - times.front();
+    if (!(constant > 0.0) || !(forces(forces.size() - 1) > 0.0)) continue;
+    const double shown = calibration::fading_of(curve.course, forces, curve.x, times, constant);
+    if (!(shown > 0.0)) continue;
+    suspect.most = std::max(suspect.most, std::min(1.0, most_excess * shown));
+    suspect.change.segment(stack.first[i], forces.size()) =
+        calibration::fading(forces, times, constant);
+  }
+  if (suspect.most == 0.0) return std::nullopt;
+  return suspect;
+}
+
 /// The two kinds of a rig's quantities that explain most together, where none does alone.
 std::vector<std::string> best_pair(Trials& trials, const std::vector<Freed>& held,
                                    const std::vector<Accusation>& found) {
@@ -235,12 +295,12 @@ std::vector<std::string> best_pair(Trials& trials, const std::vector<Freed>& hel
       calibration::chi_square_above(std::max(0.0, least), trials.freedom() - 1) > by_no_chance)
     return {};
   std::vector<std::string> pair;
-  for (Index a = 0; a < 4; ++a)
-    for (Index b = a + 1; b < 4; ++b) {
+  for (std::size_t a = 0; a < rig_members.size(); ++a)
+    for (std::size_t b = a + 1; b < rig_members.size(); ++b) {
       std::vector<Freed> both;
       for (const Freed& each : held)
         if (each.kind == a || each.kind == b) both.push_back(each);
-      const auto is = [&](Index kind) {
+      const auto is = [&](std::size_t kind) {
         return std::ranges::find(both, kind, &Freed::kind) != both.end();
       };
       if (!is(a) || !is(b)) continue;
@@ -248,14 +308,21 @@ std::vector<std::string> best_pair(Trials& trials, const std::vector<Freed>& hel
         const double left = trials.left(both);
         if (left >= least) return;
         least = left;
-        pair = {std::string(calibration::name(of_rigs[a])),
-                std::string(calibration::name(of_rigs[b]))};
+        pair = {std::string(calibration::name(rig_parameters[a])),
+                std::string(calibration::name(rig_parameters[b]))};
       });
     }
   return pair;
 }
 
 }  // namespace
+
+std::vector<std::vector<double>> excess_of_finite_strain(const FitInput& input) {
+  if (input.problem != CalibrationProblem::experiment ||
+      input.base.lattice.kinematics == lattice::Kinematics::finite)
+    return {};
+  return excess_of(input, calibration::excess_of_finite_strain);
+}
 
 std::vector<Accusation> accusations_of(const FitInput& input, const calibration::CurveFit& fit,
                                        const calibration::CurveFitOptions& options,
@@ -264,7 +331,7 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
   if (input.problem != CalibrationProblem::experiment || input.presses.empty()) return found;
   const Stack stack = stacked(input, fit);
   std::vector<Suspect> suspects;
-  for (const Excess& excess : input.excesses) {
+  for (const Excess& excess : excesses_of(input)) {
     Suspect& suspect = suspects.emplace_back(Suspect{
         excess.name, "", excess.cause, "1", VectorXd::Zero(stack.values), 0.0, most_excess});
     for (std::size_t i = 0; i < input.curves.size(); ++i) {
@@ -273,9 +340,14 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
           stack.fitted[i].cwiseProduct(VectorXd::Map(relative.data(), Index(relative.size())));
     }
   }
+  if (auto fades = relaxation(input, stack)) suspects.push_back(*std::move(fades));
   found = calibration::accusations(fit, options, suspects);
   const auto gravest_first = [&] {
     std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);
+    // What explains as much and shows itself besides goes first: no other cause makes a loop.
+    const auto fades = std::ranges::find(found, relaxation_name, &Accusation::name);
+    if (fades != found.end() && fades->decrease > nearly_all * found.front().decrease)
+      std::rotate(found.begin(), fades, fades + 1);
   };
   gravest_first();
   if_it_can_be([&] {  // a press without forces has no rig
@@ -283,7 +355,7 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
     const std::vector<Freed> held = held_by(input);
     for (const Freed& each : held)
       if_it_can_be([&] {
-        const MaterialParameter parameter = of_rigs[each.kind];
+        const MaterialParameter parameter = rig_parameters[each.kind];
         found.push_back(trials.of({std::string(calibration::name(parameter)),
                                    each.of,
                                    cause_of(parameter),

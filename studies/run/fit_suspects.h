@@ -8,10 +8,14 @@
 
 namespace fingertip::studies {
 
+/// Per press of an experiment what finite strain adds to its forces, relative, at every sample;
+/// empty where a theory of large strain is fitted, or where none could be pressed so far.
+std::vector<std::vector<double>> excess_of_finite_strain(const FitInput& input);
+
 /// Of measured presses, at the estimates of `fit`, the gravest first: touch offset and zero of the
 /// force of every curve and compliance of every machine where they are not fitted, drift where
 /// there are times, each fitted together with the scale of the forces and the rig's own parameters;
-/// and to first order what FitInput::excesses knows (finite strain, the other contact). Where none
+/// and to first order finite strain and the other contact, pressed on coarse lattices. Where none
 /// alone makes the misfit one of chance, the two kinds of a rig's quantities come first that
 /// together explain most: a late touch and a soft frame look like a zero of the force.
 std::vector<calibration::Accusation> accusations_of(const FitInput& input,

@@ -303,21 +303,8 @@ MaterialTestFile read_material_tests(const fs::path& file) {
     result.source = about->text("source").value_or("");
     result.licence = about->text("licence").value_or("");
   }
-  if (const auto data = whole.table("data")) data->check_keys(shared_keys);
-  const toml::array* tests = root["test"].as_array();
-  if (tests == nullptr || tests->empty())
-    whole.refuse("test", "", "the file names no test", "write [[test]] with path and kind");
-  std::set<string_view> known = shared_keys;
-  known.insert({"name", "path"});
-  std::size_t count = 0;
-  for (const toml::node& node : *tests) {
-    if (!node.is_table())
-      whole.refuse("test", "", "every test is a table", "write [[test]] above its keys");
-    const TestTable test(file, *node.as_table(), fmt::format("test[{}]", ++count),
-                         root["data"].as_table());
-    test.check_keys(known);
-    TestReader(test, result).read();
-  }
+  each_table(file, root, "test", "path and kind", shared_keys,
+             [&](const TestTable& test) { TestReader(test, result).read(); });
   if (result.fitted.empty())
     whole.refuse("test", "", "at least one test is fitted", "write use = \"fit\"");
   note_rates(result);

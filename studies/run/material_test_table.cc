@@ -148,6 +148,28 @@ double sign_of(const TestTable& table) {
   return double(sign);
 }
 
+void each_table(const std::filesystem::path& file, const toml::table& root, const std::string& name,
+                const std::string& needs, const std::set<std::string_view>& shared,
+                const std::function<void(const TestTable&)>& take) {
+  const TestTable whole(file, root, "");
+  if (const auto data = whole.table("data")) data->check_keys(shared);
+  const toml::array* tables = root[name].as_array();
+  if (tables == nullptr || tables->empty())
+    whole.refuse(name, "", "the file names no " + name, "write [[" + name + "]] with " + needs);
+  std::set<std::string_view> known = shared;
+  known.insert({"name", "path"});
+  std::size_t count = 0;
+  for (const toml::node& node : *tables) {
+    if (!node.is_table())
+      whole.refuse(name, "", "every " + name + " is a table",
+                   "write [[" + name + "]] above its keys");
+    const TestTable own(file, *node.as_table(), fmt::format("{}[{}]", name, ++count),
+                        root["data"].as_table());
+    own.check_keys(known);
+    take(own);
+  }
+}
+
 TableLayout layout_of(const TestTable& table) {
   TableLayout layout;
   if (table.has("separator"))

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -81,6 +82,12 @@ class TestTable {
 
 /// The TOML file. Throws InvalidInput with file and line.
 toml::table parsed_description(const std::filesystem::path& file);
+
+/// Calls `take` with every [[name]] of a description, in which [data] has what they have in common:
+/// the `shared` keys; each has name and path, too. `needs`: "path and kind".
+void each_table(const std::filesystem::path& file, const toml::table& root, const std::string& name,
+                const std::string& needs, const std::set<std::string_view>& shared,
+                const std::function<void(const TestTable&)>& take);
 
 /// The keys separator, decimal, skip and header of a table.
 TableLayout layout_of(const TestTable& table);

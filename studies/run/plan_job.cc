@@ -46,28 +46,6 @@ void write_rows_of(const FitInput& input, const fs::path& file) {
   meshes::write_rows(rows, file);
 }
 
-/// 95 %, as a fit to such data would have it.
-double half_width(const Outlook& found, Index i) {
-  return calibration::normal_95() * std::sqrt(found.covariance(i, i));
-}
-
-std::vector<calibration::NextEntry> next_of(const FitInput& input, const VectorXd& at,
-                                            const Outlook& found) {
-  std::vector<calibration::NextEntry> entries;
-  for (const calibration::Prospect& each : found.prospects) {
-    auto& entry = entries.emplace_back();
-    entry.name = each.name;
-    entry.press = each.press;
-    entry.failure = each.failure;
-    for (Index i = 0; i < each.times.size(); ++i) {
-      const double width = half_width(found, i) / each.times(i);
-      entry.parameters.push_back({calibration::label(input.options.free[std::size_t(i)]),
-                                  at(i) - width, at(i) + width, each.times(i)});
-    }
-  }
-  return entries;
-}
-
 std::string interval_words(const PlannedParameter& parameter) {
   const double width = parameter.upper - parameter.value;
   const std::string unit = parameter.unit == "1" ? "" : " " + parameter.unit;
@@ -109,20 +87,22 @@ PlanFile file_of(const FitInput& input, const PlannedNoise& noise, const VectorX
     plan.presses.push_back({input.curves[i].name, input.conditions[i], input.curves[i].x.size(),
                             depths_of_values(input, i).back(), input.curves[i].y.back()});
   std::vector<std::string> labels;
-  const VectorXd inverse = found.covariance.diagonal().cwiseSqrt().cwiseInverse();
+  // 95 %, as a fit to such data would have it.
+  const VectorXd error = found.covariance.diagonal().cwiseSqrt(),
+                 width = calibration::normal_95() * error, inverse = error.cwiseInverse();
+  const VectorXd lower = at - width, upper = at + width;
   const Eigen::MatrixXd correlation =
       inverse.asDiagonal() * found.covariance * inverse.asDiagonal();
   for (Index i = 0; i < at.size(); ++i) {
     const FreeParameter& free = input.options.free[std::size_t(i)];
     labels.push_back(calibration::label(free));
-    const double width = half_width(found, i);
     auto& parameter = plan.parameters.emplace_back(
         PlannedParameter{labels.back(),
                          std::string(calibration::unit(free.parameter)),
                          at(i),
-                         std::sqrt(found.covariance(i, i)),
-                         at(i) - width,
-                         at(i) + width,
+                         error(i),
+                         lower(i),
+                         upper(i),
                          {}});
     if (free.prior) parameter.prior = {free.prior->mean, free.prior->deviation};
     const VectorXd row = correlation.row(i).transpose();
@@ -131,7 +111,7 @@ PlanFile file_of(const FitInput& input, const PlannedNoise& noise, const VectorX
   for (const CollinearPair& pair : calibration::nearly_collinear(found.covariance))
     plan.collinear.push_back(
         {labels[pair.first], labels[pair.second], pair.correlation, pair.times});
-  plan.next = next_of(input, at, found);
+  plan.next = calibration::next_entries(found.prospects, labels, at, lower, upper);
   plan.statement = statement_of(plan, labels, found, material_parameters(input));
   return plan;
 }

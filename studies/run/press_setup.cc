@@ -183,11 +183,7 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded) {
 
 lattice::PressSetup free_press(ConfigSource source) {
   source.sets.emplace_back("press.mode=pid");
-  const LoadedConfig loaded = load_config(source);
-  lattice::PressSetup setup = press_setup(with_material(loaded, LatticeUse::press));
-  const std::vector<meshes::Violation> broken = setup.violations();
-  if (!broken.empty()) throw loaded.locate(broken);
-  return setup;
+  return press_setup(load_config(source));
 }
 
 fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded) {

@@ -24,7 +24,7 @@ LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use);
 lattice::PressSetup press_setup(const LoadedConfig& loaded);
 
 /// The press of a finger whose rod nobody moves but the caller (press.mode pid), for loops of
-/// others. Throws as press_setup and for every rule it breaks.
+/// others. Throws as press_setup.
 lattice::PressSetup free_press(ConfigSource source);
 
 /// The continuum's job. Throws ConfigError.

@@ -1,4 +1,5 @@
-/// Random bodies of the lattice at equilibrium, free blocks and tips cut at R/6, of every model.
+/// Random bodies of the lattice at equilibrium, free blocks and tips of every shape cut at R/6, of
+/// every model.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +9,7 @@
 
 #include "lattice/model/model.h"
 #include "lattice/statics/cut_lattice.h"
+#include "tests/fingers.h"
 #include "tests/property/random_numbers.h"
 
 namespace fingertip::random {
@@ -57,13 +59,45 @@ inline LatticeBody block_of(const Rubber& rubber, const LatticeSettings& setting
 }
 
 /// Thick and thin layers, short sleeves (long ones have more of the same cells).
-inline Geometry random_geometry() {
+inline Geometry random_dome(double size) {
   Geometry geometry;
-  geometry.tip_radius = std::pow(10.0, uniform(-3.0, -1.0));
-  geometry.rod_radius = uniform(0.1, 0.666) * geometry.tip_radius;
-  geometry.sleeve_length = std::max(0.0, uniform(-0.1, 0.5)) * geometry.tip_radius;
-  geometry.rod_length = 2.0 * geometry.tip_radius;
+  geometry.tip_radius = size;
+  geometry.rod_radius = uniform(0.1, 0.666) * size;
+  geometry.sleeve_length = std::max(0.0, uniform(-0.1, 0.5)) * size;
+  geometry.rod_length = 2.0 * size;
   return geometry;
+}
+
+/// A cylinder, glued at its base, with a cap that is flat or pointed.
+inline Geometry random_profile(double size) {
+  using enum meshes::ProfileSurface;
+  using enum meshes::ProfileCurve;
+  const double height = uniform(0.5, 1.5) * size, top = height + uniform(0.3, 1.0) * size;
+  return Geometry::of_profile({{size, 0.0, contact, straight},
+                               {size, height, contact, straight},
+                               {uniform(0.4, 0.8) * size, 0.5 * (height + top), contact, spline},
+                               {0.0, top, axis, straight},
+                               {0.0, 0.0, bond, straight}});
+}
+
+/// Facets: the same without a curve, oval and aslant.
+inline Geometry random_solid(double size) {
+  const double height = uniform(0.5, 1.5) * size, top = height + uniform(0.3, 1.0) * size,
+               wide = uniform(0.7, 1.0), lean = uniform(-0.2, 0.2);
+  auto mesh =
+      fingers::revolved({{0.0, 0.0}, {size, 0.0}, {size, height}, {0.0, top}}, integer(4, 12));
+  for (Vector3& w : mesh.vertices) w = Vector3(w.x() + lean * w.z(), wide * w.y(), w.z());
+  const meshes::Region held{{{2, true, uniform(0.01, 0.3) * height}}};
+  return Geometry::of_solid(std::make_shared<meshes::Solid>(mesh, held), -size);
+}
+
+inline Geometry random_geometry() {
+  const double size = std::pow(10.0, uniform(-3.0, -1.0));
+  switch (integer(0, 3)) {
+    case 0: return random_dome(size);
+    case 1: return random_profile(size);
+    default: return random_solid(size);
+  }
 }
 
 inline LatticeBody tip_of(const Geometry& geometry, const Rubber& rubber,
@@ -83,11 +117,14 @@ struct Specimen {
 inline Specimen random_tip(LatticeSettings settings) {
   Specimen specimen;
   specimen.geometry = random_geometry();
-  specimen.spacing = specimen.geometry.tip_radius / 6.0;
+  specimen.spacing =
+      std::min(specimen.geometry.tip_radius / 6.0, specimen.geometry.coarsest_spacing());
   const Rubber rubber = random_rubber_for(settings);
   give_constants(settings, rubber, specimen.spacing);
   settings.offset = random_vector(1.0);
-  if (settings.model != ModelKind::published) settings.axes = random_rotation();
+  // A meridian is cut by a grid along its axis alone.
+  const bool may_turn = settings.model != ModelKind::published && specimen.geometry.profile.empty();
+  if (may_turn) settings.axes = random_rotation();
   specimen.body = tip_of(specimen.geometry, rubber, settings);
   return specimen;
 }

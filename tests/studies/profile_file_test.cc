@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <string>
 
 #include "meshes/errors.h"
@@ -90,36 +89,6 @@ TEST(ProfileFile, RefusesWithPlaceAndRemedy) {
   expect_refused("r [mm],z [mm],surface,curve\n0,0,axis,\n0,9,contact,\n5,0,bond,\n3,12,free,\n",
                  {"cross or touch itself"});
   EXPECT_EQ(refusal_of(solid_finger), "");
-}
-
-/// Whatever is done to the text: a finger or a refusal.
-TEST(ProfileFile, SurvivesDamage) {
-  std::mt19937 generator(7);
-  const TemporaryFolder folder;
-  const std::string letters = "0123456789.,-e \nracbond[]m\"#splineaxis";
-  int accepted = 0;
-  for (int i = 0; i < 3000; ++i) {
-    std::string text = solid_finger;
-    const int changes = 1 + int(generator() % 4);
-    for (int c = 0; c < changes; ++c) {
-      const std::size_t place = generator() % text.size();
-      switch (generator() % 3) {
-        case 0: text[place] = letters[generator() % letters.size()]; break;
-        case 1: text.erase(place, 1 + generator() % 5); break;
-        default: text.insert(place, 1, letters[generator() % letters.size()]);
-      }
-      if (text.empty()) text = "r";
-    }
-    write_text(folder / "damaged.csv", text);
-    try {
-      const auto geometry = meshes::Geometry::of_profile(read_profile(folder / "damaged.csv"));
-      EXPECT_GT(geometry.tip_volume(), 0.0) << text;
-      EXPECT_GT(geometry.coarsest_spacing(), 0.0) << text;
-      ++accepted;
-    } catch (const meshes::InvalidInput&) {
-    }
-  }
-  EXPECT_GT(accepted, 100);
 }
 
 }  // namespace

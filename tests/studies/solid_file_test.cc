@@ -136,49 +136,6 @@ TEST(SolidFile, RefusesWithPlaceAndRemedy) {
                  {"case.toml:3", "open edge at (x, y, z) = (", "fill the hole"});
 }
 
-/// Whatever is done to the file: a finger or a refusal, and soon.
-void survive_damage(int count, const std::string& whole, const std::string& letters) {
-  std::mt19937 generator(11);
-  const TemporaryFolder folder;
-  int accepted = 0;
-  for (int i = 0; i < count; ++i) {
-    std::string text = whole;
-    const int changes = 1 + int(generator() % 4);
-    for (int c = 0; c < changes; ++c) {
-      const std::size_t place = generator() % text.size();
-      const char letter =
-          letters.empty() ? char(generator()) : letters[generator() % letters.size()];
-      switch (generator() % 4) {
-        case 0: text.erase(place, 1 + generator() % 60); break;
-        case 1: text.insert(place, 1, letter); break;
-        case 2: text.insert(place, text.substr(generator() % text.size(), 60)); break;
-        default: text[place] = letter;
-      }
-      if (text.empty()) text = "s";
-    }
-    write_text(folder / "damaged.stl", text);
-    try {
-      const auto solid = read_solid({folder / "damaged.stl", "mm", "z < 1 mm or x > 3 mm"});
-      EXPECT_GT(solid->volume(), 0.0);
-      EXPECT_GT(solid->wall(), 0.0);
-      EXPECT_TRUE(std::isfinite(solid->signed_distance({0.0, 0.0, 0.03})));
-      ++accepted;
-    } catch (const meshes::InvalidInput&) {
-    }
-  }
-  EXPECT_GT(accepted, count / 100);
-}
-
-TEST(SolidFile, SurvivesDamagedText) {
-  survive_damage(1500, stl_text(fingers::revolved({{0.0, 0.0}, {0.006, 0.0}, {0.0, 0.012}}, 7)),
-                 "0123456789.,-+e \nvertexfacsolidnormalouterloopend");
-}
-
-TEST(SolidFile, SurvivesDamagedBytes) {
-  const auto mesh = fingers::revolved({{0.0, 0.0}, {0.006, 0.0}, {0.0, 0.012}}, 7);
-  survive_damage(1500, stl_bytes(mesh), "");
-}
-
 /// Corners moved at random: what crosses itself is told, what does not is a finger.
 TEST(SolidFile, SurvivesBentFingers) {
   std::mt19937 generator(5);

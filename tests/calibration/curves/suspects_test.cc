@@ -162,3 +162,97 @@ TEST(Narrowing, IsThatOfAllNormalEquationsTogether) {
 }
 
 }  // namespace
+
+namespace {
+
+/// Of a branch of weight 1 whose force without fading is `force`(s): rectangles of a thousandth.
+template <typename Force>
+double remembered(const Force& force, double time, double constant) {
+  constexpr int steps = 100000;
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double s = time * i / steps, next = time * (i + 1) / steps;
+    sum += std::exp((0.5 * (s + next) - time) / constant) * (force(next) - force(s));
+  }
+  return sum;
+}
+
+struct Ramp {
+  std::vector<double> times;
+  VectorXd forces;
+};
+
+template <typename Force>
+Ramp ramp_of(const Force& force, int values) {
+  Ramp ramp{{}, VectorXd(values)};
+  for (int i = 0; i < values; ++i) {
+    ramp.times.push_back(2.0 * i / (values - 1));
+    ramp.forces(i) = force(ramp.times.back());
+  }
+  return ramp;
+}
+
+}  // namespace
+
+/// ∫ exp(-(t-s)/c) a ds = a c (1 - exp(-t/c)), at times that are no even steps either.
+TEST(Fading, OfASteadyForceIsTheClosedForm) {
+  const std::vector<double> times = {0.0, 0.1, 0.5, 0.6, 2.0};
+  const VectorXd forces = 3.0 * VectorXd::Map(times.data(), Index(times.size()));
+  for (const double constant : {0.05, 0.7, 40.0}) {
+    const VectorXd change = fading(forces, times, constant);
+    for (std::size_t i = 0; i < times.size(); ++i)
+      EXPECT_NEAR(change(Index(i)),
+                  3.0 * constant * -std::expm1(-times[i] / constant) - 3.0 * times[i], 1e-13);
+  }
+  EXPECT_THROW(fading(forces, {0.0, 1.0}, 1.0), meshes::InvalidInput);
+}
+
+/// What is applied at once fades alone.
+TEST(Fading, OfAStepIsExponential) {
+  const VectorXd change = fading(VectorXd::Constant(3, 5.0), {1.0, 2.0, 4.0}, 1.5);
+  EXPECT_DOUBLE_EQ(change(0), 0.0);
+  EXPECT_NEAR(change(1), 5.0 * std::expm1(-1.0 / 1.5), 1e-14);
+  EXPECT_NEAR(change(2), 5.0 * std::expm1(-3.0 / 1.5), 1e-14);
+}
+
+TEST(Fading, OfACurvedForceConvergesWithItsValues) {
+  const auto force = [](double t) { return std::pow(t, 1.5); };
+  const double truth = remembered(force, 2.0, 0.8) - force(2.0);
+  double error[2] = {};
+  for (int k = 0; k < 2; ++k) {
+    const Ramp ramp = ramp_of(force, 20 << (2 * k));
+    error[k] = std::abs(fading(ramp.forces, ramp.times, 0.8)(ramp.forces.size() - 1) - truth);
+  }
+  EXPECT_LT(error[1], 1e-4 * std::abs(truth));
+  EXPECT_GT(error[0] / error[1], 8.0) << "second order would be 16";
+}
+
+/// A loop and a hold that are integrated here lead back to the weight that made them.
+TEST(Fading, TellsTheWeightOfALoopAndOfAHold) {
+  constexpr double weight = 0.15, constant = 0.8, turn = 2.0;
+  const auto force = [](double t) {
+    const double depth = t <= turn ? t : 2.0 * turn - t;
+    return std::pow(std::max(0.0, depth), 1.5);
+  };
+  const auto told = [&](double t) {
+    return (1.0 - weight) * force(t) + weight * remembered(force, t, constant);
+  };
+  const Ramp ramp = ramp_of(force, 201);
+  double up = 0.0, down = 0.0;
+  constexpr int steps = 200;
+  for (int i = 0; i < steps; ++i) {
+    const double t = turn * (i + 0.5) / steps;
+    up += told(t) / steps;
+    down += told(2.0 * turn - t) / steps;
+  }
+  Course loop;
+  loop.loop = (up - down) / up;
+  EXPECT_GT(loop.loop, 0.05);
+  EXPECT_NEAR(fading_of(loop, ramp.forces, ramp.times, ramp.times, constant), weight, 2e-3);
+  Course hold;
+  hold.hold_time = 1.0;
+  const double alive = remembered(force, turn, constant);
+  hold.relaxation = weight * alive * -std::expm1(-hold.hold_time / constant) / told(turn);
+  EXPECT_NEAR(fading_of(hold, ramp.forces, ramp.times, ramp.times, constant), weight, 2e-3);
+  EXPECT_EQ(fading_of({}, ramp.forces, ramp.times, ramp.times, constant), 0.0);
+}

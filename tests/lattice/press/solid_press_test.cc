@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
 
 #include "lattice/press/press.h"
 #include "lattice/press/static_press.h"
@@ -54,6 +56,40 @@ TEST(SolidPress, TrianglesOfTheDomeAreTheDomeAtRest) {
       EXPECT_NEAR(found[i].lateral_force_y, 0.0, 1e-3 * force);
       EXPECT_NEAR(found[i].torque_y, expected[i].torque_y, 5e-3 * force * 0.03);
     }
+  }
+}
+
+/// Line contact: a slice of a block, 2 x 1 and glued below, under a cylinder along the slice. With
+/// nu = 0 its ends stay flat by themselves, so that however thin it is the plane problem is exact:
+/// the half width of the contact is a = 2 sqrt(P'R/(pi E)) (Hertz), and the indentation
+///   pi E d/P' = c - 2 ln(a/H)
+/// has no limit for a block without end (Johnson 1985, ch. 5.6), which leaves c to the block. For
+/// this one the continuum of the project tells 1.697 (20 mm high, R = 20 mm, 0.05 to 0.4 mm deep:
+/// 1.691 to 1.704), its largest pressure Hertz's sqrt(P'E/(pi R)) within 0.5 % at 0.4 mm.
+TEST(SolidPress, ACylinderOnABlockIsHertzsLineContact) {
+  constexpr double height = 0.02, spacing = height / 32, width = 4 * spacing, radius = 0.02;
+  const auto slice = std::make_shared<meshes::Solid>(
+      fingers::box({-height, -0.5 * width, 0.0}, {height, 0.5 * width, height}),
+      meshes::Region{{{2, true, 1e-6 * height}}});
+  PressSetup press = press_of(Geometry::of_solid(slice, -0.01), ModelKind::hookean);
+  press.rubber.shear_modulus = 0.5 * press.rubber.youngs_modulus;
+  press.lattice.spacing = spacing;
+  press.lattice.constants = lattice::hookean_constants(press.rubber, spacing);
+  press.protocol.obstacle = {.shape = meshes::ObstacleShape::cylinder, .radius = radius};
+  press.protocol.samples = {1e-4, 2e-4, 4e-4};
+  press.protocol.depth = 4e-4;
+  const double modulus = std::numbers::pi * press.rubber.youngs_modulus;
+  const auto outcome = lattice::run_static_press(press);
+  for (const auto& sample : outcome.response.samples()) {
+    const double line = sample.normal_force / width,
+                 half_width = 2.0 * std::sqrt(line * radius / modulus);
+    // That constant within a hundredth of the whole.
+    const double compliance = modulus * sample.indentation / line;
+    EXPECT_NEAR(compliance + 2.0 * std::log(half_width / height), 1.697, 0.01 * compliance)
+        << sample.indentation;
+    // The area that touches, as a disc of equal area.
+    const double area = std::numbers::pi * std::pow(sample.contact_radius, 2);
+    EXPECT_NEAR(area / width, 2.0 * half_width, 2.0 * spacing) << sample.indentation;
   }
 }
 
