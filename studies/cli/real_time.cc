@@ -79,7 +79,7 @@ std::string step_text(double step) {
 }
 
 bool goes_straight(const meshes::PressProtocol& protocol) {
-  return protocol.tilt == 0.0 && protocol.lateral == 0.0 && protocol.program.empty();
+  return not_straight(protocol).empty();
 }
 
 /// The press straight down whose continuum takes seconds; its strain is the lattice's where none

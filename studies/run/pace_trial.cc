@@ -137,8 +137,8 @@ PaceSearch search_pace_here(const LoadedConfig& asked, int cores) {
   throw meshes::NotConverged(fmt::format(
       "--real-time: not even the coarsest lattice that this finger allows, {} m, keeps up with "
       "this "
-      "press on this machine: a real-time factor of {:.2g} is expected, {:.3g} wanted; a press "
-      "without --real-time takes as long as it needs",
+      "press on this machine: a real-time factor of {:.2g} is expected, {:.3g} wanted; "
+      "press more slowly, so that scaled masses serve with longer steps, or leave --real-time out",
       calibration::rounded(search.taken().spacing), search.choice.factor, pace_margin));
 }
 
