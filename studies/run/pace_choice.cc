@@ -23,12 +23,19 @@ double step_cost(const MeasuredPace& pace) {
   return pace.candidate.step / pace.factor;
 }
 
-/// Beyond two measured ones [s].
-double extended_cost(const MeasuredPace& small, const MeasuredPace& large, double load) {
+/// Beyond the largest of `measured` [s]. Two of much the same load make no line: what disturbed
+/// them would be most of its slope.
+double extended_cost(const std::vector<MeasuredPace>& measured, double load) {
+  constexpr double apart = 2.0;
+  const MeasuredPace& large = measured.back();
   const double cost = step_cost(large), last = large.candidate.load();
-  const double slope = (cost - step_cost(small)) / (last - small.candidate.load());
-  if (small.candidate.threads != large.candidate.threads || !(slope > 0.0))
-    return cost * load / last;
+  double slope = cost / last;  // no fixed time
+  for (const MeasuredPace& small : measured) {
+    if (small.candidate.threads != large.candidate.threads || apart * small.candidate.load() > last)
+      continue;
+    const double line = (cost - step_cost(small)) / (last - small.candidate.load());
+    if (line > 0.0) slope = line;
+  }
   return cost + slope * (load - last);
 }
 
@@ -38,10 +45,7 @@ double expected_cost(const std::vector<MeasuredPace>& measured, double load) {
       measured, [&](const MeasuredPace& m) { return m.candidate.load() > load; });
   // Less than anything that was pressed: no faster than the least of that.
   if (larger == measured.begin()) return step_cost(*larger);
-  if (larger == measured.end()) {
-    if (measured.size() == 1) return step_cost(measured[0]) * load / measured[0].candidate.load();
-    return extended_cost(*(larger - 2), *(larger - 1), load);
-  }
+  if (larger == measured.end()) return extended_cost(measured, load);
   const MeasuredPace& smaller = *(larger - 1);
   const double part =
       (load - smaller.candidate.load()) / (larger->candidate.load() - smaller.candidate.load());

@@ -34,8 +34,9 @@ inline constexpr double pace_margin = 1.25;
 
 /// Real-time factor to expect of a candidate: its own where it was measured, else from the time a
 /// step takes, which grows with its load n as alpha + beta n: between measured ones along the line
-/// through its neighbours, beyond the largest along the line through the last two, or in proportion
-/// to n where these had other threads or the line falls. `measured` has one at least.
+/// through its neighbours, beyond the largest along the line through that and the next with the
+/// same threads and at most half of its load, or in proportion to n where there is none or the line
+/// falls. `measured` has one at least.
 double expected_factor(const PaceCandidate& candidate, std::vector<MeasuredPace> measured);
 
 struct PaceChoice {

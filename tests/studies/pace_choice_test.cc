@@ -80,6 +80,12 @@ TEST(PaceChoice, ALineThatFallsIsNotBelieved) {
   EXPECT_NEAR(expected_factor(candidate(12), disturbed), 4.0 / 8.0, 1e-12);
 }
 
+TEST(PaceChoice, TwoOfMuchTheSameLoadMakeNoLine) {
+  // R/12 took hardly longer than R/11: R/24 is not for free because of that.
+  const std::vector<MeasuredPace> close = {{candidate(11, 2), 2.51}, {candidate(12, 2), 2.5}};
+  EXPECT_NEAR(expected_factor(candidate(24, 2), close), 2.5 / 8.0, 1e-12);
+}
+
 TEST(PaceChoice, TheFinestThatKeepsUpIsTaken) {
   const auto all = candidates(24);
   for (double speed = 1e-3; speed < 1e3; speed *= 1.3) {
