@@ -45,8 +45,13 @@ CalculixRun run_calculix(const std::string& ccx, Problem problem, meshes::TipMes
   write_deck(meridian, geometry, rubber_of(problem), problem, depths, options,
              folder / "press.inp");
 
-  CalculixRun run;
+  CalculixRun run = run_deck(ccx, limit, folder);
   run.unknowns = 2 * meridian.nodes.size();
+  return run;
+}
+
+CalculixRun run_deck(const std::string& ccx, double limit, const std::filesystem::path& folder) {
+  CalculixRun run;
   run.cost = run_child({ccx, "-i", "press"}, folder,
                        {"OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1"}, limit, folder / "log.txt");
   run.iterations = read_iterations(folder / "press.sta");

@@ -32,4 +32,7 @@ CalculixRun run_calculix(const std::string& ccx, Problem problem, meshes::TipMes
                          const std::vector<double>& depths, const DeckOptions& options,
                          double limit, const std::filesystem::path& folder);
 
+/// The deck press.inp in `folder`, in the same way; `unknowns` is left to the caller.
+CalculixRun run_deck(const std::string& ccx, double limit, const std::filesystem::path& folder);
+
 }  // namespace fingertip::benchmarks

@@ -39,20 +39,39 @@ class Deck {
         out_(out) {}
 
   void write() {
-    // Hyperfoam terms cancel each other: all digits count.
-    out_ << std::setprecision(15) << "*NODE, NSET=TIPNODES\n";
-    for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
-      out_ << number(i) << ", " << mesh_.nodes[i].x() * millimetres << ", "
-           << mesh_.nodes[i].y() * millimetres << '\n';
+    nodes();
     rubber();
     plane_and_pair();
     fixed();
-    for (std::size_t step = 0; step < depths_.size(); ++step) press(step);
+    for (std::size_t step = 0; step < depths_.size(); ++step) press(step, "PLANE");
+  }
+
+  void write_cylinder(double height) {
+    nodes();
+    rubber();
+    const double tolerance = on_surface * height;
+    const auto lower = [&](const MeridianPoint& point) { return point.y() < tolerance; };
+    const auto upper = [&](const MeridianPoint& point) { return point.y() > height - tolerance; };
+    node_set("BOND", mesh_.nodes_where(lower));
+    node_set("HEAD", mesh_.nodes_where(upper));
+    node_set("AXIS", mesh_.nodes_where([&](const MeridianPoint& point) {
+      return point.x() < tolerance && !lower(point) && !upper(point);
+    }));
+    out_ << "*BOUNDARY\nBOND, 1, 2\nAXIS, 1\nHEAD, 1\n";
+    for (std::size_t step = 0; step < depths_.size(); ++step) press(step, "HEAD");
   }
 
  private:
   /// CalculiX numbers from 1.
   static std::size_t number(std::size_t index) { return index + 1; }
+
+  void nodes() {
+    // Hyperfoam terms cancel each other: all digits count.
+    out_ << std::setprecision(15) << "*NODE, NSET=TIPNODES\n";
+    for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
+      out_ << number(i) << ", " << mesh_.nodes[i].x() * millimetres << ", "
+           << mesh_.nodes[i].y() * millimetres << '\n';
+  }
 
   /// All elements as the set `set` of the material of the same name, whose cards are to follow.
   void body(const char* set) {
@@ -164,18 +183,18 @@ class Deck {
     out_ << "*BOUNDARY\nBOND, 1, 2\nAXIS, 1\nPLANE, 1\nPLANE, 3\n";
   }
 
-  void press(std::size_t step) {
+  void press(std::size_t step, const char* moved) {
     out_ << "*STEP, INC=1000" << (problem_ == Problem::small_strain ? "" : ", NLGEOM")
          << "\n*STATIC, SOLVER=" << name(options_.solver) << "\n1., 1.\n";
     if (options_.contact_change > 0.0 && step == 0)
       out_ << "*CONTROLS, PARAMETERS=CONTACT\n" << options_.contact_change << ", 0.1, 100, 60\n";
-    out_ << "*BOUNDARY\nPLANE, 2, 2, " << -depths_[step] * millimetres << '\n';
+    out_ << "*BOUNDARY\n" << moved << ", 2, 2, " << -depths_[step] * millimetres << '\n';
     if (step == 0) out_ << "*NODE PRINT, NSET=BOND, TOTALS=ONLY, FREQUENCY=1000\nRF\n";
     out_ << "*END STEP\n";
   }
 
   const MeridianMesh& mesh_;
-  const meshes::Geometry& geometry_;
+  const meshes::Geometry geometry_;
   const meshes::Rubber& rubber_;
   Problem problem_;
   const std::vector<double>& depths_;
@@ -246,11 +265,28 @@ bool is_quadratic(Element element) {
   return element == Element::cax8 || element == Element::cax8r;
 }
 
+namespace {
+
+void check_degree(const MeridianMesh& mesh, const DeckOptions& options) {
+  if (mesh.quadratic != is_quadratic(options.element))
+    throw std::invalid_argument("the mesh and the element must be of the same degree");
+}
+
+}  // namespace
+
+void write_cylinder_deck(const MeridianMesh& mesh, double height, const meshes::Rubber& rubber,
+                         Problem problem, const std::vector<double>& depths,
+                         const DeckOptions& options, const std::filesystem::path& file) {
+  check_degree(mesh, options);
+  meshes::write_atomically(file, [&](std::ostream& out) {
+    Deck(mesh, {}, rubber, problem, depths, options, out).write_cylinder(height);
+  });
+}
+
 void write_deck(const MeridianMesh& mesh, const meshes::Geometry& geometry,
                 const meshes::Rubber& rubber, Problem problem, const std::vector<double>& depths,
                 const DeckOptions& options, const std::filesystem::path& file) {
-  if (mesh.quadratic != is_quadratic(options.element))
-    throw std::invalid_argument("the mesh and the element must be of the same degree");
+  check_degree(mesh, options);
   meshes::write_atomically(file, [&](std::ostream& out) {
     Deck(mesh, geometry, rubber, problem, depths, options, out).write();
   });

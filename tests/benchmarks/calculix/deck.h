@@ -73,4 +73,10 @@ void write_deck(const MeridianMesh& mesh, const meshes::Geometry& geometry,
                 const meshes::Rubber& rubber, Problem problem, const std::vector<double>& depths,
                 const DeckOptions& options, const std::filesystem::path& file);
 
+/// The same of a cylinder that stands at y = 0, `height` [m] high, between plates that hold its
+/// ends: the upper one descends by each of `depths`.
+void write_cylinder_deck(const MeridianMesh& mesh, double height, const meshes::Rubber& rubber,
+                         Problem problem, const std::vector<double>& depths,
+                         const DeckOptions& options, const std::filesystem::path& file);
+
 }  // namespace fingertip::benchmarks

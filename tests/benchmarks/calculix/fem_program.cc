@@ -3,7 +3,6 @@
 #include "deck.h"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "meshes/fields_json.h"
 #include "meshes/files.h"
@@ -20,7 +19,6 @@ constexpr int tolerance_not_met = 3;
 FemRun run_fem(const std::string& program, Problem problem, const FemOptions& options,
                const std::vector<double>& depths, double limit,
                const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
   const nlohmann::json job{
       {"protocol", {{"contact", "frictionless"}, {"depth", depths.back()}, {"samples", depths}}},
       {"strain", problem == Problem::small_strain ? "linear" : "finite"},
@@ -29,6 +27,12 @@ FemRun run_fem(const std::string& program, Problem problem, const FemOptions& op
       {"degree", options.degree},
       {"tolerance", options.tolerance},
       {"write_fields", false}};
+  return run_fem_job(program, job, limit, folder);
+}
+
+FemRun run_fem_job(const std::string& program, const nlohmann::json& job, double limit,
+                   const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
   meshes::write_atomically(folder / "job.json", [&](std::ostream& out) { out << job.dump(2); });
   FemRun run;
   run.cost = run_child({program, folder.string()}, folder,

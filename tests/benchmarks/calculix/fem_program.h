@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,9 @@ struct FemOptions {
 FemRun run_fem(const std::string& program, Problem problem, const FemOptions& options,
                const std::vector<double>& depths, double limit,
                const std::filesystem::path& folder);
+
+/// The job `job` (job.json), in the same way.
+FemRun run_fem_job(const std::string& program, const nlohmann::json& job, double limit,
+                   const std::filesystem::path& folder);
 
 }  // namespace fingertip::benchmarks

@@ -125,6 +125,43 @@ MeridianMesh with_midside_nodes(const MeridianMesh& linear) {
   return mesh;
 }
 
+MeridianMesh cylinder_mesh(double radius, double height, int across, int along, int grading) {
+  // Borders of elements over [0, 1], those at 1 (and at 0, where `both`) halved again and again.
+  const auto borders = [&](int count, bool both) {
+    std::vector<double> places;
+    for (int i = 0; i <= count; ++i) places.push_back(double(i) / count);
+    for (int g = 0; g < grading; ++g) {
+      places.insert(places.end() - 1, 0.5 * (places[places.size() - 2] + 1.0));
+      if (both) places.insert(places.begin() + 1, 0.5 * places[1]);
+    }
+    return places;
+  };
+  const std::vector<double> r = borders(across, false), z = borders(along, true);
+  MeridianMesh mesh;
+  mesh.quadratic = true;
+  // Every half step is a node but the middles of elements.
+  const std::size_t columns = 2 * r.size() - 1, rows = 2 * z.size() - 1, none = columns * rows;
+  const auto at = [](const std::vector<double>& places, std::size_t half) {
+    return 0.5 * (places[half / 2] + places[(half + 1) / 2]);
+  };
+  std::vector<std::size_t> number(none, none);
+  for (std::size_t j = 0; j < rows; ++j)
+    for (std::size_t i = 0; i < columns; ++i) {
+      if (i % 2 == 1 && j % 2 == 1) continue;
+      number[j * columns + i] = mesh.nodes.size();
+      mesh.nodes.emplace_back(radius * at(r, i), height * at(z, j));
+    }
+  for (std::size_t j = 0; j + 2 < rows; j += 2)
+    for (std::size_t i = 0; i + 2 < columns; i += 2) {
+      const auto node = [&](std::size_t di, std::size_t dj) {
+        return number[(j + dj) * columns + i + di];
+      };
+      mesh.elements.push_back({node(0, 0), node(2, 0), node(2, 2), node(0, 2), node(1, 0),
+                               node(2, 1), node(1, 2), node(0, 1)});
+    }
+  return mesh;
+}
+
 std::vector<ElementEdge> outer_edges(const MeridianMesh& mesh, const meshes::Geometry& geometry,
                                      double lowest) {
   const double inside = (1.0 - 1e-9) * geometry.tip_radius;

@@ -55,6 +55,10 @@ MeridianMesh read_meridian_mesh(const std::filesystem::path& file);
 /// round, as fingertip-fem's own elements have it.
 MeridianMesh with_midside_nodes(const MeridianMesh& linear);
 
+/// A cylinder, its axis y from 0 to `height`, by across x along quadratic elements, the sizes of
+/// both directions halved `grading` times towards the rim, where stuck ends are singular.
+MeridianMesh cylinder_mesh(double radius, double height, int across, int along, int grading);
+
 /// Element edges whose ends both lie on the outer surface and above `lowest` [m].
 std::vector<ElementEdge> outer_edges(const MeridianMesh& mesh, const meshes::Geometry& geometry,
                                      double lowest);
