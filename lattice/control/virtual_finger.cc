@@ -2,15 +2,27 @@
 
 #include <algorithm>
 
+#include "lattice/dynamics/thread_choice.h"
 #include "lattice/model/cut_model.h"
+#include "meshes/cubic_grid.h"
 
 namespace fingertip::lattice {
+
+namespace {
+
+int threads_for(const FingerSetup& setup) {
+  if (setup.threads != 0) return setup.threads;
+  return fastest_threads(meshes::expected_particle_count(setup.geometry, setup.lattice.spacing),
+                         machine_cores());
+}
+
+}  // namespace
 
 VirtualFinger::VirtualFinger(const FingerSetup& setup)
     : setup_(setup),
       model_(build_tip(setup.geometry, setup.rubber, setup.lattice)),
       rod_(lattice::rod_body(setup.geometry, setup.rod)),
-      team_(setup.threads),
+      team_(threads_for(setup)),
       steps_(model_, setup.prescribed ? nullptr : &rod_, setup.integrator, setup.time_step, team_) {
   const double step = steps_.at_rest(1.0);
   finger_ = std::make_unique<Finger>(model_, rod_, setup.plane, setup.contact, setup.integrator,

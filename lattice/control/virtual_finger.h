@@ -29,7 +29,7 @@ struct FingerSetup {
   std::optional<double> time_step;  ///< largest one [s]; the largest safe one when absent
   double tolerance = 1e-6;          ///< of Integrator::runge_kutta
   double energy_bound = 1e-7;       ///< of Integrator::energy_controlled, per E R³
-  int threads = 0;                  ///< 0: all cores. The result does not depend on it.
+  int threads = 0;                  ///< 0: fastest_threads. The result does not depend on it.
 };
 
 /// A co-simulation slave in the sense of FMI 3.0: write() sets inputs that hold until the next

@@ -17,11 +17,10 @@ using Complex = std::complex<double>;
 using meshes::Geometry;
 using meshes::Rubber;
 
-constexpr double sway_factor = 43.0;      // of (w dt)², measured
-constexpr double contact_factor = 5.5;    // chi, with the margin that S leaves for stiffening
-constexpr double resolved_patch = 1.25;   // spacings
-constexpr double longest_usual = 2.5e-4;  // [s]
-constexpr double cost = 2.0;              // of a scaled step, in plain ones
+constexpr double sway_factor = 43.0;     // of (w dt)², measured
+constexpr double contact_factor = 5.5;   // chi, with the margin that S leaves for stiffening
+constexpr double resolved_patch = 1.25;  // spacings
+constexpr double cost = 2.0;             // of a scaled step, in plain ones
 
 /// F = factor (delta^3/2 + layer delta²).
 struct RoughForce {
@@ -172,11 +171,16 @@ double judged_from(const PressSetup& setup) {
 }
 
 ScalingChoice best_scaling(const PressSetup& setup) {
+  constexpr double longest = 2.5e-4;  // [s]
+  return best_scaling(setup, longest, judged_from(setup));
+}
+
+ScalingChoice best_scaling(const PressSetup& setup, double longest, double from) {
   const auto worst = [&](double step) {
-    return worst_of(scaling_deviations(setup, step), judged_from(setup)).relative;
+    return worst_of(scaling_deviations(setup, step), from).relative;
   };
   const double plain = plain_step(setup);
-  double step = longest_usual;
+  double step = longest;
   while (step >= cost * plain && worst(step) > tolerated_deviation) step *= 0.9;
   if (step < cost * plain) return {false, plain, {}};
   return {true, step, scaling_deviations(setup, step)};

@@ -62,6 +62,8 @@ struct ScalingChoice {
 ScalingChoice choose_scaling(const PressSetup& setup);
 /// As if `setup` asked for no step.
 ScalingChoice best_scaling(const PressSetup& setup);
+/// The same with steps up to `longest` [s], judged from another indentation on [m].
+ScalingChoice best_scaling(const PressSetup& setup, double longest, double from);
 
 /// Largest stable step of plain masses on the infinite lattice, at rest [s].
 double plain_step(const PressSetup& setup);

@@ -190,7 +190,7 @@ std::vector<Violation> PressSetup::violations() const {
   add_step_control(found, *this);
   if (threads < 0) {
     found.push_back({"run.threads", std::to_string(threads),
-                     "the number of threads must not be negative", "0 takes all cores"});
+                     "the number of threads must not be negative", "0 takes what is fastest"});
   }
   return found;
 }

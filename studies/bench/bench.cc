@@ -8,11 +8,11 @@
 #include "lattice/kernels/kernel.h"
 #include "studies/bench/continua.h"
 #include "studies/bench/kernels.h"
-#include "studies/bench/pace.h"
 #include "studies/bench/presses.h"
 #include "studies/bench/ratios.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/pace.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/provenance.h"
 
@@ -137,14 +137,17 @@ ordered_json press_entry(Session& session, const LoadedConfig& loaded, const Ben
 }
 
 /// A press in equilibrium and a fit, once each.
-void add_times(Session& session, const LoadedConfig& loaded, ordered_json& times) {
+void add_times(Session& session, const LoadedConfig& loaded, const BenchPlan& plan,
+               ordered_json& times) {
   const auto run = [&](const std::string& name, const std::string& what, Job job) {
     job.repeatable = false;
     const JobResult result = session.run({name, std::move(job), false});
     times.push_back({{"what", what}, {"seconds", result.wall_time}, {"from_cache", false}});
   };
-  const LoadedConfig network = loaded.with({"press.contact=stick", "lattice.model=network"});
-  run("static_press", "static press, network, R/12, ten depths",
+  const LoadedConfig network =
+      loaded.with({"press.contact=stick", "lattice.model=network",
+                   fmt::format("lattice.spacing=tip_radius/{}", plan.static_finest)});
+  run("static_press", fmt::format("static press, network, R/{}, ten depths", plan.static_finest),
       press_job(press_setup(network.with({"press.mode=static"}))));
   run("calibration", "calibration: central springs to E and G",
       moduli_job(loaded.config.press.rubber, fit_options(loaded, lattice::ModelKind::central)));
@@ -174,7 +177,7 @@ ordered_json run_bench(Session& session, const LoadedConfig& loaded, const Bench
     bench["continua"].push_back(
         continuum_entry(session.path_of(planned), mesh, truth.finite, plan, period));
   }
-  if (plan.times) add_times(session, loaded, times);
+  if (plan.times) add_times(session, loaded, plan, times);
   bench["times"] = times;
   return bench;
 }

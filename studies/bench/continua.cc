@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "studies/bench/pace.h"
 #include "studies/run/fit_curves.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/pace.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {

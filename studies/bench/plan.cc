@@ -48,6 +48,7 @@ BenchPlan quick_plan() {
   plan.seconds = 0.05;
   plan.sizes = {20, 48};
   plan.presses = presses({6, 8});
+  plan.static_finest = 8;
   plan.continua = {{1, 1.0}, {2, 0.5}, {2, 1.0}};
   return plan;
 }

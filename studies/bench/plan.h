@@ -37,7 +37,7 @@ struct BenchPlan {
   bool bullet = true;
   // Presses.
   std::vector<PressedLattice> presses;
-  int static_finest = 12;     ///< R/a up to which equilibria are computed beside presses
+  int static_finest = 12;     ///< R/a up to which equilibria are computed beside presses, and timed
   double depth = 0.003;       ///< [m]
   double error_from = 0.001;  ///< force errors are taken from this indentation on [m]
   double reference_tolerance = 0.003;

@@ -7,17 +7,16 @@
 
 #include "lattice/press/press.h"
 #include "studies/bench/continua.h"
-#include "studies/bench/pace.h"
 #include "studies/run/fit_curves.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/pace.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {
 
 namespace {
 
-constexpr double window = 0.01;      // [s]
 constexpr double enough_time = 4.0;  // for the runs of one press [s]
 constexpr int most_runs = 5;
 
@@ -29,7 +28,7 @@ struct Timing {
   int runs = 0;
 
   void add(const lattice::PressOutcome& outcome) {
-    const Pace pace = slowest_pace(outcome, window);
+    const Pace pace = slowest_pace(outcome, pace_window);
     slowest.wall = std::fmax(slowest.wall, pace.wall);
     slowest.processor = std::fmax(slowest.processor, pace.processor);
     whole = std::max(whole, outcome.real_time_factor());

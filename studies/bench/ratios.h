@@ -16,7 +16,8 @@ nlohmann::ordered_json probes_of(const KernelRounds& rounds);
 /// each has `operations_per_spring` (null where not counted), `roofline_fraction`: these over what
 /// the same instruction set does at best in that precision (multiply-adds for the spring engine,
 /// whose operations in multiply pipes are counted, operations of all kinds for the others), over
-/// the time taken, null with a `remark` where it came out above 1; and `rounds`.
+/// the time taken; and `rounds`. At best is the probe's or any such kernel's rate in the same
+/// round, whichever is higher: a fraction is at most 1, and 1 has a `remark`.
 nlohmann::ordered_json kernels_of(const KernelRounds& rounds, bool peers);
 
 struct Ratios {

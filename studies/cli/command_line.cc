@@ -86,7 +86,8 @@ void add_units(CLI::App& app, CommandLine& line) {
 }
 
 void add_run(CLI::App& app, CommandLine& line, std::string& progress, std::string& resume) {
-  app.add_option("--threads", line.config.threads, "threads to use; 0: all cores")->type_name("N");
+  app.add_option("--threads", line.config.threads, "threads to use; 0: what is fastest")
+      ->type_name("N");
   app.add_option(
          "--progress", progress,
          "how to show progress on stderr: a bar, a line now and then (without a terminal), JSON")
@@ -97,7 +98,8 @@ void add_run(CLI::App& app, CommandLine& line, std::string& progress, std::strin
 }
 
 void add_live(CLI::App& sub, CommandLine& line) {
-  sub.add_option("--threads", line.config.threads, "threads to use; 0: all cores")->type_name("N");
+  sub.add_option("--threads", line.config.threads, "threads to use; 0: what is fastest")
+      ->type_name("N");
   sub.add_option("--port", line.port, "port on 127.0.0.1; 0 (default): a free one")
       ->type_name("N")
       ->check(CLI::Range(0, 65535));
@@ -173,6 +175,9 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
         ->type_name("N")
         ->check(CLI::Range(1, most_ranks));
   }
+  if (name == "press" || name == "live")
+    sub.add_flag("--real-time", line.real_time,
+                 "choose spacing and step so that this machine keeps up, and tell the force error");
   if (name == "press") {
     sub.add_option("--movie", line.movie,
                    "pictures for ParaView in movie/, evenly spaced in time; 40 without a number")

@@ -24,6 +24,7 @@ struct CommandLine {
   int ranks = 1;                     ///< MPI processes of reference
   int movie = 0;                     ///< pictures of press --movie, 0: none
   bool all = false;                  ///< validate --all
+  bool real_time = false;            ///< press, live --real-time
   bool plan = false;                 ///< calibrate --plan
   int port = 0;                      ///< of live; 0: a free one
   std::filesystem::path reference;   ///< of live: run folder or response.csv

@@ -8,6 +8,7 @@
 #include "fem_reference/run_tables.h"
 #include "meshes/press_response.h"
 #include "meshes/table_rows.h"
+#include "studies/cli/real_time.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/files/mode_table.h"
@@ -235,6 +236,21 @@ void print_sources(const LoadedConfig& loaded) {
     fmt::print("stiffness of the contact scheduled on {}\n", config.controller.schedule.string());
 }
 
+/// What --real-time has come to: errors, and how fast the press was.
+void finish_real_time(Session& session, RealTimeRun& run, bool quiet) {
+  const std::filesystem::path& folder = session.folder().path();
+  const auto summary = struct_of<PressSummary>(read_entry(folder / "summary.json"));
+  run.record.slowest_factor = summary.slowest_real_time_factor;
+  run.record.whole_factor = summary.real_time_factor;
+  run.record.step = summary.step.step;
+  run.find_force_error(session, meshes::PressResponse::read_csv(folder / "response.csv"));
+  run.write(folder);
+  auto told = read_json(folder / "summary.json");
+  told["real_time"] = meshes::json_of<nlohmann::ordered_json>(run.record);
+  rewrite_result(folder, "summary.json", told);
+  if (!quiet) fmt::print("{}", run.text());
+}
+
 /// Puts the run's notes where scripts look. They belong to the run: what the job computes does not
 /// depend on them, so they are no part of its cached result.
 void put_warnings(const std::filesystem::path& folder, const std::vector<std::string>& notes) {
@@ -247,11 +263,15 @@ void put_warnings(const std::filesystem::path& folder, const std::vector<std::st
 }  // namespace
 
 int run_press(const CommandLine& line) {
-  LoadedConfig loaded = with_material(load_checked(line), LatticeUse::press);
+  std::optional<RealTimeRun> real_time;
+  if (line.real_time) real_time = real_time_run(line);
+  LoadedConfig loaded =
+      with_material(real_time ? real_time->loaded : load_checked(line), LatticeUse::press);
   const lattice::PressSetup setup = press_setup(loaded);
   for (const auto& notes : {law_notes(setup), scaling_notes(setup)})
     loaded.notes.insert(loaded.notes.end(), notes.begin(), notes.end());
   const std::vector<std::string> warnings = loaded.notes;
+  if (real_time) loaded.notes.push_back(real_time->note());
   if (loaded.config.automatic_integrator) loaded.notes.push_back(integrator_note(setup));
   if (const auto note = duration_note(setup, cores_for(loaded))) loaded.notes.push_back(*note);
   if (line.movie > 0 && setup.protocol.mode == meshes::DriveMode::equilibrium) {
@@ -259,7 +279,12 @@ int run_press(const CommandLine& line) {
                         "choose pid or quasi-static"}});
   }
   return run_in_folder(line, loaded, {}, [&](Session& session) {
-    const JobResult result = session.run({"", press_job(setup, line.movie), false});
+    Job job = press_job(setup, line.movie);
+    if (real_time) {
+      real_time->write(session.folder().path());
+      job.repeatable = false;  // it is this machine's time that is asked for
+    }
+    const JobResult result = session.run({"", std::move(job), false});
     put_warnings(session.folder().path(), warnings);
     if (!line.quiet) {
       fmt::print("{} lattice, {} contact, {} press\n", lattice::name(setup.lattice.model),
@@ -267,6 +292,9 @@ int run_press(const CommandLine& line) {
       print_response(session.folder().path(), setup.protocol);
       print_press_facts(session.folder().path(), result.reused);
       print_sources(loaded);
+    }
+    if (real_time) finish_real_time(session, *real_time, line.quiet);
+    if (!line.quiet) {
       if (line.movie > 0) {
         fmt::print("movie for ParaView: {}\n",
                    (session.folder().path() / "movie/movie.pvd").string());

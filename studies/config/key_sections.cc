@@ -509,7 +509,9 @@ Key integrator_key() {
 std::vector<Key> run_keys() {
   return {
       plain("run", "threads", {0, 1024, true},
-            "threads to use, 0 for all cores; results do not depend on it",
+            "threads to use; 0: what is fastest, all cores, but for a moving lattice no more than "
+            "one per "
+            "1000 masses (volume over spacing cubed); results do not depend on it",
             at(&Config::press, &lattice::PressSetup::threads)),
       choice("run", "units",
              {{"si", "mN, mm, kPa"}, {"paper", "gf, cm, gf/cm^2, as in the paper of 1996"}},

@@ -87,7 +87,8 @@ ContactCurves::ContactCurves(const LoadedConfig& loaded, Of of) {
     meshes::PressProtocol& protocol = own.config.press.protocol;
     protocol.mode = meshes::DriveMode::equilibrium;
     protocol.samples = depths_to(depth);
-    jobs_.push_back({"lattice", press_job(press_setup(own)), true});
+    if (lattice::beyond_the_lattice(own.config.press).empty())
+      jobs_.push_back({"lattice", press_job(press_setup(own)), true});
   }
 }
 

@@ -29,7 +29,8 @@ struct ContactCurve {
 class ContactCurves {
  public:
   enum class Of { contacts, lattice };
-  /// Of a lattice: its own obstacle alone, and the lattice at rest beside the continuum. Throws
+  /// Of a lattice: its own obstacle alone, and the lattice at rest, where it can rest, beside the
+  /// continuum. Throws
   /// ConfigError for what no such law can carry: a tilt, a lateral motion, a program.
   explicit ContactCurves(const LoadedConfig& loaded, Of of = Of::contacts);
 

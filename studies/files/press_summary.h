@@ -232,7 +232,8 @@ struct PressSummary {
   StaticCensusEntry static_census;
   EffortEntry effort;
   double smallest_jacobian = meshes::unknown, simulated_time = meshes::unknown,
-         wall_time = meshes::unknown, real_time_factor = meshes::unknown;
+         wall_time = meshes::unknown, real_time_factor = meshes::unknown,
+         slowest_real_time_factor = meshes::unknown;  ///< in the slowest 10 ms from first touch on
   long threads = 0;
   double first_touch_time = meshes::unknown, momentum_defect = meshes::unknown;
   std::optional<ScalingEntry> scaling;
@@ -266,6 +267,7 @@ constexpr auto fields_of(const PressSummary*) {
       only(&Whole::moves, named("real_time_factor threads first_touch_time momentum_defect",
                                 &Whole::real_time_factor, &Whole::threads, &Whole::first_touch_time,
                                 &Whole::momentum_defect)),
+      if_known(named("slowest_real_time_factor", &Whole::slowest_real_time_factor)),
       if_known(named("scaling warnings program work_in loop_area", &Whole::scaling,
                      &Whole::warnings, &Whole::program, &Whole::work_in, &Whole::loop_area)),
       only(&Whole::controlled, named("tracking end", &Whole::tracking, &Whole::end)));

@@ -48,7 +48,7 @@ PressCondition condition_of(const lattice::PressSetup& setup) {
 
 }  // namespace
 
-void run_live_view(
+double run_live_view(
     const lattice::PressSetup& setup, const LiveOptions& options,
     const std::function<void(const std::string& url, const std::string& remark)>& ready) {
   Reference reference;
@@ -73,6 +73,7 @@ void run_live_view(
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   simulation.stop();  // before the server that its thread wakes is taken down
+  return simulation.slowest_factor();
 }
 
 }  // namespace fingertip::studies

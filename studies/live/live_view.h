@@ -21,8 +21,9 @@ struct LiveOptions {
 
 /// Serves the press of `setup` until interrupted, or until exit_after; `ready` is told the address
 /// as soon as the page can be opened, and how the reference differs from the press ("" when it does
-/// not). Throws InvalidInput.
-void run_live_view(
+/// not). Returns the real-time factor in the slowest half second of its running, NaN where it ran
+/// for less. Throws InvalidInput.
+double run_live_view(
     const lattice::PressSetup& setup, const LiveOptions& options,
     const std::function<void(const std::string& url, const std::string& remark)>& ready);
 

@@ -222,6 +222,8 @@ void Simulation::measure_pace() {
   }
   const double wall = std::chrono::duration<double>(now - pace_marks_.front().first).count();
   if (wall > 0.1) achieved_ = (rig_.time() - pace_marks_.front().second) / wall;
+  if (wall > std::chrono::duration<double>(pace_window).count())
+    slowest_factor_ = std::fmin(slowest_factor_, achieved_);
 }
 
 void Simulation::publish(bool in_any_case) {

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "meshes/press_response.h"
 #include "studies/live/protocol.h"
 
 namespace fingertip::studies {
@@ -46,6 +47,9 @@ class Simulation {
   const LiveRig& rig() const { return rig_; }  ///< what never changes of it
   /// Ends the thread; the last frame stays.
   void stop();
+  /// Least real-time factor over half a second of running without a pause, an order to run or
+  /// another rate in between; NaN where there was none. After stop().
+  double slowest_factor() const { return slowest_factor_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -80,7 +84,7 @@ class Simulation {
   Clock::time_point last_frame_{}, pace_start_{};
   double pace_time_ = 0.0;
   std::deque<std::pair<Clock::time_point, double>> pace_marks_;
-  double achieved_ = 0.0;
+  double achieved_ = 0.0, slowest_factor_ = meshes::unknown;
   std::thread thread_;
 };
 

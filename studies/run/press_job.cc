@@ -4,13 +4,16 @@
 #include <optional>
 
 #include "calibration/moduli.h"
+#include "lattice/dynamics/thread_choice.h"
 #include "lattice/press/press.h"
 #include "lattice/press/press_deviation.h"
+#include "meshes/cubic_grid.h"
 #include "meshes/fields_json.h"
 #include "source_hash.h"
 #include "studies/run/controller_choice.h"
 #include "studies/run/jobs.h"
 #include "studies/run/movie.h"
+#include "studies/run/pace.h"
 #include "studies/run/press_notes.h"
 #include "studies/run/program_summary.h"
 #include "studies/run/snapshot_files.h"
@@ -72,6 +75,7 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOu
   summary.simulated_time = outcome.simulated_time;
   summary.wall_time = outcome.wall_time;
   summary.real_time_factor = outcome.real_time_factor();
+  summary.slowest_real_time_factor = slowest_pace(outcome, pace_window).wall;
   summary.threads = setup.threads;
   summary.first_touch_time = outcome.first_touch_time;
   summary.momentum_defect = outcome.momentum_defect;
@@ -121,7 +125,11 @@ class PressJournal {
 
 void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path& folder,
                    const JobContext& context) {
-  setup.threads = context.threads;
+  setup.threads = setup.threads > 0
+                      ? context.threads
+                      : lattice::fastest_threads(
+                            meshes::expected_particle_count(setup.geometry, setup.lattice.spacing),
+                            context.threads);
   PressJournal recorder(setup, folder, context);
   std::optional<Movie> movie;
   if (movie_pictures > 0) movie.emplace(folder / "movie", setup.geometry);

@@ -63,19 +63,40 @@ TEST(Ratios, AreFormedWithinARoundSoThatABusyMachineCancels) {
   EXPECT_TRUE(ratios.missing.empty());
 }
 
-TEST(Ratios, AFractionOfTheRoofAboveOneIsNotTold) {
+TEST(Ratios, NoFractionOfTheRoofIsAboveOneHoweverSlowTheProbe) {
+  for (double probe = 1e-3; probe < 10.0; probe *= 2.0) {
+    KernelRounds rounds;
+    for (const double slower : {1.0, 3.0, 2.0}) {
+      rounds.rounds.push_back(round_with(slower));
+      put(rounds.rounds.back(), "multiply-add", "avx512", 1, 0, probe);
+    }
+    const double best = 0.5 / 17.0;  // of one thread in the undisturbed round
+    for (const auto& kernel : kernels_of(rounds, false)) {
+      if (kernel.at("name") != "springs") continue;
+      const double fraction = kernel.at("roofline_fraction");
+      EXPECT_LE(fraction, 1.0);
+      EXPECT_NEAR(fraction, std::min(1.0, probe / (2.0 * best)), 1e-12) << probe;
+      EXPECT_EQ(kernel.contains("remark"), probe >= best) << probe;
+    }
+    const Ratios ratios = ratios_of(rounds);
+    for (const auto& one : ratios.rounds.at("roofline_48_1t")) EXPECT_LE(one.get<double>(), 1.0);
+    EXPECT_NEAR(ratios.values.at("roofline_48_1t").get<double>(),
+                std::min(1.0, probe / (2.0 * best)), 1e-12);
+    EXPECT_TRUE(ratios.missing.empty());
+  }
+}
+
+TEST(Ratios, TheCeilingIsThatOfTheSameRoof) {
   KernelRounds rounds;
   rounds.rounds.push_back(round_with(1.0));
-  put(rounds.rounds[0], "multiply-add", "avx512", 1, 0, 0.1);  // a probe ten times too slow
-  const Ratios ratios = ratios_of(rounds);
-  EXPECT_TRUE(ratios.values.at("roofline_48_1t").is_null());
-  EXPECT_NE(ratios.missing.at("roofline_48_1t").get<std::string>().find("above 1"),
-            std::string::npos);
-  for (const auto& kernel : kernels_of(rounds, false)) {
-    if (kernel.at("name") != "springs") continue;
-    EXPECT_TRUE(kernel.at("roofline_fraction").is_null());
-    EXPECT_NE(kernel.at("remark").get<std::string>().find("above 1"), std::string::npos);
-  }
+  // Fast, but its operations are of all kinds: another roof.
+  put(rounds.rounds[0], "arithmetic", "avx512", 1, 0, 0.001);
+  put(rounds.rounds[0], "cells", "avx512", 1, 20, 0.1, 50.0);
+  EXPECT_NEAR(ratios_of(rounds).values.at("roofline_48_1t").get<double>(), 0.34, 1e-12);
+  for (const auto& kernel : kernels_of(rounds, false))
+    if (kernel.at("name") == "cells") {
+      EXPECT_NEAR(kernel.at("roofline_fraction").get<double>(), 0.5, 1e-12);
+    }
 }
 
 TEST(Ratios, WithoutAvx512AllAreNullAndSayWhy) {

@@ -41,6 +41,25 @@ TEST(LiveVerb, EndsCleanlyWhenInterrupted) {
   EXPECT_NE(quoted_address(result.out), "") << result.out;
 }
 
+TEST(LiveVerb, InRealTimeItKeepsWhatItChose) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(
+      folder.path(), {"live", "--real-time", "--set", coarse, "--running", "--exit-after", "1.5"});
+  if (result.code == 3 && result.err.find("not even the coarsest") != std::string::npos)
+    GTEST_SKIP() << "this machine keeps up with no lattice";
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(quoted_address(result.out), "") << result.out;
+  EXPECT_NE(result.err.find("--real-time: spacing"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("force error"), std::string::npos) << result.out;
+  const auto runs = std::filesystem::directory_iterator(folder / "runs");
+  const std::filesystem::path run = runs->path();
+  const std::string kept = read_text(run / "real_time.json");
+  EXPECT_NE(kept.find("\"slowest_factor\""), std::string::npos) << kept;
+  const ProgramResult again = run_program(
+      folder.path(), {"live", "--config", run / "parameters.toml", "--exit-after", "0.1"});
+  EXPECT_EQ(again.code, 0) << again.err;
+}
+
 TEST(LiveVerb, SaysInWhatTheReferenceDiffers) {
   const TemporaryFolder folder;
   const std::vector<std::string> press = {"press",

@@ -12,6 +12,9 @@ struct Pace {
   double processor = meshes::unknown;  ///< over the processor time of the thread that presses
 };
 
+/// Of what "the slowest 10 ms" says [s].
+inline constexpr double pace_window = 0.01;
+
 /// Of the slowest stretch of at least `window` seconds of simulated time between two rows of the
 /// trace, from the first touch on.
 Pace slowest_pace(const lattice::PressOutcome& outcome, double window);

@@ -1,4 +1,4 @@
-#include "studies/bench/pace.h"
+#include "studies/run/pace.h"
 
 #include <gtest/gtest.h>
 
