@@ -19,7 +19,7 @@ std::vector<std::string> reproduce_words(const fs::path& run) {
   write_report(run);
   const std::string page = read_text(run / "report.html");
   std::smatch line;
-  if (!std::regex_search(page, line, std::regex("and run `([^`]*)`"))) return {};
+  if (!std::regex_search(page, line, std::regex("and run “([^”]*?)”"))) return {};
   std::istringstream words(line.str(1));
   return {std::istream_iterator<std::string>(words), {}};
 }
