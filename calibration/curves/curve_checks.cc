@@ -62,16 +62,8 @@ LeftOut leave_out(const std::vector<Curve>& curves, const std::vector<ForwardMod
   } catch (const meshes::NotConverged& error) {
     result.failure = error.what();
   }
-  // Before touch a travel's forces are noise about zero.
-  const Curve& curve = curves[place];
-  const double largest = std::abs(
-      *std::ranges::max_element(curve.y, {}, [](double value) { return std::abs(value); }));
-  for (Index i = 0; i < result.residuals.size(); ++i) {
-    const double base = curve.is_travel ? largest : std::abs(curve.y[std::size_t(i)]);
-    if (base != 0.0)
-      result.worst_relative_error =
-          std::max(result.worst_relative_error, std::abs(result.residuals(i)) / base);
-  }
+  if (result.failure.empty())
+    result.worst_relative_error = worst_relative_error(result.residuals, curves[place]);
   return result;
 }
 
@@ -124,6 +116,17 @@ void check_ratios(const CurveFitOptions& options, const std::vector<double>& rat
 }
 
 }  // namespace
+
+double worst_relative_error(const VectorXd& residuals, const Curve& curve) {
+  // Before touch a travel's forces are noise about zero.
+  const double largest = VectorXd::Map(curve.y.data(), residuals.size()).cwiseAbs().maxCoeff();
+  double worst = 0.0;
+  for (Index i = 0; i < residuals.size(); ++i) {
+    const double base = curve.is_travel ? largest : std::abs(curve.y[std::size_t(i)]);
+    if (base != 0.0) worst = std::max(worst, std::abs(residuals(i)) / base);
+  }
+  return worst;
+}
 
 std::vector<LeftOut> leave_one_out(const std::vector<Curve>& curves,
                                    const std::vector<ForwardModel*>& models,

@@ -14,11 +14,14 @@ namespace fingertip::calibration {
 /// A fit to all curves but one, and what it predicts of that one.
 struct LeftOut {
   Eigen::VectorXd estimates;
-  Eigen::VectorXd residuals;          ///< of the curve left out, measured minus predicted [y]
-  double worst_relative_error = 0.0;  ///< largest |residual/measured| where that is not
-                                      ///< zero; of a travel over its largest value
-  std::string failure;                ///< why there is no such fit; all else is then empty
+  Eigen::VectorXd residuals;  ///< of the curve left out, measured minus predicted [y]
+  double worst_relative_error = 0.0;
+  std::string failure;  ///< why there is no such fit; all else is then empty
 };
+
+/// Largest |residual| over |measured| where that is not zero; of a travel over its largest
+/// |measured|. `residuals` has an entry per value of `curve`.
+double worst_relative_error(const Eigen::VectorXd& residuals, const Curve& curve);
 
 /// One per curve, each sought from `fit`'s estimates alone. Throws InvalidInput for less than two
 /// curves, Interrupted.

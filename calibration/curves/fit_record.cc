@@ -274,16 +274,8 @@ std::size_t rubber_parameters(const CurveFit& fit) {
 
 double worst_relative_residual(const FitRecord& record) {
   double worst = 0.0;
-  for (std::size_t c = 0; c < record.curves.size(); ++c) {
-    const Curve& curve = record.curves[c];
-    if (curve.is_travel) {
-      worst = std::max(worst, relative_size(record.fit.residuals[c], curve).worst);
-      continue;
-    }
-    for (std::size_t i = 0; i < curve.y.size(); ++i)
-      if (curve.y[i] != 0.0)
-        worst = std::max(worst, std::abs(record.fit.residuals[c](Index(i)) / curve.y[i]));
-  }
+  for (std::size_t c = 0; c < record.curves.size(); ++c)
+    worst = std::max(worst, worst_relative_error(record.fit.residuals[c], record.curves[c]));
   return worst;
 }
 

@@ -62,8 +62,7 @@ std::string roof_key(const KernelSample& s) {
 
 constexpr const char* own_roof =
     "the ceiling is what this kernel reached in some round: the probe was slower there, disturbed "
-    "by "
-    "others";
+    "by others";
 
 /// Time per operation and thread, as long as one in double precision; unknown where operations are
 /// not counted.

@@ -78,10 +78,6 @@ std::string step_text(double step) {
                                     : fmt::format("{:.3g} ms", 1e3 * step);
 }
 
-bool goes_straight(const meshes::PressProtocol& protocol) {
-  return not_straight(protocol).empty();
-}
-
 /// The press straight down whose continuum takes seconds; its strain is the lattice's where none
 /// is asked for.
 LoadedConfig pressed_straight(LoadedConfig loaded) {
@@ -95,14 +91,11 @@ LoadedConfig pressed_straight(LoadedConfig loaded) {
 }
 
 ForetoldModel this_press(const meshes::PressResponse& response) {
-  return {"this press", [&response](const ContactCurve& curve) {
-            std::vector<double> forces;
-            for (const double depth : curve.forces.indentation)
-              forces.push_back(depth <= response.depth() * (1.0 + 1e-6)
-                                   ? response.normal_force_at(std::min(depth, response.depth()))
-                                   : meshes::unknown);
-            return forces;
-          }};
+  return by_law("this press", [&response](const ContactCurve&, double depth) {
+    return depth <= response.depth() * (1.0 + 1e-6)
+               ? response.normal_force_at(std::min(depth, response.depth()))
+               : meshes::unknown;
+  });
 }
 
 std::string errors_text(const TransferObstacleEntry& errors) {
@@ -142,8 +135,7 @@ RealTimeRun real_time_run(const CommandLine& line) {
 std::string RealTimeRun::note() const {
   const ShowIn units(asked_units(loaded));
   const meshes::Geometry& geometry = loaded.config.press.geometry;
-  const bool as_asked = record.spacing >= record.spacing_asked * (1.0 - 1e-9) &&
-                        record.spacing <= record.spacing_asked * (1.0 + 1e-9);
+  const bool as_asked = same_spacing(record.spacing, record.spacing_asked);
   return fmt::format(
       "--real-time: spacing {}{}, {}, steps of {}{}, threads: {}; expected real-time factor in the "
       "slowest 10 ms: {:.3g}, from {}",
@@ -179,7 +171,7 @@ void RealTimeRun::find_force_error(Session& session,
       return;
     }
     std::vector<ForetoldModel> models = {lattice_at_rest()};
-    const bool is_straight = goes_straight(loaded.config.press.protocol);
+    const bool is_straight = not_straight(loaded.config.press.protocol).empty();
     if (response && is_straight) models.push_back(this_press(*response));
     record.force_error_of =
         fmt::format("against the continuum at {} strain{}",

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <thread>
-
 #include "lattice/control/controller.h"
+#include "lattice/dynamics/thread_choice.h"
 #include "meshes/cannot_write.h"
 #include "meshes/errors.h"
 #include "studies/run/asked_units.h"
@@ -43,7 +42,7 @@ bool holds_results(const std::filesystem::path& folder) {
 
 int cores_for(const LoadedConfig& loaded) {
   const int wanted = loaded.config.press.threads;
-  return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
+  return wanted > 0 ? wanted : lattice::machine_cores();
 }
 
 LoadedConfig load_checked(const CommandLine& line) {

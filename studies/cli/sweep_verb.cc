@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
+#include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/run/interrupt.h"
 #include "studies/sweep/sweep_run.h"
@@ -43,11 +43,6 @@ void prepare(const Sweep& sweep, const CommandLine& line) {
   claim_folder(sweep, line.out);
 }
 
-int lanes(const Sweep& sweep) {
-  const int wanted = sweep.base.config.press.threads;
-  return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
-}
-
 }  // namespace
 
 int run_sweep(const CommandLine& line) {
@@ -73,7 +68,8 @@ int run_sweep(const CommandLine& line) {
                result.reused ? " (earlier)" : "");
     std::fflush(stdout);
   };
-  const auto results = run_points(sweep, planned, line.out, lanes(sweep), line.words, tell);
+  const auto results =
+      run_points(sweep, planned, line.out, cores_for(sweep.base), line.words, tell);
   if (line.shard.empty()) return collect_all(line.out, line.quiet);
   const auto ok = [](const PointResult& result) { return result.status == "finished"; };
   return std::ranges::all_of(results, ok) ? 0 : 3;

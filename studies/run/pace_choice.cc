@@ -14,10 +14,6 @@ namespace {
 using lattice::Integrator;
 using lattice::PressSetup;
 
-bool same_pace(const PaceCandidate& a, const PaceCandidate& b) {
-  return std::abs(a.spacing - b.spacing) <= 1e-9 * b.spacing;
-}
-
 /// Wall time of a step [s].
 double step_cost(const MeasuredPace& pace) {
   return pace.candidate.step / pace.factor;
@@ -76,6 +72,10 @@ PaceCandidate candidate_at(const PressSetup& setup, bool scalable) {
 
 }  // namespace
 
+bool same_spacing(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * b;
+}
+
 double pace_judged_from(const PressSetup& setup) {
   constexpr double round_off = 1e-9;
   return setup.protocol.depth / 3.0 * (1.0 - round_off);
@@ -83,7 +83,7 @@ double pace_judged_from(const PressSetup& setup) {
 
 double expected_factor(const PaceCandidate& candidate, std::vector<MeasuredPace> measured) {
   for (const MeasuredPace& own : measured)
-    if (same_pace(own.candidate, candidate)) return own.factor;
+    if (same_spacing(own.candidate.spacing, candidate.spacing)) return own.factor;
   std::ranges::sort(measured, {}, [](const MeasuredPace& m) { return m.candidate.load(); });
   return candidate.step / expected_cost(measured, candidate.load());
 }
@@ -95,7 +95,7 @@ PaceChoice choose_pace(const std::vector<PaceCandidate>& candidates,
     const double factor = expected_factor(candidates[i], measured);
     choice = {factor >= pace_margin, i, factor,
               std::ranges::any_of(measured, [&](const MeasuredPace& m) {
-                return same_pace(m.candidate, candidates[i]);
+                return same_spacing(m.candidate.spacing, candidates[i].spacing);
               })};
   }
   return choice;

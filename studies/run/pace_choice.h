@@ -51,6 +51,9 @@ struct PaceChoice {
 PaceChoice choose_pace(const std::vector<PaceCandidate>& candidates,
                        const std::vector<MeasuredPace>& measured);
 
+/// Up to round-off.
+bool same_spacing(double a, double b);
+
 /// Where the choice of a step begins to look: a third of the depth [m]. Before, the grids that keep
 /// up are themselves off by more than their steps.
 double pace_judged_from(const lattice::PressSetup& setup);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <csignal>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -18,15 +17,7 @@ using nlohmann::json;
 namespace {
 
 json read(const fs::path& file) {
-  std::ifstream stream(file);
-  return json::parse(stream);
-}
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file);
-  std::stringstream content;
-  content << stream.rdbuf();
-  return content.str();
+  return json::parse(read_text(file));
 }
 
 /// Forces of the lattice itself, times `scale`, as a measured file with 1 % sigma and a fixed
@@ -111,7 +102,7 @@ TEST(Calibrate, FindsTheRubberBehindARig) {
   EXPECT_EQ(found["rig"]["compliance"][0]["fitted"], false);
   EXPECT_EQ(found["rig"]["compliance"][0]["value"], 2e-3);
   // Its last column tells how deep the finger was.
-  EXPECT_NE(text_of(folder / "known" / "fit_data.csv").find("left_out,indentation"),
+  EXPECT_NE(read_text(folder / "known" / "fit_data.csv").find("left_out,indentation"),
             std::string::npos);
   const ProgramResult wrong = fit("{comliance = \"2 mm/N\"}", "wrong");
   EXPECT_EQ(wrong.code, 2);
@@ -227,7 +218,7 @@ TEST(Calibrate, FindsARubberAHundredTimesStiffer) {
   for (const char* constant : {"k1", "k2", "k3", "kappa"})
     EXPECT_NE(run.out.find(std::string("\n") + constant), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("kPa"), std::string::npos);
-  const std::string material = text_of(folder / "fit/material.toml");
+  const std::string material = read_text(folder / "fit/material.toml");
   EXPECT_NE(material.find("[geometry]"), std::string::npos) << material;
   EXPECT_EQ(material.find("density"), std::string::npos) << "a default is not known";
 }
@@ -251,7 +242,7 @@ TEST(Calibrate, PoissonsRatioStaysInItsRangeAndTheFitIsNotAccepted) {
   // On request there is a file, which says what it is, and a press says so again.
   const ProgramResult forced = run_program(folder.path(), with(words, {"--out", "fit", "--force"}));
   EXPECT_EQ(forced.code, 4) << forced.err;
-  EXPECT_NE(text_of(folder / "fit/material.toml").find("rejected = \"Poisson's ratio ended"),
+  EXPECT_NE(read_text(folder / "fit/material.toml").find("rejected = \"Poisson's ratio ended"),
             std::string::npos);
   const ProgramResult press =
       run_program(folder.path(),
@@ -378,14 +369,14 @@ TEST(Calibrate, ResumesAndDoesNotDependOnThreads) {
   const ProgramResult stopped = killed.wait();
   if (stopped.code == 0 || stopped.code == 4) GTEST_SKIP() << "too fast to be interrupted";
   ASSERT_EQ(stopped.code, 130) << stopped.err;
-  const std::string before = text_of(evaluations);
+  const std::string before = read_text(evaluations);
   ASSERT_FALSE(before.empty());
 
   const ProgramResult resumed = run_program(
       folder.path(), with(data, {"--threads", "1", "--out", "killed", "--resume", "auto"}));
   // Poisson's ratio stays open on so coarse a lattice, which is a verdict, not a failure.
   ASSERT_TRUE(resumed.code == 0 || resumed.code == 4) << resumed.err;
-  EXPECT_TRUE(text_of(evaluations).starts_with(before)) << "evaluations were done again";
+  EXPECT_TRUE(read_text(evaluations).starts_with(before)) << "evaluations were done again";
   fs::remove_all(folder / "cache");
   const ProgramResult whole =
       run_program(folder.path(), with(data, {"--threads", "2", "--out", "whole"}));

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
@@ -70,8 +69,7 @@ json fitted(const fs::path& folder, const std::string& out, std::vector<std::str
                    "calibration.forward=continuum", "reference.fields=false"});
   const ProgramResult run = run_program(folder, with({"calibrate", "--out", out}, settings));
   EXPECT_TRUE(run.code == 0 || run.code == 4) << run.err;
-  std::ifstream stream(folder / out / "calibration.json");
-  return json::parse(stream);
+  return json::parse(read_text(folder / out / "calibration.json"));
 }
 
 /// Smooth curves resemble each other: a cause is told where it is among the first three and would

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <regex>
 #include <sstream>
@@ -13,18 +12,9 @@
 #include "program.h"
 #include "tests/temporary_folder.h"
 
-namespace fs = std::filesystem;
-
 namespace {
 
 using Tokens = std::vector<std::string>;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file);
-  std::stringstream content;
-  content << stream.rdbuf();
-  return content.str();
-}
 
 /// Between lines of three back quotes, the language with the text.
 std::vector<std::string> blocks_of(const std::string& page) {
@@ -115,7 +105,7 @@ std::vector<Tokens> stretches_of(std::string shown) {
 TEST(Tutorial, ShowsWhatTheProgramPrints) {
   const TemporaryFolder folder;
   int steps = 0;
-  for (const std::string& block : blocks_of(text_of(FINGERTIP_TUTORIAL))) {
+  for (const std::string& block : blocks_of(read_text(FINGERTIP_TUTORIAL))) {
     if (block.starts_with("toml\n[rubber]")) write_text(folder / "rubber.toml", block.substr(5));
     for (const Step& step : steps_of(block)) {
       const ProgramResult run = run_program(folder.path(), words_of(step.command));
