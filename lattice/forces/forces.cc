@@ -19,6 +19,11 @@ InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
   if (model.has_springs()) {
     const kernel::Variant variant{model.kinematics == Kinematics::finite, rates_};
     springs_ = kernel::select(variant, width);
+    const std::ptrdiff_t plane = std::ptrdiff_t(model.grid.size[0]) * model.grid.size[1];
+    arrays_.row = model.grid.size[0];
+    arrays_.plane = plane;
+    if (variant.finite)
+      pulls_.assign(std::size_t(team.threads()), std::vector<double>(kernel::pulls_size(plane)));
   }
   for (std::size_t s = 0; s < directions; ++s) {
     arrays_.weight[s] = model.weight[s].data();
@@ -66,7 +71,7 @@ CellExtremes InternalForces::find(const State& state, double time, const Relaxin
 CellExtremes InternalForces::respond(const VectorField& displacement, const State& state,
                                      const kernel::Past& past, VectorField& force) {
   if (springs_ != nullptr) {
-    gather_springs(displacement, state, force);
+    add_springs(displacement, state, force);
   } else {
     clear(force);
   }
@@ -89,15 +94,27 @@ const VectorField& InternalForces::damped(const State& state) {
   return damped_;
 }
 
-void InternalForces::gather_springs(const VectorField& displacement, const State& state,
-                                    VectorField& force) {
+void InternalForces::add_springs(const VectorField& displacement, const State& state,
+                                 VectorField& force) {
   for (std::size_t c = 0; c < 3; ++c) {
     arrays_.displacement[c] = displacement.component[c].data();
     arrays_.velocity[c] = state.velocity.component[c].data();
     arrays_.force[c] = force.component[c].data();
   }
-  team_->split(model_->blocks.size(), points_at_once, [&](std::size_t begin, std::size_t end) {
-    springs_(arrays_, model_->blocks.data(), begin, end);
+  const std::size_t blocks = model_->blocks.size();
+  if (pulls_.empty()) {
+    team_->split(blocks, points_at_once, [&](std::size_t begin, std::size_t end) {
+      springs_(arrays_, model_->blocks.data(), begin, end, nullptr);
+    });
+    return;
+  }
+  // One portion per thread: at its begin a plane of springs is evaluated twice.
+  const std::size_t portions = pulls_.size();
+  team_->split(portions, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t portion = begin; portion < end; ++portion) {
+      springs_(arrays_, model_->blocks.data(), portion * blocks / portions,
+               (portion + 1) * blocks / portions, pulls_[portion].data());
+    }
   });
 }
 

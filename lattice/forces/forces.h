@@ -40,18 +40,19 @@ class InternalForces {
                     RelaxingMemory* noted, VectorField& force);
   CellExtremes respond(const VectorField& displacement, const State& state,
                        const kernel::Past& past, VectorField& force);
-  void gather_springs(const VectorField& displacement, const State& state, VectorField& force);
+  void add_springs(const VectorField& displacement, const State& state, VectorField& force);
   void clear(VectorField& force);
 
   const LatticeModel* model_;
   Team* team_;
-  kernel::GatherForces springs_ = nullptr;  ///< null without springs
+  kernel::SpringForces springs_ = nullptr;  ///< null without springs
   CellForces cells_, shear_;                ///< `shear_`: what relaxes where the bulk does not
   bool rates_ = true;  ///< else one pass at u + tau v serves stiffness and damping
   kernel::Arrays arrays_{};
-  VectorField damped_;     ///< u + tau v, and what relaxes
-  VectorField lag_;        ///< what relaxes where the bulk does not
-  mutable State lagging_;  ///< scratch
+  std::vector<std::vector<double>> pulls_;  ///< scratch of the springs, per portion of the blocks
+  VectorField damped_;                      ///< u + tau v, and what relaxes
+  VectorField lag_;                         ///< what relaxes where the bulk does not
+  mutable State lagging_;                   ///< scratch
   std::vector<kernel::Fading> fading_;
 };
 

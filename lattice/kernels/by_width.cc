@@ -16,7 +16,7 @@ int supported_width() {
   return __builtin_cpu_supports("avx2") ? 4 : 2;
 }
 
-GatherForces select(const Variant& variant, int width) {
+SpringForces select(const Variant& variant, int width) {
   return by_width(width, springs_at<2>, springs_at<4>, springs_at<8>)(variant);
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "lattice/kernels/by_width.h"
+#include "lattice/kernels/stencil.h"
 
 namespace fingertip::lattice::kernel {
 
@@ -16,6 +17,7 @@ struct Arrays {
   const double* weight[13];
   double* force[3];  ///< written at every point of the blocks [N]
   std::ptrdiff_t neighbour[13];
+  std::ptrdiff_t row, plane;  ///< points of the grid in a row, in a plane
   double spacing;
   double stiffness[3], damping[3];
 };
@@ -27,11 +29,17 @@ struct Variant {
   bool rates = true;
 };
 
-/// Forces of springs on the points of blocks[begin, end). Every point gathers its own 26 springs,
-/// each of them evaluated from both ends: no two calls write the same place, and the result does
-/// not depend on how blocks are distributed.
-using GatherForces = void (*)(const Arrays&, const std::uint32_t* blocks, std::size_t begin,
-                              std::size_t end);
+/// Forces of springs on the points of blocks[begin, end), which follow one another in the grid's
+/// order. No two calls write the same place, and the result does not depend on how blocks are
+/// shared out. At finite kinematics a spring is evaluated once, at the point that comes first, with
+/// those of the plane before blocks[begin] once more; `pulls` is scratch of this call alone,
+/// pulls_size() numbers. At small kinematics each point evaluates its own, and there is no scratch.
+using SpringForces = void (*)(const Arrays&, const std::uint32_t* blocks, std::size_t begin,
+                              std::size_t end, double* pulls);
+/// For two planes of `plane` points, three steps along x and three components.
+constexpr std::size_t pulls_size(std::ptrdiff_t plane) {
+  return 18 * (std::size_t(plane) + 2 * lanes);
+}
 
 /// Borrowed arrays for moving the particles through one time step.
 struct Motion {
@@ -51,12 +59,12 @@ using MoveParticles = void (*)(const Motion&, const std::uint32_t* blocks, std::
 
 /// The kernel for this variant and a number of doubles per register: 2 (every x86-64), 4 (AVX2), 8
 /// (AVX-512), or 0 for the widest the processor has; the caller makes sure that it has the others.
-GatherForces select(const Variant& variant, int width = 0);
+SpringForces select(const Variant& variant, int width = 0);
 MoveParticles select_move(int width = 0);
 
 /// Those of one compilation (kernel_widths.cc).
 template <int width>
-GatherForces springs_at(const Variant& variant);
+SpringForces springs_at(const Variant& variant);
 template <int width>
 MoveParticles move_at();
 

@@ -6,10 +6,10 @@ namespace fingertip::lattice::kernel {
 using Pack = std::experimental::native_simd<double>;
 
 template <int width>
-GatherForces springs_at(const Variant& variant) {
+SpringForces springs_at(const Variant& variant) {
   return Body<Pack>::select(variant);
 }
-template GatherForces springs_at<int(Pack::size())>(const Variant&);
+template SpringForces springs_at<int(Pack::size())>(const Variant&);
 
 template <int width>
 MoveParticles move_at() {

@@ -86,7 +86,9 @@ TEST(Forces, TheTipsKernelMatchesTheEdgeListOnAnyNumberOfThreads) {
     const VectorField expected = reference::forces(model, state);
     const VectorField serial = kernel_forces(model, state, 1);
     EXPECT_LT(difference(model, serial, expected), 1e-13 * largest(model, expected));
-    EXPECT_EQ(difference(model, serial, kernel_forces(model, state, 3)), 0.0);
+    // 25: portions that begin within a plane and are shorter than what leads to them.
+    for (const int threads : {2, 3, 25})
+      EXPECT_EQ(difference(model, serial, kernel_forces(model, state, threads)), 0.0) << threads;
   }
 }
 
