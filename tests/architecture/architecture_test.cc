@@ -48,10 +48,10 @@ class PlantedTree : public testing::Test {
             ("fingertip_architecture_" +
              std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(root_);
-    for (const char* room : {"meshes", "lattice", "lattice/kernels", "lattice/model",
-                             "lattice/forces", "lattice/contact", "lattice/dynamics",
-                             "lattice/control", "lattice/statics", "lattice/press", "lattice/grasp",
-                             "lattice/springs", "fem_reference", "calibration", "studies"})
+    for (const char* room :
+         {"meshes", "lattice", "lattice/kernels", "lattice/model", "lattice/forces",
+          "lattice/contact", "lattice/dynamics", "lattice/control", "lattice/statics",
+          "lattice/press", "lattice/grasp", "fem_reference", "calibration", "studies"})
       plant(std::string(room) + "/README.md", "# room\n");
     plant("tests/README.md", "# tests\n");
     plant("meshes/shape.h", header("meshes", ""));

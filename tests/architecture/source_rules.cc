@@ -30,7 +30,6 @@ const std::map<std::string, std::set<std::string>>& arrows() {
        {"lattice/control", "lattice/statics", "lattice/dynamics", "lattice/contact",
         "lattice/model", "lattice/kernels"}},
       {"lattice/grasp", {"lattice/control", "lattice/forces", "lattice/model"}},
-      {"lattice/springs", {"lattice/kernels"}},
       {"fem_reference", {"meshes"}},
       {"calibration", {"lattice", "meshes"}},
       {"studies", {"meshes", "lattice", "fem_reference", "calibration"}}};

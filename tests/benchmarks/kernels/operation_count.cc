@@ -1,6 +1,7 @@
 #include "operation_count.h"
 
 #include <array>
+#include <vector>
 
 #include "counted.h"
 // The free functions that the kernels call on their numbers must be known before the kernels are.
@@ -33,7 +34,11 @@ namespace {
   a.spacing = model.spacing();
   std::copy(model.stiffness.begin(), model.stiffness.end(), a.stiffness);
   std::copy(model.damping.begin(), model.damping.end(), a.damping);
-  kernel::Body<Counted>::select({finite, rates})(a, model.blocks.data(), 0, model.blocks.size());
+  a.row = model.grid.size[0];
+  a.plane = a.row * model.grid.size[1];
+  std::vector<double> pulls(kernel::pulls_size(a.plane));
+  kernel::Body<Counted>::select({finite, rates})(a, model.blocks.data(), 0, model.blocks.size(),
+                                                 pulls.data());
   // u + tau v ahead of a single pass.
   if (!rates) Counted::operations += 6.0 * double(model.blocks.size() * lanes);
 }

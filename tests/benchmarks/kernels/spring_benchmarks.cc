@@ -4,7 +4,7 @@
 
 #include "benchmarks.h"
 #include "edge_list.h"
-#include "lattice/springs/spring_lattice.h"
+#include "tests/benchmarks/springs/engine/spring_lattice.h"
 #include "multiply_rate.h"
 
 namespace kernel_benchmarks {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "edge_list.h"
-#include "lattice/springs/spring_lattice.h"
 #include "multiply_rate.h"
 #include "spring_scenes.h"
+#include "tests/benchmarks/springs/engine/spring_lattice.h"
 
 using namespace fingertip;
 using namespace scenes;

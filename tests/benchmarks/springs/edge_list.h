@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "lattice/springs/spring_problem.h"
+#include "tests/benchmarks/springs/engine/spring_problem.h"
 
 namespace spring_peers {
 

@@ -1,7 +1,7 @@
 /// What the processor can do at best, to be compared with what the spring engine does.
 #pragma once
 
-#include "lattice/springs/spring_lattice.h"
+#include "tests/benchmarks/springs/engine/spring_lattice.h"
 
 namespace spring_peers {
 

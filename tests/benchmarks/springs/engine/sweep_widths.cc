@@ -1,6 +1,6 @@
 // The sweep, compiled once per instruction set (lattice/CMakeLists.txt).
-#include "lattice/springs/pack.h"
-#include "lattice/springs/sweep_body.h"
+#include "tests/benchmarks/springs/engine/pack.h"
+#include "tests/benchmarks/springs/engine/sweep_body.h"
 
 namespace fingertip::lattice::springs {
 

@@ -1,4 +1,4 @@
-#include "lattice/springs/reference_springs.h"
+#include "tests/benchmarks/springs/engine/reference_springs.h"
 
 #include <algorithm>
 #include <cmath>

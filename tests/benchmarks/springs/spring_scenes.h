@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "lattice/springs/spring_lattice.h"
-#include "lattice/springs/spring_problem.h"
 #include "meshes/cubic_grid.h"
+#include "tests/benchmarks/springs/engine/spring_lattice.h"
+#include "tests/benchmarks/springs/engine/spring_problem.h"
 
 namespace scenes {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "lattice/springs/reference_springs.h"
-#include "lattice/springs/spring_lattice.h"
 #include "spring_scenes.h"
+#include "tests/benchmarks/springs/engine/reference_springs.h"
+#include "tests/benchmarks/springs/engine/spring_lattice.h"
 
 using namespace fingertip;
 using namespace scenes;

@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "lattice/springs/spring_problem.h"
-#include "lattice/springs/sweep.h"
+#include "tests/benchmarks/springs/engine/spring_problem.h"
+#include "tests/benchmarks/springs/engine/sweep.h"
 
 namespace fingertip::lattice::springs {
 

@@ -7,7 +7,7 @@
 
 #include <immintrin.h>
 
-#include "lattice/springs/sweep.h"
+#include "tests/benchmarks/springs/engine/sweep.h"
 
 namespace fingertip::lattice::springs {
 

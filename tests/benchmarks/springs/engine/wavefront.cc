@@ -1,4 +1,4 @@
-#include "lattice/springs/wavefront.h"
+#include "tests/benchmarks/springs/engine/wavefront.h"
 
 #include <algorithm>
 #include <chrono>

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lattice/springs/sweep.h"
+#include "tests/benchmarks/springs/engine/sweep.h"
 
 namespace fingertip::lattice::springs {
 

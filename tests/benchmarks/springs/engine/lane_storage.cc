@@ -1,4 +1,4 @@
-#include "lattice/springs/lane_storage.h"
+#include "tests/benchmarks/springs/engine/lane_storage.h"
 
 #include <sys/mman.h>
 

@@ -1,4 +1,4 @@
-#include "lattice/springs/spring_problem.h"
+#include "tests/benchmarks/springs/engine/spring_problem.h"
 
 #include <cmath>
 #include <string>

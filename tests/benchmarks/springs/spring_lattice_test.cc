@@ -1,6 +1,6 @@
 // What must hold of the spring engine whatever the kernel: the same bits for every number of
 // threads, conserved momenta, no allocation while it runs, refusal of what it cannot do.
-#include "lattice/springs/spring_lattice.h"
+#include "tests/benchmarks/springs/engine/spring_lattice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "lattice/springs/spring_lattice.h"
+#include "tests/benchmarks/springs/engine/spring_lattice.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "lattice/kernels/kernel.h"
-#include "lattice/springs/lane_storage.h"
-#include "lattice/springs/sweep.h"
-#include "lattice/springs/wavefront.h"
+#include "tests/benchmarks/springs/engine/lane_storage.h"
+#include "tests/benchmarks/springs/engine/sweep.h"
+#include "tests/benchmarks/springs/engine/wavefront.h"
 
 namespace fingertip::lattice::springs {
 

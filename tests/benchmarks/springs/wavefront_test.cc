@@ -1,5 +1,5 @@
 // The order in which threads sweep planes, on a recurrence with the sweep's dependences.
-#include "lattice/springs/wavefront.h"
+#include "tests/benchmarks/springs/engine/wavefront.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "lattice/springs/spring_problem.h"
+#include "tests/benchmarks/springs/engine/spring_problem.h"
 
 namespace fingertip::lattice::springs {
 
