@@ -4,23 +4,22 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <map>
-#include <ostream>
 #include <string>
 #include <vector>
 
 #include "meshes/errors.h"
-#include "meshes/files.h"
+#include "meshes/stl_file.h"
 
 namespace fingertip::meshes {
 namespace {
 
-/// Edges around a full circle: chords are within pi²/(2 n²) of its radius.
-constexpr double edges_around = 120.0;
+/// Edges around a full circle: chords are within pi²/(2 n²) of its radius. With 120 the rubber that
+/// they cut off takes 0.06 % of the dome's force, with 160 half of that.
+constexpr double edges_around = 160.0;
 /// At the top, which touches first: depth counts from the highest vertex, forces from the mean
 /// facet. Height and longest edge over the solid's width.
-constexpr double top_height = 0.2, top_edge = 0.01;
+constexpr double top_height = 0.2, top_edge = 0.006;
 /// Longest and shortest edge over the solid's extent.
 constexpr double longest_edge = 0.1, shortest_edge = 1.0 / 400.0;
 
@@ -40,27 +39,29 @@ class Gmsh {
   throw InvalidInput({file.filename().string(), "", rule, remedy});
 }
 
-using Facet = std::array<std::array<float, 3>, 3>;
-
-/// Of one surface; `side` is -1 where it faces into the solid.
-void take_facets(int surface, int side, std::vector<Facet>& facets) {
+/// Adds those of one surface; `side` is -1 where it faces into the solid.
+void take_facets(int surface, int side, TriangleMesh& mesh) {
   std::vector<std::size_t> nodes;
   std::vector<double> places, none;
   gmsh::model::mesh::getNodes(nodes, places, none, 2, surface, true, false);
-  std::map<std::size_t, std::array<float, 3>> place;
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    place[nodes[n]] = {float(places[3 * n]), float(places[3 * n + 1]), float(places[3 * n + 2])};
+  std::map<std::size_t, int> number;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    number[nodes[n]] = int(mesh.vertices.size());
+    mesh.vertices.emplace_back(places[3 * n], places[3 * n + 1], places[3 * n + 2]);
+  }
   std::vector<std::size_t> tags, corners;
   constexpr int triangle = 2;
   gmsh::model::mesh::getElementsByType(triangle, tags, corners, surface);
   for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
-    Facet facet{place.at(corners[t]), place.at(corners[t + 1]), place.at(corners[t + 2])};
+    std::array<int, 3> facet{number.at(corners[t]), number.at(corners[t + 1]),
+                             number.at(corners[t + 2])};
     if (side < 0) std::swap(facet[1], facet[2]);
-    facets.push_back(facet);
+    mesh.triangles.push_back(facet);
   }
 }
 
-std::vector<Facet> facets_of(const std::filesystem::path& cad) {
+/// In the file's numbers.
+TriangleMesh facets_of(const std::filesystem::path& cad) {
   const Gmsh session;
   gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
   gmsh::vectorpair shapes, solids, surfaces;
@@ -95,23 +96,18 @@ std::vector<Facet> facets_of(const std::filesystem::path& cad) {
     gmsh::option::setNumber(option, value);
   gmsh::model::mesh::generate(2);
   gmsh::model::getBoundary(solids, surfaces, false, true);
-  std::vector<Facet> facets;
+  TriangleMesh mesh;
   for (const auto& [dimension, tag] : surfaces)
-    if (dimension == 2) take_facets(std::abs(tag), tag < 0 ? -1 : 1, facets);
-  return facets;
-}
-
-template <typename Number>
-void put(std::ostream& out, Number number) {
-  out.write(reinterpret_cast<const char*>(&number), sizeof number);
+    if (dimension == 2) take_facets(std::abs(tag), tag < 0 ? -1 : 1, mesh);
+  return mesh;
 }
 
 }  // namespace
 
 void write_cad_surface(const std::filesystem::path& cad, const std::filesystem::path& stl) {
-  std::vector<Facet> facets;
+  TriangleMesh mesh;
   try {
-    facets = facets_of(cad);
+    mesh = facets_of(cad);
   } catch (const std::string& words) {  // as gmsh throws
     refuse_cad(cad, "gmsh cannot mesh it: " + words, "mend the solid in the CAD program");
   } catch (const InvalidInput&) {
@@ -120,16 +116,7 @@ void write_cad_surface(const std::filesystem::path& cad, const std::filesystem::
     refuse_cad(cad, std::string("gmsh cannot mesh it: ") + error.what(),
                "mend the solid in the CAD program");
   }
-  write_atomically(stl, [&](std::ostream& out) {
-    out << "surface of a CAD solid" << std::string(80 - 22, ' ');
-    put(out, std::uint32_t(facets.size()));
-    for (const Facet& facet : facets) {
-      for (int d = 0; d < 3; ++d) put(out, 0.0F);  // readers find the normal themselves
-      for (const auto& corner : facet)
-        for (const float x : corner) put(out, x);
-      put(out, std::uint16_t(0));
-    }
-  });
+  write_stl(mesh, 1.0, "surface of a CAD solid", stl);
 }
 
 }  // namespace fingertip::meshes

@@ -24,7 +24,7 @@ bool sets_key(const CaseRun& run, const std::string& key) {
 const std::vector<RunKind>& run_kinds() {
   static const std::vector<RunKind> kinds = {
       {"run", "", "", false, {"verb", "beside", "varied", "when", "times", "exhibit"}},
-      {"variant", "press", "variants", true, {}},
+      {"variant", "press", "variants", true, {"beside"}},
       {"fit", "fit", "fits", true, {}},
       {"prediction", "press", "", true, {}},  // below each fit
       {"press", "press", "presses", false, {"beside", "continuum", "snapshots"}},

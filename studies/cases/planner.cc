@@ -160,7 +160,7 @@ void Planner::add_press(const LoadedConfig& loaded, RunResult& result) {
   if (run.is("press") && at_rest)
     throw ConfigError({{"", "press.mode", "static", "a press under a controller takes time",
                         "choose pid, or a case with variants"}});
-  if (run.is("variant"))
+  if (run.is("variant") && run.beside.empty())
     result.against = continuum_of(continuum_beside(loaded, result.setup.lattice.kinematics));
   if (run.is("press") && run.continuum) result.against = continuum_of(continuum_at_speed(loaded));
   for (std::size_t i = 0; i < results_.size() && !run.beside.empty(); ++i) {
@@ -170,6 +170,8 @@ void Planner::add_press(const LoadedConfig& loaded, RunResult& result) {
       result.against = results_[i].folder;
     else
       result.beside = i;
+    // One finger, two ways to write it: the other one's continuum is its own.
+    if (run.is("variant")) result.against = results_[i].against;
   }
 }
 

@@ -50,7 +50,7 @@ double relative_error(double value, double wanted) {
 Roles roles_of(const CaseRun& run) {
   Roles all = {run.is("run") ? "run " + run.verb : run.kind};
   if (run.is("press") && run.continuum) all.emplace_back("beside continuum");
-  if (run.is("press") && !run.beside.empty()) all.emplace_back("beside press");
+  if (!run.is("run") && !run.beside.empty()) all.emplace_back("beside press");
   return all;
 }
 

@@ -137,6 +137,11 @@ void add_export(CLI::App& sub, CommandLine& line) {
   sub.add_flag("--lossy", line.lossy, "go on where the format cannot say all of the model");
 }
 
+void add_shape(CLI::App& sub, CommandLine& line) {
+  sub.add_option("--stl", line.stl, "write the surface as triangles, too: STL, in mm")
+      ->type_name("FILE");
+}
+
 void add_import(CLI::App& sub, CommandLine& line) {
   sub.add_flag("--compare", line.compare, "march the lattice ourselves and tell the deviation");
   sub.add_flag("--frames", line.frames, "write frames/ for ParaView");
@@ -188,6 +193,7 @@ void add_verb(CLI::App& app, const Verb& verb, CommandLine& line, std::string& p
   }
   if (name == "live") add_live(sub, line);
   if (name == "sweep") add_sweep(sub, line);
+  if (name == "shape") add_shape(sub, line);
   if (name == "export") add_export(sub, line);
   if (name == "import") add_import(sub, line);
   if (name == "bench") add_bench(sub, line);

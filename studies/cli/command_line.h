@@ -31,6 +31,7 @@ struct CommandLine {
   bool running = false;              ///< live: at the start
   double rate = 1.0;                 ///< live: wanted real-time factor, 0: any
   std::optional<double> exit_after;  ///< live: wall time [s]
+  std::filesystem::path stl;         ///< of shape: the surface goes to this file, too
   std::string format = "lammps";     ///< of export
   bool lossy = false;                ///< export --lossy
   bool compare = false;              ///< import --compare

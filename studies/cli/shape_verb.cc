@@ -8,7 +8,9 @@
 
 #include "meshes/cubic_grid.h"
 #include "meshes/meridian.h"
+#include "meshes/revolved_surface.h"
 #include "meshes/solid.h"
+#include "meshes/stl_file.h"
 #include "studies/cli/verbs.h"
 #include "studies/config/profile_file.h"
 #include "studies/report/figure.h"
@@ -23,7 +25,7 @@ using meshes::ProfileSurface;
 using meshes::Solid;
 using meshes::Vector3;
 
-constexpr double mm = 1e-3;
+constexpr double mm = 1e-3, um = 1e-6;
 /// Memory of a press in motion, at all and per V/a³ [MB]: measured on the dome at R/12, R/24, R/32
 /// (network; 77, 339 and 691 MB).
 constexpr double least_memory = 40.0, memory_per_mass = 3.7e-3;
@@ -139,12 +141,40 @@ Geometry solid_of(const CommandLine& line, const std::filesystem::path& file) {
   return Geometry::of_solid(read_solid(config.solid), config.endpoint);
 }
 
+/// Of a meridian: triangles of its surface, and how far they are from it.
+meshes::TriangleMesh triangles_of(const Meridian& meridian) {
+  const meshes::TriangleMesh mesh = meshes::revolved_surface(meridian);
+  const meshes::SurfaceDeviation far = meshes::deviation(mesh, meridian);
+  fmt::print("  triangles         {}, within {:.2g} um of the surface, volume {:+.2g} %\n",
+             mesh.triangles.size(), far.largest / um, 100.0 * far.volume);
+  return mesh;
+}
+
+/// Refuses what is no name of a file that can be written.
+void check_stl(const CommandLine& line) {
+  if (line.stl.empty()) return;
+  if (line.arguments.size() > 1)
+    refuse("shape --stl", "it takes the surface of one finger", "give one file");
+  if (std::filesystem::exists(line.stl) && !line.force)
+    refuse("shape --stl " + line.stl.string(), "the file exists already",
+           "choose another name, or say --force to replace it");
+}
+
+void write_triangles(const CommandLine& line, const meshes::TriangleMesh& mesh,
+                     const std::string& name) {
+  const std::filesystem::path folder = line.stl.parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder);
+  meshes::write_stl(mesh, mm, "surface of " + name, line.stl);
+  fmt::print("  written           {}\n", line.stl.string());
+}
+
 }  // namespace
 
 int run_shape(const CommandLine& line) {
   namespace fs = std::filesystem;
   if (line.arguments.empty())
     refuse("shape", "no file is given", "give the CSV file of a meridian, or a solid's");
+  check_stl(line);
   for (const std::string& word : line.arguments) {
     const fs::path file = word;
     const std::string stem = file.stem().string() + "_section";
@@ -154,12 +184,14 @@ int run_shape(const CommandLine& line) {
       const Meridian meridian(geometry);
       fmt::print("{}: a closed meridian of {} pieces\n", word, meridian.pieces().size());
       print_measures(geometry, meridian);
+      if (!line.stl.empty()) write_triangles(line, triangles_of(meridian), file.stem());
       figure = section(meridian, stem);
     } else {
       const Geometry geometry = solid_of(line, file);
       fmt::print("{}: a closed surface of {} facets\n", word,
                  geometry.solid->mesh().triangles.size());
       print_measures(geometry, *geometry.solid);
+      if (!line.stl.empty()) write_triangles(line, geometry.solid->mesh(), file.stem());
       figure = section(*geometry.solid, stem);
     }
     const fs::path folder = line.out.empty() ? file.parent_path() : line.out;

@@ -113,10 +113,11 @@ std::vector<Key> specimen_keys() {
                         "closed meridian, a CSV file with the columns r [mm],z [mm],surface,curve",
                         at(&Config::profile))),
       of_solid(choice("geometry", "file", {{"none", "only for a solid"}},
-                      "closed surface of one body that points along +z: .stl, .step or .brep",
+                      "closed surface of one body that points along +z: .stl, .step, .brep, "
+                      "or the .csv of a meridian, made into triangles",
                       at(&Config::solid, &SolidFile::file))),
       of_solid(plain("geometry", "unit", any,
-                     "unit of length of the numbers in geometry.file (STEP has its own)",
+                     "unit of length of the numbers in geometry.file (STEP and CSV have their own)",
                      at(&Config::solid, &SolidFile::unit))),
       of_solid(plain("geometry", "bond", any,
                      "what of a solid's surface the hand holds: half spaces like z < 1 mm, joined "

@@ -13,7 +13,7 @@
 
 #include "meshes/errors.h"
 #include "meshes/text_file.h"
-#include "studies/config/cad_file.h"
+#include "studies/config/surface_cache.h"
 #include "studies/config/trimmed.h"
 #include "studies/config/units.h"
 
@@ -145,9 +145,10 @@ std::string kind_of_file(const fs::path& file) {
   return lower_case(file.extension().string());
 }
 
-double metres_per(const SolidFile& solid, bool has_unit) {
-  if (has_unit && solid.unit != "mm")
-    throw InvalidInput({"geometry.unit", solid.unit, "a STEP file has a unit of its own",
+double metres_per(const SolidFile& solid, const char* with_unit) {
+  if (with_unit != nullptr && solid.unit != "mm")
+    throw InvalidInput({"geometry.unit", solid.unit,
+                        std::string(with_unit) + " has a unit of its own",
                         "leave geometry.unit out"});
   try {
     return parse_quantity("1 " + solid.unit, "m", "1 mm");
@@ -201,13 +202,15 @@ meshes::Region parse_region(const std::string& text) {
 
 std::shared_ptr<const meshes::Solid> read_solid(const SolidFile& solid) {
   const std::string kind = kind_of_file(solid.file);
-  const bool step = kind == ".step" || kind == ".stp";
-  if (!is_solid_file(solid.file))
+  const bool step = kind == ".step" || kind == ".stp", meridian = kind == ".csv";
+  if (!meridian && !is_solid_file(solid.file))
     throw InvalidInput({"geometry.file", solid.file.string(),
-                        "a solid is an STL, STEP or BREP file",
-                        "name a .stl, .step or .brep file"});
+                        "a solid is an STL, STEP or BREP file, or a meridian's CSV file",
+                        "name a .stl, .step, .brep or .csv file"});
   const meshes::Region bond = parse_region(solid.bond);
-  const double metres = metres_per(solid, step);
+  const double metres = metres_per(solid, step       ? "a STEP file"
+                                          : meridian ? "a meridian's file"
+                                                     : nullptr);
   TriangleMesh mesh = read_stl(kind == ".stl" ? solid.file : triangulated(solid.file));
   for (meshes::Vector3& vertex : mesh.vertices) vertex *= metres;
   return std::make_shared<meshes::Solid>(mesh, bond);

@@ -11,8 +11,8 @@ namespace fingertip::studies {
 
 /// What the keys say.
 struct SolidFile {
-  std::filesystem::path file;  ///< absolute; .stl, .step, .stp or .brep
-  std::string unit = "mm";     ///< of length, of the file's numbers; STEP files have their own
+  std::filesystem::path file;  ///< absolute; .stl, .step, .brep, or a meridian's .csv
+  std::string unit = "mm";     ///< of length, of the file's numbers; STEP and CSV have their own
   std::string bond;            ///< "z < 1 mm and x > 0 mm or ..."
 
   bool operator==(const SolidFile&) const = default;

@@ -11,6 +11,7 @@
 #include "lattice/control/force_controller.h"
 #include "studies/live/server.h"
 #include "tests/coarse_press.h"
+#include "tests/fingers.h"
 
 using namespace fingertip;
 
@@ -243,6 +244,32 @@ TEST_F(LiveForcePage, SetsTheContactForce) {
   EXPECT_NEAR(simulation_->frame()->state.settings.contact_force, 0.5 * (span.least + span.most),
               1e-9);
   EXPECT_EQ(page_->evaluate(crowded), nlohmann::json::array());
+}
+
+/// A finger of triangles.
+class LiveSolidPage : public LivePage {
+ protected:
+  lattice::PressSetup press() const override {
+    lattice::PressSetup setup = LivePage::press();
+    setup.geometry = fingers::solid_dome(32, 24);
+    return setup;
+  }
+};
+
+TEST_F(LiveSolidPage, IsPressedAndPulledAsAnyFinger) {
+  page_->click("#run");
+  ASSERT_TRUE(page_->wait_for(
+      "parseFloat(document.getElementById('normal-force').textContent) > 10.0", 60.0));
+  page_->click("#run");
+  ASSERT_TRUE(page_->wait_for(connected));
+  come_to_rest();
+  EXPECT_GT(shown("touching"), 0.0);
+  EXPECT_NEAR(shown("indentation"), 1e3 * simulation_->frame()->picture.row.indentation, 0.51e-3);
+  page_->click("#controller");  // off: the rod is free
+  page_->drag("#handle", 60.0, 0.0);
+  ASSERT_TRUE(page_->wait_for("'held' in document.getElementById('handle').dataset"));
+  if (const char* folder = std::getenv("FINGERTIP_SCREENSHOTS"))
+    page_->screenshot(std::filesystem::path(folder) / "solid.png");
 }
 
 TEST_F(LivePage, TheHandPullsTheRodAndFeelsIt) {

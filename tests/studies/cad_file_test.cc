@@ -61,7 +61,7 @@ TEST(CadFile, DomeOfAStepFileIsTheDome) {
   EXPECT_NEAR(geometry.thickness(), dome.thickness(), 1e-5);
   EXPECT_NEAR(geometry.solid->wall(), dome.thickness(), 2e-5);
   lattice::PressSetup setup;
-  setup.lattice.spacing = dome.tip_radius / 8;
+  setup.lattice.spacing = dome.tip_radius / 12;
   setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
   setup.protocol.contact = meshes::ContactMode::frictionless;
   setup.protocol.mode = meshes::DriveMode::equilibrium;
@@ -70,10 +70,10 @@ TEST(CadFile, DomeOfAStepFileIsTheDome) {
   const auto expected = lattice::run_static_press(setup).response.samples();
   setup.geometry = geometry;
   const auto found = lattice::run_static_press(setup).response.samples();
-  // Measured: 0.12 % to 0.18 % low. Of that the chords make little (174 000 facets: 0.12 % at 1
-  // mm); where in the few touching cells the points lie makes the rest.
+  // Measured: up to 0.085 % low. Chords cut off a part of it: with 262 000 facets it is 0.05 %, as
+  // much as twice as many points of contact change the dome itself.
   for (std::size_t i = 0; i < found.size(); ++i)
-    EXPECT_NEAR(found[i].normal_force / expected[i].normal_force, 1.0, 2e-3)
+    EXPECT_NEAR(found[i].normal_force / expected[i].normal_force, 1.0, 1e-3)
         << geometry.solid->mesh().triangles.size() << " facets";
 }
 

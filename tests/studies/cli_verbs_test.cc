@@ -34,6 +34,20 @@ TEST(Verbs, ShapeTellsMeasuresAndDraws) {
     EXPECT_NE(good.out.find(part), std::string::npos) << part << "\n" << good.out;
   EXPECT_TRUE(std::filesystem::exists(folder / "drawn/finger_section.svg"));
 
+  // Its surface as triangles, which is a finger again.
+  const ProgramResult written =
+      run_program(folder.path(), {"shape", "finger.csv", "--out", "drawn", "--stl", "finger.stl"});
+  EXPECT_EQ(written.code, 0) << written.err;
+  EXPECT_NE(written.out.find("written           finger.stl"), std::string::npos) << written.out;
+  const ProgramResult again = run_program(
+      folder.path(), {"shape", "finger.stl", "--set", "geometry.bond=z < 0 mm", "--out", "drawn"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.out.find("rubber            420"), std::string::npos) << again.out;
+  const ProgramResult twice =
+      run_program(folder.path(), {"shape", "finger.csv", "--out", "drawn", "--stl", "finger.stl"});
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_NE(twice.err.find("exists already"), std::string::npos) << twice.err;
+
   write_text(folder / "open.csv", "r [mm],z [mm],surface,curve\n5,0,contact,\n0,9,axis,\n");
   const ProgramResult bad = run_program(folder.path(), {"shape", "open.csv"});
   EXPECT_EQ(bad.code, 2);

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 #include <string>
 
 #include "meshes/errors.h"
+#include "meshes/revolved_surface.h"
+#include "meshes/stl_file.h"
 #include "studies/config/loader.h"
 #include "tests/fingers.h"
 #include "tests/stl_text.h"
@@ -85,6 +88,28 @@ TEST(SolidFile, MakesTheFingerOfAConfiguration) {
   const auto centimetres =
       load_config({folder / "case.toml", {"geometry.unit=cm", "geometry.bond=z < 1 cm"}, {}});
   EXPECT_NEAR(centimetres.config.press.geometry.tip_volume() / geometry.tip_volume(), 1000.0, 1e-6);
+}
+
+/// A meridian's file is made into an STL file, in mm, which is read as any other.
+TEST(SolidFile, MakesTrianglesOfAMeridian) {
+  const TemporaryFolder folder;
+  const meshes::Geometry profile = meshes::Geometry::of_profile(fingers::solid());
+  write_text(folder / "finger.CSV",
+             "r [cm],z [cm],surface,curve\n1.25,0,contact,\n1.25,1.25,contact,arc 0 1.25\n"
+             "0,2.5,axis,\n0,0,bond,\n");
+  const auto solid = read_solid({folder / "finger.CSV", "mm", "z < 0 mm"});
+  const meshes::TriangleMesh mesh = meshes::revolved_surface(meshes::Meridian(profile));
+  // An STL file has seven digits.
+  EXPECT_NEAR(solid->volume() / profile.tip_volume(),
+              1.0 + meshes::deviation(mesh, meshes::Meridian(profile)).volume, 1e-6);
+  EXPECT_NEAR(solid->area(meshes::ProfileSurface::bond), std::numbers::pi * 0.0125 * 0.0125, 1e-6);
+  meshes::write_stl(mesh, 1e-3, "a finger", folder / "finger.stl");
+  const auto again = read_solid({folder / "finger.stl", "mm", "z < 0 mm"});
+  EXPECT_EQ(again->content(), solid->content());
+  EXPECT_THROW(read_solid({folder / "finger.CSV", "cm", "z < 0 mm"}), meshes::InvalidInput);
+  write_text(folder / "open.csv", "r [mm],z [mm],surface,curve\n5,0,contact,\n0,9,axis,\n");
+  expect_refused(refusal_of("", with(settings, "finger.stl", (folder / "open.csv").string())),
+                 {"case.toml:3", "open.csv", "at least three"});
 }
 
 TEST(SolidFile, ReadsHalfSpaces) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -66,6 +67,22 @@ TEST(Variants, LatticesOfTheSameSpecimenAndContactShareAContinuum) {
   EXPECT_EQ(planned("04").first, 1U);
   EXPECT_EQ(planned("05").first, 7U);
   EXPECT_EQ(planned("06"), (std::pair<std::size_t, std::size_t>{2, 10}));
+}
+
+TEST(Variants, BesideAnotherOneTakeItsContinuum) {
+  const TemporaryFolder folder;
+  const Case study_case = case_with(
+      folder,
+      "variant = [\n"
+      "{ name = \"a\", set = {} },\n"
+      "{ name = \"b\", beside = \"a\", set = { \"geometry.tip_radius\" = \"1.01 cm\" } } ]\n");
+  std::size_t continua = 0;
+  for (const PlannedJob& job : planned_jobs(study_case)) continua += job.job.kind == "reference";
+  EXPECT_EQ(continua, 1U);
+  const std::vector<std::string> names = measure_names(study_case);
+  for (const char* name : {"b.change", "variants.change", "b.worst_error"})
+    EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
+  EXPECT_EQ(std::ranges::find(names, "a.change"), names.end());
 }
 
 TEST(Variants, AreStaticPressesAgainstTheContinuumOfTheirKinematics) {

@@ -7,6 +7,7 @@
 #include "lattice/control/force_controller.h"
 #include "lattice/press/press.h"
 #include "tests/coarse_press.h"
+#include "tests/fingers.h"
 
 using namespace fingertip;
 using namespace fingertip::studies;
@@ -84,9 +85,10 @@ TEST(Hand, AFreeRodComesToTheHandleWithoutSwinging) {
   EXPECT_LT(Eigen::AngleAxisd(rod.pose().orientation).angle(), 1e-6);
 }
 
-TEST(LiveRig, PressesLikeThePressVerb) {
-  // The way starts differently; once both rods have come to the same speed, forces agree.
-  lattice::PressSetup setup = coarse_press();
+namespace {
+
+/// The way starts differently; once both rods have come to the same speed, forces agree.
+void expect_pressed_alike(lattice::PressSetup setup) {
   setup.protocol.speed = 0.01;
   setup.protocol.clearance = 1e-3;
   const lattice::PressOutcome press = lattice::run_press(setup);
@@ -104,6 +106,18 @@ TEST(LiveRig, PressesLikeThePressVerb) {
     ++compared;
   }
   EXPECT_GT(compared, 5);
+}
+
+}  // namespace
+
+TEST(LiveRig, PressesLikeThePressVerb) {
+  expect_pressed_alike(coarse_press());
+}
+
+TEST(LiveRig, PressesASolidLikeThePressVerb) {
+  lattice::PressSetup setup = coarse_press();
+  setup.geometry = fingers::solid_dome(32, 24);
+  expect_pressed_alike(setup);
 }
 
 TEST(LiveRig, ResetRepeatsTheSameBits) {

@@ -1,13 +1,18 @@
-#include "studies/config/cad_file.h"
+#include "studies/config/surface_cache.h"
 
 #include <unistd.h>
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
 #include <string>
 
 #include "meshes/errors.h"
+#include "meshes/meridian.h"
+#include "meshes/revolved_surface.h"
+#include "meshes/stl_file.h"
 #include "meshes/text_file.h"
+#include "studies/config/profile_file.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
 
@@ -17,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of how the triangles are made: another one makes those in the cache stale.
-constexpr const char* version = "1";
+constexpr const char* version = "2";
 
 std::string digest_of(const std::string& content) {
   boost::uuids::name_generator_sha1 generator(boost::uuids::ns::oid());
@@ -32,13 +37,14 @@ fs::path folder_for_surfaces() {
   return !failed && ::access(folder.c_str(), W_OK) == 0 ? folder : fs::temp_directory_path();
 }
 
-}  // namespace
+constexpr double mm = 1e-3;
 
-fs::path triangulated(const fs::path& cad) {
-  const std::string content = meshes::read_text(cad);
-  const fs::path folder = folder_for_surfaces();
-  const fs::path stl = folder / (digest_of(content) + ".stl");
-  if (fs::exists(stl)) return stl;
+void write_meridian(const fs::path& csv, const fs::path& stl) {
+  const meshes::Meridian meridian(meshes::Geometry::of_profile(read_profile(csv)));
+  meshes::write_stl(meshes::revolved_surface(meridian), mm, "surface of a meridian", stl);
+}
+
+void write_cad(const fs::path& cad, const fs::path& stl, const fs::path& folder) {
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {
     throw meshes::InvalidInput({"geometry.file", cad.filename().string(), rule, remedy});
   };
@@ -61,6 +67,19 @@ fs::path triangulated(const fs::path& cad) {
            "mend the solid in the CAD program, or export an STL from it");
   }
   fs::rename(unfinished, stl);
+}
+
+}  // namespace
+
+fs::path triangulated(const fs::path& file) {
+  const std::string content = meshes::read_text(file);
+  const fs::path folder = folder_for_surfaces();
+  const fs::path stl = folder / (digest_of(content) + ".stl");
+  if (fs::exists(stl)) return stl;
+  if (boost::iequals(file.extension().string(), ".csv"))
+    write_meridian(file, stl);
+  else
+    write_cad(file, stl, folder);
   return stl;
 }
 

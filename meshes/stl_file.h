@@ -1,0 +1,16 @@
+/// Triangles as an STL file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "meshes/triangle_mesh.h"
+
+namespace fingertip::meshes {
+
+/// Writes a binary STL file of the mesh, its lengths in units of `unit` [m]; `title`: at most 80
+/// letters, not beginning with "solid". Throws CannotWrite.
+void write_stl(const TriangleMesh& mesh, double unit, const std::string& title,
+               const std::filesystem::path& file);
+
+}  // namespace fingertip::meshes
