@@ -252,6 +252,8 @@ class LiveSolidPage : public LivePage {
   lattice::PressSetup press() const override {
     lattice::PressSetup setup = LivePage::press();
     setup.geometry = fingers::solid_dome(32, 24);
+    setup.lattice.spacing = setup.geometry.tip_radius / 8;  // four cells through its wall
+    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
     return setup;
   }
 };

@@ -117,6 +117,8 @@ TEST(LiveRig, PressesLikeThePressVerb) {
 TEST(LiveRig, PressesASolidLikeThePressVerb) {
   lattice::PressSetup setup = coarse_press();
   setup.geometry = fingers::solid_dome(32, 24);
+  setup.lattice.spacing = setup.geometry.tip_radius / 8;  // four cells through its wall
+  setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
   expect_pressed_alike(setup);
 }
 
