@@ -228,7 +228,7 @@ TEST(PressSlopes, LeaveThePressAsItIs) {
         lattice::run_static_press_with_slopes(setup, press_parameters(setup.lattice));
     const auto none = lattice::run_static_press_with_slopes(setup, {});
     EXPECT_EQ(sloped.outcome.steps, plain.steps);
-    // Slopes are found at states in closer balance: some Newton steps more, which may wear a factor.
+    // Slopes are found at states in closer balance: some steps more, which may wear a factor.
     EXPECT_LE(none.outcome.factorisations, plain.factorisations + 1);
     if (contact == ContactMode::frictionless) {
       EXPECT_LE(sloped.outcome.factorisations, plain.factorisations + 2);
