@@ -9,8 +9,13 @@
 namespace fingertip::calibration {
 
 inline RubberEntry rubber_entry(const meshes::Rubber& rubber) {
-  return {rubber.youngs_modulus, rubber.shear_modulus, rubber.poissons_ratio(),
-          rubber.bulk_modulus()};
+  RubberEntry entry{rubber.youngs_modulus, rubber.shear_modulus, rubber.poissons_ratio(),
+                    rubber.bulk_modulus()};
+  for (const meshes::RelaxationBranch& branch : rubber.relaxation.branches) {
+    if (!entry.relaxation) entry.relaxation.emplace();
+    entry.relaxation->push_back({branch.share, branch.time});
+  }
+  return entry;
 }
 
 inline FitConstants constants_entry(lattice::ModelKind model,

@@ -18,12 +18,15 @@ namespace fingertip::calibration {
 struct RubberEntry {
   double youngs_modulus = meshes::unknown, shear_modulus = meshes::unknown,
          poissons_ratio = meshes::unknown, bulk_modulus = meshes::unknown;
+  std::optional<std::vector<std::vector<double>>> relaxation = {};  ///< shares and times [s]
 };
 constexpr auto fields_of(const RubberEntry*) {
-  using meshes::named;
+  using meshes::if_known, meshes::named;
   using Whole = RubberEntry;
-  return named("youngs_modulus shear_modulus poissons_ratio bulk_modulus", &Whole::youngs_modulus,
-               &Whole::shear_modulus, &Whole::poissons_ratio, &Whole::bulk_modulus);
+  return std::tuple_cat(
+      named("youngs_modulus shear_modulus poissons_ratio bulk_modulus", &Whole::youngs_modulus,
+            &Whole::shear_modulus, &Whole::poissons_ratio, &Whole::bulk_modulus),
+      if_known(named("relaxation", &Whole::relaxation)));
 }
 
 /// Spring constants [N/m], volume constant [Pa]; of the network lambda and G besides [Pa].

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <string_view>
 
+#include "calibration/curves/forward_model.h"
 #include "calibration/material.h"
 #include "calibration/toml_file.h"
 #include "lattice/press/setup_fields.h"
@@ -49,6 +50,12 @@ std::vector<Quantity> quantities(Material& m) {
   };
   if (m.model != ModelKind::network) members("constants", m.constants);
   members("rubber", m.rubber);
+  for (std::size_t i = 0; i < m.rubber.relaxation.branches.size(); ++i) {
+    meshes::RelaxationBranch& branch = m.rubber.relaxation.branches[i];
+    all.push_back({"rubber", name(relaxation_parameters[2 * i]), "", &branch.share, nullptr, true,
+                   "of the modulus at once; E and G are those after long times"});
+    all.push_back({"rubber", name(relaxation_parameters[2 * i + 1]), "s", &branch.time});
+  }
   if (m.geometry) members("geometry", *m.geometry);
   const auto bound = [&](std::string_view key, std::string_view unit, std::optional<double>& value,
                          std::string_view note) {
@@ -82,6 +89,11 @@ class MaterialReader : TomlFile {
     if (find("lattice", "kinematics"))
       material.kinematics = word("lattice", "kinematics", values(Kinematics()));
     if (table().contains("geometry")) material.geometry.emplace();
+    std::size_t branches = 0;
+    while (2 * branches < relaxation_parameters.size() &&
+           find("rubber", name(relaxation_parameters[2 * branches])) != nullptr)
+      ++branches;
+    material.rubber.relaxation.branches.resize(branches);
     const std::vector<Quantity> known = quantities(material);
     for (const Quantity& quantity : known) read(quantity);
     material.density_known = find("rubber", "density") != nullptr;

@@ -25,13 +25,14 @@ struct Curve {
   std::string name;  ///< for people; may be empty
   /// What is measured, with units; of a press the force along the plane's normal.
   std::string x_quantity = "indentation [m]", y_quantity = "force [N]";
-  std::vector<double> x;  ///< increasing; positive unless is_travel
+  std::vector<double> x;  ///< increasing unless in_time; positive unless is_travel
   std::vector<double> y;
   /// Standard deviation of every y, > 0; empty where unknown, in all curves of a fit or in none:
   /// then every y of every curve counts as equally uncertain.
   std::vector<double> sigma;
   std::vector<double> time = {};  ///< of every value [s]; empty where unknown or of no interest
   bool is_travel = false;         ///< x is the travel of a machine, whose zero is anywhere
+  bool in_time = false;           ///< values follow each other in time, and x may stand still
   Course course = {};
 };
 

@@ -25,7 +25,7 @@ void add_values(std::vector<Violation>& found, const Curve& curve, const std::st
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     const double depth = curve.x[i];
     const bool allowed = curve.is_travel ? std::isfinite(depth) : positive(depth);
-    if (!allowed || (i > 0 && depth <= curve.x[i - 1])) {
+    if (!allowed || (!curve.in_time && i > 0 && depth <= curve.x[i - 1])) {
       found.push_back({key + ".x", to_text(depth),
                        curve.is_travel ? "positions must be finite and increasing"
                                        : "abscissae must be finite, positive and increasing",

@@ -269,7 +269,7 @@ ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
 
 std::size_t rubber_parameters(const CurveFit& fit) {
   return std::size_t(std::ranges::count_if(
-      fit.parameters, [](MaterialParameter parameter) { return !is_of_the_rig(parameter); }));
+      fit.parameters, [](MaterialParameter parameter) { return !is_behind_the_press(parameter); }));
 }
 
 double worst_relative_residual(const FitRecord& record) {

@@ -1,6 +1,7 @@
 /// A fit to curves as it is kept: in plain words, as calibration.json and as fit_data.csv.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -40,6 +41,8 @@ struct FitRecord {
   std::vector<LeftOut> left_out;   ///< per curve, or none
   std::optional<Profile> profile;  ///< over these two:
   MaterialParameter profile_first{}, profile_second{};
+  /// Of a rubber that relaxes: from the shortest to the longest time the curves tell of [s].
+  std::optional<std::array<double, 2>> observed_times;
   std::vector<RigValue> rig;                     ///< of presses over travel
   std::vector<std::vector<double>> indentation;  ///< of their values, per curve [m]
   std::vector<Accusation> lack_of_fit;           ///< gravest first
@@ -62,7 +65,7 @@ double worst_relative_residual(const FitRecord& record);
 /// What was found, how sure that is, what the data leave open and whether the model describes them.
 std::string fit_statement(const FitRecord& record);
 
-/// Of the parameters those that are not of a rig; they stand first.
+/// Of the parameters those that the press itself depends on; they stand first.
 std::size_t rubber_parameters(const CurveFit& fit);
 
 /// Half width of the 95 % interval of Poisson's ratio where E and G are sought; else 0.

@@ -95,6 +95,14 @@ bool is_of_the_rig(MaterialParameter parameter) {
   return std::ranges::find(rig_parameters, parameter) != rig_parameters.end();
 }
 
+bool is_of_the_relaxation(MaterialParameter parameter) {
+  return std::ranges::find(relaxation_parameters, parameter) != relaxation_parameters.end();
+}
+
+bool is_behind_the_press(MaterialParameter parameter) {
+  return is_of_the_rig(parameter) || is_of_the_relaxation(parameter);
+}
+
 bool is_of_the_rubber(MaterialParameter parameter) {
   return is_modulus(parameter) || parameter == MaterialParameter::lame_shear ||
          parameter == MaterialParameter::lambda;

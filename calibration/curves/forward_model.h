@@ -92,6 +92,19 @@ inline constexpr std::array rig_parameters{
     MaterialParameter::drift};
 bool is_of_the_rig(MaterialParameter parameter);
 
+/// Share and time of the branches of a relaxation, branch by branch.
+inline constexpr std::array relaxation_parameters{
+    MaterialParameter::relaxation_g1, MaterialParameter::relaxation_tau1,
+    MaterialParameter::relaxation_g2, MaterialParameter::relaxation_tau2,
+    MaterialParameter::relaxation_g3, MaterialParameter::relaxation_tau3,
+    MaterialParameter::relaxation_g4, MaterialParameter::relaxation_tau4,
+    MaterialParameter::relaxation_g5, MaterialParameter::relaxation_tau5};
+bool is_of_the_relaxation(MaterialParameter parameter);
+
+/// What makes of an elastic press what a machine tells: of the rig or of the relaxation. In a list
+/// of free parameters it stands behind what the press depends on.
+bool is_behind_the_press(MaterialParameter parameter);
+
 /// E, G and modulus: what describes a rubber by its engineering moduli.
 bool is_modulus(MaterialParameter parameter);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "calibration/curves/fit_record.h"
+#include "calibration/material_tests/relaxation_starts.h"
 #include "calibration/words.h"
 
 namespace fingertip::calibration {
@@ -121,11 +122,28 @@ std::string structures(const FitRecord& record) {
 /// Less of the loading's work than this is friction of a machine, too.
 constexpr double told_loop = 0.02;
 
+/// Of a rubber that relaxes: its branches, what its moduli are, which of them the curves do not
+/// tell.
+std::string fading(const FitRecord& record) {
+  const meshes::Relaxation& relaxation = record.material.rubber.relaxation;
+  if (relaxation.empty()) return "";
+  std::string text = " The rubber relaxes by";
+  for (const meshes::RelaxationBranch& branch : relaxation.branches)
+    text += std::string(&branch == relaxation.branches.data() ? " " : " and ") +
+            percent(branch.share) + " in " + rounded(branch.time, 3) + " s";
+  text += ": what is found holds after long times, at once it is " +
+          rounded(relaxation.instant(), 4) + " times stiffer.";
+  if (!record.observed_times) return text;
+  for (const std::string& open : open_branches(relaxation, *record.observed_times))
+    text += " Not told by the data: " + open + ".";
+  return text;
+}
+
 /// Loadings alone are fitted: what they hide of time is said whether they are met or not.
 std::string loops(const FitRecord& record) {
   std::string text;
   for (const Curve& curve : record.curves) {
-    if (!(curve.course.loop > told_loop)) continue;
+    if (!(curve.course.loop > told_loop) || !record.material.rubber.relaxation.empty()) continue;
     text += " " + curve.name + ": loading and unloading differ by a loop of " +
             percent(curve.course.loop) +
             " of the loading's work, usually because the rubber relaxes; what is found holds for "
@@ -212,7 +230,7 @@ std::string lack_of_fit(const FitRecord& record) {
 std::string fit_statement(const FitRecord& record) {
   std::string text = estimates(record.fit) + misfit(record) + open_directions(record.fit) +
                      other_minima(record.fit) + collinearity(record) + structures(record) +
-                     loops(record) + lack_of_fit(record);
+                     fading(record) + loops(record) + lack_of_fit(record);
   const std::string next =
       prospect_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
   if (!next.empty()) text += " " + next;

@@ -11,6 +11,7 @@ namespace fingertip::calibration {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -67,7 +68,6 @@ class PressCurve {
     double force = 0.0, stiffness = 0.0;  ///< F, dF/ddelta
     Eigen::RowVectorXd by_parameters;
   };
-  double force(double delta) const { return std::exp(dot(weights(std::log(delta)))); }
   Point at(double delta) const {
     const Weights w = weights(std::log(delta));
     Point point;
@@ -117,11 +117,39 @@ class PressCurve {
   MatrixXd by_parameters_, slope_by_parameters_;
 };
 
+/// F(delta) at the end of a step from `before`.
+class StepForce {
+ public:
+  StepForce(const PressCurve& press, const FadingForce::Step& step, double before)
+      : press_(press), step_(step), before_(before) {}
+
+  struct Point {
+    double force = 0.0, stiffness = 0.0;
+    PressCurve::Point end, middle;  ///< after long times; `middle` of a rubber that relaxes
+  };
+  Point at(double delta) const {
+    Point point;
+    point.end = press_.at(delta);
+    point.force = step_.end * point.end.force + step_.rest;
+    point.stiffness = step_.end * point.end.stiffness;
+    if (step_.middle == 0.0) return point;
+    point.middle = press_.at(0.5 * (before_ + delta));
+    point.force += step_.middle * point.middle.force;
+    point.stiffness += 0.5 * step_.middle * point.middle.stiffness;
+    return point;
+  }
+
+ private:
+  const PressCurve& press_;
+  const FadingForce::Step& step_;
+  double before_;
+};
+
 /// delta + c F(delta) = travel > 0: Newton's method, kept in a bracket.
-double indentation_at(const PressCurve& press, double compliance, double travel) {
+double indentation_at(const StepForce& press, double compliance, double travel) {
   double low = 0.0, high = travel;
   const auto excess = [&](double delta) {
-    return delta + compliance * press.force(delta) - travel;
+    return delta + compliance * press.at(delta).force - travel;
   };
   for (int doublings = 0; excess(high) < 0.0; ++doublings, high *= 1.25)
     if (doublings == 10)
@@ -129,7 +157,7 @@ double indentation_at(const PressCurve& press, double compliance, double travel)
                                  " m/N, takes back more than the press gives");
   double delta = high;
   for (int i = 0; i < 200; ++i) {
-    const PressCurve::Point point = press.at(delta);
+    const StepForce::Point point = press.at(delta);
     const double value = delta + compliance * point.force - travel;
     (value > 0.0 ? high : low) = delta;
     const double next = delta - value / (1.0 + compliance * point.stiffness);
@@ -149,14 +177,16 @@ std::vector<double> depths_for_rig(double deepest) {
 }
 
 RigModel::RigModel(ForwardModel& press, std::vector<double> depths, Index press_parameters, Rig rig,
-                   std::vector<double> position, std::vector<double> time, Index parameters)
+                   std::vector<double> position, std::vector<double> time, Index parameters,
+                   std::vector<FitBranch> branches)
     : press_(&press),
       depths_(std::move(depths)),
       press_parameters_(press_parameters),
       rig_(rig),
       position_(std::move(position)),
       time_(std::move(time)),
-      parameters_(parameters) {
+      parameters_(parameters),
+      branches_(std::move(branches)) {
   std::vector<meshes::Violation> found;
   const bool rising = std::ranges::is_sorted(depths_, std::less_equal<>()) && depths_.size() > 1;
   if (!rising || !(depths_.front() > 0.0))
@@ -166,13 +196,32 @@ RigModel::RigModel(ForwardModel& press, std::vector<double> depths, Index press_
   if (!time_.empty() && time_.size() != position_.size())
     found.push_back({"time", std::to_string(time_.size()),
                      "there must be a time per position, or none", "complete the list"});
-  if (!rig_.drift.place && rig_.drift.value == 0.0) time_.clear();
-  for (const RigQuantity& each :
-       {rig_.touch_offset, rig_.compliance, rig_.force_offset, rig_.drift})
+  if (!branches_.empty() && (time_.empty() || !std::ranges::is_sorted(time_, std::less_equal<>())))
+    found.push_back({"time", std::to_string(time_.size()),
+                     "of a rubber that relaxes every position has its time, and times increase",
+                     "give them, or no branches"});
+  if (branches_.empty() && !rig_.drift.place && rig_.drift.value == 0.0) time_.clear();
+  std::vector<FitQuantity> all;
+  for (const auto member : rig_members) all.push_back(rig_.*member);
+  for (const FitBranch& branch : branches_) all.insert(all.end(), {branch.share, branch.time});
+  for (const FitQuantity& each : all)
     if (each.place && (*each.place < press_parameters_ || *each.place >= parameters_))
       found.push_back({"place", std::to_string(*each.place),
-                       "what is of the rig stands behind the press's parameters", "change it"});
+                       "what is of the rig or fades stands behind the press's parameters",
+                       "change it"});
   if (!found.empty()) throw meshes::InvalidInput(found);
+}
+
+RigModel::Duration RigModel::loaded_since(std::size_t i, double offset) const {
+  if (branches_.empty() || position_.size() < 2) return {};
+  const double travel = position_[i] - offset;
+  // Of the first position the step behind it tells the speed.
+  const std::size_t from = i > 0 ? i - 1 : 0;
+  const double way = position_[from + 1] - position_[from], span = time_[from + 1] - time_[from];
+  const bool touches = i == 0 || position_[i - 1] <= offset;
+  if (!touches) return {span, 0.0};
+  if (!(way > 0.0)) return {};
+  return {travel * span / way, -span / way};
 }
 
 CurveSlopes RigModel::evaluate(const VectorXd& parameters) {
@@ -183,27 +232,56 @@ CurveSlopes RigModel::evaluate(const VectorXd& parameters) {
   const Index count = Index(position_.size());
   CurveSlopes result{VectorXd(count), MatrixXd::Zero(count, parameters_)};
   indentation_ = VectorXd::Zero(count);
+  FadingForce fading(branches_, parameters);
+  const RowVectorXd none = RowVectorXd::Zero(parameters_);
+  double before = 0.0;  // delta of the position before, and its derivatives
+  RowVectorXd before_slopes = none;
   for (Index i = 0; i < count; ++i) {
     const double t = time_.empty() ? 0.0 : time_[std::size_t(i)];
     result.value(i) = zero + drift * t;
     if (rig_.force_offset.place) result.jacobian(i, *rig_.force_offset.place) = 1.0;
     if (rig_.drift.place) result.jacobian(i, *rig_.drift.place) = t;
     const double travel = position_[std::size_t(i)] - offset;
-    if (!(travel > 0.0)) continue;
-    const double delta = indentation_at(press, compliance, travel);
-    const PressCurve::Point point = press.at(delta);
+    if (!(travel > 0.0)) {
+      fading.reset();
+      before = 0.0, before_slopes = none;
+      continue;
+    }
+    const Duration duration = loaded_since(std::size_t(i), offset);
+    const FadingForce::Step step = fading.step(duration.value);
+    const StepForce force(press, step, before);
+    const double delta = indentation_at(force, compliance, travel);
+    const StepForce::Point point = force.at(delta);
     const double denominator = 1.0 + compliance * point.stiffness;
     if (!(denominator > 0.0))
       throw meshes::NotConverged("a rig of negative compliance, " + meshes::to_text(compliance) +
                                  " m/N, takes back more than the press gives");
     indentation_(i) = delta;
     result.value(i) += point.force;
-    const double share = 1.0 / denominator;
-    result.jacobian.row(i).head(press_parameters_) = share * point.by_parameters;
-    if (rig_.touch_offset.place)
-      result.jacobian(i, *rig_.touch_offset.place) = -share * point.stiffness;
-    if (rig_.compliance.place)
-      result.jacobian(i, *rig_.compliance.place) = -share * point.force * point.stiffness;
+    // dF = explicit + F' ddelta, ddelta = -dx0 - F dc - c dF.
+    const auto value_of = [&](const PressCurve::Point& own) {
+      FadingForce::Value value{own.force, none};
+      if (own.by_parameters.size() > 0) value.slopes.head(press_parameters_) = own.by_parameters;
+      return value;
+    };
+    FadingForce::Value end = value_of(point.end), middle = value_of(point.middle);
+    middle.slopes += 0.5 * point.middle.stiffness * before_slopes;
+    RowVectorXd duration_slopes = none, travel_slopes = none;
+    if (rig_.touch_offset.place) {
+      duration_slopes(*rig_.touch_offset.place) = duration.by_offset;
+      travel_slopes(*rig_.touch_offset.place) = -1.0;
+    }
+    if (rig_.compliance.place) travel_slopes(*rig_.compliance.place) = -point.force;
+    const RowVectorXd slopes =
+        (fading.slopes(step, middle, end, duration_slopes) + point.stiffness * travel_slopes) /
+        denominator;
+    result.jacobian.row(i) += slopes;
+    if (fading.empty()) continue;
+    before_slopes = travel_slopes - compliance * slopes;
+    end.slopes += point.end.stiffness * before_slopes;
+    middle.slopes += 0.5 * point.middle.stiffness * before_slopes;
+    fading.go_on(step, middle, end, duration_slopes);
+    before = delta;
   }
   return result;
 }

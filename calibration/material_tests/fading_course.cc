@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "meshes/relaxation.h"
+#include "calibration/fading_moments.h"
 
 namespace fingertip::calibration {
 
@@ -12,36 +12,6 @@ namespace {
 
 /// Of ln l in a step; the parabola errs by its fourth power.
 constexpr double longest_step = 0.02;
-
-/// g and f of a step and tau times their derivatives by tau.
-struct Moments {
-  double keep, gain, bend, keep_slope, gain_slope, bend_slope;
-
-  Moments(double duration, double tau) {
-    const double x = duration / tau;
-    const meshes::Fading fading(duration, tau);
-    keep = fading.keep;
-    gain = fading.gain;
-    keep_slope = x * keep;
-    gain_slope = gain - keep;
-    if (x > 0.5) {
-      bend = (0.5 * (1.0 + keep) - gain) / x;
-      bend_slope = 0.5 * keep + (keep - gain) / x + bend;
-      return;
-    }
-    // sum of (-x)^n (n - 1)/(2 (n + 1)!) over x: the closed form cancels.
-    bend = bend_slope = 0.0;
-    double power = x;  // x^(n - 1)
-    double factorial = 6.0;
-    for (int n = 2; n < 16; ++n) {
-      const double term = (n % 2 == 0 ? 0.5 : -0.5) * (n - 1) * power / factorial;
-      bend += term;
-      bend_slope -= (n - 1) * term;
-      power *= x;
-      factorial *= n + 2;
-    }
-  }
-};
 
 }  // namespace
 
@@ -146,7 +116,7 @@ FadingCourse::Branch FadingCourse::branch(const PartTable& lasting, double tau) 
       held.setZero();
       slope.setZero();
     }
-    const Moments m(step.duration, tau);
+    const FadingMoments m(step.duration, tau);
     const auto start = lasting.row(Eigen::Index(step.start)),
                middle = lasting.row(Eigen::Index(step.middle)),
                end = lasting.row(Eigen::Index(step.end));

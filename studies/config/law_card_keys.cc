@@ -25,6 +25,14 @@ std::string pascal_list(const std::vector<CardValue>& values) {
 
 }  // namespace
 
+std::string branches_literal(const std::vector<meshes::RelaxationBranch>& branches) {
+  std::string list;
+  for (const meshes::RelaxationBranch& branch : branches)
+    list += (list.empty() ? "[" : ", [") + meshes::to_text(branch.share) + ", \"" +
+            meshes::to_text(branch.time) + " s\"]";
+  return '[' + list + ']';
+}
+
 std::vector<std::pair<std::string, std::string>> keys_of(const LawCard& card) {
   const auto& c = card.coefficients;
   std::vector<std::pair<std::string, std::string>> keys = {
@@ -51,11 +59,7 @@ std::vector<std::pair<std::string, std::string>> keys_of(const LawCard& card) {
                       '"' + std::string(name(card.law().energy.volumetric)) + '"');
   }
   if (const meshes::Relaxation relaxation = card.relaxation(); !relaxation.empty()) {
-    std::string list;
-    for (const meshes::RelaxationBranch& branch : relaxation.branches)
-      list += (list.empty() ? "[" : ", [") + meshes::to_text(branch.share) + ", \"" +
-              meshes::to_text(branch.time) + " s\"]";
-    keys.emplace_back("rubber.relaxation", '[' + list + ']');
+    keys.emplace_back("rubber.relaxation", branches_literal(relaxation.branches));
     keys.emplace_back("rubber.relaxation_bulk", relaxation.bulk ? "true" : "false");
   }
   return keys;

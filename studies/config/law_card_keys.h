@@ -10,6 +10,9 @@
 
 namespace fingertip::studies {
 
+/// Branches as rubber.relaxation takes them: [[0.2, "0.1 s"]].
+std::string branches_literal(const std::vector<meshes::RelaxationBranch>& branches);
+
 /// Keys "rubber.yeoh" and their values as TOML literals, "[\"7.7e3 Pa\", ...]". Without a bulk
 /// modulus nothing is said of the volume; with branches it relaxes as the shape does.
 std::vector<std::pair<std::string, std::string>> keys_of(const calibration::LawCard& card);

@@ -10,6 +10,7 @@
 #include "studies/run/cache.h"
 #include "studies/run/fit_bias.h"
 #include "studies/run/fit_contact.h"
+#include "studies/run/fit_relaxation.h"
 #include "studies/run/fit_setup.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -186,6 +187,7 @@ void CalibrationStages::choose_contact(const fs::path& run) {
 bool CalibrationStages::measures_bias() const {
   return loaded_.config.calibration.problem == CalibrationProblem::experiment &&
          loaded_.config.calibration.bias && !by_continuum(setup_.input) &&
+         setup_.input.branches.empty() &&
          std::ranges::all_of(parameters_of(setup_.input), calibration::is_of_the_rubber);
 }
 
@@ -211,8 +213,9 @@ std::vector<PlannedJob> CalibrationStages::follow_up_jobs(const fs::path& run) {
 /// The press of the configuration with what was found.
 PlannedJob CalibrationStages::surrogate(const fs::path& run) const {
   const calibration::Material found = material(run);
-  lattice::PressSetup setup = press_setup(loaded_.with({"press.mode=static"}));
+  lattice::PressSetup setup = press_setup(lasting(loaded_).with({"press.mode=static"}));
   setup.rubber = found.rubber;
+  setup.rubber.relaxation = {};  // its forces are those after long times
   setup.lattice.constants = found.constants;
   setup.lattice.ligament_stiffness = found.ligament_stiffness;
   setup.lattice.contact_stiffness = found.contact_stiffness;

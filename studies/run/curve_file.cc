@@ -59,10 +59,11 @@ string_view name_among(const std::vector<TableTitle>& titles, string_view quanti
 /// The curves of one file.
 class CurveReader {
  public:
-  CurveReader(const CurveSource& source, const std::vector<CurveQuantities>& allowed)
+  CurveReader(const CurveSource& source, const std::vector<CurveQuantities>& allowed, bool in_time)
       : problems_(source.path),
         source_(source),
         allowed_(allowed),
+        wants_time_(in_time),
         text_(text_of(source.path, problems_)) {}
   std::vector<MeasuredFile> read();
 
@@ -87,6 +88,7 @@ class CurveReader {
   FileProblems problems_;
   const CurveSource& source_;
   const std::vector<CurveQuantities>& allowed_;
+  bool wants_time_ = false;
   std::string text_;
   std::vector<MeasuredSetting> settings_;
   const TextTable* table_ = nullptr;  ///< at hand
@@ -375,7 +377,8 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
   choose_pair();
   problems_.throw_if_any();
   choose_sigma();
-  if (const auto time = find("time"); time && is_travel()) time_ = column(*time, {"time", "s"});
+  if (const auto time = find("time"); time && (is_travel() || wants_time_))
+    time_ = column(*time, {"time", "s"});
   problems_.throw_if_any();
   note_unused();
   std::size_t first = 0, end = table.rows.size();
@@ -400,15 +403,25 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
   problems_.throw_if_any();
   calibration::Course course;
   course.rows = rows_.size();
-  if (is_travel()) rows_ = loading(std::move(rows_), course, result_.notes);
+  const bool in_time = wants_time_ && time_;
+  if (is_travel() || in_time)
+    rows_ =
+        loading(std::move(rows_), course, result_.notes, in_time ? Holds::kept : Holds::left_out);
   if (const double noise = noise_of(rows_); noise > 0.0) course.noise = noise;
-  result_.curve = curve_of(rows_, {result_.x_quantity, x_.unit, std::abs(x_.factor), is_travel()},
-                           problems_, result_.notes);
+  const Abscissa abscissa{result_.x_quantity, x_.unit, std::abs(x_.factor), is_travel()};
+  if (in_time) {
+    TimedCurve timed = curve_in_time(rows_, abscissa, problems_, result_.notes);
+    result_.curve = std::move(timed.curve);
+    result_.lines = std::move(timed.lines);
+  } else {
+    result_.curve = curve_of(rows_, abscissa, problems_, result_.notes);
+  }
   result_.curve.is_travel = is_travel();
   if (!result_.curve.x.empty())
     course.rows_per_value = double(rows_.size()) / double(result_.curve.x.size());
   result_.curve.course = std::move(course);
   problems_.throw_if_any();
+  if (in_time) return std::move(result_);
   for (const double x : result_.curve.x)
     result_.lines.push_back(
         std::ranges::find_if(rows_, [&](const CurveRow& row) { return row.x >= x; })->line);
@@ -439,8 +452,8 @@ std::vector<MeasuredFile> CurveReader::read() {
 }  // namespace
 
 std::vector<MeasuredFile> read_measured(const CurveSource& source,
-                                        const std::vector<CurveQuantities>& allowed) {
-  return CurveReader(source, allowed).read();
+                                        const std::vector<CurveQuantities>& allowed, bool in_time) {
+  return CurveReader(source, allowed, in_time).read();
 }
 
 }  // namespace fingertip::studies

@@ -74,7 +74,11 @@ struct MeasuredFile {
 /// to do: unreadable or empty file, another encoding, no header, missing or wrong units, cells
 /// that are no finite numbers or absurdly large or small (beyond 1e-60 ... 1e60 SI), rows of
 /// another length, sigma <= 0, equal or decreasing x, a setting given twice.
+///
+/// `in_time`, for a rubber that relaxes: presses whose file has a column time keep their holds,
+/// over a position or an indentation (curve_in_time); times must increase.
 std::vector<MeasuredFile> read_measured(const CurveSource& source,
-                                        const std::vector<CurveQuantities>& allowed);
+                                        const std::vector<CurveQuantities>& allowed,
+                                        bool in_time = false);
 
 }  // namespace fingertip::studies

@@ -45,18 +45,30 @@ bool increase(const std::vector<CurveRow>& rows, const Abscissa& abscissa, FileP
 }
 
 struct Bin {
-  std::size_t rows = 0;
-  double x0 = 0.0, y0 = 0.0;  ///< of its first row: sums of differences keep all digits
+  std::size_t rows = 0, line = 0;  ///< the line of its first row
+  double x0 = 0.0, y0 = 0.0;       ///< of its first row: sums of differences keep all digits
   double weight = 0.0, x = 0.0, y = 0.0, time = 0.0;
 
   void add(const CurveRow& row, double row_weight) {
-    if (rows++ == 0) x0 = row.x, y0 = row.y;
+    if (rows++ == 0) x0 = row.x, y0 = row.y, line = row.line;
     weight += row_weight;
     x += row_weight * (row.x - x0);
     y += row_weight * (row.y - y0);
     time += row_weight * row.time;
   }
 };
+
+/// `sigma` of a row of weight 1; 0: unknown.
+calibration::Curve curve_of(const std::vector<Bin>& bins, double sigma, bool with_time) {
+  calibration::Curve curve;
+  for (const Bin& bin : bins) {
+    curve.x.push_back(bin.x0 + bin.x / bin.weight);
+    curve.y.push_back(bin.y0 + bin.y / bin.weight);
+    if (sigma > 0.0) curve.sigma.push_back(sigma / std::sqrt(bin.weight));
+    if (with_time) curve.time.push_back(bin.time / bin.weight);
+  }
+  return curve;
+}
 
 bool has_time(const std::vector<CurveRow>& rows) {
   return std::ranges::any_of(rows, [](const CurveRow& row) { return row.time != 0.0; });
@@ -73,13 +85,7 @@ calibration::Curve means(const std::vector<CurveRow>& rows, double first, double
     bins[std::min(bin, most_rows - 1)].add(row, ratio * ratio);
   }
   std::erase_if(bins, [](const Bin& bin) { return bin.rows == 0; });
-  calibration::Curve curve;
-  for (const Bin& bin : bins) {
-    curve.x.push_back(bin.x0 + bin.x / bin.weight);
-    curve.y.push_back(bin.y0 + bin.y / bin.weight);
-    if (known) curve.sigma.push_back(least / std::sqrt(bin.weight));
-    if (has_time(rows)) curve.time.push_back(bin.time / bin.weight);
-  }
+  const calibration::Curve curve = curve_of(bins, known ? least : 0.0, has_time(rows));
   const auto [fewest, most] = std::ranges::minmax_element(bins, {}, &Bin::rows);
   notes.push_back(
       fmt::format("{} rows are averaged in {} bins of equal {}, {} to {} rows each; {}",
@@ -194,13 +200,14 @@ double force_of(const std::vector<CurveRow>& rows, const Hold& hold, bool at_end
   return sum;
 }
 
-void tell_hold(const std::vector<CurveRow>& rows, const Hold& hold, calibration::Course& course,
-               std::vector<std::string>& notes) {
+void tell_hold(const std::vector<CurveRow>& rows, const Hold& hold, Holds use,
+               calibration::Course& course, std::vector<std::string>& notes) {
   const double start = force_of(rows, hold, false) - rows.front().y,
                end = force_of(rows, hold, true) - rows.front().y,
                time = rows[hold.end - 1].time - rows[hold.first].time;
-  std::string text = fmt::format("a hold, {} rows from line {}, is not fitted",
-                                 hold.end - hold.first, rows[hold.first].line);
+  std::string text =
+      fmt::format("a hold, {} rows from line {}, is {}", hold.end - hold.first,
+                  rows[hold.first].line, use == Holds::kept ? "fitted" : "not fitted");
   const bool pressed = start > 0.05 * std::ranges::max(rows, {}, &CurveRow::y).y;
   if (pressed) {
     const double fall = 1.0 - end / start;
@@ -237,7 +244,7 @@ double noise_of(const std::vector<CurveRow>& rows) {
 }
 
 std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::Course& course,
-                              std::vector<std::string>& notes) {
+                              std::vector<std::string>& notes, Holds use) {
   if (rows.empty()) return rows;
   // The first row that deep: the noise of a hold must not choose the turn.
   const auto [least, largest] = std::ranges::minmax_element(rows, {}, &CurveRow::x);
@@ -251,8 +258,8 @@ std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::Course& c
                                  [&](const CurveRow& row) { return row.x < close; });
   const Hold at_end{count, std::size_t(back - rows.begin())};
   if (at_end.end - at_end.first >= 2)
-    tell_hold(rows, at_end, course, notes);
-  else if (count < rows.size() && back == rows.end())
+    tell_hold(rows, at_end, use, course, notes);
+  else if (use == Holds::left_out && count < rows.size() && back == rows.end())
     notes.emplace_back("rows after the largest position, a hold, are left out");
   if (back != rows.end()) {
     const double around = work(rows);
@@ -267,9 +274,21 @@ std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::Course& c
                       count, rows.size() - at_end.end, 100.0 * course.loop));
     }
   }
+  const std::vector<Hold> holds =
+      holds_in({rows.begin(), rows.begin() + std::ptrdiff_t(count)}, width);
+  for (const Hold& hold : holds) tell_hold(rows, hold, use, course, notes);
+  if (use == Holds::kept) {
+    rows.resize(at_end.end);
+    int number = 0;
+    const auto mark = [&](const Hold& hold) {
+      ++number;
+      for (std::size_t i = hold.first; i < hold.end; ++i) rows[i].hold = number;
+    };
+    std::ranges::for_each(holds, mark);
+    mark(at_end);
+    return rows;
+  }
   rows.resize(count);
-  const std::vector<Hold> holds = holds_in(rows, width);
-  for (const Hold& hold : holds) tell_hold(rows, hold, course, notes);
   for (auto hold = holds.rbegin(); hold != holds.rend(); ++hold)
     rows.erase(rows.begin() + std::ptrdiff_t(hold->first),
                rows.begin() + std::ptrdiff_t(hold->end));
@@ -294,6 +313,90 @@ calibration::Curve curve_of(const std::vector<CurveRow>& rows, const Abscissa& a
     if (has_time(rows)) curve.time.push_back(row.time);
   }
   return curve;
+}
+
+namespace {
+
+constexpr std::size_t most_hold_values = 40;
+
+/// Times increase, as they must where forces depend on them.
+bool goes_on(const std::vector<CurveRow>& rows, FileProblems& problems) {
+  const auto back = std::ranges::adjacent_find(
+      rows, [](const CurveRow& a, const CurveRow& b) { return b.time <= a.time; });
+  if (back == rows.end()) return true;
+  problems.add(
+      (back + 1)->line, "time", fmt::format("{:.6g} s", (back + 1)->time),
+      fmt::format("must increase from row to row; line {} has {:.6g} s", back->line, back->time),
+      "correct it: of a rubber that relaxes forces depend on time");
+  return false;
+}
+
+/// Numbers rows [first, end) of a hold so that those of one bin have the same.
+void number_hold(const std::vector<CurveRow>& rows, std::size_t first, std::size_t end,
+                 std::vector<std::size_t>& bin) {
+  const std::size_t count = end - first, start = bin[first - 1] + 1;
+  const double begin = rows[first - 1].time, step = rows[first].time - begin;
+  const double decades = std::log1p((rows[end - 1].time - begin) / step);
+  for (std::size_t i = first; i < end; ++i) {
+    const double share = std::log1p((rows[i].time - begin) / step) / decades;
+    bin[i] = start +
+             (count <= most_hold_values
+                  ? i - first
+                  : std::min(most_hold_values - 1, std::size_t(share * double(most_hold_values))));
+  }
+}
+
+}  // namespace
+
+TimedCurve curve_in_time(const std::vector<CurveRow>& rows, const Abscissa& abscissa,
+                         FileProblems& problems, std::vector<std::string>& notes) {
+  TimedCurve result;
+  std::vector<CurveRow> way;
+  std::ranges::copy_if(rows, std::back_inserter(way),
+                       [](const CurveRow& row) { return row.hold == 0; });
+  const auto [least, largest] = std::ranges::minmax_element(rows, {}, &CurveRow::x);
+  const double first = least->x, width = (largest->x - first) / double(most_rows);
+  const auto falls = [](const CurveRow& a, const CurveRow& b) { return b.x <= a.x; };
+  const bool dense = way.size() > most_rows || std::ranges::adjacent_find(way, falls) != way.end();
+  if (!(width > 0.0)) {
+    problems.add(least->line, abscissa.name, abscissa.shown(first), "is the same in every row",
+                 "write rows at different values");
+    return result;
+  }
+  if (!goes_on(rows, problems) || (dense && !climbs(way, width, abscissa, problems))) return result;
+  // Rows of one bin follow each other, whatever an encoder trembles.
+  std::vector<std::size_t> bin(rows.size(), 0);
+  std::size_t place = 0;  // of the way, in widths
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i].hold > 0) {
+      std::size_t end = i;
+      while (end < rows.size() && rows[end].hold == rows[i].hold) ++end;
+      number_hold(rows, i, end, bin);
+      i = end - 1;
+      continue;
+    }
+    const std::size_t here = std::max(place, std::size_t((rows[i].x - first) / width));
+    const bool next = !dense || here > place || rows[i - 1].hold > 0;
+    bin[i] = bin[i - 1] + (next ? 1 : 0);
+    place = here;
+  }
+  const bool known = rows.front().sigma > 0.0;
+  const double sigma = std::ranges::min(rows, {}, &CurveRow::sigma).sigma;
+  std::vector<Bin> bins(bin.back() + 1);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double ratio = known ? sigma / rows[i].sigma : 1.0;
+    bins[bin[i]].add(rows[i], ratio * ratio);
+  }
+  std::erase_if(bins, [](const Bin& each) { return each.rows == 0; });
+  result.curve = curve_of(bins, known ? sigma : 0.0, true);
+  result.curve.in_time = true;
+  for (const Bin& each : bins) result.lines.push_back(each.line);
+  if (bins.size() < rows.size())
+    notes.push_back(fmt::format(
+        "{} rows are averaged in {} bins, of equal {} on the way, of growing time in holds{}",
+        rows.size(), bins.size(), abscissa.name,
+        known ? "" : "; without a column sigma every mean counts alike"));
+  return result;
 }
 
 }  // namespace fingertip::studies

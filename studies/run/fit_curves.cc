@@ -214,6 +214,18 @@ ConfigError placed_in(const std::filesystem::path& path, const MeasuredFile& fil
   return ConfigError(std::move(problems));
 }
 
+/// Where a file has no column time the speed of the press tells it.
+Curve with_times(const LoadedConfig& own, Curve curve) {
+  if (!curve.time.empty()) return curve;
+  if (!own.entries.at("press.speed").given)
+    throw own.locate({{"calibration.data", curve.name + " without times",
+                       "forces of a rubber that relaxes depend on time",
+                       "give the file its column time, or press.speed, at which it was pressed"}});
+  for (const double x : curve.x)
+    curve.time.push_back((x - curve.x.front()) / own.config.press.protocol.speed);
+  return curve;
+}
+
 void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const MeasuredFile& file,
                         CurveKind kind, const std::vector<std::string>& further) {
   std::vector<std::string> condition;
@@ -226,11 +238,14 @@ void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const Measure
     if (file.curve.is_travel) travel = travel_of(file.curve, own);
     if (travel) depths = travel->depths;
   }
+  const bool relaxes = !fit.input.branches.empty();
+  if (relaxes && !fit.input.travels.back())
+    depths = calibration::depths_for_rig(*std::ranges::max_element(depths));
   const bool ramp = kind == CurveKind::ramp;
   const LoadedConfig own =
       ramp ? under(loaded, condition, {"press.mode=static"})
            : under(loaded, condition, {"press.mode=static", samples_setting(depths)});
-  add_press(fit, own, kind, file.curve);
+  add_press(fit, own, kind, relaxes ? with_times(own, file.curve) : file.curve);
   fit.contact_known = fit.contact_known && own.entries.at("press.contact").given;
   fit.settings.push_back(std::move(condition));
 }
@@ -294,11 +309,13 @@ void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
   FitInput& input = fit.input;
   const auto given = [](const std::optional<Travel>& travel) { return travel.has_value(); };
   if (std::ranges::none_of(input.travels, given)) {
-    input.travels.clear();
     if (loaded.entries.at("calibration.rig").given)
       throw refused(loaded, "calibration.rig", "", "no file has the column position",
                     "name the travel of the machine so, or leave the rig out");
-    return;
+    if (input.branches.empty()) {
+      input.travels.clear();
+      return;
+    }
   }
   CalibrationSettings rigid;
   rigid.rig.touch_offset.fitted = false;
@@ -379,7 +396,8 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
     for (const CurveSource& source : sources_of(loaded, settings.data[i])) {
       fit.input.provenance += (files.empty() ? "" : ", ") + source.path.filename().string() +
                               " (SHA-256 " + sha256(content_of(source.path)) + ")";
-      for (MeasuredFile& file : read_measured(source, quantities_of(settings.problem))) {
+      for (MeasuredFile& file :
+           read_measured(source, quantities_of(settings.problem), !fit.input.branches.empty())) {
         add_measured_curve(fit, loaded, source, std::move(file), condition);
         files.push_back(source.path);
       }

@@ -55,6 +55,9 @@ struct FitInput {
   /// Per curve; empty where no curve is one over the travel of a machine. The samples of `presses`
   /// and `continua` then are Travel::depths.
   std::vector<std::optional<Travel>> travels;
+  /// Of a rubber that relaxes, with places among all free parameters; curves then have times, and
+  /// an entry in `travels` each. The moduli, as of all presses here, are those after long times.
+  std::vector<calibration::FitBranch> branches;
   lattice::PressSetup base;   ///< of the configuration: rubber and lattice that are not sought
   bool rubber_known = false;  ///< the data were made of base.rubber
   calibration::CurveFitOptions options;
@@ -82,7 +85,7 @@ inline constexpr const char* estimates_name = "estimates.toml";
 /// Whether the continuum answers for the curves.
 bool by_continuum(const FitInput& input);
 
-/// Of `input.options.free`, without those of rigs, which stand behind them.
+/// Of `input.options.free`, without those of rigs and relaxation, which stand behind them.
 std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input);
 
 /// What a fit or a plan depends on.

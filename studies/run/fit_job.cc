@@ -14,6 +14,7 @@
 #include "studies/run/fit_material.h"
 #include "studies/run/fit_models.h"
 #include "studies/run/fit_prospects.h"
+#include "studies/run/fit_relaxation.h"
 #include "studies/run/fit_repeats.h"
 #include "studies/run/fit_suspects.h"
 #include "studies/run/jobs.h"
@@ -101,6 +102,7 @@ calibration::FitRecord described(const FitInput& input) {
   record.curves = input.curves;
   record.conditions = input.conditions;
   record.model_error = model_error_words(input);
+  if (!input.branches.empty()) record.observed_times = observed_times(input.curves);
   if (input.rubber_known) record.target = input.base.rubber;
   return record;
 }
@@ -254,7 +256,7 @@ bool by_continuum(const FitInput& input) {
 std::vector<MaterialParameter> parameters_of(const FitInput& input) {
   std::vector<MaterialParameter> parameters;
   for (const auto& free : input.options.free)
-    if (!calibration::is_of_the_rig(free.parameter)) parameters.push_back(free.parameter);
+    if (!calibration::is_behind_the_press(free.parameter)) parameters.push_back(free.parameter);
   return parameters;
 }
 

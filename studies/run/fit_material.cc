@@ -5,6 +5,7 @@
 #include "calibration/curves/forward_model.h"
 #include "calibration/moduli_fit.h"
 #include "lattice/model/constants.h"
+#include "studies/run/fit_relaxation.h"
 
 namespace fingertip::studies {
 
@@ -69,6 +70,7 @@ calibration::Material material_of(const FitInput& input, const calibration::FitR
   material.spacing = setup.lattice.spacing;
   material.constants = setup.lattice.constants;
   material.rubber = setup.rubber;
+  material.rubber.relaxation = relaxation_of(input, record.fit.estimates);
   if (setup.geometry.is_dome()) material.geometry = setup.geometry;
   material.density_known = input.density_known;
   material.retardation_time_known =

@@ -111,6 +111,7 @@ calibration::Curve over_indentation(const FitInput& input, std::size_t i) {
     result.x.push_back(depths[k]);
     result.y.push_back(curve.y[k] - travel.rig.force_offset.in(start));
     if (!curve.sigma.empty()) result.sigma.push_back(curve.sigma[k]);
+    if (!curve.time.empty()) result.time.push_back(curve.time[k]);
   }
   return result;
 }
@@ -127,6 +128,10 @@ ordered_json curve_inputs(const FitInput& input, std::size_t i) {
                          {"y", curve.y},
                          {"sigma", curve.sigma}};
   if (i < input.presses.size()) inputs["press"] = inputs_of(input.presses[i]);
+  for (const calibration::FitBranch& branch : input.branches)
+    for (const calibration::FitQuantity& each : {branch.share, branch.time})
+      inputs["branches"].push_back(each.place ? ordered_json{{"free", *each.place}}
+                                              : ordered_json(each.value));
   if (is_travel(input, i)) {
     inputs["time"] = curve.time;
     inputs["machine"] = input.travels[i]->machine;
@@ -161,7 +166,7 @@ FitModels::FitModels(const FitInput& input, const fs::path& folder, const JobCon
         Eigen::Index(material_parameters(input)), sha256(curve_inputs(input, i).dump())));
     if (travel)
       rigs_.push_back(behind_rig(input, i, input.travels[i]->rig, input.curves[i],
-                                 Eigen::Index(input.options.free.size())));
+                                 Eigen::Index(input.options.free.size()), input.branches));
   }
 }
 
@@ -172,15 +177,15 @@ std::vector<ForwardModel*> FitModels::addresses() const {
   return result;
 }
 
-std::unique_ptr<calibration::RigModel> FitModels::behind_rig(const FitInput& input, std::size_t i,
-                                                             const calibration::Rig& rig,
-                                                             const calibration::Curve& curve,
-                                                             Eigen::Index parameters) const {
+std::unique_ptr<calibration::RigModel> FitModels::behind_rig(
+    const FitInput& input, std::size_t i, const calibration::Rig& rig,
+    const calibration::Curve& curve, Eigen::Index parameters,
+    const std::vector<calibration::FitBranch>& branches) const {
   const std::vector<double>& depths =
       is_travel(input, i) ? input.travels[i]->depths : input.presses[i].protocol.samples;
   return std::make_unique<calibration::RigModel>(*remembering_[i], depths,
                                                  Eigen::Index(material_parameters(input)), rig,
-                                                 curve.x, curve.time, parameters);
+                                                 curve.x, curve.time, parameters, branches);
 }
 
 Eigen::VectorXd FitModels::press_forces(std::size_t i, const Eigen::VectorXd& rubber) const {
@@ -211,7 +216,9 @@ void start_from_data(FitInput& input, const FitModels& models) {
       curves.pop_back();
       continue;
     }
-    presses.push_back(models.behind_rig(input, i, {}, curves.back(), Eigen::Index(count)));
+    presses.push_back(
+        models.behind_rig(input, i, {}, curves.back(), Eigen::Index(count),
+                          calibration::held_at(input.branches, start_of(input.options))));
     list.push_back(presses.back().get());
   }
   if (curves.empty()) return;

@@ -31,11 +31,11 @@ class FitModels {
   std::vector<calibration::ForwardModel*> addresses() const;
 
   /// The press of curve `i` at the travels of `curve` behind `rig`, by so many `parameters`; of a
-  /// curve over indentation between its samples.
-  std::unique_ptr<calibration::RigModel> behind_rig(const FitInput& input, std::size_t i,
-                                                    const calibration::Rig& rig,
-                                                    const calibration::Curve& curve,
-                                                    Eigen::Index parameters) const;
+  /// curve over indentation between its samples. `branches`: of a rubber that relaxes.
+  std::unique_ptr<calibration::RigModel> behind_rig(
+      const FitInput& input, std::size_t i, const calibration::Rig& rig,
+      const calibration::Curve& curve, Eigen::Index parameters,
+      const std::vector<calibration::FitBranch>& branches = {}) const;
 
   /// What the press of curve `i` answers for the rubber's parameters: at the depths of its travel,
   /// or at its values [N].

@@ -180,11 +180,12 @@ Joint joint_of(const FitInput& input, const FitModels& models, const VectorXd& p
   const auto list = models.addresses();
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const Curve& curve = input.curves[i];
-    const CurveSlopes slopes =
-        is_travel(input, i)
-            ? models.behind_rig(input, i, input.travels[i]->rig, curve, parameters.size())
-                  ->evaluate(parameters)
-            : list[i]->evaluate(parameters);
+    const CurveSlopes slopes = is_travel(input, i)
+                                   ? models
+                                         .behind_rig(input, i, input.travels[i]->rig, curve,
+                                                     parameters.size(), input.branches)
+                                         ->evaluate(parameters)
+                                   : list[i]->evaluate(parameters);
     joint.append(slopes.jacobian,
                  curve.sigma.empty() ? VectorXd::Constant(slopes.value.size(), deviation)
                                      : vector_of(curve.sigma),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "lattice/press/setup_fields.h"
 #include "meshes/fields_json.h"
@@ -62,8 +61,9 @@ void share_depths(FitInput& input) {
 
 std::vector<calibration::Repeats> repeats_in(const FitInput& input,
                                              const calibration::CurveFit& fit) {
-  std::vector<std::size_t> nuisance(input.options.free.size() - material_parameters(input));
-  std::iota(nuisance.begin(), nuisance.end(), material_parameters(input));
+  std::vector<std::size_t> nuisance;
+  for (std::size_t k = 0; k < input.options.free.size(); ++k)
+    if (calibration::is_of_the_rig(input.options.free[k].parameter)) nuisance.push_back(k);
   std::vector<calibration::RigQuantity> touch;
   for (std::size_t i = 0; i < input.curves.size(); ++i)
     touch.push_back(is_travel(input, i) ? input.travels[i]->rig.touch_offset

@@ -121,11 +121,12 @@ Travel travel_of(const Curve& curve, const CalibrationSettings& settings) {
   travel.force = *std::ranges::max_element(curve.y) - zero;
   const bool known = !rig.touch_offset.fitted || rig.touch_offset.deviation > 0.0;
   travel.touch = known ? rig.touch_offset.value : apparent_touch(curve, zero, soft, travel.force);
-  travel.reach = curve.x.back() - travel.touch - soft * travel.force;
+  const double deepest = *std::ranges::max_element(curve.x);
+  travel.reach = deepest - travel.touch - soft * travel.force;
   if (!(travel.force > 0.0) || !(travel.reach > 0.0))
     throw InvalidInput(
         {rig_key_name, "touch at " + to_text(1e3 * travel.touch) + " mm",
-         curve.name + " ends at " + to_text(1e3 * curve.x.back()) + " mm with the force " +
+         curve.name + " ends at " + to_text(1e3 * deepest) + " mm with the force " +
              to_text(travel.force) + " N and does not press",
          "correct touch_offset and compliance, or the column position, which grows as the finger "
          "is pressed"});
@@ -184,7 +185,7 @@ void free_rigs(FitInput& input) {
 
 std::size_t material_parameters(const FitInput& input) {
   return std::size_t(std::ranges::count_if(input.options.free, [](const FreeParameter& free) {
-    return !calibration::is_of_the_rig(free.parameter);
+    return !calibration::is_behind_the_press(free.parameter);
   }));
 }
 

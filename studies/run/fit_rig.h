@@ -41,7 +41,7 @@ Travel travel_of(const calibration::Curve& curve, const CalibrationSettings& set
 /// different compliances.
 void free_rigs(FitInput& input);
 
-/// Of the fit's free parameters those that are not of a rig; they stand first.
+/// Of the fit's free parameters those that the presses themselves depend on; they stand first.
 std::size_t material_parameters(const FitInput& input);
 
 /// What rigs are known or fitted by, for the record of a fit: an entry per curve, of the compliance

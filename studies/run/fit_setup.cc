@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include "calibration/curves/forward_model.h"
 #include "meshes/files.h"
 #include "studies/run/continuum_model.h"
 #include "studies/run/fit_curves.h"
 #include "studies/run/fit_plan.h"
+#include "studies/run/fit_relaxation.h"
 #include "studies/run/fit_suspects.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/provenance.h"
@@ -55,6 +58,11 @@ std::vector<MaterialParameter> known_parameters(const CalibrationSettings& setti
   }
 }
 
+/// What presses of a rubber that relaxes tell besides.
+bool knows_relaxation(const CalibrationSettings& settings) {
+  return settings.problem == CalibrationProblem::experiment;
+}
+
 std::vector<MaterialParameter> usual_parameters(const CalibrationSettings& settings,
                                                 ModelKind model) {
   switch (settings.problem) {
@@ -72,18 +80,29 @@ std::vector<MaterialParameter> free_parameters(const LoadedConfig& loaded) {
   const CalibrationSettings& settings = loaded.config.calibration;
   if (settings.parameters.empty())
     return usual_parameters(settings, loaded.config.press.lattice.model);
-  const std::vector<MaterialParameter> known = known_parameters(settings);
+  std::vector<MaterialParameter> known = known_parameters(settings);
+  if (knows_relaxation(settings))
+    known.insert(known.end(), calibration::relaxation_parameters.begin(),
+                 calibration::relaxation_parameters.end());
   std::vector<MaterialParameter> chosen;
   for (const std::string& word : settings.parameters) {
+    if (word == relaxation_word && knows_relaxation(settings)) {
+      std::ranges::copy(relaxation_sought(loaded), std::back_inserter(chosen));
+      continue;
+    }
     const auto found = std::ranges::find_if(
         known, [&](MaterialParameter each) { return calibration::name(each) == word; });
     if (found == known.end())
-      throw refused(
-          loaded, "calibration.parameters", word,
-          "the problem " + std::string(name(settings.problem)) + " can free " + words_of(known),
-          "name some of them, or none for the usual ones");
+      throw refused(loaded, "calibration.parameters", word,
+                    "the problem " + std::string(name(settings.problem)) + " can free " +
+                        words_of(known) +
+                        (knows_relaxation(settings) ? "; relaxation: all of its branches" : ""),
+                    "name some of them, or none for the usual ones");
     chosen.push_back(*found);
   }
+  std::ranges::stable_partition(chosen, std::not_fn(calibration::is_of_the_relaxation));
+  if (!chosen.empty() && calibration::is_of_the_relaxation(chosen.front()))
+    chosen.insert(chosen.begin(), modulus);
   return chosen;
 }
 
@@ -108,6 +127,11 @@ std::vector<FreeParameter> free_list(const LoadedConfig& loaded, const lattice::
   for (const MaterialParameter parameter : free_parameters(loaded)) {
     FreeParameter free;
     free.parameter = parameter;
+    if (calibration::is_of_the_relaxation(parameter)) {
+      free.start = 1.0;  // until the curves are there, start_branches
+      list.push_back(free);
+      continue;
+    }
     free.start = calibration::value_of(parameter, base);
     free.scale = scale_of(parameter, base);
     const double size = free.scale > 0.0 ? free.scale : std::abs(free.start);
@@ -223,6 +247,15 @@ lattice::PressSetup base_of(const LoadedConfig& loaded) {
   return press_setup(loaded.with({"press.mode=static"}));
 }
 
+/// Presses that are planned have no times.
+void check_plan(const LoadedConfig& loaded, const FitInput& input) {
+  if (!input.branches.empty())
+    throw refused(loaded, "rubber.relaxation", "",
+                  "a plan is one of presses in equilibrium, and a rubber that relaxes depends on "
+                  "time",
+                  "plan with rubber.relaxation = [], the rubber after long times");
+}
+
 void check_model(const LoadedConfig& loaded) {
   const CalibrationSettings& settings = loaded.config.calibration;
   const ModelKind model = loaded.config.press.lattice.model;
@@ -249,14 +282,17 @@ bool has_profile_intervals(const CalibrationSettings& wanted, const FitInput& in
 /// Where the presses of a fit come from.
 enum class Presses { made, planned };
 
-FitSetup assembled(const LoadedConfig& loaded, Presses presses) {
-  const CalibrationSettings& wanted = loaded.config.calibration;
+FitSetup assembled(const LoadedConfig& given, Presses presses) {
+  const CalibrationSettings& wanted = given.config.calibration;
+  const LoadedConfig loaded = knows_relaxation(wanted) ? lasting(given) : given;
   check_model(loaded);
   check_data(loaded);
   FitSetup fit;
   fit.input.problem = wanted.problem;
   fit.input.base = base_of(loaded);
-  fit.input.options.free = free_list(loaded, fit.input.base);
+  fit.input.options.free = free_list(given, fit.input.base);
+  if (knows_relaxation(wanted)) fit.input.branches = branches_of(given, fit.input.options.free);
+  if (presses == Presses::planned) check_plan(given, fit.input);
   fit.input.options.robust_width = wanted.robust_width;
   fit.input.options.tolerance = search_tolerance;
   fit.input.program = "fingertip " + program_version();
@@ -274,6 +310,12 @@ FitSetup assembled(const LoadedConfig& loaded, Presses presses) {
   } else {
     add_measured_curves(fit, loaded);
   }
+  start_branches(given, fit.input);
+  if (!fit.input.branches.empty() && wanted.bias && !by_continuum(fit.input))
+    throw refused(
+        given, "calibration.bias", "true",
+        "the continuum beside a fit presses a rubber in equilibrium, and this one relaxes",
+        "leave it out, or let the continuum answer: calibration.forward = \"continuum\"");
   check_profile(loaded, fit.input);
   fit.input.scale_to_data = wanted.problem == CalibrationProblem::experiment ||
                             wanted.problem == CalibrationProblem::finite_strain;
@@ -289,7 +331,7 @@ FitSetup assembled(const LoadedConfig& loaded, Presses presses) {
   fit.input.with_lattice_error = std::ranges::all_of(fit.input.kinds, [](CurveKind kind) {
     return kind == CurveKind::press || kind == CurveKind::moving_press;
   });
-  fit.loaded = loaded;
+  fit.loaded = given;
   return fit;
 }
 
@@ -356,7 +398,8 @@ FitSetup set_up(const LoadedConfig& loaded, Presses presses) {
   const auto excess = excess_of_finite_strain(first.input);
   FitSetup fit = at_the_right_strain(loaded, std::move(first), presses, excess);
   set_budget(loaded, fit);
-  fit.input.candidates = candidates_of(fit.loaded, fit);
+  fit.input.candidates = candidates_of(
+      knows_relaxation(loaded.config.calibration) ? lasting(fit.loaded) : fit.loaded, fit);
   return fit;
 }
 

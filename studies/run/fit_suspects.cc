@@ -143,6 +143,10 @@ class Trials {
     const Index count = Index(options.free.size()), own = Index(options_.free.size());
     std::vector<std::unique_ptr<calibration::RigModel>> models;
     std::vector<calibration::ForwardModel*> list;
+    std::vector<calibration::FitBranch> branches = input_.branches;
+    for (calibration::FitBranch& branch : branches)
+      for (auto* place : {&branch.share.place, &branch.time.place})
+        if (*place) **place -= shift_;
     for (std::size_t i = 0; i < input_.curves.size(); ++i) {
       const bool travel = is_travel(input_, i);
       Rig rig = travel ? input_.travels[i]->rig : Rig{};
@@ -153,7 +157,7 @@ class Trials {
           (rig.*rig_members[freed[f].kind]).place = own + Index(f);
       models.push_back(std::make_unique<calibration::RigModel>(
           presses_[i], travel ? input_.travels[i]->depths : input_.presses[i].protocol.samples, 1,
-          rig, input_.curves[i].x, input_.curves[i].time, count));
+          rig, input_.curves[i].x, input_.curves[i].time, count, branches));
       list.push_back(models.back().get());
     }
     return calibration::fit_curves(input_.curves, list, options);
@@ -262,14 +266,15 @@ std::vector<Excess> excesses_of(const FitInput& input) {
 /// Of files that show a loop or a hold: a branch of the rubber that fades as long as their loading
 /// takes, which is where it bends the loading most. Without times the speed counts as constant.
 std::optional<Suspect> relaxation(const FitInput& input, const Stack& stack) {
-  Suspect suspect{relaxation_name,
-                  "",
-                  "the rubber's force falls with time, as its loop or hold shows; press slower, or "
-                  "give the rubber its branches (calibration.problem = \"material\")",
-                  "1",
-                  VectorXd::Zero(stack.values),
-                  0.0,
-                  0.0};
+  Suspect suspect{
+      relaxation_name,
+      "",
+      "the rubber's force falls with time, as its loop or hold shows; give its branches "
+      "in rubber.relaxation, or fit them: calibration.parameters with \"relaxation\"",
+      "1",
+      VectorXd::Zero(stack.values),
+      0.0,
+      0.0};
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const Curve& curve = input.curves[i];
     const VectorXd& forces = stack.fitted[i];
@@ -340,7 +345,8 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
           stack.fitted[i].cwiseProduct(VectorXd::Map(relative.data(), Index(relative.size())));
     }
   }
-  if (auto fades = relaxation(input, stack)) suspects.push_back(*std::move(fades));
+  if (input.branches.empty())  // else it is in the model
+    if (auto fades = relaxation(input, stack)) suspects.push_back(*std::move(fades));
   found = calibration::accusations(fit, options, suspects);
   const auto gravest_first = [&] {
     std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);

@@ -8,6 +8,7 @@
 #include "meshes/cubic_grid.h"
 #include "meshes/files.h"
 #include "studies/config/key_table.h"
+#include "studies/config/law_card_keys.h"
 #include "studies/config/units.h"
 #include "studies/run/controller_choice.h"
 
@@ -79,6 +80,14 @@ void take_over(const calibration::Material& material, LoadedConfig& loaded) {
     take("rubber.youngs_modulus", material.rubber.youngs_modulus, rubber.youngs_modulus);
     take("rubber.shear_modulus", material.rubber.shear_modulus, rubber.shear_modulus);
   }
+  if (const auto& branches = material.rubber.relaxation.branches;
+      !branches.empty() && !given("rubber.relaxation")) {
+    rubber.relaxation.branches = branches;
+    for (meshes::RelaxationBranch& branch : rubber.relaxation.branches)
+      branch.time = parse_quantity(meshes::to_text(branch.time) + " s", "s", "0.1 s");
+    loaded.entries.at("rubber.relaxation") = {branches_literal(branches),
+                                              loaded.config.constants_file.string(), true};
+  }
   lattice::LatticeSettings& lattice = loaded.config.press.lattice;
   const auto take_default = [&](const char* key, double ours, double& value) {
     if (!given(key)) take(key, ours, value);
@@ -148,6 +157,7 @@ LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use) {
   meshes::Rubber& continuum = complete.config.reference.rubber;
   continuum.density = press.rubber.density;
   continuum.retardation_time = press.rubber.retardation_time;
+  continuum.relaxation = press.rubber.relaxation;
   for (meshes::Rubber* rubber : {&complete.config.press.rubber, &continuum}) {
     rubber->youngs_modulus = material.rubber.youngs_modulus;
     rubber->shear_modulus = material.rubber.shear_modulus;

@@ -411,7 +411,7 @@ TEST_F(MeasuredData, AnEncoderThatStandsStillIsAveraged) {
 
 /// Up to 1 mm in 100 s with a hold of 100 s half way and one at the end: in each the force falls by
 /// a tenth.
-TEST_F(MeasuredData, HoldsAreToldAndCut) {
+std::string press_with_holds() {
   std::string text = "time [s],position [mm],force [N]\n";
   int second = 0;
   const auto row = [&](double x, double force) {
@@ -425,7 +425,11 @@ TEST_F(MeasuredData, HoldsAreToldAndCut) {
   for (int i = 201; i <= 400; ++i) row(0.0025 * i, 0.0025 * i);
   hold(1.0);
   for (int i = 400; i >= 0; --i) row(0.0025 * i, 0.00225 * i);
-  const MeasuredFile file = read(text);
+  return text;
+}
+
+TEST_F(MeasuredData, HoldsAreToldAndCut) {
+  const MeasuredFile file = read(press_with_holds());
   const auto& course = file.curve.course;
   EXPECT_EQ(course.rows, 1002U);
   // Means of the first and last ten rows.
@@ -441,6 +445,33 @@ TEST_F(MeasuredData, HoldsAreToldAndCut) {
   const std::string notes = testing::PrintToString(file.notes);
   EXPECT_NE(notes.find("a hold, "), std::string::npos) << notes;
   EXPECT_NE(notes.find("the force falls by"), std::string::npos) << notes;
+}
+
+/// The same for a rubber that relaxes: the holds stay, thinned as their forces slow down.
+TEST_F(MeasuredData, HoldsAreKeptInTime) {
+  std::ofstream(folder_ / "timed.csv", std::ios::binary) << press_with_holds();
+  const MeasuredFile file = read_measured({folder_ / "timed.csv"}, every, true).at(0);
+  const auto& curve = file.curve;
+  EXPECT_TRUE(curve.in_time);
+  EXPECT_TRUE(std::ranges::is_sorted(curve.time, std::less_equal<>()));
+  EXPECT_EQ(file.lines.size(), curve.x.size());
+  EXPECT_LE(curve.x.size(), 282U);
+  EXPECT_NEAR(curve.time.back(), 601.0, 12.0) << "the way back is left out";
+  // 100 values and more of the way, 30 and more of each hold.
+  std::size_t held = 0;
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    EXPECT_GT(curve.y[i], 0.89e3 * curve.x[i] - 1e-9);
+    if (std::abs(curve.x[i] - 0.5e-3) > 2e-5 && curve.x[i] < 0.99e-3)
+      EXPECT_NEAR(curve.y[i], 1e3 * curve.x[i], 2e-3) << i;
+    else if (curve.y[i] < 995.0 * curve.x[i])
+      ++held;
+  }
+  EXPECT_GT(held, 50U);
+  const std::string notes = testing::PrintToString(file.notes);
+  EXPECT_NE(notes.find("is fitted; in it the force falls by"), std::string::npos) << notes;
+  std::ofstream(folder_ / "back.csv") << "time [s],position [mm],force [N]\n"
+                                         "1,0.1,0.1\n3,0.2,0.2\n2,0.3,0.3\n4,0.4,0.4\n";
+  EXPECT_THROW(read_measured({folder_ / "back.csv"}, every, true), ConfigError);
 }
 
 /// Rows that become ever sparser stand nowhere still.

@@ -119,6 +119,99 @@ TEST(RigModel, SlopesAreThoseOfDifferences) {
   }
 }
 
+/// A ramp at `speed` from touch at `start`, then held.
+struct RampAndHold {
+  double speed = 2e-3, start = 0.5, turn = 2.5;  ///< [m/s, s, s]
+  double at(double t) const { return speed * (std::min(t, turn) - start); }
+};
+
+const std::vector<meshes::RelaxationBranch> two_branches = {{0.2, 0.3}, {0.15, 4.0}};
+
+/// Lee & Radok's integral of Hertz' force over the ramp, by Simpson's rule in the root of time.
+double faded_hertz(const RampAndHold& path, double t) {
+  const meshes::Relaxation relaxation{two_branches, true};
+  const double end = std::sqrt(std::min(t, path.turn) - path.start);
+  constexpr int parts = 2000;
+  double sum = 0.0;
+  for (int i = 0; i <= parts; ++i) {
+    // t' = start + u², d delta^1.5 = 1.5 v^1.5 u 2u du
+    const double u = end * i / parts, weight = i == 0 || i == parts ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+    sum += weight * relaxation.modulus(t - path.start - u * u) * 3.0 * u * u;
+  }
+  return modulus_value * hertz_factor * std::pow(path.speed, 1.5) * sum * end / parts / 3.0;
+}
+
+const std::vector<FitBranch> held_branches = {{{0.2}, {0.3}}, {{0.15}, {4.0}}};
+
+TEST(RigModel, FadesAsLeeAndRadoksIntegral) {
+  const auto depths = depths_for_rig(deepest);
+  ProportionalPress press(depths, hertz);
+  const RampAndHold path;
+  for (const int steps : {15, 60}) {
+    std::vector<double> time, position;
+    for (int i = 0; i < steps; ++i) time.push_back(path.turn * (i + 1) / steps);
+    for (const double t : {2.51, 2.6, 3.0, 5.0, 20.0}) time.push_back(t);
+    for (const double t : time) position.push_back(path.at(t));
+    RigModel model(press, depths, 1, {}, position, time, 1, held_branches);
+    const VectorXd found = model.evaluate(VectorXd::Constant(1, modulus_value)).value;
+    const double largest = faded_hertz(path, path.turn);
+    for (std::size_t i = 0; i < time.size(); ++i)
+      EXPECT_NEAR(found(Index(i)), position[i] > 0.0 ? faded_hertz(path, time[i]) : 0.0,
+                  (steps == 15 ? 4e-4 : 3e-5) * largest)
+          << time[i];
+  }
+}
+
+/// Behind a machine that gives way the rubber creeps deeper while it is held.
+TEST(RigModel, CreepsBehindASoftMachine) {
+  const auto depths = depths_for_rig(deepest);
+  ProportionalPress press(depths, hertz);
+  const RampAndHold path;
+  std::vector<double> time, position;
+  for (int i = 1; i <= 400; ++i) time.push_back(0.02 * i);
+  for (const double t : time) position.push_back(path.at(t));
+  RigModel model(press, depths, 1, {{}, {soft, {}}, {}, {}}, position, time, 1, held_branches);
+  const VectorXd found = model.evaluate(VectorXd::Constant(1, modulus_value)).value;
+  const VectorXd deltas = model.indentation();
+  for (std::size_t i = 0; i < time.size(); ++i)
+    if (position[i] > 0.0)
+      EXPECT_NEAR(deltas(Index(i)) + soft * found(Index(i)), position[i], 1e-12);
+  EXPECT_GT(deltas(Index(time.size()) - 1), 1.005 * deltas(124));
+  // What the machine then is told, pressed rigidly along the same way, is the same force.
+  RigModel rigid(press, depths, 1, {}, {deltas.begin(), deltas.end()}, time, 1, held_branches);
+  const VectorXd again = rigid.evaluate(VectorXd::Constant(1, modulus_value)).value;
+  EXPECT_LT((again - found).norm(), 1e-4 * found.norm());
+}
+
+TEST(RigModel, SlopesOfAFadingPressAreThoseOfDifferences) {
+  const auto depths = depths_for_rig(deepest);
+  ProportionalPress press(depths, stiffening);
+  std::vector<double> position = even(23, 1.2 * deepest), time;
+  for (const double x : position) time.push_back(1e3 * x);
+  for (int i = 0; i < 5; ++i)
+    position.push_back(position.back()), time.push_back(time.back() + 1.0);
+  const std::vector<FitBranch> branches = {{{0.0, 5}, {0.0, 6}}, {{0.0, 7}, {2.0, {}}}};
+  RigModel model(press, depths, 1, all_free, position, time, 8, branches);
+  VectorXd at(8);
+  at << truth(0.02, 1e-3), 0.2, 0.7, 0.15;
+  for (const double touch : {offset, 0.1e-3}) {  // within the first step and before it
+    at(1) = touch;
+    const CurveSlopes here = model.evaluate(at);
+    for (Index j = 0; j < at.size(); ++j) {
+      const double step = 1e-6 * at(j);
+      VectorXd up = at, down = at;
+      up(j) += step;
+      down(j) -= step;
+      const VectorXd slope = (model.evaluate(up).value - model.evaluate(down).value) / (2.0 * step);
+      EXPECT_LT((slope - here.jacobian.col(j)).norm(), 1e-6 * slope.norm()) << j;
+    }
+  }
+  at(5) = 0.9;
+  EXPECT_THROW(model.evaluate(at), meshes::NotConverged);
+  EXPECT_THROW(RigModel(press, depths, 1, {}, {1e-3, 2e-3}, {}, 1, held_branches),
+               meshes::InvalidInput);
+}
+
 TEST(RigModel, HasTheZeroOfItsLoadCellAloneBeforeTouch) {
   const auto depths = depths_for_rig(deepest);
   ProportionalPress press(depths, hertz);

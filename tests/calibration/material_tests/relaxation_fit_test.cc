@@ -135,11 +135,12 @@ TEST(RelaxationFit, TellsBranchesThatTheTestsDoNotReach) {
   EXPECT_TRUE(opened(2.0).open_branches.empty());
   const LawFit slow = opened(200.0), fast = opened(0.01);
   ASSERT_EQ(slow.open_branches.size(), 1u);
-  EXPECT_NE(slow.open_branches[0].find("slower than the tests last, 60 s"), std::string::npos)
+  EXPECT_NE(slow.open_branches[0].find("slower than what the data tell, up to 60 s"),
+            std::string::npos)
       << slow.open_branches[0];
   EXPECT_NE(slow.open_branches[0].find("a hold of"), std::string::npos);
   ASSERT_EQ(fast.open_branches.size(), 1u);
-  EXPECT_NE(fast.open_branches[0].find("faster than what the tests tell, from 0.05 s on"),
+  EXPECT_NE(fast.open_branches[0].find("faster than what the data tell, from 0.05 s on"),
             std::string::npos)
       << fast.open_branches[0];
 }
