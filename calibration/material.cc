@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "calibration/curves/forward_model.h"
 #include "calibration/moduli.h"
 #include "calibration/words.h"
 #include "meshes/files.h"
@@ -179,6 +180,12 @@ std::vector<Violation> Material::violations() const {
                            "calibrated models are central, hookean and network",
                            "give one of them"});
   for (const Violation& violation : rubber.violations()) rules.found.push_back(violation);
+  if (2 * rubber.relaxation.branches.size() > relaxation_parameters.size() ||
+      !rubber.relaxation.bulk)
+    rules.found.push_back({"rubber.relaxation_g1",
+                           std::to_string(rubber.relaxation.branches.size()) + " branches",
+                           "a material keeps at most five, in which all moduli fade alike",
+                           "join branches of similar times"});
   if (geometry)
     for (const Violation& violation : geometry->violations()) rules.found.push_back(violation);
   if (rules.found.empty())

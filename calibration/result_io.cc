@@ -15,6 +15,7 @@ Material material_from(const ModuliFit& fit) {
   material.spacing = fit.spacing;
   material.constants = fit.constants;
   material.rubber = fit.target;
+  material.rubber.relaxation = {};  // a fit to moduli knows no time: a press has its own
   material.kinematics = lattice::Kinematics::small;
   // What rounding adds to E/(2G) - 1 says nothing: 0.45, not 0.44999999999999996.
   material.validity.smallest_poissons_ratio = material.validity.largest_poissons_ratio =

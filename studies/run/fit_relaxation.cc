@@ -54,6 +54,9 @@ std::vector<FitBranch> branches_of(const LoadedConfig& loaded,
   for (const meshes::RelaxationBranch& given : given_branches(loaded))
     branches.push_back({{given.share}, {given.time}});
   const std::size_t known = branches.size();
+  if (2 * known > relaxation_parameters.size())
+    throw refused(loaded, "rubber.relaxation", std::to_string(known) + " branches",
+                  "a fit to presses knows at most five", "join branches of similar times");
   for (std::size_t k = 0; k < free.size(); ++k) {
     if (!calibration::is_of_the_relaxation(free[k].parameter)) continue;
     const auto [branch, is_time] = branch_of(free[k].parameter);

@@ -28,8 +28,12 @@ Material fitted(ModelKind model) {
   m.model = model;
   m.spacing = a;
   m.kinematics = model == ModelKind::network ? Kinematics::finite : Kinematics::small;
-  m.rubber = {4000.0 / 3.0 * std::numbers::e, 1000.0 * std::numbers::sqrt2, 1234.5 / 7.0,
-              1.0 / 3.0e3, {}, {}};
+  m.rubber = {4000.0 / 3.0 * std::numbers::e,
+              1000.0 * std::numbers::sqrt2,
+              1234.5 / 7.0,
+              1.0 / 3.0e3,
+              {},
+              {}};
   m.constants = lattice::hookean_constants(m.rubber, a);
   if (model == ModelKind::central) m.constants.kappa = 0.0;
   m.geometry = meshes::Geometry{1.0e-2 / 3.0, 0.1e-2, 0.7e-2, 0.9e-2};
@@ -152,6 +156,17 @@ TEST_F(MaterialFile, ReadsBackToTheSameBits) {
     write_material_toml(written, file_);
     expect_equal(read_material_toml(file_), written);
   }
+}
+
+TEST_F(MaterialFile, ARelaxationIsReadBackToTheSameBits) {
+  Material written = fitted(ModelKind::network);
+  written.rubber.relaxation.branches = {{0.1 + 0.2, 0.01 / 3.0}, {0.1, 7.0 / 3.0}};
+  write_material_toml(written, file_);
+  EXPECT_EQ(read_material_toml(file_).rubber.relaxation, written.rubber.relaxation);
+  written.rubber.relaxation.bulk = false;
+  EXPECT_THROW(write_material_toml(written, file_), meshes::InvalidInput);
+  written.rubber.relaxation = {std::vector<meshes::RelaxationBranch>(6, {0.1, 1.0}), true};
+  EXPECT_THROW(write_material_toml(written, file_), meshes::InvalidInput);
 }
 
 TEST_F(MaterialFile, LeavesOutWhatIsUnknown) {
