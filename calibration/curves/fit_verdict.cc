@@ -1,4 +1,5 @@
 /// Whether a fit passed its own tests.
+#include <algorithm>
 #include <cmath>
 
 #include "calibration/curves/fit_record.h"
@@ -52,12 +53,25 @@ void judge_bounds(Sentences& found, const FitRecord& record) {
 /// Half of what elastic solids have, -1 to 1/2.
 constexpr double whole_ratio = 0.75;
 
+/// Whether what changes most along it is a branch of the relaxation.
+bool is_of_branches(const CurveFit& fit, const Direction& direction) {
+  Index most = 0;
+  direction.changes.cwiseAbs().maxCoeff(&most);
+  return is_of_the_relaxation(fit.parameters[std::size_t(most)]);
+}
+
 void judge_identifiability(Sentences& found, const FitRecord& record) {
   const CurveFit& fit = record.fit;
   if (fit.poissons_ratio_bound) return;
-  const std::string remedy =
+  std::string remedy =
       ": hold Poisson's ratio (parameters: modulus), give a prior, or add a curve of another "
       "contact";
+  if (std::ranges::any_of(fit.unidentifiable,
+                          [&](const Direction& each) { return is_of_branches(fit, each); }))
+    remedy =
+        ": free fewer branches of the relaxation, hold those that are known (rubber.relaxation), "
+        "or "
+        "measure a longer hold after a faster ramp";
   if (!fit.unidentifiable.empty()) {
     found.push_back("the data do not determine every parameter (" +
                     std::to_string(fit.unidentifiable.size()) + " direction" +

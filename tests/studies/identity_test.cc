@@ -434,6 +434,14 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
         "calibration.rig={touch_offset = \"0.1 +- 0.2 mm\"}",
         "calibration.rig={force_offset = \"1 mN\"}", "calibration.machine=B"})
     EXPECT_TRUE(differs(travel, matters)) << matters;
+  // A rubber that relaxes knows the time, which speed tells where a file does not.
+  const Sets relaxing =
+      joined({experiment, {"rubber.relaxation=[[0.2, \"0.1 s\"]]", "press.speed=1 mm/s"}});
+  for (const char* matters : {"press.speed=2 mm/s", "rubber.relaxation=[[0.3, \"0.1 s\"]]",
+                              "rubber.relaxation=[[0.2, \"0.2 s\"]]",
+                              "calibration.parameters=[\"modulus\", \"relaxation_g1\"]"})
+    EXPECT_TRUE(differs(relaxing, matters)) << matters;
+  EXPECT_FALSE(differs(experiment, "press.speed=2 mm/s"));
   // How fast the plane comes is all that the elastic press does not know.
   EXPECT_TRUE(differs(ramp, "press.speed=2 cm/s"));
   EXPECT_FALSE(differs(ramp, "press.clearance=1 mm"));
