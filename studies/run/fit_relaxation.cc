@@ -65,10 +65,10 @@ std::vector<FitBranch> branches_of(const LoadedConfig& loaded,
   }
   for (std::size_t i = known; i < branches.size(); ++i)
     if (!branches[i].share.place || !branches[i].time.place)
-      throw refused(loaded, "calibration.parameters",
+      throw refused(loaded, "calibration.parameters", "",
                     std::string(calibration::name(
-                        relaxation_parameters[2 * i + (branches[i].share.place ? 1 : 0)])),
-                    "is neither free nor given",
+                        relaxation_parameters[2 * i + (branches[i].share.place ? 1 : 0)])) +
+                        " is neither free nor given",
                     "free share and time of every branch, or give them in rubber.relaxation");
   if (!branches.empty() && !loaded.config.press.rubber.relaxation.bulk)
     throw refused(loaded, "rubber.relaxation_bulk", "false",
