@@ -218,9 +218,9 @@ ConfigError placed_in(const std::filesystem::path& path, const MeasuredFile& fil
 Curve with_times(const LoadedConfig& own, Curve curve) {
   if (!curve.time.empty()) return curve;
   if (!own.entries.at("press.speed").given)
-    throw own.locate({{"calibration.data", curve.name + " without times",
-                       "forces of a rubber that relaxes depend on time",
-                       "give the file its column time, or press.speed, at which it was pressed"}});
+    throw own.locate(
+        {{"calibration.data", curve.name, "forces of a rubber that relaxes depend on time",
+          "give the file its column time, or press.speed, at which it was pressed"}});
   for (const double x : curve.x)
     curve.time.push_back((x - curve.x.front()) / own.config.press.protocol.speed);
   return curve;

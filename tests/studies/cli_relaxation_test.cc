@@ -132,7 +132,7 @@ TEST(RelaxingPressFit, RefusesWhatItCannotKnow) {
   for (int i = 1; i <= 20; ++i) rows << 0.1 * i << ';' << std::pow(0.1 * i, 1.5) << '\n';
   write_text(folder / "travel.csv", "indentation [mm];force [mN]\n" + rows.str());
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{given}, "without times"},
+      {{given}, "depend on time"},
       {{given, "rubber.relaxation_bulk=false", "press.speed=1 mm/s"}, "rubber.relaxation_bulk"},
       {{"calibration.parameters=[\"modulus\", \"relaxation_g1\"]"}, "relaxation_tau1"},
       {{given, "press.speed=1 mm/s", "calibration.bias=true", "calibration.forward=lattice"},

@@ -441,7 +441,6 @@ TEST(IdentityOfAFit, ChangesWithItsDataAndHowTheyWereTaken) {
                               "rubber.relaxation=[[0.2, \"0.2 s\"]]",
                               "calibration.parameters=[\"modulus\", \"relaxation_g1\"]"})
     EXPECT_TRUE(differs(relaxing, matters)) << matters;
-  EXPECT_FALSE(differs(experiment, "press.speed=2 mm/s"));
   // How fast the plane comes is all that the elastic press does not know.
   EXPECT_TRUE(differs(ramp, "press.speed=2 cm/s"));
   EXPECT_FALSE(differs(ramp, "press.clearance=1 mm"));
