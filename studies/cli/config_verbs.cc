@@ -5,9 +5,25 @@
 #include "studies/cli/shell_texts.h"
 #include "studies/cli/verbs.h"
 #include "studies/config/documents.h"
+#include "studies/run/calibration_stages.h"
+#include "studies/run/law_job.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {
+
+namespace {
+
+/// What `calibrate` would note on the data that a configuration names; refuses what it would
+/// refuse.
+std::vector<std::string> notes_on_data(const LoadedConfig& loaded) {
+  const CalibrationSettings& calibration = loaded.config.calibration;
+  if (calibration.problem == CalibrationProblem::material && !calibration.tests.empty())
+    return law_input(loaded).tests.notes;
+  if (calibration.data.empty()) return {};
+  return CalibrationStages(loaded, "", CalibrationStages::Failed::kept).notes();
+}
+
+}  // namespace
 
 int run_check(const CommandLine& line) {
   std::vector<std::string> files = line.arguments;
@@ -18,7 +34,9 @@ int run_check(const CommandLine& line) {
   for (const std::string& file : files) {
     const Case study_case = load_case(file, line.config);
     check_all(study_case.loaded);
+    const std::vector<std::string> on_data = notes_on_data(study_case.loaded);
     if (line.quiet) continue;
+    for (const std::string& note : on_data) fmt::print("{}: note: {}\n", file, note);
     for (const std::string& note : with_material(study_case.loaded, LatticeUse::press).notes)
       fmt::print("{}: note: {}\n", file, note);
     // No error: the continuum can do it.

@@ -77,6 +77,30 @@ TEST(Verbs, InitWritesWhatCheckAccepts) {
   EXPECT_EQ(run_program(folder.path(), {"init"}).out, read_text(folder / "all.toml"));
 }
 
+TEST(Verbs, CheckReadsTheDataOfACalibration) {
+  const TemporaryFolder folder;
+  write_text(folder / "fit.toml",
+             "[calibration]\nproblem = \"experiment\"\nparameters = [\"modulus\"]\n"
+             "data = [\"press.csv\"]\n[lattice]\nspacing = \"tip_radius/6\"\n");
+  const ProgramResult absent = run_program(folder.path(), {"check", "fit.toml"});
+  EXPECT_EQ(absent.code, 2) << absent.out;
+  EXPECT_NE(absent.err.find("press.csv"), std::string::npos) << absent.err;
+  write_text(folder / "press.csv", "indentation [mm],force [mN]\n0.3,2\n0.6,5\n1,x\n");
+  const ProgramResult damaged = run_program(folder.path(), {"check", "fit.toml"});
+  EXPECT_EQ(damaged.code, 2);
+  EXPECT_NE(damaged.err.find("press.csv:4"), std::string::npos) << damaged.err;
+  write_text(folder / "press.csv", "indentation [mm],force [mN]\n0.3,2\n0.6,5\n1,10\n");
+  const ProgramResult whole = run_program(folder.path(), {"check", "fit.toml"});
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  EXPECT_NE(whole.out.find("fit.toml: OK"), std::string::npos) << whole.out;
+
+  write_text(folder / "law.toml",
+             "[calibration]\nproblem = \"material\"\ntests = \"tests.toml\"\n");
+  const ProgramResult no_tests = run_program(folder.path(), {"check", "law.toml"});
+  EXPECT_EQ(no_tests.code, 2) << no_tests.out;
+  EXPECT_NE(no_tests.err.find("tests.toml"), std::string::npos) << no_tests.err;
+}
+
 TEST(Verbs, ExplainKnowsEveryKey) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(folder.path(), {"explain", "rubber.shear_modulus"});
