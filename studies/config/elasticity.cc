@@ -188,7 +188,7 @@ void Elasticity::take_hardness() {
        " by Gent's formula: a rough value, measure E where it matters");
 }
 
-/// Beside E, G or nu; alone, E stays at its default.
+/// Beside E, G or nu; alone, E is its default.
 void Elasticity::with_bulk_modulus() {
   const double K = *loaded_.config.coefficients.bulk_modulus;
   double& E = rubber_.youngs_modulus;
@@ -239,8 +239,8 @@ void Elasticity::with_poissons_ratio() {
          ", that of a nearly incompressible rubber, makes " +
          (of_shear ? "E = " + kilopascal(E) : "G = " + kilopascal(G)));
   if (given_.size() == 1 && has_nu)
-    note("rubber.poissons_ratio alone is given: E stays at its default, " + kilopascal(E) +
-         ", G is " + kilopascal(G));
+    note("rubber.poissons_ratio alone is given: E is its default, " + kilopascal(E) +
+         ", where a fit of E begins; G is " + kilopascal(G));
 }
 
 }  // namespace

@@ -18,14 +18,16 @@ constexpr ShownUnits tables[] = {{UnitSystem::si,
                                   {"stress", "Pa", "kPa", "kPa", 1e-3},
                                   {"stiffness", "N/m", "N/m", "N/m", 1.0},
                                   {"torque", "N m", "mN mm", "mN mm", 1e6},
-                                  {"speed", "m/s", "mm/s", "mm/s", 1e3}},
+                                  {"speed", "m/s", "mm/s", "mm/s", 1e3},
+                                  {"compliance", "m/N", "mm/N", "mm/N", 1e3}},
                                  {UnitSystem::paper,
                                   {"length", "m", "cm", "cm", 1.0 / cm},
                                   {"force", "N", "gf", "gf", 1.0 / gf},
                                   {"stress", "Pa", "gf/cm²", "gf/cm^2", cm* cm / gf},
                                   {"stiffness", "N/m", "gf/cm", "gf/cm", cm / gf},
                                   {"torque", "N m", "gf cm", "gf cm", 1.0 / (gf * cm)},
-                                  {"speed", "m/s", "cm/s", "cm/s", 1.0 / cm}}};
+                                  {"speed", "m/s", "cm/s", "cm/s", 1.0 / cm},
+                                  {"compliance", "m/N", "cm/gf", "cm/gf", gf / cm}}};
 
 UnitSystem today = UnitSystem::si;
 
@@ -52,8 +54,8 @@ std::string ShownUnit::decimals(double value) const {
   return text == "-0.0000" ? text.substr(1) : text;
 }
 
-std::array<const ShownUnit*, 6> ShownUnits::all() const {
-  return {&length, &force, &stress, &stiffness, &torque, &speed};
+std::array<const ShownUnit*, 7> ShownUnits::all() const {
+  return {&length, &force, &stress, &stiffness, &torque, &speed, &compliance};
 }
 
 const ShownUnit* ShownUnits::of(std::string_view si) const {

@@ -38,9 +38,9 @@ struct ShownUnit {
 
 struct ShownUnits {
   UnitSystem system;
-  ShownUnit length, force, stress, stiffness, torque, speed;
+  ShownUnit length, force, stress, stiffness, torque, speed, compliance;
 
-  std::array<const ShownUnit*, 6> all() const;
+  std::array<const ShownUnit*, 7> all() const;
   /// That of a quantity whose unit in files is `si`; null when the table has none.
   const ShownUnit* of(std::string_view si) const;
 };

@@ -253,7 +253,8 @@ class LiveSolidPage : public LivePage {
     lattice::PressSetup setup = LivePage::press();
     setup.geometry = fingers::solid_dome(32, 24);
     setup.lattice.spacing = setup.geometry.tip_radius / 8;  // four cells through its wall
-    setup.rod.density *= 3.0;  // heavier than the rubber
+    // As hard to turn as the rubber about the wrist: a lighter hand begins to sway when it holds.
+    setup.rod.density *= 12.0;
     setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
     return setup;
   }
