@@ -19,9 +19,7 @@ InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
   if (model.has_springs()) {
     const kernel::Variant variant{model.kinematics == Kinematics::finite, rates_};
     springs_ = kernel::select(variant, width);
-    const std::ptrdiff_t plane = std::ptrdiff_t(model.grid.size[0]) * model.grid.size[1];
-    arrays_.row = model.grid.size[0];
-    arrays_.plane = plane;
+    const auto plane = neighbour_offset(model.grid.size, int(along_axis[2]));
     if (variant.finite)
       pulls_.assign(std::size_t(team.threads()), std::vector<double>(kernel::pulls_size(plane)));
   }

@@ -17,7 +17,6 @@ struct Arrays {
   const double* weight[13];
   double* force[3];  ///< written at every point of the blocks [N]
   std::ptrdiff_t neighbour[13];
-  std::ptrdiff_t row, plane;  ///< points of the grid in a row, in a plane
   double spacing;
   double stiffness[3], damping[3];
 };

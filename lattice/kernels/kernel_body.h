@@ -104,7 +104,7 @@ struct Body : Packs<Pack> {
   [[gnu::always_inline]] static void apply(const Arrays& a, Run& run, const Vector& pull) {
     constexpr Direction way = half_stencil[S];
     double* const* pulls = run.pulls[way.dz] + 3 * (way.dx + 1);
-    const std::ptrdiff_t there = run.in_plane + way.dy * a.row;
+    const std::ptrdiff_t there = run.in_plane + way.dy * a.neighbour[along_axis[1]];
     run.force += pull;
     keep(run.force.x), keep(run.force.y), keep(run.force.z);
     store(pulls, std::size_t(there), load(pulls, there) - pull);
@@ -185,15 +185,15 @@ struct Body : Packs<Pack> {
     while (lead > 0 && std::ptrdiff_t(blocks[lead - 1]) + reach > std::ptrdiff_t(blocks[begin]))
       --lead;
     double* sums[2][9];
-    const std::ptrdiff_t stride = a.plane + 2 * block;
+    const std::ptrdiff_t in_plane = a.neighbour[along_axis[2]], stride = in_plane + 2 * block;
     for (std::ptrdiff_t n = 0; n < 18; ++n) sums[n / 9][n % 9] = pulls + n * stride + block;
     std::fill_n(pulls, 18 * stride, 0.0);
     for (std::size_t b = lead; b < end; ++b) {
-      const std::ptrdiff_t plane = std::ptrdiff_t(blocks[b]) / a.plane;
+      const std::ptrdiff_t plane = std::ptrdiff_t(blocks[b]) / in_plane;
       for (std::ptrdiff_t lane = 0; lane < block; lane += width) {
         Run run{};
         run.i = std::ptrdiff_t(blocks[b]) + lane;
-        run.in_plane = run.i - plane * a.plane;
+        run.in_plane = run.i - plane * in_plane;
         run.pulls[0] = sums[plane & 1];
         run.pulls[1] = sums[~plane & 1];
         run.u = load(a.displacement, run.i);

@@ -20,15 +20,6 @@ constexpr const char* depths =
     "\"0.14 cm\",\"0.16 cm\",\"0.18 cm\",\"0.2 cm\",\"0.22 cm\",\"0.24 cm\",\"0.26 cm\","
     "\"0.28 cm\",\"0.3 cm\"]";
 
-std::vector<std::string> with(std::vector<std::string> words,
-                              const std::vector<std::string>& settings) {
-  for (const std::string& setting : settings) {
-    words.emplace_back("--set");
-    words.push_back(setting);
-  }
-  return words;
-}
-
 struct Point {
   double depth, force;  ///< [mm], [mN]
 };
@@ -36,7 +27,8 @@ struct Point {
 /// Of the continuum that also answers for the fits.
 std::vector<Point> pressed(const fs::path& folder, std::vector<std::string> settings) {
   settings.insert(settings.end(), {"press.mode=static", "reference.fields=false", depths});
-  const ProgramResult run = run_program(folder, with({"reference", "--out", "press"}, settings));
+  const ProgramResult run =
+      run_program(folder, with_settings({"reference", "--out", "press"}, settings));
   EXPECT_EQ(run.code, 0) << run.err;
   const auto response =
       fingertip::meshes::PressResponse::read_csv(folder / "press" / "response.csv");
@@ -67,7 +59,8 @@ json fitted(const fs::path& folder, const std::string& out, std::vector<std::str
                   {"calibration.problem=experiment", "calibration.data=[\"travel.csv\"]",
                    "calibration.parameters=[\"modulus\"]", "calibration.candidates=[]",
                    "calibration.forward=continuum", "reference.fields=false"});
-  const ProgramResult run = run_program(folder, with({"calibrate", "--out", out}, settings));
+  const ProgramResult run =
+      run_program(folder, with_settings({"calibrate", "--out", out}, settings));
   EXPECT_TRUE(run.code == 0 || run.code == 4) << run.err;
   return json::parse(read_text(folder / out / "calibration.json"));
 }

@@ -20,23 +20,15 @@ json read(const fs::path& file) {
   return json::parse(read_text(file));
 }
 
-Words with(Words words, const Words& more) {
-  for (const std::string& each : more) {
-    words.emplace_back("--set");
-    words.push_back(each);
-  }
-  return words;
-}
-
 /// A lattice coarse enough for a test, behind a rig whose compliance is known to a few per cent.
-const Words experiment =
-    with({"calibrate"},
-         {"calibration.problem=experiment", "calibration.bias=false", "lattice.kinematics=small",
-          "lattice.spacing=tip_radius/5", "press.contact=frictionless", "press.depth=0.1 cm",
-          "calibration.points=12", "calibration.noise=0.02", "calibration.noise_force=0.2 mN",
-          "calibration.parameters=[\"modulus\"]",
-          "calibration.candidates=[\"repeat\", \"shallow\", \"blank\"]",
-          "calibration.rig={touch_offset = \"0 mm\", compliance = \"2 +- 1 mm/N\"}"});
+const Words experiment = with_settings(
+    {"calibrate"},
+    {"calibration.problem=experiment", "calibration.bias=false", "lattice.kinematics=small",
+     "lattice.spacing=tip_radius/5", "press.contact=frictionless", "press.depth=0.1 cm",
+     "calibration.points=12", "calibration.noise=0.02", "calibration.noise_force=0.2 mN",
+     "calibration.parameters=[\"modulus\"]",
+     "calibration.candidates=[\"repeat\", \"shallow\", \"blank\"]",
+     "calibration.rig={touch_offset = \"0 mm\", compliance = \"2 +- 1 mm/N\"}"});
 
 Words operator+(Words words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
@@ -82,7 +74,7 @@ void write_measured(const fs::path& folder, const fs::path& plan) {
 TEST(Plan, SaysWhatTheFitWillSay) {
   const TemporaryFolder folder;
   const ProgramResult planned =
-      run_program(folder.path(), with(experiment, {"calibration.data=[\"a.csv\"]"}) +
+      run_program(folder.path(), with_settings(experiment, {"calibration.data=[\"a.csv\"]"}) +
                                      Words{"--plan", "--out", "plan"});
   ASSERT_EQ(planned.code, 0) << planned.err;
   const json plan = read(folder / "plan/plan.json");
@@ -94,7 +86,7 @@ TEST(Plan, SaysWhatTheFitWillSay) {
   write_measured(folder.path(), folder / "plan/planned_presses.csv");
   const ProgramResult fitted = run_program(
       folder.path(),
-      with(experiment, {"calibration.data=[\"a.csv\"]", "calibration.intervals=linear"}) +
+      with_settings(experiment, {"calibration.data=[\"a.csv\"]", "calibration.intervals=linear"}) +
           Words{"--out", "fit"});
   ASSERT_TRUE(fitted.code == 0 || fitted.code == 4) << fitted.err;
   const json fit = read(folder / "fit/calibration.json");
@@ -118,15 +110,15 @@ TEST(Plan, SaysWhatTheFitWillSay) {
 TEST(Plan, ACandidateNarrowsAsThePlanOfBothDoes) {
   const TemporaryFolder folder;
   const std::string ball = "obstacle.shape=sphere; obstacle.radius=0.4 cm; press.depth=0.1 cm";
-  const ProgramResult one =
-      run_program(folder.path(), with(experiment, {"calibration.candidates=[\"" + ball + "\"]"}) +
-                                     Words{"--plan", "--out", "one"});
+  const ProgramResult one = run_program(
+      folder.path(), with_settings(experiment, {"calibration.candidates=[\"" + ball + "\"]"}) +
+                         Words{"--plan", "--out", "one"});
   ASSERT_EQ(one.code, 0) << one.err;
   const ProgramResult both = run_program(
       folder.path(),
-      with(experiment,
-           {"calibration.candidates=[]",
-            "calibration.conditions=[\"press.contact=frictionless\", \"" + ball + "\"]"}) +
+      with_settings(experiment,
+                    {"calibration.candidates=[]",
+                     "calibration.conditions=[\"press.contact=frictionless\", \"" + ball + "\"]"}) +
           Words{"--plan", "--out", "both"});
   ASSERT_EQ(both.code, 0) << both.err;
   const json first = read(folder / "one/plan.json"), second = read(folder / "both/plan.json");
@@ -145,8 +137,8 @@ TEST(Plan, ACandidateNarrowsAsThePlanOfBothDoes) {
 TEST(Plan, RefusesWhatIsNoPlan) {
   const TemporaryFolder folder;
   const auto refused = [&](const Words& sets, const char* what) {
-    const ProgramResult run =
-        run_program(folder.path(), with(experiment, sets) + Words{"--plan", "--out", "no"});
+    const ProgramResult run = run_program(
+        folder.path(), with_settings(experiment, sets) + Words{"--plan", "--out", "no"});
     EXPECT_EQ(run.code, 2) << what;
     EXPECT_NE(run.err.find(what), std::string::npos) << run.err;
   };
@@ -162,9 +154,10 @@ TEST(Plan, RefusesWhatIsNoPlan) {
 TEST(Plan, FitsBothContactsWhereNoneIsTold) {
   const TemporaryFolder folder;
   const auto press = [&](const char* contact) {
-    return with({"press"}, {"press.mode=static", "lattice.spacing=tip_radius/5",
-                            "lattice.kinematics=small", std::string("press.contact=") + contact,
-                            "press.samples=[\"0.04 cm\", \"0.06 cm\", \"0.08 cm\", \"0.1 cm\"]"}) +
+    return with_settings({"press"},
+                         {"press.mode=static", "lattice.spacing=tip_radius/5",
+                          "lattice.kinematics=small", std::string("press.contact=") + contact,
+                          "press.samples=[\"0.04 cm\", \"0.06 cm\", \"0.08 cm\", \"0.1 cm\"]"}) +
            Words{"--out", contact};
   };
   ASSERT_EQ(run_program(folder.path(), press("frictionless")).code, 0);
@@ -177,13 +170,14 @@ TEST(Plan, FitsBothContactsWhereNoneIsTold) {
     csv += line.substr(0, b) + "," + std::to_string(0.01 * force) + "\n";
   }
   write_text(folder / "a.csv", csv);
-  const Words fit =
-      with({"calibrate"},
-           {"calibration.problem=experiment", "calibration.bias=false", "lattice.kinematics=small",
-            "lattice.spacing=tip_radius/5", "calibration.candidates=[]",
-            "calibration.parameters=[\"modulus\"]", "calibration.data=[\"a.csv\"]"});
+  const Words fit = with_settings(
+      {"calibrate"},
+      {"calibration.problem=experiment", "calibration.bias=false", "lattice.kinematics=small",
+       "lattice.spacing=tip_radius/5", "calibration.candidates=[]",
+       "calibration.parameters=[\"modulus\"]", "calibration.data=[\"a.csv\"]"});
   const auto result = [&](const Words& sets, const char* out) {
-    const ProgramResult run = run_program(folder.path(), with(fit, sets) + Words{"--out", out});
+    const ProgramResult run =
+        run_program(folder.path(), with_settings(fit, sets) + Words{"--out", out});
     EXPECT_TRUE(run.code == 0 || run.code == 4) << run.err;
     return read(folder / out / "calibration.json");
   };

@@ -22,21 +22,13 @@ constexpr const char* given = "rubber.relaxation=[[0.25, \"0.3 s\"]]";
 const std::vector<std::string> small = {"press.contact=frictionless", "lattice.kinematics=small",
                                         "reference.fields=false"};
 
-std::vector<std::string> with(std::vector<std::string> words,
-                              const std::vector<std::string>& settings) {
-  for (const std::string& setting : settings) {
-    words.emplace_back("--set");
-    words.push_back(setting);
-  }
-  return words;
-}
-
 /// Pressed at 1 cm/s by 2 mm, held for a second, touched at 0.28 mm; `noise` of the largest force.
 void measure(const fs::path& folder, double noise) {
   std::vector<std::string> settings = small;
   settings.insert(settings.end(), {"press.mode=quasi-static", given,
                                    "press.program=[[\"2 mm\", \"1 cm/s\"], [\"hold\", \"1 s\"]]"});
-  const ProgramResult run = run_program(folder, with({"reference", "--out", "press"}, settings));
+  const ProgramResult run =
+      run_program(folder, with_settings({"reference", "--out", "press"}, settings));
   ASSERT_TRUE(run.code == 0 || run.code == 3) << run.err;  // 3: error bars above the tolerance
   const auto response =
       fingertip::meshes::PressResponse::read_csv(folder / "press" / "response.csv");
@@ -61,7 +53,7 @@ ProgramResult calibrate(const fs::path& folder, const std::string& out,
   all.insert(all.end(), {"calibration.problem=experiment", "calibration.data=[\"travel.csv\"]",
                          "calibration.candidates=[]", "calibration.forward=continuum"});
   all.insert(all.end(), settings.begin(), settings.end());
-  return run_program(folder, with({"calibrate", "--out", out}, all));
+  return run_program(folder, with_settings({"calibrate", "--out", out}, all));
 }
 
 json fitted(const fs::path& folder, const std::string& out,
@@ -117,10 +109,11 @@ TEST(RelaxingPressFit, FindsModulusAndBranchThatAnElasticFitMisses) {
 
   // The material takes its branches along.
   const ProgramResult press = run_program(
-      folder.path(), with({"press", "--out", "again"},
-                          {"lattice.constants=sought/material.toml", "lattice.spacing=tip_radius/6",
-                           "press.mode=quasi-static", "press.contact=frictionless",
-                           "press.depth=0.5 mm", "press.samples=[]"}));
+      folder.path(),
+      with_settings({"press", "--out", "again"},
+                    {"lattice.constants=sought/material.toml", "lattice.spacing=tip_radius/6",
+                     "press.mode=quasi-static", "press.contact=frictionless", "press.depth=0.5 mm",
+                     "press.samples=[]"}));
   EXPECT_EQ(press.code, 0) << press.err;
   EXPECT_NE(read_text(folder / "again" / "parameters.toml").find("relaxation = [[0.2"),
             std::string::npos);

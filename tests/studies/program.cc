@@ -49,6 +49,15 @@ ProgramResult run_program(const fs::path& folder, const std::vector<std::string>
   return Program(folder, arguments, program).wait();
 }
 
+std::vector<std::string> with_settings(std::vector<std::string> words,
+                                       const std::vector<std::string>& settings) {
+  for (const std::string& setting : settings) {
+    words.emplace_back("--set");
+    words.push_back(setting);
+  }
+  return words;
+}
+
 std::vector<std::string> made_in(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& item : fs::directory_iterator(folder)) {

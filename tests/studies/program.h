@@ -33,5 +33,9 @@ ProgramResult run_program(const std::filesystem::path& folder,
                           const std::vector<std::string>& arguments,
                           const std::string& program = {});
 
+/// The words with a `--set` before each of the settings.
+std::vector<std::string> with_settings(std::vector<std::string> words,
+                                       const std::vector<std::string>& settings);
+
 /// Everything in `folder` apart from the captured output and the cache, as relative names.
 std::vector<std::string> made_in(const std::filesystem::path& folder);

@@ -34,9 +34,7 @@ namespace {
   a.spacing = model.spacing();
   std::copy(model.stiffness.begin(), model.stiffness.end(), a.stiffness);
   std::copy(model.damping.begin(), model.damping.end(), a.damping);
-  a.row = model.grid.size[0];
-  a.plane = a.row * model.grid.size[1];
-  std::vector<double> pulls(kernel::pulls_size(a.plane));
+  std::vector<double> pulls(kernel::pulls_size(a.neighbour[along_axis[2]]));
   kernel::Body<Counted>::select({finite, rates})(a, model.blocks.data(), 0, model.blocks.size(),
                                                  pulls.data());
   // u + tau v ahead of a single pass.

@@ -101,14 +101,9 @@ TEST(RigModel, InterpolatesAPressThatStiffens) {
   }
 }
 
-TEST(RigModel, SlopesAreThoseOfDifferences) {
-  const auto depths = depths_for_rig(deepest);
-  ProportionalPress press(depths, stiffening);
-  const std::vector<double> position = even(23, 1.2 * deepest);
-  std::vector<double> time;
-  for (const double x : position) time.push_back(1e3 * x);
-  RigModel model(press, depths, 1, all_free, position, time, 5);
-  const VectorXd at = truth(0.02, 1e-3);
+namespace {
+
+void expect_slopes_of_differences(RigModel& model, const VectorXd& at) {
   const CurveSlopes here = model.evaluate(at);
   for (Index j = 0; j < at.size(); ++j) {
     const double step = 1e-6 * at(j);
@@ -118,6 +113,18 @@ TEST(RigModel, SlopesAreThoseOfDifferences) {
     const VectorXd slope = (model.evaluate(up).value - model.evaluate(down).value) / (2.0 * step);
     EXPECT_LT((slope - here.jacobian.col(j)).norm(), 1e-6 * slope.norm()) << j;
   }
+}
+
+}  // namespace
+
+TEST(RigModel, SlopesAreThoseOfDifferences) {
+  const auto depths = depths_for_rig(deepest);
+  ProportionalPress press(depths, stiffening);
+  const std::vector<double> position = even(23, 1.2 * deepest);
+  std::vector<double> time;
+  for (const double x : position) time.push_back(1e3 * x);
+  RigModel model(press, depths, 1, all_free, position, time, 5);
+  expect_slopes_of_differences(model, truth(0.02, 1e-3));
 }
 
 /// A ramp at `speed` from touch at `start`, then held.
@@ -243,15 +250,7 @@ TEST(RigModel, SlopesOfAFadingPressAreThoseOfDifferences) {
   at << truth(0.02, 1e-3), 0.2, 0.7, 0.15;
   for (const double touch : {offset, 0.1e-3}) {  // within the first step and before it
     at(1) = touch;
-    const CurveSlopes here = model.evaluate(at);
-    for (Index j = 0; j < at.size(); ++j) {
-      const double step = 1e-6 * at(j);
-      VectorXd up = at, down = at;
-      up(j) += step;
-      down(j) -= step;
-      const VectorXd slope = (model.evaluate(up).value - model.evaluate(down).value) / (2.0 * step);
-      EXPECT_LT((slope - here.jacobian.col(j)).norm(), 1e-6 * slope.norm()) << j;
-    }
+    expect_slopes_of_differences(model, at);
   }
   at(5) = 0.9;
   EXPECT_THROW(model.evaluate(at), meshes::NotConverged);
