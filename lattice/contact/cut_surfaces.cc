@@ -13,8 +13,8 @@ CutSurfaces::CutSurfaces(const LatticeModel& model, const Plane& plane, const Co
 }
 
 Wrench CutSurfaces::apply(const State& state, const RodState& rod, const Plane& plane, double step,
-                          VectorField& force) {
-  return hold_with(contact_, state, rod, plane, step, force, on_tip_);
+                          VectorField& force, double* stored) {
+  return hold_with(contact_, state, rod, plane, step, force, on_tip_, stored);
 }
 
 CutSurfaces::Trial CutSurfaces::attempt(const State& state, const RodState& rod, const Plane& plane,
@@ -28,10 +28,12 @@ CutSurfaces::Trial CutSurfaces::attempt(const State& state, const RodState& rod,
 }
 
 Wrench CutSurfaces::hold_with(PenaltyContact& contact, const State& state, const RodState& rod,
-                              const Plane& plane, double step, VectorField& force, Wrench& on_tip) {
+                              const Plane& plane, double step, VectorField& force, Wrench& on_tip,
+                              double* stored) {
   shared_.clear();
   on_tip = contact.add(state, plane, step, force, &shared_, rod.pose());
-  const Wrench on_rod = bond_.add(state, rod, step, force, &shared_);
+  const Wrench on_rod = bond_.add(state, rod, step, force, &shared_, stored);
+  if (stored != nullptr) *stored += contact.energy();
   for (const SharedLoad& load : shared_) {
     const meshes::Vector3 held_back = model_->grid.axes * load.held_back;
     on_tip.force += held_back;

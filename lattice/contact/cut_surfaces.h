@@ -18,7 +18,7 @@ class CutSurfaces : public Surfaces {
 
   std::unique_ptr<Surfaces> clone() const override { return std::make_unique<CutSurfaces>(*this); }
   Wrench apply(const State& state, const RodState& rod, const Plane& plane, double step,
-               VectorField& force) override;
+               VectorField& force, double* stored) override;
   Wrench correct(State&, const VectorField&, const Plane&, double step) override {
     return {step * on_tip_.force, step * on_tip_.torque};
   }
@@ -56,7 +56,8 @@ class CutSurfaces : public Surfaces {
 
  private:
   Wrench hold_with(PenaltyContact& contact, const State& state, const RodState& rod,
-                   const Plane& plane, double step, VectorField& force, Wrench& on_tip);
+                   const Plane& plane, double step, VectorField& force, Wrench& on_tip,
+                   double* stored = nullptr);
 
   const LatticeModel* model_;
   TiedBond bond_;

@@ -9,7 +9,8 @@ ParticleSurfaces::ParticleSurfaces(const LatticeModel& model, const Plane& plane
     : model_(&model), contact_(model, plane, law) {}
 
 Wrench ParticleSurfaces::apply(const State& state, const RodState& rod, const Plane& /*plane*/,
-                               double /*step*/, VectorField& force) {
+                               double /*step*/, VectorField& force, double* stored) {
+  if (stored != nullptr) *stored = bond_energy(state, rod);
   return add_ligament_forces(*model_, state, rod, force);
 }
 

@@ -16,7 +16,7 @@ class ParticleSurfaces : public Surfaces {
     return std::make_unique<ParticleSurfaces>(*this);
   }
   Wrench apply(const State& state, const RodState& rod, const Plane& plane, double step,
-               VectorField& force) override;
+               VectorField& force, double* stored) override;
   Wrench correct(State& state, const VectorField& force, const Plane& plane, double step) override;
   double bond_energy(const State& state, const RodState& rod) const override;
   double energy(const State& state, const RodState& rod) const override {

@@ -32,9 +32,9 @@ class Surfaces {
 
   /// Adds to `force`, which holds the internal forces [N] at the start of a step of length `step`
   /// [s], what rod and plane exert on the particles. Returns the bond's wrench on the rod about its
-  /// endpoint.
+  /// endpoint. `stored` (null: not asked for) receives energy() at this start.
   virtual Wrench apply(const State& state, const RodState& rod, const Plane& plane, double step,
-                       VectorField& force) = 0;
+                       VectorField& force, double* stored) = 0;
   /// Corrects the state after the particles moved freely through the step under `force`. Returns
   /// the impulse of the plane on the tip during the step: [N s], and [N m s] about the world's
   /// origin.

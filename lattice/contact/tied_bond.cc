@@ -100,7 +100,7 @@ void TiedBond::number_particles() {
   points_.resize(filled, 0);
   mass_.resize(filled, 1.0);
   sum_.resize(filled, 0.0);
-  for (Field* field : {&rest_, &slip_}) {
+  for (Field* field : {&rest_, &slip_, &still_}) {
     for (auto& component : *field) component.resize(filled, 0.0);
   }
   partial_.resize((slices_ + bond_portion - 1) / bond_portion);
@@ -117,6 +117,7 @@ kernel::BondArrays TiedBond::arrays(const State& state) const {
     a.velocity[c] = state.velocity.component[c].data();
     a.rest[c] = rest_[c].data();
     a.slip[c] = slip_[c].data();
+    a.still[c] = still_[c].data();
   }
   a.point = points_.data();
   a.mass = mass_.data();
@@ -163,24 +164,36 @@ Wrench TiedBond::share(SharedLoad& load, const State& state, double square, Vect
 }
 
 Wrench TiedBond::add(const State& state, const RodState& rod, double step, VectorField& force,
-                     std::vector<SharedLoad>* shared) {
+                     std::vector<SharedLoad>* shared, double* stored) {
   kernel::BondArrays all = arrays(state);
   for (std::size_t c = 0; c < 3; ++c) all.force[c] = force.component[c].data();
   const kernel::Carried motion = carried(rod, step);
   team_->split(slices_, bond_portion, [&](std::size_t begin, std::size_t end) {
     kernels_->find_slips(all, motion, step, begin, end);
   });
+  if (stored != nullptr) {
+    kernel::BondArrays here = all;
+    for (std::size_t c = 0; c < 3; ++c) here.slip[c] = still_[c].data();
+    const kernel::Carried now = carried(rod, 0.0);
+    team_->split(slices_, bond_portion, [&](std::size_t begin, std::size_t end) {
+      kernels_->find_slips(here, now, 0.0, begin, end);
+    });
+  }
+  const auto take = stored != nullptr ? kernels_->take_and_sum : kernels_->take;
   team_->split(partial_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const std::size_t last = std::min(slices_, (p + 1) * bond_portion);
-      partial_[p] = kernels_->take(all, step * step, p * bond_portion, last);
+      partial_[p] = take(all, step * step, p * bond_portion, last);
     }
   });
   Vector3 pulled = Vector3::Zero(), moment = Vector3::Zero();  // along the grid's axes
+  double energy = 0.0;
   for (const kernel::Pulled& part : partial_) {
     pulled += vector(part.force);
     moment += vector(part.moment);
+    energy += part.energy;
   }
+  if (stored != nullptr) *stored = energy;
   Wrench on_rod{model_->grid.axes * pulled, model_->grid.axes * moment};  // about the tip's origin
   if (shared != nullptr) {
     for (SharedLoad& load : *shared) {

@@ -44,9 +44,10 @@ class TiedBond {
 
   /// Adds the bond to `force`, which holds all other forces on the particles; returns its wrench on
   /// the rod about the rod's endpoint. Particles in `shared` are heavier by both inertias; what the
-  /// contact's takes is noted there.
+  /// contact's takes is noted there. `stored`: receives energy() if it is asked for, found on the
+  /// way.
   Wrench add(const State& state, const RodState& rod, double step, VectorField& force,
-             std::vector<SharedLoad>* shared = nullptr);
+             std::vector<SharedLoad>* shared = nullptr, double* stored = nullptr);
   /// What the particles' inertia against the rod is in steps of `step` [s], by increasing index.
   void list_inertia(double step, std::vector<BondInertia>& ties) const;
   double energy(const State& state, const RodState& rod) const;  ///< [J]
@@ -73,9 +74,9 @@ class TiedBond {
   std::vector<std::uint32_t> first_, column_;
   std::vector<kernel::Lanes> value_;     ///< K_ij [N/m]; as in kernel::BondArrays
   std::vector<kernel::Pulled> partial_;  ///< of fixed portions of the slices
-  /// Along the grid's axes [m]. Scratch of energy(), too: whoever asks for one must not step
-  /// meanwhile.
-  mutable Field slip_;
+  /// Along the grid's axes [m], as in kernel::BondArrays. Scratch of energy(), too: whoever asks
+  /// for one must not step meanwhile.
+  mutable Field slip_, still_;
 };
 
 }  // namespace fingertip::lattice

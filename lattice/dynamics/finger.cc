@@ -42,9 +42,17 @@ void Finger::load(const Snapshot& snapshot) {
 
 void Finger::find_forces(double step) {
   ++evaluations_;
-  now_.extremes = internal_.note(now_.state, now_.time, now_.relaxing, force_);
+  double cells = 0.0, surfaces = 0.0, branches = 0.0;
+  const bool notes = notes_energy_;
+  if (notes) branches = branch_energy().stored;
+  now_.extremes =
+      internal_.note(now_.state, now_.time, now_.relaxing, force_, notes ? &cells : nullptr);
   if (!gravity_.isZero(0.0)) weigh_particles(force_);
-  now_.bond = surfaces_->apply(now_.state, now_.rod, now_.plane, step, force_);
+  now_.bond =
+      surfaces_->apply(now_.state, now_.rod, now_.plane, step, force_, notes ? &surfaces : nullptr);
+  if (!notes) return;
+  noted_energy_.elastic = cells + branches + surfaces;
+  if (!now_.scaling) noted_energy_.kinetic = kinetic_energy();  // else the move sums it
 }
 
 CutSurfaces& Finger::ties() {
@@ -113,6 +121,7 @@ Vector3 Finger::move_scaled(const Wrench* applied) {
   const CarriedRubber::Moved moved =
       scaling.move(now_.state, outer, reactions, team_, *accelerations_);
   reactions.plane -= moved.kept;
+  if (notes_energy_) noted_energy_.kinetic = moved.kinetic_energy;
   now_.carrying_rod.reset();
   if (outer.rod) now_.carrying_rod = {reactions.rod, outer.rod->load};
   const Eigen::Matrix3d& axes = model_->grid.axes;
@@ -218,6 +227,7 @@ void Finger::close_step(const Vector3& on_rod) {
 }
 
 void Finger::finish_step(double duration, const Wrench& plane_impulse, const Vector3& on_rod) {
+  notes_energy_ = false;
   now_.step = duration;
   now_.plane_impulse = plane_impulse;
   const Vector3 weight = now_.step * tip_mass_ * gravity_;

@@ -134,8 +134,17 @@ class Finger {
   /// origin.
   const Wrench& plane_impulse() const { return now_.plane_impulse; }
   double kinetic_energy() const;  ///< of the particles [J]
-  /// Elastic energy of springs, cells and surfaces [J].
+  /// Elastic energy of springs, cells and surfaces [J]; of the contact that of the last step's
+  /// start.
   double elastic_energy() const;
+  /// Asks the next step to note the energies of the state that it starts from: found with its
+  /// forces, they cost a fraction of elastic_energy().
+  void note_energy() { notes_energy_ = true; }
+  /// Kinetic and elastic [J], all of the start of the last step for which they were to be noted.
+  struct Energy {
+    double kinetic = 0.0, elastic = 0.0;
+  };
+  const Energy& noted_energy() const { return noted_energy_; }
   double bond_energy() const { return surfaces_->bond_energy(now_.state, now_.rod); }  ///< [J]
 
   /// Largest defect so far of (change of momentum of particles and rod) = (applied impulse) +
@@ -176,6 +185,8 @@ class Finger {
   VectorField force_;
   std::unique_ptr<AccelerationFields> accelerations_;  ///< once masses are scaled
   long evaluations_ = 0;
+  bool notes_energy_ = false;  ///< in the next step
+  Energy noted_energy_;
   std::vector<meshes::Vector3> partial_momentum_;  ///< of fixed portions of the particles
 };
 

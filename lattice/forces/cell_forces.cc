@@ -1,9 +1,12 @@
 #include "lattice/forces/cell_forces.h"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
+#include <numeric>
 
 #include "lattice/forces/cell_arrays.h"
+#include "lattice/forces/cell_energy.h"
 
 namespace fingertip::lattice {
 
@@ -51,34 +54,60 @@ CellForces::CellForces(const CellLattice& cells, const CellMaterial& material, T
     : cells_(&cells),
       material_(material),
       team_(&team),
-      sweep_(kernel::select_cells(material.kind, has_rates(material), false, width)),
-      fading_sweep_(kernel::select_cells(material.kind, has_rates(material), true, width)) {}
+      sweep_(kernel::select_cells(material.kind, {.rates = has_rates(material)}, width)),
+      fading_sweep_(kernel::select_cells(material.kind, {has_rates(material), true}, width)),
+      storing_sweep_(kernel::select_cells(material.kind, {.rates = true, .stores = true}, width)),
+      sums_energy_(has_rates(material)) {
+  if (sums_energy_) stored_.resize(cells.planes[0].size() + cells.planes[1].size());
+}
 
 CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
-                             VectorField& force, const kernel::Past& past) const {
+                             VectorField& force, const kernel::Past& past) {
+  return add(past.values == nullptr ? sweep_ : fading_sweep_, displacement, velocity, force, past);
+}
+
+CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
+                             VectorField& force, double& energy) {
+  if (!sums_energy_) {
+    energy = cell_energy(*cells_, material_, displacement, *team_);
+    return add(sweep_, displacement, velocity, force, {});
+  }
+  const CellExtremes extremes = add(storing_sweep_, displacement, velocity, force, {});
+  energy = std::accumulate(stored_.begin(), stored_.end(), 0.0);
+  if (material_.large_strain() && !(extremes.smallest_jacobian > 0.0))
+    energy = std::numeric_limits<double>::infinity();
+  return extremes;
+}
+
+CellExtremes CellForces::add(kernel::CellSweep sweep, const VectorField& displacement,
+                             const VectorField& velocity, VectorField& force,
+                             const kernel::Past& past) {
   kernel::CellArrays arrays = cell_arrays(*cells_, displacement);
   arrays.material = material_;
   arrays.past = past;
-  const kernel::CellSweep sweep = past.values == nullptr ? sweep_ : fading_sweep_;
   for (std::size_t c = 0; c < 3; ++c) {
     arrays.velocity[c] = velocity.component[c].data();
     arrays.force[c] = force.component[c].data();
   }
   kernel::CellBounds all;
   std::mutex guard;
+  std::size_t before = 0;  // planes of the first half
   for (const auto& planes : cells_->planes) {
     // Shared out by blocks, not by planes, which hold more or fewer: so threads have as much to do,
     // and the same thread has neighbouring planes of both halves, with most of their particles in
     // its own cache.
     team_->split(cells_->blocks.size(), cells_at_once, [&](std::size_t begin, std::size_t end) {
       kernel::CellBounds some;
-      for (const CellLattice::Plane& plane : planes) {
+      for (std::size_t p = 0; p < planes.size(); ++p) {
+        const CellLattice::Plane& plane = planes[p];
         if (plane.first < begin || plane.first >= end) continue;
-        sweep(arrays, cells_->blocks.data(), plane.first, plane.last, some);
+        const double stored = sweep(arrays, cells_->blocks.data(), plane.first, plane.last, some);
+        if (sums_energy_) stored_[before + p] = stored;
       }
       const std::lock_guard<std::mutex> lock(guard);
       extend(all, some);
     });
+    before += planes.size();
   }
   return extremes_of(material_, all);
 }

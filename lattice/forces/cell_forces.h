@@ -40,13 +40,22 @@ class CellForces {
   /// Where a cell is turned inside out (J <= 0) forces are meaningless and smallest_jacobian says
   /// so. `past`: what cells with a law of large strain remember.
   CellExtremes add(const VectorField& displacement, const VectorField& velocity, VectorField& force,
-                   const kernel::Past& past = {}) const;
+                   const kernel::Past& past = {});
+  /// The same without a past, and what the cells store at this displacement [J], as cell_energy()
+  /// but for round-off: where velocities enter, found on the way.
+  CellExtremes add(const VectorField& displacement, const VectorField& velocity, VectorField& force,
+                   double& energy);
 
  private:
+  CellExtremes add(kernel::CellSweep sweep, const VectorField& displacement,
+                   const VectorField& velocity, VectorField& force, const kernel::Past& past);
+
   const CellLattice* cells_;
   CellMaterial material_;
   Team* team_;
-  kernel::CellSweep sweep_, fading_sweep_;
+  kernel::CellSweep sweep_, fading_sweep_, storing_sweep_;
+  bool sums_energy_;            ///< whether storing_sweep_ serves
+  std::vector<double> stored_;  ///< per plane of cells, so that threads do not change its sum [J]
 };
 
 }  // namespace fingertip::lattice

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lattice/forces/energy.h"
+
 namespace fingertip::lattice {
 
 namespace {
@@ -37,16 +39,16 @@ InternalForces::InternalForces(const LatticeModel& model, Team& team, int width)
 
 CellExtremes InternalForces::accumulate(const State& state, double time,
                                         const RelaxingMemory& memory, VectorField& force) {
-  return find(state, time, memory, nullptr, force);
+  return find(state, time, memory, nullptr, force, nullptr);
 }
 
 CellExtremes InternalForces::note(const State& state, double time, RelaxingMemory& memory,
-                                  VectorField& force) {
-  return find(state, time, memory, &memory, force);
+                                  VectorField& force, double* energy) {
+  return find(state, time, memory, &memory, force, energy);
 }
 
 CellExtremes InternalForces::find(const State& state, double time, const RelaxingMemory& memory,
-                                  RelaxingMemory* noted, VectorField& force) {
+                                  RelaxingMemory* noted, VectorField& force, double* energy) {
   kernel::Past past;
   const bool lags = !memory.lag.empty(), apart = lags && !model_->relaxation.bulk;
   if (!memory.empty()) {
@@ -56,7 +58,7 @@ CellExtremes InternalForces::find(const State& state, double time, const Relaxin
   }
   const VectorField& displacement = rates_ ? state.displacement : damped(state);
   if (lags && !apart) add_lags(*model_, memory, past, state, *team_, damped_, noted);
-  const CellExtremes extremes = respond(displacement, state, past, force);
+  const CellExtremes extremes = respond(displacement, state, past, force, energy);
   if (apart) {
     for (auto& component : lag_.component) std::fill(component.begin(), component.end(), 0.0);
     add_lags(*model_, memory, past, state, *team_, lag_, noted);
@@ -67,12 +69,18 @@ CellExtremes InternalForces::find(const State& state, double time, const Relaxin
 }
 
 CellExtremes InternalForces::respond(const VectorField& displacement, const State& state,
-                                     const kernel::Past& past, VectorField& force) {
+                                     const kernel::Past& past, VectorField& force, double* energy) {
   if (springs_ != nullptr) {
     add_springs(displacement, state, force);
   } else {
     clear(force);
   }
+  // Damping of small strains and what relaxes there change the displacement that cells see.
+  const bool on_the_way =
+      springs_ == nullptr && &displacement == &state.displacement && past.values == nullptr;
+  if (energy != nullptr && on_the_way)
+    return cells_.add(displacement, state.velocity, force, *energy);
+  if (energy != nullptr) *energy = elastic_energy(*model_, state, *team_);
   return cells_.add(displacement, state.velocity, force, past);
 }
 

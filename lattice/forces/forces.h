@@ -27,8 +27,11 @@ class InternalForces {
   /// (empty) the forces are those after long times.
   CellExtremes accumulate(const State& state, double time, const RelaxingMemory& memory,
                           VectorField& force);
-  /// The same, and the memory is brought to this state when it is time to.
-  CellExtremes note(const State& state, double time, RelaxingMemory& memory, VectorField& force);
+  /// The same, and the memory is brought to this state when it is time to. `energy`: receives what
+  /// springs and cells store [J] (elastic_energy()) if it is asked for, found on the way where the
+  /// cells' kernel can, else apart.
+  CellExtremes note(const State& state, double time, RelaxingMemory& memory, VectorField& force,
+                    double* energy = nullptr);
   /// What the branches hold and lose at a state that follows `memory`.
   BranchEnergy branch_energy(const State& state, double time, const RelaxingMemory& memory) const {
     return lattice::branch_energy(*model_, memory, state, time, *team_, lagging_);
@@ -37,9 +40,9 @@ class InternalForces {
  private:
   const VectorField& damped(const State& state);
   CellExtremes find(const State& state, double time, const RelaxingMemory& memory,
-                    RelaxingMemory* noted, VectorField& force);
+                    RelaxingMemory* noted, VectorField& force, double* energy);
   CellExtremes respond(const VectorField& displacement, const State& state,
-                       const kernel::Past& past, VectorField& force);
+                       const kernel::Past& past, VectorField& force, double* energy);
   void add_springs(const VectorField& displacement, const State& state, VectorField& force);
   void clear(VectorField& force);
 

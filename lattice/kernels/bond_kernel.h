@@ -24,6 +24,7 @@ struct BondArrays {
   const std::uint32_t* column;  ///< number of a particle of the bond
   const Lanes* value;           ///< K_ij of the slice's rows, 0 where there is none [N/m]
   double* slip[3];              ///< per particle of the bond [m]
+  const double* still[3];       ///< the same at the present place, where the energy is asked for
 };
 
 /// Where a rigid rod carries a point X, less X itself: turn X + shift; row by row.
@@ -36,6 +37,7 @@ struct Carried {
 struct Pulled {
   double force[3];
   double moment[3];
+  double energy;  ///< [J]
 };
 
 /// What the file compiled for one register width offers. Each works on slices [begin, end); two
@@ -49,6 +51,8 @@ struct BondKernels {
   /// force becomes m/(m + square d) (force - K slip); the sum of what the particles did not get of
   /// it is returned. `square` [s²].
   Pulled (*take)(const BondArrays&, double square, std::size_t begin, std::size_t end);
+  /// The same, and still·K still/2.
+  Pulled (*take_and_sum)(const BondArrays&, double square, std::size_t begin, std::size_t end);
 };
 
 /// For 2, 4 or 8 doubles per register, the caller makes sure that the processor has it, or 0 for

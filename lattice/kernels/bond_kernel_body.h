@@ -29,30 +29,43 @@ struct BondBody : Packs<Pack> {
     }
   }
 
-  /// K slip of a part of a slice. Even and odd columns are summed apart, two chains that do not
-  /// wait for each other; columns come in pairs.
-  static Vector product(const BondArrays& a, std::size_t slice, std::size_t part) {
-    Vector even{0.0, 0.0, 0.0}, odd{0.0, 0.0, 0.0};
+  /// K times each of some slips, of a part of a slice; K is read once. Even and odd columns are
+  /// summed apart, two chains that do not wait for each other; columns come in pairs.
+  template <typename... Slips>
+  [[gnu::always_inline]] static auto products(const BondArrays& a, std::size_t slice,
+                                              std::size_t part, const Slips&... slips) {
+    constexpr std::size_t count = sizeof...(Slips);
+    const double* const* const all[] = {slips...};
+    std::array<Vector, count> even, odd;
+    for (std::size_t n = 0; n < count; ++n) even[n] = odd[n] = {0.0, 0.0, 0.0};
     for (std::size_t e = a.first[slice]; e < a.first[slice + 1]; e += 2) {
-      even += load(a.value[e].at + part * width) * slip(a, a.column[e]);
-      odd += load(a.value[e + 1].at + part * width) * slip(a, a.column[e + 1]);
+      const Pack here = load(a.value[e].at + part * width),
+                 next = load(a.value[e + 1].at + part * width);
+      for (std::size_t n = 0; n < count; ++n) {
+        even[n] += here * at(all[n], a.column[e]);
+        odd[n] += next * at(all[n], a.column[e + 1]);
+      }
     }
-    return even + odd;
+    for (std::size_t n = 0; n < count; ++n) even[n] = even[n] + odd[n];
+    return even;
   }
-  static Vector slip(const BondArrays& a, std::uint32_t particle) {
-    return {a.slip[0][particle], a.slip[1][particle], a.slip[2][particle]};
+  static Vector at(const double* const* slip, std::uint32_t particle) {
+    return {slip[0][particle], slip[1][particle], slip[2][particle]};
   }
 
   static double energy(const BondArrays& a, std::size_t begin, std::size_t end) {
     std::array<Pack, parts> twice{};
     for (std::size_t slice = begin; slice < end; ++slice) {
       for (std::size_t part = 0; part < parts; ++part)
-        twice[part] += dot(load(a.slip, slice * lanes + part * width), product(a, slice, part));
+        twice[part] +=
+            dot(load(a.slip, slice * lanes + part * width), products(a, slice, part, a.slip)[0]);
     }
     return 0.5 * Base::total(twice);
   }
 
+  template <bool Stores>
   static Pulled take(const BondArrays& a, double square, std::size_t begin, std::size_t end) {
+    std::array<Pack, parts> twice{};
     // Summed lane by lane first, so that the sum does not depend on the register width.
     std::array<Vector, parts> force, moment;
     for (std::size_t part = 0; part < parts; ++part) {
@@ -64,7 +77,15 @@ struct BondBody : Packs<Pack> {
         const Pack mass = load(a.mass + p);
         const Pack share = mass / (mass + square * load(a.sum + p));
         const Vector others = gather(a.force, a.point + p);
-        const Vector taken = share * (others - product(a, slice, part));
+        Vector product;
+        if constexpr (Stores) {
+          const auto both = products(a, slice, part, a.slip, a.still);
+          product = both[0];
+          twice[part] += dot(load(a.still, p), both[1]);
+        } else {
+          product = products(a, slice, part, a.slip)[0];
+        }
+        const Vector taken = share * (others - product);
         const Vector pull = others - taken;
         scatter(a.force, a.point + p, taken);
         force[part] += pull;
@@ -74,10 +95,11 @@ struct BondBody : Packs<Pack> {
     Pulled result;
     total(force, result.force);
     total(moment, result.moment);
+    result.energy = Stores ? 0.5 * Base::total(twice) : 0.0;
     return result;
   }
 
-  static constexpr BondKernels kernels{find_slips, energy, take};
+  static constexpr BondKernels kernels{find_slips, energy, take<false>, take<true>};
 };
 
 }  // namespace fingertip::lattice::kernel

@@ -24,8 +24,8 @@ MoveParticles select_move(int width) {
   return by_width(width, move_at<2>, move_at<4>, move_at<8>)();
 }
 
-CellSweep select_cells(CellLawKind law, bool rates, bool fades, int width) {
-  return by_width(width, cells_at<2>, cells_at<4>, cells_at<8>)(law, rates, fades);
+CellSweep select_cells(CellLawKind law, const CellTask& task, int width) {
+  return by_width(width, cells_at<2>, cells_at<4>, cells_at<8>)(law, task);
 }
 
 CellEnergy select_cell_energy(CellLawKind law, int width) {

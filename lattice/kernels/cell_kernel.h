@@ -60,19 +60,24 @@ struct CellBounds {
   double velocity_gradient = 0.0;  ///< network: largest row sum of tau |dF/dt F⁻¹|
 };
 
-/// Adds the forces of blocks[begin, end), in their order, and extends `bounds`. Two calls at a
-/// time must not share a particle.
-using CellSweep = void (*)(const CellArrays& arrays, const CellBlock* blocks, std::size_t begin,
-                           std::size_t end, CellBounds& bounds);
+/// What enters the forces of cells, and what is found on the way.
+struct CellTask {
+  bool rates = false;   ///< velocities enter; never for `cubic`
+  bool fades = false;   ///< the past enters; laws of large strain only, with rates
+  bool stores = false;  ///< the energy is summed; with rates and without the past only
+};
+
+/// Adds the forces of blocks[begin, end), in their order, and extends `bounds`. Returns what they
+/// store [J] if that is asked for, else 0. Two calls at a time must not share a particle.
+using CellSweep = double (*)(const CellArrays& arrays, const CellBlock* blocks, std::size_t begin,
+                             std::size_t end, CellBounds& bounds);
 
 /// The kernel for a law and a number of doubles per register: 2 (every x86-64), 4 (AVX2), 8
 /// (AVX-512), or 0 for the widest the processor has; the caller makes sure that it has the others.
-/// `rates`: whether velocities enter; never for `cubic`. `fades`: whether the past does; laws of
-/// large strain only, and with rates.
-CellSweep select_cells(CellLawKind law, bool rates, bool fades, int width);
+CellSweep select_cells(CellLawKind law, const CellTask& task, int width);
 
 /// That of one compilation (cell_kernel_widths.cc).
 template <int width>
-CellSweep cells_at(CellLawKind law, bool rates, bool fades);
+CellSweep cells_at(CellLawKind law, const CellTask& task);
 
 }  // namespace fingertip::lattice::kernel

@@ -147,10 +147,11 @@ struct CellBody : CellResponse<Pack> {
 
   /// Between the borders `low` and `high`, the second of which is written.
   /// `number`: of the block.
-  template <CellLawKind Law, bool Rates, bool Fades, bool Whole>
+  template <CellLawKind Law, CellTask task, bool Whole>
   [[gnu::always_inline]] static void evaluate(const CellArrays& a, const CellBlock& b,
                                               std::size_t number, Border& lows, Border& highs,
-                                              Extremes& extremes) {
+                                              Extremes& extremes, Pack* stored) {
+    constexpr bool Rates = task.rates, Fades = task.fades;
     Carry carry;
     clear(carry);
     for (int chunk = 0; chunk < chunks; ++chunk) {
@@ -177,6 +178,10 @@ struct CellBody : CellResponse<Pack> {
       };
       Pack area = 0.25 * a.spacing * a.spacing;
       if constexpr (!Whole) area = area * cut.fraction();
+      if constexpr (task.stores) {
+        Pack room;  // known by the extremes
+        stored[chunk] = stored[chunk] + energy_of<Law, Whole>(a, area, u, room);
+      }
       if constexpr (Law == CellLawKind::cubic) {
         Response::template answer_cubic<Whole>(m, area, u, take);
       } else if constexpr (Law == CellLawKind::volume) {
@@ -214,10 +219,13 @@ struct CellBody : CellResponse<Pack> {
     close(a, first + block, carry);
   }
 
-  template <CellLawKind Law, bool Rates, bool Fades = false>
-  static void sweep(const CellArrays& arrays, const CellBlock* blocks, std::size_t begin,
-                    std::size_t end, CellBounds& bounds) {
+  template <CellLawKind Law, CellTask task>
+  static double sweep(const CellArrays& arrays, const CellBlock* blocks, std::size_t begin,
+                      std::size_t end, CellBounds& bounds) {
+    constexpr bool Rates = task.rates;
     const CellArrays a = arrays;  // a copy that no store can alias
+    Pack stored[chunks];
+    for (Pack& s : stored) s = 0.0;
     Extremes extremes{bounds.smallest_jacobian, bounds.tangent, bounds.beyond,
                       bounds.viscosity,         bounds.fastest, bounds.velocity_gradient};
     Border borders[2];
@@ -228,9 +236,9 @@ struct CellBody : CellResponse<Pack> {
         open<Rates>(a, first, low);
       }
       if (blocks[b].cut == CellBlock::whole) {
-        evaluate<Law, Rates, Fades, true>(a, blocks[b], b, low, high, extremes);
+        evaluate<Law, task, true>(a, blocks[b], b, low, high, extremes, stored);
       } else {
-        evaluate<Law, Rates, Fades, false>(a, blocks[b], b, low, high, extremes);
+        evaluate<Law, task, false>(a, blocks[b], b, low, high, extremes, stored);
       }
       if (b + 1 == end || first + a.row != std::ptrdiff_t(blocks[b + 1].first)) {
         finish(a, first + a.row, high);
@@ -238,6 +246,15 @@ struct CellBody : CellResponse<Pack> {
     }
     bounds = {hmin(extremes.jacobian),  hmax(extremes.tangent), hmax(extremes.beyond),
               hmax(extremes.viscosity), hmax(extremes.rate),    hmax(extremes.swiftness)};
+    return task.stores ? total(stored) : 0.0;
+  }
+
+  /// Lane by lane: the same whatever the width.
+  static double total(const Pack* sum) {
+    double lane[block], all = 0.0;
+    for (int chunk = 0; chunk < chunks; ++chunk) store(lane + chunk * width, sum[chunk]);
+    for (const double value : lane) all += value;
+    return all;
   }
 
   /// Energy of the cells of a pack. A stress in the units of `area` is 4 a times too small for one.
@@ -299,10 +316,7 @@ struct CellBody : CellResponse<Pack> {
       }
     }
     if (!(hmin(smallest_jacobian) > 0.0)) return std::numeric_limits<double>::infinity();
-    double lane[block], total = 0.0;  // lane by lane: the same whatever the width
-    for (int chunk = 0; chunk < chunks; ++chunk) store(lane + chunk * width, sum[chunk]);
-    for (const double value : lane) total += value;
-    return total;
+    return total(sum);
   }
 
   static CellEnergy select_energy(CellLawKind law) {
@@ -316,18 +330,21 @@ struct CellBody : CellResponse<Pack> {
   }
 
   template <CellLawKind Law>
-  static CellSweep large(bool rates, bool fades) {
-    if (fades) return sweep<Law, true, true>;
-    return rates ? sweep<Law, true> : sweep<Law, false>;
+  static CellSweep without_past(const CellTask& task) {
+    if (!task.rates) return sweep<Law, CellTask{}>;
+    return task.stores ? sweep<Law, CellTask{true, false, true}> : sweep<Law, CellTask{true}>;
   }
-  static CellSweep select(CellLawKind law, bool rates, bool fades) {
+  template <CellLawKind Law>
+  static CellSweep large(const CellTask& task) {
+    return task.fades ? sweep<Law, CellTask{true, true}> : without_past<Law>(task);
+  }
+  static CellSweep select(CellLawKind law, const CellTask& task) {
     switch (law) {
-      case CellLawKind::cubic: return sweep<CellLawKind::cubic, false>;
-      case CellLawKind::volume:
-        return rates ? sweep<CellLawKind::volume, true> : sweep<CellLawKind::volume, false>;
-      case CellLawKind::invariants: return large<CellLawKind::invariants>(rates, fades);
-      case CellLawKind::stretches: return large<CellLawKind::stretches>(rates, fades);
-      default: return large<CellLawKind::network>(rates, fades);
+      case CellLawKind::cubic: return sweep<CellLawKind::cubic, CellTask{}>;
+      case CellLawKind::volume: return without_past<CellLawKind::volume>(task);
+      case CellLawKind::invariants: return large<CellLawKind::invariants>(task);
+      case CellLawKind::stretches: return large<CellLawKind::stretches>(task);
+      default: return large<CellLawKind::network>(task);
     }
   }
 };

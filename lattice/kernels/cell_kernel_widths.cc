@@ -6,10 +6,10 @@ namespace fingertip::lattice::kernel {
 using Pack = std::experimental::native_simd<double>;
 
 template <int width>
-CellSweep cells_at(CellLawKind law, bool rates, bool fades) {
-  return CellBody<Pack>::select(law, rates, fades);
+CellSweep cells_at(CellLawKind law, const CellTask& task) {
+  return CellBody<Pack>::select(law, task);
 }
-template CellSweep cells_at<int(Pack::size())>(CellLawKind, bool, bool);
+template CellSweep cells_at<int(Pack::size())>(CellLawKind, const CellTask&);
 
 template <int width>
 CellEnergy cell_energy_at(CellLawKind law) {

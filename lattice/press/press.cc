@@ -62,10 +62,11 @@ class Press {
   bool after_step();
   void look_after();  // once per period: trace, observer, sanity
   void check_sanity();
-  void update() {
-    recorder_.update(wall_time());
-    pictures_.update();
+  void take_energy(const Finger::Energy& energy);
+  Finger::Energy present_energy() const {
+    return {finger_.finger().kinetic_energy(), finger_.finger().elastic_energy()};
   }
+  void update();
   double expected_time() const;
   void report(bool in_any_case);
   [[noreturn]] void give_up(const std::string& why);
@@ -85,6 +86,7 @@ class Press {
   std::unique_ptr<Controller> controller_;  // null when the motion is prescribed
   std::unique_ptr<ControlLoop> loop_;
   PressInstant start_of_step_;
+  bool awaits_energy_ = false;  // the last row of the trace does
   double time_limit_ = 0.0;
   Clock::time_point started_, last_report_;
   double processor_start_ = 0.0;  // [s]
@@ -109,6 +111,13 @@ Press::Press(const PressSetup& setup, const PressObserver& observer, const Press
     make_controller();
   }
   time_limit_ = setup.duration.value_or(2.0 * motion_.duration() + 0.5);
+}
+
+/// Brings the outcome up to date, whose last row may be handed over before a step has its energy.
+void Press::update() {
+  if (awaits_energy_) recorder_.set_energy(present_energy());
+  recorder_.update(wall_time());
+  pictures_.update();
 }
 
 /// When the press will end if all goes well [s].
@@ -156,6 +165,7 @@ double Press::lateral() const {
 
 /// Whether the press goes on.
 bool Press::after_step() {
+  if (std::exchange(awaits_energy_, false)) take_energy(finger_.finger().noted_energy());
   start_of_step_.bond = finger_.finger().bond();  // of the configuration the step started from
   if (recorder_.add_step(start_of_step_)) report(true);
   const bool done = motion_.stops() ? start_of_step_.time >= motion_.duration()
@@ -193,6 +203,8 @@ void Press::look_after() {
       loop_ ? loop_->commanded() : Wrench{-instant.bond.force, -instant.bond.torque};
   recorder_.add_trace(instant, motion_.at(instant.time), held,
                       controller_ ? controller_->report() : ControllerReport{});
+  finger_.finger().note_energy();
+  awaits_energy_ = true;
   outcome_.elapsed.push_back(elapsed());
   check_sanity();
   report(false);
@@ -200,10 +212,6 @@ void Press::look_after() {
 
 void Press::check_sanity() {
   const TraceRow& row = outcome_.trace.back();
-  const double largest = 1e3 * setup_.rubber.longitudinal_modulus() * setup_.geometry.tip_volume();
-  if (!(row.kinetic_energy + row.elastic_energy < largest)) {
-    give_up("the lattice blew up: its energy left every bound");
-  }
   const double commanded = motion_.at(row.time).distance - setup_.protocol.clearance;
   const double ahead = row.indentation - commanded;
   const double allowed = 0.1 * setup_.geometry.thickness();
@@ -216,6 +224,14 @@ void Press::check_sanity() {
   if (!setup_.duration && finger_.time() > time_limit_) {
     give_up("the rod did not reach the depth: the controller's limits are too low");
   }
+}
+
+/// Of the start of the period.
+void Press::take_energy(const Finger::Energy& energy) {
+  recorder_.set_energy(energy);
+  const double largest = 1e3 * setup_.rubber.longitudinal_modulus() * setup_.geometry.tip_volume();
+  if (!(energy.kinetic + energy.elastic < largest))
+    give_up("the lattice blew up: its energy left every bound");
 }
 
 void Press::report(bool in_any_case) {
@@ -254,6 +270,7 @@ PressOutcome Press::run() {
     throw;
   }
   look_after();  // a rod that ran away within the last period must not pass for a finished press
+  take_energy(present_energy());
   outcome_.step = finger_.step_report(setup_.controller.period);
   outcome_.steps = finger_.step_count();
   outcome_.force_evaluations = finger_.finger().force_evaluations();

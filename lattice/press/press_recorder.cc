@@ -151,12 +151,15 @@ void PressRecorder::add_trace(const PressInstant& now, const meshes::SetPoint& c
   row.force_mode = controller.mode == ControlMode::force;
   row.anchored = finger_->touching();
   row.sliding = finger_->sliding();
-  row.kinetic_energy = finger_->kinetic_energy();
   row.rod_kinetic_energy = rod.kinetic_energy();
-  row.elastic_energy = finger_->elastic_energy();
   outcome_->trace.push_back(row);
   plane_impulse_ = 0.0;
   plane_since_ = now.time;
+}
+
+void PressRecorder::set_energy(const Finger::Energy& energy) {
+  outcome_->trace.back().kinetic_energy = energy.kinetic;
+  outcome_->trace.back().elastic_energy = energy.elastic;
 }
 
 void PressRecorder::update(double wall_time) {

@@ -35,9 +35,11 @@ class PressRecorder {
   /// The first time after this one at which the response is taken if the rod moves as it should
   /// [s], if there is one.
   std::optional<double> next_time(double after) const;
-  /// To be called once per controller period.
+  /// To be called once per controller period; energies follow by set_energy().
   void add_trace(const PressInstant& now, const meshes::SetPoint& commanded, const Wrench& applied,
                  const ControllerReport& controller);
+  /// Of the particles, for the last row of the trace.
+  void set_energy(const Finger::Energy& energy);
   /// Brings the outcome up to date: times, momentum balance.
   void update(double wall_time);
 

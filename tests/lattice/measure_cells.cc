@@ -85,11 +85,11 @@ void measure(const std::string& what, const meshes::CubicGrid& grid,
     lattice::Team single(1), pair(2);
     std::printf("  %-16s", law.name);
     for (int width = 2; width <= lattice::kernel::supported_width(); width *= 2) {
-      const lattice::CellForces forces(lattice, single, width);
+      lattice::CellForces forces(lattice, single, width);
       std::printf(" %6.2f",
                   nanoseconds(processor_seconds, [&] { forces.add(u, v, force); }) / cells.size());
     }
-    const lattice::CellForces alone(lattice, single), together(lattice, pair);
+    lattice::CellForces alone(lattice, single), together(lattice, pair);
     std::printf(" ns per cell (2, 4, 8 lanes); two threads: %.2f times as fast\n",
                 nanoseconds(seconds, [&] { alone.add(u, v, force); }) /
                     nanoseconds(seconds, [&] { together.add(u, v, force); }));

@@ -87,7 +87,7 @@ void measure_scaling(const lattice::VirtualFinger& pressed) {
   lattice::VectorField force(model.points());
   for (int i = 0; i < 20; ++i) {
     internal.accumulate(finger.state(), force);
-    surfaces.apply(finger.state(), finger.rod(), finger.plane(), scaling.step(), force);
+    surfaces.apply(finger.state(), finger.rod(), finger.plane(), scaling.step(), force, nullptr);
   }
   lattice::OuterLoads outer;
   print("plane's inertia", 500, [&] { outer.plane = surfaces.plane_hold(scaling.step()); });

@@ -98,13 +98,16 @@ void sum(const BodyArrays& body, std::size_t begin, std::size_t end, double* sum
 /// where they are.
 [[gnu::always_inline]] inline void move_lanes(const BodyArrays& body, std::size_t p, std::size_t c,
                                               const double (&carried)[lanes], double step,
-                                              double (&momentum)[lanes]) {
+                                              double (&momentum)[lanes],
+                                              double (&twice_energy)[lanes]) {
   double* const u = body.place[c] + p;
   double* const v = body.velocity[c] + p;
   double after[lanes], place[lanes];
   for (std::size_t i = 0; i < lanes; ++i) {
     const double a = double(body.acceleration[c][p + i]) + carried[i];
-    momentum[i] += body.mass[p + i] * v[i];
+    const double mv = body.mass[p + i] * v[i];
+    momentum[i] += mv;
+    twice_energy[i] += mv * v[i];
     after[i] = v[i] + step * (double(body.moves[p + i]) * a);
     place[i] = u[i] + step * after[i];
   }
@@ -114,20 +117,21 @@ void sum(const BodyArrays& body, std::size_t begin, std::size_t end, double* sum
 
 void move(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion,
           double step, double* sums) {
-  double s[3][lanes] = {};
+  double s[4][lanes] = {};
   for (std::size_t b = begin; b < end; ++b) {
     Places at;
     find_places(body, b, at);
     double rigid[3][lanes];
     find_rigid(at, motion, rigid);
-    for (std::size_t c = 0; c < 3; ++c) move_lanes(body, body.blocks[b], c, rigid[c], step, s[c]);
+    for (std::size_t c = 0; c < 3; ++c)
+      move_lanes(body, body.blocks[b], c, rigid[c], step, s[c], s[3]);
   }
   store(s, sums);
 }
 
 void move_restrained(const BodyArrays& body, std::size_t begin, std::size_t end,
                      const double* motion, const Patch& patch, double step, double* sums) {
-  double momentum[3][lanes] = {}, s[6][lanes] = {};
+  double before[4][lanes] = {}, s[6][lanes] = {};
   for (std::size_t b = begin; b < end; ++b) {
     const std::size_t p = body.blocks[b];
     Places at;
@@ -142,7 +146,7 @@ void move_restrained(const BodyArrays& body, std::size_t begin, std::size_t end,
                      double(body.share[2][p + i]) * patch.part[2][c];
         carried[i] = rigid[c][i] - kept[c][i];
       }
-      move_lanes(body, p, c, carried, step, momentum[c]);
+      move_lanes(body, p, c, carried, step, before[c], before[3]);
     }
     for (std::size_t i = 0; i < lanes; ++i) {
       const double m = body.mass[p + i], fx = m * kept[0][i], fy = m * kept[1][i],
@@ -155,8 +159,8 @@ void move_restrained(const BodyArrays& body, std::size_t begin, std::size_t end,
       s[5][i] += at.x[i] * fy - at.y[i] * fx;
     }
   }
-  store(momentum, sums);
-  store(s, sums + 3);
+  store(before, sums);
+  store(s, sums + 4);
 }
 
 constexpr BodyLoops loops{load, sum, move, move_restrained};

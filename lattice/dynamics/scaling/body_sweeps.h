@@ -39,7 +39,7 @@ struct BodyLoops {
   /// moments xx, yy, zz, xy, yz, zx.
   void (*sum)(const BodyArrays& body, std::size_t begin, std::size_t end, double* sums);
   /// A step of the particles that ends with the new velocity: v += step (acceleration + a + w x x),
-  /// u += step v; motion (a, w). Three sums: of mass v before.
+  /// u += step v; motion (a, w). Four sums before: of mass v and of mass v².
   void (*move)(const BodyArrays& body, std::size_t begin, std::size_t end, const double* motion,
                double step, double* sums);
   /// The same, less what is kept of the patch's acceleration: its shares. Six more sums: of mass

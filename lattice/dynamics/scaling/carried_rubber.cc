@@ -129,7 +129,8 @@ CarriedRubber::Moved CarriedRubber::move(const Vector6& motion, const Restraint*
   Moved moved;
   for (const auto& part : scratch.partial) {
     moved.momentum += Vector3(part.data());
-    if (restraint != nullptr) moved.kept += Vector6(part.data() + 3);
+    moved.kinetic_energy += 0.5 * part[3];
+    if (restraint != nullptr) moved.kept += Vector6(part.data() + 4);
   }
   return moved;
 }

@@ -39,6 +39,7 @@ class CarriedRubber {
             Scratch& scratch) const;
   struct Moved {
     meshes::Vector3 momentum = meshes::Vector3::Zero();  ///< before [N s]
+    double kinetic_energy = 0.0;                         ///< before [J]
     Vector6 kept = Vector6::Zero();  ///< what accelerates as much as is kept: [N], [N m]
   };
   /// A step of symplectic Euler with the acceleration and that of the rigid motion, less what the

@@ -50,8 +50,8 @@ namespace {
   const bool rates =
       cells.material.kind != CellLawKind::cubic && cells.material.retardation_time > 0.0;
   kernel::CellBounds bounds;
-  kernel::CellBody<Counted>::select(cells.material.kind, rates, false)(a, cells.blocks.data(), 0,
-                                                                       cells.blocks.size(), bounds);
+  kernel::CellBody<Counted>::select(cells.material.kind, {.rates = rates})(
+      a, cells.blocks.data(), 0, cells.blocks.size(), bounds);
 }
 
 }  // namespace

@@ -128,6 +128,28 @@ TEST(Finger, WithoutInputTheEnergyFallsUpToTheIntegratorsRipple) {
   }
 }
 
+TEST(Finger, EnergiesNotedOnTheWayAreThoseOfTheStepsStart) {
+  for (const ModelKind kind : all_models) {
+    for (const Kinematics kinematics : both_kinematics) {
+      FreeFinger f(kind, kinematics, Integrator::symplectic_euler, 0.4),
+          other(kind, kinematics, Integrator::symplectic_euler, 0.4);
+      for (int n = 0; n < 5; ++n) {
+        const double elastic = f.finger.elastic_energy(), kinetic = f.finger.kinetic_energy();
+        f.finger.note_energy();
+        f.finger.advance(lattice::Wrench{});
+        other.finger.advance(lattice::Wrench{});
+        EXPECT_NEAR(f.finger.noted_energy().elastic, elastic, 1e-12 * elastic);
+        EXPECT_EQ(f.finger.noted_energy().kinetic, kinetic);
+        f.finger.advance(lattice::Wrench{});  // not asked: what was noted stays
+        other.finger.advance(lattice::Wrench{});
+        EXPECT_EQ(f.finger.noted_energy().kinetic, kinetic);
+      }
+      EXPECT_EQ(f.finger.state().velocity.component, other.finger.state().velocity.component)
+          << name(kind) << name(kinematics);
+    }
+  }
+}
+
 TEST(Finger, AFreeRodOfAnyMassStaysBoundedAtTheStableStep) {
   // A light rod on many ligaments is the stiffest oscillator there is.
   for (const ModelKind kind : all_models) {

@@ -258,6 +258,29 @@ TEST(ScaledFinger, BalancesAngularMomentumOnThePlane) {
   }
 }
 
+TEST(ScaledFinger, NotesEnergiesOfTheStepsStart) {
+  lattice::FingerSetup setup = free_finger();
+  setup.plane = {.point = {0.0, 0.0, 0.01 + 1e-5}};
+  setup.contact = {meshes::ContactMode::stick};
+  lattice::VirtualFinger pressed(setup);
+  lattice::Finger& finger = pressed.finger();
+  const auto of_rubber = [&] {
+    return lattice::elastic_energy(pressed.model(), finger.state()) + finger.bond_energy();
+  };
+  pressed.write(lattice::Wrench{Vector3(0.0, 0.0, 5e-2), Vector3::Zero()});
+  double contact = 0.0;
+  for (int n = 0; n < 40; ++n) {
+    const double rubber = of_rubber(), kinetic = finger.kinetic_energy();
+    finger.note_energy();
+    pressed.do_step(finger.step());
+    contact = finger.elastic_energy() - of_rubber();  // of this step's start
+    EXPECT_NEAR(finger.noted_energy().elastic, rubber + contact, 1e-9 * (rubber + contact));
+    EXPECT_NEAR(finger.noted_energy().kinetic, kinetic, 1e-13 * kinetic);
+  }
+  EXPECT_GT(finger.touching(), 0);
+  EXPECT_GT(contact, 0.0);
+}
+
 TEST(ScaledFinger, ComesToRestOnARodMuchLighterThanItsRubber) {
   lattice::FingerSetup setup = free_finger();
   setup.rod.density *= 0.02;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -80,6 +81,43 @@ TEST(CellForces, EnergyIsThatOfTheCellsOneByOneWithTheSameBitsAtAnyWidth) {
       EXPECT_EQ(lattice::cell_energy(cells, u, alone), at_width_two);
       EXPECT_EQ(lattice::cell_energy(cells, u, pair), at_width_two);
     }
+  });
+}
+
+TEST(CellForces, EnergyFoundOnTheWayIsThatOfItsOwnPassAndLeavesTheForcesAsTheyAre) {
+  for_all_materials([](const Scene& scene, const CellMaterial& m) {
+    const CellLattice cells = scene.of(m);
+    const VectorField u = strained(scene, 1), v = random_field(scene, 0.3, 2);
+    const VectorField expected = forces(cells, u, v);
+    lattice::Team alone(1);
+    const double wanted = lattice::cell_energy(cells, u, alone);
+    std::optional<double> first;
+    for (int width = 2; width <= lattice::kernel::supported_width(); width *= 2) {
+      for (const int threads : {1, 2}) {
+        lattice::Team team(threads);
+        VectorField force(scene.grid.points());
+        double energy = 0.0;
+        lattice::CellForces(cells, team, width).add(u, v, force, energy);
+        EXPECT_EQ(force.component, expected.component) << "not the same bits";
+        EXPECT_NEAR(energy, wanted, 1e-13 * wanted);
+        EXPECT_EQ(energy, *(first = first.value_or(energy))) << "not the same bits";
+      }
+    }
+  });
+}
+
+TEST(CellForces, EnergyOfACellTurnedInsideOutIsInfiniteOnTheWayToo) {
+  for_all_materials([](const Scene& scene, const CellMaterial& m) {
+    const CellLattice cells = scene.of(m);
+    VectorField u = strained(scene, 1), v = random_field(scene, 0.3, 2), force(scene.grid.points());
+    for (auto& component : u.component)
+      for (double& value : component) value *= 100.0;
+    lattice::Team alone(1);
+    double energy = 0.0;
+    lattice::CellForces(cells, alone).add(u, v, force, energy);
+    const double apart = lattice::cell_energy(cells, u, alone);
+    EXPECT_EQ(std::isinf(energy), m.large_strain());
+    EXPECT_EQ(std::isinf(energy), std::isinf(apart));
   });
 }
 
