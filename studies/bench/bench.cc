@@ -58,6 +58,7 @@ ordered_json kernel_part(Session& session, const BenchPlan& plan) {
                 {"missing_ratios", ratios.missing},
                 {"ratio_rounds", ratios.rounds},
                 {"peers", kernels_of(rounds, true)},
+                {"parts", parts_of(rounds)},
                 {"missing_programs", rounds.missing},
                 {"versions", rounds.versions},
                 {"probes", probes_of(rounds)}},

@@ -89,8 +89,10 @@ class Programs {
                                       "--benchmark_out_format=json",
                                       "--benchmark_out=" + out.string()};
     if (plan_.widest > 0) words.insert(words.end(), {"--widest", std::to_string(plan_.widest)});
-    if (number >= plan_.wide_rounds)
-      words.push_back("--benchmark_filter=multiply-add|edge_list|springs/.*float64.*size:(20|48)/");
+    words.push_back(number < plan_.wide_rounds
+                        ? "--benchmark_filter=-part plain|part scaled 10?e"  // the slowest alone
+                        : "--benchmark_filter=multiply-add|bandwidth|edge_list|part scaled 30e|"
+                          "springs/.*float64.*size:(20|48)/");
     const fs::path log = folder_ / "kernels.log";
     if (const int code = run_process({words, {}}, log, interrupted); code != 0)
       throw std::runtime_error(
@@ -168,6 +170,7 @@ KernelRound read_kernel_round(const fs::path& file) {
       sample.springs = number("springs");
       sample.operations = number("operations");
       sample.cache = number("cache");
+      sample.bytes = number("bytes");
       const double amount =
           entry.contains("amount") ? number("amount") : sample.springs * number("steps");
       sample.wall_cost = number("real_time") / amount;

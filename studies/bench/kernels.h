@@ -20,8 +20,9 @@ struct KernelSample {
   double masses = 0.0, springs = 0.0;
   double operations = 0.0;  ///< multiply-adds per spring, 0 where not counted
   double cache = 0.0;       ///< of a bandwidth's probe: how large that cache is [bytes]
-  /// Per spring and step [ns], for probes per multiply-add or byte. With one thread processor time,
-  /// which others on the machine disturb least; with more wall time.
+  double bytes = 0.0;       ///< memory that a part of a step touches; 0 where not told
+  /// Per spring and step [ns], for probes per multiply-add or byte, for parts per step. With one
+  /// thread processor time, which others on the machine disturb least; with more wall time.
   double cost = 0.0;
   double wall_cost = 0.0;  ///< [ns]
 };

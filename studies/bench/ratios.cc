@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <set>
+#include <sstream>
 
 #include "meshes/press_response.h"
 #include "studies/run/json_file.h"
@@ -52,6 +53,10 @@ bool is_probe(const KernelSample& s) {
 }
 bool is_peer(const KernelSample& s) {
   return s.isa == "as packaged";
+}
+/// "part scaled|plain DEPTH PART"
+bool is_part(const KernelSample& s) {
+  return s.name.starts_with("part ");
 }
 
 /// The roof over a kernel: of the spring engine the operations in multiply pipes are counted, of
@@ -127,7 +132,7 @@ ordered_json kernels_of(const KernelRounds& rounds, bool peers) {
   std::set<std::string> done;
   for (const KernelRound& any : rounds.rounds) {
     for (const auto& [key, s] : any) {
-      if (is_probe(s) || is_peer(s) != peers || !done.insert(key).second) continue;
+      if (is_probe(s) || is_part(s) || is_peer(s) != peers || !done.insert(key).second) continue;
       const std::vector<double> all = costs(rounds, key);
       const double cost = median(all);
       const std::vector<double> fractions = roofline_fractions(rounds, key);
@@ -146,6 +151,29 @@ ordered_json kernels_of(const KernelRounds& rounds, bool peers) {
         list.back()["remark"] = std::string("roofline: ") + own_roof;
     }
   }
+  return list;
+}
+
+ordered_json parts_of(const KernelRounds& rounds) {
+  std::vector<ordered_json> list;
+  std::set<std::string> done;
+  for (const KernelRound& any : rounds.rounds)
+    for (const auto& [key, s] : any) {
+      if (!is_part(s) || !done.insert(key).second) continue;
+      std::istringstream words(s.name);
+      std::string part, masses, unit;
+      double depth = meshes::unknown;
+      words >> part >> masses >> depth >> unit >> std::ws;
+      std::getline(words, part);
+      list.push_back({{"part", part},
+                      {"scaled_masses", masses == "scaled"},
+                      {"spacing_over_R", 1.0 / s.size},
+                      {"indentation", depth},
+                      {"seconds", 1e-9 * median(costs(rounds, key))},
+                      {"bytes", s.bytes > 0.0 ? ordered_json(s.bytes) : ordered_json()}});
+    }
+  std::ranges::stable_sort(list, std::greater(),
+                           [](const ordered_json& p) { return p.at("seconds").get<double>(); });
   return list;
 }
 

@@ -20,6 +20,11 @@ nlohmann::ordered_json probes_of(const KernelRounds& rounds);
 /// round, whichever is higher: a fraction is at most 1, and 1 has a `remark`.
 nlohmann::ordered_json kernels_of(const KernelRounds& rounds, bool peers);
 
+/// Entries `parts`: what the parts of a time step cost, the dearest first: `part`, `scaled_masses`,
+/// `spacing_over_R`, `indentation` [m], `seconds` (median over the rounds) and `bytes`, the memory
+/// that it touches, null where the system does not tell.
+nlohmann::ordered_json parts_of(const KernelRounds& rounds);
+
 struct Ratios {
   nlohmann::ordered_json values;   ///< the contract's names; null where there is none
   nlohmann::ordered_json rounds;   ///< the same per round

@@ -10,6 +10,7 @@
 #include "meshes/fields_json.h"
 #include "studies/cli/run_verb.h"
 #include "studies/exchange/contact_curves.h"
+#include "studies/exchange/transfer.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
 #include "studies/run/asked_units.h"

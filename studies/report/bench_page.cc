@@ -21,12 +21,25 @@ bool is_scaled(const JsonEntry& press) {
   return text_if_any(press, "integrator") == "mass-scaled";
 }
 
+/// Of the edge list in the largest cube that LAMMPS marches, too [ns per spring and step].
+double edge_list_cost(const JsonEntry& bench) {
+  double cost = meshes::unknown, masses = 0.0;
+  for (const JsonEntry& kernel : array_if_any(bench, "kernels")) {
+    const double size = number_if_any(kernel, "masses");
+    if (text_if_any(kernel, "name") != "edge_list" || !(size > masses && size < 1.5e5)) continue;
+    masses = size;
+    cost = number_if_any(kernel, "ns_per_spring_step");
+  }
+  return cost;
+}
+
 Table press_table(const JsonEntry& bench) {
   Table table;
   table.header = {plain("Lattice", "strain, steps"),
                   plain("a", "masses"),
                   plain("Threads"),
                   plain("Real-time factor", "processor time"),
+                  plain("… in edge lists"),
                   plain("Force error"),
                   plain("… at rest"),
                   plain("… small strain"),
@@ -47,6 +60,10 @@ Table press_table(const JsonEntry& bench) {
          plain(count(number_if_any(press, "threads"))),
          plain(number(number_if_any(press, "real_time_factor"), 3),
                std::isfinite(processor) ? number(processor, 3) : ""),
+         plain(number(
+             edge_list_cost(bench) *
+                 (std::isfinite(processor) ? processor : number_if_any(press, "real_time_factor")),
+             3)),
          error_cell(number_if_any(press, "worst_force_error")),
          plain(error_cell(number_if_any(press, "static_error")).text),
          plain(error_cell(small).text),
@@ -55,6 +72,34 @@ Table press_table(const JsonEntry& bench) {
          plain(std::isfinite(cost) ? with_prefix(1e-9 * cost, "s") : "–")});
   }
   table.graded = true;
+  return table;
+}
+
+/// Where a step with scaled masses goes, beside what moving its memory once would take.
+Table part_table(const JsonEntry& bench) {
+  Table table;
+  table.header = {plain("Part"),
+                  plain("Time"),
+                  plain("Share of the step"),
+                  plain("Memory touched"),
+                  plain("From L2", "at least"),
+                  plain("From DRAM", "at least")};
+  const JsonList parts = array_if_any(bench, "parts");
+  const JsonEntry probes = object_if_any(bench, "probes");
+  double whole = meshes::unknown;
+  for (const JsonEntry& part : parts)
+    if (text_if_any(part, "part") == "whole step") whole = number_if_any(part, "seconds");
+  for (const JsonEntry& part : parts) {
+    const double seconds = number_if_any(part, "seconds"), bytes = number_if_any(part, "bytes");
+    const auto moved = [&](const char* bandwidth) {
+      const double least = bytes / number_if_any(probes, bandwidth);
+      return plain(std::isfinite(least) ? with_prefix(least, "s") : "–");
+    };
+    table.rows.push_back({plain(text_if_any(part, "part")), plain(with_prefix(seconds, "s")),
+                          plain(percent_magnitude(seconds / whole)),
+                          plain(std::isfinite(bytes) ? with_prefix(bytes, "B") : "–"),
+                          moved("bandwidth_L2"), moved("bandwidth_DRAM")});
+  }
   return table;
 }
 
@@ -77,7 +122,9 @@ Chapter pace_chapter(const JsonEntry& bench) {
   ChapterData chapter("pace");
   chapter["from"] = shown_units().length.text(1e-3);
   chapter.figures = {pace_figure(bench)};
+  chapter["edge_list"] = number(edge_list_cost(bench), 3);
   chapter.tables["presses"] = press_table(bench);
+  chapter.tables["parts"] = part_table(bench);
   chapter.tables["continua"] = continuum_table(bench);
   return written(std::move(chapter));
 }

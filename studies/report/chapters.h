@@ -7,6 +7,7 @@
 
 #include "studies/report/document.h"
 #include "studies/report/run_data.h"
+#include "studies/run/real_time_record.h"
 
 namespace fingertip::studies::reporting {
 
@@ -42,6 +43,8 @@ Chapter press_chapter(const meshes::PressResponse& response, const std::vector<C
 /// How the press went on after its first loading: its stages, force in time. `files` may be empty,
 /// but for a lattice's press. Without blocks when nothing followed.
 Chapter program_chapter(const meshes::PressResponse& response, const PressFiles& files);
+/// What --real-time chose, and what it costs; without blocks when nothing was tried.
+Chapter real_time_chapter(const RealTimeRecord& record);
 /// The lateral motion that followed the press; without blocks when none did.
 Chapter sliding_chapter(const meshes::PressResponse& response);
 /// Its force at full depth in a sentence, and that at the end of a lateral motion in another.

@@ -220,6 +220,10 @@ class PageMaker {
                          words([&] { return control_answer({press}); }));
     add(page, [&] { return press_chapter(press.response, {}, press.trace); });
     add(page, [&] { return program_chapter(press.response, press); });
+    add(page, [&] {
+      return real_time_chapter(
+          reader_.take<RealTimeRecord>(reader_.json(run_.folder / real_time_name)));
+    });
     add(page, [&] { return control_chapter(std::vector{press}); });
     add(page, [&] { return snapshots_chapter(std::vector{press}); });
     end(page);

@@ -89,6 +89,17 @@ TEST(RealTime, AResumedRunKeepsTheChoice) {
   EXPECT_NE(result.out.find("force error"), std::string::npos) << result.out;
 }
 
+TEST(RealTime, TheReportTellsChoiceAndCost) {
+  const TemporaryFolder folder;
+  begin(folder);
+  ASSERT_EQ(run_program(folder.path(), real_time_press({"--out", "a", "--resume", "auto"})).code,
+            0);
+  ASSERT_EQ(run_program(folder.path(), {"report", "a"}).code, 0);
+  const std::string page = read_text(folder / "a/report.html");
+  for (const char* told : {"Real time", "1.667 mm was asked for", "1.31", "lattice at rest"})
+    EXPECT_NE(page.find(told), std::string::npos) << told;
+}
+
 TEST(RealTime, AnotherPressIsAnotherChoice) {
   const TemporaryFolder folder;
   begin(folder);

@@ -102,15 +102,16 @@ void sum(const BodyArrays& body, std::size_t begin, std::size_t end, double* sum
                                               double (&twice_energy)[lanes]) {
   double* const u = body.place[c] + p;
   double* const v = body.velocity[c] + p;
-  double after[lanes], place[lanes];
+  double after[lanes], place[lanes], twice[lanes];
   for (std::size_t i = 0; i < lanes; ++i) {
     const double a = double(body.acceleration[c][p + i]) + carried[i];
     const double mv = body.mass[p + i] * v[i];
     momentum[i] += mv;
-    twice_energy[i] += mv * v[i];
+    twice[i] = mv * v[i];
     after[i] = v[i] + step * (double(body.moves[p + i]) * a);
     place[i] = u[i] + step * after[i];
   }
+  for (std::size_t i = 0; i < lanes; ++i) twice_energy[i] += twice[i];
   std::copy(after, after + lanes, v);
   std::copy(place, place + lanes, u);
 }

@@ -27,5 +27,9 @@ std::string full_name(const std::string& name, int width, const std::string& pre
 void register_probes(const Scope& scope);
 void register_springs(const Scope& scope);  ///< spring engine and edge list, on cubes
 void register_tips(const Scope& scope);     ///< forces and steps of the product, on the default tip
+/// Parts of a step of the default press (network, stick) at three depths, "part scaled|plain DEPTH
+/// PART", with the counter `bytes`: the memory that each touches (touched_bytes). It has no
+/// `springs`; `amount` is 1.
+void register_parts(const Scope& scope);
 
 }  // namespace kernel_benchmarks

@@ -103,6 +103,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   kernel_benchmarks::register_probes(scope);
+  kernel_benchmarks::register_parts(scope);  // ahead of the springs' huge pages: touched_bytes()
   kernel_benchmarks::register_springs(scope);
   kernel_benchmarks::register_tips(scope);
   benchmark::RunSpecifiedBenchmarks();

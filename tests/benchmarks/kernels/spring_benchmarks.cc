@@ -4,8 +4,8 @@
 
 #include "benchmarks.h"
 #include "edge_list.h"
-#include "tests/benchmarks/springs/engine/spring_lattice.h"
 #include "multiply_rate.h"
+#include "tests/benchmarks/springs/engine/spring_lattice.h"
 
 namespace kernel_benchmarks {
 

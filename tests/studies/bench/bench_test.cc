@@ -95,6 +95,11 @@ TEST(Bench, TheSmallestRunKeepsTheContractAndMakesAPage) {
   const std::string page = read_text(folder / "run/report.html");
   EXPECT_NE(page.find("Error against speed"), std::string::npos);
   EXPECT_NE(page.find("edge_list_48_1t"), std::string::npos);
+  EXPECT_EQ(bench.at("parts").empty(), !kernels_are_built());
+  for (const ordered_json& part : bench.at("parts")) {
+    EXPECT_GT(part.at("seconds").get<double>(), 0.0) << part;
+    EXPECT_NE(page.find(part.at("part").get<std::string>()), std::string::npos) << part;
+  }
   EXPECT_NE(studies::bench_text(bench).find("network"), std::string::npos);
 }
 
@@ -111,6 +116,7 @@ TEST(Bench, WithoutAvx512AndPeersTheRatiosAreNull) {
   for (const auto& [name, value] : bench.at("ratios").items()) EXPECT_TRUE(value.is_null()) << name;
   for (const ordered_json& kernel : bench.at("kernels")) EXPECT_EQ(kernel.at("isa"), "sse2");
   EXPECT_TRUE(bench.at("peers").empty());
+  EXPECT_TRUE(bench.at("parts").empty()) << "they take the widest registers there are";
   EXPECT_EQ(bench.at("missing_programs").at("lammps"),
             "a-program-that-is-not-there is not on the PATH (package lammps)");
 }

@@ -39,6 +39,27 @@ KernelRound round_with(double slower) {
 
 }  // namespace
 
+TEST(Parts, AreMediansTheDearestFirstAndNoKernels) {
+  KernelRounds rounds;
+  for (const double slower : {1.0, 5.0, 2.0}) {
+    KernelRound round;
+    put(round, "part scaled 30e-4 m V-cycle and reactions", "avx512", 1, 12, 100.0 * slower);
+    put(round, "part scaled 30e-4 m whole step", "avx512", 1, 12, 300.0 * slower);
+    for (auto& [key, sample] : round) sample.bytes = sample.cost < 200.0 ? 0.0 : 4096.0;
+    rounds.rounds.push_back(round);
+  }
+  const auto parts = parts_of(rounds);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].at("part"), "whole step");
+  EXPECT_DOUBLE_EQ(parts[0].at("seconds").get<double>(), 600e-9);
+  EXPECT_EQ(parts[0].at("bytes"), 4096.0);
+  EXPECT_EQ(parts[1].at("part"), "V-cycle and reactions");
+  EXPECT_DOUBLE_EQ(parts[1].at("indentation").get<double>(), 3e-3);
+  EXPECT_TRUE(parts[1].at("scaled_masses").get<bool>());
+  EXPECT_TRUE(parts[1].at("bytes").is_null());
+  EXPECT_TRUE(kernels_of(rounds, false).empty());
+}
+
 TEST(Ratios, AreFormedWithinARoundSoThatABusyMachineCancels) {
   KernelRounds rounds;
   for (const double slower : {1.0, 5.0, 2.0}) rounds.rounds.push_back(round_with(slower));
