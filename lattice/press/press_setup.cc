@@ -1,8 +1,11 @@
 #include "lattice/press/press_setup.h"
 
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "lattice/model/rod.h"
+#include "lattice/press/loop_stability.h"
 #include "meshes/files.h"
 
 namespace fingertip::lattice {
@@ -13,6 +16,12 @@ namespace {
 
 bool positive(double value) {
   return std::isfinite(value) && value > 0.0;
+}
+
+/// To two digits, away from zero if positive, toward it if negative.
+double rounded_up(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1.0);
+  return std::ceil(value / unit) * unit;
 }
 
 void add_rod(std::vector<Violation>& found, const RodSettings& rod) {
@@ -35,6 +44,28 @@ void add_light_rod(std::vector<Violation>& found, const PressSetup& setup) {
                          meshes::to_text(tip_mass) + " kg), or the loop is unstable",
                      "take a denser or longer rod, or press.mode = quasi-static"});
   }
+}
+
+/// Lighter than the rubber only where it turns: the same loop, in other motions.
+void add_swaying_hand(std::vector<Violation>& found, const PressSetup& setup) {
+  if (!positive(setup.rod.density) || !setup.geometry.violations().empty() ||
+      !setup.rubber.violations().empty())
+    return;
+  const std::optional<SwayingHand> sways = swaying_hand(setup);
+  if (!sways) return;
+  std::ostringstream rule;
+  rule << std::setprecision(2) << "under the controller the hand would sway at "
+       << sways->motion.frequency << " Hz, a hundred times as far every "
+       << std::log(100.0) / sways->motion.rate
+       << " s: in the motion that is easiest for it the rubber has " << sways->ratio
+       << " times its inertia";
+  std::string remedy = "take at least " + meshes::to_text(rounded_up(sways->density)) + " kg/m^3, ";
+  if (sways->natural_frequency > 0.0)
+    remedy += "controller.natural_frequency of at most " +
+              meshes::to_text(-rounded_up(-sways->natural_frequency)) + " Hz, ";
+  remedy += "or press.mode = quasi-static";
+  found.push_back(
+      {"rod.density", meshes::to_text(setup.rod.density) + " kg/m^3", rule.str(), remedy});
 }
 
 void add_adaptive_steps(std::vector<Violation>& found, const PressSetup& setup) {
@@ -167,6 +198,7 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
 std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
   std::vector<Violation> found = beyond_the_model(setup);
   add_light_rod(found, setup);
+  if (found.empty()) add_swaying_hand(found, setup);
   return found;
 }
 
@@ -192,6 +224,7 @@ std::vector<Violation> PressSetup::violations() const {
     found.push_back({"run.threads", std::to_string(threads),
                      "the number of threads must not be negative", "0 takes what is fastest"});
   }
+  if (found.empty()) add_swaying_hand(found, *this);
   return found;
 }
 

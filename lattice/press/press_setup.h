@@ -48,7 +48,7 @@ struct PressSetup {
 /// What of a valid setup the lattice cannot do: Coulomb friction and relaxation in equilibrium; a
 /// lateral motion after the press while the rod moves; the published model, moving, is pressed
 /// straight and needs an Euler step; explicit Euler is for it alone; under a controller the rod
-/// weighs at least as much as the rubber.
+/// weighs at least as much as the rubber and does not sway with it (loop_stability.h).
 std::vector<meshes::Violation> beyond_the_lattice(const PressSetup& setup);
 
 }  // namespace fingertip::lattice

@@ -1,0 +1,52 @@
+/// Whether the controller sets a hand swaying with the rubber on it.
+#pragma once
+
+#include <optional>
+
+#include "lattice/press/press_setup.h"
+#include "lattice/statics/held_vibrations.h"
+
+namespace fingertip::lattice {
+
+/// The largest ratio, over all motions as one rigid body, of the rubber's kinetic energy to the
+/// hand's; both 6 x 6 about the same point, whichever it is. That of their masses is one motion's.
+double inertia_ratio(const Matrix6& rubber, const Matrix6& hand);
+
+/// The fastest motion exp(rate t) of a loop.
+struct LoopMotion {
+  double rate = 0.0;       ///< growth [1/s]; negative: all motions die away
+  double frequency = 0.0;  ///< [Hz]
+};
+
+/// Of the sampled loop (README of control/): Pid of `servo` at the endpoint of a hand of this
+/// inertia, commands held over a period and `latency` [s] late in all, on rubber that nothing
+/// touches, whose vibrations are damped as `retardation_time` [s] has it. Exact for these
+/// vibrations; limits of actuators are not in it.
+LoopMotion loop_motion(const Matrix6& hand, const HeldVibrations& rubber, double retardation_time,
+                       const PidSettings& servo, double latency);
+
+/// inertia_ratio r up to which rubber of whatever stiffness holds still. The tip's wrench is fed
+/// forward a delay D late, beside gains for the bare hand (poles at -w):
+///   stiff rubber, F = -r x'', D = period + latency: (s + w)³ + r D s⁴ = 0, which is unstable from
+///   r D w = 8/9 on, at sqrt(3) w;
+///   rubber that swings with nu, D = period/2 + latency: delay and servo together make its
+///   oscillation grow at -½ nu² r D c³ (4 c³ - 3 c), c = nu/sqrt(nu² + w²), at most r D w²/8 where
+///   nu = w, while its own damping is ½ w² retardation_time there. Above sqrt(3) w the delay damps.
+/// Less than either, for the filter of the derivative delays, too.
+double harmless_ratio(const PidSettings& servo, double latency, double retardation_time);
+
+/// A hand that sways, and what would not.
+struct SwayingHand {
+  LoopMotion motion;
+  double ratio = 0.0;              ///< inertia_ratio
+  double density = 0.0;            ///< of the same hand that holds still [kg/m³]
+  double natural_frequency = 0.0;  ///< with which it holds still [Hz]; 0: with none tried
+};
+
+/// Set if the built-in controller would make a sway of this press grow more than a hundredfold
+/// while it lasts, although the bare hand's loop is stable. For valid setups. Of another controller
+/// nothing is known, and the published lattice's dampers are critical: none. Stiffness, mass and
+/// damping are those of the rubber at small strain, on a coarse lattice.
+std::optional<SwayingHand> swaying_hand(const PressSetup& setup);
+
+}  // namespace fingertip::lattice
