@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "meshes/meridian.h"
+#include "meshes/revolved_surface.h"
 #include "meshes/solid.h"
 
 namespace fingertip::meshes {
@@ -96,45 +96,19 @@ class RevolvedParts final : public BoundaryParts {
   }
 
   PartedSurface surface(Sector sector) const override {
-    PartedSurface result;
-    const Outline outline = chords();
+    const MeridianPolygon outline = chords();
     const int turns = sector == Sector::full   ? facets_around
                       : sector == Sector::half ? facets_around / 2
                                                : facets_around / 4;
-    const bool closed = sector == Sector::full;
-    // Rings of vertices, of one on the axis.
-    std::vector<std::vector<int>> rings;
-    for (const Vector2& corner : outline.corners) {
-      std::vector<int>& ring = rings.emplace_back();
-      for (int t = 0; t <= turns; ++t) {
-        if (t > 0 && (corner.x() == 0.0 || (closed && t == turns))) {
-          ring.push_back(ring.front());
-          continue;
-        }
-        const double angle = 2.0 * std::numbers::pi * t / facets_around;
-        // Exactly on the planes of symmetry.
-        const double c = 4 * t == facets_around ? 0.0 : std::cos(angle);
-        const double s = 2 * t == facets_around ? 0.0 : std::sin(angle);
-        ring.push_back(int(result.mesh.vertices.size()));
-        result.mesh.vertices.emplace_back(corner.x() * c, corner.x() * s, corner.y());
-      }
-    }
+    SweptPolygon bands = swept(outline, facets_around, turns);
+    PartedSurface result{std::move(bands.mesh), std::move(bands.pieces)};
+    if (sector == Sector::full) return result;
     const auto add = [&](int a, int b, int c, int part) {
-      if (a == b || b == c || c == a) return;
       result.mesh.triangles.push_back({a, b, c});
       result.parts.push_back(part);
     };
-    for (std::size_t i = 0; i < rings.size(); ++i) {
-      const std::vector<int>&from = rings[i], &to = rings[(i + 1) % rings.size()];
-      const int part = outline.parts[i];
-      if (piece(part).surface() == ProfileSurface::axis) continue;
-      for (std::size_t t = 0; t + 1 < from.size(); ++t) {
-        add(from[t], from[t + 1], to[t + 1], part);
-        add(from[t], to[t + 1], to[t], part);
-      }
-    }
-    if (closed) return result;
     const int other = sector == Sector::half ? plane_y() : plane_x();
+    const auto& rings = bands.rings;
     for (const auto& [a, b, c] : filled(outline.corners)) {
       add(rings[a].front(), rings[b].front(), rings[c].front(), plane_y());
       add(rings[a].back(), rings[c].back(), rings[b].back(), other);
@@ -147,27 +121,13 @@ class RevolvedParts final : public BoundaryParts {
   int plane_y() const { return count() - 2; }
   int plane_x() const { return count() - 1; }
 
-  /// A closed polygon (r, z), and the piece on which each of its sides lies.
-  struct Outline {
-    std::vector<Vector2> corners;
-    std::vector<int> parts;
-  };
-  Outline chords() const {
-    Outline outline;
-    for (int part = 0; part < plane_y(); ++part) {
-      const MeridianPiece& own = piece(part);
-      double sides = facets_per_radius * own.length() / meridian_.largest_radius();
-      if (own.curve() != ProfileCurve::straight)
-        sides = std::max(sides, facets_per_radian * turn_of(own));
-      const int chords = own.surface() == ProfileSurface::axis ? 1 : std::max(1, int(sides));
-      for (int i = 0; i < chords; ++i) {
-        outline.corners.push_back(own.at(double(i) / chords));
-        if (outline.corners.back().x() < 1e-12 * meridian_.largest_radius())
-          outline.corners.back().x() = 0.0;
-        outline.parts.push_back(part);
-      }
-    }
-    return outline;
+  MeridianPolygon chords() const {
+    return chords_of(meridian_, [&](const MeridianPiece& piece) {
+      double sides = facets_per_radius * piece.length() / meridian_.largest_radius();
+      if (piece.curve() != ProfileCurve::straight)
+        sides = std::max(sides, facets_per_radian * turn_of(piece));
+      return std::max(1, int(sides));
+    });
   }
 
   /// The angle through which a piece turns [rad].
@@ -190,15 +150,11 @@ class SolidParts final : public BoundaryParts {
   explicit SolidParts(std::shared_ptr<const Solid> solid) : solid_(std::move(solid)) {
     const TriangleMesh& mesh = solid_->mesh();
     const std::size_t count = mesh.triangles.size();
-    std::map<std::pair<int, int>, std::size_t> triangle_at;
     for (std::size_t t = 0; t < count; ++t)
       for (std::size_t c = 0; c < 3; ++c) {
-        const int a = mesh.triangles[t][c], b = mesh.triangles[t][(c + 1) % 3];
-        const auto [known, is_new] = triangle_at.try_emplace(std::minmax(a, b), t);
-        if (!is_new)
-          sides_.push_back(
-              {t, known->second,
-               (mesh.vertices[std::size_t(a)] - mesh.vertices[std::size_t(b)]).norm()});
+        const std::size_t other = solid_->neighbours()[t][c];
+        if (other < t)
+          sides_.push_back({t, other, (mesh.corner(t, c) - mesh.corner(t, (c + 1) % 3)).norm()});
       }
     Classes classes(count);
     for (const Side& side : sides_)

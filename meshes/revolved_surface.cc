@@ -28,43 +28,64 @@ int divisions(const MeridianPiece& piece, double chord, double edge) {
   return chords_at_most;
 }
 
-/// The band that a chord sweeps; rubber lies to the chord's left.
-void add_band(const Vector2& from, const Vector2& to, TriangleMesh& mesh) {
-  const auto place = [](const Vector2& point, int sector) {
-    const double angle = 2.0 * std::numbers::pi * (sector % sectors_around) / sectors_around;
-    return Vector3(point.x() * std::cos(angle), point.x() * std::sin(angle), point.y());
-  };
-  const auto add = [&mesh](const Vector3& a, const Vector3& b, const Vector3& c) {
-    const int first = int(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
-    mesh.triangles.push_back({first, first + 1, first + 2});
-  };
-  for (int s = 0; s < sectors_around; ++s) {
-    const Vector3 c = place(to, s), d = place(to, s + 1);
-    if (from.x() > 0.0) add(place(from, s), place(from, s + 1), d);
-    if (to.x() > 0.0) add(place(from, s), d, c);
-  }
-}
-
 }  // namespace
 
-TriangleMesh revolved_surface(const Meridian& meridian) {
-  TriangleMesh mesh;
-  const double radius = meridian.largest_radius();
-  const auto point = [&](const MeridianPiece& piece, double t) {
-    Vector2 at = piece.at(t);
-    if (at.x() < rounded_off * radius) at.x() = 0.0;
-    return at;
-  };
-  for (const MeridianPiece& piece : meridian.pieces()) {
-    if (piece.surface() == ProfileSurface::axis) continue;
-    const bool touches = piece.surface() == ProfileSurface::contact;
-    const int parts = divisions(piece, (touches ? touching_chord : hidden_chord) * radius,
-                                longest_chord * radius);
-    for (int i = 0; i < parts; ++i)
-      add_band(point(piece, double(i) / parts), point(piece, (i + 1.0) / parts), mesh);
+MeridianPolygon chords_of(const Meridian& meridian,
+                          const std::function<int(const MeridianPiece&)>& chords) {
+  MeridianPolygon polygon;
+  for (std::size_t p = 0; p < meridian.pieces().size(); ++p) {
+    const MeridianPiece& piece = meridian.pieces()[p];
+    const int parts = piece.surface() == ProfileSurface::axis ? 1 : chords(piece);
+    for (int i = 0; i < parts; ++i) {
+      Vector2 corner = piece.at(double(i) / parts);
+      if (corner.x() < rounded_off * meridian.largest_radius()) corner.x() = 0.0;
+      polygon.corners.push_back(corner);
+      polygon.pieces.push_back(int(p));
+    }
   }
-  return mesh;
+  return polygon;
+}
+
+SweptPolygon swept(const MeridianPolygon& polygon, int sectors, int turns) {
+  SweptPolygon result;
+  for (const Vector2& corner : polygon.corners) {
+    std::vector<int>& ring = result.rings.emplace_back();
+    for (int t = 0; t <= turns; ++t) {
+      if (t > 0 && (corner.x() == 0.0 || t == sectors)) {
+        ring.push_back(ring.front());
+        continue;
+      }
+      const double angle = 2.0 * std::numbers::pi * t / sectors;
+      const double c = 4 * t == sectors ? 0.0 : std::cos(angle);
+      const double s = 2 * t == sectors ? 0.0 : std::sin(angle);
+      ring.push_back(int(result.mesh.vertices.size()));
+      result.mesh.vertices.emplace_back(corner.x() * c, corner.x() * s, corner.y());
+    }
+  }
+  for (std::size_t i = 0; i < result.rings.size(); ++i) {
+    const auto add = [&](int a, int b, int c) {
+      if (a == b || b == c || c == a) return;
+      result.mesh.triangles.push_back({a, b, c});
+      result.pieces.push_back(polygon.pieces[i]);
+    };
+    const std::vector<int>&from = result.rings[i],
+          &to = result.rings[(i + 1) % result.rings.size()];
+    for (std::size_t t = 0; t + 1 < from.size(); ++t) {
+      add(from[t], from[t + 1], to[t + 1]);
+      add(from[t], to[t + 1], to[t]);
+    }
+  }
+  return result;
+}
+
+TriangleMesh revolved_surface(const Meridian& meridian) {
+  const double radius = meridian.largest_radius();
+  const auto chords = [radius](const MeridianPiece& piece) {
+    const bool touches = piece.surface() == ProfileSurface::contact;
+    return divisions(piece, (touches ? touching_chord : hidden_chord) * radius,
+                     longest_chord * radius);
+  };
+  return swept(chords_of(meridian, chords), sectors_around, sectors_around).mesh;
 }
 
 SurfaceDeviation deviation(const TriangleMesh& mesh, const Shape& truth) {

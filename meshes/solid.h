@@ -34,6 +34,8 @@ class Solid final : public Shape {
   Solid(TriangleMesh mesh, const std::vector<bool>& bonded, const std::string& content);
 
   const TriangleMesh& mesh() const { return mesh_; }
+  /// Per triangle those across its edges, from its first and second corner on.
+  const std::vector<std::array<std::size_t, 3>>& neighbours() const { return neighbours_; }
   bool is_bond(std::size_t triangle) const { return groups_[triangle] == bond_group; }
   /// Tells solids apart: a digest of vertices, triangles and what is bonded.
   const std::string& content() const { return content_; }
