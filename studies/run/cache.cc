@@ -80,7 +80,7 @@ bool Cache::has_entry(const Job& job) const {
 }
 
 void Cache::tidy() const {
-  remove_abandoned_parts(folder_, false);
+  remove_abandoned_parts(folder_);
 }
 
 bool Cache::fetch(const Job& job, const fs::path& target) const {

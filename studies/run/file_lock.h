@@ -23,8 +23,12 @@ class FileLock {
   bool held_, taken_;
 };
 
-/// Removes from `folder` (and, if `deep`, from folders in it) what is called NAME.part with the
-/// number of a process that has ended: it was killed before it could rename it.
-void remove_abandoned_parts(const std::filesystem::path& folder, bool deep);
+/// Removes what is called NAME.part with the number of a process that has ended: it was killed
+/// before it could rename it. Only what lies in `folder` itself, in which others may be at work.
+void remove_abandoned_parts(const std::filesystem::path& folder);
+/// The same of a folder and all in it which `lock` keeps others out of: then a part is abandoned
+/// whatever lives now under its number, which the system gives anew, in containers often to the
+/// next run. Where the file system knows no locks the number decides.
+void remove_abandoned_parts(const std::filesystem::path& folder, const FileLock& lock);
 
 }  // namespace fingertip::studies

@@ -77,7 +77,7 @@ void put_back(const fs::path& folder) {
 }
 
 /// Makes sure that a folder which was there is empty, or is to be resumed. True when resumed.
-bool prepare(const fs::path& folder, const RunFolderOptions& options) {
+bool prepare(const fs::path& folder, const RunFolderOptions& options, const FileLock& lock) {
   const fs::path replaced = folder / replaced_name;
   if (fs::exists(replaced) && !fs::exists(folder / manifest_name)) {
     put_back(folder);  // a run with --force was killed before it had begun
@@ -86,7 +86,7 @@ bool prepare(const fs::path& folder, const RunFolderOptions& options) {
     throw refusal(folder, "exists and is not the folder of a run (no manifest.json inside)",
                   "choose another folder; nothing has been removed");
   }
-  remove_abandoned_parts(folder, true);
+  remove_abandoned_parts(folder, lock);
   if (options.resume) return !fs::is_empty(folder);
   if (fs::exists(replaced)) {
     // A run with --force was killed: what it was to replace is still there.
@@ -174,7 +174,7 @@ void RunFolder::claim(const RunFolderOptions& options) {
     throw refusal(path_, "another process is at work in the output folder",
                   "choose another folder, or wait until that one has ended");
   }
-  if (!made_) resumed_ = prepare(path_, options);
+  if (!made_) resumed_ = prepare(path_, options, *lock_);
 }
 
 RunFolder::~RunFolder() {

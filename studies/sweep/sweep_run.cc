@@ -84,7 +84,7 @@ PointResult run_point(const Sweep& sweep, const PlannedPoint& planned, const fs:
   if (!lock.held()) return {point.id, "at work elsewhere", false};
   const fs::path own = folder / "points" / point.id;
   // Also where the point was finished when its process was killed.
-  remove_abandoned_parts(own, true);
+  remove_abandoned_parts(own, lock);
   const std::string status = marked_status(job, own);
   if (!status.empty()) return {point.id, status, true};
   return compute(sweep, planned, own, command_line);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "studies/run/file_lock.h"
 #include "studies/run/json_file.h"
 #include "tests/temporary_folder.h"
 
@@ -115,6 +116,31 @@ TEST(RunFolder, AFolderWhoseProcessWasKilledBeforeTheManifestGoesOn) {
   resumed.resume = true;
   RunFolder(resumed, load_config({})).finish("finished", 0);
   EXPECT_FALSE(fs::exists(place / "run/manifest.json.part4194305"));
+}
+
+/// Process 1 always lives, and never writes here.
+TEST(RunFolder, PartsInALockedFolderAreAbandonedWhoeverHasTheirNumberNow) {
+  const TemporaryFolder place;
+  fs::create_directories(place / "run/points/a");
+  for (const char* part : {"run/manifest.json.part1", "run/points/a/response.csv.part1"})
+    write_text(place / part, "{");
+  write_text(place / "run/points/a/kept.part1.csv", "a name that only looks like it");
+  RunFolderOptions resumed = into(place / "run");
+  resumed.resume = true;
+  write_text(place / "run/manifest.json", "{}");
+  RunFolder(resumed, load_config({})).finish("finished", 0);
+  EXPECT_FALSE(fs::exists(place / "run/manifest.json.part1"));
+  EXPECT_FALSE(fs::exists(place / "run/points/a/response.csv.part1"));
+  EXPECT_TRUE(fs::exists(place / "run/points/a/kept.part1.csv"));
+}
+
+TEST(RunFolder, PartsOfTheLivingStayWhereOthersMayBeAtWork) {
+  const TemporaryFolder place;
+  write_text(place / "entry.part1", "");
+  write_text(place / "entry.part4194305", "");
+  remove_abandoned_parts(place.path());
+  EXPECT_TRUE(fs::exists(place / "entry.part1"));
+  EXPECT_FALSE(fs::exists(place / "entry.part4194305"));
 }
 
 TEST(RunFolder, DiscardRemovesANewFolder) {
