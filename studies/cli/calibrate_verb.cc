@@ -106,7 +106,8 @@ void print_rubber(const ordered_json& content) {
 int verdict(const ordered_json& content, bool written) {
   const ordered_json failed = content.value("failed", ordered_json::array());
   for (const ordered_json& reason : failed)
-    fmt::print(stderr, "fingertip: not accepted: {}\n", reason.get<std::string>());
+    fmt::print(stderr, "fingertip: not accepted: {}\n",
+               in_shown_units(reason.get<std::string>(), Spelling::terminal));
   if (!failed.empty())
     fmt::print(stderr, "fingertip: {}\n",
                written ? "material.toml is written as --force asks, and says so"
@@ -135,7 +136,8 @@ int run_calibrate(const CommandLine& line) {
     const ordered_json content = read_json(folder / "calibration.json");
     const bool written = std::filesystem::exists(folder / "material.toml");
     if (line.quiet) return verdict(content, written);
-    fmt::print("{}\n\n", content["statement"].get<std::string>());
+    fmt::print("{}\n\n",
+               in_shown_units(content["statement"].get<std::string>(), Spelling::terminal));
     if (content.contains("parameters")) {
       print_parameters(content);
     } else {

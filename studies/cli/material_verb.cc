@@ -62,7 +62,8 @@ void print_coefficients(const LawEntry& law) {
     if (std::isfinite(test.loop_measured))
       fmt::print("loops of {}: {:.4g} J/m^3 measured, {:.4g} by the law\n", test.name,
                  test.loop_measured, test.loop_computed);
-  for (const std::string& sentence : law.contradictions) fmt::print("- {}\n", sentence);
+  for (const std::string& sentence : law.contradictions)
+    fmt::print("- {}\n", in_shown_units(sentence, Spelling::terminal));
 }
 
 }  // namespace
@@ -80,7 +81,7 @@ int run_material(const CommandLine& line, const LoadedConfig& loaded) {
         JsonEntry(read_json(folder / "laws.json"), folder / "laws.json"));
     const bool written = std::filesystem::exists(folder / "material.toml");
     if (!line.quiet) {
-      fmt::print("{}\n\n", file.statement);
+      fmt::print("{}\n\n", in_shown_units(file.statement, Spelling::terminal));
       print_ranking(file);
       for (const LawEntry& law : file.laws)
         if (law.law == file.recommended) print_coefficients(law);

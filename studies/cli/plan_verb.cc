@@ -38,7 +38,7 @@ void print_next(const std::vector<calibration::NextEntry>& next) {
 namespace {
 
 void print_plan(const PlanFile& plan) {
-  fmt::print("{}\n\n", plan.statement);
+  fmt::print("{}\n\n", in_shown_units(plan.statement, Spelling::terminal));
   for (const PlannedPress& press : plan.presses)
     fmt::print("{}: {}, {} values to {}, {}\n", press.name, press.condition, press.points,
                shown_units().length.text(press.depth),

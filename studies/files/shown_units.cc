@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <regex>
 
 namespace fingertip::studies {
 
@@ -30,6 +32,18 @@ constexpr ShownUnits tables[] = {{UnitSystem::si,
                                   {"compliance", "m/N", "cm/gf", "cm/gf", gf / cm}}};
 
 UnitSystem today = UnitSystem::si;
+
+/// Of a number's text, without zeros in front and the exponent.
+int digits_of(std::string_view number) {
+  number = number.substr(0, number.find_first_of("eE"));
+  number.remove_prefix(std::min(number.find_first_of("123456789"), number.size()));
+  return int(std::ranges::count_if(number, [](char c) { return c >= '0' && c <= '9'; }));
+}
+
+std::string converted(const std::string& number, const ShownUnit& unit) {
+  return fmt::format("{:.{}g}", unit(std::strtod(number.c_str(), nullptr)),
+                     std::max(4, digits_of(number)));
+}
 
 }  // namespace
 
@@ -70,6 +84,30 @@ const ShownUnits& units_of(UnitSystem system) {
 
 const ShownUnits& shown_units() {
   return units_of(today);
+}
+
+std::string in_shown_units(std::string_view words, Spelling spelling) {
+  // An amount, perhaps with its interval behind it; longer units first. Of bounded length: files
+  // may be damaged, and the library's search takes stack for every character that repeats.
+  static const std::regex amount(
+      R"((^|[^\w.+-]|\+-)([-+]?\d{1,20}(?:\.\d{1,20})?(?:e[-+]?\d{1,3})?) )"
+      R"((N/m|N m|m/N|m/s|Pa|N|m)(?![\w/^]))"
+      R"((?:( \(95 %: )([-+.e\d]{1,24})( to )([-+.e\d]{1,24}))?)",
+      std::regex::optimize);
+  std::string text;
+  auto rest = words.begin();
+  for (std::cregex_iterator found(words.data(), words.data() + words.size(), amount), end;
+       found != end; ++found) {
+    const std::cmatch& part = *found;
+    const ShownUnit& unit = *shown_units().of(part.str(3));
+    text += part.prefix().str() + part.str(1) + converted(part.str(2), unit) + " ";
+    text += spelling == Spelling::page ? unit.name : unit.ascii;
+    if (part[4].matched)
+      text +=
+          part.str(4) + converted(part.str(5), unit) + part.str(6) + converted(part.str(7), unit);
+    rest = words.begin() + (part[0].second - words.data());
+  }
+  return text + std::string(rest, words.end());
 }
 
 ShowIn::ShowIn(UnitSystem system) : before_(today) {

@@ -50,6 +50,12 @@ const ShownUnits& units_of(UnitSystem system);
 /// Those of today.
 const ShownUnits& shown_units();
 
+enum class Spelling { page, terminal };
+/// Words of a result, whose amounts are in SI as files have them, with these as they are shown:
+/// "E = 2.5e+05 Pa (95 %: 2.4e+05 to 2.6e+05)" becomes "E = 250 kPa (95 %: 240 to 260)". Digits are
+/// kept, four at least; units that the table does not have stay.
+std::string in_shown_units(std::string_view words, Spelling spelling);
+
 /// Shows in `system` as long as this lives. For one thread at a time: pages and screens are made
 /// by the thread that has started the verb.
 class ShowIn {

@@ -19,6 +19,8 @@ using calibration::SurrogateRow;
 constexpr int legend_room = 205;
 /// More curves than this are told apart by their shade alone.
 constexpr std::size_t most_labels = 14;
+/// More points than this merge into a band, which a line on it must be seen through.
+constexpr std::size_t many_points = 40;
 
 /// At most so many characters as the legend has room for.
 std::string shortened(const std::string& text) {
@@ -52,6 +54,7 @@ Series points(const FitCurve& curve, const Style& style, bool labelled) {
   series.y = scaled(curve.measured, curve.y_quantity.factor);
   if (curve.has_sigma()) series.error = scaled(curve.sigma, curve.y_quantity.factor);
   series.style.line = false;
+  if (curve.x.size() > many_points) series.style.opacity = 0.3, series.style.point_size = 0.5;
   return series;
 }
 
@@ -146,12 +149,12 @@ Figure curve_figure(const std::vector<const FitCurve*>& curves, const std::strin
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const FitCurve& curve = *curves[i];
     const Style style = curve_style(i, curves.size());
-    above.series.push_back(line(curve, curve.fitted, "fitted", style, ""));
-    if (any_finite(curve.left_out))
-      above.series.push_back(line(curve, curve.left_out, "left out", style, left_out_dash));
+    above.series.push_back(points(curve, style, curves.size() <= most_labels));
     if (curve.course && !curve.course->back_x.empty())
       above.series.push_back(way_back(curve, style));
-    above.series.push_back(points(curve, style, curves.size() <= most_labels));
+    if (any_finite(curve.left_out))
+      above.series.push_back(line(curve, curve.left_out, "left out", style, left_out_dash));
+    above.series.push_back(line(curve, curve.fitted, "fitted", style, ""));
     beneath.series.push_back(residuals(curve, unit, style));
   }
   if (over_sigma) {
@@ -307,18 +310,26 @@ Figure surrogate_figure(const Fit& fit, const std::string& prefix) {
   return figure;
 }
 
+bool finds_springs(const Fit& fit) {
+  return fit.problem == "curve";
+}
+
 Figure fitted_moduli_figure(const Fit& fit, const std::string& prefix) {
-  const double E = rule_modulus(fit);
-  meshes::Rubber rubber;
-  rubber.youngs_modulus = E;
-  const Figure fitted = modulus_surface_figure(prefix + "_moduli", {{"", fitted_moduli(fit)}});
+  const calibration::ElasticModuli found = fitted_moduli(fit);
+  const Figure fitted = modulus_surface_figure(prefix + "_moduli", {{"", found}});
   if (fitted.panels.empty()) return fitted;
+  // What measurements tell of a rubber replaces no rule for springs, and a ball shows nothing.
+  constexpr double isotropic = 1e-6;
+  if (!finds_springs(fit))
+    return std::abs(found.anisotropy - 1.0) < isotropic ? Figure() : fitted;
+  meshes::Rubber rubber;
+  rubber.youngs_modulus = rule_modulus(fit);
   // The published rule's moduli do not depend on the spacing.
   return modulus_surface_figure(
       prefix + "_moduli",
       {{"before: the published rule",
         calibration::homogenised_moduli(lattice::published_constants(rubber, 1.0), 1.0)},
-       {"after: fitted", fitted_moduli(fit)}});
+       {"after: fitted", found}});
 }
 
 Figure transfer_figure(const CalibrationData& data) {

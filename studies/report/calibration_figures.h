@@ -26,7 +26,11 @@ Figure profile_figure(const Fit& fit, const std::string& prefix);
 /// Force with its band, and stiffness, against indentation; the knots are marked.
 Figure surrogate_figure(const Fit& fit, const std::string& prefix);
 
-/// E(n) of the published rule's lattice beside the fitted one's.
+/// Whether the fit seeks constants of springs for a rubber that is known, in place of a rule's.
+bool finds_springs(const Fit& fit);
+
+/// E(n) of the fitted lattice, where that finds springs beside the published rule's lattice.
+/// Without panels for an isotropic one that measurements told.
 Figure fitted_moduli_figure(const Fit& fit, const std::string& prefix);
 
 /// Force error against indentation, a panel per prediction, a curve per fit.

@@ -26,7 +26,7 @@ void add_goodness(ChapterData& chapter, const Fit& fit) {
                deviation = fit.file.residual_deviation;
   const std::string unit = fit.curves.empty() ? "" : fit.curves.front().y_quantity.si_unit;
   chapter["sigma"] = std::ranges::any_of(fit.curves, &FitCurve::has_sigma);
-  chapter["deviation"] = if_known(deviation, with_prefix(deviation, unit));
+  chapter["deviation"] = if_known(deviation, amount(deviation, unit));
   chapter["chi_square"] = if_known(chi_square, number(chi_square));
   chapter["freedom"] = count(double(fit.file.degrees_of_freedom));
   chapter["probability"] = if_known(probability, number(probability, 2));
@@ -89,7 +89,7 @@ Chapter quality_chapter(const Fit& fit, const std::string& prefix) {
   chapter["finite"] = fit.problem == "finite-strain";
   chapter["damping"] = fit.problem == "damping";
   chapter["made"] = how_it_was_made(fit);
-  chapter["statement"] = fit.file.statement;
+  chapter["statement"] = as_shown(fit.file.statement);
   add_goodness(chapter, fit);
   chapter["left_out"] = left_out;
   chapter["travel"] = fit.file.rig.has_value();
@@ -111,8 +111,9 @@ Chapter material_chapter(const Fit& fit, const std::string& prefix) {
   chapter.id = prefix + "-material";
   chapter["name"] = fit.name;
   chapter["prefix"] = prefix;
+  chapter["springs"] = finds_springs(fit);
   chapter["condition"] = fit.surrogate_notes.condition;
-  chapter["statement"] = fit.surrogate_notes.statement;
+  chapter["statement"] = as_shown(fit.surrogate_notes.statement);
   chapter["widest"] = if_known(widest, percent_magnitude(widest));
   chapter.figures = {fitted_moduli_figure(fit, prefix), surrogate_figure(fit, prefix)};
   return written(std::move(chapter));

@@ -191,7 +191,7 @@ WordList calibrations(const RunData& run) {
   for (const ModelData& model : run.models) {
     if (model.calibration.empty()) continue;
     words.emplace_back()["model"] = model.name;
-    words.back()["statement"] = model.calibration.statement;
+    words.back()["statement"] = as_shown(model.calibration.statement);
   }
   return words;
 }

@@ -221,7 +221,7 @@ Chapter law_chapter(const LawResult& result) {
   const calibration::LawsFile& file = result.file;
   const LawEntry& taken = result.taken();
   ChapterData chapter("laws");
-  chapter["statement"] = file.statement;
+  chapter["statement"] = as_shown(file.statement);
   chapter["law"] = taken.law;
   chapter["smallest"] = number(file.smallest_stretch, 3);
   chapter["largest"] = number(file.largest_stretch, 3);
@@ -252,7 +252,7 @@ Chapter law_chapter(const LawResult& result) {
   }
   chapter["failed"] = std::move(failed);
   for (const std::string& sentence : taken.contradictions)
-    contradictions.emplace_back()["sentence"] = sentence;
+    contradictions.emplace_back()["sentence"] = as_shown(sentence);
   chapter["contradicted"] =
       contradictions.empty() ? std::string() : std::to_string(contradictions.size());
   chapter["contradictions"] = std::move(contradictions);
@@ -264,7 +264,7 @@ Chapter law_chapter(const LawResult& result) {
 }
 
 std::string law_answer(const LawResult& result) {
-  return result.empty() ? std::string() : result.file.statement;
+  return result.empty() ? std::string() : as_shown(result.file.statement);
 }
 
 std::vector<NotRun> missing_law_parts(const LawResult& result) {

@@ -166,7 +166,7 @@ Chapter materials_chapter(const MaterialsData& data) {
     Words& one = fits.emplace_back();
     one["table"] = fmt::format("ranking_{}", fits.size());
     one["label"] = fit.label;
-    one["statement"] = fit.result.file.statement;
+    one["statement"] = as_shown(fit.result.file.statement);
     one["folder"] = fit.folder;
     chapter.tables[fmt::format("ranking_{}", fits.size())] = ranking_table(fit.result);
   }

@@ -42,7 +42,7 @@ Table file_table(const Fit& fit) {
     const std::string unit = curve.y_quantity.si_unit;
     const double misfit = misfit_of(curve), noise = course.noise_of_value(), ratio = misfit / noise;
     const auto shown = [&](double value) {
-      return std::isfinite(value) ? with_prefix(value, unit) : std::string("–");
+      return std::isfinite(value) ? amount(value, unit) : std::string("–");
     };
     const bool timed = course.hold_time > 0.0;
     table.rows.push_back(
@@ -153,7 +153,7 @@ void add_rig_rows(Table& table, const char* title, const std::string& unit,
                   const std::vector<RigEntry>& entries) {
   for (const RigEntry& entry : entries) {
     const auto shown = [&](double value) {
-      return std::isfinite(value) ? with_prefix(value, unit) : std::string("–");
+      return std::isfinite(value) ? amount(value, unit) : std::string("–");
     };
     table.rows.push_back(
         {plain(title, entry.of), plain(shown(entry.value)),
@@ -185,10 +185,10 @@ Table suspect_table(const Fit& fit) {
     Cell cause = plain(each.cause);
     cause.words = true;
     const std::string unit = each.unit == "1" ? "" : each.unit;
-    table.rows.push_back(
-        {plain(each.name, each.of), plain(number(each.decrease, 3)),
-         plain(number(each.probability, 2)),
-         plain(unit.empty() ? number(each.amount, 3) : with_prefix(each.amount, unit)), cause});
+    table.rows.push_back({plain(each.name, each.of), plain(number(each.decrease, 3)),
+                          plain(number(each.probability, 2)),
+                          plain(unit.empty() ? number(each.amount, 3) : amount(each.amount, unit)),
+                          cause});
   }
   return table;
 }
@@ -211,7 +211,7 @@ Table next_table(const Fit& fit) {
         if (parameter.name == each.name) unit = parameter.unit;
       const auto shown = [&](double value) {
         if (!std::isfinite(value)) return std::string("–");
-        return unit.empty() || unit == "1" ? number(value) : with_prefix(value, unit);
+        return unit.empty() || unit == "1" ? number(value) : amount(value, unit);
       };
       table.rows.push_back(
           {&each == &further.parameters.front() ? plain(further.name, further.press) : plain(""),

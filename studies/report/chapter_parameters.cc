@@ -200,7 +200,7 @@ void add_directions(WordList& words, const Fit& fit, const std::vector<Direction
     const double share = entry.relative_singular_value, width = entry.interval;
     Words& row = words.emplace_back();
     row["open"] = open;
-    row["statement"] = entry.statement;
+    row["statement"] = as_shown(entry.statement);
     row["direction"] = components(fit, entry);
     row["share"] = if_known(share, percent_magnitude(share));
     row["width"] = width <= 1.0 ? percent_magnitude(width) : "";

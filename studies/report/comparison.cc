@@ -86,6 +86,18 @@ Panel following_panel(const Comparison& comparison) {
   return panel;
 }
 
+/// What lies between the samples is what forces are compared by there; chords would lie above it.
+void draw_monotone(Series& series, const meshes::PressResponse& response) {
+  constexpr int steps = 200;
+  const double first = std::max(0.0, response.pressing().front().indentation),
+               last = response.depth();
+  for (int i = 0; i <= steps; ++i) {
+    const double depth = std::min(last, first + (last - first) * i / steps);
+    series.line_x.push_back(shown_units().length(depth));
+    series.line_y.push_back(shown_units().force(response.normal_force_at(depth)));
+  }
+}
+
 Panel force_panel(const std::vector<ComparedCurve>& curves) {
   Panel panel;
   panel.x_label = shown_units().length.label("indentation");
@@ -97,6 +109,7 @@ Panel force_panel(const std::vector<ComparedCurve>& curves) {
       series.x.push_back(shown_units().length(sample.indentation));
       series.y.push_back(shown_units().force(sample.normal_force));
     }
+    draw_monotone(series, curves[i].response);
     panel.series.push_back(std::move(series));
   }
   return panel;

@@ -24,18 +24,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string data_block(const Series& series, const std::string& name) {
+std::string data_block(const std::string& name, const std::vector<double>& x,
+                       const std::vector<double>& y, const std::vector<double>& errors,
+                       double shift) {
   std::string text = name + " << EOD\n";
-  for (std::size_t i = 0; i < series.x.size(); ++i) {
-    if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
       text += '\n';
       continue;
     }
-    const double error = i < series.error.size() ? series.error[i] : 0.0;
-    text += fmt::format("{:.8g} {:.8g} {:.8g}\n", series.shift * series.x[i], series.y[i],
+    const double error = i < errors.size() ? errors[i] : 0.0;
+    text += fmt::format("{:.8g} {:.8g} {:.8g}\n", shift * x[i], y[i],
                         std::isfinite(error) ? error : 0.0);
   }
   return text + "EOD\n";
+}
+
+/// gnuplot takes #AARRGGBB, where 0 is opaque.
+std::string point_colour(const Style& style) {
+  if (style.opacity >= 1.0) return style.colour;
+  return fmt::format("#{:02x}{}", int(std::lround(255.0 * (1.0 - style.opacity))),
+                     style.colour.substr(1));
 }
 
 std::string plot_item(const Series& series, const std::string& block) {
@@ -45,13 +54,22 @@ std::string plot_item(const Series& series, const std::string& block) {
   if (series.filled)
     return fmt::format("{} using 1:2 with filledcurves closed fc rgb '{}' fs solid 0.25 noborder{}",
                        block, style.colour, title);
-  const std::string with = !style.line ? "points" : style.point ? "linespoints" : "lines";
-  const std::string source = series.legend_only ? "keyentry" : block + " using 1:2";
-  std::string item = fmt::format("{} with {} lc rgb '{}'", source, with, style.colour);
+  const bool own_line = !series.line_x.empty();
+  const std::string with = !style.line                ? "points"
+                           : style.point && !own_line ? "linespoints"
+                                                      : "lines";
+  const std::string source =
+      series.legend_only ? "keyentry" : block + (own_line ? "l" : "") + " using 1:2";
+  std::string item = fmt::format("{} with {} lc rgb '{}'", source, with,
+                                 style.line ? style.colour : point_colour(style));
   if (style.line)
     item += fmt::format(" lw {} dt {}", style.width, style.dash.empty() ? "solid" : style.dash);
-  if (style.point) item += fmt::format(" pt {} ps {}", style.point, style.point_size);
+  const std::string points = fmt::format(" pt {} ps {}", style.point, style.point_size);
+  if (style.point && !own_line) item += points;
   item += title;
+  if (own_line)
+    item += fmt::format(", {} using 1:2 with points lc rgb '{}'{} notitle", block,
+                        point_colour(style), points);
   if (!series.error.empty()) {
     // Vectors with flat ends: the style "errorbars" would erase the curves around its points.
     item += fmt::format(
@@ -188,7 +206,9 @@ std::string panel_script(const Panel& panel, std::size_t index) {
     const bool legend_only = panel.series[i].legend_only;
     if (!legend_only && !seen(panel.series[i])) continue;
     const std::string block = fmt::format("$p{}s{}", index, i);
-    if (!legend_only) text += data_block(panel.series[i], block);
+    const Series& own = panel.series[i];
+    if (!legend_only) text += data_block(block, own.x, own.y, own.error, own.shift);
+    if (!own.line_x.empty()) text += data_block(block + "l", own.line_x, own.line_y, {}, own.shift);
     plot += (plot.empty() ? "plot " : ", \\\n  ") + plot_item(panel.series[i], block);
   }
   return text + plot + "\n" + tell_axes;

@@ -18,6 +18,7 @@ struct Style {
   int point = 0;     ///< gnuplot's point type, 0 for none
   bool line = true;  ///< join the points
   double point_size = 0.65;
+  double opacity = 1.0;  ///< of the points, 0 to 1
 };
 
 /// The style of a curve that belongs to "reference" or to a model of that name.
@@ -36,6 +37,8 @@ struct Series {
   std::vector<double> x, y;
   std::vector<double> error;  ///< half-height of error bars, empty for none
   Style style;
+  /// Drawn as the line in place of straight ones between x, y, whose points stay; empty: those.
+  std::vector<double> line_x = {}, line_y = {};
   /// Drawn at so many times x, lest error bars cover each other; the CSV has x itself.
   double shift = 1.0;
   bool legend_only = false;  ///< an entry of the legend without a curve

@@ -59,6 +59,7 @@ ordered_json series_of(const Figure& figure, std::size_t index) {
   for (const Series& series : panel.series) {
     if (!series.legend_only && !visible(panel, series)) continue;
     ordered_json ids = {next_id()};
+    if (!series.line_x.empty()) ids.push_back(next_id());
     if (!series.error.empty()) ids.push_back(next_id());
     const std::string& name = series.label.empty() ? series.key : series.label;
     all.push_back({{"label", name},

@@ -119,6 +119,15 @@ std::string with_prefix(double value, const std::string& unit) {
   return number(value / std::pow(1000.0, step)) + gap + prefixes[std::size_t(step + 3)] + unit;
 }
 
+std::string amount(double value, const std::string& si_unit) {
+  const ShownUnit* unit = shown_units().of(si_unit);
+  return unit == nullptr ? with_prefix(value, si_unit) : with_unit(value, *unit);
+}
+
+std::string as_shown(const std::string& statement) {
+  return in_shown_units(statement, Spelling::page);
+}
+
 Grade grade(double relative_error) {
   const double magnitude = std::abs(relative_error);
   if (!std::isfinite(magnitude)) return Grade::none;

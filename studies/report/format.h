@@ -41,6 +41,10 @@ std::string force(double newton);
 std::string stress(double pascal);
 /// SI alone, with the prefix that suits: "3.923 kPa", "190.5 mN", "43.1 µs".
 std::string with_prefix(double value, const std::string& unit);
+/// In the unit of run.units where its table has the quantity, else with a prefix: "0.1382 mm".
+std::string amount(double value, const std::string& si_unit);
+/// What a file says of its result, in SI, with its amounts as this page shows them.
+std::string as_shown(const std::string& statement);
 /// SI for the line below a number that is shown in the paper's units; nothing where it is in SI.
 std::string si_note(double value, const std::string& unit);
 /// "190.5 mN" or "19.42 gf": the number as a table shows it, and its unit.

@@ -299,7 +299,7 @@ class PageMaker {
     page.subtitle = words(
         [&] { return with_case(run_, "The lattice whose elastic constants are the rubber's"); });
     page.answer = joined(words([&] { return constants_words(run_.moduli_fit.constants); }),
-                         words([&] { return run_.moduli_fit.statement; }));
+                         words([&] { return as_shown(run_.moduli_fit.statement); }));
     add(page, [&] { return elasticity_chapter(run_); });
     end(page);
     return page;

@@ -1,5 +1,6 @@
 // The page of a fit to curves, from a folder of `calibrate` whose numbers are known.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -171,6 +172,34 @@ TEST_F(FitReport, SurfacesShowRuleAndFit) {
   const double ball = G * (3.0 * lambda + 2.0 * G) / (lambda + G) / 1e3;
   for (const auto& row : rows("fit_moduli", "after: fitted")) EXPECT_NEAR(row[3], ball, 1e-6);
   EXPECT_LT(fs::file_size(run_ / "figures" / "fit_moduli.svg"), 300'000u);
+}
+
+// Measured presses replace no rule for springs; a lattice of theirs that is no ball is shown alone.
+TEST_F(FitReport, TheSurfaceOfARubberThatWasMeasuredStandsAlone) {
+  const auto measured = [](json& result) { result["problem"] = "experiment"; };
+  EXPECT_FALSE(has(report(measured), "fit_moduli"));
+  const std::string central = report([&](json& result) {
+    measured(result);
+    result["constants"]["k3"] = 1.0;
+  });
+  EXPECT_TRUE(has(central, "fit_moduli"));
+  EXPECT_FALSE(has(central, "published"));
+  EXPECT_FALSE(has(visible_text(central), "both at the same scale"));
+}
+
+// What is drawn later lies above, and the CSV has the order of drawing.
+TEST_F(FitReport, TheFittedLineLiesAboveItsDots) {
+  report();
+  const std::string table = read_text(run_ / "figures" / "fit_curves.csv");
+  ASSERT_TRUE(has(table, ",stick measured,"));
+  EXPECT_LT(table.rfind(",stick measured,"), table.find(",stick fitted,"));
+  EXPECT_FALSE(has(svg("fit_curves"), "opacity='0.30'")) << "five dots hide nothing";
+  std::string rows = "curve,x,measured,sigma,fitted,left_out\n";
+  for (int i = 1; i <= 60; ++i)
+    rows += fmt::format("stick,{0},{0},,{0},\nfrictionless,{0},{0},,{0},\n", 1e-5 * i);
+  report_testing::write_file(run_ / "fit_data.csv", rows);
+  written();
+  EXPECT_TRUE(has(svg("fit_curves"), "opacity='0.30'"));
 }
 
 // What readers turn starts as what gnuplot printed: every corner of every facet is where one of the

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -110,6 +111,25 @@ TEST(Comparison, InterpolatesInsideTheSamplesWhereNoneAreCommonAndSaysSo) {
   EXPECT_NE(result.text.find("~: interpolated between samples of b"), std::string::npos);
   EXPECT_NE(report_testing::visible_text(read_text(folder / "out/comparison.html"))
                 .find("interpolated between samples of b"),
+            std::string::npos);
+}
+
+/// F = d² by three samples: halfway between the last two a chord would lie 1/9 too high.
+TEST(Comparison, FewSamplesAreDrawnAsTheCurveThatForcesAreComparedBy) {
+  const TemporaryFolder folder;
+  write_press(folder / "a", {{1e-3, 1.0}, {2e-3, 4.0}, {3e-3, 9.0}});
+  write_press(folder / "b", {{1e-3, 1.1}, {2e-3, 4.4}, {3e-3, 9.9}});
+  studies::write_comparison({folder / "a", folder / "b"}, folder / "out");
+  // The numbers are the samples, the line has a point per 1/200 of the depth.
+  EXPECT_EQ(cells(read_text(folder / "out/figures/comparison_force.csv")).size(), 7U);
+  const std::string html = read_text(folder / "out/comparison.html");
+  const auto line = html.find("id=\"comparison_force_plot_1\"");
+  ASSERT_NE(line, std::string::npos);
+  const std::string first = html.substr(line, html.find("comparison_force_plot_2") - line);
+  EXPECT_EQ(first.find("<use"), std::string::npos);
+  EXPECT_GT(std::ranges::count(first, ','), 190);
+  // Its samples are the next item, which buttons switch with it.
+  EXPECT_NE(html.find("[\"comparison_force_plot_1\",\"comparison_force_plot_2\"]"),
             std::string::npos);
 }
 

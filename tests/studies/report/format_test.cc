@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "studies/files/shown_units.h"
 
@@ -31,6 +32,21 @@ TEST(Format, WithoutAnErrorAllDigitsStay) {
   EXPECT_EQ(number_with_error(19.4231, std::nan("")), "19.42");
   EXPECT_EQ(number_with_error(19.4231, 0.0), "19.42");
   EXPECT_EQ(number_with_error(std::nan(""), 0.1), "–");
+}
+
+TEST(Format, AmountsInWordsAreShownInTheUnitsOfTheRun) {
+  using namespace fingertip::studies;
+  const std::string words =
+      "modulus = 2.5891e+05 Pa (95 %: 2.5627e+05 to 2.6155e+05); touch = 0.00023094 m (95 %: "
+      "-2.2741e-05 to 0.00023447). K1 m, 3 measured, 1.5 mm, 0.25 s, 40 Pa/s stay; k = 8.62 N/m, "
+      "c = 5e-05 m/N, +-0.02 N, 1e999 Pa.";
+  EXPECT_EQ(in_shown_units(words, Spelling::terminal),
+            "modulus = 258.91 kPa (95 %: 256.27 to 261.55); touch = 0.23094 mm (95 %: -0.022741 to "
+            "0.23447). K1 m, 3 measured, 1.5 mm, 0.25 s, 40 Pa/s stay; k = 8.62 N/m, c = 0.05 "
+            "mm/N, +-20 mN, inf kPa.");
+  const ShowIn paper(UnitSystem::paper);
+  EXPECT_EQ(in_shown_units("E = 3922.66 Pa", Spelling::terminal), "E = 40 gf/cm^2");
+  EXPECT_EQ(in_shown_units("E = 3922.66 Pa", Spelling::page), "E = 40 gf/cm²");
 }
 
 }  // namespace
