@@ -30,6 +30,12 @@ std::string joined(const std::vector<Problem>& problems) {
   return text;
 }
 
+/// A list of many values fills a screen.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t most = 120;
+  return text.size() <= most ? text : text.substr(0, most) + "...";
+}
+
 /// As entries have it: "1e-6" is "1e-06" there.
 std::string default_literal(const Key& key) {
   return toml_literal(*toml::parse("v = " + key.preset).get("v"));
@@ -394,8 +400,8 @@ ConfigError LoadedConfig::locate(const std::vector<meshes::Violation>& violation
     for (const std::string& other : key != nullptr ? key->related : std::vector<std::string>{}) {
       const Entry& related = entries.at(other);
       if (!related.given) continue;
-      problem.rule +=
-          " (here " + other + " = " + unquoted(related.literal) + ", " + related.place + ")";
+      problem.rule += " (here " + other + " = " + shortened(unquoted(related.literal)) + ", " +
+                      shortened(related.place) + ")";
       if (problem.place == default_place) problem.place = related.place;
     }
     if (problem.place.empty()) problem.place = "input";

@@ -84,6 +84,7 @@ class CurveReader {
   bool read_sigma(CurveRow& row, std::size_t place);
   void keep(const CurveRow& row, std::size_t place);
   void check_signs();
+  void check_direction();
 
   FileProblems problems_;
   const CurveSource& source_;
@@ -368,6 +369,28 @@ void CurveReader::check_signs() {
                     negative, rows_.size()));
 }
 
+/// Positions grow as the finger is pressed: forces are larger at larger ones, on the way back, too.
+void CurveReader::check_direction() {
+  double mean_x = 0.0, mean_y = 0.0, together = 0.0;
+  for (const CurveRow& row : rows_)
+    mean_x += row.x / double(rows_.size()), mean_y += row.y / double(rows_.size());
+  for (const CurveRow& row : rows_) together += (row.x - mean_x) * (row.y - mean_y);
+  if (!is_travel() || !(together < 0.0)) return;
+  const ColumnWish* own = wish("position");
+  const std::string file = source_.path.filename().string();
+  const auto described = [](const char* quantity, const Column& column, const char* sign) {
+    return fmt::format("{} = {{column = '{}'{}}}\n", quantity, column.title, sign);
+  };
+  problems_.add(
+      0, x_.title, "", "falls while the force grows, but a position grows as the finger is pressed",
+      own != nullptr
+          ? fmt::format("turn it round: position = {{column = ..., sign = {}}}", -own->sign)
+          : "turn it round: name a file press.toml in calibration.data in place of " + file +
+                ", and write into it\n[[press]]\npath = '" + file + "'\n" +
+                described("position", x_, ", sign = -1") + described("force", y_, "") +
+                "(studies/manual/your_press.md)");
+}
+
 MeasuredFile CurveReader::read_table(const TextTable& table) {
   table_ = &table;
   result_ = {};
@@ -400,6 +423,7 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
                     sigma_->title, without_error_, data_rows_));
   }
   check_signs();
+  check_direction();
   problems_.throw_if_any();
   calibration::Course course;
   course.rows = rows_.size();
@@ -417,6 +441,7 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
     result_.curve = curve_of(rows_, abscissa, problems_, result_.notes);
   }
   result_.curve.is_travel = is_travel();
+  result_.x_title = x_.title, result_.x_unit = x_.unit;
   if (!result_.curve.x.empty())
     course.rows_per_value = double(rows_.size()) / double(result_.curve.x.size());
   result_.curve.course = std::move(course);

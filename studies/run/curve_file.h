@@ -45,6 +45,7 @@ struct MeasuredFile {
   calibration::Curve
       curve;  ///< SI; its name is the source's, with the number of the table of several
   std::string x_quantity, y_quantity;  ///< names of the pair found, e.g. "indentation", "force"
+  std::string x_title, x_unit;         ///< as the file has them, "Weg [mm]" and "mm"
   std::vector<std::size_t>
       lines;  ///< of every point of the curve: its row, or the first of its bin
   std::vector<MeasuredSetting> settings;  ///< in the order of the file, each key once

@@ -9,6 +9,7 @@
 #include "calibration/curves/curve_residuals.h"
 #include "calibration/curves/stretch_models.h"
 #include "meshes/files.h"
+#include "studies/files/shown_units.h"
 #include "studies/run/curve_file.h"
 #include "studies/run/curve_text.h"
 #include "studies/run/digest.h"
@@ -210,6 +211,9 @@ ConfigError placed_in(const std::filesystem::path& path, const MeasuredFile& fil
     // Increasing indentations: the last one is what goes too deep.
     if (problem.key == "press.samples" || problem.key == "press.depth")
       problem.place = place_in(path, file.lines.back());
+    // Nobody has set the rig: it is the file that does not fit.
+    if (problem.key == "calibration.rig" && problem.place == "default")
+      problem.place = path.string();
   }
   return ConfigError(std::move(problems));
 }
@@ -226,16 +230,33 @@ Curve with_times(const LoadedConfig& own, Curve curve) {
   return curve;
 }
 
-void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const MeasuredFile& file,
-                        CurveKind kind, const std::vector<std::string>& further) {
+/// What is pressed through the finger has its length in another unit than the file says.
+void check_depth(const std::filesystem::path& path, const MeasuredFile& file, double depth,
+                 const meshes::Geometry& finger) {
+  if (depth < finger.thickness()) return;
+  const ShownUnit& length = shown_units().length;
+  FileProblems problems(path);
+  problems.add(file.lines.back(), file.x_title, "",
+               "the finger is pressed by " + length.text(depth) + ", but its rubber is " +
+                   length.text(finger.thickness()) + " thick",
+               "where the numbers are mm, say so in place of " + file.x_unit +
+                   ", in the title or in a TOML file (unit = \"mm\"); else correct [geometry]");
+  problems.throw_if_any();
+}
+
+void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const CurveSource& source,
+                        const MeasuredFile& file, CurveKind kind,
+                        const std::vector<std::string>& further) {
   std::vector<std::string> condition;
   for (const MeasuredSetting& setting : file.settings) condition.push_back(setting.assignment());
   condition.insert(condition.end(), further.begin(), further.end());
   std::vector<double> depths = file.curve.x;
   if (kind == CurveKind::press || kind == CurveKind::continuum) {
     std::optional<Travel>& travel = fit.input.travels.emplace_back();
-    const auto own = under(loaded, condition, {"press.mode=static"}).config.calibration;
-    if (file.curve.is_travel) travel = travel_of(file.curve, own);
+    const Config own = under(loaded, condition, {"press.mode=static"}).config;
+    if (file.curve.is_travel) travel = travel_of(file.curve, own.calibration);
+    check_depth(source.path, file, travel ? travel->reach : std::ranges::max(depths),
+                own.press.geometry);
     if (travel) depths = travel->depths;
   }
   const bool relaxes = !fit.input.branches.empty();
@@ -360,7 +381,7 @@ void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
     std::vector<std::string> sets = settings_in(source.condition);
     std::ranges::copy(settings_in(condition), std::back_inserter(sets));
     try {
-      add_measured_press(fit, loaded, file, kind, sets);
+      add_measured_press(fit, loaded, source, file, kind, sets);
     } catch (const meshes::InvalidInput& error) {
       throw placed_in(source.path, file, loaded.locate(error.violations()));
     } catch (const ConfigError& error) {

@@ -356,6 +356,20 @@ TEST_F(MachineFiles, RefusalsNameLineAndColumn) {
   expect_refused("x;F\n1;2\n2;3;4\n", two, {file + ":3", "3 cells"});
 }
 
+TEST_F(MachineFiles, PositionsThatFallAreRefusedWithWhatTurnsThemRound) {
+  const std::string down = "Weg [mm];Kraft [N]\n" + table([](const Row& row) {
+                             return fmt::format("{:.4f};{:.5f}", 100.0 - row.position, row.force);
+                           });
+  expect_refused(down, "",
+                 {"Weg [mm]: falls while the force grows",
+                  "path = 'press.csv'\nposition = {column = 'Weg [mm]', sign = -1}\n"
+                  "force = {column = 'Kraft [N]'}"});
+  const std::string columns = "force = {column = 'Kraft [N]'}\nposition = {column = 'Weg [mm]'";
+  expect_refused(down, columns + "}\n", {"position = {column = ..., sign = -1}"});
+  const auto turned = read(down, columns + ", sign = -1}\n");
+  EXPECT_NEAR(fitted_modulus(turned.at(0).curve), same_, 1e-6 * same_);
+}
+
 TEST_F(MachineFiles, TimesOfTheDayAreSeconds) {
   EXPECT_EQ(time_in("1:02:03.5"), 3723.5);
   EXPECT_EQ(time_in("2026-11-03T00:01:00Z"), 60.0);
