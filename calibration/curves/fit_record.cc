@@ -1,5 +1,6 @@
 #include "calibration/curves/fit_record.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -248,23 +249,20 @@ Columns columns(const FitRecord& record) {
 }  // namespace
 
 ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
-  const std::vector<VectorXd>& residuals = record.fit.residuals;
-  if (record.curves[curve].sigma.empty())
-    return residual_structure(record.own_residuals.empty() ? residuals[curve]
+  const VectorXd& residuals = record.fit.residuals[curve];
+  const std::vector<double>& sigma = record.curves[curve].sigma;
+  if (sigma.empty())
+    return residual_structure(record.own_residuals.empty() ? residuals
                                                            : record.own_residuals[curve]);
-  Index count = 0, first = 0;
-  for (std::size_t c = 0; c < residuals.size(); ++c) {
-    if (c == curve) first = count;
-    count += residuals[c].size();
-  }
-  VectorXd all(count);
-  count = 0;
-  for (const VectorXd& part : residuals) {
-    all.segment(count, part.size()) = part;
-    count += part.size();
-  }
-  return residual_structure(
-      VectorXd((record.fit.whitening * all).segment(first, residuals[curve].size())));
+  const MatrixXd& known = record.options.model_covariance;
+  if (known.size() == 0) return residual_structure(residuals);
+  Index first = 0;
+  for (std::size_t c = 0; c < curve; ++c) first += record.fit.residuals[c].size();
+  // Whitened by itself: errors that presses share would bring one press's order into another's.
+  MatrixXd covariance = known.block(first, first, residuals.size(), residuals.size());
+  covariance.diagonal() += VectorXd::Map(sigma.data(), residuals.size()).cwiseAbs2();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(covariance);
+  return residual_structure(VectorXd(eigen.operatorInverseSqrt() * residuals));
 }
 
 std::size_t rubber_parameters(const CurveFit& fit) {

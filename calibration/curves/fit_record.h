@@ -54,8 +54,9 @@ struct FitRecord {
   double wall_time = 0.0;  ///< [s]
 };
 
-/// Order in the residuals of a curve: whitened where sigma is given, so that known errors of the
-/// model, which keep their sign, are no sign of something missed.
+/// Order in the residuals of a curve, press by press of repeats: whitened by its own covariance
+/// where sigma is given, so that known errors of the model, which keep their sign, are no sign of
+/// something missed, nor is the order of another curve that shares them.
 ResidualStructure structure_of(const FitRecord& record, std::size_t curve);
 
 /// Largest |measured - fitted| over |measured| of all curves, where that is not zero; over a travel

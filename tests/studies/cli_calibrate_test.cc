@@ -328,6 +328,23 @@ TEST(Calibrate, DataThatContradictEachOtherAreNotDescribed) {
   EXPECT_FALSE(fs::exists(folder / "fit/material.toml"));
 }
 
+/// A column of millimetres called metres: place, cause and remedy on a few lines of a terminal.
+TEST(Calibrate, AWrongUnitIsRefusedInAFewLines) {
+  const TemporaryFolder folder;
+  std::ostringstream text;
+  text << "Weg [m];Kraft [N]\n";
+  for (int i = 1; i <= 40; ++i) text << 0.05 * i << ';' << 0.1 * std::pow(0.05 * i, 1.5) << '\n';
+  write_text(folder / "press.csv", text.str());
+  const ProgramResult run =
+      run_program(folder.path(),
+                  with(experiment, {"--set", "calibration.data=[\"press.csv\"]", "--out", "fit"}));
+  EXPECT_EQ(run.code, 2);
+  for (const char* part : {"press.csv:41: Weg [m]: the finger is pressed by 2", " thick",
+                           "where the numbers are mm, say so in place of m"})
+    EXPECT_NE(run.err.find(part), std::string::npos) << part << " in " << run.err;
+  EXPECT_LT(run.err.size(), 400U) << run.err;
+}
+
 /// What is wrong with a measured file is said of it, with its line.
 TEST(Calibrate, RefusesAMeasuredFileWithItsLine) {
   const TemporaryFolder folder;

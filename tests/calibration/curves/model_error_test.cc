@@ -264,6 +264,28 @@ TEST(FitVerdict, TellsWhyAFitCannotBeUsed) {
   EXPECT_TRUE(says(record_of(good, line, options), "modulus ended at a bound"));
 }
 
+/// Two presses whose models share an error: the first misses all of its forces, the second differs
+/// by noise alone. Together the error they share takes half of the miss off the first and puts it
+/// on the second, whose noise would then keep one sign.
+TEST(FitVerdict, OrderIsSoughtPressByPress) {
+  constexpr Eigen::Index points = 20;
+  FitRecord record;
+  record.curves.resize(2);
+  for (Curve& curve : record.curves) curve.sigma.assign(points, 0.1);
+  VectorXd noise(points);
+  for (Eigen::Index i = 0; i < points; ++i) noise(i) = (i % 2 == 0 ? 0.1 : -0.1);
+  VectorXd trend = VectorXd::LinSpaced(points, -0.9, 1.1);
+  record.fit.residuals = {trend, noise};
+  record.options.model_covariance = MatrixXd::Constant(2 * points, 2 * points, 1.0);
+  EXPECT_EQ(structure_of(record, 1).runs, points);
+  EXPECT_LT(structure_of(record, 0).probability, 1e-4);
+  record.fit.residuals[0] = VectorXd::Constant(points, 1.0);
+  EXPECT_EQ(structure_of(record, 1).runs, points);
+  // What the first misses by is the error that is known: it keeps its sign, and is no order.
+  record.fit.residuals[0] += noise;
+  EXPECT_EQ(structure_of(record, 0).runs, points);
+}
+
 /// Where Poisson's ratio ends at its bound it is named, not E.
 TEST(FitVerdict, NamesPoissonsRatioAtItsBound) {
   Curve data;
