@@ -33,7 +33,7 @@ inline double choose(bool holds, double yes, double no) {
 }
 /// Of packs, lane by lane.
 template <class Mask, class T>
-T choose(const Mask& mask, const T& yes, const T& no) {
+[[gnu::always_inline]] inline T choose(const Mask& mask, const T& yes, const T& no) {
   T result = no;
   where(mask, result) = yes;
   return result;

@@ -9,6 +9,8 @@
 
 namespace fingertip::lattice::kernel {
 
+/// What takes or returns packs is inlined by force, for calls would hand them on through memory:
+/// worth a quarter of the time.
 template <typename Pack>
 struct ContactBody : Packs<Pack> {
   using Base = Packs<Pack>;
@@ -27,24 +29,27 @@ struct ContactBody : Packs<Pack> {
     double stiffness[lanes], tangential[lanes];
   };
 
-  static Vector load(const Lanes* field, std::size_t lane) {
+  [[gnu::always_inline]] static Vector load(const Lanes* field, std::size_t lane) {
     return {Base::load(field[0].at + lane), Base::load(field[1].at + lane),
             Base::load(field[2].at + lane)};
   }
-  static void store(Lanes* field, std::size_t lane, const Vector& value) {
+  [[gnu::always_inline]] static void store(Lanes* field, std::size_t lane, const Vector& value) {
     Base::store(field[0].at + lane, value.x);
     Base::store(field[1].at + lane, value.y);
     Base::store(field[2].at + lane, value.z);
   }
-  static Pack load(const Lanes& field, std::size_t lane) { return Base::load(field.at + lane); }
-  static void store(Lanes& field, std::size_t lane, const Pack& value) {
+  [[gnu::always_inline]] static Pack load(const Lanes& field, std::size_t lane) {
+    return Base::load(field.at + lane);
+  }
+  [[gnu::always_inline]] static void store(Lanes& field, std::size_t lane, const Pack& value) {
     Base::store(field.at + lane, value);
   }
   static Vector broadcast(const double* v) { return {v[0], v[1], v[2]}; }
-  static Pack choose(const Mask& mask, const Pack& yes, const Pack& no) {
+  [[gnu::always_inline]] static Pack choose(const Mask& mask, const Pack& yes, const Pack& no) {
     return meshes::choose(mask, yes, no);
   }
-  static Vector choose(const Mask& mask, const Vector& yes, const Vector& no) {
+  [[gnu::always_inline]] static Vector choose(const Mask& mask, const Vector& yes,
+                                              const Vector& no) {
     return {choose(mask, yes.x, no.x), choose(mask, yes.y, no.y), choose(mask, yes.z, no.z)};
   }
 
@@ -66,7 +71,8 @@ struct ContactBody : Packs<Pack> {
     return result;
   }
 
-  static Corners corners(const ContactArrays& a, const ContactGroup& group, double ahead) {
+  [[gnu::always_inline]] static Corners corners(const ContactArrays& a, const ContactGroup& group,
+                                                double ahead) {
     Corners result;
     for (std::size_t lane = 0; lane < lanes; lane += width) {
       const Vector u = gather(a.displacement, group.corner + lane);
@@ -80,8 +86,8 @@ struct ContactBody : Packs<Pack> {
   }
 
   /// Relative to the plane, of points from `lane` on.
-  static Vector places(const ContactGroup& group, const Corners& corners, const PlaneFrame& frame,
-                       std::size_t lane) {
+  [[gnu::always_inline]] static Vector places(const ContactGroup& group, const Corners& corners,
+                                              const PlaneFrame& frame, std::size_t lane) {
     Vector x = load(group.rest, lane);
     for (std::size_t c = 0; c < lanes; ++c) {
       const Pack weight = load(group.weight[c], lane);
@@ -89,7 +95,7 @@ struct ContactBody : Packs<Pack> {
     }
     return in_frame(frame, x);
   }
-  static Vector in_frame(const PlaneFrame& frame, const Vector& x) {
+  [[gnu::always_inline]] static Vector in_frame(const PlaneFrame& frame, const Vector& x) {
     const double* t = frame.turn;
     return broadcast(frame.shift) + Vector{t[0] * x.x + t[1] * x.y + t[2] * x.z,
                                            t[3] * x.x + t[4] * x.y + t[5] * x.z,
@@ -102,8 +108,8 @@ struct ContactBody : Packs<Pack> {
     Vector normal;
   };
   template <GapKind kind>
-  static Facing facing(const ContactArrays& a, const ContactGroup& group, const Vector& place,
-                       std::size_t lane) {
+  [[gnu::always_inline]] static Facing facing(const ContactArrays& a, const ContactGroup& group,
+                                              const Vector& place, std::size_t lane) {
     const Vector n = broadcast(a.normal);
     const Pack over = dot(n, place);
     if constexpr (kind == GapKind::flat) return {over, n};
@@ -169,7 +175,8 @@ struct ContactBody : Packs<Pack> {
     Vector tangential;
     Pack share;
   };
-  static Clipped clip(const Vector& stretch, const Vector& normal, const Pack& longest) {
+  [[gnu::always_inline]] static Clipped clip(const Vector& stretch, const Vector& normal,
+                                             const Pack& longest) {
     const Vector tangential = stretch - dot(stretch, normal) * normal;
     const Pack length = std::experimental::sqrt(dot(tangential, tangential));
     const Pack share = choose(length > longest, longest / length, Pack(1.0));
@@ -193,8 +200,9 @@ struct ContactBody : Packs<Pack> {
 
   /// Anchors what crossed the plane in this step, linearly interpolated, and lets go what left it.
   template <GapKind kind>
-  static void look_at(const ContactArrays& a, const ContactGroup& group, const Vector& place,
-                      const Pack& gap, std::size_t lane, ContactMemory& memory) {
+  [[gnu::always_inline]] static void look_at(const ContactArrays& a, const ContactGroup& group,
+                                             const Vector& place, const Pack& gap, std::size_t lane,
+                                             ContactMemory& memory) {
     const Pack before = std::experimental::max(load(memory.gap, lane), Pack(0.0));
     const Mask was = load(memory.anchored, lane) != 0.0;
     const Mask crosses = !was && gap < 0.0, leaves = was && gap > 0.0;
@@ -221,8 +229,9 @@ struct ContactBody : Packs<Pack> {
     Pack more, share;
   };
   template <Grip grip>
-  static Stretch stretches(const ContactArrays& a, const Vector& place, const Facing& then,
-                           const ContactMemory& memory, std::size_t lane) {
+  [[gnu::always_inline]] static Stretch stretches(const ContactArrays& a, const Vector& place,
+                                                  const Facing& then, const ContactMemory& memory,
+                                                  std::size_t lane) {
     const Pack depth = std::experimental::max(-then.gap, Pack(0.0));
     const TiePush<Pack> push(a.law, depth);
     Stretch result{depth * then.normal, then.normal, push, push.length - depth, 0.0};
@@ -241,8 +250,10 @@ struct ContactBody : Packs<Pack> {
     return result;
   }
 
-  static void note(const ContactArrays& a, const ContactGroup& group, const Stretch& tie,
-                   std::size_t lane, ContactMemory& memory, Pulls& pulls, GroupFindings& found) {
+  [[gnu::always_inline]] static void note(const ContactArrays& a, const ContactGroup& group,
+                                          const Stretch& tie, std::size_t lane,
+                                          ContactMemory& memory, Pulls& pulls,
+                                          GroupFindings& found) {
     const Pack stiffness = load(group.stiffness, lane);
     const Vector force = stiffness * (tie.elastic + tie.more * tie.normal);
     const double* t = a.then.turn;

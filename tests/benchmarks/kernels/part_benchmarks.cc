@@ -160,7 +160,7 @@ void register_parts(const Scope& scope) {
                                        const std::size_t bytes = kernel_probes::touched_bytes(work);
                                        int steps = 0;
                                        for (auto _ : state) {
-                                         if (++steps % steps_onward == 0) {
+                                         if (name == "whole step" && ++steps % steps_onward == 0) {
                                            state.PauseTiming();
                                            (*pressed)->go_back();
                                            state.ResumeTiming();
