@@ -136,7 +136,10 @@ lattice::GraspSetup grasp_setup(const LoadedConfig& loaded) {
   setup.hand.gravity = loaded.config.grasp_gravity;
   setup.grip = loaded.config.grip;
   setup.grip.period = press.controller.period;
-  const std::vector<meshes::Violation> broken = setup.violations();
+  std::vector<meshes::Violation> broken = setup.violations();
+  if (protocol.contact == meshes::ContactMode::frictionless)
+    broken.push_back({"press.contact", "frictionless", "no grip lifts a block without friction",
+                      "take coulomb with press.friction, or stick"});
   if (!broken.empty()) throw loaded.locate(broken);
   return setup;
 }

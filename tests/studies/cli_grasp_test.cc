@@ -57,6 +57,8 @@ TEST(GraspVerb, LiftsTheBlockAndKeepsEverything) {
 }
 
 TEST(GraspVerb, RefusesBadInputWithRuleAndRemedy) {
+  expect_refused({"press.contact=frictionless"},
+                 {"press.contact=frictionless", "without friction", "take coulomb"});
   expect_refused({"grasp.block_mass=-1 g"}, {"--set grasp.block_mass=-1 g", "> 0"});
   expect_refused({"grasp.block_mass=0.1 g"},
                  {"--set grasp.block_mass=0.1 g", "outweigh", "heavier block"});
