@@ -1,6 +1,5 @@
 #include "calibration/curves/curve_residuals.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -180,6 +179,12 @@ CurveResiduals::CurveResiduals(const std::vector<Curve>& curves,
   priors_ = std::ranges::count_if(options.free, [](const auto& free) { return bool(free.prior); });
 }
 
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposed_covariance(
+    Eigen::MatrixXd model, const Eigen::VectorXd& deviations) {
+  model.diagonal() += deviations.cwiseAbs2();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(model);
+}
+
 /// The symmetric root, which leaves a residual as much at its own place as there can be: an outlier
 /// stays one, and signs keep their order.
 void CurveResiduals::whiten(const Eigen::VectorXd& values, const Eigen::VectorXd& sigma) {
@@ -191,9 +196,7 @@ void CurveResiduals::whiten(const Eigen::VectorXd& values, const Eigen::VectorXd
   whitening_ = deviations.cwiseInverse().asDiagonal();
   colouring_ = deviations.asDiagonal();
   if (!has_sigma_ || options_->model_covariance.size() == 0) return;
-  Eigen::MatrixXd covariance = options_->model_covariance;
-  covariance.diagonal() += deviations.cwiseAbs2();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  const auto eigen = decomposed_covariance(options_->model_covariance, deviations);
   whitening_ = eigen.operatorInverseSqrt();
   colouring_ = eigen.operatorSqrt();
 }

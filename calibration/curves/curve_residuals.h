@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <limits>
 #include <list>
 #include <utility>
@@ -23,6 +24,11 @@ struct EvaluationsSpent {};
 
 /// Every broken rule of curves and options. Throws InvalidInput.
 void check_curve_fit(const std::vector<Curve>& curves, const CurveFitOptions& options);
+
+/// Of what values scatter by [their unit]: by themselves (`deviations`) and together, by errors of
+/// the model whose covariance is known; its roots whiten and colour.
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposed_covariance(
+    Eigen::MatrixXd model, const Eigen::VectorXd& deviations);
 
 /// Keeps references. Every answer is remembered: a search comes back to points where it has been,
 /// and a model may take minutes.

@@ -1,10 +1,10 @@
 #include "calibration/curves/fit_record.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "calibration/curves/curve_residuals.h"
 #include "calibration/file_parts.h"
 #include "calibration/fit_tables.h"
 #include "calibration/moduli.h"
@@ -259,9 +259,9 @@ ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
   Index first = 0;
   for (std::size_t c = 0; c < curve; ++c) first += record.fit.residuals[c].size();
   // Whitened by itself: errors that presses share would bring one press's order into another's.
-  MatrixXd covariance = known.block(first, first, residuals.size(), residuals.size());
-  covariance.diagonal() += VectorXd::Map(sigma.data(), residuals.size()).cwiseAbs2();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(covariance);
+  const Index count = residuals.size();
+  const auto eigen = decomposed_covariance(known.block(first, first, count, count),
+                                           VectorXd::Map(sigma.data(), count));
   return residual_structure(VectorXd(eigen.operatorInverseSqrt() * residuals));
 }
 
