@@ -2,13 +2,17 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "meshes/errors.h"
+#include "meshes/step_faces.h"
 #include "meshes/stl_file.h"
 
 namespace fingertip::meshes {
@@ -39,8 +43,21 @@ class Gmsh {
   throw InvalidInput({file.filename().string(), "", rule, remedy});
 }
 
-/// Adds those of one surface; `side` is -1 where it faces into the solid.
-void take_facets(int surface, int side, TriangleMesh& mesh) {
+/// A place of a meshed surface that is on none of its neighbours: a node off its rim, or where it
+/// has none, the middle of a facet.
+Vector3 inside(int surface) {
+  std::vector<std::size_t> tags, corners;
+  std::vector<double> places, none;
+  gmsh::model::mesh::getNodes(tags, places, none, 2, surface, false, false);
+  if (!tags.empty()) return {places[0], places[1], places[2]};
+  gmsh::model::mesh::getBarycenters(2, surface, false, true, places);
+  if (places.empty()) return Vector3::Zero();  // without facets
+  return {places[0], places[1], places[2]};
+}
+
+/// Adds those of one surface; `side` is -1 where it faces into the solid. `names`, where there are
+/// any, tell its own.
+void take_facets(int surface, int side, const StepFaces* names, TriangleMesh& mesh) {
   std::vector<std::size_t> nodes;
   std::vector<double> places, none;
   gmsh::model::mesh::getNodes(nodes, places, none, 2, surface, true, false);
@@ -58,6 +75,14 @@ void take_facets(int surface, int side, TriangleMesh& mesh) {
     if (side < 0) std::swap(facet[1], facet[2]);
     mesh.triangles.push_back(facet);
   }
+  if (names != nullptr)
+    mesh.faces.resize(mesh.triangles.size(), mesh.face_number(names->name_at(inside(surface))));
+}
+
+bool is_step(const std::filesystem::path& cad) {
+  std::string kind = cad.extension().string();
+  std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return kind == ".step" || kind == ".stp";
 }
 
 /// In the file's numbers.
@@ -96,9 +121,13 @@ TriangleMesh facets_of(const std::filesystem::path& cad) {
     gmsh::option::setNumber(option, value);
   gmsh::model::mesh::generate(2);
   gmsh::model::getBoundary(solids, surfaces, false, true);
+  std::optional<StepFaces> names;
+  if (is_step(cad)) names.emplace(cad);
+  const bool named = names && names->any_named();
   TriangleMesh mesh;
   for (const auto& [dimension, tag] : surfaces)
-    if (dimension == 2) take_facets(std::abs(tag), tag < 0 ? -1 : 1, mesh);
+    if (dimension == 2)
+      take_facets(std::abs(tag), tag < 0 ? -1 : 1, named ? &*names : nullptr, mesh);
   return mesh;
 }
 

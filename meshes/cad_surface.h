@@ -7,8 +7,8 @@ namespace fingertip::meshes {
 
 /// Writes the surface of the one solid in a STEP or BREP file as a binary STL file, in the file's
 /// numbers (STEP: mm), to about 1e-4 of its size: vertices on the surface, finer where it is more
-/// curved and at the top, which touches first. Throws InvalidInput when there is no solid, or more
-/// than one, or no mesh of it.
+/// curved and at the top, which touches first. Faces that have names in a STEP file keep them.
+/// Throws InvalidInput when there is no solid, or more than one, or no mesh of it.
 void write_cad_surface(const std::filesystem::path& cad, const std::filesystem::path& stl);
 
 }  // namespace fingertip::meshes

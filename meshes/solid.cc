@@ -56,7 +56,9 @@ class Cutter {
   void cut(const HalfSpace& plane) {
     std::map<std::pair<int, int>, int> cuts;
     std::vector<std::array<int, 3>> pieces;
-    for (const auto& triangle : mesh_.triangles) {
+    std::vector<int> faces;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& triangle = mesh_.triangles[t];
       std::array<std::vector<int>, 2> sides;  // below and above
       for (std::size_t c = 0; c < 3; ++c) {
         const int a = triangle[c], b = triangle[(c + 1) % 3];
@@ -69,15 +71,16 @@ class Cutter {
         for (auto& polygon : sides) polygon.push_back(place->second);
       }
       // A triangle that only touches the plane, or lies in it, is not cut.
-      if (sides[0].size() < 3 || sides[1].size() < 3 || sides[0] == sides[1]) {
+      if (sides[0].size() < 3 || sides[1].size() < 3 || sides[0] == sides[1])
         pieces.push_back(triangle);
-        continue;
-      }
-      for (const auto& polygon : sides)
-        for (std::size_t c = 2; c < polygon.size(); ++c)
-          pieces.push_back({polygon[0], polygon[c - 1], polygon[c]});
+      else
+        for (const auto& polygon : sides)
+          for (std::size_t c = 2; c < polygon.size(); ++c)
+            pieces.push_back({polygon[0], polygon[c - 1], polygon[c]});
+      if (!mesh_.faces.empty()) faces.resize(pieces.size(), mesh_.faces[t]);
     }
     mesh_.triangles = std::move(pieces);
+    mesh_.faces = std::move(faces);
   }
 
  private:
@@ -259,14 +262,19 @@ double shadow_above(const Triangle& corners, double height) {
 
 }  // namespace
 
-Solid::Solid(const TriangleMesh& mesh, const Region& bond) : mesh_(closed_surface(mesh)) {
+Solid::Solid(const TriangleMesh& mesh, const Region& bond, const std::vector<std::string>& faces)
+    : mesh_(closed_surface(mesh)) {
   check_crossings(mesh_);
   Cutter cutter(mesh_);
   for (const auto& all : bond)
     for (const HalfSpace& space : all) cutter.cut(space);
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-    groups_.push_back(within(bond, corners_of(mesh_, t), cutter.grain()) ? bond_group
-                                                                         : contact_group);
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const int face = mesh_.faces.empty() ? -1 : mesh_.faces[t];
+    const bool is_held =
+        within(bond, corners_of(mesh_, t), cutter.grain()) ||
+        (face >= 0 && std::ranges::find(faces, mesh_.face_names[std::size_t(face)]) != faces.end());
+    groups_.push_back(is_held ? bond_group : contact_group);
+  }
   content_ = digest_of(mesh_, groups_);
   complete();
 }
@@ -314,7 +322,8 @@ void Solid::measure() {
   if (bond_area_ == 0.0)
     refuse_bond(
         heights, "something must be held by the hand",
-        "give half spaces that hold some of the surface, e.g. geometry.bond = \"z < 1 mm\"");
+        "give half spaces that hold some of the surface, e.g. geometry.bond = \"z < 1 mm\"" +
+            or_faces(mesh_.face_names));
   if (contact_area_ == 0.0)
     refuse_bond(heights, "something must be able to touch",
                 "give half spaces that leave some of the surface free");

@@ -24,10 +24,11 @@ using Region = std::vector<std::vector<HalfSpace>>;
 /// Immutable. Lengths in metres. Facets within `bond` are bonded, all others may touch.
 class Solid final : public Shape {
  public:
-  /// Facets that straddle a plane of `bond` are cut along it, so that areas are exact. Throws
-  /// InvalidInput with the place: closed_surface, check_crossings; `bond` takes all or nothing, it
-  /// reaches higher than what may touch, or the axis x = y = 0 misses the finger.
-  Solid(const TriangleMesh& mesh, const Region& bond);
+  /// What lies within `bond` is held, and the faces of the mesh that have one of the names. Facets
+  /// that straddle a plane of `bond` are cut along it, so that areas are exact. Throws InvalidInput
+  /// with the place: closed_surface, check_crossings; all or nothing is held, or higher than what
+  /// may touch, or the axis x = y = 0 misses the finger.
+  Solid(const TriangleMesh& mesh, const Region& bond, const std::vector<std::string>& faces = {});
 
   /// One of this mesh and bond as another one has them, whose content() it must have: else throws
   /// InvalidInput.

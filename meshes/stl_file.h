@@ -8,8 +8,9 @@
 
 namespace fingertip::meshes {
 
-/// Writes a binary STL file of the mesh, its lengths in units of `unit` [m]; `title`: at most 80
-/// letters, not beginning with "solid". Throws CannotWrite.
+/// Writes an STL file of the mesh, its lengths in units of `unit` [m]: binary, or a text with a
+/// solid for each face where faces have names. `title`: at most 80 letters, not beginning with
+/// "solid". Throws CannotWrite.
 void write_stl(const TriangleMesh& mesh, double unit, const std::string& title,
                const std::filesystem::path& file);
 

@@ -89,11 +89,14 @@ TriangleMesh merged(const TriangleMesh& mesh, double distance) {
   std::vector<int> number;
   for (const Vector3& vertex : mesh.vertices) number.push_back(merger.number_of(vertex));
   TriangleMesh result;
-  for (const auto& triangle : mesh.triangles) {
+  result.face_names = mesh.face_names;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     std::array<int, 3> corners{};
-    for (std::size_t c = 0; c < 3; ++c) corners[c] = number[std::size_t(triangle[c])];
+    for (std::size_t c = 0; c < 3; ++c) corners[c] = number[std::size_t(mesh.triangles[t][c])];
     const auto [a, b, c] = corners;
-    if (a != b && b != c && c != a) result.triangles.push_back(corners);
+    if (a == b || b == c || c == a) continue;
+    result.triangles.push_back(corners);
+    if (!mesh.faces.empty()) result.faces.push_back(mesh.faces[t]);
   }
   result.vertices = merger.take();
   return result;
@@ -241,6 +244,23 @@ void check_parts(const TriangleMesh& mesh, const Edges& edges) {
 Vector3 TriangleMesh::area_vector(std::size_t triangle) const {
   const Vector3& a = corner(triangle, 0);
   return 0.5 * (corner(triangle, 1) - a).cross(corner(triangle, 2) - a);
+}
+
+int TriangleMesh::face_number(const std::string& name) {
+  if (name.empty()) return -1;
+  const auto found = std::ranges::find(face_names, name);
+  if (found != face_names.end()) return int(found - face_names.begin());
+  face_names.push_back(name);
+  return int(face_names.size()) - 1;
+}
+
+std::string or_faces(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i)
+    text += (i == 0 ? ", or name faces: " : ", ") + names[i];
+  return names.size() <= most ? text
+                              : text + " and " + std::to_string(names.size() - most) + " more";
 }
 
 std::string place_of(const Vector3& w) {

@@ -15,6 +15,9 @@ namespace fingertip::meshes {
 struct TriangleMesh {
   std::vector<Vector3> vertices;
   std::vector<std::array<int, 3>> triangles;
+  /// Parts of the surface with a name: faces of a CAD solid, solids of an STL text.
+  std::vector<std::string> face_names = {};
+  std::vector<int> faces = {};  ///< per triangle the number of its own, -1: none; or empty
 
   const Vector3& corner(std::size_t triangle, std::size_t c) const {
     return vertices[std::size_t(triangles[triangle][c])];
@@ -24,6 +27,8 @@ struct TriangleMesh {
   }
   /// Along the outward normal, as long as the triangle's area [m²].
   Vector3 area_vector(std::size_t triangle) const;
+  /// The number of the face with this name, which is a new one where there is none; empty: -1.
+  int face_number(const std::string& name);
 };
 
 /// The mesh with vertices merged that lie within a millionth of its extent, and without the
@@ -36,6 +41,9 @@ TriangleMesh closed_surface(const TriangleMesh& mesh);
 
 /// Throws InvalidInput with the place where triangles of such a surface cross each other.
 void check_crossings(const TriangleMesh& mesh);
+
+/// ", or name faces: base, rim", for remedies; nothing without names.
+std::string or_faces(const std::vector<std::string>& names);
 
 /// "(x, y, z) = (1, 2, 3) mm"
 std::string place_of(const Vector3& w);

@@ -132,6 +132,15 @@ void print_measures(const Geometry& geometry, const meshes::Shape& shape) {
   print_lattices(geometry);
 }
 
+/// Names for geometry.bond.
+void print_faces(const meshes::TriangleMesh& mesh) {
+  std::vector<double> areas(mesh.face_names.size(), 0.0);
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t)
+    if (mesh.faces[t] >= 0) areas[std::size_t(mesh.faces[t])] += mesh.area_vector(t).norm();
+  for (std::size_t f = 0; f < areas.size(); ++f)
+    fmt::print("  face              {}, {:.5g} mm^2\n", mesh.face_names[f], areas[f] / (mm * mm));
+}
+
 /// What [geometry] says of a solid in this file. A press need not fit it yet.
 Geometry solid_of(const CommandLine& line, const std::filesystem::path& file) {
   ConfigSource source = line.config;
@@ -191,6 +200,7 @@ int run_shape(const CommandLine& line) {
       fmt::print("{}: a closed surface of {} facets\n", word,
                  geometry.solid->mesh().triangles.size());
       print_measures(geometry, *geometry.solid);
+      print_faces(geometry.solid->mesh());
       if (!line.stl.empty()) write_triangles(line, geometry.solid->mesh(), file.stem());
       figure = section(*geometry.solid, stem);
     }

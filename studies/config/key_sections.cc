@@ -121,7 +121,8 @@ std::vector<Key> specimen_keys() {
                      at(&Config::solid, &SolidFile::unit))),
       of_solid(plain("geometry", "bond", any,
                      "what of a solid's surface the hand holds: half spaces like z < 1 mm, joined "
-                     "by and, or; the rest may touch",
+                     "by and, or; names of faces in a STEP file, or of solids in an STL text, "
+                     "joined by or; the rest may touch",
                      at(&Config::solid, &SolidFile::bond))),
       only_with("geometry.shape", {"profile", "solid"},
                 quantity("geometry", "endpoint", "cm", "m", any,

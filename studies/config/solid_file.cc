@@ -10,6 +10,7 @@
 #include <cstring>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "meshes/errors.h"
 #include "meshes/text_file.h"
@@ -27,7 +28,7 @@ using meshes::TriangleMesh;
 
 constexpr std::size_t head_bytes = 84, facet_bytes = 50;
 /// Beyond, the checks take minutes.
-constexpr std::size_t most_facets = 2'000'000;
+constexpr std::size_t most_facets = 2'000'000, most_names = 10'000;
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
@@ -72,6 +73,7 @@ TriangleMesh text_facets(const fs::path& file, const std::string& text) {
   TriangleMesh mesh;
   std::istringstream lines(text);
   std::size_t number = 0, corner = 0;
+  int face = -1;
   bool ended = false;
   std::array<meshes::Vector3, 3> corners;
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {
@@ -98,11 +100,17 @@ TriangleMesh text_facets(const fs::path& file, const std::string& text) {
     } else if (word == "endfacet") {
       if (corner != 3) refuse("a facet has three vertices", "export the surface as triangles");
       add_triangle(corners, mesh);
+      mesh.faces.push_back(face);
       if (mesh.triangles.size() > most_facets) refuse_facets(mesh.triangles.size());
       corner = 0;
     } else if (word == "endsolid") {
       ended = true;
-    } else if (word == "solid" || word == "facet") {
+    } else if (word == "solid") {
+      ended = false;
+      face = mesh.face_number(std::string(trimmed(trimmed(line).substr(word.size()))));
+      if (mesh.face_names.size() > most_names)
+        refuse("at most ten thousand solids of a file have names", "leave the names out");
+    } else if (word == "facet") {
       ended = false;
     } else if (!word.empty() && word != "outer" && word != "endloop") {
       refuse("no line of an STL file: " + word.substr(0, 20),
@@ -113,20 +121,28 @@ TriangleMesh text_facets(const fs::path& file, const std::string& text) {
   return mesh;
 }
 
-[[noreturn]] void refuse_region(const std::string& part, const std::string& rule) {
-  throw InvalidInput({"geometry.bond", part, rule,
-                      "write half spaces joined by and, or, e.g. geometry.bond = \"z < 1 mm\""});
+using Names = std::vector<std::string>;
+
+[[noreturn]] void refuse_bond(const std::string& part, const std::string& rule,
+                              const Names& faces) {
+  const bool is_name = part.find_first_of("<>") == std::string::npos;
+  const char* const no_face = !is_name        ? ""
+                              : faces.empty() ? "the file names no faces, and "
+                                              : "no face of the file has this name, and ";
+  throw InvalidInput({"geometry.bond", part, no_face + rule,
+                      "write half spaces joined by and, or, e.g. geometry.bond = \"z < 1 mm\"" +
+                          meshes::or_faces(faces)});
 }
 
-HalfSpace parse_half_space(const std::string& text) {
+HalfSpace parse_half_space(const std::string& text, const Names& faces) {
   HalfSpace space;
   const std::string_view whole = trimmed(text);
   const std::size_t axis =
       whole.empty() ? std::string::npos : std::string_view("xyz").find(whole.front());
-  if (axis == std::string::npos) refuse_region(text, "a half space begins with x, y or z");
+  if (axis == std::string::npos) refuse_bond(text, "a half space begins with x, y or z", faces);
   const std::string_view rest = trimmed(whole.substr(1));
   if (rest.empty() || (rest.front() != '<' && rest.front() != '>'))
-    refuse_region(text, "< or > follows the axis");
+    refuse_bond(text, "< or > follows the axis of a half space", faces);
   space.axis = int(axis);
   space.below = rest.front() == '<';
   std::string_view limit = rest.substr(1);
@@ -134,7 +150,7 @@ HalfSpace parse_half_space(const std::string& text) {
   try {
     space.limit = parse_quantity(trimmed(limit), "m", "1 mm");
   } catch (const UnitError& error) {
-    refuse_region(text, error.rule);
+    refuse_bond(text, error.rule, faces);
   }
   return space;
 }
@@ -181,23 +197,34 @@ TriangleMesh read_stl(const fs::path& file) {
   return binary_facets(bytes, count);
 }
 
-meshes::Region parse_region(const std::string& text) {
-  meshes::Region region;
-  if (trimmed(text).empty()) return region;
-  std::istringstream words(text);
-  region.emplace_back();
+Bond parse_bond(const std::string& text, const Names& faces) {
+  Bond bond;
+  const std::string whole(trimmed(text));
+  if (whole.empty()) return bond;
+  const auto is_face = [&](const std::string& name) {
+    return std::ranges::find(faces, name) != faces.end();
+  };
+  // A name may hold the words and, or.
+  if (is_face(whole)) return {{}, {whole}};
+  std::vector<HalfSpace> all;
   std::string part;
-  for (std::string word; words >> word;) {
-    if (word != "and" && word != "or") {
-      part += (part.empty() ? "" : " ") + word;
-      continue;
-    }
-    region.back().push_back(parse_half_space(part));
-    if (word == "or") region.emplace_back();
+  const auto end_part = [&](bool ends_list) {
+    if (ends_list && all.empty() && is_face(part))
+      bond.faces.push_back(part);
+    else
+      all.push_back(parse_half_space(part, faces));
     part.clear();
+    if (ends_list && !all.empty()) bond.region.push_back(std::exchange(all, {}));
+  };
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (word == "and" || word == "or")
+      end_part(word == "or");
+    else
+      part += (part.empty() ? "" : " ") + word;
   }
-  region.back().push_back(parse_half_space(part));
-  return region;
+  end_part(true);
+  return bond;
 }
 
 std::shared_ptr<const meshes::Solid> read_solid(const SolidFile& solid) {
@@ -207,13 +234,13 @@ std::shared_ptr<const meshes::Solid> read_solid(const SolidFile& solid) {
     throw InvalidInput({"geometry.file", solid.file.string(),
                         "a solid is an STL, STEP or BREP file, or a meridian's CSV file",
                         "name a .stl, .step, .brep or .csv file"});
-  const meshes::Region bond = parse_region(solid.bond);
   const double metres = metres_per(solid, step       ? "a STEP file"
                                           : meridian ? "a meridian's file"
                                                      : nullptr);
   TriangleMesh mesh = read_stl(kind == ".stl" ? solid.file : triangulated(solid.file));
   for (meshes::Vector3& vertex : mesh.vertices) vertex *= metres;
-  return std::make_shared<meshes::Solid>(mesh, bond);
+  const Bond bond = parse_bond(solid.bond, mesh.face_names);
+  return std::make_shared<meshes::Solid>(mesh, bond.region, bond.faces);
 }
 
 }  // namespace fingertip::studies

@@ -13,7 +13,7 @@ namespace fingertip::studies {
 struct SolidFile {
   std::filesystem::path file;  ///< absolute; .stl, .step, .brep, or a meridian's .csv
   std::string unit = "mm";     ///< of length, of the file's numbers; STEP and CSV have their own
-  std::string bond;            ///< "z < 1 mm and x > 0 mm or ..."
+  std::string bond;            ///< "z < 1 mm and x > 0 mm or ...", or names of faces
 
   bool operator==(const SolidFile&) const = default;
 };
@@ -22,12 +22,19 @@ struct SolidFile {
 bool is_solid_file(const std::filesystem::path& file);
 
 /// Triangles of an STL file, binary or ASCII, with the corners of each facet as they stand there,
-/// in the file's unit. Throws InvalidInput with the line, or the facet, that cannot be read.
+/// in the file's unit; the solids of a text that have a name are its faces. Throws InvalidInput
+/// with the line, or the facet, that cannot be read.
 meshes::TriangleMesh read_stl(const std::filesystem::path& file);
 
-/// Half spaces `x|y|z <|> QUANTITY` joined by `and`, which binds closer, and `or`; empty for an
-/// empty text. Throws InvalidInput (geometry.bond).
-meshes::Region parse_region(const std::string& text);
+/// What a Solid holds.
+struct Bond {
+  meshes::Region region;
+  std::vector<std::string> faces;
+};
+
+/// Half spaces `x|y|z <|> QUANTITY` joined by `and`, which binds closer, and `or`, by which names
+/// of `faces` are joined, too; empty for an empty text. Throws InvalidInput (geometry.bond).
+Bond parse_bond(const std::string& text, const std::vector<std::string>& faces = {});
 
 /// Reads and checks it. Throws InvalidInput (geometry.file, unit or bond; see Solid).
 std::shared_ptr<const meshes::Solid> read_solid(const SolidFile& solid);

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of how the triangles are made: another one makes those in the cache stale.
-constexpr const char* version = "3";
+constexpr const char* version = "4";
 
 std::string digest_of(const std::string& content) {
   boost::uuids::name_generator_sha1 generator(boost::uuids::ns::oid());

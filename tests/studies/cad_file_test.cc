@@ -4,7 +4,9 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <functional>
+#include <set>
 
 #include "lattice/press/static_press.h"
 #include "studies/config/solid_file.h"
@@ -97,6 +99,104 @@ TEST(CadFile, IsCheckedAndPressedByTheProgram) {
       run_program(folder.path(), {"press", "--config", "block.toml", "--out", "run"});
   EXPECT_EQ(pressed.code, 0) << pressed.err;
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(surfaces), {}), 1);
+}
+
+/// Face 1, face 2 ... in the order of the file.
+void name_faces(const std::filesystem::path& step) {
+  const std::string entity = "ADVANCED_FACE('";
+  std::string text = read_text(step);
+  int number = 0;
+  for (std::size_t at = 0; (at = text.find(entity, at)) != std::string::npos;) {
+    at += entity.size();
+    text.replace(at, text.find('\'', at) - at, "face " + std::to_string(++number));
+  }
+  write_text(step, text);
+}
+
+/// What a mesh has of a face.
+struct FaceOf {
+  Eigen::AlignedBox3d box;
+  double area = 0.0, largest_radius = 0.0;
+};
+FaceOf face_of(const meshes::TriangleMesh& mesh, int number) {
+  FaceOf face;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.faces[t] != number) continue;
+    face.area += mesh.area_vector(t).norm();
+    for (std::size_t c = 0; c < 3; ++c) {
+      face.box.extend(mesh.corner(t, c));
+      face.largest_radius = std::max(face.largest_radius, mesh.corner(t, c).head<2>().norm());
+    }
+  }
+  return face;
+}
+
+TEST(CadFile, FacesKeepTheNamesOfAStepFile) {
+  const TemporaryFolder folder;
+  write_cad(folder / "block.step", [] { gmsh::model::occ::addBox(-4, -5, 0, 9, 11, 16); });
+  meshes::write_cad_surface(folder / "block.step", folder / "none.stl");
+  EXPECT_TRUE(studies::read_stl(folder / "none.stl").face_names.empty());
+  name_faces(folder / "block.step");
+  meshes::write_cad_surface(folder / "block.step", folder / "block.stl");
+  const auto mesh = studies::read_stl(folder / "block.stl");
+  ASSERT_EQ(mesh.face_names.size(), 6u);
+  // Each is one side of the block.
+  std::multiset<long> areas;
+  for (int f = 0; f < 6; ++f) {
+    const FaceOf face = face_of(mesh, f);
+    EXPECT_NEAR(face.box.sizes().minCoeff(), 0.0, 1e-6) << mesh.face_names[std::size_t(f)];
+    EXPECT_NEAR(face.area,
+                face.box.sizes().x() * face.box.sizes().y() +
+                    face.box.sizes().y() * face.box.sizes().z() +
+                    face.box.sizes().z() * face.box.sizes().x(),
+                1e-3);
+    areas.insert(std::lround(face.area));
+    const bool is_base = face.box.max().z() < 1e-6;
+    if (!is_base) continue;
+    const std::string base = mesh.face_names[std::size_t(f)];
+    EXPECT_EQ(studies::read_solid({folder / "block.stl", "mm", base})->content(),
+              studies::read_solid({folder / "block.stl", "mm", "z < 0 mm"})->content());
+  }
+  EXPECT_EQ(areas, (std::multiset<long>{99, 99, 144, 144, 176, 176}));
+}
+
+/// Curved ones, of which several are held.
+TEST(CadFile, NamedFacesHoldTheDome) {
+  const TemporaryFolder folder;
+  write_cad(folder / "dome.step", make_dome);
+  name_faces(folder / "dome.step");
+  meshes::write_cad_surface(folder / "dome.step", folder / "dome.stl");
+  const auto mesh = studies::read_stl(folder / "dome.stl");
+  std::string held;
+  for (int f = 0; f < int(mesh.face_names.size()); ++f)
+    if (face_of(mesh, f).largest_radius < 5.001)
+      held += (held.empty() ? "" : " or ") + mesh.face_names[std::size_t(f)];
+  const auto by_name = studies::read_solid({folder / "dome.stl", "mm", held}),
+             by_place = studies::read_solid({folder / "dome.stl", "mm", rod});
+  using enum meshes::ProfileSurface;
+  // Half spaces leave the last micrometre of the sleeve free, so that its end is.
+  EXPECT_NEAR(by_name->area(bond) / by_place->area(bond), 1.0, 1e-4);
+  EXPECT_NEAR(by_name->bond_top(), 5e-3, 1e-6);
+  EXPECT_NEAR(by_name->bond_radius(), 5e-3, 1e-6);
+}
+
+TEST(CadFile, RefusesNamesThatAreNone) {
+  const TemporaryFolder folder;
+  write_cad(folder / "block.step", [] { gmsh::model::occ::addBox(-4, -5, 0, 9, 11, 16); });
+  name_faces(folder / "block.step");
+  const auto checked = [&](const std::string& bond) {
+    write_text(folder / "block.toml",
+               "[geometry]\nshape = \"solid\"\nfile = \"block.step\"\nbond = \"" + bond +
+                   "\"\n[press]\ndepth = \"1 mm\"\n");
+    return run_program(folder.path(), {"check", "block.toml"});
+  };
+  const ProgramResult wrong = checked("base");
+  EXPECT_EQ(wrong.code, 2);
+  for (const char* part : {"block.toml:4", "base", "face 1, face 2", "face 6"})
+    EXPECT_NE(wrong.err.find(part), std::string::npos) << part << " not in\n" << wrong.err;
+  int taken = 0;  // the top may not be held
+  for (int f = 1; f <= 6; ++f) taken += checked("face " + std::to_string(f)).code == 0;
+  EXPECT_EQ(taken, 1);
 }
 
 TEST(CadFile, RefusesWhatIsNoSolid) {

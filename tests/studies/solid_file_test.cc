@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <random>
 #include <string>
@@ -113,7 +114,7 @@ TEST(SolidFile, MakesTrianglesOfAMeridian) {
 }
 
 TEST(SolidFile, ReadsHalfSpaces) {
-  const auto region = parse_region("z < 1 mm and x>-0.2cm or y <= 3e-3 m");
+  const auto region = parse_bond("z < 1 mm and x>-0.2cm or y <= 3e-3 m").region;
   ASSERT_EQ(region.size(), 2u);
   ASSERT_EQ(region[0].size(), 2u);
   ASSERT_EQ(region[1].size(), 1u);
@@ -125,7 +126,50 @@ TEST(SolidFile, ReadsHalfSpaces) {
   EXPECT_NEAR(region[0][1].limit, -2e-3, 1e-18);
   EXPECT_EQ(region[1][0].axis, 1);
   EXPECT_NEAR(region[1][0].limit, 3e-3, 1e-18);
-  EXPECT_TRUE(parse_region("  ").empty());
+  EXPECT_TRUE(parse_bond("  ").region.empty());
+}
+
+TEST(SolidFile, ReadsNamesOfFaces) {
+  const std::vector<std::string> faces = {"base", "left and right", "z < 9 mm"};
+  EXPECT_EQ(parse_bond(" base ", faces).faces, std::vector<std::string>{"base"});
+  EXPECT_EQ(parse_bond("left and right", faces).faces, std::vector<std::string>{faces[1]});
+  EXPECT_TRUE(parse_bond("z < 9 mm", faces).region.empty());  // a name is one, whatever it says
+  const Bond both = parse_bond("z < 1 mm and x > 0 mm or base or y > 2 mm", faces);
+  EXPECT_EQ(both.faces, std::vector<std::string>{"base"});
+  ASSERT_EQ(both.region.size(), 2u);
+  EXPECT_EQ(both.region[0].size(), 2u);
+  EXPECT_EQ(both.region[1].size(), 1u);
+  EXPECT_THROW(parse_bond("base and z < 1 mm", faces), meshes::InvalidInput);
+  EXPECT_THROW(parse_bond("Base", faces), meshes::InvalidInput);
+}
+
+/// A text holds several solids; the program that wrote it names them.
+TEST(SolidFile, SolidsOfATextAreFaces) {
+  const TemporaryFolder folder;
+  meshes::TriangleMesh mesh = finger();
+  mesh.faces.assign(12, -1);  // as fingers::box has them: base, top, four sides
+  for (const std::size_t t : {0, 1}) mesh.faces[t] = mesh.face_number("glued base");
+  for (const std::size_t t : {4, 5, 6, 7}) mesh.faces[t] = mesh.face_number("Sides");
+  meshes::write_stl(mesh, 1e-3, "", folder / "finger.stl");
+  const auto read = read_stl(folder / "finger.stl");
+  EXPECT_EQ(read.face_names, (std::vector<std::string>{"glued base", "Sides"}));
+  EXPECT_EQ(std::ranges::count(read.faces, 0), 2);
+  EXPECT_EQ(std::ranges::count(read.faces, 1), 4);
+  EXPECT_EQ(std::ranges::count(read.faces, -1), 6);
+  const auto area = [&](const char* bond) {
+    return read_solid({folder / "finger.stl", "mm", bond})->area(meshes::ProfileSurface::bond);
+  };
+  EXPECT_NEAR(area("glued base"), 120e-6, 1e-12);
+  EXPECT_NEAR(area("z < 2 mm or glued base"), 120e-6 + 2e-3 * 0.044, 1e-12);  // cut facets too
+  const std::string text = read_text(folder / "finger.stl");
+  const auto asked = [&](const std::string& bond) {
+    return refusal_of(text, with(settings, "z < 1 mm", bond));
+  };
+  EXPECT_EQ(asked("glued base"), "");
+  expect_refused(asked("base"),
+                 {"case.toml:4", "base: no face of the file has this name", "glued base, Sides"});
+  expect_refused(asked(""), {"held by the hand", "glued base, Sides"});
+  expect_refused(asked("glued base or Sides"), {"no bond may lie higher"});
 }
 
 TEST(SolidFile, RefusesWithPlaceAndRemedy) {
@@ -142,6 +186,7 @@ TEST(SolidFile, RefusesWithPlaceAndRemedy) {
   expect_refused(asked("z < 1 mm", "z < 1"), {"case.toml:4", "z < 1", "unit"});
   expect_refused(asked("z < 1 mm", "w < 1 mm"), {"case.toml:4", "x, y or z"});
   expect_refused(asked("z < 1 mm", "z = 1 mm"), {"case.toml:4", "< or >"});
+  expect_refused(asked("z < 1 mm", "base"), {"case.toml:4", "base: the file names no faces"});
   expect_refused(asked("z < 1 mm", "z < 1 mm and"), {"case.toml:4", "and"});
   expect_refused(asked("z < 1 mm", "z < 1 kg"), {"case.toml:4", "kg"});
   expect_refused(asked("bond", "unit = \"m\"\nbond"),
