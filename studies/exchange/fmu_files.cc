@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <boost/algorithm/string/predicate.hpp>
 #include <ostream>
 
 #include "meshes/errors.h"
 #include "meshes/files.h"
 #include "studies/config/key_table.h"
+#include "studies/config/surface_cache.h"
 #include "studies/files/places.h"
 #include "studies/files/process.h"
 #include "studies/fmu/fmu_variables.h"
@@ -36,8 +38,15 @@ fs::path file_of(const Config& config, const std::string& key) {
   return {};
 }
 
+/// As it lies in the unit: of a CAD solid its triangles, for which no other program is needed.
+FmuExport::File packed(const fs::path& file) {
+  if (!is_solid_file(file) || boost::iequals(file.extension().string(), ".stl"))
+    return {file, file.filename().string()};
+  return {triangulated(file), file.stem().string() + ".stl"};
+}
+
 /// What was given, with its files beside it.
-std::string settings_of(const LoadedConfig& loaded, std::vector<fs::path>& files) {
+std::string settings_of(const LoadedConfig& loaded, std::vector<FmuExport::File>& files) {
   std::string text;
   for (const char* section : sections_of_a_finger) {
     std::string keys;
@@ -46,8 +55,8 @@ std::string settings_of(const LoadedConfig& loaded, std::vector<fs::path>& files
       if (key.section != section || !entry.given || key.full_name() == "press.mode") continue;
       std::string literal = entry.literal;
       if (const fs::path file = file_of(loaded.config, key.full_name()); !file.empty()) {
-        files.push_back(file);
-        literal = '"' + file.filename().string() + '"';
+        files.push_back(packed(file));
+        literal = '"' + files.back().name + '"';
       }
       keys += key.name + " = " + literal + "\n";
     }
@@ -88,9 +97,9 @@ std::string description_of(const FmuExport& unit) {
          "    </InitialUnknowns>\n  </ModelStructure>\n</fmiModelDescription>\n";
 }
 
-void copy_into(const fs::path& file, const fs::path& folder) {
+void copy_to(const fs::path& file, const fs::path& to) {
   std::error_code failure;
-  fs::copy_file(file, folder / file.filename(), fs::copy_options::overwrite_existing, failure);
+  fs::copy_file(file, to, fs::copy_options::overwrite_existing, failure);
   if (failure)
     throw meshes::InvalidInput({file.string(), failure.message(), "must be there and readable",
                                 "./fingertip export builds what it needs"});
@@ -133,8 +142,9 @@ void write_fmu(const FmuExport& unit, const fs::path& folder) {
   };
   write(content / "modelDescription.xml", unit.description);
   write(resources / fmu_settings, unit.settings);
-  for (const fs::path& file : unit.files) copy_into(file, resources);
-  copy_into(passed_on(std::string(identifier) + ".so"), binaries);
+  for (const FmuExport::File& file : unit.files) copy_to(file.source, resources / file.name);
+  const std::string program = std::string(identifier) + ".so";
+  copy_to(passed_on(program), binaries / program);
   Command pack{
       {zip.string(), "-q", "-X", "-r", (fs::absolute(folder) / "finger.fmu").string(), "."}, {}};
   pack.folder = content;

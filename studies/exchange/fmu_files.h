@@ -10,10 +10,14 @@
 namespace fingertip::studies {
 
 struct FmuExport {
-  std::string settings;                      ///< parameters.toml among its resources
-  std::string description;                   ///< modelDescription.xml
-  std::vector<std::filesystem::path> files;  ///< that the settings name, to lie beside them
-  double period = 0.0;                       ///< of the control loop, the step that it suggests [s]
+  struct File {
+    std::filesystem::path source;
+    std::string name;  ///< beside the settings
+  };
+  std::string settings;     ///< parameters.toml among its resources
+  std::string description;  ///< modelDescription.xml
+  std::vector<File> files;  ///< that the settings name
+  double period = 0.0;      ///< of the control loop, the step that it suggests [s]
 };
 
 /// Of a finger that is pressed by whoever steps it. Throws ConfigError for what free_press refuses.
