@@ -83,7 +83,7 @@ int export_contact(const CommandLine& line) {
   const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::modes);
   const std::vector<Problem> lost = lost_in_contact(loaded);
   if (!lost.empty() && !line.lossy) throw ConfigError(lost);
-  const ContactCurves curves(loaded);
+  const ContactCurves curves = contact_curves(line.format, loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const fs::path& folder = session.folder().path();
     session.run_all(curves.jobs());

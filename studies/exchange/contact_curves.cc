@@ -26,7 +26,7 @@ std::string name_of(const Obstacle& obstacle) {
 
 std::vector<Obstacle> pressed(const Config& config, ContactCurves::Of of) {
   const Obstacle& own = config.press.protocol.obstacle;
-  if (of == ContactCurves::Of::lattice) return {own};
+  if (of != ContactCurves::Of::contacts) return {own};
   Obstacle large = own, small = own;
   if (own.is_plane()) {
     large.shape = small.shape = ObstacleShape::sphere;
@@ -50,7 +50,7 @@ std::vector<meshes::Violation> not_straight(const meshes::PressProtocol& protoco
   std::vector<meshes::Violation> found;
   const auto refuse = [&](const char* key, const std::string& value, const char* remedy) {
     found.push_back({key, value,
-                     "a law of pressure over penetration is fitted to a press straight down",
+                     "contact and moduli for another program are fitted to a press straight down",
                      remedy});
   };
   if (protocol.tilt != 0.0)
@@ -126,11 +126,10 @@ std::vector<Problem> lost_in_contact(const LoadedConfig& loaded) {
   if (press.protocol.contact == meshes::ContactMode::stick)
     add("press.contact",
         "rubber that sticks is stiffer than rubber that slips, by traction along the surface that "
-        "a "
-        "law of pressure has not: the other program would add its own friction to it",
+        "is not handed over: the other program would add its own friction to it",
         "choose frictionless, or say --lossy");
   if (!press.rubber.relaxation.empty())
-    add("rubber.relaxation", "a law of pressure over penetration knows no time",
+    add("rubber.relaxation", "what is fitted to a press at rest knows no time",
         "leave it out: the forces are then those after long times; or say --lossy");
   return lost;
 }

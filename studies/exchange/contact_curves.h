@@ -28,10 +28,10 @@ struct ContactCurve {
 /// twice and half the radius. Twelve depths to press.depth.
 class ContactCurves {
  public:
-  enum class Of { contacts, lattice };
-  /// Of a lattice: its own obstacle alone, and the lattice at rest, where it can rest, beside the
-  /// continuum. Throws
-  /// ConfigError for what no such law can carry: a tilt, a lateral motion, a program.
+  enum class Of { contacts, body, lattice };
+  /// Of a soft body or a lattice: its own obstacle alone; and the lattice at rest, where it can
+  /// rest, beside the continuum. Throws ConfigError for what is not fitted: a tilt, a lateral
+  /// motion, a program.
   explicit ContactCurves(const LoadedConfig& loaded, Of of = Of::contacts);
 
   /// The continuum's jobs; the own obstacle's must converge, others are exhibits, as the lattice's
@@ -48,8 +48,7 @@ class ContactCurves {
 /// What keeps a press from being one straight down: a tilt, a lateral motion, a program.
 std::vector<meshes::Violation> not_straight(const meshes::PressProtocol& protocol);
 
-/// What a law of pressure over penetration cannot say of this press, with what to do; the first
-/// word is the key.
+/// What is not handed over of this press, with what to do; the first word is the key.
 std::vector<Problem> lost_in_contact(const LoadedConfig& loaded);
 
 }  // namespace fingertip::studies

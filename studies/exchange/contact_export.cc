@@ -15,15 +15,37 @@ namespace fingertip::studies {
 
 namespace {
 
-using Make = ContactExport (*)(const ContactSource&);
+using meshes::ObstacleShape;
 
-const std::map<std::string, Make>& formats() {
-  static const std::map<std::string, Make> all = {{"pressure-law", pressure_law_export},
-                                                  {"mujoco", mujoco_export},
-                                                  {"drake", drake_export},
-                                                  {"sofa", sofa_export},
-                                                  {"vtk", vtk_export}};
+struct Format {
+  ContactExport (*make)(const ContactSource&);
+  ContactCurves::Of curves = ContactCurves::Of::contacts;
+  bool edge = true;  ///< among its obstacles
+};
+
+const std::map<std::string, Format>& formats() {
+  static const std::map<std::string, Format> all = {
+      {"pressure-law", {pressure_law_export}},
+      {"mujoco", {mujoco_export, ContactCurves::Of::contacts, false}},
+      {"drake", {drake_export}},
+      {"sofa", {sofa_export, ContactCurves::Of::body}},
+      {"vtk", {vtk_export, ContactCurves::Of::body}}};
   return all;
+}
+
+/// Of the configuration's obstacle; empty where the format can have it.
+std::vector<Problem> beyond(const Format& format, const LoadedConfig& loaded) {
+  const ObstacleShape shape = loaded.config.press.protocol.obstacle.shape;
+  const Entry& entry = loaded.entries.at("obstacle.shape");
+  const auto refused = [&](const char* rule, const char* remedy) -> std::vector<Problem> {
+    return {{entry.place, "obstacle.shape", entry.literal, rule, remedy}};
+  };
+  if (format.curves == ContactCurves::Of::body && shape != ObstacleShape::plane)
+    return refused("the forces of a body of tetrahedra are foretold under a plane",
+                   "choose obstacle.shape = \"plane\"");
+  if (!format.edge && shape == ObstacleShape::edge)
+    return refused("MuJoCo has no rounded edge", "press a cylinder of the same radius");
+  return {};
 }
 
 /// Which contact model carries this finger: every format, and all models in one table.
@@ -36,21 +58,25 @@ ContactExport all_of_them(const ContactSource& source) {
       "obstacles.\n\n";
   made.transfer = transfer_of("all", "Force of a model at rest over that of the continuum",
                               source.lost, source.curves, {});
-  for (const auto& [format, make] : formats()) {
+  for (const auto& [name, format] : formats()) {
     ContactExport part;
+    std::vector<Problem> problems = beyond(format, source.loaded);
     try {
-      part = make(source);
+      if (problems.empty()) part = format.make(source);
     } catch (const ConfigError& error) {
-      made.said += format + ": " + error.problems().front().rule + "\n";
-      made.readme += "`" + format + "` is left out: " + error.problems().front().rule + ".\n\n";
+      problems = error.problems();
+    }
+    if (!problems.empty()) {
+      made.said += name + ": " + problems.front().rule + "\n";
+      made.readme += "`" + name + "` is left out: " + problems.front().rule + ".\n\n";
       continue;
     }
     for (std::size_t i = 0; i < source.curves.size(); ++i)
       for (TransferModelEntry model : part.transfer.obstacles[i].models) {
-        model.model = format + ": " + model.model;
+        model.model = name + ": " + model.model;
         made.transfer.obstacles[i].models.push_back(std::move(model));
       }
-    made.parts.emplace(format, std::move(part));
+    made.parts.emplace(name, std::move(part));
   }
   return made;
 }
@@ -63,8 +89,15 @@ const SoftBody& ContactSource::soft() const {
 }
 
 ContactExport contact_export(const std::string& format, const ContactSource& source) {
-  const Make make = format == "all" ? all_of_them : formats().at(format);
-  return make(source);
+  return format == "all" ? all_of_them(source) : formats().at(format).make(source);
+}
+
+ContactCurves contact_curves(const std::string& format, const LoadedConfig& loaded) {
+  if (format == "all") return ContactCurves(loaded);
+  const Format& own = formats().at(format);
+  const std::vector<Problem> problems = beyond(own, loaded);
+  if (!problems.empty()) throw ConfigError(problems);
+  return ContactCurves(loaded, own.curves);
 }
 
 ContactExport lattice_export(const std::string& format, const std::string& readme,

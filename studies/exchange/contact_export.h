@@ -43,9 +43,13 @@ struct ContactExport {
   std::map<std::string, ContactExport> parts;  ///< exports in folders of their own
 };
 
+/// The curves that an export is made of. Throws ConfigError for what no press of the continuum
+/// makes good: as ContactCurves, and an obstacle that the format cannot have.
+ContactCurves contact_curves(const std::string& format, const LoadedConfig& loaded);
+
 /// Of "pressure-law", "mujoco", "drake", "sofa", "vtk", or "all" that can carry the press: fitted
 /// to the first curve, judged by all. Throws InvalidInput where that curve does not grow,
-/// ConfigError for what the format cannot carry.
+/// ConfigError for tetrahedra that bear no press.
 ContactExport contact_export(const std::string& format, const ContactSource& source);
 
 /// An export of the lattice itself beside the continuum: transfer.json and README.md, which begins

@@ -37,7 +37,7 @@ std::string comment(const LoadedConfig& loaded, const ContactCurve& curve) {
 }
 
 /// The obstacle as a geom over the origin.
-std::string obstacle_geom(const LoadedConfig& loaded, const meshes::Obstacle& obstacle) {
+std::string obstacle_geom(const meshes::Obstacle& obstacle) {
   using meshes::ObstacleShape;
   const std::string at = fmt::format("<geom name=\"obstacle\" pos=\"{} 0 {}\" ",
                                      to_text(obstacle.along_x() ? 0.0 : obstacle.offset),
@@ -50,10 +50,9 @@ std::string obstacle_geom(const LoadedConfig& loaded, const meshes::Obstacle& ob
     case ObstacleShape::cylinder:
       return at + fmt::format("type=\"capsule\" euler=\"{}\" size=\"{} .1\"/>",
                               obstacle.along_x() ? "0 90 0" : "90 0 0", to_text(obstacle.radius));
-    case ObstacleShape::edge: break;
+    case ObstacleShape::edge: break;  // refused before
   }
-  throw ConfigError({{loaded.entries.at("obstacle.shape").place, "obstacle.shape", "edge",
-                      "MuJoCo has no rounded edge", "press a cylinder of the same radius"}});
+  return "";
 }
 
 std::string friction_of(const LoadedConfig& loaded) {
@@ -96,7 +95,7 @@ std::string rigid_model(const LoadedConfig& loaded, const ContactCurve& curve,
              "  </body>\n</worldbody>\n<actuator>\n"
              "  <position name=\"press\" joint=\"press\" kp=\"{:.6g}\" dampratio=\"1\"/>\n"
              "</actuator>\n</mujoco>\n",
-             step, obstacle_geom(loaded, curve.obstacle), to_text(-radius), to_text(radius),
+             step, obstacle_geom(curve.obstacle), to_text(-radius), to_text(radius),
              to_text(carriage), friction_of(loaded), -k, -2.0 * std::sqrt(k), contact.dmin,
              contact.dmax, contact.width, contact.midpoint, contact.power, gain);
 }
@@ -130,7 +129,7 @@ std::string flex_model(const LoadedConfig& loaded, const ContactCurve& curve,
           "  </body>\n  <flexcomp name=\"finger\" type=\"direct\" dim=\"3\" mass=\"{:.9g}\" "
           "radius=\"1e-9\"\n    point=\"",
           std::min(longest_step, calm * std::sqrt(1.0 / k) * 2.0), to_text(flex.body.top()),
-          obstacle_geom(loaded, curve.obstacle), mass);
+          obstacle_geom(curve.obstacle), mass);
   text += flex.places() + "\"\n    element=\"" + flex.tetrahedra();
   fmt::format_to(
       std::back_inserter(text),

@@ -17,11 +17,6 @@ namespace {
 /// hundredths of an edge.
 constexpr double vertex_stiffness = 10.0;
 
-ConfigError refused(const LoadedConfig& loaded, const char* key, const std::string& value,
-                    const char* rule, const char* remedy) {
-  return ConfigError({{loaded.entries.at(key).place, key, value, rule, remedy}});
-}
-
 }  // namespace
 
 double SoftBody::shear_modulus() const {
@@ -61,10 +56,6 @@ std::string SoftBody::limit(const ContactCurve& curve) const {
 
 SoftBody fitted_soft_body(const LoadedConfig& loaded, const ContactCurve& curve) {
   const lattice::PressSetup& press = loaded.config.press;
-  if (!curve.obstacle.is_plane())
-    throw refused(loaded, "obstacle.shape", std::string(meshes::name(curve.obstacle.shape)),
-                  "the forces of a body of tetrahedra are foretold under a plane",
-                  "choose obstacle.shape = \"plane\"");
   SoftBody soft;
   soft.edge = loaded.config.exchange.edge.value_or(
       std::min(0.25 * press.geometry.tip_radius, 0.5 * meshes::shape_of(press.geometry)->wall()));
@@ -74,8 +65,9 @@ SoftBody fitted_soft_body(const LoadedConfig& loaded, const ContactCurve& curve)
       soft.body, {soft.poissons_ratio, vertex_stiffness * soft.edge}, curve.forces.indentation);
   soft.youngs_modulus = calibration::fitted_factor(soft.forces, curve.forces);
   if (!std::isfinite(soft.youngs_modulus))
-    throw refused(loaded, "exchange.edge", meshes::to_text(soft.edge) + " m",
-                  "tetrahedra of that size bear no press", "choose smaller ones");
+    throw ConfigError({{loaded.entries.at("exchange.edge").place, "exchange.edge",
+                        meshes::to_text(soft.edge) + " m", "tetrahedra of that size bear no press",
+                        "choose smaller ones"}});
   soft.stiffness = vertex_stiffness * soft.edge * soft.youngs_modulus;
   for (double& force : soft.forces) force *= soft.youngs_modulus;
   return soft;

@@ -27,8 +27,8 @@ struct SoftBody {
 };
 
 /// With tetrahedra as large as exchange.edge says and the Young's modulus whose forces are nearest
-/// to the curve's, a plane's; contact is as stiff in proportion. Throws ConfigError for another
-/// obstacle, or where such tetrahedra bear no press.
+/// to the curve's, a plane's; contact is as stiff in proportion. Throws ConfigError where such
+/// tetrahedra bear no press.
 SoftBody fitted_soft_body(const LoadedConfig& loaded, const ContactCurve& curve);
 
 /// Its forces on planes; on other obstacles they are not known.

@@ -141,6 +141,25 @@ TEST(ContactExport, SoftBodiesAreTheSameForEveryProgram) {
             numbers_of(mesh, "tetrahedra").size() / 4);
 }
 
+/// Its forces under balls are not foretold, so the continuum is not pressed on them, either; a
+/// tilt is refused in words that fit.
+TEST(ContactExport, AMeshNeedsOnePress) {
+  const TemporaryFolder folder;
+  std::vector<std::string> tilted = slips;
+  tilted.insert(tilted.end(), {"--set", "press.tilt=0.1 rad"});
+  const ProgramResult refused = run_program(folder.path(), contact_export("vtk", tilted));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("fitted to a press straight down; choose 0"), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(refused.err.find("pressure"), std::string::npos) << refused.err;
+  ASSERT_EQ(run_program(folder.path(), contact_export("vtk", slips)).code, 0);
+  const json transfer = json::parse(read_text(folder / "run/transfer.json"));
+  ASSERT_EQ(transfer["obstacles"].size(), 1U);
+  EXPECT_LT(std::abs(model_of(transfer["obstacles"][0], "tetrahedra")["error"][2].get<double>()),
+            0.2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "run/continuum/2"));
+}
+
 TEST(ContactExport, MuJoCoPressesAsForetold) {
   const std::string library = FINGERTIP_MUJOCO;
   if (!std::filesystem::exists(library))
@@ -209,7 +228,12 @@ TEST(ContactExport, SoftBodiesUnderOtherThanPlanesAreLeftOut) {
   const ProgramResult alone = run_program(folder.path(), contact_export("sofa", ball));
   EXPECT_EQ(alone.code, 2);
   EXPECT_NE(alone.err.find("obstacle.shape"), std::string::npos) << alone.err;
-  ball.push_back("--force");
+  std::vector<std::string> edge = slips;
+  edge.insert(edge.end(), {"--set", "obstacle.shape=edge", "--set", "obstacle.radius=8 mm"});
+  const ProgramResult mujoco = run_program(folder.path(), contact_export("mujoco", edge));
+  EXPECT_EQ(mujoco.code, 2);
+  EXPECT_NE(mujoco.err.find("cylinder of the same radius"), std::string::npos) << mujoco.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "run")) << "before the continuum is pressed";
   const ProgramResult all = run_program(folder.path(), contact_export("all", ball));
   ASSERT_EQ(all.code, 0) << all.err;
   EXPECT_NE(all.out.find("sofa: "), std::string::npos) << all.out;
