@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "meshes/press_response.h"
 #include "program.h"
@@ -13,6 +16,8 @@ using nlohmann::json;
 
 namespace {
 
+/// Runs of every kind that the core case has; its own take minutes, and the continuum's
+/// verification most of these. That a file without runs gets the core's is asserted by Cases.
 constexpr const char* coarse_case = R"(
 [lattice]
 spacing = "tip_radius/6"
@@ -23,6 +28,21 @@ speed = "2 cm/s"
 refinement = 0.5
 [case]
 title = "Coarse"
+run = [
+  { verb = "reference", name = "reference" },
+  { verb = "press", name = "published", beside = "reference", exhibit = true, set = { "lattice.model" = "published" } },
+  { verb = "press", name = "central", beside = "reference", exhibit = true, set = { "lattice.model" = "central" } },
+  { verb = "press", name = "hookean", beside = "reference" },
+  { verb = "press", series = "equilibrium", name = "hookean", beside = "reference", set = { "press.mode" = "static" } },
+  { verb = "press", series = "published_study", name = "spacing_base", varied = "spacing", beside = "reference", exhibit = true, set = { "lattice.model" = "published" } },
+  { verb = "press", series = "published_study", name = "spacing_R5", varied = "spacing", when = "another", beside = "reference", exhibit = true, set = { "lattice.model" = "published", "lattice.spacing" = "tip_radius/5" } },
+  { verb = "moduli", name = "calibration_hookean" },
+  { verb = "cubes", name = "cubes" },
+]
+table = [
+  { file = "published_study.csv", series = "published_study", columns = ["varied", "spacing [m]", "offset_x", "offset_y", "offset_z", "ligament_stiffness", "indentation [m]", "normal_force [N]", "relative_error"] },
+  { file = "equilibrium_study.csv", series = "equilibrium", columns = ["model", "spacing [m]", "indentation [m]", "normal_force [N]", "relative_error"] },
+]
 [[case.criteria]]
 name = "nu of hookean"
 measure = "hookean.poissons_ratio_error"
@@ -84,6 +104,24 @@ TEST(Validate, GoesFromRubberToReportAndComesFromTheCacheAfterwards) {
   EXPECT_EQ(run_program(folder.path(), {"report", "three"}).code, 0);
   EXPECT_EQ(run_program(folder.path(), {"compare", "one", "--out", "compared"}).code, 0);
   EXPECT_TRUE(fs::exists(folder / "compared/comparison.csv"));
+}
+
+/// Whole, it belongs to the core case and judges it; here it is stopped after its first part.
+TEST(Validate, VerifiesTheContinuumAndKeepsWhatItHasWhenStopped) {
+  const TemporaryFolder folder;
+  write_text(folder / "checks.toml",
+             "[case]\ntitle = \"Checks\"\n"
+             "run = [ { verb = \"verification\", name = \"verification\" } ]\n");
+  Program program(folder.path(), {"validate", "checks.toml", "--out", "run"});
+  const fs::path file = folder / "run/verification/verification.json";
+  for (int wait = 0; wait < 2000 && !fs::exists(file); ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  program.send(SIGTERM);
+  const ProgramResult stopped = program.wait();
+  EXPECT_EQ(stopped.code, 130) << stopped.err;
+  const json checks = json::parse(read_text(file))["checks"];
+  EXPECT_GT(checks.size(), 100U);
+  for (const json& check : checks) EXPECT_EQ(check["passed"], true) << check;
 }
 
 TEST(Validate, ReferenceHasExactlyTheSamples) {
