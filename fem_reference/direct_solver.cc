@@ -43,7 +43,7 @@ void FreeUnknowns::restrict(const SparseMatrix& matrix, SymmetricMatrix& result)
     }
   };
   if (place_.empty()) {
-    // Sorting is slow, and all matrices of a space have one pattern: each entry's place is kept.
+    // All matrices of a space have one pattern: each entry's place is kept.
     struct Entry {
       long row, column;
       std::size_t source;
@@ -55,7 +55,9 @@ void FreeUnknowns::restrict(const SparseMatrix& matrix, SymmetricMatrix& result)
       if (r >= 0 && c >= 0) kept.push_back({r, c, entry});
       ++entry;
     });
-    std::ranges::sort(kept, {}, [](const Entry& e) { return std::pair(e.row, e.column); });
+    // Trilinos keeps rows in order, mostly, and sorting what is sorted is slow, too.
+    const auto order = [](const Entry& e) { return std::pair(e.row, e.column); };
+    if (!std::ranges::is_sorted(kept, {}, order)) std::ranges::sort(kept, {}, order);
     place_.assign(entry, -1);
     pattern_.resize(size(), size());
     pattern_.reserve(long(kept.size()));
