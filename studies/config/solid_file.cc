@@ -125,10 +125,12 @@ using Names = std::vector<std::string>;
 
 [[noreturn]] void refuse_bond(const std::string& part, const std::string& rule,
                               const Names& faces) {
-  const bool is_name = part.find_first_of("<>") == std::string::npos;
-  const char* const no_face = !is_name        ? ""
-                              : faces.empty() ? "the file names no faces, and "
-                                              : "no face of the file has this name, and ";
+  const char* no_face = "";
+  if (std::ranges::find(faces, part) != faces.end())
+    no_face = "faces are joined by or, never by and; ";
+  else if (!part.empty() && part.find_first_of("<>") == std::string::npos)
+    no_face =
+        faces.empty() ? "the file names no faces, and " : "no face of the file has this name, and ";
   throw InvalidInput({"geometry.bond", part, no_face + rule,
                       "write half spaces joined by and, or, e.g. geometry.bond = \"z < 1 mm\"" +
                           meshes::or_faces(faces)});
