@@ -12,8 +12,6 @@ namespace fingertip::lattice {
 
 namespace {
 
-constexpr std::size_t cells_at_once = 16;  // blocks of eight cells; some microseconds of work
-
 bool has_rates(const CellMaterial& material) {
   return material.kind != CellLawKind::cubic && material.retardation_time > 0.0;
 }
@@ -58,7 +56,7 @@ CellForces::CellForces(const CellLattice& cells, const CellMaterial& material, T
       fading_sweep_(kernel::select_cells(material.kind, {has_rates(material), true}, width)),
       storing_sweep_(kernel::select_cells(material.kind, {.rates = true, .stores = true}, width)),
       sums_energy_(has_rates(material)) {
-  if (sums_energy_) stored_.resize(cells.planes[0].size() + cells.planes[1].size());
+  if (sums_energy_) stored_.resize(cells.slabs[0].size() + cells.slabs[1].size());
 }
 
 CellExtremes CellForces::add(const VectorField& displacement, const VectorField& velocity,
@@ -91,23 +89,21 @@ CellExtremes CellForces::add(kernel::CellSweep sweep, const VectorField& displac
   }
   kernel::CellBounds all;
   std::mutex guard;
-  std::size_t before = 0;  // planes of the first half
-  for (const auto& planes : cells_->planes) {
-    // Shared out by blocks, not by planes, which hold more or fewer: so threads have as much to do,
-    // and the same thread has neighbouring planes of both halves, with most of their particles in
-    // its own cache.
-    team_->split(cells_->blocks.size(), cells_at_once, [&](std::size_t begin, std::size_t end) {
+  std::size_t before = 0;  // slabs of the first list
+  for (const auto& slabs : cells_->slabs) {
+    // The same thread has neighbouring slabs of both lists, with most of their particles in its own
+    // cache.
+    team_->split(slabs.size(), 1, [&](std::size_t begin, std::size_t end) {
       kernel::CellBounds some;
-      for (std::size_t p = 0; p < planes.size(); ++p) {
-        const CellLattice::Plane& plane = planes[p];
-        if (plane.first < begin || plane.first >= end) continue;
-        const double stored = sweep(arrays, cells_->blocks.data(), plane.first, plane.last, some);
-        if (sums_energy_) stored_[before + p] = stored;
+      for (std::size_t s = begin; s < end; ++s) {
+        const double stored =
+            sweep(arrays, cells_->blocks.data(), slabs[s].first, slabs[s].last, some);
+        if (sums_energy_) stored_[before + s] = stored;
       }
       const std::lock_guard<std::mutex> lock(guard);
       extend(all, some);
     });
-    before += planes.size();
+    before += slabs.size();
   }
   return extremes_of(material_, all);
 }

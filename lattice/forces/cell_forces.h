@@ -55,7 +55,7 @@ class CellForces {
   Team* team_;
   kernel::CellSweep sweep_, fading_sweep_, storing_sweep_;
   bool sums_energy_;            ///< whether storing_sweep_ serves
-  std::vector<double> stored_;  ///< per plane of cells, so that threads do not change its sum [J]
+  std::vector<double> stored_;  ///< per slab, so that threads do not change its sum [J]
 };
 
 }  // namespace fingertip::lattice

@@ -29,13 +29,13 @@ struct CellLattice {
   double spacing = 0.0;               ///< a [m]
   std::ptrdiff_t row = 0, plane = 0;  ///< from a grid point to the next along y and z
   std::vector<CellBlock> blocks;
-  /// Blocks with even and with odd k of their cells' index are separated, for cells of one plane
-  /// share no particle with those of the second next: planes[p] holds the range
-  /// [first, last) of the blocks of one plane of cells.
-  struct Plane {
+  /// Planes of cells that follow one another along z, as a range [first, last) of blocks. A plane
+  /// shares particles with the two beside it alone: slabs of one list share none. The slabs of the
+  /// second list fill the gaps between those of the first.
+  struct Slab {
     std::uint32_t first = 0, last = 0;
   };
-  std::array<std::vector<Plane>, 2> planes;  ///< [0]: even k, [1]: odd k
+  std::array<std::vector<Slab>, 2> slabs;
   std::vector<kernel::Lanes> cut;
 
   bool empty() const { return blocks.empty(); }

@@ -252,15 +252,16 @@ TEST(CellLattice, BlocksHoldEveryCellOnceAndPlanesEveryBlock) {
   EXPECT_TRUE(whole);
   EXPECT_NEAR(fraction, expected, 1e-12 * expected);
   std::size_t blocks = 0;
-  for (std::size_t parity = 0; parity < 2; ++parity) {
-    for (const auto& plane : cells.planes[parity]) {
-      blocks += plane.last - plane.first;
-      const std::size_t k = cells.blocks[plane.first].first / std::size_t(cells.plane);
-      EXPECT_EQ(k % 2, parity);
-      for (std::uint32_t b = plane.first; b < plane.last; ++b) {
-        EXPECT_EQ(cells.blocks[b].first / std::size_t(cells.plane), k);
-      }
+  for (const auto& slabs : cells.slabs) {
+    std::size_t above = 0;  // the lowest plane of particles that no slab has yet
+    for (const auto& slab : slabs) {
+      EXPECT_LT(slab.first, slab.last);
+      blocks += slab.last - slab.first;
+      EXPECT_GE(cells.blocks[slab.first].first / std::size_t(cells.plane), above);
+      for (std::uint32_t b = slab.first; b < slab.last; ++b)
+        above = std::max(above, cells.blocks[b].first / std::size_t(cells.plane) + 2);
     }
   }
+  EXPECT_GE(cells.slabs[1].size(), 4U);
   EXPECT_EQ(blocks, cells.blocks.size());
 }
