@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cstdlib>
 #include <functional>
 #include <set>
 
 #include "lattice/press/static_press.h"
+#include "studies/config/loader.h"
 #include "studies/config/solid_file.h"
+#include "studies/exchange/fmu_files.h"
 #include "tests/fingers.h"
 #include "tests/studies/program.h"
 #include "tests/temporary_folder.h"
@@ -99,6 +102,31 @@ TEST(CadFile, IsCheckedAndPressedByTheProgram) {
       run_program(folder.path(), {"press", "--config", "block.toml", "--out", "run"});
   EXPECT_EQ(pressed.code, 0) << pressed.err;
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(surfaces), {}), 1);
+}
+
+/// A CAD file would need fingertip-fem wherever the unit is loaded.
+TEST(CadFile, AMockUpUnitCarriesItsTriangles) {
+  const TemporaryFolder folder;
+  write_cad(folder / "block.step", [] { gmsh::model::occ::addBox(-4.5, -5, 0, 9, 10, 16); });
+  const std::string settings =
+      "[geometry]\nshape = \"solid\"\nfile = \"block.step\"\nbond = \"z < 1 mm\"\n"
+      "[lattice]\nspacing = \"tip_radius/4\"\n";
+  write_text(folder / "block.toml", settings);
+  const ProgramResult checked = run_program(folder.path(), {"check", "block.toml"});
+  ASSERT_EQ(checked.code, 0) << checked.err;
+  // The test has no fingertip-fem beside it: the triangles are those that the program has kept.
+  setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
+  const studies::FmuExport unit =
+      studies::fmu_export(studies::load_config({folder / "block.toml", {}, {}}));
+  ASSERT_EQ(unit.files.size(), 1U);
+  EXPECT_EQ(unit.files[0].name, "block.stl");
+  EXPECT_NE(unit.settings.find("file = \"block.stl\""), std::string::npos) << unit.settings;
+  EXPECT_EQ(unit.settings.find(".step"), std::string::npos) << unit.settings;
+  const auto content_of = [](const std::filesystem::path& file) {
+    return studies::read_solid({file, "mm", "z < 1 mm"})->content();
+  };
+  std::filesystem::copy_file(unit.files[0].source, folder / "block.stl");
+  EXPECT_EQ(content_of(folder / "block.stl"), content_of(folder / "block.step"));
 }
 
 /// Face 1, face 2 ... in the order of the file.

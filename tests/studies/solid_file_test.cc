@@ -186,7 +186,10 @@ TEST(SolidFile, RefusesWithPlaceAndRemedy) {
   expect_refused(asked("z < 1 mm", "z < 1"), {"case.toml:4", "z < 1", "unit"});
   expect_refused(asked("z < 1 mm", "w < 1 mm"), {"case.toml:4", "x, y or z"});
   expect_refused(asked("z < 1 mm", "z = 1 mm"), {"case.toml:4", "< or >"});
-  expect_refused(asked("z < 1 mm", "base"), {"case.toml:4", "base: the file names no faces"});
+  expect_refused(asked("z < 1 mm", "base"),
+                 {"case.toml:4", "base: no face of the file has this name", "name faces: finger"});
+  expect_refused(refusal_of(bytes, with(settings, "z < 1 mm", "base")),
+                 {"case.toml:4", "base: the file names no faces"});
   expect_refused(asked("z < 1 mm", "z < 1 mm and"), {"case.toml:4", "and"});
   expect_refused(asked("z < 1 mm", "z < 1 kg"), {"case.toml:4", "kg"});
   expect_refused(asked("bond", "unit = \"m\"\nbond"),
