@@ -263,7 +263,7 @@ TEST(EnergyControlledStep, KeepsItsBoundAndShrinksAtImpact) {
   lattice::Finger& f = finger.finger();
   const Vector3 velocity(0.0, 0.0, 0.05), along_grid = f.model().grid.axes.transpose() * velocity;
   for (const std::uint32_t i : f.model().particles) f.state().velocity.set(i, along_grid);
-  f.rod().set_velocity(velocity, {});
+  f.rod().set_velocity(velocity, Vector3::Zero());
   const auto energy = [&] {
     double sum = lattice::elastic_energy(f.model(), f.state()) + f.bond_energy() +
                  lattice::kinetic_energy(f.model(), f.state()) + f.rod().kinetic_energy();

@@ -110,7 +110,7 @@ TEST(RodInFlight, TheOrientationConvergesToSecondOrder) {
 /// about its axis at L_3 (1/I_along - 1/I_across).
 TEST(RodInFlight, PrecessesAsAFreeSymmetricTopToSecondOrder) {
   RodState start(lattice::rod_body({}, {}));
-  start.set_velocity({}, {5.0, 3.0, 40.0});
+  start.set_velocity(Vector3::Zero(), {5.0, 3.0, 40.0});
   const Vector3 momentum = start.angular_momentum();
   const double across = start.body().inertia(0, 0), along = start.body().inertia(2, 2);
   const double duration = 0.05;
@@ -130,7 +130,8 @@ TEST(RodOnAHook, SwingsAtThePendulumsFrequency) {
   // The tip's side hangs down: turned over, and a little further.
   const double lean = 0.01;
   RodState rod(body);
-  rod.set_state(body.centre, lattice::rotation_by({M_PI + lean, 0.0, 0.0}), {}, {});
+  rod.set_state(body.centre, lattice::rotation_by({M_PI + lean, 0.0, 0.0}), Vector3::Zero(),
+                Vector3::Zero());
   const Pendulum p = pendulum(body);
   const double period = 2.0 * M_PI * std::sqrt(p.inertia / p.moment) * (1.0 + lean * lean / 16.0);
   const Vector3 hung = rod.endpoint();
@@ -163,7 +164,7 @@ TEST(RodOnAHook, PrecessesAsAHeavyTopToFirstOrder) {
     const Vector3 axis = turn * Vector3::UnitZ();
     const Vector3 up = Vector3::UnitZ();
     const Vector3 rate = slow * (up - axis * axis.dot(up)) + spin / p.along * axis;
-    rod.set_state(body.centre, turn, {}, {});
+    rod.set_state(body.centre, turn, Vector3::Zero(), Vector3::Zero());
     rod.set_velocity(rate.cross(rod.centre() - rod.endpoint()), rate);
     const double duration = 0.05;
     for (int n = 0; n < steps; ++n) swing(rod, duration / steps);
