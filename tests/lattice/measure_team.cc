@@ -133,12 +133,11 @@ class Sweeps {
           std::fill_n(component.data() + model_.blocks[b], lattice::lanes, 0.0);
       }
     });
-    for (const auto& planes : cells.planes) {
-      scheduler.split(cells.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (const auto& slabs : cells.slabs) {
+      scheduler.split(slabs.size(), 1, [&](std::size_t begin, std::size_t end) {
         lattice::kernel::CellBounds bounds;
-        for (const auto& plane : planes) {
-          if (plane.first < begin || plane.first >= end) continue;
-          sweep_(arrays, cells.blocks.data(), plane.first, plane.last, bounds);
+        for (std::size_t s = begin; s < end; ++s) {
+          sweep_(arrays, cells.blocks.data(), slabs[s].first, slabs[s].last, bounds);
         }
       });
     }
