@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,8 +22,8 @@ namespace {
 /// Edges around a full circle: chords are within pi²/(2 n²) of its radius. With 120 the rubber that
 /// they cut off takes 0.06 % of the dome's force, with 160 half of that.
 constexpr double edges_around = 160.0;
-/// At the top, which touches first: depth counts from the highest vertex, forces from the mean
-/// facet. Height and longest edge over the solid's width.
+/// Where the top, which touches first, is curved: depth counts from the highest vertex, forces from
+/// the mean facet. Height and longest edge over the solid's width.
 constexpr double top_height = 0.2, top_edge = 0.006;
 /// Longest and shortest edge over the solid's extent.
 constexpr double longest_edge = 0.1, shortest_edge = 1.0 / 400.0;
@@ -85,19 +86,21 @@ bool is_step(const std::filesystem::path& cad) {
   return kind == ".step" || kind == ".stp";
 }
 
-/// In the file's numbers.
-TriangleMesh facets_of(const std::filesystem::path& cad) {
-  const Gmsh session;
-  gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
-  gmsh::vectorpair shapes, solids, surfaces;
-  gmsh::model::occ::importShapes(cad.string(), shapes);
-  gmsh::model::occ::synchronize();
-  gmsh::model::getEntities(solids, 3);
-  if (solids.size() != 1)
-    refuse_cad(cad, std::to_string(solids.size()) + " solids, where there must be one",
-               "export one body as a solid, not as surfaces or an assembly");
-  std::array<double, 6> box{};
-  gmsh::model::getBoundingBox(3, solids[0].second, box[0], box[1], box[2], box[3], box[4], box[5]);
+/// A plane is one whatever its facets' size.
+std::vector<double> curved(const gmsh::vectorpair& surfaces) {
+  std::vector<double> result;
+  for (const auto& [dimension, tag] : surfaces) {
+    std::string kind;
+    gmsh::model::getType(dimension, std::abs(tag), kind);
+    if (kind != "Plane") result.push_back(std::abs(tag));
+  }
+  return result;
+}
+
+/// Facets at the top are to be small where these surfaces are. `box`: of the solid, lowest and
+/// highest corner.
+void refine_top(const std::array<double, 6>& box, const std::vector<double>& surfaces) {
+  if (surfaces.empty()) return;
   const double extent = std::max({box[3] - box[0], box[4] - box[1], box[5] - box[2]});
   const double width = std::min(box[3] - box[0], box[4] - box[1]);
   const int top = gmsh::model::mesh::field::add("Box");
@@ -112,7 +115,28 @@ TriangleMesh facets_of(const std::filesystem::path& cad) {
                                      {"ZMax", box[5] + extent},
                                      {"Thickness", top_height * width}})
     gmsh::model::mesh::field::setNumber(top, option, value);
-  gmsh::model::mesh::field::setAsBackgroundMesh(top);
+  const int there = gmsh::model::mesh::field::add("Restrict");
+  gmsh::model::mesh::field::setNumber(there, "InField", top);
+  gmsh::model::mesh::field::setNumbers(there, "SurfacesList", surfaces);
+  gmsh::model::mesh::field::setAsBackgroundMesh(there);
+}
+
+/// In the file's numbers.
+TriangleMesh facets_of(const std::filesystem::path& cad) {
+  const Gmsh session;
+  gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
+  gmsh::vectorpair shapes, solids, surfaces;
+  gmsh::model::occ::importShapes(cad.string(), shapes);
+  gmsh::model::occ::synchronize();
+  gmsh::model::getEntities(solids, 3);
+  if (solids.size() != 1)
+    refuse_cad(cad, std::to_string(solids.size()) + " solids, where there must be one",
+               "export one body as a solid, not as surfaces or an assembly");
+  std::array<double, 6> box{};
+  gmsh::model::getBoundingBox(3, solids[0].second, box[0], box[1], box[2], box[3], box[4], box[5]);
+  const double extent = std::max({box[3] - box[0], box[4] - box[1], box[5] - box[2]});
+  gmsh::model::getBoundary(solids, surfaces, false, true);
+  refine_top(box, curved(surfaces));
   for (const auto& [option, value] :
        std::map<std::string, double>{{"Mesh.MeshSizeFromCurvature", edges_around},
                                      {"Mesh.MeshSizeMax", longest_edge * extent},
@@ -120,7 +144,6 @@ TriangleMesh facets_of(const std::filesystem::path& cad) {
                                      {"Mesh.Algorithm", 6.0}})
     gmsh::option::setNumber(option, value);
   gmsh::model::mesh::generate(2);
-  gmsh::model::getBoundary(solids, surfaces, false, true);
   std::optional<StepFaces> names;
   if (is_step(cad)) names.emplace(cad);
   const bool named = names && names->any_named();

@@ -58,10 +58,6 @@ struct StrainEnergy {
     return volumetric == VolumetricLaw::logarithmic ||
            volumetric == VolumetricLaw::isochoric_logarithmic;
   }
-  /// Whether the law is one of I1 alone, which a network of springs can have.
-  bool of_first_invariant() const {
-    return law == RubberLaw::neo_hookean || law == RubberLaw::yeoh || law == RubberLaw::gent;
-  }
   /// What a law of full invariants takes of lambda at rest, over G.
   double lambda_share() const;
 

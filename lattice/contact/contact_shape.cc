@@ -38,9 +38,9 @@ void set_point(kernel::ContactGroup& group, std::size_t lane, const EmbeddedPoin
     group.rest[c].at[lane] = rest[Eigen::Index(c)];
     group.facing[c].at[lane] = facing[Eigen::Index(c)];
   }
-  for (std::size_t c = 0; c < 8; ++c) {
-    group.weight[c].at[lane] = tie.weights[c];
-    group.share[lane].at[c] = tie.weights[c];
+  for (std::size_t c = 0; c < 8; ++c) {  // trilinear weights have their point as their mean
+    for (std::size_t d = 0; d < 3; ++d)
+      group.local[d].at[lane] += double(c >> d & 1) * tie.weights[c];
   }
 }
 

@@ -36,7 +36,6 @@ class ControlLoop {
   const Measurement& measured() const { return measured_; }  ///< what the controller saw last
   const Wrench& commanded() const { return commanded_; }  ///< by controller or servo, before limits
   const Wrench& applied() const { return applied_; }      ///< what acts at the moment
-  void set_controller(Controller& controller) { controller_ = &controller; }
   Pid& servo() { return servo_; }
   /// Finger, controller, servo and hardware as in the beginning.
   void reset();

@@ -39,8 +39,7 @@ struct ContactMemory {
 struct ContactGroup {
   std::uint32_t corner[lanes];    ///< grid indices of the cell's corners
   std::uint32_t particle[lanes];  ///< the same as numbers of contact particles
-  Lanes weight[lanes];            ///< per corner: of the points
-  Lanes share[lanes];             ///< per point: of the corners (the same, transposed)
+  Lanes local[3];                 ///< of the points in the cell, 0 to 1 along each of its edges
   Lanes rest[3];                  ///< along the grid's axes [m]
   Lanes stiffness;                ///< at rest [N/m]
   Lanes inertia;                  ///< stiffness times Σ |weight| [N/m]

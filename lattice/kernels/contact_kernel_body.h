@@ -5,6 +5,7 @@
 #include <array>
 
 #include "lattice/kernels/contact_kernel.h"
+#include "lattice/kernels/pack_algebra.h"
 #include "lattice/kernels/packs.h"
 
 namespace fingertip::lattice::kernel {
@@ -18,9 +19,9 @@ struct ContactBody : Packs<Pack> {
   using Mask = typename Pack::mask_type;
   using Base::gather, Base::load, Base::parts, Base::store, Base::width;
 
-  /// Of the eight corners of a group [m].
-  struct Corners {
-    double at[3][lanes];
+  /// Trilinear in a point's place in its cell: the term `n` takes the factors whose bits n has [m].
+  struct Trilinear {
+    double term[3][lanes];
   };
   /// What eight ties do: their pull along the grid's axes [N], and how much of the stiffness acts
   /// along the normal and in the plane [N/m].
@@ -71,29 +72,40 @@ struct ContactBody : Packs<Pack> {
     return result;
   }
 
-  [[gnu::always_inline]] static Corners corners(const ContactArrays& a, const ContactGroup& group,
-                                                double ahead) {
-    Corners result;
+  /// The displacement inside the cell of a group.
+  [[gnu::always_inline]] static Trilinear displacement(const ContactArrays& a,
+                                                       const ContactGroup& group, double ahead) {
+    Trilinear result;
     for (std::size_t lane = 0; lane < lanes; lane += width) {
       const Vector u = gather(a.displacement, group.corner + lane);
       const Vector v = gather(a.velocity, group.corner + lane);
       const Vector moved = u + Pack(ahead) * v;
-      Base::store(result.at[0] + lane, moved.x);
-      Base::store(result.at[1] + lane, moved.y);
-      Base::store(result.at[2] + lane, moved.z);
+      Base::store(result.term[0] + lane, moved.x);
+      Base::store(result.term[1] + lane, moved.y);
+      Base::store(result.term[2] + lane, moved.z);
+    }
+    for (auto& term : result.term) {  // from values at the corners
+      for (std::size_t bit = 1; bit < lanes; bit *= 2) {
+        for (std::size_t n = 0; n < lanes; ++n) {
+          if ((n & bit) != 0) term[n] -= term[n - bit];
+        }
+      }
     }
     return result;
   }
+  [[gnu::always_inline]] static Pack at(const double* term, const Vector& local) {
+    const Pack low = (term[0] + term[1] * local.x) + (term[2] + term[3] * local.x) * local.y;
+    const Pack high = (term[4] + term[5] * local.x) + (term[6] + term[7] * local.x) * local.y;
+    return low + high * local.z;
+  }
 
   /// Relative to the plane, of points from `lane` on.
-  [[gnu::always_inline]] static Vector places(const ContactGroup& group, const Corners& corners,
+  [[gnu::always_inline]] static Vector places(const ContactGroup& group, const Trilinear& u,
                                               const PlaneFrame& frame, std::size_t lane) {
-    Vector x = load(group.rest, lane);
-    for (std::size_t c = 0; c < lanes; ++c) {
-      const Pack weight = load(group.weight[c], lane);
-      x += weight * Vector{corners.at[0][c], corners.at[1][c], corners.at[2][c]};
-    }
-    return in_frame(frame, x);
+    const Vector local = load(group.local, lane);
+    return in_frame(frame,
+                    load(group.rest, lane) +
+                        Vector{at(u.term[0], local), at(u.term[1], local), at(u.term[2], local)});
   }
   [[gnu::always_inline]] static Vector in_frame(const PlaneFrame& frame, const Vector& x) {
     const double* t = frame.turn;
@@ -126,7 +138,7 @@ struct ContactBody : Packs<Pack> {
   template <GapKind kind>
   static double look_for(const ContactArrays& a, double margin, std::size_t number) {
     const ContactGroup& group = a.groups[number];
-    const Corners then = corners(a, group, a.ahead);
+    const Trilinear then = displacement(a, group, a.ahead);
     std::array<Vector, parts> place;
     std::array<Pack, parts> gap;
     double least = 1e300;
@@ -279,9 +291,9 @@ struct ContactBody : Packs<Pack> {
   static GroupFindings apply_law(const ContactArrays& a, std::size_t number) {
     const ContactGroup& group = a.groups[number];
     ContactMemory& memory = a.memory[number];
-    const Corners then = corners(a, group, a.ahead);
-    Corners now{};
-    if constexpr (grip == Grip::coulomb) now = corners(a, group, 0.0);
+    const Trilinear then = displacement(a, group, a.ahead);
+    Trilinear now{};
+    if constexpr (grip == Grip::coulomb) now = displacement(a, group, 0.0);
     Pulls pulls;
     GroupFindings found{.smallest_gap = 1e300};
     for (std::size_t lane = 0; lane < lanes; lane += width) {
@@ -309,10 +321,18 @@ struct ContactBody : Packs<Pack> {
 
   static void load_corners(const ContactGroup& group, const Pulls& pulls, GroupLoads& loads) {
     for (std::size_t corner = 0; corner < lanes; corner += width) {
+      Vector slope, low;  // of the weights' factors, by a point's place in the cell
+      for_components([&](auto d) __attribute__((always_inline)) {
+        entry<d()>(slope) =
+            Pack([&](auto lane) { return (corner + lane) >> d() & 1 ? 1.0 : -1.0; });
+        entry<d()>(low) = 0.5 - 0.5 * entry<d()>(slope);
+      });
       Vector force{0.0, 0.0, 0.0};
       Pack stiffness = 0.0, tangential = 0.0;
       for (std::size_t p = 0; p < lanes; ++p) {
-        const Pack share = load(group.share[p], corner);
+        const Pack share = (low.x + slope.x * group.local[0].at[p]) *
+                           (low.y + slope.y * group.local[1].at[p]) *
+                           (low.z + slope.z * group.local[2].at[p]);
         const Pack size = std::experimental::abs(share);
         force += share * Vector{pulls.force[0][p], pulls.force[1][p], pulls.force[2][p]};
         stiffness += pulls.stiffness[p] * size;

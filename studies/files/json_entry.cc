@@ -173,10 +173,6 @@ double number_at(const JsonEntry& entry, const std::string& key) {
   return entry.need(key).number();
 }
 
-std::vector<double> numbers_at(const JsonEntry& entry, const std::string& key) {
-  return entry.need(key).numbers();
-}
-
 std::string text_at(const JsonEntry& entry, const std::string& key) {
   return entry.need(key).text();
 }

@@ -30,7 +30,6 @@ class JsonEntry {
   bool is_object() const { return value_->is_object(); }
   bool is_list() const { return value_->is_array(); }
   bool is_number() const { return value_->is_number(); }
-  bool is_text() const { return value_->is_string(); }
   /// Null, or without entries.
   bool empty() const { return value_->empty(); }
   /// Whether it is an object with this entry, and that is not null.
@@ -83,7 +82,6 @@ JsonEntry read_entry(const std::filesystem::path& file);
 
 /// An entry that must be there, null or not.
 double number_at(const JsonEntry& entry, const std::string& key);
-std::vector<double> numbers_at(const JsonEntry& entry, const std::string& key);
 std::string text_at(const JsonEntry& entry, const std::string& key);
 JsonEntry object_at(const JsonEntry& entry, const std::string& key);
 JsonList array_at(const JsonEntry& entry, const std::string& key);

@@ -75,10 +75,6 @@ fs::path Cache::entry(const Job& job) const {
   return folder_ / (job.kind + "-" + job.key());
 }
 
-bool Cache::has_entry(const Job& job) const {
-  return !noted(job, entry(job) / marker_name, "status").empty();
-}
-
 void Cache::tidy() const {
   remove_abandoned_parts(folder_);
 }

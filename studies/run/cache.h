@@ -40,9 +40,6 @@ class Cache {
 
   explicit Cache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Whether there is a result of `job`, sound or not: `fetch` finds out.
-  bool has_entry(const Job& job) const;
-
   /// Copies the result of `job` into `target`, which it makes anew. False, and no `target`, when it
   /// is not there or any file of it is missing, new or another than was stored.
   bool fetch(const Job& job, const std::filesystem::path& target) const;

@@ -8,7 +8,8 @@
 #include <numeric>
 #include <random>
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 std::size_t count(const std::vector<std::uint8_t>& inside) {
@@ -170,4 +171,3 @@ TEST(CoveringGrid, RefusesSpacingsWithoutTwoCellsThroughTheRubber) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

@@ -9,7 +9,8 @@
 #include <numbers>
 #include <random>
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 using std::numbers::pi;
@@ -268,4 +269,3 @@ TEST(CutCells, RefuseImpossibleRequests) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

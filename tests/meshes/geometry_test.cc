@@ -6,7 +6,8 @@
 #include <limits>
 #include <random>
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 Vector3 random_point(std::mt19937& random, const Geometry& geometry) {
@@ -109,4 +110,3 @@ TEST(Geometry, RefusesImpossibleSizesAndNamesTheKey) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

@@ -11,7 +11,8 @@
 #include "meshes/surface_points.h"
 #include "tests/fingers.h"
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 using std::numbers::pi;
@@ -334,4 +335,3 @@ TEST(Meridian, RefusesATurnedGridWithTheReason) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

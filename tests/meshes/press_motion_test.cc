@@ -6,7 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 PressProtocol with_program(std::vector<PressStage> program) {
@@ -177,4 +178,3 @@ TEST(PressMotion, SamplesGoOnInTimeAndEndEveryStage) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 TEST(PressProtocol, DefaultIsValidWithItsDefaultSamples) {
@@ -201,4 +202,3 @@ TEST(PressProtocol, NamesTellTheModesApart) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

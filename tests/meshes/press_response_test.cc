@@ -8,7 +8,8 @@
 #include "meshes/errors.h"
 #include "tests/temporary_folder.h"
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 class PressResponseFile : public ::testing::Test {
@@ -200,4 +201,3 @@ TEST(PressResponse, ErrorNormsOfAConstantFactorAreThatFactor) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

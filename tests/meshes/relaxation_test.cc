@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 const Relaxation two{{{0.3, 0.01}, {0.2, 1.0}}, true};
@@ -58,4 +59,3 @@ TEST(Relaxation, RefusesSharesAndTimesThatLeaveNothing) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

@@ -9,7 +9,8 @@
 #include "meshes/solid.h"
 #include "tests/fingers.h"
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 /// What a polygon of n corners has of its circle's area.
@@ -64,4 +65,3 @@ TEST(RevolvedSurface, ClosesAroundBodiesOfAnyMeridian) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 constexpr double gf_per_cm2 = 98.0665;  // [Pa], by definition of standard gravity
@@ -58,4 +59,3 @@ TEST(Rubber, RefusesWhatIsNotANumber) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

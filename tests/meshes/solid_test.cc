@@ -11,7 +11,8 @@
 #include "meshes/surface_points.h"
 #include "tests/fingers.h"
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 using std::numbers::pi;
@@ -286,4 +287,3 @@ TEST(Solid, RefusesWhatIsNoFinger) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

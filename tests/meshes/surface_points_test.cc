@@ -9,7 +9,8 @@
 #include <numbers>
 #include <random>
 
-namespace fingertip::meshes {
+using namespace fingertip::meshes;
+
 namespace {
 
 using std::numbers::pi;
@@ -223,4 +224,3 @@ TEST(SurfacePoints, RefuseImpossibleRequests) {
 }
 
 }  // namespace
-}  // namespace fingertip::meshes

@@ -82,6 +82,16 @@ TEST(CadFile, DomeOfAStepFileIsTheDome) {
         << geometry.solid->mesh().triangles.size() << " facets";
 }
 
+TEST(CadFile, PlanesHaveFewFacets) {
+  const TemporaryFolder folder;
+  write_cad(folder / "block.step", [] { gmsh::model::occ::addBox(-4.5, -5, 0, 9, 10, 16); });
+  meshes::write_cad_surface(folder / "block.step", folder / "block.stl");
+  const Geometry block =
+      Geometry::of_solid(studies::read_solid({folder / "block.stl", "mm", "z < 1 mm"}), 0.0);
+  EXPECT_NEAR(block.tip_volume(), 1.44e-6, 1e-14);
+  EXPECT_LT(block.solid->mesh().triangles.size(), 5000U);
+}
+
 /// The program makes triangles of it and keeps them.
 TEST(CadFile, IsCheckedAndPressedByTheProgram) {
   const TemporaryFolder folder;

@@ -51,7 +51,6 @@ void EnergyStepper::step(const Drive& drive, double until) {
     const bool sound = std::isfinite(drift) && finger_->extremes().smallest_jacobian > 0.0;
     if (sound && (drift <= bound_ || tried <= floor)) {
       if (drift > bound_) ++count_.forced;
-      last_drift_ = drift;
       accept(tried, tried >= wanted);
       next_ = std::min(tried * std::clamp(factor(drift, bound_), 0.3, 1.5), stable);
       next_ = std::max(next_, tried < wanted ? std::min(wanted, next_ * 2.0) : floor);

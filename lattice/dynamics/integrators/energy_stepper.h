@@ -25,7 +25,6 @@ class EnergyStepper : public Stepper {
   void recall(const Memory& memory) override { next_ = memory[0]; }
   std::string explanation() const override;
 
-  double last_drift() const { return last_drift_; }  ///< of the last accepted step [J]
 
  private:
   double try_step(const Drive& drive, double step);
@@ -36,7 +35,6 @@ class EnergyStepper : public Stepper {
   double bound_;
   double next_ = 0.0;  ///< the step to try [s]; 0: the stable one
   EnergyInstant start_, end_;
-  double last_drift_ = 0.0;
 };
 
 }  // namespace fingertip::lattice

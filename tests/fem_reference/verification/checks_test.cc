@@ -3,7 +3,8 @@
 #include "fem_reference/verification/verification.h"
 #include "tests/temporary_folder.h"
 
-namespace fingertip::fem_reference {
+using namespace fingertip::fem_reference;
+
 namespace {
 
 using enum Volumetric;
@@ -77,4 +78,3 @@ TEST(Press, BalancesAndMirrors) {
 }
 
 }  // namespace
-}  // namespace fingertip::fem_reference

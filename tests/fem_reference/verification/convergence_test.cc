@@ -8,7 +8,8 @@
 
 #include "fem_reference/verification/verification.h"
 
-namespace fingertip::fem_reference {
+using namespace fingertip::fem_reference;
+
 namespace {
 
 using enum Volumetric;
@@ -92,4 +93,3 @@ TEST(CantileverOrders, AreNotBelowTheory) {
 }
 
 }  // namespace
-}  // namespace fingertip::fem_reference

@@ -10,7 +10,9 @@
 #include "fem_reference/verification/verification.h"
 #include "meshes/errors.h"
 
-namespace fingertip::fem_reference {
+using namespace fingertip;
+using namespace fingertip::fem_reference;
+
 namespace {
 
 using meshes::Vector3;
@@ -143,4 +145,3 @@ TEST(ElasticProblem, LinearFieldOnCurvedHangingNodesConverges) {
 }
 
 }  // namespace
-}  // namespace fingertip::fem_reference

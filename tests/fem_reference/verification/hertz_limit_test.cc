@@ -3,7 +3,8 @@
 #include "fem_reference/verification/verification.h"
 #include "tests/temporary_folder.h"
 
-namespace fingertip::fem_reference {
+using namespace fingertip::fem_reference;
+
 namespace {
 
 void expect_passed(const std::vector<Check>& checks) {
@@ -31,4 +32,3 @@ TEST(HertzLimit, IsMetOnARodOfThreeTenths) {
 }
 
 }  // namespace
-}  // namespace fingertip::fem_reference

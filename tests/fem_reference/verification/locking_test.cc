@@ -7,7 +7,8 @@
 #include "fem_reference/verification/verification.h"
 #include "tests/temporary_folder.h"
 
-namespace fingertip::fem_reference {
+using namespace fingertip::fem_reference;
+
 namespace {
 
 /// Too stiff by, per element, at the one Poisson's ratio of the points.
@@ -51,4 +52,3 @@ TEST(Locking, OfThePress) {
 }
 
 }  // namespace
-}  // namespace fingertip::fem_reference

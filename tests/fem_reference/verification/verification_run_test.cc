@@ -7,7 +7,8 @@
 #include "fem_reference/verification/verification.h"
 #include "tests/temporary_folder.h"
 
-namespace fingertip::fem_reference {
+using namespace fingertip::fem_reference;
+
 namespace {
 
 using Json = nlohmann::json;
@@ -51,4 +52,3 @@ TEST(VerificationRun, LeavesWhatItHasWhenStopped) {
 }
 
 }  // namespace
-}  // namespace fingertip::fem_reference

@@ -14,7 +14,9 @@
 #include "studies/run/press_setup.h"
 #include "tests/temporary_folder.h"
 
-namespace fingertip::studies {
+using namespace fingertip;
+using namespace fingertip::studies;
+
 namespace {
 
 UndampedBody body_of(std::vector<std::string> sets) {
@@ -226,4 +228,3 @@ TEST(LammpsOutput, ADumpMayHaveItsRowsAndColumnsInAnyOrder) {
 }
 
 }  // namespace
-}  // namespace fingertip::studies

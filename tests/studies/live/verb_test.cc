@@ -6,7 +6,7 @@
 #include <regex>
 #include <thread>
 
-#include "../program.h"
+#include "tests/studies/program.h"
 #include "tests/temporary_folder.h"
 
 namespace {
