@@ -47,8 +47,6 @@ class Meridian final : public Shape {
   const std::vector<MonotonePart>& parts() const { return parts_; }
 
  private:
-  int chords_of(const MeridianPiece& piece) const;
-  void check_crossings() const;
   void measure();
 
   std::vector<MeridianPiece> pieces_;

@@ -63,6 +63,7 @@ class Solid final : public Shape {
 
   void complete();
   bool is(ProfileSurface surface, std::size_t triangle) const;
+  std::array<Vector3, 3> corners(std::size_t triangle) const;
   void measure();
   double thinnest() const;
   /// From a facet through the rubber to another one.
