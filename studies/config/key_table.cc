@@ -79,6 +79,25 @@ std::string Key::allowed() const {
   return text;
 }
 
+const std::vector<Section>& sections() {
+  static const std::vector<Section> all = {
+      {"geometry", "The finger: rigid rod inside a rubber tip (paper, Fig. 1)"},
+      {"rubber", "The tip's material: isotropic, at small and at large strain"},
+      {"rod", "The rigid rod"},
+      {"lattice", "The mass-spring model of the tip"},
+      {"press", "What is done to the finger"},
+      {"obstacle", "The rigid obstacle that the finger is pressed against"},
+      {"controller", "The 6-degree-of-freedom controller that moves the rod in mode pid"},
+      {"hardware", "Sensors and actuators between controller and rod; the defaults are perfect"},
+      {"grasp", "Two fingers that lift a rigid block, with press.contact, press.friction"},
+      {"reference", "The continuum (finite elements)"},
+      {"calibration", "How spring constants are fitted"},
+      {"exchange", "An undamped lattice for another program (verbs export, import)"},
+      {"run", "How to compute"},
+  };
+  return all;
+}
+
 const std::vector<Key>& key_table() {
   static const std::vector<Key> table = [] {
     std::vector<Key> keys;

@@ -10,9 +10,9 @@
 #include "calibration/toml_depth.h"
 #include "meshes/files.h"
 #include "studies/config/elasticity.h"
-#include "studies/config/key_builders.h"
 #include "studies/config/key_table.h"
 #include "studies/config/law_card_keys.h"
+#include "studies/config/press_depths.h"
 #include "studies/config/profile_file.h"
 #include "studies/config/trimmed.h"
 #include "studies/config/units.h"
@@ -36,11 +36,6 @@ std::string shortened(const std::string& text) {
   return text.size() <= most ? text : text.substr(0, most) + "...";
 }
 
-/// As entries have it: "1e-6" is "1e-06" there.
-std::string default_literal(const Key& key) {
-  return toml_literal(*toml::parse("v = " + key.preset).get("v"));
-}
-
 /// Collects values and problems from all sources.
 class Reader {
  public:
@@ -62,9 +57,6 @@ class Reader {
   void resolve_shape();
   void resolve_card();
   void resolve_continuum_law();
-  void resolve_depths();
-  void resolve_program();
-  void take_from_program(const char* name, const std::string& literal, const std::string& what);
   /// Files named by a value are relative to `base`: the configuration file's folder.
   void take(const Key& key, const toml::node& node, Entry entry, const std::filesystem::path& base);
   void read_section(const std::string& section, const toml::node& node,
@@ -270,64 +262,6 @@ void Reader::resolve_continuum_law() {
                                              : meshes::VolumetricLaw::isochoric_logarithmic;
 }
 
-/// Depth and samples of the usual press.
-void Reader::resolve_depths() {
-  meshes::PressProtocol& protocol = loaded_.config.press.protocol;
-  if (protocol.samples.empty()) {
-    protocol.samples = meshes::default_samples(protocol.depth);
-    return;
-  }
-  if (loaded_.entries["press.depth"].given && protocol.depth != protocol.samples.back()) {
-    loaded_.notes.push_back("press.depth = " + loaded_.entries["press.depth"].literal +
-                            " is overridden by the largest of press.samples");
-  }
-  protocol.depth = protocol.samples.back();
-}
-
-/// A default gives way to the program's value, anything else must not contradict it.
-void Reader::take_from_program(const char* name, const std::string& literal,
-                               const std::string& what) {
-  Entry& entry = loaded_.entries.at(name);
-  const bool usual = !entry.given || entry.literal == default_literal(*find_key(name));
-  if (!usual)
-    problems_.push_back({entry.place, name, unquoted(entry.literal),
-                         "press.program (" + loaded_.entries.at("press.program").place +
-                             ") says otherwise: " + what + " is " + unquoted(literal),
-                         "leave " + std::string(name) + " out"});
-  entry.literal = literal;
-  entry.place = "press.program";
-}
-
-/// Depth, speed and samples of a program.
-void Reader::resolve_program() {
-  meshes::PressProtocol& protocol = loaded_.config.press.protocol;
-  const meshes::PressStage& first = protocol.program.front();
-  double deepest = first.indentation;
-  for (const meshes::PressStage& stage : protocol.program)
-    deepest = std::max(deepest, stage.indentation);
-  const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); };
-  if (!same(protocol.depth, deepest))
-    take_from_program("press.depth", quantity_literal(deepest, "m", "cm"),
-                      "the largest indentation");
-  if (first.moves() && !same(protocol.speed, first.speed))
-    take_from_program("press.speed", quantity_literal(first.speed, "m/s", "cm/s"),
-                      "the speed of the first stage");
-  protocol.depth = deepest;
-  if (first.moves()) protocol.speed = first.speed;
-  if (protocol.samples.empty()) {
-    protocol.samples = meshes::default_samples(deepest);
-  } else if (same(protocol.samples.back(), deepest)) {
-    protocol.samples.back() = deepest;
-  } else if (protocol.samples.back() < deepest) {
-    protocol.samples.push_back(deepest);
-  } else {
-    const Entry& entry = loaded_.entries.at("press.samples");
-    problems_.push_back({entry.place, "press.samples", unquoted(entry.literal),
-                         "some lie deeper than press.program goes",
-                         "leave them out, or let the program go deeper"});
-  }
-}
-
 LoadedConfig Reader::finish() {
   Config& config = loaded_.config;
   lattice::PressSetup& press = config.press;
@@ -346,7 +280,7 @@ LoadedConfig Reader::finish() {
   }
   press.lattice.kinematics = config.kinematics.value_or(default_kinematics(press.lattice.model));
   const meshes::PressProtocol& protocol = press.protocol;
-  protocol.program.empty() ? resolve_depths() : resolve_program();
+  resolve_depths(loaded_, problems_);
   config.reference.geometry = press.geometry;
   config.reference.rubber = press.rubber;
   resolve_continuum_law();

@@ -363,4 +363,8 @@ std::string unquoted(const std::string& literal) {
   return quoted ? literal.substr(1, literal.size() - 2) : literal;
 }
 
+std::string default_literal(const Key& key) {
+  return toml_literal(*toml::parse("v = " + key.preset).get("v"));
+}
+
 }  // namespace fingertip::studies

@@ -26,4 +26,7 @@ std::string toml_literal(const toml::node& node);
 /// The same without quotes around a single string, for messages.
 std::string unquoted(const std::string& literal);
 
+/// The default as entries have it: "1e-6" is "1e-06" there.
+std::string default_literal(const Key& key);
+
 }  // namespace fingertip::studies
