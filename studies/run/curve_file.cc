@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "studies/config/units.h"
+#include "studies/run/curve_columns.h"
 #include "studies/run/curve_rows.h"
 #include "studies/run/curve_text.h"
 
@@ -18,43 +16,7 @@ namespace fingertip::studies {
 
 namespace {
 
-namespace fs = std::filesystem;
 using std::string_view;
-
-/// A column that is read.
-struct Column {
-  std::size_t index = 0;
-  std::string title, unit;
-  double factor = 1.0;    ///< SI over `unit`, with the sign
-  bool is_clock = false;  ///< h:min:s may stand in it
-
-  /// 1/1000 is no binary number, 1000 is: dividing by it rounds once, so that 0.3 mm is 3e-4 m.
-  double si(double value) const {
-    const double inverse = std::round(1.0 / factor);
-    return std::abs(factor) < 1.0 && 1.0 / inverse == factor ? value / inverse : value * factor;
-  }
-};
-
-/// What people and machines call the same.
-constexpr std::pair<string_view, string_view> other_names[] = {
-    {"force", "normal_force"},       {"force", "load"},           {"force", "kraft"},
-    {"force", "standardkraft"},      {"force", "standard_force"}, {"position", "travel"},
-    {"position", "extension"},       {"position", "stroke"},      {"position", "crosshead"},
-    {"position", "displacement"},    {"position", "distance"},    {"position", "standardweg"},
-    {"position", "standard_travel"}, {"position", "weg"},         {"time", "zeit"}};
-
-/// How many titles have this name.
-std::ptrdiff_t count_of(const std::vector<TableTitle>& titles, string_view name) {
-  return std::ranges::count(titles, name, &TableTitle::name);
-}
-
-/// The name under which a quantity stands in these titles: its own, else another; empty: none.
-string_view name_among(const std::vector<TableTitle>& titles, string_view quantity) {
-  if (count_of(titles, quantity) > 0) return quantity;
-  for (const auto& [known, other] : other_names)
-    if (known == quantity && count_of(titles, other) > 0) return other;
-  return {};
-}
 
 /// The curves of one file.
 class CurveReader {
@@ -63,24 +25,20 @@ class CurveReader {
       : problems_(source.path),
         source_(source),
         allowed_(allowed),
+        columns_(source, allowed, problems_),
         wants_time_(in_time),
         text_(text_of(source.path, problems_)) {}
   std::vector<MeasuredFile> read();
 
  private:
-  TextTables tables();
-  void refuse_header();
   MeasuredFile read_table(const TextTable& table);
   void choose_pair();
   void choose_sigma();
   bool is_travel() const { return quantities_.x.name == measured::travel.x.name; }
   void note_unused();
-  const ColumnWish* wish(string_view quantity) const;
-  std::optional<std::size_t> find(string_view name);
-  Column column(std::size_t index, const Quantity& quantity);
   void read_setting(const Line& line);
   void read_row(std::size_t row);
-  std::optional<double> read_cell(const Column& column, std::size_t row);
+  std::optional<double> read_cell(const CurveColumn& column, std::size_t row);
   bool read_sigma(CurveRow& row, std::size_t place);
   void keep(const CurveRow& row, std::size_t place);
   void check_signs();
@@ -89,13 +47,14 @@ class CurveReader {
   FileProblems problems_;
   const CurveSource& source_;
   const std::vector<CurveQuantities>& allowed_;
+  CurveColumns columns_;
   bool wants_time_ = false;
   std::string text_;
   std::vector<MeasuredSetting> settings_;
   const TextTable* table_ = nullptr;  ///< at hand
   CurveQuantities quantities_;
-  Column x_, y_;
-  std::optional<Column> sigma_, time_;
+  CurveColumn x_, y_;
+  std::optional<CurveColumn> sigma_, time_;
   bool own_error_ = false;  ///< sigma_ is a program's force_error, which may be unknown
   std::vector<CurveRow> rows_;
   std::size_t data_rows_ = 0, before_start_ = 0, without_error_ = 0;
@@ -124,67 +83,13 @@ void CurveReader::read_setting(const Line& line) {
     settings_.push_back({key, value, line.number});
 }
 
-const ColumnWish* CurveReader::wish(string_view quantity) const {
-  const auto found = std::ranges::find(source_.columns, quantity, &ColumnWish::quantity);
-  return found == source_.columns.end() ? nullptr : &*found;
-}
-
-std::optional<std::size_t> CurveReader::find(string_view name) {
-  const auto& titles = table_->titles;
-  if (!source_.columns.empty()) {
-    const ColumnWish* own = wish(name);
-    if (own == nullptr) return {};
-    return table_->needed[std::size_t(own - source_.columns.data())];
-  }
-  const string_view here = name_among(titles, name);
-  if (here.empty()) return {};
-  const auto first = std::ranges::find(titles, here, &TableTitle::name);
-  for (auto next = first + 1; next != titles.end(); ++next)
-    if (next->name == here || (name == "force" && next->name == "normal_force"))
-      problems_.add(table_->header_line, next->written, "",
-                    "stands for the same as '" + first->written + "'",
-                    "leave one of the two columns out, or choose by a TOML file");
-  return std::size_t(first - titles.begin());
-}
-
-Column CurveReader::column(std::size_t index, const Quantity& quantity) {
-  const TableTitle& title = table_->titles[index];
-  const std::string name(quantity.name), si(quantity.unit);
-  const ColumnWish* own = wish(quantity.name);
-  const bool told = own != nullptr && !own->unit.empty();
-  Column result{index, title.written, told ? own->unit : title.unit.value_or(""), 1.0, si == "s"};
-  const std::string remedy = "name the column for instance '" + name + " [" + si + "]'";
-  const bool clock =
-      result.is_clock && !table_->rows.empty() && result.unit != "s" &&
-      (!title.unit || title.unit->find(':') != std::string::npos || title.unit->empty());
-  if (clock && !told) {
-    result.unit = "s";  // as h:min:s it was read
-  } else if (!told && !title.unit) {
-    problems_.add(table_->header_line, title.written, "",
-                  "the unit is missing: it stands in brackets at the end", remedy);
-  } else if (si == "1") {
-    if (result.unit != "1")
-      problems_.add(table_->header_line, title.written, "",
-                    "a number without dimension is marked [1]",
-                    remedy + " (divide percents by 100)");
-  } else {
-    try {
-      result.factor = parse_quantity("1 " + result.unit, si, si);
-    } catch (const UnitError& error) {
-      problems_.add(table_->header_line, title.written, "", error.rule, remedy);
-    }
-  }
-  if (own != nullptr) result.factor *= own->sign;
-  return result;
-}
-
 void CurveReader::choose_pair() {
   for (const CurveQuantities& pair : allowed_) {
-    const auto x = find(pair.x.name), y = find(pair.y.name);
+    const auto x = columns_.find(*table_, pair.x.name), y = columns_.find(*table_, pair.y.name);
     if (!x || !y) continue;
     quantities_ = pair;
-    x_ = column(*x, pair.x);
-    y_ = column(*y, pair.y);
+    x_ = columns_.column(*table_, *x, pair.x);
+    y_ = columns_.column(*table_, *y, pair.y);
     result_.x_quantity = pair.x.name;
     result_.y_quantity = pair.y.name;
     return;
@@ -192,47 +97,13 @@ void CurveReader::choose_pair() {
   throw std::logic_error("a table without its columns");
 }
 
-/// No line has the columns that are needed.
-void CurveReader::refuse_header() {
-  Lines lines(text_);
-  auto first = lines.next();
-  while (first && trimmed(first->text).front() == '#') first = lines.next();
-  if (!first) {
-    problems_.add(0, "", "", "the file holds no table",
-                  "write a header such as 'indentation [mm], force [mN]' and rows of numbers");
-    return;
-  }
-  std::string pairs;
-  for (const CurveQuantities& pair : allowed_)
-    pairs += fmt::format("{}'{} [{}]' and '{} [{}]'", pairs.empty() ? "" : ", or ", pair.x.name,
-                         pair.x.unit, pair.y.name, pair.y.unit);
-  char separator = ',';
-  for (const char known : {'\t', ',', ';'})
-    if (first->text.find(known) != first->text.npos) separator = known;
-  std::vector<string_view> cells;
-  split(first->text, separator, cells);
-  const bool is_row = number_in(cells.front()).has_value();
-  constexpr std::size_t enough = 8;
-  std::string header;
-  for (std::size_t i = 0; i < std::min(enough, cells.size()); ++i)
-    header += (i > 0 ? ", " : "") + shown(cells[i]);
-  if (cells.size() > enough) header += fmt::format(" and {} more", cells.size() - enough);
-  problems_.add(
-      first->number, "", "",
-      (is_row ? "the header is missing: the first line is '"
-              : "the header has no pair of columns that can be used here, nor has any "
-                "line below: the first is '") +
-          header + "'",
-      "name the columns in the first line, separated by comma, semicolon or tab: " + pairs +
-          ", in any unit, or say which they are in a TOML file in place of this "
-          "one: [[press]] (studies/manual/files.md)");
-}
-
 void CurveReader::choose_sigma() {
-  auto index = find("sigma");
+  auto index = columns_.find(*table_, "sigma");
   own_error_ = !index && quantities_.y.name == "force" && source_.columns.empty();
-  if (own_error_) index = find("force_error");
-  if (index) sigma_ = column(*index, {own_error_ ? "force_error" : "sigma", quantities_.y.unit});
+  if (own_error_) index = columns_.find(*table_, "force_error");
+  if (index)
+    sigma_ = columns_.column(*table_, *index,
+                             {own_error_ ? "force_error" : "sigma", quantities_.y.unit});
 }
 
 void CurveReader::note_unused() {
@@ -244,47 +115,7 @@ void CurveReader::note_unused() {
   if (!unused.empty()) result_.notes.push_back("columns that are not used: " + unused);
 }
 
-/// The file's tables; their columns are those of the source, or the first pair that is there.
-TextTables CurveReader::tables() {
-  TableLayout layout = source_.layout;
-  const std::string remedy = "compare the file with its description";
-  TextTables found;
-  if (!source_.columns.empty()) {
-    std::vector<std::string> columns;
-    for (const ColumnWish& each : source_.columns) columns.push_back(each.column);
-    DescribedColumns choose(columns);
-    if (choose.all_numbered()) layout.has_names = false;
-    found = tables_in(text_, layout, std::ref(choose), problems_);
-    if (found.tables.empty()) choose.refuse(problems_, remedy);
-  } else {
-    found = tables_in(
-        text_, layout,
-        [this](const std::vector<TableTitle>& titles, std::size_t) {
-          std::vector<std::size_t> needed;
-          const auto place = [&](string_view quantity) {
-            const string_view here = name_among(titles, quantity);
-            const auto at = std::ranges::find(titles, here, &TableTitle::name);
-            return here.empty() ? titles.size() : std::size_t(at - titles.begin());
-          };
-          for (const CurveQuantities& pair : allowed_) {
-            needed = {place(pair.x.name), place(pair.y.name)};
-            if (std::ranges::max(needed) < titles.size()) break;
-            needed.clear();
-          }
-          if (needed.empty()) return needed;
-          for (const char* further : {"sigma", "force_error", "time"})
-            if (const std::size_t at = place(further); at < titles.size()) needed.push_back(at);
-          return needed;
-        },
-        problems_);
-  }
-  for (const Line& comment : found.comments) read_setting(comment);
-  if (found.tables.empty() && source_.columns.empty()) refuse_header();
-  problems_.throw_if_any();
-  return found;
-}
-
-std::optional<double> CurveReader::read_cell(const Column& column, std::size_t row) {
+std::optional<double> CurveReader::read_cell(const CurveColumn& column, std::size_t row) {
   constexpr double largest = 1e60;
   const string_view cell = table_->rows[row][column.index];
   const auto value = number_in(cell);
@@ -376,9 +207,9 @@ void CurveReader::check_direction() {
     mean_x += row.x / double(rows_.size()), mean_y += row.y / double(rows_.size());
   for (const CurveRow& row : rows_) together += (row.x - mean_x) * (row.y - mean_y);
   if (!is_travel() || !(together < 0.0)) return;
-  const ColumnWish* own = wish("position");
+  const ColumnWish* own = columns_.wish("position");
   const std::string file = source_.path.filename().string();
-  const auto described = [](const char* quantity, const Column& column, const char* sign) {
+  const auto described = [](const char* quantity, const CurveColumn& column, const char* sign) {
     return fmt::format("{} = {{column = '{}'{}}}\n", quantity, column.title, sign);
   };
   problems_.add(
@@ -400,8 +231,8 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
   choose_pair();
   problems_.throw_if_any();
   choose_sigma();
-  if (const auto time = find("time"); time && (is_travel() || wants_time_))
-    time_ = column(*time, {"time", "s"});
+  if (const auto time = columns_.find(*table_, "time"); time && (is_travel() || wants_time_))
+    time_ = columns_.column(*table_, *time, {"time", "s"});
   problems_.throw_if_any();
   note_unused();
   std::size_t first = 0, end = table.rows.size();
@@ -454,7 +285,10 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
 }
 
 std::vector<MeasuredFile> CurveReader::read() {
-  TextTables found = tables();
+  TextTables found = columns_.tables(text_);
+  for (const Line& comment : found.comments) read_setting(comment);
+  if (found.tables.empty() && source_.columns.empty()) columns_.refuse_header(text_);
+  problems_.throw_if_any();
   const std::size_t count = found.tables.size();
   if (source_.block > count)
     problems_.add(0, "block", std::to_string(source_.block),

@@ -1,0 +1,161 @@
+/// The loading among the rows of a measured travel, with holds and the way back.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/run/curve_rows.h"
+
+namespace fingertip::studies {
+
+namespace {
+
+/// Integral of the force over the travel, from the first row on, by trapezes.
+double work(const std::vector<CurveRow>& rows) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    sum += 0.5 * (rows[i].y + rows[i - 1].y - 2.0 * rows.front().y) * (rows[i].x - rows[i - 1].x);
+  return sum;
+}
+
+/// Rows from `first` up to, without, `end`, in which the machine stands still.
+struct Hold {
+  std::size_t first = 0, end = 0;
+};
+
+/// Times as many rows as usual, and rows, that make a hold.
+constexpr std::size_t hold_share = 5, hold_rows = 10;
+
+/// Holds among rows on the way up: stretches of rows within a bin.
+std::vector<Hold> holds_in(const std::vector<CurveRow>& rows, double width) {
+  std::vector<Hold> stretches;
+  for (std::size_t first = 0; first < rows.size();) {
+    double least = rows[first].x, largest = least;
+    std::size_t end = first + 1;
+    for (; end < rows.size(); ++end) {
+      least = std::min(least, rows[end].x), largest = std::max(largest, rows[end].x);
+      if (largest - least > width) break;
+    }
+    stretches.push_back({first, end});
+    first = end;
+  }
+  std::vector<std::size_t> counts;
+  for (const Hold& each : stretches) counts.push_back(each.end - each.first);
+  if (counts.empty()) return {};
+  const auto middle = counts.begin() + std::ptrdiff_t(counts.size() / 2);
+  std::ranges::nth_element(counts, middle);
+  const std::size_t usual = *middle, least_count = std::max(hold_rows, hold_share * usual);
+  std::erase_if(stretches, [&](const Hold& h) { return h.end - h.first < least_count; });
+  // At its begin the machine still moves.
+  for (Hold& hold : stretches) {
+    std::vector<double> xs;
+    for (std::size_t i = hold.first; i < hold.end; ++i) xs.push_back(rows[i].x);
+    const auto half = xs.begin() + std::ptrdiff_t(xs.size() / 2);
+    std::ranges::nth_element(xs, half);
+    while (rows[hold.first].x < *half) ++hold.first;
+  }
+  // Dense rows on the way are no hold.
+  std::erase_if(stretches, [&](const Hold& hold) {
+    const std::size_t quarter = std::max<std::size_t>(1, (hold.end - hold.first) / 4);
+    double advance = 0.0;
+    for (std::size_t i = 0; i < quarter; ++i)
+      advance += (rows[hold.end - 1 - i].x - rows[hold.first + i].x) / double(quarter);
+    return advance > 0.25 * width;
+  });
+  return stretches;
+}
+
+/// Mean force of up to a tenth of a hold's rows, at its begin or end.
+double force_of(const std::vector<CurveRow>& rows, const Hold& hold, bool at_end) {
+  const std::size_t count = std::max<std::size_t>(1, (hold.end - hold.first) / 10);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    sum += rows[at_end ? hold.end - 1 - i : hold.first + i].y / double(count);
+  return sum;
+}
+
+void tell_hold(const std::vector<CurveRow>& rows, const Hold& hold, Holds use,
+               calibration::Course& course, std::vector<std::string>& notes) {
+  const double start = force_of(rows, hold, false) - rows.front().y,
+               end = force_of(rows, hold, true) - rows.front().y,
+               time = rows[hold.end - 1].time - rows[hold.first].time;
+  std::string text =
+      fmt::format("a hold, {} rows from line {}, is {}", hold.end - hold.first,
+                  rows[hold.first].line, use == Holds::kept ? "fitted" : "not fitted");
+  const bool pressed = start > 0.05 * std::ranges::max(rows, {}, &CurveRow::y).y;
+  if (pressed) {
+    const double fall = 1.0 - end / start;
+    text += fmt::format("; in it the force falls by {:.2g} %", 100.0 * fall);
+    if (std::isnan(course.relaxation) || time >= course.hold_time)
+      course.relaxation = fall, course.hold_time = time;
+  }
+  if (time > 0.0) text += fmt::format(" in {:.3g} s", time);
+  notes.push_back(text);
+}
+
+/// The unloading, thinned to what a figure shows.
+void keep_way_back(const std::vector<CurveRow>& rows, std::size_t first,
+                   calibration::Course& course) {
+  constexpr std::size_t most = 100;
+  const std::size_t step = std::max<std::size_t>(1, (rows.size() - first) / most);
+  for (std::size_t i = first; i < rows.size(); i += step) {
+    course.back_x.push_back(rows[i].x);
+    course.back_y.push_back(rows[i].y);
+  }
+}
+
+}  // namespace
+
+std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::Course& course,
+                              std::vector<std::string>& notes, Holds use) {
+  if (rows.empty()) return rows;
+  // The first row that deep: the noise of a hold must not choose the turn.
+  const auto [least, largest] = std::ranges::minmax_element(rows, {}, &CurveRow::x);
+  const double width = (largest->x - least->x) / double(most_rows), close = largest->x - width;
+  const auto turn = std::ranges::find_if(rows, [&](const CurveRow& row) { return row.x >= close; });
+  auto last = turn;
+  while (last + 1 != rows.end() && (last + 1)->x > last->x) ++last;
+  const std::size_t count = std::size_t(last - rows.begin()) + 1;
+  // Where the machine goes back.
+  const auto back = std::find_if(rows.begin() + std::ptrdiff_t(count), rows.end(),
+                                 [&](const CurveRow& row) { return row.x < close; });
+  const Hold at_end{count, std::size_t(back - rows.begin())};
+  if (at_end.end - at_end.first >= 2)
+    tell_hold(rows, at_end, use, course, notes);
+  else if (use == Holds::left_out && count < rows.size() && back == rows.end())
+    notes.emplace_back("rows after the largest position, a hold, are left out");
+  if (back != rows.end()) {
+    const double around = work(rows);
+    const std::vector<CurveRow> up(rows.begin(), rows.begin() + std::ptrdiff_t(count));
+    const double done = work(up);
+    keep_way_back(rows, at_end.end, course);
+    if (done > 0.0) {
+      course.loop = around / done;
+      notes.push_back(
+          fmt::format("the loading, {} rows, is fitted and the unloading, {} rows, is not; the "
+                      "loop takes {:.2g} % of the work of the loading",
+                      count, rows.size() - at_end.end, 100.0 * course.loop));
+    }
+  }
+  const std::vector<Hold> holds =
+      holds_in({rows.begin(), rows.begin() + std::ptrdiff_t(count)}, width);
+  for (const Hold& hold : holds) tell_hold(rows, hold, use, course, notes);
+  if (use == Holds::kept) {
+    rows.resize(at_end.end);
+    int number = 0;
+    const auto mark = [&](const Hold& hold) {
+      ++number;
+      for (std::size_t i = hold.first; i < hold.end; ++i) rows[i].hold = number;
+    };
+    std::ranges::for_each(holds, mark);
+    mark(at_end);
+    return rows;
+  }
+  rows.resize(count);
+  for (auto hold = holds.rbegin(); hold != holds.rend(); ++hold)
+    rows.erase(rows.begin() + std::ptrdiff_t(hold->first),
+               rows.begin() + std::ptrdiff_t(hold->end));
+  return rows;
+}
+
+}  // namespace fingertip::studies
