@@ -32,6 +32,9 @@ std::string described(const lattice::PressSetup& setup);
 /// Lattice or continuum, as calibration.forward says.
 CurveKind press_kind(const CalibrationSettings& settings);
 
+/// Numbers a curve whose name others have: two files of one stem, two fingers under one contact.
+void name_once(const std::vector<calibration::Curve>& others, calibration::Curve& curve);
+
 /// Appends a press with its curve, named by its condition where it has no name. Throws ConfigError
 /// for a motion that no fit knows.
 void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, calibration::Curve curve);

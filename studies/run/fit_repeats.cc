@@ -14,7 +14,7 @@ namespace {
 std::string press_of(const FitInput& input, std::size_t i) {
   const lattice::PressSetup& press = input.presses[i];
   const std::string machine = is_travel(input, i) ? input.travels[i]->machine : "";
-  // An indentation's machine is its own (fit_curves.cc), the press may be the same.
+  // An indentation's machine is its own (fit_measured.cc), the press may be the same.
   return meshes::json_of(press.geometry).dump() + "|" + input.conditions[i] + "|" +
          (input.curves[i].is_travel ? machine : "");
 }
