@@ -13,6 +13,9 @@
 
 namespace fingertip::fem_reference {
 
+/// A component with this name is no field, and not written.
+inline constexpr const char* no_field = "none";
+
 /// The fields of a mesh, for ParaView: those of a meridian are written in space, in the plane y = 0
 /// or turned around the axis. Call as dealii::DataOut, then `write`.
 template <int dim>
