@@ -24,7 +24,7 @@ using meshes::to_text;
 
 /// Meshes before the error of the finest can be told. Frequencies are free of the noise of contact,
 /// for which a press takes three.
-constexpr std::size_t fewest_meshes = 2;
+constexpr std::size_t fewest_mode_meshes = 2;
 /// From mesh to mesh the element counts grow by about this factor, the unknowns by its cube.
 constexpr double growth = std::numbers::sqrt2;
 
@@ -73,7 +73,7 @@ class ModesRun {
   void compute() {
     for (double refinement = job_.refinement;; refinement = next_refinement(refinement)) {
       solve_on(refinement);
-      const bool estimable = meshes_.size() >= fewest_meshes;
+      const bool estimable = meshes_.size() >= fewest_mode_meshes;
       const double worst = worst_relative_error();
       if (!job_.estimate_error || (estimable && worst <= job_.tolerance)) return;
       const double next = std::pow(next_refinement(refinement) / refinement, 3) *
@@ -114,7 +114,7 @@ class ModesRun {
                      "mesh " + std::to_string(number) + ": lowest frequency " +
                          to_text(lowest().front().frequency) + " Hz");
     write_tables({RunOutcome::Status::interrupted, ""});
-    if (job_.write_fields && (!job_.estimate_error || meshes_.size() >= fewest_meshes))
+    if (job_.write_fields && (!job_.estimate_error || meshes_.size() >= fewest_mode_meshes))
       write_fields(tip);
   }
 

@@ -336,7 +336,7 @@ ContactEffort PlaneContact::solve(ContactSolver& solver, const PlanePose& pose) 
     }
     stalled = wrong.size() < fewest ? 0 : stalled + 1;
     fewest = std::min(fewest, wrong.size());
-    if (stalled > patience && wrong.size() > 1) wrong.resize(1);
+    if (stalled > patience && wrong.size() > 1) wrong.erase(wrong.begin() + 1, wrong.end());
     for (const std::size_t node : wrong) this->change(node, solution);
   }
   throw meshes::NotConverged("the contact state did not converge within " +

@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 using meshes::to_text;
 
 /// Meshes before the static error can be told, and how they grow: as in a static press.
-constexpr std::size_t fewest_meshes = 3;
-constexpr double refined_share = 0.7;
+constexpr std::size_t fewest_transient_meshes = 3;
+constexpr double refined_in_motion = 0.7;
 /// The transient's mesh may differ from the finest static one by this many tolerances.
 constexpr double allowed_tolerances = 2.0;
 constexpr std::size_t most_rows = 2000;
@@ -70,14 +70,14 @@ class TransientRun {
     ContinuumPress press(still, folder_ / "tip.msh", stop_requested_);
     for (;;) {
       static_presses_.start_mesh(press.mesh());
-      progress_.report("refine", static_presses_.meshes().size(), fewest_meshes,
+      progress_.report("refine", static_presses_.meshes().size(), fewest_transient_meshes,
                        "static press on mesh " + std::to_string(static_presses_.meshes().size()) +
                            ": " + std::to_string(press.mesh().unknowns) + " unknowns");
       for (const double sample : job_.protocol.samples) static_presses_.add(press.advance(sample));
       keep_mesh(press);
-      const bool estimable = static_presses_.meshes().size() >= fewest_meshes;
+      const bool estimable = static_presses_.meshes().size() >= fewest_transient_meshes;
       if (estimable && static_presses_.worst_relative_error() <= job_.tolerance) break;
-      if (!press.refine(refined_share)) {
+      if (!press.refine(refined_in_motion)) {
         shortfall_ =
             "the static force may be off by more than the tolerance of " + to_text(job_.tolerance) +
             " on the finest mesh that reference.max_unknowns = " + to_text(job_.max_unknowns) +

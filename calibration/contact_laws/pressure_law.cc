@@ -30,7 +30,7 @@ constexpr double same_gap = 5e-4;
 /// Finest patches that surface_points makes, and the coarsest that make sense, over the radius.
 constexpr double finest = 1e-3, coarsest = 1e-2;
 /// Exponents of power laws among which is sought.
-constexpr double largest_exponent = 4.0;
+constexpr double highest_power = 4.0;
 
 /// Forces of laws with coefficient one over those of the curve: a row per sample.
 template <typename Laws>
@@ -197,7 +197,7 @@ PowerLaw fitted_power(const ForceCurve& curve, const GapField& field) {
   };
   constexpr int bits = std::numeric_limits<double>::digits / 2;
   const auto found = boost::math::tools::brent_find_minima(
-      [&](double exponent) { return with(exponent).second; }, 0.0, largest_exponent, bits);
+      [&](double exponent) { return with(exponent).second; }, 0.0, highest_power, bits);
   return with(found.first).first;
 }
 

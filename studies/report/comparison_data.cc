@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_depths = 20;
 
 /// The force of a sample at `depth`, else the one interpolated between samples around it.
-CurveForce force_at(const ComparedCurve& curve, double depth) {
+CurveForce told_force(const ComparedCurve& curve, double depth) {
   for (const meshes::PressSample& sample : curve.response.pressing())
     if (std::abs(sample.indentation - depth) <= rounding_of_depths * std::abs(depth))
       return {sample.normal_force, false};
@@ -88,7 +88,7 @@ std::vector<double> compared_depths(const std::vector<ComparedCurve>& curves) {
   for (std::size_t i = 1; i < curves.size(); ++i) {
     std::vector<double> common, inside;
     for (const meshes::PressSample& sample : curves.front().response.pressing()) {
-      const CurveForce force = force_at(curves[i], sample.indentation);
+      const CurveForce force = told_force(curves[i], sample.indentation);
       if (std::isnan(force.value) || !(sample.indentation > 0.0)) continue;
       inside.push_back(sample.indentation);
       if (!force.interpolated) common.push_back(sample.indentation);
@@ -161,9 +161,9 @@ Comparison compare(std::vector<ComparedCurve> curves) {
   comparison.depths = compared_depths(all);
   for (const double depth : comparison.depths) {
     std::vector<ComparedForce> row;
-    const double first = force_at(all.front(), depth).value;
+    const double first = told_force(all.front(), depth).value;
     for (const ComparedCurve& curve : all) {
-      const CurveForce force = force_at(curve, depth);
+      const CurveForce force = told_force(curve, depth);
       row.push_back({force, force.value / first - 1.0});
     }
     comparison.rows.push_back(std::move(row));

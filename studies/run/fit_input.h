@@ -71,6 +71,9 @@ struct FitInput {
   /// same; and what that is, for people. None: nothing.
   std::vector<std::vector<double>> theory_error;
   std::string theory_error_of;
+  /// Likewise, by how much a finite law exceeds the small-strain lattices that are fitted; empty
+  /// where they are finite, and where one of the presses finds no equilibrium.
+  std::vector<std::vector<double>> finite_excess;
   bool density_known = true, retardation_time_known = true;  ///< of base.rubber, for material.toml
   std::vector<std::string> profile;                          ///< two parameters, or none
   bool profile_intervals = false;                            ///< else those of the covariance

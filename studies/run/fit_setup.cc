@@ -227,6 +227,8 @@ FitSetup set_up(const LoadedConfig& loaded, Presses presses) {
   FitSetup first = assembled(loaded, presses);
   const auto excess = excess_of_finite_strain(first.input);
   FitSetup fit = at_the_right_strain(loaded, std::move(first), presses, excess);
+  if (fit.input.base.lattice.kinematics == lattice::Kinematics::small)
+    fit.input.finite_excess = excess;
   set_budget(loaded, fit);
   fit.input.candidates = candidates_of(
       knows_relaxation(loaded.config.calibration) ? lasting(fit.loaded) : fit.loaded, fit);

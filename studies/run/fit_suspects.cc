@@ -247,11 +247,10 @@ struct Excess {
 /// What a small-strain fit leaves out, and what the other contact would change.
 std::vector<Excess> excesses_of(const FitInput& input) {
   std::vector<Excess> excesses;
-  auto finite = excess_of_finite_strain(input);
+  const auto& finite = input.finite_excess;
   if (!finite.empty() && input.theory_error != finite)
     excesses.push_back({"finite strain",
-                        "the data go beyond small strain (leave lattice.kinematics out)",
-                        std::move(finite)});
+                        "the data go beyond small strain (leave lattice.kinematics out)", finite});
   const bool slips = input.presses.front().protocol.contact != meshes::ContactMode::stick;
   auto other = excess_of(input, calibration::excess_of_other_contact);
   if (!other.empty())
