@@ -35,6 +35,16 @@ void agree(const std::string& failure, MPI_Comm communicator) {
   if (first != all.end()) throw meshes::NotConverged(*first);
 }
 
+/// Curved sides may cross where corners tell nothing of it.
+template <int dim>
+void refuse_crossed_sides(const dealii::FEValues<dim>& values) {
+  for (unsigned q = 0; q < values.n_quadrature_points; ++q)
+    if (!(values.JxW(q) > 0.0))
+      throw meshes::NotConverged(
+          "an element of the mesh is turned inside out by its curved sides; choose another "
+          "reference.refinement, or round the edges of the finger");
+}
+
 /// What a thread needs to integrate elements.
 template <int dim>
 struct Work {
@@ -113,6 +123,7 @@ void for_each_element(const Body<dim>& body, ElementKernel<dim>& kernel, const V
     for (unsigned i = 0; i < order.size(); ++i) work.local[order[i]] = u[work.indices[i]];
     ElementSystem& element = result.element;
     try {
+      refuse_crossed_sides(work.values);
       work.kernel->integrate(work.values, work.local, parts, element);
     } catch (const meshes::NotConverged& error) {
       result.failure = error.what();

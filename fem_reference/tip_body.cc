@@ -101,15 +101,18 @@ class PartsManifold : public dealii::Manifold<dim> {
 };
 
 /// Faces and edges on the boundary are curved as the parts are on which they lie, all others flat
-/// and straight. The mesh is turned by -`tilt` as it is told.
+/// and straight; so are those of parts with edges that the mesh cuts off. The mesh is turned by
+/// -`tilt` as it is told.
 template <int dim>
 void follow_boundary(const meshes::Geometry& geometry, double tilt,
                      Triangulation<dim>& triangulation) {
   const std::shared_ptr<const meshes::BoundaryParts> boundary = meshes::boundary_parts(geometry);
   using Parts = std::set<int>;
   std::map<Parts, dealii::types::manifold_id> numbers;
-  const auto number_of = [&](const Parts& parts) {
-    return numbers.try_emplace(parts, dealii::types::manifold_id(numbers.size())).first->second;
+  const auto follow = [&](const auto& side, const Parts& parts) {
+    if (parts.size() == 1 && boundary->hides_edges(*parts.begin())) return;
+    side->set_manifold_id(
+        numbers.try_emplace(parts, dealii::types::manifold_id(numbers.size())).first->second);
   };
   std::map<unsigned, Parts> at_line;  // by the line's number
   for (const auto& cell : triangulation.cell_iterators())
@@ -118,7 +121,7 @@ void follow_boundary(const meshes::Geometry& geometry, double tilt,
       dealii::Point<dim> middle = face->center();
       const int part = boundary->part_at(PhysicalTag(face->boundary_id()), in_space<dim>(middle));
       if (part < 0) continue;
-      face->set_manifold_id(number_of({part}));
+      follow(face, {part});
       if constexpr (dim == 3)
         for (unsigned l = 0; l < face->n_lines(); ++l) at_line[face->line(l)->index()].insert(part);
     }
@@ -126,7 +129,7 @@ void follow_boundary(const meshes::Geometry& geometry, double tilt,
     for (const auto& cell : triangulation.cell_iterators())
       for (unsigned l = 0; l < cell->n_lines(); ++l)
         if (const auto parts = at_line.find(cell->line(l)->index()); parts != at_line.end())
-          cell->line(l)->set_manifold_id(number_of(parts->second));
+          follow(cell->line(l), parts->second);
   for (const auto& [parts, number] : numbers)
     triangulation.set_manifold(number,
                                PartsManifold<dim>(boundary, {parts.begin(), parts.end()}, tilt));

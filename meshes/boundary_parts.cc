@@ -26,6 +26,10 @@ constexpr double smooth_cosine = 0.7071;
 /// A part this narrow, over the largest radius, belongs to a neighbour: elements of its width would
 /// be countless. What is held moves as one, so that its own edges do not matter.
 constexpr double narrow = 0.02, narrow_bond = 0.2;
+/// Creases of this length together, over the largest radius, which seldom branch, are meant; others
+/// are the roughness of a scan.
+constexpr double short_crease = 0.2;
+constexpr double most_branches = 0.1;
 /// Steps to where parts meet, each at least halves what is missing.
 constexpr int most_steps = 60;
 
@@ -86,6 +90,7 @@ class RevolvedParts final : public BoundaryParts {
     return PhysicalTag::tip;  // no boundary
   }
 
+  bool hides_edges(int) const override { return false; }
   Vector3 nearest(int part, const Vector3& w) const override {
     if (part == plane_y()) return {w.x(), 0.0, w.z()};
     if (part == plane_x()) return {0.0, w.y(), w.z()};
@@ -154,12 +159,17 @@ class SolidParts final : public BoundaryParts {
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t other = solid_->neighbours()[t][c];
         if (other < t)
-          sides_.push_back({t, other, (mesh.corner(t, c) - mesh.corner(t, (c + 1) % 3)).norm()});
+          sides_.push_back({t,
+                            other,
+                            {mesh.triangles[t][c], mesh.triangles[t][(c + 1) % 3]},
+                            (mesh.corner(t, c) - mesh.corner(t, (c + 1) % 3)).norm()});
       }
     Classes classes(count);
     for (const Side& side : sides_)
       if (continues(side)) classes.unite(side.t, side.other);
-    while (unite_narrow(classes)) {
+    find_creases(classes);
+    std::vector<std::size_t> united;
+    while (unite_narrow(classes, united)) {
     }
     std::map<std::size_t, int> numbers;
     for (std::size_t t = 0; t < count; ++t) {
@@ -167,6 +177,8 @@ class SolidParts final : public BoundaryParts {
       if (is_new) bonded_.push_back(solid_->is_bond(t));
       parts_.push_back(known->second);
     }
+    hides_edges_.resize(bonded_.size());
+    for (const std::size_t t : united) hides_edges_[std::size_t(parts_[t])] = true;
     tree_ = std::make_unique<TriangleTree>(mesh, parts_, this->count());
   }
 
@@ -174,16 +186,18 @@ class SolidParts final : public BoundaryParts {
   PhysicalTag tag(int part) const override {
     return bonded_[std::size_t(part)] ? PhysicalTag::bond : PhysicalTag::outer;
   }
+  bool hides_edges(int part) const override { return hides_edges_[std::size_t(part)]; }
   Vector3 nearest(int part, const Vector3& w) const override {
     const auto hit = tree_->nearest(w, part);
     return hit ? hit->position : w;
   }
-  PartedSurface surface(Sector) const override { return {solid_->mesh(), parts_}; }
+  PartedSurface surface(Sector) const override { return {solid_->mesh(), parts_, creases_}; }
 
  private:
   /// An edge and its two triangles.
   struct Side {
     std::size_t t, other;
+    std::array<int, 2> ends;
     double length;
   };
 
@@ -211,8 +225,39 @@ class SolidParts final : public BoundaryParts {
     return same_surface(side) && a.dot(b) >= smooth_cosine * a.norm() * b.norm();
   }
 
-  /// Unites the narrowest class, if it is narrow, with the neighbour of the longest border.
-  bool unite_narrow(Classes& classes) const {
+  /// Where a class turns sharply into itself, as an edge that fades out lets it.
+  void find_creases(Classes& classes) {
+    std::vector<Side> sharp;
+    std::map<int, int> meeting;  // creases at a vertex
+    Classes chains(solid_->mesh().vertices.size());
+    for (const Side& side : sides_) {
+      if (continues(side) || classes.of(side.t) != classes.of(side.other)) continue;
+      sharp.push_back(side);
+      for (const int end : side.ends) ++meeting[end];
+      chains.unite(std::size_t(side.ends[0]), std::size_t(side.ends[1]));
+    }
+    struct Chain {
+      double length = 0.0;
+      int vertices = 0, branches = 0;
+    };
+    std::map<std::size_t, Chain> all;
+    for (const Side& side : sharp) all[chains.of(std::size_t(side.ends[0]))].length += side.length;
+    for (const auto& [vertex, creases] : meeting) {
+      Chain& chain = all[chains.of(std::size_t(vertex))];
+      ++chain.vertices;
+      if (creases > 2) ++chain.branches;
+    }
+    for (const Side& side : sharp) {
+      const Chain& chain = all[chains.of(std::size_t(side.ends[0]))];
+      if (chain.length > short_crease * solid_->largest_radius() &&
+          chain.branches <= most_branches * chain.vertices)
+        creases_.push_back(side.ends);
+    }
+  }
+
+  /// Unites the narrowest class, if it is narrow, with the neighbour of the longest border; adds
+  /// one of its triangles to those that were.
+  bool unite_narrow(Classes& classes, std::vector<std::size_t>& united) const {
     struct Class {
       double area = 0.0, border = 0.0;
       std::map<std::size_t, double> neighbours;
@@ -240,14 +285,17 @@ class SolidParts final : public BoundaryParts {
                          return entry.second;
                        })->first};
     }
-    if (found) classes.unite(found->first, found->second);
-    return found.has_value();
+    if (!found) return false;
+    classes.unite(found->first, found->second);
+    united.push_back(found->first);
+    return true;
   }
 
   std::shared_ptr<const Solid> solid_;
   std::vector<Side> sides_;
   std::vector<int> parts_;
-  std::vector<bool> bonded_;
+  std::vector<std::array<int, 2>> creases_;
+  std::vector<bool> bonded_, hides_edges_;
   std::unique_ptr<TriangleTree> tree_;
 };
 

@@ -141,6 +141,7 @@ TriangleMesh facets_of(const std::filesystem::path& cad) {
        std::map<std::string, double>{{"Mesh.MeshSizeFromCurvature", edges_around},
                                      {"Mesh.MeshSizeMax", longest_edge * extent},
                                      {"Mesh.MeshSizeMin", shortest_edge * extent},
+                                     {"Mesh.MeshSizeExtendFromBoundary", 0.0},
                                      {"Mesh.Algorithm", 6.0}})
     gmsh::option::setNumber(option, value);
   gmsh::model::mesh::generate(2);

@@ -28,6 +28,8 @@ constexpr double surface_distance = 0.1;
 /// Where a corner's Jacobian is less, of a cube 1, sizes shrink by `smaller`.
 constexpr double least_jacobian = 0.05, smaller = 0.7;
 constexpr int most_attempts = 12;
+/// Where that does not help, all is begun anew with sizes smaller by this, down to the last share.
+constexpr double smaller_everywhere = 0.85, last_share = 0.6;
 /// Facets of a tetrahedron that turn by less than 60 degrees go on from one to the other.
 constexpr double flat_cosine = 0.5;
 
@@ -117,7 +119,8 @@ class Splitting {
                                node({a, b, d}), node({a, b, c, d}), node({a, c, d})});
   }
 
-  /// In the middle of corners, and on the surface where they are.
+  /// In the middle of corners, and on the surface where they are, but for parts with edges that
+  /// their facets cut off.
   int node(std::vector<int> corners) {
     corners = sorted(std::move(corners));
     const auto [known, is_new] = numbers_.try_emplace(corners, int(mesh_.nodes.size()));
@@ -125,7 +128,9 @@ class Splitting {
     const int number = known->second;
     mesh_.nodes.emplace_back();
     Vector3 middle = middle_of(corners);
-    if (const auto parts = meeting_.find(corners); parts != meeting_.end())
+    if (const auto parts = meeting_.find(corners);
+        parts != meeting_.end() &&
+        (parts->second.size() > 1 || !parts_.hides_edges(*parts->second.begin())))
       middle = parts_.on({parts->second.begin(), parts->second.end()}, middle);
     mesh_.nodes[std::size_t(number)] = middle;
     return number;
@@ -239,15 +244,18 @@ void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
                radius = std::min(shape->pole_radius(), shape->largest_radius());
   const double usual =
       std::min(size_over_wall * wall, size_over_radius * radius) / options.radial_elements;
-  Sizes sizes(usual);
-  sizes.add(options.touch.value_or(Vector3(0.0, 0.0, shape->pole())), usual / options.cap_grading);
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    const Tetrahedra tetrahedra = without_flat_corners(tetrahedra_within(
-        surface, [&](const Vector3& w) { return sizes.at(w); }, surface_distance * usual));
-    const Splitting splitting(tetrahedra, *parts);
-    if (sizes.shrink(splitting.mesh())) continue;
-    hand_to_gmsh(splitting.mesh());
-    return;
+  const Vector3 touch = options.touch.value_or(Vector3(0.0, 0.0, shape->pole()));
+  for (double share = 1.0; share > last_share; share *= smaller_everywhere) {
+    Sizes sizes(share * usual);
+    sizes.add(touch, share * usual / options.cap_grading);
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+      const Tetrahedra tetrahedra = without_flat_corners(tetrahedra_within(
+          surface, [&](const Vector3& w) { return sizes.at(w); }, surface_distance * usual));
+      const Splitting splitting(tetrahedra, *parts);
+      if (sizes.shrink(splitting.mesh())) continue;
+      hand_to_gmsh(splitting.mesh());
+      return;
+    }
   }
   throw NotConverged(
       "the finger could not be filled with hexahedra: its surface turns too much over lengths as "

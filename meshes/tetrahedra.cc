@@ -55,7 +55,7 @@ SurfaceMesh surface_mesh(const PartedSurface& surface) {
   return mesh;
 }
 
-/// The borders between parts, from corner to corner or closed.
+/// The borders between parts and the creases within them, from corner to corner or closed.
 class Borders {
  public:
   explicit Borders(const PartedSurface& surface) : surface_(surface) {
@@ -64,10 +64,9 @@ class Borders {
       for (std::size_t c = 0; c < 3; ++c) {
         const int a = surface.mesh.triangles[t][c], b = surface.mesh.triangles[t][(c + 1) % 3];
         const auto [known, is_new] = part_at.try_emplace(std::minmax(a, b), surface.parts[t]);
-        if (is_new || known->second == surface.parts[t]) continue;
-        next_[a].insert(b);
-        next_[b].insert(a);
+        if (!is_new && known->second != surface.parts[t]) add(a, b);
       }
+    for (const auto& [a, b] : surface.creases) add(a, b);
     for (const auto& [vertex, others] : next_) corners_[vertex] = turns(vertex, others);
   }
 
@@ -83,6 +82,11 @@ class Borders {
   }
 
  private:
+  void add(int a, int b) {
+    next_[a].insert(b);
+    next_[b].insert(a);
+  }
+
   const Vector3& at(int vertex) const { return surface_.mesh.vertices[std::size_t(vertex)]; }
 
   /// Whether a line ends there.

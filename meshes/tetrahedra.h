@@ -14,6 +14,8 @@ namespace fingertip::meshes {
 struct PartedSurface {
   TriangleMesh mesh;
   std::vector<int> parts;  ///< of the triangles
+  /// Edges at which a part turns sharply into itself, by their ends; a mesh has them, too.
+  std::vector<std::array<int, 2>> creases = {};
 };
 
 /// Wanted length of edges at a place [m].

@@ -246,6 +246,15 @@ TEST_P(Assembly, AnInvertedElementStopsEveryProcess) {
   EXPECT_NEAR(system.min_jacobian, 1.0, 1e-12);
 }
 
+TEST_P(Assembly, AnElementOfTheMeshThatIsTurnedInsideOutIsTold) {
+  const auto body = make_body(GetParam(), fem_reference::tip_supports<3>());
+  const auto cell = body->triangulation.begin_active();
+  std::swap(cell->vertex(0), cell->vertex(7));
+  HyperelasticKernel<3> kernel(HyperelasticLaw(meshes::Rubber{}), Volumetric::projected);
+  LinearSystem system(*body, false);
+  EXPECT_THROW(assemble(*body, kernel, body->fine.vector(), system), meshes::NotConverged);
+}
+
 INSTANTIATE_TEST_SUITE_P(Degrees, Assembly, ::testing::Values(1, 2, 3));
 
 }  // namespace

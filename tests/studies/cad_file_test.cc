@@ -10,6 +10,7 @@
 #include <set>
 
 #include "lattice/press/static_press.h"
+#include "meshes/volume_mesh.h"
 #include "studies/config/loader.h"
 #include "studies/config/solid_file.h"
 #include "studies/exchange/fmu_files.h"
@@ -90,6 +91,35 @@ TEST(CadFile, PlanesHaveFewFacets) {
       Geometry::of_solid(studies::read_solid({folder / "block.stl", "mm", "z < 1 mm"}), 0.0);
   EXPECT_NEAR(block.tip_volume(), 1.44e-6, 1e-14);
   EXPECT_LT(block.solid->mesh().triangles.size(), 5000U);
+}
+
+/// Four upright edges are sharp, those of the top round. With refinement 0.5 the sizes first tried
+/// leave elements turned inside out.
+void make_pad() {
+  namespace occ = gmsh::model::occ;
+  const int box = occ::addBox(-8, -6, 0, 16, 12, 18);
+  occ::synchronize();
+  gmsh::vectorpair edges, rounded;
+  gmsh::model::getEntitiesInBoundingBox(-9, -7, 17.9, 9, 7, 18.1, edges, 1);
+  std::vector<int> upper;
+  for (const auto& [dimension, tag] : edges) upper.push_back(tag);
+  occ::fillet({box}, upper, {4.0}, rounded);
+}
+
+TEST(CadFile, SharpAndRoundEdgesAreFilledWithHexahedra) {
+  const TemporaryFolder folder;
+  write_cad(folder / "pad.step", make_pad);
+  meshes::write_cad_surface(folder / "pad.step", folder / "pad.stl");
+  const Geometry pad =
+      Geometry::of_solid(studies::read_solid({folder / "pad.stl", "mm", "z < 2 mm"}), 0.0);
+  for (const double refinement : {0.4, 0.5, 0.6}) {
+    meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(refinement);
+    options.sector = meshes::Sector::full;
+    const meshes::MeshQuality quality = meshes::write_tip_mesh(pad, options, folder / "pad.msh");
+    EXPECT_GT(quality.min_scaled_jacobian, 0.04) << refinement;
+    // Straight sides, and edges of the bond cut off.
+    EXPECT_NEAR(quality.volume / pad.tip_volume(), 1.0, 0.07) << refinement;
+  }
 }
 
 /// The program makes triangles of it and keeps them.
