@@ -178,7 +178,8 @@ class SolidParts final : public BoundaryParts {
       parts_.push_back(known->second);
     }
     hides_edges_.resize(bonded_.size());
-    for (const std::size_t t : united) hides_edges_[std::size_t(parts_[t])] = true;
+    for (const std::size_t t : united)
+      if (solid_->is_bond(t)) hides_edges_[std::size_t(parts_[t])] = true;
     tree_ = std::make_unique<TriangleTree>(mesh, parts_, this->count());
   }
 

@@ -19,7 +19,7 @@ class BoundaryParts {
 
   virtual int count() const = 0;
   virtual PhysicalTag tag(int part) const = 0;
-  /// Whether narrow neighbours were united with it, at edges that a mesh of it cuts off.
+  /// Whether it is held and narrow neighbours were united with it, at edges that a mesh cuts off.
   virtual bool hides_edges(int part) const = 0;
   /// Its point nearest to `w`.
   virtual Vector3 nearest(int part, const Vector3& w) const = 0;
