@@ -14,14 +14,11 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <map>
-#include <set>
 #include <string>
 #include <tuple>
-#include <utility>
 
+#include "fem_reference/curved_sides.h"
 #include "fem_reference/kinematics.h"
-#include "meshes/boundary_parts.h"
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {
@@ -69,72 +66,6 @@ class ShellManifold : public dealii::Manifold<dim> {
   dealii::Tensor<1, dim> axis_;
 };
 
-/// Keeps new points on parts of the boundary of a finger that is turned about y by -`tilt`.
-template <int dim>
-class PartsManifold : public dealii::Manifold<dim> {
- public:
-  PartsManifold(std::shared_ptr<const meshes::BoundaryParts> boundary, std::vector<int> parts,
-                double tilt)
-      : boundary_(std::move(boundary)),
-        parts_(std::move(parts)),
-        turn_(Eigen::AngleAxisd(-tilt, Eigen::Vector3d::UnitY())) {}
-
-  std::unique_ptr<dealii::Manifold<dim>> clone() const override {
-    return std::make_unique<PartsManifold>(*this);
-  }
-
-  dealii::Point<dim> get_new_point(const dealii::ArrayView<const dealii::Point<dim>>& points,
-                                   const dealii::ArrayView<const double>& weights) const override {
-    dealii::Point<dim> mean;
-    for (unsigned i = 0; i < points.size(); ++i) mean += weights[i] * points[i];
-    const Eigen::Vector3d found =
-        turn_ * boundary_->on(parts_, turn_.conjugate() * in_space<dim>(mean));
-    dealii::Point<dim> result;
-    for (unsigned c = 0; c < dim; ++c) result[c] = found[Kinematics<dim>::axis[c]];
-    return result;
-  }
-
- private:
-  std::shared_ptr<const meshes::BoundaryParts> boundary_;
-  std::vector<int> parts_;
-  Eigen::Quaterniond turn_;
-};
-
-/// Faces and edges on the boundary are curved as the parts are on which they lie, all others flat
-/// and straight; so are those of parts with edges that the mesh cuts off. The mesh is turned by
-/// -`tilt` as it is told.
-template <int dim>
-void follow_boundary(const meshes::Geometry& geometry, double tilt,
-                     Triangulation<dim>& triangulation) {
-  const std::shared_ptr<const meshes::BoundaryParts> boundary = meshes::boundary_parts(geometry);
-  using Parts = std::set<int>;
-  std::map<Parts, dealii::types::manifold_id> numbers;
-  const auto follow = [&](const auto& side, const Parts& parts) {
-    if (parts.size() == 1 && boundary->hides_edges(*parts.begin())) return;
-    side->set_manifold_id(
-        numbers.try_emplace(parts, dealii::types::manifold_id(numbers.size())).first->second);
-  };
-  std::map<unsigned, Parts> at_line;  // by the line's number
-  for (const auto& cell : triangulation.cell_iterators())
-    for (const auto& face : cell->face_iterators()) {
-      if (!face->at_boundary()) continue;
-      dealii::Point<dim> middle = face->center();
-      const int part = boundary->part_at(PhysicalTag(face->boundary_id()), in_space<dim>(middle));
-      if (part < 0) continue;
-      follow(face, {part});
-      if constexpr (dim == 3)
-        for (unsigned l = 0; l < face->n_lines(); ++l) at_line[face->line(l)->index()].insert(part);
-    }
-  if constexpr (dim == 3)
-    for (const auto& cell : triangulation.cell_iterators())
-      for (unsigned l = 0; l < cell->n_lines(); ++l)
-        if (const auto parts = at_line.find(cell->line(l)->index()); parts != at_line.end())
-          follow(cell->line(l), parts->second);
-  for (const auto& [parts, number] : numbers)
-    triangulation.set_manifold(number,
-                               PartsManifold<dim>(boundary, {parts.begin(), parts.end()}, tilt));
-}
-
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& rule) {
   throw meshes::InvalidInput(
       {"mesh", file.string(), rule, "make it anew: delete it and run again"});
@@ -166,8 +97,8 @@ std::unique_ptr<Body<dim>> read_tip(MPI_Comm communicator, const std::filesystem
   Triangulation<dim>& triangulation = body->triangulation;
   read_mesh(mesh_file, triangulation);
   if (!geometry.is_dome()) {
-    follow_boundary(geometry, tilt, triangulation);
     if constexpr (dim == 3) turn(triangulation, tilt);
+    follow_boundary(*body, geometry, tilt);
     return body;
   }
   constexpr dealii::types::manifold_id sphere = 1, cylinder = 2;

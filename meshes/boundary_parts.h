@@ -19,7 +19,8 @@ class BoundaryParts {
 
   virtual int count() const = 0;
   virtual PhysicalTag tag(int part) const = 0;
-  /// Whether it is held and narrow neighbours were united with it, at edges that a mesh cuts off.
+  /// Whether it is held and narrow neighbours were united with it, at edges that a mesh need
+  /// not have.
   virtual bool hides_edges(int part) const = 0;
   /// Its point nearest to `w`.
   virtual Vector3 nearest(int part, const Vector3& w) const = 0;

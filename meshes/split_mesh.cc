@@ -79,15 +79,32 @@ Tetrahedra without_flat_corners(Tetrahedra mesh) {
   return mesh;
 }
 
+/// Smallest Jacobian at a corner of a hexahedron over the lengths of its edges.
+double worst_corner(const HexahedralMesh& mesh, const std::array<int, 8>& hexahedron) {
+  double least = 1.0;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto at = [&](std::size_t k) { return mesh.nodes[std::size_t(hexahedron[k])]; };
+    const std::size_t base = i / 4 * 4, k = i % 4;
+    const Vector3 next = (at(base + (k + 1) % 4) - at(i)).normalized(),
+                  previous = (at(base + (k + 3) % 4) - at(i)).normalized(),
+                  across = (at((i + 4) % 8) - at(i)).normalized();
+    least = std::min(least, (base == 0 ? 1.0 : -1.0) * next.cross(previous).dot(across));
+  }
+  return least;
+}
+
+/// Sorted corners, of a tetrahedron's corner, edge, face or body.
+using Simplex = std::vector<int>;
+
 /// Divides tetrahedra at the middles of edges, faces and bodies.
 class Splitting {
  public:
-  Splitting(const Tetrahedra& tetrahedra, const BoundaryParts& parts)
-      : tetrahedra_(tetrahedra), parts_(parts) {
+  /// The middles of `flat` are not brought to the surface.
+  Splitting(const Tetrahedra& tetrahedra, const BoundaryParts& parts, const std::set<Simplex>& flat)
+      : tetrahedra_(tetrahedra), parts_(parts), flat_(flat) {
     for (const Tetrahedra::Facet& facet : tetrahedra.facets) {
       const auto& [a, b, c] = facet.corners;
-      for (const std::vector<int>& corners :
-           {std::vector{a}, {b}, {c}, {a, b}, {b, c}, {c, a}, {a, b, c}})
+      for (const Simplex& corners : {Simplex{a}, {b}, {c}, {a, b}, {b, c}, {c, a}, {a, b, c}})
         meeting_[sorted(corners)].insert(facet.part);
     }
     for (const auto& [a, b, c, d] : tetrahedra.tetrahedra) {
@@ -108,10 +125,30 @@ class Splitting {
 
   const HexahedralMesh& mesh() const { return mesh_; }
 
+  /// What bad hexahedra have on parts with hidden edges, and is not flat yet.
+  std::set<Simplex> to_flatten() const {
+    std::set<int> bad;
+    for (const auto& hexahedron : mesh_.hexahedra)
+      if (worst_corner(mesh_, hexahedron) < least_jacobian)
+        bad.insert(hexahedron.begin(), hexahedron.end());
+    std::set<Simplex> found;
+    for (const auto& [corners, number] : numbers_)
+      if (corners.size() > 1 && bad.contains(number) && within_hidden_edges(corners) &&
+          !flat_.contains(corners))
+        found.insert(corners);
+    return found;
+  }
+
  private:
-  static std::vector<int> sorted(std::vector<int> corners) {
+  static Simplex sorted(Simplex corners) {
     std::ranges::sort(corners);
     return corners;
+  }
+
+  bool within_hidden_edges(const Simplex& corners) const {
+    const auto parts = meeting_.find(corners);
+    return parts != meeting_.end() && parts->second.size() == 1 &&
+           parts_.hides_edges(*parts->second.begin());
   }
 
   void add_hexahedron(int a, int b, int c, int d) {
@@ -119,9 +156,8 @@ class Splitting {
                                node({a, b, d}), node({a, b, c, d}), node({a, c, d})});
   }
 
-  /// In the middle of corners, and on the surface where they are, but for parts with edges that
-  /// their facets cut off.
-  int node(std::vector<int> corners) {
+  /// In the middle of corners, and on the surface where they are.
+  int node(Simplex corners) {
     corners = sorted(std::move(corners));
     const auto [known, is_new] = numbers_.try_emplace(corners, int(mesh_.nodes.size()));
     if (!is_new) return known->second;
@@ -129,15 +165,14 @@ class Splitting {
     mesh_.nodes.emplace_back();
     Vector3 middle = middle_of(corners);
     if (const auto parts = meeting_.find(corners);
-        parts != meeting_.end() &&
-        (parts->second.size() > 1 || !parts_.hides_edges(*parts->second.begin())))
+        parts != meeting_.end() && !flat_.contains(corners))
       middle = parts_.on({parts->second.begin(), parts->second.end()}, middle);
     mesh_.nodes[std::size_t(number)] = middle;
     return number;
   }
 
   /// Of a corner, an edge, a face or a body whose edges are parabolas through their nodes.
-  Vector3 middle_of(const std::vector<int>& corners) {
+  Vector3 middle_of(const Simplex& corners) {
     if (corners.size() == 1) return tetrahedra_.vertices[std::size_t(corners[0])];
     // Weights of the corners' and the edges' shape functions there.
     const double own = corners.size() == 2 ? 0.5 : corners.size() == 3 ? -1.0 / 9.0 : -1.0 / 8.0;
@@ -153,23 +188,21 @@ class Splitting {
 
   const Tetrahedra& tetrahedra_;
   const BoundaryParts& parts_;
-  std::map<std::vector<int>, std::set<int>> meeting_;  ///< parts at corners, edges and facets
-  std::map<std::vector<int>, int> numbers_;
+  const std::set<Simplex>& flat_;
+  std::map<Simplex, std::set<int>> meeting_;  ///< parts at corners, edges and facets
+  std::map<Simplex, int> numbers_;
   HexahedralMesh mesh_;
 };
 
-/// Smallest Jacobian at a corner of a hexahedron over the lengths of its edges.
-double worst_corner(const HexahedralMesh& mesh, const std::array<int, 8>& hexahedron) {
-  double least = 1.0;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const auto at = [&](std::size_t k) { return mesh.nodes[std::size_t(hexahedron[k])]; };
-    const std::size_t base = i / 4 * 4, k = i % 4;
-    const Vector3 next = (at(base + (k + 1) % 4) - at(i)).normalized(),
-                  previous = (at(base + (k + 3) % 4) - at(i)).normalized(),
-                  across = (at((i + 4) % 8) - at(i)).normalized();
-    least = std::min(least, (base == 0 ? 1.0 : -1.0) * next.cross(previous).dot(across));
+/// With as few sides flat as elements allow, where edges are hidden.
+HexahedralMesh divided(const Tetrahedra& tetrahedra, const BoundaryParts& parts) {
+  std::set<Simplex> flat;
+  while (true) {
+    const Splitting splitting(tetrahedra, parts, flat);
+    std::set<Simplex> more = splitting.to_flatten();
+    if (more.empty()) return splitting.mesh();
+    flat.merge(more);
   }
-  return least;
 }
 
 /// Lengths of edges, small around some places.
@@ -251,9 +284,9 @@ void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
       const Tetrahedra tetrahedra = without_flat_corners(tetrahedra_within(
           surface, [&](const Vector3& w) { return sizes.at(w); }, surface_distance * usual));
-      const Splitting splitting(tetrahedra, *parts);
-      if (sizes.shrink(splitting.mesh())) continue;
-      hand_to_gmsh(splitting.mesh());
+      const HexahedralMesh mesh = divided(tetrahedra, *parts);
+      if (sizes.shrink(mesh)) continue;
+      hand_to_gmsh(mesh);
       return;
     }
   }

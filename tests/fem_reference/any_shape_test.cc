@@ -103,9 +103,33 @@ TEST(AnyShape, PassesThePatchTest) {
   for (const auto i : body->fine.owned)
     if (!surface.is_element(i)) inside = std::max(inside, std::abs(double(system.force[i])));
   EXPECT_LT(inside, 1e-11 * system.force.linfty_norm());
-  // What is not held is the block; the lower edges are cut off, no higher than the bond.
+  // What is not held is the block; the lower edges, which are held, are rounded off.
   EXPECT_NEAR(area(*body, PhysicalTag::outer) / (2 * 0.036 * 0.017 + 0.016 * 0.02), 1.0, 1e-9);
-  EXPECT_GT(volume(*body) / (0.016 * 0.02), 0.017);
+  EXPECT_NEAR(volume(*body) / (0.016 * 0.02 * 0.018), 1.0, 0.01);
+}
+
+/// Where the bond hides the block's lower edges, sides are parabolas that keep to themselves.
+TEST(AnyShape, CellsAtHiddenEdgesAreDividedAndNotTurned) {
+  const double tilt = 0.3;
+  const Geometry geometry = block();
+  const SharedMesh mesh(0.4, Sector::full, geometry);
+  const auto body = read(mesh, geometry, tilt);
+  body->number({});
+  const double whole = volume(*body), held = area(*body, PhysicalTag::bond);
+  for (int level = 0; level < 2; ++level) {
+    for (const auto& cell : body->triangulation.active_cell_iterators())
+      for (const auto& face : cell->face_iterators())
+        if (face->at_boundary() && PhysicalTag(face->boundary_id()) == PhysicalTag::bond)
+          cell->set_refine_flag();
+    body->triangulation.execute_coarsening_and_refinement();
+  }
+  body->number({});
+  EXPECT_NEAR(area(*body, PhysicalTag::bond) / held, 1.0, 1e-5);
+  EXPECT_NEAR(volume(*body) / whole, 1.0, 2e-4);
+  fem_reference::HookeKernel<3> kernel({}, fem_reference::Volumetric::projected);
+  fem_reference::LinearSystem system(*body, false);
+  // Refuses cells that are turned.
+  EXPECT_NO_THROW(assemble(*body, kernel, body->fine.vector(), system));
 }
 
 ReferenceJob small_press_of(const Geometry& geometry, ContactMode contact = ContactMode::stick) {

@@ -117,8 +117,8 @@ TEST(CadFile, SharpAndRoundEdgesAreFilledWithHexahedra) {
     options.sector = meshes::Sector::full;
     const meshes::MeshQuality quality = meshes::write_tip_mesh(pad, options, folder / "pad.msh");
     EXPECT_GT(quality.min_scaled_jacobian, 0.04) << refinement;
-    // Straight sides, and edges of the bond cut off.
-    EXPECT_NEAR(quality.volume / pad.tip_volume(), 1.0, 0.07) << refinement;
+    // Straight sides.
+    EXPECT_NEAR(quality.volume / pad.tip_volume(), 1.0, 0.04) << refinement;
   }
 }
 

@@ -1,0 +1,17 @@
+/// How the sides of a mesh follow the true surface of a finger. deal.II's side.
+#pragma once
+
+#include "fem_reference/body.h"
+
+namespace fingertip::fem_reference {
+
+/// Faces and edges on the boundary get manifolds: they lie on the parts of `geometry`'s boundary
+/// (meshes::BoundaryParts), and so do their nodes of higher degree and the cells that they are
+/// refined to. Those at edges that the mesh hides keep to the parabolas of the first mesh through
+/// their corners and their middles on the part; they stay flat where a corner is off the part, or
+/// where an element or one of its children would be turned inside out. The mesh is the first, not
+/// refined, turned about y by -`tilt` [rad]. Every process does the same.
+template <int dim>
+void follow_boundary(Body<dim>& body, const meshes::Geometry& geometry, double tilt);
+
+}  // namespace fingertip::fem_reference
