@@ -202,8 +202,9 @@ void Solid::measure() {
     }
   }
   lowest_ = box.min().z();
+  const auto in_mm = [](double length) { return to_text(std::round(1e9 * length) / 1e6 + 0.0); };
   const std::string heights =
-      "heights " + to_text(1e3 * box.min().z()) + " to " + to_text(1e3 * box.max().z()) + " mm";
+      "heights " + in_mm(box.min().z()) + " to " + in_mm(box.max().z()) + " mm";
   if (bond_area_ == 0.0)
     refuse_bond(
         heights, "something must be held by the hand",
