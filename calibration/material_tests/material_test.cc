@@ -14,8 +14,13 @@ using meshes::Violation;
 
 namespace {
 
-/// Beyond it a deformation is a mistake of units.
+/// Beyond it, and its inverse, a deformation is a mistake of units.
 constexpr double most_stretch = 20.0;
+
+bool is_possible(TestKind kind, double deformation) {
+  if (kind == TestKind::simple_shear) return std::abs(deformation) <= most_stretch;
+  return deformation >= 1.0 / most_stretch && deformation <= most_stretch;
+}
 
 bool right_length(std::size_t length, std::size_t points) {
   return length == 0 || length == points;
@@ -78,10 +83,10 @@ std::vector<Violation> MaterialTest::violations() const {
   for (std::size_t i = 0; i < deformation.size(); ++i) {
     const double value = deformation[i];
     if (course != TestCourse::slow ||
-        (value > 0.0 && value <= most_stretch && (i == 0 || value > deformation[i - 1])))
+        (value > 0.0 && is_possible(kind, value) && (i == 0 || value > deformation[i - 1])))
       continue;
     refuse("deformation", to_text(value),
-           "must be positive, at most 20 and increase from point to point",
+           "a stretch goes from 1/20 to 20, a shear up to 20, and both grow from point to point",
            "sort the points, and look at the definition of strain and its unit");
     break;
   }
@@ -128,9 +133,8 @@ std::vector<Violation> MaterialTest::time_violations() const {
     refuse("time", to_text(time.front()) + " s to " + to_text(time.back()) + " s",
            "the deformation must be known as long as stresses are", "complete its course");
   for (const double value : all_deformations()) {
-    const double size = kind == TestKind::simple_shear ? std::abs(value) : value;
-    if (size <= most_stretch && (kind == TestKind::simple_shear || value > 0.0)) continue;
-    refuse("deformation", to_text(value), "a stretch is positive, and no deformation exceeds 20",
+    if (is_possible(kind, value)) continue;
+    refuse("deformation", to_text(value), "a stretch goes from 1/20 to 20, a shear up to 20",
            "look at the definition of strain and its unit");
     break;
   }
