@@ -12,7 +12,6 @@
 #include <array>
 #include <map>
 #include <memory>
-#include <ranges>
 #include <set>
 #include <utility>
 #include <vector>
@@ -150,8 +149,8 @@ class HiddenEdges {
   void bend() {
     std::set<int> cells = cells_at_lines();
     while (!cells.empty()) {
-      for (Bent<Line>& line : lines_ | std::views::values) bend(line);
-      for (Bent<Face>& face : faces_ | std::views::values) bend(face);
+      for (auto& [number, line] : lines_) bend(line);
+      for (auto& [number, face] : faces_) bend(face);
       const std::set<int> turned = turned_among(cells);
       if (turned.empty()) return;
       for (const auto& cell : triangulation_.cell_iterators())

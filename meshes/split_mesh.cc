@@ -28,8 +28,9 @@ constexpr double surface_distance = 0.1;
 /// Where a corner's Jacobian is less, of a cube 1, sizes shrink by `smaller`.
 constexpr double least_jacobian = 0.05, smaller = 0.7;
 constexpr int most_attempts = 12;
-/// Where that does not help, all is begun anew with sizes smaller by this, down to the last share.
-constexpr double smaller_everywhere = 0.85, last_share = 0.6;
+/// Where that does not help, all is begun anew with sizes smaller by this.
+constexpr double smaller_everywhere = 0.85;
+constexpr int most_beginnings = 4;
 /// Facets of a tetrahedron that turn by less than 60 degrees go on from one to the other.
 constexpr double flat_cosine = 0.5;
 
@@ -278,7 +279,8 @@ void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
   const double usual =
       std::min(size_over_wall * wall, size_over_radius * radius) / options.radial_elements;
   const Vector3 touch = options.touch.value_or(Vector3(0.0, 0.0, shape->pole()));
-  for (double share = 1.0; share > last_share; share *= smaller_everywhere) {
+  double share = 1.0;
+  for (int beginning = 0; beginning < most_beginnings; ++beginning, share *= smaller_everywhere) {
     Sizes sizes(share * usual);
     sizes.add(touch, share * usual / options.cap_grading);
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
