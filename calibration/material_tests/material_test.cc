@@ -85,9 +85,10 @@ std::vector<Violation> MaterialTest::violations() const {
     if (course != TestCourse::slow ||
         (value > 0.0 && is_possible(kind, value) && (i == 0 || value > deformation[i - 1])))
       continue;
-    refuse("deformation", to_text(value),
-           "a stretch goes from 1/20 to 20, a shear up to 20, and both grow from point to point",
-           "sort the points, and look at the definition of strain and its unit");
+    refuse(
+        "deformation", to_text(value),
+        "must be positive, at most 20 (a stretch at least 1/20) and increase from point to point",
+        "sort the points, and look at the definition of strain and its unit");
     break;
   }
   if (course != TestCourse::slow) std::ranges::move(time_violations(), std::back_inserter(found));
@@ -134,7 +135,8 @@ std::vector<Violation> MaterialTest::time_violations() const {
            "the deformation must be known as long as stresses are", "complete its course");
   for (const double value : all_deformations()) {
     if (is_possible(kind, value)) continue;
-    refuse("deformation", to_text(value), "a stretch goes from 1/20 to 20, a shear up to 20",
+    refuse("deformation", to_text(value),
+           "a stretch is positive, at least 1/20, and no deformation exceeds 20",
            "look at the definition of strain and its unit");
     break;
   }

@@ -167,7 +167,7 @@ TEST_F(MaterialFiles, RefusalsNameFileLineKeyAndRemedy) {
   expect_refused(with("speed = \"1 mm/s\""), two_rows, {"speed over length"});
   expect_refused(with("decimal = \"comma\"\nseparator = \"comma\""), two_rows, {"cannot separate"});
   expect_refused(with("strain = {column = 2, is = \"engineering\", sign = -1}"), two_rows,
-                 {"a stretch goes from 1/20 to 20"});
+                 {"must be positive, at most 20"});
   expect_refused("[data]\n", "", {"names no test"});
   expect_refused(with("use = \"predict\""), two_rows, {"at least one test is fitted"});
   expect_refused(two_columns, "1 2\n1 2 3\n", {"data.csv:2", "has 3 cells, the first row 2"});
