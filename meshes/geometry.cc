@@ -130,18 +130,17 @@ std::vector<Violation> Geometry::violations() const {
 }
 
 Violation too_coarse(const Geometry& geometry, double spacing) {
-  if (geometry.is_dome())
-    return {"lattice.spacing", to_text(spacing) + " m",
-            "the spacing must be positive and at most (R - r)/2, two cells through the rubber",
-            "choose a finer lattice"};
+  const bool dome = geometry.is_dome();
   const double coarsest = geometry.coarsest_spacing();
-  char wall[32], length[32];
-  std::snprintf(wall, sizeof wall, "%.4g m", 4.0 * coarsest);
-  std::snprintf(length, sizeof length, "%.4g m", 0.999 * coarsest);
-  return {"lattice.spacing", to_text(spacing) + " m",
-          std::string("the spacing must be positive and at most a quarter of the thinnest wall, ") +
-              wall,
-          std::string("choose at most ") + length};
+  char limit[32], divisor[32];
+  std::snprintf(limit, sizeof limit, "%.4g m", coarsest);
+  std::snprintf(divisor, sizeof divisor, "%.6g",
+                std::ceil((dome ? 1.5 : 1.0) * geometry.tip_radius / coarsest));
+  return {
+      "lattice.spacing", to_text(spacing) + " m",
+      std::string("the spacing must be positive and at most ") + limit +
+          (dome ? ", (R - r)/2: two cells through the rubber" : ", a quarter of the thinnest wall"),
+      std::string("choose a finer lattice, for instance tip_radius/") + divisor};
 }
 
 double Geometry::radial_distance(const Vector3& w) {

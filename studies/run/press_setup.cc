@@ -119,24 +119,15 @@ lattice::SpringConstants resolve_constants(const LoadedConfig& loaded) {
 void check_spacing(const LoadedConfig& loaded) {
   const meshes::Geometry& geometry = loaded.config.press.geometry;
   const double spacing = loaded.config.press.lattice.spacing, radius = geometry.tip_radius;
-  const auto divided = [](double by) { return "tip_radius/" + calibration::rounded(by, 6); };
-  const std::string value = calibration::rounded(spacing) + " m";
   std::vector<meshes::Violation> broken;
-  const double coarsest = geometry.coarsest_spacing();
-  if (!(spacing <= coarsest)) {
-    broken.push_back(
-        {"lattice.spacing", value,
-         (geometry.is_dome() ? "the spacing must be at most (R - r)/2 = "
-                             : "the spacing must be at most a quarter of the thinnest wall, ") +
-             calibration::rounded(coarsest, 6) +
-             (geometry.is_dome() ? " m, two cells through the rubber" : " m"),
-         "choose a finer lattice, for instance " +
-             divided(std::ceil((geometry.is_dome() ? 1.5 : 1.0) * radius / coarsest))});
+  if (!(spacing <= geometry.coarsest_spacing())) {
+    broken.push_back(meshes::too_coarse(geometry, spacing));
   } else if (meshes::expected_particle_count(geometry, spacing) > most_particles) {
     const double finest = std::cbrt(geometry.tip_volume() / most_particles);
-    broken.push_back({"lattice.spacing", value,
+    broken.push_back({"lattice.spacing", calibration::rounded(spacing) + " m",
                       "the tip would consist of more than 20 million masses",
-                      "choose a coarser lattice, at most " + divided(std::floor(radius / finest))});
+                      "choose a coarser lattice, at most tip_radius/" +
+                          calibration::rounded(std::floor(radius / finest), 6)});
   }
   if (!broken.empty()) throw loaded.locate(broken);
 }
