@@ -147,16 +147,15 @@ class HiddenEdges {
 
   /// Fewer sides bend in every round, until no cell is turned inside out.
   void bend() {
-    std::set<int> cells = cells_at_lines();
-    while (!cells.empty()) {
+    std::set<int> cells = cells_at_lines(), turned;
+    do {
       for (auto& [number, line] : lines_) bend(line);
       for (auto& [number, face] : faces_) bend(face);
-      const std::set<int> turned = turned_among(cells);
-      if (turned.empty()) return;
+      turned = turned_among(cells);
       for (const auto& cell : triangulation_.cell_iterators())
         if (turned.contains(cell->index())) flatten(cell);
       for (const int cell : turned) cells.erase(cell);
-    }
+    } while (!turned.empty());
   }
 
  private:
@@ -215,6 +214,7 @@ class HiddenEdges {
 
   /// Those that are turned, or nearly so, or would be when they are divided.
   std::set<int> turned_among(const std::set<int>& cells) const {
+    if (cells.empty()) return {};
     dealii::Triangulation<3> divided;
     divided.copy_triangulation(triangulation_);
     for (const auto& cell : divided.cell_iterators())

@@ -11,7 +11,7 @@
 namespace fingertip::meshes {
 
 /// Immutable. Numbers from 0; those of a body of revolution are the pieces of its meridian and the
-/// planes y = 0 and x = 0, of a solid the facets that neighbours continue within 45 degrees.
+/// planes y = 0 and x = 0, of a solid the facets that neighbours continue within 40 degrees.
 /// Lengths in metres.
 class BoundaryParts {
  public:

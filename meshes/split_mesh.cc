@@ -23,7 +23,7 @@ namespace {
 constexpr double size_over_wall = 4.0, size_over_radius = 2.4;
 /// How fast edges may grow away from the place that touches first.
 constexpr double growth = 0.5;
-/// Distance of the tetrahedra's surface from the finger's, over the size.
+/// Distance of the tetrahedra's surface from the finger's, over the usual size.
 constexpr double surface_distance = 0.1;
 /// Where a corner's Jacobian is less, of a cube 1, sizes shrink by `smaller`.
 constexpr double least_jacobian = 0.05, smaller = 0.7;
@@ -41,14 +41,19 @@ struct HexahedralMesh {
   std::map<PhysicalTag, std::vector<std::array<int, 4>>> quadrilaterals;
 };
 
+/// Sorted corners, of a tetrahedron's corner, edge, face or body.
+using Simplex = std::vector<int>;
+
+template <typename Corners>
+Corners sorted(Corners corners) {
+  std::ranges::sort(corners);
+  return corners;
+}
+
 /// Two facets that go on from one to the other leave a hexahedron at their common edge hardly any
 /// angle: tetrahedra with such facets are divided at their middle.
 Tetrahedra without_flat_corners(Tetrahedra mesh) {
   using Corners = std::array<int, 3>;
-  const auto sorted = [](Corners corners) {
-    std::ranges::sort(corners);
-    return corners;
-  };
   std::set<Corners> boundary;
   for (const Tetrahedra::Facet& facet : mesh.facets) boundary.insert(sorted(facet.corners));
   std::vector<std::array<int, 4>> all;
@@ -56,8 +61,8 @@ Tetrahedra without_flat_corners(Tetrahedra mesh) {
     const auto at = [&](std::size_t c) { return mesh.vertices[std::size_t(tetrahedron[c % 4])]; };
     std::vector<Vector3> normals;  // out of the body
     for (std::size_t i = 0; i < 4; ++i) {
-      if (!boundary.contains(sorted(
-              {tetrahedron[(i + 1) % 4], tetrahedron[(i + 2) % 4], tetrahedron[(i + 3) % 4]})))
+      if (!boundary.contains(sorted(Corners{tetrahedron[(i + 1) % 4], tetrahedron[(i + 2) % 4],
+                                            tetrahedron[(i + 3) % 4]})))
         continue;
       const Vector3 normal = (at(i + 2) - at(i + 1)).cross(at(i + 3) - at(i + 1)).normalized();
       normals.push_back(normal.dot(at(i) - at(i + 1)) < 0.0 ? normal : Vector3(-normal));
@@ -93,9 +98,6 @@ double worst_corner(const HexahedralMesh& mesh, const std::array<int, 8>& hexahe
   }
   return least;
 }
-
-/// Sorted corners, of a tetrahedron's corner, edge, face or body.
-using Simplex = std::vector<int>;
 
 /// Divides tetrahedra at the middles of edges, faces and bodies.
 class Splitting {
@@ -141,11 +143,6 @@ class Splitting {
   }
 
  private:
-  static Simplex sorted(Simplex corners) {
-    std::ranges::sort(corners);
-    return corners;
-  }
-
   bool within_hidden_edges(const Simplex& corners) const {
     const auto parts = meeting_.find(corners);
     return parts != meeting_.end() && parts->second.size() == 1 &&

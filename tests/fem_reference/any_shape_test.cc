@@ -6,8 +6,11 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "fem_reference/assembly.h"
+#include "fem_reference/curved_sides.h"
 #include "fem_reference/modes.h"
 #include "fem_reference/tip_body.h"
 #include "meshes/shape.h"
@@ -130,6 +133,30 @@ TEST(AnyShape, CellsAtHiddenEdgesAreDividedAndNotTurned) {
   fem_reference::LinearSystem system(*body, false);
   // Refuses cells that are turned.
   EXPECT_NO_THROW(assemble(*body, kernel, body->fine.vector(), system));
+}
+
+/// A cell across the block's lower edge that a parabola would turn inside out, and no other.
+TEST(AnyShape, SidesAreFlatWhereTheLastCellWouldBeTurned) {
+  const Geometry geometry = block();
+  std::vector<dealii::Point<3>> corners;
+  for (const double y : {2e-4, -2e-4})
+    for (const auto& [x, z] :
+         {std::pair{7.6e-3, 0.0}, {8e-3, 3e-4}, {7.3e-3, 1e-4}, {7.9e-3, 6e-4}})
+      corners.emplace_back(x, y, z);
+  std::vector<dealii::CellData<3>> cells(1);
+  for (unsigned v = 0; v < 8; ++v) cells[0].vertices[v] = v;
+  dealii::SubCellData sides;
+  sides.boundary_quads.emplace_back();
+  sides.boundary_quads.back().vertices = {0, 1, 4, 5};
+  sides.boundary_quads.back().boundary_id = dealii::types::boundary_id(PhysicalTag::bond);
+  Body<3> body(MPI_COMM_SELF, 2);
+  body.triangulation.create_triangulation(corners, cells, sides);
+  fem_reference::follow_boundary(body, geometry, 0.0);
+  const auto cell = body.triangulation.begin();
+  for (const unsigned l : cell->line_indices())
+    EXPECT_EQ(cell->line(l)->manifold_id(), dealii::numbers::flat_manifold_id) << l;
+  for (const auto& face : cell->face_iterators())
+    EXPECT_EQ(face->manifold_id(), dealii::numbers::flat_manifold_id);
 }
 
 ReferenceJob small_press_of(const Geometry& geometry, ContactMode contact = ContactMode::stick) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -167,6 +168,35 @@ TEST(BoundaryParts, AreWhereTheyAreSaidToBe) {
   // Facets of a dome are one part, and a sliver beside the bond belongs to its neighbour.
   EXPECT_EQ(boundary_parts(fingers::solid_dome(48, 32))->count(), 3);
   EXPECT_THROW(boundary_parts({0.01, 0.02, 0.015, 0.03}), InvalidInput);
+}
+
+TEST(BoundaryParts, OfAChamferAreThree) {
+  const auto finger = std::make_shared<Solid>(
+      fingers::revolved({{0.0, 0.0}, {0.008, 0.0}, {0.008, 0.017}, {0.007, 0.018}, {0.0, 0.018}},
+                        48),
+      Region{{{2, true, 1e-3}}});
+  const auto parts = boundary_parts(Geometry::of_solid(finger));
+  EXPECT_EQ(parts->count(), 4);  // with what is held
+  const int chamfer = parts->part_at(PhysicalTag::outer, {0.0075, 0.0, 0.0175}),
+            top = parts->part_at(PhysicalTag::outer, {0.0, 0.0, 0.02}),
+            side = parts->part_at(PhysicalTag::outer, {0.01, 0.0, 0.01});
+  EXPECT_NE(chamfer, top);
+  EXPECT_NE(chamfer, side);
+  EXPECT_NE(top, side);
+}
+
+/// A lip of 10 degrees, where the way to the edge is long.
+TEST(BoundaryParts, OfAThinLipMeetAtItsEdge) {
+  TriangleMesh lip = fingers::box({-0.01, -0.01, 0.0}, {0.01, 0.01, 0.002});
+  for (Vector3& w : lip.vertices)
+    if (w.x() > 0.0 && w.z() == 0.0) w.x() -= 0.002 / std::tan(std::numbers::pi / 18.0);
+  const auto parts =
+      boundary_parts(Geometry::of_solid(std::make_shared<Solid>(lip, Region{{{2, true, 1e-4}}})));
+  const int top = parts->part_at(PhysicalTag::outer, {0.0, 0.0, 0.003}),
+            below = parts->part_at(PhysicalTag::outer, {0.005, 0.0, 0.0});
+  ASSERT_NE(top, below);
+  EXPECT_LT((parts->on({top, below}, {0.0095, 0.001, 0.0019}) - Vector3(0.01, 0.001, 0.002)).norm(),
+            1e-11);
 }
 
 }  // namespace
