@@ -63,7 +63,7 @@ std::vector<Quantity> quantities(Material& m) {
   };
   Validity& v = m.validity;
   bound("largest_indentation", "m", v.largest_indentation, "deepest force fitted or checked");
-  bound("thickness", "m", v.thickness, "R - r of that finger");
+  bound("thickness", "m", v.thickness, "of the rubber between pole and bond");
   bound("rod_ratio", "", v.rod_ratio, "r/R of that finger");
   bound("smallest_spacing", "m", v.smallest_spacing, "");
   bound("largest_spacing", "m", v.largest_spacing, "");

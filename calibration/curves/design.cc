@@ -117,11 +117,15 @@ std::string prospect_statement(const std::vector<Prospect>& sorted,
   const Prospect& best = sorted.front();
   constexpr double worth_it = 1.1;
   const Eigen::Index asked = std::min<Index>(Index(decisive), best.times.size());
+  std::string names, gains;
+  for (std::size_t i = 0; i < std::min(decisive, labels.size()); ++i) {
+    const std::string name = (i == 0 ? "" : ", ") + labels[i];
+    names += name;
+    gains += name + " " + rounded(best.times(Index(i)), 3) + " times";
+  }
   if (asked > 0 && best.times.head(asked).maxCoeff() < worth_it)
-    return "None of the further measurements tried would make the intervals a tenth narrower.";
-  std::string gains;
-  for (std::size_t i = 0; i < std::min(decisive, labels.size()); ++i)
-    gains += (i == 0 ? "" : ", ") + labels[i] + " " + rounded(best.times(Index(i)), 3) + " times";
+    return "None of the further measurements tried would make the interval of " + names +
+           " a tenth narrower.";
   return "Of the further measurements tried, " + best.name + " would tell most (" + best.press +
          "): it would make the intervals narrower, " + gains + ".";
 }

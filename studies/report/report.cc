@@ -233,7 +233,7 @@ class PageMaker {
   /// The run of a static `press`.
   Page static_page() {
     Page page = headed("Soft fingertip: a press at rest",
-                       "A mass-spring fingertip in equilibrium on a plane");
+                       "A mass-spring fingertip in equilibrium with what it touches");
     page.answer = words([&] { return press_answer(run_.response); });
     add(page, [&] { return press_chapter(run_.response, run_.contact); });
     add(page,
@@ -245,7 +245,8 @@ class PageMaker {
 
   /// The run of `reference` itself.
   Page reference_page() {
-    Page page = headed("Soft fingertip: the continuum", "A deal.II continuum pressed on a plane");
+    Page page =
+        headed("Soft fingertip: the continuum", "A deal.II continuum pressed on its obstacle");
     page.answer = words([&] { return press_answer(run_.reference); });
     add(page, [&] { return force_chapter(run_); });
     add(page, [&] { return program_chapter(run_.reference, {}); });

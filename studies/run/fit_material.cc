@@ -52,8 +52,11 @@ calibration::Validity validity_of(const FitInput& input, const calibration::FitR
   validity.thickness = press->geometry.thickness();
   if (press->geometry.is_dome())
     validity.rod_ratio = press->geometry.rod_radius / press->geometry.tip_radius;
-  validity.smallest_spacing = validity.largest_spacing = press->lattice.spacing;
-  validity.model_error = calibration::worst_relative_residual(record);
+  // Of what a lattice makes of the rubber a fit of the continuum knows nothing.
+  if (!by_continuum(input)) {
+    validity.smallest_spacing = validity.largest_spacing = press->lattice.spacing;
+    validity.model_error = calibration::worst_relative_residual(record);
+  }
   for (const lattice::PressSetup& other : input.presses)
     if (std::ranges::find(validity.contacts, other.protocol.contact) == validity.contacts.end())
       validity.contacts.push_back(other.protocol.contact);

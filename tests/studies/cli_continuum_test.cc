@@ -165,6 +165,11 @@ TEST_F(Continuum, IsRunInsideTheFit) {
     return json::parse(read_text(folder_ / (out + "/calibration.json")))["parameters"];
   };
   const json moduli = fit("moduli", "[\"youngs_modulus\", \"shear_modulus\"]");
+  // What a lattice makes of the rubber is not told: none was pressed.
+  const std::string material = read_text(folder_ / "moduli/material.toml");
+  EXPECT_NE(material.find("largest_indentation"), std::string::npos) << material;
+  EXPECT_EQ(material.find("model_error"), std::string::npos) << material;
+  EXPECT_EQ(material.find("smallest_spacing"), std::string::npos) << material;
   EXPECT_NEAR(moduli[0]["estimate"].get<double>(), 30e3, 0.01 * 30e3);
   EXPECT_NEAR(moduli[1]["estimate"].get<double>(), 10.5e3, 0.01 * 10.5e3);
   const json constants = fit("constants", "[\"lame_shear\", \"lambda\"]");

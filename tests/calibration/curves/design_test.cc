@@ -136,6 +136,10 @@ TEST(Design, SortsByWhatTheRubberGains) {
   EXPECT_NE(said.find("rubber would tell most (stick)"), std::string::npos) << said;
   EXPECT_NE(said.find("modulus 2 times"), std::string::npos) << said;
   EXPECT_EQ(prospect_statement({}, {}, 1), "");
+  prospects[0].times = Eigen::Vector2d(1.05, 9.0);  // what the rubber does not gain is not meant
+  EXPECT_EQ(prospect_statement(prospects, {"modulus", "compliance"}, 1),
+            "None of the further measurements tried would make the interval of modulus a tenth "
+            "narrower.");
 }
 
 TEST(Design, RefusesWhatIsNoObservation) {
