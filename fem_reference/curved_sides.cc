@@ -147,7 +147,7 @@ class HiddenEdges {
 
   /// Fewer sides bend in every round, until no cell is turned inside out.
   void bend() {
-    std::set<int> cells = cells_at_lines(), turned;
+    std::set<int> cells = cells_at_sides(), turned;
     do {
       for (auto& [number, line] : lines_) bend(line);
       for (auto& [number, face] : faces_) bend(face);
@@ -169,11 +169,14 @@ class HiddenEdges {
     Bent(const Side& own, int on) : side(own), part(on) {}
   };
 
-  std::set<int> cells_at_lines() const {
+  std::set<int> cells_at_sides() const {
     std::set<int> cells;
-    for (const auto& cell : triangulation_.cell_iterators())
+    for (const auto& cell : triangulation_.cell_iterators()) {
       for (const unsigned l : cell->line_indices())
         if (lines_.contains(cell->line(l)->index())) cells.insert(cell->index());
+      for (const auto& face : cell->face_iterators())
+        if (faces_.contains(face->index())) cells.insert(cell->index());
+    }
     return cells;
   }
 

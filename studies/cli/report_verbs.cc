@@ -31,14 +31,18 @@ void throw_damage(const Damages& damage) {
   if (!damage.empty()) throw meshes::InvalidInput(damage);
 }
 
+void require_folder(const std::string& run) {
+  if (!fs::is_directory(run))
+    refuse("RUN " + run, "there is no such folder", "give the folder of a run");
+}
+
 }  // namespace
 
 int run_compare(const CommandLine& line) {
   const std::optional<UnitSystem> wanted = wanted_units(line);
   std::vector<fs::path> runs;
   for (const std::string& run : line.arguments) {
-    if (!fs::is_directory(run))
-      refuse("RUN " + run, "there is no such folder", "give the folder of a run");
+    require_folder(run);
     runs.emplace_back(run);
   }
   if (!line.out.empty() && fs::exists(line.out) && !line.force) {
@@ -72,8 +76,7 @@ int run_report(const CommandLine& line) {
   const std::optional<UnitSystem> units = wanted_units(line);
   Damages damage;
   for (const std::string& run : line.arguments) {
-    if (!fs::is_directory(run))
-      refuse("RUN " + run, "there is no such folder", "give the folder of a run");
+    require_folder(run);
     const Damages found = write_report(run, units);
     damage.insert(damage.end(), found.begin(), found.end());
     if (line.quiet) continue;
