@@ -27,10 +27,12 @@ constexpr double growth = 0.5;
 constexpr double surface_distance = 0.1;
 /// Where a corner's Jacobian is less, of a cube 1, sizes shrink by `smaller`.
 constexpr double least_jacobian = 0.05, smaller = 0.7;
-constexpr int most_attempts = 12;
+constexpr int most_attempts = 24;
+/// Edges at a narrow part of the surface, over its width.
+constexpr double size_over_width = 1.5;
 /// Where that does not help, all is begun anew with sizes smaller by this.
 constexpr double smaller_everywhere = 0.85;
-constexpr int most_beginnings = 4;
+constexpr int most_beginnings = 3;
 /// Facets of a tetrahedron that turn by less than 60 degrees go on from one to the other.
 constexpr double flat_cosine = 0.5;
 
@@ -216,24 +218,61 @@ class Sizes {
     return size;
   }
 
-  /// Smaller ones where elements are bad; false where none is.
-  bool shrink(const HexahedralMesh& mesh) {
-    std::vector<std::pair<Vector3, double>> found;
-    for (const auto& hexahedron : mesh.hexahedra) {
-      if (worst_corner(mesh, hexahedron) >= least_jacobian) continue;
-      Vector3 middle = Vector3::Zero();
-      for (const int node : hexahedron) middle += mesh.nodes[std::size_t(node)] / 8.0;
-      found.emplace_back(middle, smaller * at(middle));
+  /// Small ones along the borders of parts that are narrower than the usual size.
+  void add_narrow(const PartedSurface& surface) {
+    struct Part {
+      double area = 0.0, length = 0.0;
+      std::vector<std::array<Vector3, 2>> border;
+    };
+    std::map<int, Part> all;
+    std::map<std::pair<int, int>, int> part_at;
+    for (std::size_t t = 0; t < surface.parts.size(); ++t) {
+      all[surface.parts[t]].area += surface.mesh.area_vector(t).norm();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int a = surface.mesh.triangles[t][c], b = surface.mesh.triangles[t][(c + 1) % 3];
+        const auto [known, is_new] = part_at.try_emplace(std::minmax(a, b), surface.parts[t]);
+        if (is_new || known->second == surface.parts[t]) continue;
+        const Vector3 from = surface.mesh.corner(t, c), to = surface.mesh.corner(t, (c + 1) % 3);
+        for (Part* part : {&all[known->second], &all[surface.parts[t]]}) {
+          part->length += (to - from).norm();
+          part->border.push_back({from, to});
+        }
+      }
     }
+    for (const auto& [number, part] : all) {
+      const double size = size_over_width * 2.0 * part.area / part.length;  // of a strip
+      if (!(size < usual_)) continue;
+      for (const auto& [from, to] : part.border) {
+        const int pieces = 1 + int((to - from).norm() / size);
+        for (int i = 0; i <= pieces; ++i) add(from + double(i) / pieces * (to - from), size);
+      }
+    }
+  }
+
+  /// Smaller ones at these places.
+  void shrink(const std::vector<Vector3>& places) {
+    std::vector<std::pair<Vector3, double>> found;
+    found.reserve(places.size());
+    for (const Vector3& place : places) found.emplace_back(place, smaller * at(place));
     for (const auto& [place, size] : found)
       if (size < at(place)) add(place, size);
-    return !found.empty();
   }
 
  private:
   double usual_;
   std::vector<std::pair<Vector3, double>> small_;
 };
+
+/// Middles of bad hexahedra.
+std::vector<Vector3> bad_places(const HexahedralMesh& mesh) {
+  std::vector<Vector3> places;
+  for (const auto& hexahedron : mesh.hexahedra) {
+    if (worst_corner(mesh, hexahedron) >= least_jacobian) continue;
+    places.push_back(Vector3::Zero());
+    for (const int node : hexahedron) places.back() += mesh.nodes[std::size_t(node)] / 8.0;
+  }
+  return places;
+}
 
 void hand_to_gmsh(const HexahedralMesh& mesh) {
   std::vector<std::size_t> numbers;
@@ -277,21 +316,29 @@ void build_split_mesh(const Geometry& geometry, const TipMeshOptions& options) {
       std::min(size_over_wall * wall, size_over_radius * radius) / options.radial_elements;
   const Vector3 touch = options.touch.value_or(Vector3(0.0, 0.0, shape->pole()));
   double share = 1.0;
+  Vector3 last = touch;
   for (int beginning = 0; beginning < most_beginnings; ++beginning, share *= smaller_everywhere) {
     Sizes sizes(share * usual);
     sizes.add(touch, share * usual / options.cap_grading);
+    sizes.add_narrow(surface);
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
       const Tetrahedra tetrahedra = without_flat_corners(tetrahedra_within(
           surface, [&](const Vector3& w) { return sizes.at(w); }, surface_distance * usual));
       const HexahedralMesh mesh = divided(tetrahedra, *parts);
-      if (sizes.shrink(mesh)) continue;
-      hand_to_gmsh(mesh);
-      return;
+      const std::vector<Vector3> bad = bad_places(mesh);
+      if (bad.empty()) {
+        hand_to_gmsh(mesh);
+        return;
+      }
+      last = bad.front();
+      sizes.shrink(bad);
     }
   }
   throw NotConverged(
-      "the finger could not be filled with hexahedra: its surface turns too much over lengths as "
-      "short as its elements; round its edges, or choose a larger reference.refinement");
+      "the finger could not be filled with hexahedra: near " + place_of(last) +
+      " its surface turns too much over lengths as short as its elements; round its edges there, "
+      "leave out steps and chamfers of less than 3 % of its largest radius, or choose a larger "
+      "reference.refinement");
 }
 
 }  // namespace fingertip::meshes

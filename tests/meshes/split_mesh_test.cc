@@ -87,6 +87,37 @@ TEST(SplitMesh, IsFineWhereItIsTouchedFirst) {
   EXPECT_GT(count, write_tip_mesh(finger.geometry, options, folder / "tip.msh").hexahedra);
 }
 
+/// A block of 16 by 20 mm whose touching face has a step of 0.5 mm.
+TEST(SplitMesh, FillsAFingerWithASmallStep) {
+  constexpr double step = 5e-4, width = 0.01;
+  // x and z, around.
+  const std::vector<Eigen::Vector2d> outline = {{0.0, 0.018},           {0.0, 0.018 + step},
+                                                {-0.008, 0.018 + step}, {-0.008, 0.0},
+                                                {0.008, 0.0},           {0.008, 0.018}};
+  TriangleMesh block;
+  for (const double y : {-width, width})
+    for (const auto& corner : outline) block.vertices.emplace_back(corner.x(), y, corner.y());
+  const int count = int(outline.size());
+  for (int i = 0; i < count; ++i) {
+    const int next = (i + 1) % count;
+    if (i > 0 && next > 0) {
+      block.triangles.push_back({0, i, next});
+      block.triangles.push_back({count, count + next, count + i});
+    }
+    block.triangles.push_back({i, count + next, next});
+    block.triangles.push_back({i, count + i, count + next});
+  }
+  const Finger finger{"step",
+                      Geometry::of_solid(std::make_shared<Solid>(block, Region{{{2, true, 1e-3}}})),
+                      Sector::full, 1.0};
+  const TemporaryFolder folder;
+  const MeshQuality quality = write(finger, 0.5, folder / "tip.msh");
+  EXPECT_GT(quality.min_scaled_jacobian, 0.04);
+  EXPECT_LT(quality.hexahedra, 40000u);
+  // The bond's edges alone are not followed.
+  EXPECT_NEAR(quality.volume, shape_of(finger.geometry)->volume(), 0.02 * quality.volume);
+}
+
 /// What no number of tetrahedra fills is told, not tried for ever: edges a hair's breadth apart.
 TEST(SplitMesh, RefusesEdgesVeryNearEachOther) {
   const TemporaryFolder folder;
