@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "meshes/errors.h"
 #include "meshes/press_response.h"
@@ -54,6 +55,13 @@ std::vector<std::string> split(const std::string& line, char separator) {
 std::string shown(const std::string& cell) {
   constexpr std::size_t enough = 40;
   return cell.size() <= enough ? cell : cell.substr(0, enough) + "...";
+}
+
+/// What separates the cells of a line of names.
+char separator_in(const std::string& names) {
+  for (const char separator : {';', '\t'})
+    if (names.find(separator) != std::string::npos) return separator;
+  return ',';
 }
 
 double parse(const CsvTable& table, std::size_t row, std::size_t column) {
@@ -130,25 +138,36 @@ CsvTable read_csv(const fs::path& file, const CsvFormat& format) {
   CsvTable table;
   table.file = file;
   table.remedy = format.remedy;
+  char separator = format.separator;
+  bool decimal_comma = format.decimal_comma;
   std::size_t line = 0;
-  for (std::size_t start = 0; start < text.size();) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  for (std::size_t start = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+       start < text.size();) {
     ++line;
     std::size_t end = text.find('\n', start);
     if (end == std::string::npos && format.complete)
       refuse(file, line, "", shown(text.substr(start)), "the last line must end with a line break",
              format.remedy);
     end = std::min(end, text.size());
-    std::string content = text.substr(start, end - start);
+    const std::string whole = text.substr(start, end - start);
     start = end + 1;
+    std::string content = whole;
     strip(content);
     if (line <= format.skip || content.empty() || content.front() == '#') continue;
-    if (format.decimal_comma && (!format.has_names || !table.names.empty()))
+    if (separator == separator_of_names) {
+      separator = separator_in(content);
+      decimal_comma = separator != ',';
+    }
+    if (separator == '\t') content = whole;  // the first and the last cell may be empty
+    if (decimal_comma && (!format.has_names || !table.names.empty()))
       std::ranges::replace(content, ',', '.');
-    std::vector<std::string> cells = split(content, format.separator);
+    std::vector<std::string> cells = split(content, separator);
     if (table.names.empty() && !format.has_names)
       for (std::size_t i = 1; i <= cells.size(); ++i) table.names.push_back(std::to_string(i));
     if (table.names.empty()) {
       table.names = std::move(cells);
+      table.names_line = line;
       check_names(table, line);
     } else if (cells.size() == table.names.size()) {
       table.rows.push_back(std::move(cells));

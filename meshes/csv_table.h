@@ -22,6 +22,7 @@ struct CsvTable {
   std::filesystem::path file = {};
   std::vector<std::size_t> lines = {};  ///< of each row in `file`, counted from 1
   const char* remedy = write_table_again;
+  std::size_t names_line = 0;  ///< in `file`, counted from 1; 0: the file has none
 
   bool empty() const { return rows.empty(); }
   bool has(const std::string& name) const;
@@ -37,9 +38,13 @@ struct CsvTable {
   std::vector<std::string> texts(const std::string& name) const;
 };
 
+/// The separator is the first of semicolon, tab and comma that stands in the line of names. Unless
+/// it is the comma, numbers may have decimal commas.
+inline constexpr char separator_of_names = '\0';
+
 /// How a table is laid out in a file of another program.
 struct CsvFormat {
-  char separator = ',';   ///< ' ' stands for any number of blanks and tabs
+  char separator = ',';   ///< ' ' stands for any number of blanks and tabs; or separator_of_names
   std::size_t skip = 0;   ///< lines before the table, whatever they hold
   bool has_names = true;  ///< whether its first line names the columns; else they are 1, 2, ...
   bool decimal_comma = false;  ///< 1,5 for 1.5; the separator is another one then
@@ -54,7 +59,8 @@ struct CsvFormat {
 /// of another length, or a last line without a line break, as truncated files do.
 CsvTable read_csv(const std::filesystem::path& file);
 
-/// The same for another layout; numbers get a decimal point. Refusals end with `format.remedy`.
+/// The same for another layout; numbers get a decimal point. A byte order mark is passed over.
+/// Refusals end with `format.remedy`.
 CsvTable read_csv(const std::filesystem::path& file, const CsvFormat& format);
 
 }  // namespace fingertip::meshes

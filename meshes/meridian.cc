@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "meshes/files.h"
 #include "meshes/peak.h"
 #include "meshes/profile_pieces.h"
 
@@ -25,6 +26,34 @@ constexpr int wall_points = 16;
 /// Two places are of one wall when the way between them along the boundary is this many times
 /// longer than through the rubber.
 constexpr double wedge = 4.0;
+
+/// For a finger whose highest place is not the end of `contact` on the axis.
+[[noreturn]] void refuse_top(const Meridian& meridian, bool on_axis, const Vector2& top,
+                             const Vector2& highest_contact) {
+  const double round_off = 1e-9 * (top.y() - meridian.lowest());
+  const auto is_lowest_on_axis = [&](const Vector2& x) {
+    return x.x() == 0.0 && x.y() <= meridian.lowest() + round_off;
+  };
+  const auto points_down = [&](const MeridianPiece& piece) {
+    return piece.surface() == ProfileSurface::contact &&
+           (is_lowest_on_axis(piece.from()) || is_lowest_on_axis(piece.to()));
+  };
+  if (std::ranges::any_of(meridian.pieces(), points_down))
+    refuse_profile("tip at " + profile_place({0.0, meridian.lowest()}) +
+                       ", bond up to z = " + to_text(1e3 * meridian.bond_top()) + " mm",
+                   "the finger is upside down: its tip, the highest point of `contact`, must lie "
+                   "on the axis above the bond",
+                   "change the sign of every z, in arc R C that of C; or exchange the names "
+                   "contact and bond where they are mixed up");
+  if (!on_axis)
+    refuse_profile("highest point of `contact` at " + profile_place(highest_contact),
+                   "it must lie on the axis, r = 0, above the bond",
+                   "start `contact` at the axis; a ring that touches first is not supported");
+  refuse_profile("highest point at " + profile_place(top) +
+                     ", `contact` ends at z = " + to_text(1e3 * meridian.pole()) + " mm",
+                 "no piece may lie higher than `contact`",
+                 "name what lies highest contact, or lower it");
+}
 
 }  // namespace
 
@@ -47,7 +76,7 @@ void Meridian::measure() {
   pole_ = bond_top_ = -none;
   lowest_ = none;
   bool on_axis = false;
-  Vector2 top(0.0, -none);
+  Vector2 top(0.0, -none), highest_contact = top;
   for (const MonotonePart& part : parts_) lowest_ = std::min(lowest_, part.lowest());
   for (const MeridianPiece& piece : pieces_) {
     std::vector<double> at = piece.turning_points();
@@ -60,6 +89,7 @@ void Meridian::measure() {
         if (x.y() > pole_) on_axis = false;
         pole_ = std::max(pole_, x.y());
         if (x.y() == pole_ && x.x() == 0.0) on_axis = true;
+        if (x.y() > highest_contact.y()) highest_contact = x;
       }
       if (x.y() > top.y()) top = x;
     }
@@ -71,13 +101,7 @@ void Meridian::measure() {
                      surface == ProfileSurface::bond ? "something must be held by the hand"
                                                      : "something must be able to touch",
                      "name at least one piece " + std::string(name(surface)));
-  if (!on_axis)
-    refuse_profile("top at " + profile_place(top),
-                   "the highest point of contact must lie on the axis, r = 0",
-                   "start `contact` at the axis; a ring that touches first is not supported");
-  if (top.y() > pole_)
-    refuse_profile("top at " + profile_place(top), "no piece may lie higher than `contact`",
-                   "turn the finger so that it points along +z");
+  if (!on_axis || top.y() > pole_) refuse_top(*this, on_axis, top, highest_contact);
 }
 
 double Meridian::bond_radius() const {

@@ -9,6 +9,7 @@
 #include "meshes/cubic_grid.h"
 #include "meshes/meridian.h"
 #include "meshes/revolved_surface.h"
+#include "meshes/shape.h"
 #include "meshes/solid.h"
 #include "meshes/stl_file.h"
 #include "studies/cli/verbs.h"
@@ -118,6 +119,30 @@ void print_lattices(const Geometry& geometry) {
   }
 }
 
+/// Whether the axis between the bond and the pole leaves the rubber.
+bool is_hollow(const meshes::Shape& shape) {
+  constexpr int places = 64;
+  for (int i = 0; i < places; ++i) {
+    const double share = (i + 0.5) / places;
+    const double z = shape.bond_top() + share * (shape.pole() - shape.bond_top());
+    if (shape.signed_distance({0.0, 0.0, z}) > 0.0) return true;
+  }
+  return false;
+}
+
+/// Of a hollow finger the wall. Of a solid one the shortest way through it, unless nothing is
+/// shorter than the height of the pole over the bond, which Shape::wall() gives then.
+void print_thinnest(const meshes::Shape& shape) {
+  constexpr double round_off = 1e-9;
+  if (is_hollow(shape))
+    fmt::print("  thinnest wall     {:.4g} mm\n", shape.wall() / mm);
+  else if (shape.wall() < (1.0 - round_off) * (shape.pole() - shape.bond_top()))
+    fmt::print("  solid             at least {:.4g} mm thick, straight inward from contact\n",
+               shape.wall() / mm);
+  else
+    fmt::print("  solid             no wall\n");
+}
+
 void print_measures(const Geometry& geometry, const meshes::Shape& shape) {
   fmt::print("  height            {:.4g} mm, from {:.4g} to the pole at {:.4g} mm\n",
              (shape.pole() - shape.lowest()) / mm, shape.lowest() / mm, shape.pole() / mm);
@@ -126,7 +151,7 @@ void print_measures(const Geometry& geometry, const meshes::Shape& shape) {
   for (const Look& look : looks)
     fmt::print("  {:<8}          {:.5g} mm^2\n", name(look.surface),
                shape.area(look.surface) / (mm * mm));
-  fmt::print("  thinnest wall     {:.4g} mm\n", shape.wall() / mm);
+  print_thinnest(shape);
   fmt::print("  pole above bond   {:.4g} mm, the limit of press.depth\n",
              geometry.thickness() / mm);
   print_lattices(geometry);

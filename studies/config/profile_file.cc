@@ -1,6 +1,7 @@
 #include "studies/config/profile_file.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -21,6 +22,22 @@ using meshes::ProfileCurve;
 
 constexpr const char* head = "r [mm],z [mm],surface,curve";
 
+/// What to do about a line that is no row.
+constexpr const char* separate_alike =
+    "separate the cells of all lines alike, by commas, semicolons or tabs; decimals have a point, "
+    "or a comma where semicolons or tabs separate";
+
+[[noreturn]] void refuse_names(const CsvTable& table, const std::string& value,
+                               const std::string& rule, const std::string& remedy) {
+  throw InvalidInput(
+      {table.file.string() + ":" + std::to_string(table.names_line), value, rule, remedy});
+}
+
+/// What the first line is to be.
+std::string write_names() {
+  return "write " + std::string(head) + ", separated by commas, semicolons or tabs";
+}
+
 /// The column `r [mm]` and metres per its unit.
 struct LengthColumn {
   std::string name;
@@ -34,14 +51,13 @@ LengthColumn length_column(const CsvTable& table, const std::string& symbol) {
     try {
       return {name, parse_quantity("1 " + unit, "m", "1 mm")};
     } catch (const UnitError& error) {
-      throw InvalidInput(
-          {table.file.string(), name, error.rule, "write e.g. " + std::string(head)});
+      refuse_names(table, name, error.rule, "write e.g. " + std::string(head));
     }
   }
-  throw InvalidInput(
-      {table.file.string(), "",
-       "the first line must name the column " + symbol + " with its unit of length in brackets",
-       "write " + std::string(head)});
+  refuse_names(
+      table, "",
+      "the first line must name the column " + symbol + " with its unit of length in brackets",
+      write_names());
 }
 
 [[noreturn]] void refuse(const CsvTable& table, std::size_t row, const std::string& value,
@@ -50,14 +66,26 @@ LengthColumn length_column(const CsvTable& table, const std::string& symbol) {
       {table.file.string() + ":" + std::to_string(table.lines[row]), value, rule, remedy});
 }
 
+/// The next word, which must be a number as a whole: of 0.12.5, where a comma stood for a blank, a
+/// stream would make 0.12 and 0.5.
+bool take_number(std::istream& words, double& number) {
+  std::string word;
+  if (!(words >> word)) return false;
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, number);
+  return error == std::errc() && stop == end && std::isfinite(number);
+}
+
 }  // namespace
 
 std::vector<ProfileCorner> read_profile(const std::filesystem::path& file) {
-  const CsvTable table = meshes::read_csv(file);
+  const CsvTable table =
+      meshes::read_csv(file, {.separator = meshes::separator_of_names,
+                              .complete = false,  // editors and spreadsheets may leave it open
+                              .remedy = separate_alike});
   const LengthColumn r = length_column(table, "r"), z = length_column(table, "z");
   if (!table.has("surface"))
-    throw InvalidInput({file.string(), "", "the first line must name the column surface",
-                        "write " + std::string(head)});
+    refuse_names(table, "", "the first line must name the column surface", write_names());
   const std::vector<double> radii = table.numbers(r.name), heights = table.numbers(z.name);
   const std::vector<std::string> surfaces = table.texts("surface"), curves = table.texts("curve");
   std::vector<ProfileCorner> corners;
@@ -78,9 +106,10 @@ std::vector<ProfileCorner> read_profile(const std::filesystem::path& file) {
     words >> kind;
     if (kind == "arc") {
       corner.curve = ProfileCurve::arc;
-      if (!(words >> corner.centre_r >> corner.centre_z) || words >> rest)
+      if (!take_number(words, corner.centre_r) || !take_number(words, corner.centre_z) ||
+          words >> rest)
         refuse(table, row, curves[row], "an arc names its centre",
-               "write arc R C, two numbers in the unit of the first line");
+               "write arc R C, two numbers in the unit of the first line with a blank between");
       corner.centre_r *= r.metres, corner.centre_z *= z.metres;
     } else if (kind == "spline") {
       corner.curve = ProfileCurve::spline;

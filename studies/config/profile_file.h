@@ -9,10 +9,11 @@
 namespace fingertip::studies {
 
 /// Reads a closed meridian, a row per corner in order: `r [UNIT],z [UNIT],surface,curve`, any unit
-/// of length; `surface` names the piece from this corner to the next (contact, bond, free, axis),
-/// `curve` is empty (straight), `arc R C` with the circle's centre in the file's unit, or `spline`.
-/// Throws InvalidInput naming file and line for rows that cannot be read; whether the curve is a
-/// meridian is for meshes::Meridian to say.
+/// of length; columns are separated by commas, semicolons or tabs, and but for commas numbers may
+/// have decimal commas; `surface` names the piece from this corner to the next (contact, bond,
+/// free, axis), `curve` is empty (straight), `arc R C` with the circle's centre in the file's unit,
+/// or `spline`. Throws InvalidInput naming file and line for rows that cannot be read; whether the
+/// curve is a meridian is for meshes::Meridian to say.
 std::vector<meshes::ProfileCorner> read_profile(const std::filesystem::path& file);
 
 }  // namespace fingertip::studies

@@ -317,11 +317,30 @@ TEST(Meridian, RefusesWhatIsNoFinger) {
                   {0.01, 0.01, contact, straight},
                   {0.005, 0.0, bond, straight}},
                  "");
-  // Upside down: what touches is not the highest.
+  // Upside down, with arcs mirrored, too, or with the names exchanged.
   expect_refused(with([](auto& c) {
-                   for (auto& corner : c) corner.z *= -1;
+                   for (auto& corner : c) corner.z *= -1, corner.centre_z *= -1;
                  }),
-                 "lie on the axis");
+                 "tip at (r, z) = (0, -10) mm, bond up to z = 15 mm: the finger is upside down");
+  expect_refused({{0.0125, 0.0, bond, straight},
+                  {0.0125, 0.0125, bond, arc, 0.0, 0.0125},
+                  {0.0, 0.025, axis, straight},
+                  {0.0, 0.0, contact, straight}},
+                 "exchange the names contact and bond");
+  // A crater, whose rim touches first.
+  expect_refused({{0.01, 0.0, contact, straight},
+                  {0.01, 0.02, contact, straight},
+                  {0.0, 0.015, axis, straight},
+                  {0.0, 0.0, bond, straight}},
+                 "highest point of `contact` at (r, z) = (10, 20) mm: it must lie on the axis");
+  // A nail above the tip.
+  expect_refused({{0.01, 0.005, contact, straight},
+                  {0.0, 0.01, axis, straight},
+                  {0.0, 0.0, bond, straight},
+                  {0.012, 0.0, free, straight},
+                  {0.012, 0.02, free, straight},
+                  {0.01, 0.02, free, straight}},
+                 "`contact` ends at z = 10 mm: no piece may lie higher");
   expect_refused(
       {{0.0, 0.0, axis, straight}, {0.0, 0.01, bond, straight}, {0.01, 0.0, contact, straight}},
       "");

@@ -34,6 +34,22 @@ TEST(Verbs, ShapeTellsMeasuresAndDraws) {
     EXPECT_NE(good.out.find(part), std::string::npos) << part << "\n" << good.out;
   EXPECT_TRUE(std::filesystem::exists(folder / "drawn/finger_section.svg"));
 
+  // A solid one has no wall: neither across, as wide as it is, nor up to its pole.
+  write_text(folder / "solid.csv",
+             "r [mm],z [mm],surface,curve\n12.5,0,contact,\n12.5,12.5,contact,arc 0 12.5\n"
+             "0,25,axis,\n0,0,bond,\n");
+  write_text(folder / "slender.csv",
+             "r [mm],z [mm],surface,curve\n5,0,contact,\n5,55,contact,arc 0 55\n"
+             "0,60,axis,\n0,0,bond,\n");
+  for (const auto& [file, told] :
+       {std::pair("solid.csv", "solid             no wall\n"),
+        std::pair("slender.csv", "solid             at least 10 mm thick, straight inward")}) {
+    const ProgramResult solid = run_program(folder.path(), {"shape", file, "--out", "drawn"});
+    EXPECT_EQ(solid.code, 0) << solid.err;
+    EXPECT_NE(solid.out.find(told), std::string::npos) << solid.out;
+    EXPECT_EQ(solid.out.find("thinnest wall"), std::string::npos) << solid.out;
+  }
+
   // Its surface as triangles, which is a finger again.
   const ProgramResult written =
       run_program(folder.path(), {"shape", "finger.csv", "--out", "drawn", "--stl", "finger.stl"});

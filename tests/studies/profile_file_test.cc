@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "meshes/errors.h"
@@ -63,6 +64,41 @@ TEST(ProfileFile, TakesAnyUnitOfLength) {
   EXPECT_NEAR(mm[1].centre_z, 0.0125, 1e-15);
 }
 
+TEST(ProfileFile, TakesWhatSpreadsheetsSeparateBy) {
+  const TemporaryFolder folder;
+  write_text(folder / "commas.csv", solid_finger);
+  std::string decimals;  // decimal commas
+  for (const char c : solid_finger) decimals += c == ',' ? ';' : c == '.' ? ',' : c;
+  write_text(folder / "semicolons.csv", "\xEF\xBB\xBF" + decimals.substr(0, decimals.size() - 1));
+  std::ranges::replace(decimals, ';', '\t');
+  write_text(folder / "tabs.csv", decimals);
+  const auto commas = read_profile(folder / "commas.csv");
+  ASSERT_EQ(commas.size(), 4u);
+  for (const char* other : {"semicolons.csv", "tabs.csv"}) {
+    const auto corners = read_profile(folder / other);
+    ASSERT_EQ(corners.size(), 4u) << other;
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(corners[i].r, commas[i].r) << other;
+      EXPECT_EQ(corners[i].z, commas[i].z) << other;
+      EXPECT_EQ(corners[i].surface, commas[i].surface) << other;
+      EXPECT_EQ(corners[i].centre_z, commas[i].centre_z) << other;
+    }
+  }
+}
+
+TEST(ProfileFile, SaysHowCellsAreSeparated) {
+  // A decimal comma among commas, a comma between the numbers of an arc, blanks between names.
+  expect_refused(
+      with(solid_finger, "12.5,0,contact", "12,5,0,contact"),
+      {"finger.csv:2", "5 cells", "commas, semicolons or tabs", "decimals have a point"});
+  expect_refused(with(solid_finger, "12.5,0,contact", "\"12,5\",0,contact"),
+                 {"finger.csv:2, r [mm]: 12,5", "decimals have a point"});
+  expect_refused(with(solid_finger, "arc 0 12.5", "\"arc 0,12.5\""),
+                 {"finger.csv:3", "a blank between"});
+  expect_refused(with(solid_finger, "r [mm],z [mm],surface,curve", "r [mm] z [mm] surface curve"),
+                 {"finger.csv:2: 4 cells", "names (1)", "commas, semicolons or tabs"});
+}
+
 TEST(ProfileFile, MakesTheFingerOfAConfiguration) {
   const TemporaryFolder folder;
   write_text(folder / "finger.csv", solid_finger);
@@ -77,7 +113,8 @@ TEST(ProfileFile, MakesTheFingerOfAConfiguration) {
 
 TEST(ProfileFile, RefusesWithPlaceAndRemedy) {
   expect_refused("", {"finger.csv"});
-  expect_refused(with(solid_finger, "r [mm]", "r"), {"finger.csv", "r [mm],z [mm],surface,curve"});
+  expect_refused(with(solid_finger, "r [mm]", "r"),
+                 {"finger.csv:1", "r [mm],z [mm],surface,curve", "semicolons"});
   expect_refused(with(solid_finger, "z [mm]", "z [kg]"), {"finger.csv", "z [kg]"});
   expect_refused(with(solid_finger, "[mm],z [mm]", "[m],z [m]"), {"check the unit"});
   expect_refused(with(solid_finger, "0,25,axis", "0,25,axle"), {"finger.csv:4", "axle", "axis"});
