@@ -68,8 +68,7 @@ std::vector<Vector3> BoundaryView::deformed(const State& state) const {
   return places;
 }
 
-std::vector<std::uint8_t> BoundaryView::held(const Finger& finger) const {
-  const std::vector<std::uint8_t> of_boundary = finger.held();
+std::vector<std::uint8_t> BoundaryView::held(const std::vector<std::uint8_t>& of_boundary) const {
   std::vector<std::uint8_t> result;
   result.reserve(size());
   for (const std::size_t b : entry_) result.push_back(of_boundary[b]);
@@ -85,7 +84,7 @@ FingerPicture take_picture(const Finger& finger, const BoundaryView& view, doubl
   picture.on_rod = finger.bond();
   picture.plane = finger.plane();
   picture.boundary = view.deformed(finger.state());
-  picture.held = view.held(finger);
+  picture.held = view.held(finger.held());
   return picture;
 }
 

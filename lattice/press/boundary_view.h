@@ -24,8 +24,8 @@ class BoundaryView {
   const std::vector<std::array<int, 2>>& springs() const { return springs_; }
   /// Where they are now [m].
   std::vector<meshes::Vector3> deformed(const State& state) const;
-  /// 1 where the plane holds the finger, a finger of this model.
-  std::vector<std::uint8_t> held(const Finger& finger) const;
+  /// Where the plane holds the finger, of what Finger::held() tells of a finger of this model.
+  std::vector<std::uint8_t> held(const std::vector<std::uint8_t>& of_boundary) const;
 
  private:
   /// A place before it is known whether it is drawn.
@@ -44,7 +44,7 @@ class BoundaryView {
 
 /// The finger at one moment, ready to be drawn; world axes = the rod's starting axes.
 struct FingerPicture {
-  double time = 0.0;                                   ///< [s]
+  double time = 0.0;                                   ///< unknown without time [s]
   double indentation = 0.0;                            ///< negative before contact [m]
   Pose rod;                                            ///< of the finger's frame
   meshes::Vector3 endpoint = meshes::Vector3::Zero();  ///< of the rod [m]

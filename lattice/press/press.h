@@ -1,9 +1,7 @@
 /// The press: rod, tip and plane in time, under a controller or with prescribed motion.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -13,6 +11,7 @@
 #include "lattice/dynamics/time_step.h"
 #include "lattice/press/boundary_view.h"
 #include "lattice/press/press_setup.h"
+#include "lattice/press/press_shapes.h"
 #include "lattice/press/trace.h"
 #include "meshes/press_response.h"
 
@@ -36,7 +35,7 @@ struct ElapsedTime {
   double processor = 0.0;  ///< of the thread that presses; with one thread all there is
 };
 
-struct PressOutcome {
+struct PressOutcome : PressShapes {
   meshes::PressResponse response;  ///< at the sample depths and evenly in between; of a program
                                    ///< then at the times of PressMotion::samples
   std::vector<TraceRow> trace;
@@ -53,13 +52,6 @@ struct PressOutcome {
   /// Largest defect of the momentum balance of rod, tip and plane over a step, relative to the
   /// largest impulse exchanged.
   double momentum_defect = 0.0;
-  /// What a BoundaryView shows, at rest [m] ...
-  std::vector<meshes::Vector3> boundary_rest;
-  std::vector<meshes::Vector3> boundary_deformed;    ///< ... and at the end [m]
-  std::vector<std::array<int, 2>> boundary_springs;  ///< pairs of them joined by axis springs
-  std::vector<std::uint8_t> boundary_anchored;       ///< Finger::held
-  /// Up to four: halfway to the plane, at first touch, at half depth, at the end.
-  std::vector<FingerPicture> snapshots;
 
   /// Simulated over wall time.
   double real_time_factor() const { return wall_time > 0.0 ? simulated_time / wall_time : 0.0; }

@@ -3,10 +3,11 @@
 
 #include "lattice/press/boundary_view.h"
 #include "lattice/press/press.h"
+#include "lattice/press/press_shapes.h"
 
 namespace fingertip::lattice {
 
-/// Fills PressOutcome::boundary_* and snapshots, and shows the film's pictures.
+/// Fills the outcome's PressShapes, and shows the film's pictures.
 class PressPictures {
  public:
   /// `expected_time` [s]: how long the press will take. Finger and outcome must outlive it.
@@ -21,16 +22,14 @@ class PressPictures {
   void finish(double indentation);
 
  private:
-  bool snapshot_due(double indentation) const;
-
   const Finger* finger_;
   BoundaryView view_;
+  ShapeRecorder recorder_;
   PressFilm film_;
   PressOutcome* outcome_;
-  double before_contact_, half_depth_;  ///< indentations of the first and the third snapshot [m]
-  double interval_ = 0.0;               ///< between pictures of the film [s]
-  int shown_ = 0;                       ///< pictures of the film
-  double last_shown_ = 0.0;             ///< [s]
+  double interval_ = 0.0;    ///< between pictures of the film [s]
+  int shown_ = 0;            ///< pictures of the film
+  double last_shown_ = 0.0;  ///< [s]
 };
 
 }  // namespace fingertip::lattice

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 
 #include "lattice/contact/contact_patch.h"
 #include "lattice/model/model.h"
+#include "lattice/press/static_pictures.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/elastic_system.h"
 #include "lattice/statics/equilibrium.h"
@@ -56,6 +58,8 @@ class StaticPress {
   StaticPress(const PressSetup& setup, const LatticeBody& body, const StaticObserver& observer);
   /// Carries derivatives along; `system` must outlive the press.
   void differentiate(const SlopeSystem& system);
+  /// Takes pictures along.
+  void picture() { pictures_.emplace(setup_, body_, outcome_); }
   StaticOutcome run();
   /// Of the samples, a row each; as many as were finished.
   const PressSlopes& slopes() const { return slopes_; }
@@ -73,6 +77,7 @@ class StaticPress {
   bool step_to(double place);
   VectorXd extrapolated(double place) const;
   bool anchor(State& next) const;
+  Wrench on_rod() const;
   PressSample sample() const;
   void note_slopes();
   void note_contact();
@@ -91,6 +96,7 @@ class StaticPress {
   VectorXd previous_displacement_;  ///< one step ago
   double largest_step_ = 0.0, step_ = 0.0;
   StaticOutcome outcome_;
+  std::optional<StaticPictures> pictures_;
   PressSlopes slopes_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
@@ -134,14 +140,18 @@ void StaticPress::take_census() {
 }
 
 StaticOutcome StaticPress::run() {
-  for (std::size_t i = 0; i < path_.samples().size(); ++i) {
+  const std::size_t samples = path_.samples().size();
+  if (pictures_) pictures_->look(now_.contact, now_.displacement, on_rod());
+  for (std::size_t i = 0; i < samples; ++i) {
     march_to(path_.samples()[i]);
+    if (pictures_ && i + 1 < samples) pictures_->look(now_.contact, now_.displacement, on_rod());
     outcome_.response.append(sample());
     outcome_.response.back().stage = path_.stage(i);
     if (slope_system_) note_slopes();
     note_contact();
     report();
   }
+  if (pictures_) pictures_->finish(now_.contact, now_.displacement, on_rod());
   return std::move(outcome_);
 }
 
@@ -215,7 +225,7 @@ bool StaticPress::anchor(State& next) const {
 
 /// Force and torque on the rod from the bond's ties. A tie's pull goes through its point on the
 /// rod, at rest or not, and the body's forces balance: they are those of the plane, too.
-PressSample StaticPress::sample() const {
+Wrench StaticPress::on_rod() const {
   const Vector3 endpoint = setup_.geometry.rod_endpoint();
   Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
   for (const EmbeddedPoint& point : body_.bond) {
@@ -226,8 +236,11 @@ PressSample StaticPress::sample() const {
   // Mirror images: y -> -y turns (f, t) into (fx, -fy, fz), (-tx, ty, -tz); x -> -x likewise.
   if (body_.sectors > 1) force.y() = torque.x() = torque.z() = 0.0;
   if (body_.sectors > 2) force.x() = torque.y() = 0.0;
-  force *= body_.sectors;
-  torque *= body_.sectors;
+  return {body_.sectors * force, body_.sectors * torque};
+}
+
+PressSample StaticPress::sample() const {
+  const auto [force, torque] = on_rod();
   const PressPlane& plane = now_.contact.plane();
   const ContactPatch patch =
       contact_patch(now_.contact.loaded_points(now_.displacement), body_.sectors);
@@ -285,11 +298,14 @@ LatticeBody static_body(const PressSetup& setup, int sectors) {
                  setup.rubber);
 }
 
-StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer) {
+StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer,
+                               bool pictured) {
   check(setup);
   const LatticeBody body =
       static_body(setup, largest_symmetry(setup.geometry, setup.lattice, setup.protocol));
-  return StaticPress(setup, body, observer).run();
+  StaticPress press(setup, body, observer);
+  if (pictured) press.picture();
+  return press.run();
 }
 
 StaticOutcome run_static_press(const PressSetup& setup, const LatticeBody& body,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lattice/press/press_setup.h"
+#include "lattice/press/press_shapes.h"
 #include "lattice/press/press_slopes.h"
 #include "lattice/statics/lattice_body.h"
 #include "meshes/press_response.h"
@@ -22,8 +23,8 @@ struct StaticContactPoint {
 /// contact_radius and max_pressure are those of contact_patch: true ones at finite strain, at small
 /// strain those of the shape at rest. How far off they are stands in
 /// lattice/MEASUREMENTS.md (contact).
-struct StaticOutcome {
-  meshes::PressResponse response;  ///< at the samples of the protocol's path
+struct StaticOutcome : PressShapes {  // empty unless it was to be pictured
+  meshes::PressResponse response;     ///< at the samples of the protocol's path
   std::size_t particles = 0, cells = 0, springs = 0, unknowns = 0;
   int sectors = 1;
   double volume = 0.0, exact_volume = 0.0;  ///< of the rubber, whole tip [m³]
@@ -50,7 +51,10 @@ using StaticObserver = std::function<bool(const StaticOutcome& so_far, double fr
 /// symmetry allows. Of `setup`, the protocol's mode, rod, controller and integrator do not matter.
 /// Throws InvalidInput for a setup that breaks a rule, NotConverged when Newton's method fails at
 /// the smallest step (the observer has seen what was finished), Interrupted when the observer asks.
-StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer = {});
+/// A press that is `pictured` builds the whole tip as a moving lattice, too: snapshots are at rest,
+/// at the first sample from half the depth on, and at the last sample.
+StaticOutcome run_static_press(const PressSetup& setup, const StaticObserver& observer = {},
+                               bool pictured = false);
 
 /// The same with a body of one's own, made for `setup` (largest_symmetry for its sectors).
 StaticOutcome run_static_press(const PressSetup& setup, const LatticeBody& body,

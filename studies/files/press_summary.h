@@ -251,7 +251,7 @@ struct PressSummary {
   bool controlled() const { return mode == "pid"; }
 };
 constexpr auto fields_of(const PressSummary*) {
-  using meshes::if_known, meshes::named, meshes::only;
+  using meshes::if_known, meshes::named, meshes::newer, meshes::only;
   using Whole = PressSummary;
   return std::tuple_cat(
       named("model kinematics mode contact status spacing constants", &Whole::model,
@@ -260,6 +260,7 @@ constexpr auto fields_of(const PressSummary*) {
       if_known(named("obstacle", &Whole::obstacle)),
       only(&Whole::moves, named("geometry moduli step census steps", &Whole::geometry,
                                 &Whole::moduli, &Whole::step, &Whole::census, &Whole::steps)),
+      only(&Whole::rests, newer(named("geometry", &Whole::geometry))),
       only(&Whole::rests, named("census effort smallest_jacobian", &Whole::static_census,
                                 &Whole::effort, &Whole::smallest_jacobian)),
       only(&Whole::moves, named("simulated_time", &Whole::simulated_time)),

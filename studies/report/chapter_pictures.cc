@@ -64,9 +64,11 @@ void add_plane(Panel& panel, const Frame& frame, double z) {
       {"", "plane", {frame.x.from, frame.x.to}, {z, z}, {}, {"#333333", "", 2.4, 0, true}});
 }
 
-/// How far the rod has travelled from rest to the end of the trace [m].
+/// How far the rod has travelled from rest to the end [m]; unknown where no file tells it.
 double rod_travel(const ModelData& model) {
-  if (model.trace.empty()) return 0.0;
+  // Without time its way begins at first touch.
+  if (model.summary.rests() && !model.snapshots.empty()) return model.snapshots.back().indentation;
+  if (model.trace.empty()) return meshes::unknown;
   return model.trace.back().indentation - model.trace.front().indentation;
 }
 
@@ -133,9 +135,9 @@ Figure shapes_figure(const RunData& run) {
 }  // namespace
 
 Chapter pictures_chapter(const RunData& run) {
-  // Without its trace a press cannot be drawn in the rod's frame.
+  // Without its rod's way a press cannot be drawn in the rod's frame.
   for (const ModelData& model : run.models)
-    if (!model.boundary.empty() && model.trace.empty()) return {};
+    if (!model.boundary.empty() && std::isnan(rod_travel(model))) return {};
   ChapterData chapter("pictures");
   chapter.figures = {shapes_figure(run)};
   return written(std::move(chapter));

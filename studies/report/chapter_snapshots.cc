@@ -102,7 +102,8 @@ class Drawing {
 
   Panel panel(const Snapshot& snapshot) const {
     Panel panel;
-    panel.title = fmt::format("{}, {:.4g} s", snapshot.moment, snapshot.time);
+    panel.title = snapshot.moment;
+    if (std::isfinite(snapshot.time)) panel.title += fmt::format(", {:.4g} s", snapshot.time);
     panel.equal_scales = true;
     panel.key = "";
     panel.bare = true;

@@ -9,7 +9,7 @@
 
 namespace fingertip::studies::reporting {
 
-/// One press; what its folder does not hold is empty.
+/// One press, or one at rest; what its folder does not hold is empty.
 struct MovingPress : PressFiles {
   std::string label;   ///< names it in figures and tables
   std::string status;  ///< "finished", or why not

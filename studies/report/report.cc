@@ -235,10 +235,12 @@ class PageMaker {
     Page page = headed("Soft fingertip: a press at rest",
                        "A mass-spring fingertip in equilibrium with what it touches");
     page.answer = words([&] { return press_answer(run_.response); });
+    MovingPress press = read_moving_press(run_.folder, "press", reader_);
+    press.pictured = true;
     add(page, [&] { return press_chapter(run_.response, run_.contact); });
-    add(page,
-        [&] { return program_chapter(run_.response, read_press_files(run_.folder, reader_)); });
+    add(page, [&] { return program_chapter(run_.response, press); });
     add(page, [&] { return sliding_chapter(run_.response); });
+    add(page, [&] { return snapshots_chapter(std::vector{press}); });
     end(page);
     return page;
   }

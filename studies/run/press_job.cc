@@ -64,7 +64,6 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOu
                         const std::string& status) {
   const lattice::StepReport& step = outcome.step;
   PressSummary summary = press_summary_head(setup, status);
-  summary.geometry = geometry_entry(setup.geometry);
   summary.moduli =
       moduli_entry(calibration::homogenised_moduli(setup.lattice.constants, setup.lattice.spacing));
   summary.step = {step.step,        step.smallest,       step.omega0,
@@ -143,8 +142,7 @@ void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path
     const lattice::PressOutcome outcome =
         lattice::run_press(setup, observe, {movie_pictures, show});
     recorder.write(outcome, "finished");
-    write_boundary(outcome, folder);
-    write_snapshots(outcome, folder);
+    write_shapes(outcome, folder);
     context.log("step " + meshes::to_text(outcome.step.step) + " s: " + outcome.step.explanation);
   } catch (const meshes::NotConverged& error) {
     set_press_status(folder, std::string("not converged: ") + error.what());

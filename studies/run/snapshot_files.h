@@ -3,17 +3,16 @@
 
 #include <filesystem>
 
-#include "lattice/press/press.h"
+#include "lattice/press/press_shapes.h"
 
 namespace fingertip::studies {
 
-/// boundary.csv: at rest and at the end, which of it is held; boundary_springs.csv: pairs of its
-/// rows.
-void write_boundary(const lattice::PressOutcome& outcome, const std::filesystem::path& folder);
-
-/// snapshots.csv: a row per moment with the rod's pose, the tip's wrench on it about its endpoint
-/// and the plane; snapshot_points.csv: the boundary then, in the order of boundary.csv, to 10 nm.
-/// World axes.
-void write_snapshots(const lattice::PressOutcome& outcome, const std::filesystem::path& folder);
+/// World axes, of which the plane is at rest.
+///   boundary.csv          at rest and at the end, which of it is held
+///   boundary_springs.csv  pairs of its rows
+///   snapshots.csv         a row per moment with the rod's pose, the tip's wrench on it about its
+///                         endpoint and the plane
+///   snapshot_points.csv   the boundary then, in the order of boundary.csv, to 10 nm
+void write_shapes(const lattice::PressShapes& shapes, const std::filesystem::path& folder);
 
 }  // namespace fingertip::studies

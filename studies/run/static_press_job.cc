@@ -11,6 +11,7 @@
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/program_summary.h"
+#include "studies/run/snapshot_files.h"
 
 namespace fingertip::studies {
 
@@ -45,15 +46,16 @@ void run_static_job(const lattice::PressSetup& setup, const fs::path& folder,
     outcome.response.write_csv(folder / "response.csv");
     meshes::write_json_file(summary_of(setup, outcome, status), folder / "summary.json");
   };
+  const auto observe = [&](const lattice::StaticOutcome& so_far, double done) {
+    const bool go_on = context.report(done, "pressing");
+    write(so_far, go_on ? "running" : "interrupted");
+    return go_on;
+  };
   try {
-    const lattice::StaticOutcome outcome =
-        lattice::run_static_press(setup, [&](const lattice::StaticOutcome& so_far, double done) {
-          const bool go_on = context.report(done, "pressing");
-          write(so_far, go_on ? "running" : "interrupted");
-          return go_on;
-        });
+    const lattice::StaticOutcome outcome = lattice::run_static_press(setup, observe, true);
     write(outcome, "finished");
     write_contact(outcome, folder);
+    write_shapes(outcome, folder);
   } catch (const meshes::NotConverged& error) {
     set_press_status(folder, std::string("not converged: ") + error.what());
     throw;
@@ -93,6 +95,7 @@ PressSummary press_summary_head(const lattice::PressSetup& setup, const std::str
   summary.status = status;
   summary.spacing = setup.lattice.spacing;
   summary.constants = constants_entry(setup.lattice.constants);
+  summary.geometry = geometry_entry(setup.geometry);
   return summary;
 }
 

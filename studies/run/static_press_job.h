@@ -8,7 +8,8 @@
 
 namespace fingertip::studies {
 
-/// Files: response.csv and summary.json (rewritten after every sample), contact.csv.
+/// Files: response.csv and summary.json (rewritten after every sample), contact.csv, and shapes
+/// (snapshot_files.h).
 Job static_press_job(const lattice::PressSetup& setup);
 
 /// What the summary.json of every press begins with.

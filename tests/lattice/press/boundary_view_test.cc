@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lattice/press/press.h"
+#include "lattice/press/static_press.h"
 #include "tests/coarse_press.h"
 #include "tests/lattice/fixtures.h"
 
@@ -15,6 +16,7 @@ using lattice::BoundaryView;
 using lattice::FingerPicture;
 using lattice::Kinematics;
 using lattice::ModelKind;
+using lattice::Moment;
 using meshes::Vector3;
 
 namespace {
@@ -97,6 +99,64 @@ TEST(PressPictures, SnapshotsAreBeforeContactAtTouchAtHalfDepthAndAtTheEnd) {
     EXPECT_NEAR(picture.rod.position.z(), picture.indentation + setup.protocol.clearance, 1e-6);
     for (std::size_t p = 0; p < picture.boundary.size(); ++p)
       EXPECT_GT(picture.plane.gap(picture.boundary[p]), -0.02e-3) << picture.time;
+  }
+}
+
+// The same shapes as those of a press so slow that it hardly differs from an equilibrium, computed
+// on a quarter and on the whole tip. In motion the way begins at the clearance.
+TEST(PressPictures, AtRestTheShapesAreThoseOfASlowPress) {
+  lattice::PressSetup setup = coarse_press();
+  setup.protocol.mode = meshes::DriveMode::quasi_static;
+  setup.protocol.speed = 0.01;
+  setup.protocol.samples = {0.2e-3, 0.4e-3, 0.6e-3, 1e-3};
+  const lattice::PressOutcome moving = lattice::run_press(setup);
+  setup.protocol.mode = meshes::DriveMode::equilibrium;
+  const lattice::StaticOutcome resting = lattice::run_static_press(setup, {}, true);
+  ASSERT_EQ(resting.sectors, 4);
+  EXPECT_EQ(resting.boundary_rest, moving.boundary_rest);
+  EXPECT_EQ(resting.boundary_springs, moving.boundary_springs);
+  ASSERT_EQ(resting.snapshots.size(), 3u);
+  EXPECT_EQ(resting.snapshots[0].moment, Moment::first_touch);
+  EXPECT_EQ(resting.snapshots[0].boundary, resting.boundary_rest);
+  EXPECT_EQ(std::ranges::count(resting.snapshots[0].held, 1), 0);
+  EXPECT_EQ(resting.snapshots[1].moment, Moment::half_depth);
+  EXPECT_EQ(resting.snapshots[1].indentation, 0.6e-3) << "the first sample from half depth on";
+  const auto &end = resting.snapshots[2], &slow = moving.snapshots.back();
+  EXPECT_EQ(end.moment, Moment::end);
+  EXPECT_EQ(end.indentation, 1e-3);
+  EXPECT_TRUE(std::isnan(end.time));
+  EXPECT_EQ(end.boundary, resting.boundary_deformed);
+  EXPECT_NEAR(end.on_rod.force.norm(), resting.response.samples().back().normal_force, 1e-12);
+  const Vector3 clearance = setup.protocol.clearance * Vector3::UnitZ();
+  const double step = setup.protocol.speed * moving.step.step;  // beyond the depth, at most [m]
+  EXPECT_LT((end.rod.position + clearance - slow.rod.position).norm(), 1.001 * step);
+  EXPECT_LT((end.plane.point + clearance - slow.plane.point).norm(), 1e-9);
+  for (std::size_t p = 0; p < end.boundary.size(); ++p)
+    EXPECT_LT((end.boundary[p] + clearance - slow.boundary[p]).norm(), 0.03e-3) << p;
+  EXPECT_NEAR(double(std::ranges::count(end.held, 1)), double(std::ranges::count(slow.held, 1)),
+              0.1 * double(std::ranges::count(slow.held, 1)));
+  setup.protocol.tilt = 1e-9;  // leaves but one mirror plane
+  const lattice::StaticOutcome half = lattice::run_static_press(setup, {}, true);
+  ASSERT_EQ(half.sectors, 2);
+  for (std::size_t p = 0; p < end.boundary.size(); ++p)
+    EXPECT_LT((end.boundary[p] - half.boundary_deformed[p]).norm(), 1e-8) << p;
+}
+
+TEST(PressPictures, OfAnyModelTheRestingTipTouchesThePlaneThatTiltedItAndMovedAlongIt) {
+  for (const ModelKind kind : {ModelKind::published, ModelKind::central, ModelKind::network}) {
+    lattice::PressSetup setup = coarse_press();
+    setup.lattice = settings_for(kind, Kinematics::finite, 5);
+    setup.protocol.mode = meshes::DriveMode::equilibrium;
+    setup.protocol.tilt = 0.1;
+    setup.protocol.lateral = 0.2e-3;
+    const lattice::StaticOutcome outcome = lattice::run_static_press(setup, {}, true);
+    const auto& end = outcome.snapshots.back();
+    EXPECT_NEAR(end.rod.position.dot(end.plane.normal), -setup.protocol.depth, 1e-12);
+    double lowest = 1.0;
+    for (const Vector3& place : end.boundary) lowest = std::min(lowest, end.plane.gap(place));
+    EXPECT_NEAR(lowest, 0.0, 0.05e-3) << name(kind);
+    EXPECT_GT(std::ranges::count(end.held, 1), 0) << name(kind);
+    EXPECT_TRUE(lattice::run_static_press(setup).snapshots.empty()) << "not asked for";
   }
 }
 

@@ -203,6 +203,41 @@ TEST(ControlReport, APressAloneHasItsControlAndSnapshots) {
   EXPECT_TRUE(has(report_testing::visible_text(html), "within 0.40 % of its set point"));
 }
 
+TEST(ControlReport, APressAtRestHasSnapshotsWithoutTimes) {
+  const TemporaryFolder folder;
+  const fs::path press = folder.path() / "rest";
+  write_press(press, 0.0, false);
+  fs::remove(press / "trace.csv");
+  write_sphere(press);
+  studies::PressSummary summary;
+  summary.model = "hookean";
+  summary.mode = "static";
+  summary.status = "finished";
+  summary.geometry = {0.01, 0.005, 0.015, 0.03, ""};
+  meshes::write_json_file(summary, press / "summary.json");
+  auto snapshots = meshes::read_rows<studies::SnapshotRow>(press / "snapshots.csv");
+  snapshots.front().time = meshes::unknown;
+  meshes::write_rows(snapshots, press / "snapshots.csv");
+  meshes::PressResponse response;
+  for (const double depth : {1e-3, 2e-3}) {
+    meshes::PressSample sample;
+    sample.indentation = depth;
+    sample.normal_force = 50.0 * depth;
+    response.append(sample);
+  }
+  response.write_csv(press / "response.csv");
+  EXPECT_TRUE(studies::write_report(press).empty());
+  const std::string html = read_text(press / "report.html");
+  EXPECT_TRUE(has(html, "<section id=\"snapshots\">"));
+  EXPECT_FALSE(has(html, "<section id=\"control\">"));
+  const std::string svg = read_text(press / "figures/snapshots_1.svg");
+  EXPECT_TRUE(has(svg, "end"));
+  EXPECT_FALSE(has(svg, "nan"));
+  fs::remove(press / "snapshots.csv");
+  EXPECT_TRUE(studies::write_report(press).empty()) << "as runs of earlier versions have it";
+  EXPECT_FALSE(has(read_text(press / "report.html"), "<section id=\"snapshots\">"));
+}
+
 TEST(IntegratorReport, ShowsCostAgainstErrorAndNoControl) {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run";
