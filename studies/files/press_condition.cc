@@ -26,14 +26,24 @@ struct Number {
 /// Those that make another problem of it when they differ.
 constexpr Number numbers[] = {
     {"friction", &PressCondition::friction, nullptr},
-    {"tip radius", &PressCondition::tip_radius, &ShownUnits::length},
-    {"rod radius", &PressCondition::rod_radius, &ShownUnits::length},
-    {"sleeve length", &PressCondition::sleeve_length, &ShownUnits::length},
-    {"rod length", &PressCondition::rod_length, &ShownUnits::length},
     {"Young's modulus", &PressCondition::youngs_modulus, &ShownUnits::stress},
     {"shear modulus", &PressCondition::shear_modulus, &ShownUnits::stress},
     {"tilt", &PressCondition::tilt, nullptr},
     {"lateral motion on the way down", &PressCondition::lateral, &ShownUnits::length}};
+
+constexpr Number lengths_of_domes[] = {
+    {"tip radius", &PressCondition::tip_radius, &ShownUnits::length},
+    {"rod radius", &PressCondition::rod_radius, &ShownUnits::length},
+    {"sleeve length", &PressCondition::sleeve_length, &ShownUnits::length},
+    {"rod length", &PressCondition::rod_length, &ShownUnits::length}};
+
+/// A dome's tip radius is its largest one; other shapes keep theirs under that name.
+constexpr Number length_of_any_shape = {"largest radius", &PressCondition::tip_radius,
+                                        &ShownUnits::length};
+
+/// Other shapes keep the height of their endpoint as the length of a rod below z = 0.
+constexpr Number endpoint_of_others = {"depth of the endpoint below z = 0",
+                                       &PressCondition::rod_length, &ShownUnits::length};
 
 bool differ(double a, double b) {
   return std::abs(a - b) > rounding * std::max(std::abs(a), std::abs(b));
@@ -52,6 +62,35 @@ std::string told(const Number& number, double value) {
 
 std::string moved(double speed) {
   return speed > 0.0 ? "pressed at " + shown_units().speed.text(speed) : "in equilibrium";
+}
+
+std::string kind_of(const std::string& profile) {
+  if (profile == "dome") return "dome";
+  return profile.starts_with('[') ? "profile" : "solid";
+}
+
+void tell_if_different(const PressCondition& press, const PressCondition& other,
+                       const Number& number, std::vector<ConditionDifference>& found) {
+  const double a = press.*number.value, b = other.*number.value;
+  if (differ(a, b))
+    found.push_back(
+        {fmt::format("{}: {}, not {}", number.name, told(number, a), told(number, b)), true});
+}
+
+/// Shapes of two kinds, or two of one kind, have only some lengths in common.
+void tell_shapes(const PressCondition& press, const PressCondition& other,
+                 std::vector<ConditionDifference>& found) {
+  const std::string kind = kind_of(press.profile), other_kind = kind_of(other.profile);
+  if (differ(press.profile, other.profile)) {
+    found.push_back({kind == other_kind ? "another " + kind
+                                        : fmt::format("shape: {}, not {}", kind, other_kind),
+                     true});
+    tell_if_different(press, other, length_of_any_shape, found);
+  } else if (kind == "dome") {
+    for (const Number& number : lengths_of_domes) tell_if_different(press, other, number, found);
+  } else {
+    tell_if_different(press, other, endpoint_of_others, found);
+  }
 }
 
 }  // namespace
@@ -102,14 +141,9 @@ std::vector<ConditionDifference> differences(const PressCondition& press,
   std::vector<ConditionDifference> found;
   if (differ(press.contact, other.contact))
     found.push_back({fmt::format("contact: {}, not {}", press.contact, other.contact), true});
-  if (differ(press.profile, other.profile)) found.push_back({"another shape", true});
+  tell_shapes(press, other, found);
   if (press.obstacle != other.obstacle) found.push_back({"another obstacle", true});
-  for (const Number& number : numbers) {
-    const double a = press.*number.value, b = other.*number.value;
-    if (!differ(a, b)) continue;
-    found.push_back(
-        {fmt::format("{}: {}, not {}", number.name, told(number, a), told(number, b)), true});
-  }
+  for (const Number& number : numbers) tell_if_different(press, other, number, found);
   if (differ(press.strain, other.strain))
     found.push_back({fmt::format("{} strain, not {}", press.strain, other.strain), false});
   if (differ(press.speed, other.speed))

@@ -154,6 +154,7 @@ Chapter cost_chapter(const RunData& run) {
 Chapter provenance_chapter(const RunData& run) {
   Table table;
   table.header = {plain("Entry"), plain("Value")};
+  table.header.back().words = true;  // as its values are
   const Manifest& manifest = run.manifest;
   add_row(table, "version", manifest.version);
   add_row(table, "source_hash", manifest.source_hash);

@@ -86,11 +86,14 @@ Figure polar_figure(const RunData& run) {
        {std::pair{0.0, "[110]"}, {35.264389682754654, "[111]"}, {90.0, "[001]"}}) {
     add_spoke(diagonal, degree, spoke, text);
   }
-  cube_face.key = "";
   for (Panel* panel : {&cube_face, &diagonal})
     panel->x_range = panel->y_range = Range{-1.45 * most, 1.45 * most};
-  diagonal.key = "bottom right";
-  return {"elastic_directions", 860, 470, 2, {cube_face, diagonal}};
+  // Curves of other models fill each corner of a panel.
+  Figure figure{"elastic_directions", 985, 450, 2, {}, 185};
+  cube_face.key = figure.beside_panels();
+  diagonal.key = "";
+  figure.panels = {std::move(cube_face), std::move(diagonal)};
+  return figure;
 }
 
 /// All directions at once; empty without models whose constants are known.

@@ -14,6 +14,7 @@
 #include "meshes/files.h"
 #include "meshes/press_response.h"
 #include "studies/files/process.h"
+#include "studies/report/axis_tics.h"
 #include "studies/report/document.h"
 #include "studies/report/figure_points.h"
 #include "studies/report/format.h"
@@ -139,25 +140,12 @@ Range positive_extent(const Panel& panel, bool vertical) {
   return std::isnan(extent.from) ? Range{1.0, 1.0} : extent;
 }
 
-/// Tics of a logarithmic axis at powers of ten, over few decades at 2 and 5 times them, too.
 /// gnuplot's own labels would need its enhanced text, which texts from files must not reach.
-std::string decade_tics(const char* axis, const Range& extent) {
-  const int first = int(std::floor(std::log10(extent.from)));
-  const int last = int(std::ceil(std::log10(extent.to)));
-  const bool few = last - first <= 2;
-  const int step = last - first > 8 ? 2 : 1;
+std::string placed_tics(const char* axis, const std::vector<double>& values) {
   std::string tics;
-  for (int exponent = first; exponent <= last; exponent += step) {
-    for (int mantissa : {1, 2, 5}) {
-      if (mantissa > 1 && !few) continue;
-      const double value = mantissa * std::pow(10.0, exponent);
-      const std::string label = std::abs(exponent) <= 3 ? fmt::format("{:.4g}", value)
-                                : mantissa == 1
-                                    ? power_of_ten(exponent)
-                                    : fmt::format("{}×{}", mantissa, power_of_ten(exponent));
-      tics += fmt::format("{}{} {:.8g}", tics.empty() ? "" : ", ", gnuplot_string(label), value);
-    }
-  }
+  for (const double value : values)
+    tics += fmt::format("{}{} {:.8g}", tics.empty() ? "" : ", ", gnuplot_string(tic_label(value)),
+                        value);
   return fmt::format("set {}tics ({})\n", axis, tics);
 }
 
@@ -178,8 +166,9 @@ std::string axis(const Panel& panel, bool vertical) {
   if (base == 10) {
     const Range extent = positive_extent(panel, vertical);
     const double padding = std::pow(extent.to / extent.from, 0.06) * 1.1;
-    if (!range) range = Range{extent.from / padding, extent.to * padding};
-    text += decade_tics(name, extent);
+    const Range shown{extent.from / padding, extent.to * padding};
+    text += placed_tics(name, logarithmic_tics(extent, range ? extent : shown));
+    if (!range) range = shown;
   }
   if (!vertical && !panel.x_names.empty()) text += named_tics(panel.x_names);
   return text + axis_range(name, range, base != 0);

@@ -79,6 +79,40 @@ std::string lattice_inputs(const std::string& contact, const std::string& strain
   return text.str();
 }
 
+/// Inputs of a press of a finger of this geometry.
+std::string inputs_of(const std::string& geometry) {
+  return R"({"geometry":)" + geometry + R"(,"protocol":{"contact":"stick"},"lattice":{}})";
+}
+
+TEST(Comparison, TellsOfShapesWhatHoldsForBoth) {
+  const TemporaryFolder folder;
+  const auto finger = [](const std::string& lengths, const std::string& shape) {
+    return inputs_of("{" + lengths + (shape.empty() ? "" : "," + shape) + "}");
+  };
+  const std::string ten = R"("tip_radius":0.01,"rod_radius":0.005,"sleeve_length":0.015)";
+  const std::string twelve = R"("tip_radius":0.012,"rod_radius":0.012,"sleeve_length":0)";
+  const std::string corners = R"("profile":[{"r":0.012,"z":0}])";
+  const std::vector<std::pair<double, double>> samples{{1e-3, 1.0}, {2e-3, 2.0}};
+  write_press(folder / "dome", samples, finger(ten + R"(,"rod_length":0.03)", ""));
+  write_press(folder / "profile", samples, finger(twelve + R"(,"rod_length":0)", corners));
+  write_press(folder / "other", samples,
+              finger(twelve + R"(,"rod_length":0)", R"("profile":[{"r":0.012,"z":0.001}])"));
+  write_press(folder / "lower", samples, finger(twelve + R"(,"rod_length":0.001)", corners));
+  write_press(folder / "solid", samples,
+              finger(twelve + R"(,"rod_length":0)", R"("solid":"0123abcd")"));
+  const auto remark = [&](const char* one, const char* other) {
+    const std::string text =
+        studies::write_comparison({folder / other, folder / one}, folder / "out").text;
+    const auto from = text.find("problem ("), to = text.find("): the percentages");
+    return to == text.npos ? text : text.substr(from + 9, to - from - 9);
+  };
+  EXPECT_EQ(remark("profile", "dome"),
+            "shape: profile, not dome; largest radius: 12 mm, not 10 mm");
+  EXPECT_EQ(remark("solid", "profile"), "shape: solid, not profile");
+  EXPECT_EQ(remark("other", "profile"), "another profile");
+  EXPECT_EQ(remark("lower", "profile"), "depth of the endpoint below z = 0: 1 mm, not 0 mm");
+}
+
 TEST(Comparison, TellsNothingOutsideTheSamplesOfARun) {
   const TemporaryFolder folder;
   std::vector<std::pair<double, double>> fine;
