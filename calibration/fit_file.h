@@ -177,12 +177,14 @@ struct RigEntry {
   std::string of;
   bool fitted = false;
   double value = meshes::unknown, lower = meshes::unknown, upper = meshes::unknown;
+  std::optional<bool> given;  ///< false: nobody has stated it, and it is the default
 };
 constexpr auto fields_of(const RigEntry*) {
-  using meshes::named;
+  using meshes::named, meshes::newer;
   using Whole = RigEntry;
-  return named("of fitted value lower upper", &Whole::of, &Whole::fitted, &Whole::value,
-               &Whole::lower, &Whole::upper);
+  return std::tuple_cat(named("of fitted value lower upper", &Whole::of, &Whole::fitted,
+                              &Whole::value, &Whole::lower, &Whole::upper),
+                        newer(named("given", &Whole::given)));
 }
 
 /// What machines add to presses over their travel, per file or machine.

@@ -29,6 +29,10 @@ struct FitDataRow {
   double fitted = meshes::unknown;
   double left_out = meshes::unknown;
   double indentation = meshes::unknown;  ///< of a press over travel, as fitted; 0 before touch
+  double total_sigma = meshes::unknown;  ///< of sigma and the model's known errors together
+  /// Measured minus fitted over total_sigma, errors that values share taken into account: the sum
+  /// of the squares, and of the priors', is chi-square. Unknown without sigma.
+  double whitened_residual = meshes::unknown;
 };
 constexpr auto fields_of(const FitDataRow*) {
   using meshes::field, meshes::Presence;
@@ -39,7 +43,9 @@ constexpr auto fields_of(const FitDataRow*) {
                     field("sigma", &Row::sigma, Presence::newer),
                     field("fitted", &Row::fitted),
                     field("left_out", &Row::left_out, Presence::newer),
-                    field("indentation", &Row::indentation, Presence::newer)};
+                    field("indentation", &Row::indentation, Presence::newer),
+                    field("total_sigma", &Row::total_sigma, Presence::newer),
+                    field("whitened_residual", &Row::whitened_residual, Presence::newer)};
 }
 
 /// surrogate.csv: the smoothed force with its band.

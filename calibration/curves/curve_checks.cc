@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "calibration/curves/curve_residuals.h"
@@ -126,6 +127,11 @@ double worst_relative_error(const VectorXd& residuals, const Curve& curve) {
     if (base != 0.0) worst = std::max(worst, std::abs(residuals(i)) / base);
   }
   return worst;
+}
+
+double relative_rms(const VectorXd& residuals, const VectorXd& values) {
+  const double size = values.norm();
+  return size > 0.0 ? residuals.norm() / size : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<LeftOut> leave_one_out(const std::vector<Curve>& curves,

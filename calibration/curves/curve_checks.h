@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibration/curves/curve_fit.h"
@@ -22,6 +23,12 @@ struct LeftOut {
 /// Largest |residual| over |measured| where that is not zero; of a travel over its largest
 /// |measured|. `residuals` has an entry per value of `curve`.
 double worst_relative_error(const Eigen::VectorXd& residuals, const Curve& curve);
+
+/// Root mean square of residuals over that of `values`, as many as there are; NaN where all are
+/// zero. The one meaning of "root mean square" in what is told of fits to curves.
+double relative_rms(const Eigen::VectorXd& residuals, const Eigen::VectorXd& values);
+inline constexpr std::string_view name_of_relative_rms =
+    "root mean square of the residuals over that of the data";
 
 /// One per curve, each sought from `fit`'s estimates alone. Throws InvalidInput for less than two
 /// curves, Interrupted.

@@ -118,6 +118,7 @@ double add_squares(CurveFit& fit, const CurveResiduals& residuals, const Lineari
     fit.residual_deviation = std::sqrt(squares / fit.degrees_of_freedom);
   if (!residuals.has_sigma())
     return std::max(fit.residual_deviation * residuals.whitening()(0, 0), 1e-150);
+  fit.whitened_residuals = residuals.whitened_misfit(at);
   if (options.robust_width == 0.0) {
     fit.chi_square = at.residuals.squaredNorm();
     if (fit.degrees_of_freedom > 0) {

@@ -135,10 +135,14 @@ struct CurveFit {
   /// interval does not exceed the parameters.
   std::vector<Direction> only_from_priors;
   std::vector<Eigen::VectorXd> residuals;  ///< measured minus computed, per curve [y]
-  bool converged = true;                   ///< the least of all minima is one
-  int iterations = 0;                      ///< of the start reported
-  int evaluations = 0;                     ///< of all models, from all starts
-  std::vector<Minimum> minima;             ///< from every start, in order
+  /// The same over sigma, or times the inverse root of the covariance of sigma and of the models'
+  /// errors, whatever the loss: chi_square is the sum of their squares and of the priors'. Empty
+  /// without sigma.
+  std::vector<Eigen::VectorXd> whitened_residuals;
+  bool converged = true;        ///< the least of all minima is one
+  int iterations = 0;           ///< of the start reported
+  int evaluations = 0;          ///< of all models, from all starts
+  std::vector<Minimum> minima;  ///< from every start, in order
 };
 
 /// Least squares by Ceres with the models' own Jacobians; a model per curve, whose parameters are

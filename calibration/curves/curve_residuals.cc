@@ -317,8 +317,7 @@ Linearisation CurveResiduals::with_loss(const Linearisation& linearisation) cons
   return result;
 }
 
-std::vector<Eigen::VectorXd> CurveResiduals::misfit(const Linearisation& linearisation) const {
-  const Eigen::VectorXd all = -(colouring_ * linearisation.residuals.head(values()));
+std::vector<Eigen::VectorXd> CurveResiduals::by_curve(const Eigen::VectorXd& all) const {
   std::vector<Eigen::VectorXd> result;
   Index row = 0;
   for (const Curve& curve : *curves_) {
@@ -326,6 +325,15 @@ std::vector<Eigen::VectorXd> CurveResiduals::misfit(const Linearisation& lineari
     row += Index(curve.y.size());
   }
   return result;
+}
+
+std::vector<Eigen::VectorXd> CurveResiduals::misfit(const Linearisation& linearisation) const {
+  return by_curve(-(colouring_ * linearisation.residuals.head(values())));
+}
+
+std::vector<Eigen::VectorXd> CurveResiduals::whitened_misfit(
+    const Linearisation& linearisation) const {
+  return by_curve(-linearisation.residuals.head(values()));
 }
 
 }  // namespace fingertip::calibration

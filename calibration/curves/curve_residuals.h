@@ -68,6 +68,8 @@ class CurveResiduals {
   Linearisation with_loss(const Linearisation& linearisation) const;
   /// Measured minus computed [y], per curve.
   std::vector<Eigen::VectorXd> misfit(const Linearisation& linearisation) const;
+  /// The same times whitening(): what chi-square squares.
+  std::vector<Eigen::VectorXd> whitened_misfit(const Linearisation& linearisation) const;
 
  private:
   struct Known {
@@ -77,6 +79,7 @@ class CurveResiduals {
 
   std::vector<CurveSlopes> evaluate(const Eigen::VectorXd& parameters) const;
   void whiten(const Eigen::VectorXd& values, const Eigen::VectorXd& sigma);
+  std::vector<Eigen::VectorXd> by_curve(const Eigen::VectorXd& all) const;
   const Linearisation& told(const Known& known);
 
   const std::vector<Curve>* curves_;

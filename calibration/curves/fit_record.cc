@@ -149,7 +149,7 @@ std::optional<RigFile> rig_file(const FitRecord& record) {
   if (record.rig.empty()) return std::nullopt;
   RigFile file;
   for (const RigValue& each : record.rig) {
-    RigEntry entry{each.of, each.place.has_value(), each.held, unknown, unknown};
+    RigEntry entry{each.of, each.place.has_value(), each.held, unknown, unknown, each.given};
     if (each.place) {
       const Index i = Index(*each.place);
       entry.value = record.fit.estimates(i);
@@ -246,7 +246,23 @@ Columns columns(const FitRecord& record) {
   return result;
 }
 
+/// Its place among all values.
+Index first_value(const FitRecord& record, std::size_t curve) {
+  Index first = 0;
+  for (std::size_t c = 0; c < curve; ++c) first += record.fit.residuals[c].size();
+  return first;
+}
+
 }  // namespace
+
+std::vector<double> total_sigma(const FitRecord& record, std::size_t curve) {
+  std::vector<double> result = record.curves[curve].sigma;
+  const MatrixXd& known = record.options.model_covariance;
+  if (known.size() == 0) return result;
+  Index value = first_value(record, curve);
+  for (double& sigma : result) sigma = std::hypot(sigma, std::sqrt(known(value, value))), ++value;
+  return result;
+}
 
 ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
   const VectorXd& residuals = record.fit.residuals[curve];
@@ -256,8 +272,7 @@ ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
                                                            : record.own_residuals[curve]);
   const MatrixXd& known = record.options.model_covariance;
   if (known.size() == 0) return residual_structure(residuals);
-  Index first = 0;
-  for (std::size_t c = 0; c < curve; ++c) first += record.fit.residuals[c].size();
+  const Index first = first_value(record, curve);
   // Whitened by itself: errors that presses share would bring one press's order into another's.
   const Index count = residuals.size();
   const auto eigen = decomposed_covariance(known.block(first, first, count, count),
@@ -306,11 +321,17 @@ void write_fit_data(const FitRecord& record, const std::filesystem::path& file) 
   std::vector<FitDataRow> rows;
   for (std::size_t c = 0; c < record.curves.size(); ++c) {
     const Curve& curve = record.curves[c];
-    for (std::size_t i = 0; i < curve.x.size(); ++i)
-      rows.push_back({curve.name, curve.x[i], curve.y[i],
-                      curve.sigma.empty() ? unknown : curve.sigma[i], computed.fitted[c](Index(i)),
-                      computed.left_out[c](Index(i)),
-                      record.indentation.empty() ? unknown : record.indentation[c][i]});
+    const std::vector<double> total = total_sigma(record, c);
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      FitDataRow& row = rows.emplace_back();
+      row.curve = curve.name;
+      row.x = curve.x[i], row.measured = curve.y[i];
+      row.fitted = computed.fitted[c](Index(i)), row.left_out = computed.left_out[c](Index(i));
+      if (!record.indentation.empty()) row.indentation = record.indentation[c][i];
+      if (curve.sigma.empty()) continue;
+      row.sigma = curve.sigma[i], row.total_sigma = total[i];
+      row.whitened_residual = record.fit.whitened_residuals[c](Index(i));
+    }
   }
   meshes::write_rows(rows, file);
 }

@@ -23,6 +23,7 @@ struct RigValue {
   std::string of;                    ///< the file or machine it belongs to
   double held = 0.0;                 ///< in the parameter's unit, where it is not fitted
   std::optional<std::size_t> place;  ///< among the parameters, where it is
+  bool given = false;                ///< somebody has stated it; else it is the default
 };
 
 /// Everything that is told of a fit.
@@ -59,6 +60,10 @@ struct FitRecord {
 /// something missed, nor is the order of another curve that shares them.
 ResidualStructure structure_of(const FitRecord& record, std::size_t curve);
 
+/// Standard deviation of every value of a curve by the covariance that chi-square divides by: of
+/// sigma and the models' errors together [y]. Empty without sigma.
+std::vector<double> total_sigma(const FitRecord& record, std::size_t curve);
+
 /// Largest |measured - fitted| over |measured| of all curves, where that is not zero; over a travel
 /// over the curve's largest.
 double worst_relative_residual(const FitRecord& record);
@@ -77,8 +82,8 @@ inline constexpr double open_ratio = 0.25;
 
 /// Why constants of this fit must not be used as they are, a sentence each; none: it passed its own
 /// tests. It fails where the search did not end; where the model does not describe the data
-/// (chi-square improbable, below 1 %, or, where there is none, a curve missed by more than a tenth
-/// of its values, both root mean squares); where a parameter or Poisson's ratio ended at a bound;
+/// (chi-square improbable, below 1 %, or, where there is none, a curve missed by more than a tenth,
+/// relative_rms); where a parameter or Poisson's ratio ended at a bound;
 /// where the data leave a direction open, or Poisson's ratio by more than +-0.25; and where the
 /// material is no rubber: rules of Material, E outside of 100 Pa to 10 GPa.
 std::vector<std::string> failed_tests(const FitRecord& record);
@@ -87,7 +92,7 @@ std::vector<std::string> failed_tests(const FitRecord& record);
 /// cannot be written.
 void write_fit_json(const FitRecord& record, const std::filesystem::path& file);
 
-/// `curve,x,measured,sigma,fitted,left_out`, SI; empty cells where unknown. As above.
+/// The columns of FitDataRow, SI; empty cells where unknown. As above.
 void write_fit_data(const FitRecord& record, const std::filesystem::path& file);
 
 }  // namespace fingertip::calibration

@@ -14,7 +14,7 @@ namespace {
 
 using Sentences = std::vector<std::string>;
 
-/// A curve missed by more than this share of its values is not described, whatever its noise.
+/// A curve missed by more than this share, by relative_rms, is not described, whatever its noise.
 constexpr double largest_misfit = 0.1;
 /// The softest gels and the hardest plastics [Pa].
 constexpr double softest = 1e2, hardest = 1e10;
@@ -28,11 +28,12 @@ void judge_misfit(Sentences& found, const FitRecord& record) {
   if (fit.chi_square_probability) return;
   for (std::size_t c = 0; c < record.curves.size(); ++c) {
     const auto& y = record.curves[c].y;
-    const double size = Eigen::Map<const Eigen::VectorXd>(y.data(), Index(y.size())).norm();
-    const double missed = fit.residuals[c].norm();
-    if (missed > largest_misfit * size)
+    const double missed =
+        relative_rms(fit.residuals[c], Eigen::VectorXd::Map(y.data(), Index(y.size())));
+    if (missed > largest_misfit)
       found.push_back("the model does not describe the data: " + record.curves[c].name +
-                      " is missed by " + percent(missed / size) + " (root mean square)");
+                      " is missed by " + percent(missed) + " (" +
+                      std::string(name_of_relative_rms) + ")");
   }
 }
 

@@ -59,15 +59,23 @@ std::string estimates(const CurveFit& fit) {
 }
 
 std::string misfit(const FitRecord& record) {
-  double squares = 0.0, total = 0.0;
+  std::vector<double> residuals, values;
+  bool travel = false;
   for (std::size_t c = 0; c < record.curves.size(); ++c) {
-    squares += record.fit.residuals[c].squaredNorm();
-    for (const double y : record.curves[c].y) total += y * y;
+    const Curve& curve = record.curves[c];
+    residuals.insert(residuals.end(), record.fit.residuals[c].begin(),
+                     record.fit.residuals[c].end());
+    values.insert(values.end(), curve.y.begin(), curve.y.end());
+    travel = travel || curve.is_travel;
   }
-  if (total == 0.0) return " All data are zero: there is nothing to be met.";
-  std::string text = " The fit meets the data within " + percent(std::sqrt(squares / total)) +
-                     " (root mean square), every single value within " +
-                     percent(worst_relative_residual(record)) + ".";
+  const double missed =
+      relative_rms(Eigen::VectorXd::Map(residuals.data(), Index(residuals.size())),
+                   Eigen::VectorXd::Map(values.data(), Index(values.size())));
+  if (std::isnan(missed)) return " All data are zero: there is nothing to be met.";
+  std::string text = " The fit meets the data within " + percent(missed) + " (" +
+                     std::string(name_of_relative_rms) + "), every single value within " +
+                     percent(worst_relative_residual(record)) +
+                     (travel ? " of its curve's largest." : " of itself.");
   const CurveFit& fit = record.fit;
   if (!fit.chi_square || !fit.chi_square_probability) return text;
   text += " Chi-square is " + rounded(*fit.chi_square, 3) + " at " +

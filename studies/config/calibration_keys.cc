@@ -131,7 +131,7 @@ Key rig_key() {
       for (const auto& [name, setting] : entries)
         if (name == value.words[i])
           *setting = {value.numbers[3 * i] == 1.0, value.numbers[3 * i + 1],
-                      value.numbers[3 * i + 2]};
+                      value.numbers[3 * i + 2], true};
   };
   return key;
 }

@@ -69,6 +69,7 @@ struct RigSetting {
   bool fitted = false;
   double value = 0.0;      ///< where it is not fitted; the mean of its prior
   double deviation = 0.0;  ///< of the prior; 0: none
+  bool given = false;      ///< by the user; else all of this is the default
 };
 
 /// The machine that measured a force against the travel of its crosshead (key calibration.rig).

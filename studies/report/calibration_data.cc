@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "calibration/curves/curve_checks.h"
 #include "studies/report/format.h"
 
 namespace fingertip::studies::reporting {
@@ -73,7 +74,6 @@ FitCurve read_curve(const CurveEntry& entry, const FitFile& file) {
   curve.y_quantity = quantity(entry.y_quantity.empty() ? file.y_quantity : entry.y_quantity);
   if (entry.points > 0) curve.points = double(entry.points);
   curve.worst = entry.worst_relative_residual;
-  curve.rms = entry.rms_relative_residual;
   curve.structure = entry.structure.statement;
   curve.structure_probability = entry.structure.probability;
   curve.course = entry.course;
@@ -96,6 +96,8 @@ void add_points(Fit& fit, const std::vector<FitDataRow>& rows) {
     curve->sigma.push_back(row.sigma);
     curve->fitted.push_back(row.fitted);
     curve->left_out.push_back(row.left_out);
+    curve->total_sigma.push_back(row.total_sigma);
+    curve->whitened.push_back(row.whitened_residual);
   }
 }
 
@@ -201,6 +203,19 @@ Quantity quantity(const std::string& text) {
 
 bool FitCurve::has_sigma() const {
   return std::ranges::any_of(sigma, [](double value) { return value > 0.0; });
+}
+
+bool FitCurve::has_model_error() const {
+  // Written to all digits: equal where there is none.
+  for (std::size_t i = 0; i < sigma.size(); ++i)
+    if (total_sigma[i] > sigma[i]) return true;
+  return false;
+}
+
+double FitCurve::relative_rms() const {
+  const auto values = Eigen::VectorXd::Map(measured.data(), Eigen::Index(measured.size()));
+  return calibration::relative_rms(
+      values - Eigen::VectorXd::Map(fitted.data(), Eigen::Index(fitted.size())), values);
 }
 
 std::vector<std::vector<double>> Fit::square(const std::vector<std::vector<double>>& rows) const {

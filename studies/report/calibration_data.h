@@ -43,16 +43,21 @@ struct FitCurve {
   std::string name, condition;
   Quantity x_quantity, y_quantity;
   double points = meshes::unknown;
-  double worst = meshes::unknown, rms = meshes::unknown;  ///< relative residuals
-  std::string structure;                                  ///< what the runs test says
+  double worst = meshes::unknown;  ///< largest relative residual
+  std::string structure;           ///< what the runs test says
   double structure_probability = meshes::unknown;
   double left_out_error = meshes::unknown;  ///< worst relative one of the fit without this curve
   std::vector<double> x, measured, sigma, fitted, left_out;
+  std::vector<double> total_sigma, whitened;  ///< those of chi-square; NaN in files without them
 
   std::optional<calibration::CourseEntry> course;  ///< what the file tells besides
 
   /// Some point has its sigma.
   bool has_sigma() const;
+  /// Some point's total_sigma holds more than its sigma.
+  bool has_model_error() const;
+  /// relative_rms of the residuals; NaN without points.
+  double relative_rms() const;
 };
 
 /// One fit: calibration.json, fit_data.csv, surrogate.csv and surrogate.json of a folder.

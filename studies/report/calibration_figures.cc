@@ -40,6 +40,10 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
+bool any_finite(const std::vector<double>& values) {
+  return std::ranges::any_of(values, [](double value) { return std::isfinite(value); });
+}
+
 Style curve_style(std::size_t i, std::size_t count) {
   Style style = numbered_style(i);
   if (count > most_labels) style.colour = depth_shade(i, count);
@@ -52,7 +56,9 @@ Series points(const FitCurve& curve, const Style& style, bool labelled) {
   Series series{labelled ? shortened(curve.name) : "", curve.name + " measured", {}, {}, {}, style};
   series.x = scaled(curve.x, curve.x_quantity.factor);
   series.y = scaled(curve.measured, curve.y_quantity.factor);
-  if (curve.has_sigma()) series.error = scaled(curve.sigma, curve.y_quantity.factor);
+  if (curve.has_sigma())
+    series.error = scaled(any_finite(curve.total_sigma) ? curve.total_sigma : curve.sigma,
+                          curve.y_quantity.factor);
   series.style.line = false;
   if (curve.x.size() > many_points) series.style.opacity = 0.3, series.style.point_size = 0.5;
   return series;
@@ -81,10 +87,6 @@ void add_line_kinds(Panel& panel, bool left_out) {
   if (left_out) entry("fitted to the others", left_out_dash);
 }
 
-bool any_finite(const std::vector<double>& values) {
-  return std::ranges::any_of(values, [](double value) { return std::isfinite(value); });
-}
-
 /// Measurements that span more than a decade are spread in decades, too.
 bool spans_decades(const std::vector<const FitCurve*>& curves) {
   double least = meshes::unknown, most = meshes::unknown;
@@ -101,7 +103,7 @@ bool as_forces(const std::vector<const FitCurve*>& curves) {
       curves, [](const FitCurve* curve) { return curve->course && curve->course->noise > 0.0; });
 }
 
-/// What a residual is divided by.
+/// What a residual is divided by; `sigma` as chi-square counts it, where the file tells.
 enum class ResidualUnit { sigma, percent, own };
 
 Series way_back(const FitCurve& curve, const Style& style) {
@@ -116,6 +118,11 @@ Series way_back(const FitCurve& curve, const Style& style) {
 
 Series residuals(const FitCurve& curve, ResidualUnit shown, const Style& style) {
   Series series{"", curve.name, scaled(curve.x, curve.x_quantity.factor), {}, {}, style};
+  series.style.width = 1.0;
+  if (shown == ResidualUnit::sigma && any_finite(curve.whitened)) {
+    series.y = curve.whitened;
+    return series;
+  }
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     const double residual = curve.measured[i] - curve.fitted[i];
     const double unit = shown == ResidualUnit::sigma     ? curve.sigma[i]
@@ -123,7 +130,6 @@ Series residuals(const FitCurve& curve, ResidualUnit shown, const Style& style) 
                                                          : 1.0 / curve.y_quantity.factor;
     series.y.push_back(unit > 0.0 ? residual / unit : meshes::unknown);
   }
-  series.style.width = 1.0;
   return series;
 }
 
@@ -141,7 +147,9 @@ Figure curve_figure(const std::vector<const FitCurve*>& curves, const std::strin
   const ResidualUnit unit = over_sigma ? ResidualUnit::sigma
                             : forces   ? ResidualUnit::own
                                        : ResidualUnit::percent;
-  beneath.y_label = over_sigma ? "residual / sigma"
+  const bool model_error =
+      std::ranges::any_of(curves, [](const FitCurve* curve) { return curve->has_model_error(); });
+  beneath.y_label = over_sigma ? (model_error ? "whitened residual" : "residual / sigma")
                     : forces   ? "residual [" + y.unit + "]"
                                : "residual [% of measured]";
   beneath.key.clear();
@@ -320,8 +328,7 @@ Figure fitted_moduli_figure(const Fit& fit, const std::string& prefix) {
   if (fitted.panels.empty()) return fitted;
   // What measurements tell of a rubber replaces no rule for springs, and a ball shows nothing.
   constexpr double isotropic = 1e-6;
-  if (!finds_springs(fit))
-    return std::abs(found.anisotropy - 1.0) < isotropic ? Figure() : fitted;
+  if (!finds_springs(fit)) return std::abs(found.anisotropy - 1.0) < isotropic ? Figure() : fitted;
   meshes::Rubber rubber;
   rubber.youngs_modulus = rule_modulus(fit);
   // The published rule's moduli do not depend on the spacing.

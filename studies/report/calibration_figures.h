@@ -9,9 +9,9 @@
 
 namespace fingertip::studies::reporting {
 
-/// Measured against fitted curves, the residuals beneath: over sigma, or in per cent of what was
-/// measured where no sigma is given. One figure for each pair of quantities among the curves;
-/// names begin with `prefix`.
+/// Measured against fitted curves, the residuals beneath: those whose squares are chi-square, or in
+/// per cent of what was measured where no sigma is given. One figure for each pair of quantities
+/// among the curves; names begin with `prefix`.
 std::vector<Figure> curve_figures(const Fit& fit, const std::string& prefix);
 
 /// Singular values on a logarithmic axis with the limit below which a direction counts as open.

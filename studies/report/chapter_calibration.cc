@@ -26,6 +26,16 @@ void add_goodness(ChapterData& chapter, const Fit& fit) {
                deviation = fit.file.residual_deviation;
   const std::string unit = fit.curves.empty() ? "" : fit.curves.front().y_quantity.si_unit;
   chapter["sigma"] = std::ranges::any_of(fit.curves, &FitCurve::has_sigma);
+  chapter["model_error"] = fit.file.model_error.value_or("");
+  chapter["shared"] = std::ranges::any_of(fit.curves, &FitCurve::has_model_error);
+  // Files of earlier versions tell sigma alone.
+  chapter["unshown"] =
+      fit.file.model_error && std::ranges::none_of(fit.curves, [](const FitCurve& curve) {
+        return std::ranges::any_of(curve.whitened, [](double r) { return std::isfinite(r); });
+      });
+  chapter["priors"] = std::ranges::any_of(fit.parameters, [](const FitParameter& parameter) {
+    return std::isfinite(parameter.prior_mean);
+  });
   chapter["deviation"] = if_known(deviation, amount(deviation, unit));
   chapter["chi_square"] = if_known(chi_square, number(chi_square));
   chapter["freedom"] = count(double(fit.file.degrees_of_freedom));
@@ -47,16 +57,17 @@ Table curve_table(const Fit& fit, bool left_out) {
   Table table;
   table.graded = true;
   table.header = {plain("Curve"), plain("Points"), plain("Worst", "residual"),
-                  plain("Rms", "residual"), plain("Runs of equal sign")};
+                  plain("Rms residual", "over rms measured"), plain("Runs of equal sign")};
   table.header.back().words = true;
   if (left_out) table.header.insert(table.header.end() - 1, plain("Left out", "worst error"));
   for (const FitCurve& curve : fit.curves) {
     const double points =
         std::isfinite(curve.points) || curve.x.empty() ? curve.points : double(curve.x.size());
+    const double rms = curve.relative_rms();
     std::vector<Cell> row{plain(curve.name, curve.condition),
                           plain(count(points)),
                           {percent_magnitude(curve.worst), "", grade(curve.worst)},
-                          {percent_magnitude(curve.rms), "", grade(curve.rms)}};
+                          {percent_magnitude(rms), "", grade(rms)}};
     if (left_out)
       row.push_back({percent_magnitude(curve.left_out_error), "", grade(curve.left_out_error)});
     row.push_back(structure_cell(curve));

@@ -148,6 +148,17 @@ Chapter measured_chapter(const Fit& fit, const std::string& prefix) {
   return written(std::move(chapter));
 }
 
+bool is_assumed(const RigEntry& entry) {
+  return !entry.fitted && entry.given == false;
+}
+
+/// Where the value of a quantity is from; runs of earlier versions do not tell who held it.
+Cell origin_cell(const RigEntry& entry) {
+  if (entry.fitted) return plain("fitted");
+  if (!entry.given) return plain("held");
+  return *entry.given ? plain("given") : plain("assumed", "default, not measured");
+}
+
 /// A quantity of a machine, per file or machine.
 void add_rig_rows(Table& table, const char* title, const std::string& unit,
                   const std::vector<RigEntry>& entries) {
@@ -158,7 +169,7 @@ void add_rig_rows(Table& table, const char* title, const std::string& unit,
     table.rows.push_back(
         {plain(title, entry.of), plain(shown(entry.value)),
          plain(entry.fitted ? shown(entry.lower) + " … " + shown(entry.upper) : "–"),
-         plain(entry.fitted ? "fitted" : "known")});
+         origin_cell(entry)});
   }
 }
 
@@ -229,6 +240,7 @@ Chapter rig_chapter(const Fit& fit, const std::string& prefix) {
   chapter.id = prefix + "-machine";
   chapter["name"] = fit.name;
   chapter["soft"] = fit.file.rig.has_value();
+  chapter["assumed"] = fit.file.rig && std::ranges::any_of(fit.file.rig->compliance, is_assumed);
   chapter["accused"] = std::ranges::any_of(
       suspects, [](const AccusationEntry& each) { return each.probability < improbable; });
   chapter.tables["rig"] = rig_table(fit);

@@ -241,6 +241,9 @@ ordered_json fit_inputs(const FitInput& input) {
                               {"upper", free.upper},
                               {"mean", free.prior ? free.prior->mean : 0.0},
                               {"prior", free.prior ? free.prior->deviation : 0.0}});
+  // Held at the default or given as equal to it: the fit is the same, what is told of it is not.
+  for (const calibration::RigValue& each : rig_values(input))
+    inputs["rig_given"].push_back(each.given);
   inputs["candidates"] = ordered_json::array();
   for (const Candidate& each : input.candidates) {
     inputs["candidates"].push_back({each.name, each.press, each.depth, each.refused});

@@ -180,6 +180,8 @@ void add_rigs(FitSetup& fit, const LoadedConfig& loaded) {
   }
   CalibrationSettings rigid;
   rigid.rig.touch_offset.fitted = false;
+  // An indentation says that both are zero.
+  rigid.rig.touch_offset.given = rigid.rig.compliance.given = true;
   for (std::size_t i = 0; i < input.travels.size(); ++i) {
     if (input.travels[i]) continue;
     Travel& travel = input.travels[i].emplace(travel_of(input.curves[i], rigid));

@@ -191,21 +191,30 @@ std::size_t material_parameters(const FitInput& input) {
 
 std::vector<calibration::RigValue> rig_values(const FitInput& input) {
   std::vector<calibration::RigValue> values;
-  const auto add = [&](MaterialParameter parameter, const std::string& of, const RigQuantity& own) {
-    values.push_back({parameter, of, own.value, {}});
+  const auto add = [&](MaterialParameter parameter, const std::string& of, const RigQuantity& own,
+                       bool given) {
+    values.push_back({parameter, of, own.value, {}, given});
     if (own.place) values.back().place = std::size_t(*own.place);
+  };
+  // Files of one machine share what one of them says of it.
+  const auto machine_given = [&](const std::string& machine) {
+    return std::ranges::any_of(input.travels, [&](const std::optional<Travel>& travel) {
+      return travel && travel->machine == machine && travel->settings.compliance.given;
+    });
   };
   std::vector<std::string> machines;
   using enum MaterialParameter;
   for (std::size_t i = 0; i < input.travels.size(); ++i) {
+    if (!is_travel(input, i)) continue;
     const Travel& travel = *input.travels[i];
+    const RigSettings& settings = travel.settings;
     const std::string& name = input.curves[i].name;
-    add(touch_offset, name, travel.rig.touch_offset);
-    add(force_offset, name, travel.rig.force_offset);
-    if (!input.curves[i].time.empty()) add(drift, name, travel.rig.drift);
+    add(touch_offset, name, travel.rig.touch_offset, settings.touch_offset.given);
+    add(force_offset, name, travel.rig.force_offset, settings.force_offset.given);
+    if (!input.curves[i].time.empty()) add(drift, name, travel.rig.drift, settings.drift.given);
     if (std::ranges::find(machines, travel.machine) != machines.end()) continue;
     machines.push_back(travel.machine);
-    add(compliance, travel.machine, travel.rig.compliance);
+    add(compliance, travel.machine, travel.rig.compliance, machine_given(travel.machine));
   }
   return values;
 }

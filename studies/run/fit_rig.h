@@ -44,8 +44,8 @@ void free_rigs(FitInput& input);
 /// Of the fit's free parameters those that the presses themselves depend on; they stand first.
 std::size_t material_parameters(const FitInput& input);
 
-/// What rigs are known or fitted by, for the record of a fit: an entry per curve, of the compliance
-/// per machine.
+/// What rigs are held at or fitted by, for the record of a fit: an entry per curve, of the
+/// compliance per machine.
 std::vector<calibration::RigValue> rig_values(const FitInput& input);
 
 /// Whether curve `i` is one over travel.

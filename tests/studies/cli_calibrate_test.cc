@@ -101,7 +101,9 @@ TEST(Calibrate, FindsTheRubberBehindARig) {
   EXPECT_NEAR(found["rig"]["touch_offset"][0]["value"].get<double>(), 1e-4, 2e-5);
   EXPECT_EQ(found["rig"]["compliance"][0]["fitted"], false);
   EXPECT_EQ(found["rig"]["compliance"][0]["value"], 2e-3);
-  // Its last column tells how deep the finger was.
+  EXPECT_EQ(found["rig"]["compliance"][0]["given"], true);
+  EXPECT_EQ(found["rig"]["force_offset"][0]["given"], false);
+  // A column tells how deep the finger was.
   EXPECT_NE(read_text(folder / "known" / "fit_data.csv").find("left_out,indentation"),
             std::string::npos);
   const ProgramResult wrong = fit("{comliance = \"2 mm/N\"}", "wrong");
@@ -188,7 +190,9 @@ TEST(Calibrate, FindsTheRubberOfMeasuredPresses) {
   // Names of curves stand in quotes, whatever they say.
   const std::string name = fit["curves"][0]["name"];
   EXPECT_EQ(read_text(folder / "fit/fit_data.csv")
-                .find("curve,x,measured,sigma,fitted,left_out,indentation\n\"" + name + "\","),
+                .find("curve,x,measured,sigma,fitted,left_out,indentation,total_sigma,"
+                      "whitened_residual\n\"" +
+                      name + "\","),
             0u);
   EXPECT_TRUE(fs::exists(folder / "fit/surrogate.json"));
 

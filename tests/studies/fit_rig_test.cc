@@ -87,6 +87,27 @@ TEST(FitRig, FilesHaveTheirTouchAndMachinesTheirCompliance) {
   EXPECT_EQ(rig_values(input).size(), 8U);  // two per file, two machines
 }
 
+TEST(FitRig, ValuesThatNobodyGaveAreTold) {
+  const auto given = [](const CalibrationSettings& first, const CalibrationSettings& second,
+                        MaterialParameter quantity) {
+    FitInput input;
+    input.curves = {hertz(0.0, 0.0, "a"), hertz(0.0, 0.0, "b")};
+    input.travels = {travel_of(input.curves[0], first), travel_of(input.curves[1], second)};
+    std::vector<bool> result;
+    for (const calibration::RigValue& each : rig_values(input))
+      if (each.quantity == quantity) result.push_back(each.given);
+    return result;
+  };
+  RigSettings rig;
+  rig.compliance = rig.force_offset = {false, 0.0, 0.0, true};
+  using enum MaterialParameter;
+  EXPECT_EQ(given({}, {}, compliance), std::vector{false});
+  // Files of one machine share its compliance, each has a zero of its own.
+  EXPECT_EQ(given({}, with(rig), compliance), std::vector{true});
+  EXPECT_EQ(given({}, with(rig), force_offset), (std::vector{false, true}));
+  EXPECT_EQ(given({}, with(rig), touch_offset), (std::vector{false, false}));
+}
+
 TEST(FitRig, RefusesWhatCannotBe) {
   RigSettings late;
   late.touch_offset = {false, 1.0, 0.0};

@@ -290,6 +290,65 @@ TEST_F(FitReport, WithoutSigmaSaysWhatCannotBeSaid) {
   EXPECT_NEAR(rows("fit_curves", "frictionless").at(0)[2], -10.0, 1e-9) << "per cent of measured";
 }
 
+/// What chi-square squares is drawn, where a file tells it.
+TEST_F(FitReport, ResidualsAreThoseThatChiSquareCounts) {
+  json result = report_testing::fit_result();
+  result["model_error"] = "the known error of the lattice";
+  report_testing::write_fit(run_, result);
+  const std::string old = visible_text(written());
+  EXPECT_TRUE(has(old, "Chi-square counts the known error of the lattice besides."));
+  report_testing::write_file(
+      run_ / "fit_data.csv",
+      "curve,x,measured,sigma,fitted,left_out,indentation,total_sigma,whitened_residual\n"
+      "frictionless,0.001,0.1,0.001,0.11,,,0.02,-0.7\n"
+      "frictionless,0.002,0.2,0.001,0.19,,,0.03,0.4\n");
+  const std::string text = visible_text(written());
+  const auto drawn = rows("fit_curves", "frictionless");
+  ASSERT_EQ(drawn.size(), 2u);
+  EXPECT_NEAR(drawn[0][2], -0.7, 1e-12);
+  EXPECT_NEAR(drawn[1][2], 0.4, 1e-12);
+  EXPECT_TRUE(has(svg("fit_curves"), "whitened residual"));
+  for (const char* part :
+       {"Bars are one standard deviation of sigma and the known error of the lattice together.",
+        "whitened by the covariance of both",
+        "Chi-square is the sum of the squares of these residuals and of the priors'.",
+        "The residuals are larger than sigma and the known error of the lattice explain:"})
+    EXPECT_TRUE(has(text, part)) << part;
+  EXPECT_FALSE(has(text, "besides."));
+}
+
+// The norm of the statement, which one value of a small force does not rule.
+TEST_F(FitReport, RmsResidualsAreOverTheRmsOfTheData) {
+  const std::string text = visible_text(report());
+  EXPECT_TRUE(has(text, "the root mean square of the residuals over that of what was measured"));
+  // Over their own values they would be 14.1 %.
+  report_testing::write_file(run_ / "fit_data.csv",
+                             "curve,x,measured,sigma,fitted,left_out\n"
+                             "frictionless,0.001,3,1,2.4,\nfrictionless,0.002,4,1,4,\n");
+  EXPECT_TRUE(has(visible_text(written()), "12.0 %")) << "0.6 over 5";
+}
+
+TEST_F(FitReport, AComplianceThatNobodyMeasuredIsAssumed) {
+  const auto with_rig = [&](const json& given, bool fitted) {
+    return visible_text(report([&](json& result) {
+      const json entry = {{"of", "press"},    {"fitted", fitted}, {"value", 0.0},
+                          {"lower", nullptr}, {"upper", nullptr}, {"given", given}};
+      result["rig"] = {{"touch_offset", json::array()},
+                       {"compliance", {entry}},
+                       {"force_offset", json::array()},
+                       {"drift", json::array()}};
+    }));
+  };
+  const std::string assumed = with_rig(false, false);
+  EXPECT_TRUE(has(assumed, "default, not measured"));
+  EXPECT_TRUE(has(assumed, "Its compliance was not measured"));
+  for (const std::string& text :
+       {with_rig(true, false), with_rig(false, true), with_rig(nullptr, false)}) {
+    EXPECT_FALSE(has(text, "default, not measured"));
+    EXPECT_FALSE(has(text, "Its compliance was not measured"));
+  }
+}
+
 TEST_F(FitReport, OtherQuantitiesKeepTheirUnitsAndTheirOwnFigures) {
   json result = report_testing::fit_result();
   result["problem"] = "damping";

@@ -1,0 +1,160 @@
+/// What is told of a fit beside its estimates: the deviations that chi-square counts, the size of
+/// the misfit, what was held of a rig.
+#include "calibration/curves/fit_record.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "calibration/fit_tables.h"
+#include "calibration/words.h"
+#include "fit_fixtures.h"
+#include "meshes/table_rows.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+using namespace fit_fixtures;
+
+/// y = p x at 1 to 5.
+FormulaModel line() {
+  return FormulaModel([](const VectorXd& p) {
+    const VectorXd x = VectorXd::LinSpaced(5, 1.0, 5.0);
+    return CurveSlopes{p(0) * x, MatrixXd(x)};
+  });
+}
+
+Curve measured(const std::string& name, const std::vector<double>& y, double sigma) {
+  Curve curve;
+  curve.name = name;
+  curve.x = {1.0, 2.0, 3.0, 4.0, 5.0};
+  curve.y = y;
+  if (sigma > 0.0) curve.sigma.assign(5, sigma);
+  return curve;
+}
+
+FitRecord record_of(const std::vector<Curve>& curves, const CurveFitOptions& options) {
+  FitRecord record;
+  record.problem = "experiment";
+  record.curves = curves;
+  record.conditions.assign(curves.size(), "");
+  record.options = options;
+  FormulaModel model = line();
+  record.fit = fit_curves(curves, std::vector<ForwardModel*>(curves.size(), &model), options);
+  record.material.spacing = 1e-3;
+  record.material.constants = lattice::hookean_constants(record.material.rubber, 1e-3);
+  return record;
+}
+
+CurveFitOptions one_modulus() {
+  CurveFitOptions options;
+  options.free = {{.parameter = modulus, .start = 2.0}};
+  return options;
+}
+
+VectorXd joined(const std::vector<VectorXd>& parts) {
+  Index size = 0, row = 0;
+  for (const VectorXd& part : parts) size += part.size();
+  VectorXd all(size);
+  for (const VectorXd& part : parts) all.segment(row, part.size()) = part, row += part.size();
+  return all;
+}
+
+std::vector<FitDataRow> rows_of(const FitRecord& record) {
+  const TemporaryFolder folder;
+  write_fit_data(record, folder.path() / "fit_data.csv");
+  return meshes::read_rows<FitDataRow>(folder.path() / "fit_data.csv");
+}
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+/// An error of 0.5 that all values of a model share: residuals are far beyond sigma, and chi-square
+/// says that they are as they should be.
+TEST(FitRecord, ResidualsAreToldAsChiSquareCountsThem) {
+  constexpr double sigma = 0.05, shared = 0.5;
+  const std::vector<Curve> curves = {measured("a", {1.55, 2.46, 3.52, 4.47, 5.56}, sigma),
+                                     measured("b", {1.45, 2.53, 3.49, 4.54, 5.44}, 2.0 * sigma)};
+  CurveFitOptions options = one_modulus();
+  options.free[0].prior = Prior{1.0, 0.01};
+  options.model_covariance = MatrixXd::Constant(10, 10, shared * shared);
+  const FitRecord record = record_of(curves, options);
+  const VectorXd residuals = joined(record.fit.residuals),
+                 whitened = joined(record.fit.whitened_residuals);
+
+  MatrixXd covariance = options.model_covariance;
+  for (Index i = 0; i < 10; ++i) covariance(i, i) += std::pow(i < 5 ? sigma : 2.0 * sigma, 2);
+  const double values = residuals.dot(covariance.ldlt().solve(residuals));
+  const double prior = (record.fit.estimates(0) - 1.0) / 0.01;
+  EXPECT_NEAR(whitened.squaredNorm(), values, 1e-9);
+  EXPECT_NEAR(record.fit.chi_square.value(), values + prior * prior, 1e-9);
+  EXPECT_GT(record.fit.chi_square_probability.value(), 0.05);
+  EXPECT_GT(residuals.cwiseAbs().minCoeff() / (2.0 * sigma), 2.0) << "all beyond two sigma";
+  EXPECT_LT(whitened.cwiseAbs().maxCoeff(), 2.0);
+
+  const std::vector<FitDataRow> rows = rows_of(record);
+  ASSERT_EQ(rows.size(), 10U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_DOUBLE_EQ(rows[i].sigma, i < 5 ? sigma : 2.0 * sigma);
+    EXPECT_NEAR(rows[i].total_sigma, std::sqrt(covariance(Index(i), Index(i))), 1e-12);
+    EXPECT_NEAR(rows[i].whitened_residual, whitened(Index(i)), 1e-12);
+  }
+}
+
+TEST(FitRecord, WithoutErrorsOfTheModelResidualsAreOverSigma) {
+  const Curve curve = measured("a", {1.02, 1.98, 3.01, 4.02, 4.99}, 0.02);
+  for (const double width : {0.0, 1.0}) {
+    CurveFitOptions options = one_modulus();
+    options.robust_width = width;  // an outlier stays one, whatever its weight
+    for (const FitDataRow& row : rows_of(record_of({curve}, options))) {
+      EXPECT_DOUBLE_EQ(row.total_sigma, row.sigma);
+      EXPECT_NEAR(row.whitened_residual, (row.measured - row.fitted) / 0.02, 1e-9);
+    }
+  }
+  Curve unknown = curve;
+  unknown.sigma.clear();
+  for (const FitDataRow& row : rows_of(record_of({unknown}, one_modulus()))) {
+    EXPECT_TRUE(std::isnan(row.total_sigma));
+    EXPECT_TRUE(std::isnan(row.whitened_residual));
+  }
+}
+
+TEST(FitRecord, TheMisfitHasOneNormWithItsName) {
+  EXPECT_DOUBLE_EQ(relative_rms(Eigen::Vector2d(0.3, 0.4), Eigen::Vector2d(3.0, 4.0)), 0.1);
+  EXPECT_TRUE(std::isnan(relative_rms(Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero())));
+  Curve bent = measured("bent", {1.0, 4.0, 9.0, 16.0, 25.0}, 0.0);
+  FitRecord record = record_of({bent}, one_modulus());
+  // p = sum x³/sum x² = 225/55; rms of the squares: 979.
+  double squares = 0.0, worst = 0.0;
+  for (const double x : bent.x) {
+    const double residual = x * x - 225.0 / 55.0 * x;
+    squares += residual * residual;
+    worst = std::max(worst, std::abs(residual) / (x * x));
+  }
+  const std::string norm = percent(std::sqrt(squares / 979.0)) +
+                           " (root mean square of the residuals over that of the data)";
+  EXPECT_TRUE(says(fit_statement(record), "meets the data within " + norm)) << norm;
+  EXPECT_TRUE(says(fit_statement(record), "within " + percent(worst) + " of itself."));
+  const std::vector<std::string> failed = failed_tests(record);
+  ASSERT_FALSE(failed.empty());
+  EXPECT_TRUE(says(failed[0], "bent is missed by " + norm)) << failed[0];
+  record.curves[0].is_travel = true;
+  EXPECT_TRUE(says(fit_statement(record), " of its curve's largest."));
+}
+
+TEST(FitRecord, TellsWhichValuesOfARigWereGiven) {
+  FitRecord record = record_of({measured("a", {1.0, 2.0, 3.0, 4.0, 5.0}, 0.1)}, one_modulus());
+  record.rig = {{compliance, "", 0.0, {}, false}, {force_offset, "a", 0.0, {}, true}};
+  const TemporaryFolder folder;
+  write_fit_json(record, folder.path() / "calibration.json");
+  const auto file = nlohmann::json::parse(read_text(folder.path() / "calibration.json"));
+  EXPECT_EQ(file["rig"]["compliance"][0]["given"], false);
+  EXPECT_EQ(file["rig"]["force_offset"][0]["given"], true);
+}
