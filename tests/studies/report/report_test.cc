@@ -119,6 +119,11 @@ TEST(Report, GradesErrorsWithoutRelyingOnColour) {
   EXPECT_TRUE(has(html, "class=\"close\">+2.0\u00a0%<span class=\"mark\">●</span>"));
 }
 
+TEST(Report, TitleOfProvenancesValuesStandsWhereTheyBegin) {
+  SyntheticRun run;
+  EXPECT_TRUE(has(run.report(), "<th scope=\"col\" class=\"words\">Value</th>"));
+}
+
 TEST(Report, ShowsHowWellTheControllerTracked) {
   SyntheticRun run;
   const std::string text = report_testing::visible_text(run.report());
