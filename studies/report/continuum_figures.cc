@@ -17,13 +17,13 @@ constexpr int rings = 80;              ///< into which a contact is divided for 
 constexpr int curve_points = 80;
 
 /// The ends of a mesh edge in the units shown, undeformed or deformed.
-struct Edge {
+struct SectionEdge {
   double x1, z1, x2, z2;
 };
 
-std::vector<Edge> section_edges(const std::vector<fem_reference::SectionRow>& section,
-                                bool deformed) {
-  std::vector<Edge> edges;
+std::vector<SectionEdge> section_edges(const std::vector<fem_reference::SectionRow>& section,
+                                       bool deformed) {
+  std::vector<SectionEdge> edges;
   // Neighbouring elements both report the edge between them.
   std::set<std::array<long, 4>> seen;
   for (const fem_reference::SectionRow& row : section) {
@@ -38,7 +38,7 @@ std::vector<Edge> section_edges(const std::vector<fem_reference::SectionRow>& se
   return edges;
 }
 
-bool touches(const Edge& edge, const Window& window) {
+bool touches(const SectionEdge& edge, const Window& window) {
   return !(std::max(edge.x1, edge.x2) < window.x_from || std::min(edge.x1, edge.x2) > window.x_to ||
            std::max(edge.z1, edge.z2) < window.z_from || std::min(edge.z1, edge.z2) > window.z_to);
 }
@@ -136,7 +136,7 @@ Panel contact_section(const RunData& run) {
   Panel panel = section_panel("near the contact, pressed");
   const double a = shown_units().length(run.reference.samples().back().contact_radius);
   double top = -1e9;
-  for (const Edge& edge : section_edges(run.section, false))
+  for (const SectionEdge& edge : section_edges(run.section, false))
     top = std::fmax(top, std::fmax(edge.z1, edge.z2));
   const double plane = top - shown_units().length(run.reference.depth());
   const bool half = is_half_section(run);
@@ -172,8 +172,8 @@ bool is_half_section(const RunData& run) {
 Series section_series(const RunData& run, bool deformed, const Style& style, const Window& window) {
   Series series{"", deformed ? "mesh deformed" : "mesh undeformed", {}, {}, {}, style};
   const bool mirror = is_half_section(run);
-  for (const Edge& edge : section_edges(run.section, deformed)) {
-    const Edge mirrored{-edge.x1, edge.z1, -edge.x2, edge.z2};
+  for (const SectionEdge& edge : section_edges(run.section, deformed)) {
+    const SectionEdge mirrored{-edge.x1, edge.z1, -edge.x2, edge.z2};
     if (touches(edge, window)) add_segment(series, edge.x1, edge.z1, edge.x2, edge.z2);
     if (mirror && touches(mirrored, window))
       add_segment(series, mirrored.x1, mirrored.z1, mirrored.x2, mirrored.z2);
