@@ -21,6 +21,8 @@ namespace {
 /// Edges of tetrahedra in units of the thinnest rubber, and of the radius, over
 /// TipMeshOptions::radial_elements: the whole dome starts with some 50 000 unknowns.
 constexpr double size_over_wall = 4.0, size_over_radius = 2.4;
+/// Edges at a narrow part of the surface, over its width.
+constexpr double size_over_width = 1.5;
 /// How fast edges may grow away from the place that touches first.
 constexpr double growth = 0.5;
 /// Distance of the tetrahedra's surface from the finger's, over the usual size.
@@ -28,8 +30,6 @@ constexpr double surface_distance = 0.1;
 /// Where a corner's Jacobian is less, of a cube 1, sizes shrink by `smaller`.
 constexpr double least_jacobian = 0.05, smaller = 0.7;
 constexpr int most_attempts = 24;
-/// Edges at a narrow part of the surface, over its width.
-constexpr double size_over_width = 1.5;
 /// Where that does not help, all is begun anew with sizes smaller by this.
 constexpr double smaller_everywhere = 0.85;
 constexpr int most_beginnings = 3;
@@ -225,18 +225,14 @@ class Sizes {
       std::vector<std::array<Vector3, 2>> border;
     };
     std::map<int, Part> all;
-    std::map<std::pair<int, int>, int> part_at;
-    for (std::size_t t = 0; t < surface.parts.size(); ++t) {
+    for (std::size_t t = 0; t < surface.parts.size(); ++t)
       all[surface.parts[t]].area += surface.mesh.area_vector(t).norm();
-      for (std::size_t c = 0; c < 3; ++c) {
-        const int a = surface.mesh.triangles[t][c], b = surface.mesh.triangles[t][(c + 1) % 3];
-        const auto [known, is_new] = part_at.try_emplace(std::minmax(a, b), surface.parts[t]);
-        if (is_new || known->second == surface.parts[t]) continue;
-        const Vector3 from = surface.mesh.corner(t, c), to = surface.mesh.corner(t, (c + 1) % 3);
-        for (Part* part : {&all[known->second], &all[surface.parts[t]]}) {
-          part->length += (to - from).norm();
-          part->border.push_back({from, to});
-        }
+    for (const auto& [ends, parts] : borders_of(surface)) {
+      const Vector3 &from = surface.mesh.vertices[std::size_t(ends[0])],
+                    &to = surface.mesh.vertices[std::size_t(ends[1])];
+      for (const int number : parts) {
+        all[number].length += (to - from).norm();
+        all[number].border.push_back({from, to});
       }
     }
     for (const auto& [number, part] : all) {

@@ -59,13 +59,7 @@ SurfaceMesh surface_mesh(const PartedSurface& surface) {
 class Borders {
  public:
   explicit Borders(const PartedSurface& surface) : surface_(surface) {
-    std::map<std::pair<int, int>, int> part_at;
-    for (std::size_t t = 0; t < surface.parts.size(); ++t)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const int a = surface.mesh.triangles[t][c], b = surface.mesh.triangles[t][(c + 1) % 3];
-        const auto [known, is_new] = part_at.try_emplace(std::minmax(a, b), surface.parts[t]);
-        if (!is_new && known->second != surface.parts[t]) add(a, b);
-      }
+    for (const PartBorder& border : borders_of(surface)) add(border.ends[0], border.ends[1]);
     for (const auto& [a, b] : surface.creases) add(a, b);
     for (const auto& [vertex, others] : next_) corners_[vertex] = turns(vertex, others);
   }
@@ -154,6 +148,19 @@ Tetrahedra taken_from(const Complex& complex) {
 }
 
 }  // namespace
+
+std::vector<PartBorder> borders_of(const PartedSurface& surface) {
+  std::vector<PartBorder> borders;
+  std::map<std::pair<int, int>, int> part_at;
+  for (std::size_t t = 0; t < surface.parts.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int a = surface.mesh.triangles[t][c], b = surface.mesh.triangles[t][(c + 1) % 3];
+      const auto [known, is_new] = part_at.try_emplace(std::minmax(a, b), surface.parts[t]);
+      if (!is_new && known->second != surface.parts[t])
+        borders.push_back({{a, b}, {known->second, surface.parts[t]}});
+    }
+  return borders;
+}
 
 Tetrahedra tetrahedra_within(const PartedSurface& surface, const SizeField& size, double distance) {
   namespace parameters = CGAL::parameters;

@@ -18,6 +18,15 @@ struct PartedSurface {
   std::vector<std::array<int, 2>> creases = {};
 };
 
+/// An edge between two parts.
+struct PartBorder {
+  std::array<int, 2> ends;   ///< vertices
+  std::array<int, 2> parts;  ///< on its sides
+};
+
+/// All of them, each once.
+std::vector<PartBorder> borders_of(const PartedSurface& surface);
+
 /// Wanted length of edges at a place [m].
 using SizeField = std::function<double(const Vector3&)>;
 
