@@ -82,12 +82,14 @@ void keep_freed_memory() {
 
 /// A process that no launcher has started is alone: Open MPI's search for networks and its helper
 /// daemon are then 0.3 s of start-up for nothing, and it has no folder for the shared file pointers
-/// that checkpoints do not use. Other MPIs do not read these variables.
+/// that checkpoints do not use. Nor has it a session folder, which one process would remove while
+/// another, started at the same time, makes its own in it. Other MPIs do not read these variables.
 void start_without_network() {
   for (const char* launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
     if (std::getenv(launched)) return;
   const int keep = 0;
   setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
   setenv("OMPI_MCA_pml", "ob1", keep);
   setenv("OMPI_MCA_btl", "self", keep);
   setenv("OMPI_MCA_sharedfp", "^sm", keep);

@@ -257,6 +257,19 @@ TEST(FingertipFem, RefusesWhatIsNoFolder) {
   EXPECT_NE(help.errors().find("usage"), std::string::npos);
 }
 
+/// Alone it keeps nothing in the folder for temporary files: starts side by side would remove what
+/// the others make there. So it does not notice that this one is none.
+TEST(FingertipFem, SharesNoFolderWithOthers) {
+  const TemporaryFolder parent;
+  const fs::path folder = run_folder(parent, "job", small_job());
+  const char* const before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  ::setenv("TMPDIR", (folder / "job.json").c_str(), 1);
+  FemProgram program(folder, {folder.string()});
+  before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", kept.c_str(), 1);
+  EXPECT_EQ(program.wait(), 0) << program.errors();
+}
+
 /// The number of processes changes who computes, not what.
 TEST(FingertipFem, TwoProcessesAgreeWithOne) {
   for (const auto& [contact, refinement] :
