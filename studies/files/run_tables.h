@@ -36,7 +36,7 @@ constexpr auto fields_of(const BoundarySpringRow*) {
   return std::tuple{field("i", &Row::i), field("j", &Row::j)};
 }
 
-/// contact.csv: a point of the true surface that the plane holds.
+/// contact.csv: a point of the true surface that the obstacle holds.
 struct ContactRow {
   meshes::Vector3 rest = meshes::Vector3::Zero();
   meshes::Vector3 deformed = meshes::Vector3::Zero();

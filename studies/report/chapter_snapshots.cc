@@ -204,7 +204,7 @@ class Drawing {
     }
   }
 
-  /// Springs on the viewer's side, and what the plane holds, which lies at the back of the tip.
+  /// Springs on the viewer's side, and what the obstacle holds, which lies at the back of the tip.
   void add_tip(Panel& panel, const Snapshot& snapshot) const {
     Series springs{"", "springs", {}, {}, {}, thin("#3f7f6f", 0.6)};
     const auto visible = [&](std::size_t i) {
@@ -215,7 +215,7 @@ class Drawing {
       if (i >= count || j >= count || !visible(i) || !visible(j)) continue;
       join(springs, snapshot.points[i], snapshot.points[j]);
     }
-    Series held{"", "held by the plane", {}, {}, {}, {held_colour, "", 1.0, 7, false, 0.3}};
+    Series held{"", "held by the obstacle", {}, {}, {}, {held_colour, "", 1.0, 7, false, 0.3}};
     for (std::size_t i = 0; i < count; ++i)
       if (snapshot.held[i]) add(held, snapshot.points[i]);
     panel.series.push_back(std::move(springs));

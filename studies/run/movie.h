@@ -16,7 +16,7 @@ struct MoviePiece {
   Part part = tip;
   std::vector<meshes::Vector3> points;        ///< in world axes [m]
   std::vector<meshes::Vector3> displacement;  ///< since the first picture, the tip's since rest [m]
-  std::vector<std::uint8_t> held;             ///< per point: 1 where the plane holds the tip
+  std::vector<std::uint8_t> held;             ///< per point: 1 where the obstacle holds the tip
   std::vector<std::int32_t> connectivity, offsets;  ///< offsets: ends of the cells
   std::vector<std::uint8_t> types;                  ///< 1 vertex, 3 line, 5 triangle, 9 quadrangle
 

@@ -168,7 +168,7 @@ TEST(ControlReport, SnapshotsHideTheBackOfTheTip) {
   }
   // At either end of a row a spring may be left out or more.
   EXPECT_NEAR(double(drawn), visible - 19.0, 25.0);
-  EXPECT_EQ(std::ranges::count(series, "held by the plane"), 40);
+  EXPECT_EQ(std::ranges::count(series, "held by the obstacle"), 40);
   EXPECT_EQ(std::ranges::count(series, "force"), 2);
   EXPECT_EQ(std::ranges::count(series, "torque"), 2);
 }
