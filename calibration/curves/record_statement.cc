@@ -209,6 +209,17 @@ std::string collinearity(const FitRecord& record) {
   return text;
 }
 
+/// What a machine gives way is the one value of a rig that a stiffness cannot be told from, so
+/// where nobody has given it that is said.
+std::string assumptions(const FitRecord& record) {
+  std::string text;
+  for (const RigValue& value : record.rig)
+    if (value.quantity == MaterialParameter::compliance && !value.place && !value.given)
+      text += " No compliance of " + (value.of.empty() ? "the machine" : value.of) +
+              " is given: it is taken as rigid; if it gives way, the rubber is stiffer than told.";
+  return text;
+}
+
 /// A cause counts as told by data where chance makes its decrease less often than this.
 constexpr double by_no_chance = 1e-3;
 
@@ -237,8 +248,8 @@ std::string lack_of_fit(const FitRecord& record) {
 
 std::string fit_statement(const FitRecord& record) {
   std::string text = estimates(record.fit) + misfit(record) + open_directions(record.fit) +
-                     other_minima(record.fit) + collinearity(record) + structures(record) +
-                     fading(record) + loops(record) + lack_of_fit(record);
+                     other_minima(record.fit) + collinearity(record) + assumptions(record) +
+                     structures(record) + fading(record) + loops(record) + lack_of_fit(record);
   const std::string next =
       prospect_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
   if (!next.empty()) text += " " + next;

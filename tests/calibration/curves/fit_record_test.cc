@@ -157,4 +157,9 @@ TEST(FitRecord, TellsWhichValuesOfARigWereGiven) {
   const auto file = nlohmann::json::parse(read_text(folder.path() / "calibration.json"));
   EXPECT_EQ(file["rig"]["compliance"][0]["given"], false);
   EXPECT_EQ(file["rig"]["force_offset"][0]["given"], true);
+  EXPECT_TRUE(says(fit_statement(record), " No compliance of the machine is given"));
+  record.rig[0].of = "press B";
+  EXPECT_TRUE(says(fit_statement(record), " No compliance of press B is given"));
+  record.rig[0].given = true;
+  EXPECT_FALSE(says(fit_statement(record), "No compliance"));
 }
