@@ -312,6 +312,7 @@ WordList beside_hertz(const RunData& run, const std::vector<Sample>& samples) {
   const meshes::PressSample& deepest = run.reference.pressing().back();
   Words words;
   words["radius"] = length(tip_radius(run));
+  words["ball"] = !obstacle_of(run).is_plane();
   words["first"] = percent(off(first));
   words["first_depth"] = length(first.depth);
   words["last"] = samples.size() > 1 ? percent(off(last)) : "";
@@ -335,6 +336,7 @@ Chapter continuum_chapter(const RunData& run) {
   const WordList known = certainty(run, samples);
   chapter["unknown"] = known.empty() && !samples.empty();
   chapter["known"] = known;
+  chapter["on_axis"] = obstacle_of(run).on_axis();
   chapter["hertz"] = samples.empty() ? WordList() : beside_hertz(run, samples);
   if (samples.empty()) return written(std::move(chapter));
   if (std::any_of(samples.begin(), samples.end(),

@@ -12,7 +12,7 @@ namespace {
 /// All panels show the rod's frame with the pole below.
 struct Frame {
   Range x, z;
-  double plane_at_touch = meshes::unknown, plane_at_end = meshes::unknown;
+  double touch = meshes::unknown, end = meshes::unknown;  ///< plane at the obstacle's top
 };
 
 /// The frame that holds everything, from the undeformed mesh section (or the lattice boundary).
@@ -39,11 +39,11 @@ Frame common_frame(const RunData& run) {
     }
   }
   Frame frame;
+  frame.touch = plane_at_touch(run);
+  frame.end = frame.touch - shown_units().length(depth);
   const double margin = 0.12 * radius;
   frame.x = {-1.25 * radius, 1.25 * radius};
-  frame.z = {top + margin, bottom - margin};
-  frame.plane_at_touch = top;
-  frame.plane_at_end = top - shown_units().length(depth);
+  frame.z = {std::fmax(top, frame.touch) + margin, bottom - margin};
   return frame;
 }
 
@@ -57,11 +57,6 @@ Panel frame_panel(const Frame& frame, const std::string& title) {
   panel.equal_scales = true;
   panel.key = "";
   return panel;
-}
-
-void add_plane(Panel& panel, const Frame& frame, double z) {
-  panel.series.push_back(
-      {"", "plane", {frame.x.from, frame.x.to}, {z, z}, {}, {"#333333", "", 2.4, 0, true}});
 }
 
 /// How far the rod has travelled from rest to the end [m]; unknown where no file tells it.
@@ -104,10 +99,10 @@ Figure shapes_figure(const RunData& run) {
   if (!run.section.empty()) {
     Panel rest = frame_panel(frame, "continuum mesh, y = 0, at first touch");
     rest.series.push_back(section_series(run, false, thin("#444444")));
-    add_plane(rest, frame, frame.plane_at_touch);
+    rest.series.push_back(obstacle_series(run, frame.x, frame.touch));
     Panel pressed = frame_panel(frame, "continuum mesh, pressed");
     pressed.series.push_back(section_series(run, true, thin("#444444")));
-    add_plane(pressed, frame, frame.plane_at_end);
+    pressed.series.push_back(obstacle_series(run, frame.x, frame.end));
     figure.panels = {rest, pressed};
   }
   const ModelData* drawn = nullptr;
@@ -117,7 +112,7 @@ Figure shapes_figure(const RunData& run) {
   if (drawn) {
     Panel rest = frame_panel(frame, model_label(drawn->name) + ", at first touch");
     rest.series.push_back(boundary_series(*drawn, false, thin("#444444")));
-    add_plane(rest, frame, frame.plane_at_touch);
+    rest.series.push_back(obstacle_series(run, frame.x, frame.touch));
     figure.panels.push_back(rest);
   }
   for (const ModelData& model : run.models) {
@@ -125,7 +120,7 @@ Figure shapes_figure(const RunData& run) {
     Panel pressed = frame_panel(frame, model_label(model.name) + ", pressed");
     pressed.series.push_back(boundary_series(model, true, thin(model_style(model.name).colour)));
     pressed.series.push_back(anchored_series(model));
-    add_plane(pressed, frame, frame.plane_at_end);
+    pressed.series.push_back(obstacle_series(run, frame.x, frame.end));
     figure.panels.push_back(pressed);
   }
   if (figure.panels.size() <= 3) figure.height = 370;

@@ -85,15 +85,7 @@ class Drawing {
         largest_torque_(largest_torque),
         springs_(press.boundary_springs) {
     for (const BoundaryRow& row : press.boundary) rest_.push_back(row.rest);
-    if (press.summary.obstacle) {
-      const ObstacleEntry& entry = *press.summary.obstacle;
-      for (const auto shape : values(meshes::ObstacleShape()))
-        if (name(shape) == entry.shape) obstacle_.shape = shape;
-      for (const auto axis : values(meshes::ObstacleAxis()))
-        if (name(axis) == entry.along) obstacle_.along = axis;
-      obstacle_.radius = entry.radius;
-      obstacle_.offset = entry.offset;
-    }
+    if (press.summary.obstacle) obstacle_ = obstacle_of(*press.summary.obstacle);
     if (shape_.is_dome()) return;
     double top = -std::numeric_limits<double>::infinity();
     for (const Vector3& rest : rest_) top = std::max(top, rest.z());

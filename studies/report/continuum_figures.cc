@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -117,17 +118,16 @@ Panel section_panel(const std::string& title) {
 Panel whole_section(const RunData& run) {
   Panel panel = section_panel("the whole section, at first touch");
   panel.series.push_back(section_series(run, false, thin("#333333", 0.5)));
-  double width = 0.0, top = -1e9, bottom = 1e9;
+  const double top = plane_at_touch(run);
+  double width = 0.0, bottom = 1e9;
   for (std::size_t i = 0; i < panel.series[0].x.size(); ++i) {
     width = std::fmax(width, std::abs(panel.series[0].x[i]));
-    top = std::fmax(top, panel.series[0].y[i]);
     bottom = std::fmin(bottom, panel.series[0].y[i]);
   }
   panel.x_range = Range{-1.15 * width, 1.15 * width};
   // Pole down.
   panel.y_range = Range{top + 0.1 * width, bottom - 0.1 * width};
-  panel.series.push_back(
-      {"", "plane", {-1.15 * width, 1.15 * width}, {top, top}, {}, {"#333333", "", 2.4, 0, true}});
+  panel.series.push_back(obstacle_series(run, *panel.x_range, top));
   return panel;
 }
 
@@ -135,20 +135,22 @@ Panel whole_section(const RunData& run) {
 Panel contact_section(const RunData& run) {
   Panel panel = section_panel("near the contact, pressed");
   const double a = shown_units().length(run.reference.samples().back().contact_radius);
-  double top = -1e9;
-  for (const SectionEdge& edge : section_edges(run.section, false))
-    top = std::fmax(top, std::fmax(edge.z1, edge.z2));
-  const double plane = top - shown_units().length(run.reference.depth());
+  const double plane = plane_at_touch(run) - shown_units().length(run.reference.depth());
   const bool half = is_half_section(run);
   // A mirrored picture shows nothing new: one half, twice as large.
   const double from = half ? -0.05 * a : -1.6 * a, to = 1.6 * a, height = 0.95 * (to - from);
   panel.x_range = Range{from, to};
-  panel.y_range = Range{plane + 0.06 * height, plane - 0.94 * height};
+  const Series obstacle = obstacle_series(run, *panel.x_range, plane);
+  // What touches is to be seen, and rubber.
+  double lowest = plane;
+  for (std::size_t i = 0; i < obstacle.x.size(); ++i)
+    if (std::abs(obstacle.x[i]) < 1.2 * a)
+      lowest = std::clamp(obstacle.y[i], lowest, plane + 0.4 * height);
+  panel.y_range = Range{lowest + 0.06 * height, lowest - 0.94 * height};
   panel.series.push_back(section_series(run, true, thin("#333333", 0.6),
-                                        {from, to, plane - 0.94 * height, meshes::unknown}));
-  panel.series.push_back(
-      {"", "plane", {from, to}, {plane, plane}, {}, {"#333333", "", 2.4, 0, true}});
-  panel.markers.push_back({a, "#D55E00"});
+                                        {from, to, lowest - 0.94 * height, meshes::unknown}));
+  panel.series.push_back(obstacle);
+  if (obstacle_of(run).on_axis()) panel.markers.push_back({a, "#D55E00"});
   return panel;
 }
 
@@ -215,6 +217,68 @@ std::vector<double> shown_depths(const RunData& run, const std::vector<double>& 
   return shown;
 }
 
+meshes::Obstacle obstacle_of(const ObstacleEntry& entry) {
+  meshes::Obstacle obstacle;
+  for (const auto shape : values(meshes::ObstacleShape()))
+    if (name(shape) == entry.shape) obstacle.shape = shape;
+  for (const auto axis : values(meshes::ObstacleAxis()))
+    if (name(axis) == entry.along) obstacle.along = axis;
+  if (std::isfinite(entry.radius)) obstacle.radius = entry.radius;
+  if (std::isfinite(entry.offset)) obstacle.offset = entry.offset;
+  return obstacle;
+}
+
+meshes::Obstacle obstacle_of(const RunData& run) {
+  const JsonEntry told = object_if_any(object_if_any(run.reference_job, "protocol"), "obstacle");
+  if (!told.empty())
+    return obstacle_of(ObstacleEntry{text_if_any(told, "shape"), number_if_any(told, "radius"),
+                                     text_if_any(told, "along"), number_if_any(told, "offset")});
+  for (const ModelData& model : run.models)
+    if (model.summary.obstacle) return obstacle_of(*model.summary.obstacle);
+  return {};
+}
+
+double plane_at_touch(const RunData& run) {
+  const meshes::Obstacle obstacle = obstacle_of(run);
+  double plane = -std::numeric_limits<double>::infinity();
+  const auto touch = [&](const meshes::Vector3& at) {
+    plane = std::fmax(plane, at.z() + height(obstacle, at));
+  };
+  const bool mirror = is_half_section(run);
+  for (const fem_reference::SectionRow& row : run.section) {
+    const auto& [x1, z1, x2, z2] = row.undeformed;
+    for (const auto& [x, z] : {std::pair(x1, z1), std::pair(x2, z2)}) {
+      touch({x, 0.0, z});
+      if (mirror) touch({-x, 0.0, z});
+    }
+  }
+  if (run.section.empty())
+    for (const ModelData& model : run.models)
+      for (const BoundaryRow& row : model.boundary) touch(row.rest);
+  return shown_units().length(plane);
+}
+
+Series obstacle_series(const RunData& run, const Range& x, double plane) {
+  const meshes::Obstacle obstacle = obstacle_of(run);
+  const bool ends = obstacle.shape == meshes::ObstacleShape::sphere ||
+                    (obstacle.shape == meshes::ObstacleShape::cylinder && !obstacle.along_x());
+  Series series{"", std::string(name(obstacle.shape)), {}, {}, {}, {"#333333", "", 2.4, 0, true}};
+  const double one = shown_units().length(1.0);
+  double from = x.from / one, to = x.to / one;
+  if (ends) {
+    from = std::max(from, obstacle.offset - obstacle.radius);
+    to = std::min(to, obstacle.offset + obstacle.radius);
+  }
+  const int steps = obstacle.is_plane() ? 1 : 4 * curve_points;
+  for (int i = 0; i <= steps && from < to; ++i) {
+    // Denser towards the ends, where a ball is steep.
+    const double at = from + 0.5 * (to - from) * (1.0 - std::cos(std::acos(-1.0) * i / steps));
+    series.x.push_back(shown_units().length(at));
+    series.y.push_back(plane - shown_units().length(height(obstacle, {at, 0.0, 0.0})));
+  }
+  return series;
+}
+
 double tip_radius(const RunData& run) {
   if (run.reference_job.empty()) return meshes::unknown;
   // What a job leaves out has its default.
@@ -223,7 +287,10 @@ double tip_radius(const RunData& run) {
 }
 
 std::optional<fem_reference::analytic::Hertz> hertz_contact(const RunData& run) {
-  const double radius = tip_radius(run);
+  double radius = tip_radius(run);
+  const meshes::Obstacle obstacle = obstacle_of(run);
+  if (!obstacle.on_axis()) return std::nullopt;
+  if (!obstacle.is_plane()) radius = 1.0 / (1.0 / radius + 1.0 / obstacle.radius);
   meshes::Rubber rubber;
   const JsonEntry given = object_if_any(run.reference_job, "rubber");
   for (const auto& [key, value] : {std::pair{"youngs_modulus", &rubber.youngs_modulus},

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fem_reference/analytic/hertz.h"
+#include "meshes/obstacle.h"
 #include "studies/report/document.h"
 #include "studies/report/run_data.h"
 
@@ -36,9 +37,20 @@ bool same_depth(double a, double b);
 /// "3 mm"
 std::string depth_label(double depth);
 
+/// What a press was pressed against; what the entry leaves out has its default.
+meshes::Obstacle obstacle_of(const ObstacleEntry& entry);
+/// The same of a run, by the continuum's job or the first lattice that tells it; else a plane.
+meshes::Obstacle obstacle_of(const RunData& run);
+/// Height of the plane that touches the obstacle at its top, at first touch, by the mesh section or
+/// the lattices' boundaries at rest, in the units shown; -infinity without them. Not tilted.
+double plane_at_touch(const RunData& run);
+/// The obstacle's outline in y = 0 over `x`, with that plane at height `plane`; in the units shown.
+Series obstacle_series(const RunData& run, const Range& x, double plane);
+
 /// Radius of the tip [m] by the continuum's job; NaN without one.
 double tip_radius(const RunData& run);
-/// Hertz's contact of a sphere of the run's rubber and radius; none without the continuum's job.
+/// Hertz's contact of a sphere of the run's rubber and radius with a plane, or with a ball under
+/// its axis (1/R = 1/R_tip + 1/R_ball); none without the continuum's job, none for other obstacles.
 std::optional<fem_reference::analytic::Hertz> hertz_contact(const RunData& run);
 
 /// The finest mesh as a whole and near the contact.

@@ -50,6 +50,8 @@ class ContinuumReport : public testing::Test {
     std::map<double, double> found;
     std::vector<std::string> names;
     for (std::string line; std::getline(stream, line);) {
+      // A panel's title with a comma is quoted.
+      if (line.starts_with('"')) line.replace(0, line.find('"', 1) + 1, "panel");
       std::vector<std::string> cells;
       std::istringstream row(line + ",");
       for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
@@ -174,6 +176,35 @@ TEST_F(ContinuumReport, PressureStandsBesideHertz) {
   EXPECT_NEAR(hertz.begin()->second, p0 / 1e3, 1e-9 * p0);
   EXPECT_NEAR(hertz.rbegin()->first, 1e3 * std::cbrt(3.0 * F * R / (4.0 * E)), 1e-9);
   EXPECT_NEAR(hertz.rbegin()->second, 0.0, 1e-12);
+}
+
+// Two spheres: a² = R delta, 1/R = 1/R_tip + 1/R_ball (Johnson, eq. 4.17).
+TEST_F(ContinuumReport, BallsStandBesideHertzOfBothRadiiAndAreDrawn) {
+  const auto press_on = [&](const json& obstacle) {
+    change("reference/job.json", [&](json& job) { job["protocol"]["obstacle"] = obstacle; });
+    return chapter("continuum");
+  };
+  const auto line = [&](const std::string& series) {
+    return points("adaptive_mesh", series, "x [mm]", "z [mm]");
+  };
+  chapter("continuum");
+  ASSERT_FALSE(line("plane").empty());
+  const double top = line("plane").begin()->second;  // at first touch; later rows are the pressed
+  EXPECT_TRUE(has(press_on({{"shape", "sphere"}, {"radius", 0.006}}), "on the same ball"));
+  const auto hertz = points("pressure", "3 mm Hertz", "radius [mm]", "contact pressure [kPa]");
+  ASSERT_FALSE(hertz.empty());
+  EXPECT_NEAR(hertz.rbegin()->first, std::sqrt(10.0 * 6.0 / 16.0 * 3.0), 1e-9);
+  EXPECT_TRUE(line("plane").empty());
+  const auto ball = line("sphere");
+  ASSERT_GT(ball.size(), 50U);
+  for (const auto& [x, z] : ball) {
+    const double rise = 6.0 - std::sqrt(36.0 - x * x);
+    EXPECT_LT(std::min(std::abs(top + rise - z), std::abs(top - 3.0 + rise - z)), 1e-6) << x;
+  }
+  // Beside the axis two spheres are pressed aslant; an edge is no sphere.
+  for (const json& obstacle : {json{{"shape", "sphere"}, {"radius", 0.006}, {"offset", 0.002}},
+                               json{{"shape", "edge"}, {"radius", 0.003}, {"along", "x"}}})
+    EXPECT_FALSE(has(press_on(obstacle), "Against Hertz")) << obstacle;
 }
 
 TEST_F(ContinuumReport, WithoutTheJobThereIsNoHertz) {
