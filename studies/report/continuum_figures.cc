@@ -118,16 +118,17 @@ Panel section_panel(const std::string& title) {
 Panel whole_section(const RunData& run) {
   Panel panel = section_panel("the whole section, at first touch");
   panel.series.push_back(section_series(run, false, thin("#333333", 0.5)));
-  const double top = plane_at_touch(run);
-  double width = 0.0, bottom = 1e9;
+  const double plane = plane_at_touch(run);
+  double width = 0.0, top = plane, bottom = 1e9;  // a ball beside the axis tops out below the pole
   for (std::size_t i = 0; i < panel.series[0].x.size(); ++i) {
     width = std::fmax(width, std::abs(panel.series[0].x[i]));
+    top = std::fmax(top, panel.series[0].y[i]);
     bottom = std::fmin(bottom, panel.series[0].y[i]);
   }
   panel.x_range = Range{-1.15 * width, 1.15 * width};
   // Pole down.
   panel.y_range = Range{top + 0.1 * width, bottom - 0.1 * width};
-  panel.series.push_back(obstacle_series(run, *panel.x_range, top));
+  panel.series.push_back(obstacle_series(run, *panel.x_range, plane));
   return panel;
 }
 
