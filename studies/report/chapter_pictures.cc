@@ -39,7 +39,7 @@ Frame common_frame(const RunData& run) {
     }
   }
   Frame frame;
-  frame.touch = plane_at_touch(run);
+  frame.touch = first_touch(run).plane;
   frame.end = frame.touch - shown_units().length(depth);
   const double margin = 0.12 * radius;
   frame.x = {-1.25 * radius, 1.25 * radius};

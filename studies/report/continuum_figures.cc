@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -118,7 +117,7 @@ Panel section_panel(const std::string& title) {
 Panel whole_section(const RunData& run) {
   Panel panel = section_panel("the whole section, at first touch");
   panel.series.push_back(section_series(run, false, thin("#333333", 0.5)));
-  const double plane = plane_at_touch(run);
+  const double plane = first_touch(run).plane;
   double width = 0.0, top = plane, bottom = 1e9;  // a ball beside the axis tops out below the pole
   for (std::size_t i = 0; i < panel.series[0].x.size(); ++i) {
     width = std::fmax(width, std::abs(panel.series[0].x[i]));
@@ -136,16 +135,19 @@ Panel whole_section(const RunData& run) {
 Panel contact_section(const RunData& run) {
   Panel panel = section_panel("near the contact, pressed");
   const double a = shown_units().length(run.reference.samples().back().contact_radius);
-  const double plane = plane_at_touch(run) - shown_units().length(run.reference.depth());
+  const FirstTouch touch = first_touch(run);
+  const double plane = touch.plane - shown_units().length(run.reference.depth());
   const bool half = is_half_section(run);
   // A mirrored picture shows nothing new: one half, twice as large.
-  const double from = half ? -0.05 * a : -1.6 * a, to = 1.6 * a, height = 0.95 * (to - from);
+  const double centre = obstacle_of(run).on_axis() ? 0.0 : touch.x;
+  const double from = half ? -0.05 * a : centre - 1.6 * a, to = centre + 1.6 * a,
+               height = 0.95 * (to - from);
   panel.x_range = Range{from, to};
   const Series obstacle = obstacle_series(run, *panel.x_range, plane);
   // What touches is to be seen, and rubber.
   double lowest = plane;
   for (std::size_t i = 0; i < obstacle.x.size(); ++i)
-    if (std::abs(obstacle.x[i]) < 1.2 * a)
+    if (std::abs(obstacle.x[i] - centre) < 1.2 * a)
       lowest = std::clamp(obstacle.y[i], lowest, plane + 0.4 * height);
   panel.y_range = Range{lowest + 0.06 * height, lowest - 0.94 * height};
   panel.series.push_back(section_series(run, true, thin("#333333", 0.6),
@@ -239,11 +241,12 @@ meshes::Obstacle obstacle_of(const RunData& run) {
   return {};
 }
 
-double plane_at_touch(const RunData& run) {
+FirstTouch first_touch(const RunData& run) {
   const meshes::Obstacle obstacle = obstacle_of(run);
-  double plane = -std::numeric_limits<double>::infinity();
+  FirstTouch first;
   const auto touch = [&](const meshes::Vector3& at) {
-    plane = std::fmax(plane, at.z() + height(obstacle, at));
+    const double plane = shown_units().length(at.z() + height(obstacle, at));
+    if (plane > first.plane) first = {shown_units().length(at.x()), plane};
   };
   const bool mirror = is_half_section(run);
   for (const fem_reference::SectionRow& row : run.section) {
@@ -256,7 +259,7 @@ double plane_at_touch(const RunData& run) {
   if (run.section.empty())
     for (const ModelData& model : run.models)
       for (const BoundaryRow& row : model.boundary) touch(row.rest);
-  return shown_units().length(plane);
+  return first;
 }
 
 Series obstacle_series(const RunData& run, const Range& x, double plane) {

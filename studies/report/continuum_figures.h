@@ -1,6 +1,7 @@
 /// Pictures of the continuum that several chapters use: mesh section and contact pressure.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,9 +42,14 @@ std::string depth_label(double depth);
 meshes::Obstacle obstacle_of(const ObstacleEntry& entry);
 /// The same of a run, by the continuum's job or the first lattice that tells it; else a plane.
 meshes::Obstacle obstacle_of(const RunData& run);
-/// Height of the plane that touches the obstacle at its top, at first touch, by the mesh section or
-/// the lattices' boundaries at rest, in the units shown; -infinity without them. Not tilted.
-double plane_at_touch(const RunData& run);
+/// First touch, by the mesh section or the lattices' boundaries at rest, in the units shown. Not
+/// tilted.
+struct FirstTouch {
+  double x = 0.0;  ///< where the finger is touched
+  /// Height of the plane that touches the obstacle at its top.
+  double plane = -std::numeric_limits<double>::infinity();
+};
+FirstTouch first_touch(const RunData& run);
 /// The obstacle's outline in y = 0 over `x`, with that plane at height `plane`; in the units shown.
 Series obstacle_series(const RunData& run, const Range& x, double plane);
 
