@@ -15,6 +15,7 @@ PlaneContact::PlaneContact(const LatticeModel& model, const Plane& plane, const 
     Candidate c;
     c.particle = particle;
     c.rest = model.rest_position(particle);
+    c.images = int(model.sector.count() * model.sector.share(model.place(particle)));
     candidates_.push_back(c);
   }
 }
@@ -68,7 +69,7 @@ bool PlaneContact::gives(Candidate& c, const Vector3& sticking, const Vector3& n
   if (law_.mode == ContactMode::frictionless) return false;
   const double limit = law_.friction * push, needed = tangential.norm();
   c.sliding = needed > limit;
-  if (c.sliding) ++sliding_;
+  if (c.sliding) sliding_ += c.images;
   given += c.sliding ? Vector3(limit / needed * tangential) : tangential;
   return !c.sliding;
 }
@@ -92,7 +93,7 @@ Wrench PlaneContact::hold(Candidate& c, State& state, const VectorField& force,
   if (law_.mode != ContactMode::stick && normal.dot(sticking) < 0.0) {  // the plane does not pull
     c.held = c.sliding = false;
     c.displacement = state.displacement.at(c.particle);
-    --anchored_;
+    anchored_ -= c.images;
     return {};
   }
   Vector3 given;
@@ -121,7 +122,7 @@ Wrench PlaneContact::touch(Candidate& c, State& state, const Sweep& sweep) {
   Vector3 given;
   gives(c, sticking, sweep.end.normal_at(at), given);
   c.held = true;
-  ++anchored_;
+  anchored_ += c.images;
   const Vector3 stopped = velocity + given / mass;
   set_state(c, state, crossing + left * stopped, stopped);
   return {given, at.cross(given)};

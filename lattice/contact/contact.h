@@ -34,11 +34,11 @@ class PlaneContact {
 
   /// To be called after particles moved freely through a step of length `step` under `force`, while
   /// `plane`, that of the step's start, moves at its velocities. Returns the impulse of the plane
-  /// on the tip: [N s], and [N m s] about the world's origin.
+  /// on the particles: [N s], and [N m s] about the world's origin.
   Wrench resolve(State& state, const VectorField& force, const Plane& plane, double step);
 
-  int anchored() const { return anchored_; }
-  int sliding() const { return sliding_; }  ///< of these (coulomb)
+  int anchored() const { return anchored_; }  ///< of the whole tip
+  int sliding() const { return sliding_; }    ///< of these (coulomb)
   /// Largest distance at rest of a held particle from the axis through the origin along the
   /// normal [m]; 0 without contact.
   double radius() const;
@@ -48,6 +48,7 @@ class PlaneContact {
  private:
   struct Candidate {
     std::uint32_t particle = 0;
+    int images = 1;  ///< particles of the whole tip that it stands for
     bool held = false;
     bool sliding = false;                            ///< of a held one, in the last step (coulomb)
     meshes::Vector3 rest = meshes::Vector3::Zero();  ///< [m]

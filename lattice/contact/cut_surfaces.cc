@@ -23,7 +23,7 @@ CutSurfaces::Trial CutSurfaces::attempt(const State& state, const RodState& rod,
   trial_->try_from(contact_);
   Trial trial;
   trial.bond = hold_with(*trial_, state, rod, plane, 0.0, force, trial.plane);
-  trial.contact_energy = trial_->energy();
+  trial.contact_energy = parts() * trial_->energy();
   return trial;
 }
 
@@ -33,13 +33,14 @@ Wrench CutSurfaces::hold_with(PenaltyContact& contact, const State& state, const
   shared_.clear();
   on_tip = contact.add(state, plane, step, force, &shared_, rod.pose());
   const Wrench on_rod = bond_.add(state, rod, step, force, &shared_, stored);
-  if (stored != nullptr) *stored += contact.energy();
+  if (stored != nullptr) *stored = parts() * (*stored + contact.energy());
   for (const SharedLoad& load : shared_) {
     const meshes::Vector3 held_back = model_->grid.axes * load.held_back;
     on_tip.force += held_back;
     on_tip.torque += position(*model_, state, load.particle).cross(held_back);
   }
-  return on_rod;
+  on_tip = model_->sector.whole(on_tip);
+  return model_->sector.whole(on_rod);
 }
 
 std::span<const BondInertia> CutSurfaces::bond_inertia(double step) {
@@ -54,7 +55,7 @@ PlaneHold CutSurfaces::plane_hold(double step) {
 }
 
 double CutSurfaces::energy(const State& state, const RodState& rod) const {
-  return bond_energy(state, rod) + contact_.energy();
+  return bond_energy(state, rod) + parts() * contact_.energy();
 }
 
 std::unique_ptr<Surfaces> make_surfaces(const LatticeModel& model, const Plane& plane,

@@ -23,11 +23,11 @@ class CutSurfaces : public Surfaces {
     return {step * on_tip_.force, step * on_tip_.torque};
   }
   double bond_energy(const State& state, const RodState& rod) const override {
-    return bond_.energy(state, rod);
+    return parts() * bond_.energy(state, rod);
   }
   double energy(const State& state, const RodState& rod) const override;
-  int touching() const override { return contact_.touching(); }
-  int sliding() const override { return contact_.sliding(); }
+  int touching() const override { return parts() * contact_.touching(); }
+  int sliding() const override { return parts() * contact_.sliding(); }
   ContactPatch patch() const override { return contact_.patch(); }
   std::vector<PointLoad> point_loads(const State& state) const override {
     return contact_.point_loads(state);
@@ -55,6 +55,7 @@ class CutSurfaces : public Surfaces {
   Trial attempt(const State& state, const RodState& rod, const Plane& plane, VectorField& force);
 
  private:
+  int parts() const { return model_->sector.count(); }
   Wrench hold_with(PenaltyContact& contact, const State& state, const RodState& rod,
                    const Plane& plane, double step, VectorField& force, Wrench& on_tip,
                    double* stored = nullptr);

@@ -11,12 +11,12 @@ ParticleSurfaces::ParticleSurfaces(const LatticeModel& model, const Plane& plane
 Wrench ParticleSurfaces::apply(const State& state, const RodState& rod, const Plane& /*plane*/,
                                double /*step*/, VectorField& force, double* stored) {
   if (stored != nullptr) *stored = bond_energy(state, rod);
-  return add_ligament_forces(*model_, state, rod, force);
+  return model_->sector.whole(add_ligament_forces(*model_, state, rod, force));
 }
 
 Wrench ParticleSurfaces::correct(State& state, const VectorField& force, const Plane& plane,
                                  double step) {
-  return contact_.resolve(state, force, plane, step);
+  return model_->sector.whole(contact_.resolve(state, force, plane, step));
 }
 
 std::vector<std::uint8_t> ParticleSurfaces::held() const {
@@ -28,7 +28,7 @@ std::vector<std::uint8_t> ParticleSurfaces::held() const {
 }
 
 double ParticleSurfaces::bond_energy(const State& state, const RodState& rod) const {
-  return ligament_energy(*model_, state, rod.pose());
+  return model_->sector.count() * ligament_energy(*model_, state, rod.pose());
 }
 
 }  // namespace fingertip::lattice

@@ -376,7 +376,7 @@ ContactPatch PenaltyContact::patch() const {
     for (std::size_t i = 0; i < sums.power.size(); ++i) sums.power[i] += p.power[i];
     sums.area += p.area;
   }
-  return contact_patch(sums);
+  return contact_patch(sums, model_->sector.count());
 }
 
 std::vector<std::uint8_t> PenaltyContact::held() const {

@@ -23,7 +23,8 @@ class CutSurfaces;
 /// correct(). Momentum is exchanged with rod and plane only: what apply() adds to the particles'
 /// forces, and what correct() changes of their velocities, is the opposite of what rod and plane
 /// receive. Neither allocates. The plane is that of the step's start; it moves on at its
-/// velocities.
+/// velocities. Of a part of a tip (LatticeModel::sector) wrenches, impulses, energies and counts
+/// are those of the whole.
 class Surfaces {
  public:
   virtual ~Surfaces() = default;

@@ -12,15 +12,16 @@ namespace {
 
 int threads_for(const FingerSetup& setup) {
   if (setup.threads != 0) return setup.threads;
-  return fastest_threads(meshes::expected_particle_count(setup.geometry, setup.lattice.spacing),
-                         machine_cores());
+  const double particles =
+      meshes::expected_particle_count(setup.geometry, setup.lattice.spacing) / setup.sectors;
+  return fastest_threads(particles, machine_cores());
 }
 
 }  // namespace
 
 VirtualFinger::VirtualFinger(const FingerSetup& setup)
     : setup_(setup),
-      model_(build_tip(setup.geometry, setup.rubber, setup.lattice)),
+      model_(build_tip(setup.geometry, setup.rubber, setup.lattice, setup.sectors)),
       rod_(lattice::rod_body(setup.geometry, setup.rod)),
       team_(threads_for(setup)),
       steps_(model_, setup.prescribed ? nullptr : &rod_, setup.integrator, setup.time_step, team_) {
@@ -53,7 +54,7 @@ Measurement VirtualFinger::read() const {
 }
 
 void VirtualFinger::write(const Wrench& applied) {
-  drive_ = applied;
+  drive_ = model_.sector.even(applied);
 }
 
 void VirtualFinger::write(Motion motion) {

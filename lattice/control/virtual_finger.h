@@ -30,6 +30,9 @@ struct FingerSetup {
   double tolerance = 1e-6;          ///< of Integrator::runge_kutta
   double energy_bound = 1e-7;       ///< of Integrator::energy_controlled, per E R³
   int threads = 0;                  ///< 0: fastest_threads. The result does not depend on it.
+  /// 4, 2 or 1: computes one of so many parts that are each other's mirror images, for grids that
+  /// divide so (grid_symmetry). The rod then keeps to their planes, whatever acts on it.
+  int sectors = 1;
 };
 
 /// A co-simulation slave in the sense of FMI 3.0: write() sets inputs that hold until the next

@@ -16,6 +16,12 @@ namespace {
 constexpr std::size_t portion = 32;  // blocks per partial sum: the same for any thread count
 constexpr std::size_t weights_per_piece = 512;
 
+/// Mirror planes bear what acts across them.
+void hold(const LatticeModel& model, VectorField& force) {
+  for (std::size_t c = 0; c < 3; ++c)
+    for (const std::uint32_t p : model.held[c]) force.component[c][p] = 0.0;
+}
+
 }  // namespace
 
 Finger::Finger(const LatticeModel& model, const RodBody& rod, const Plane& plane,
@@ -50,6 +56,7 @@ void Finger::find_forces(double step) {
   if (!gravity_.isZero(0.0)) weigh_particles(force_);
   now_.bond =
       surfaces_->apply(now_.state, now_.rod, now_.plane, step, force_, notes ? &surfaces : nullptr);
+  hold(*model_, force_);
   if (!notes) return;
   noted_energy_.elastic = cells + branches + surfaces;
   if (!now_.scaling) noted_energy_.kinetic = kinetic_energy();  // else the move sums it
@@ -142,6 +149,7 @@ Finger::Trial Finger::attempt(const State& state, const RodState& rod, const Pla
   trial.extremes = internal_forces(state, time, force);
   if (!gravity_.isZero(0.0)) weigh_particles(force);
   trial.surfaces = ties().attempt(state, rod, plane, force);
+  hold(*model_, force);
   return trial;
 }
 
@@ -176,7 +184,7 @@ Vector3 Finger::move_particles() {
   });
   Vector3 momentum = Vector3::Zero();
   for (const Vector3& p : partial_momentum_) momentum += p;
-  return model_->grid.axes * momentum;
+  return model_->sector.whole(Vector3(model_->grid.axes * momentum));
 }
 
 void Finger::advance(const Wrench& applied) {

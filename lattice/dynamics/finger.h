@@ -54,6 +54,7 @@ struct FingerMemory {
 ///   explicit Euler:    x += v dt (old v),  v += f/m dt  (paper, Fig. 4),
 /// the rod alike; other integrators (integrators/) ask for forces and say where a step ended. What
 /// rod and plane exert is the surfaces' matter (surfaces.h); the plane moves on at its velocities.
+/// Of a part of a tip all sums are those of the whole (LatticeModel::sector).
 /// Steps allocate nothing. Not copyable; the model must outlive it.
 class Finger {
  public:

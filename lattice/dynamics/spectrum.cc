@@ -51,6 +51,12 @@ double particle_bound(const LatticeModel& model, const std::array<double, 3>& fa
       const Vector3 direction = Vector3(d.dx, d.dy, d.dz).normalized();
       sum += weight * family_value[d.family] * direction * direction.transpose();
     }
+    const std::array<int, 3> at = model.place(i);
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (!model.sector.holds(d, at[d])) continue;
+      sum.row(Eigen::Index(d)).setZero();
+      sum.col(Eigen::Index(d)).setZero();
+    }
     bound = std::max(bound, (2.0 * largest_eigenvalue(sum) + ligament[i]) / model.mass[i]);
   }
   return bound;
@@ -88,7 +94,7 @@ double rod_bound(const LatticeModel& model, Quantity quantity, const RodBody& ro
       stiffness += tie.stiffness * unit_spring_on_rod(tie.rest, rod);
     }
   }
-  return largest_ratio(stiffness, rod);
+  return largest_ratio(model.sector.whole(stiffness), rod);
 }
 
 /// Of K with the rod free: |u_p - u_r|² <= (1 + e)|u_p|² + (1 + 1/e)|u_r|² for every e > 0
@@ -114,6 +120,7 @@ class ScaledOperator {
         base_(quantity == Quantity::stiffness ? at.displacement : at.velocity),
         state_(at),
         force_(model.points()),
+        scale_(mobility(model)),
         ligament_(ligament_values(model, quantity, 1.0)) {}
 
   Eigen::Index size() const { return 3 * Eigen::Index(model_->particles.size()); }
@@ -125,13 +132,11 @@ class ScaledOperator {
   }
 
  private:
-  double scale(std::size_t particle) const { return std::sqrt(model_->inverse_mass[particle]); }
-
   double largest_shift(const Eigen::VectorXd& q) const {
     double largest = 0.0;
     for (std::size_t p = 0; p < model_->particles.size(); ++p) {
-      largest =
-          std::max(largest, scale(model_->particles[p]) * q.segment<3>(3 * Eigen::Index(p)).norm());
+      const auto n = Eigen::Index(p);
+      largest = std::max(largest, scale_.row(n).maxCoeff() * q.segment<3>(3 * n).norm());
     }
     return largest;
   }
@@ -141,14 +146,17 @@ class ScaledOperator {
     VectorField& moved = quantity_ == Quantity::stiffness ? state_.displacement : state_.velocity;
     for (std::size_t p = 0; p < model_->particles.size(); ++p) {
       const std::size_t i = model_->particles[p];
-      moved.set(i, base_.at(i) + amplitude * scale(i) * q.segment<3>(3 * Eigen::Index(p)));
+      const auto n = Eigen::Index(p);
+      const Vector3 scale = amplitude * scale_.row(n);
+      moved.set(i, base_.at(i) + scale.cwiseProduct(q.segment<3>(3 * n)));
     }
     forces_.accumulate(state_, force_);
     Eigen::VectorXd result(size());
     for (std::size_t p = 0; p < model_->particles.size(); ++p) {
       const std::size_t i = model_->particles[p];
-      result.segment<3>(3 * Eigen::Index(p)) =
-          scale(i) * (force_.at(i) - ligament_[i] * moved.at(i));
+      const auto n = Eigen::Index(p);
+      const Vector3 scale = scale_.row(n);
+      result.segment<3>(3 * n) = scale.cwiseProduct(force_.at(i) - ligament_[i] * moved.at(i));
     }
     return result;
   }
@@ -160,6 +168,7 @@ class ScaledOperator {
   VectorField base_;
   State state_;
   VectorField force_;
+  Eigen::MatrixX3d scale_;
   std::vector<double> ligament_;
 };
 
@@ -207,6 +216,18 @@ bool uniformly_damped(const SpectralBounds& bounds) {
 }
 
 }  // namespace
+
+Eigen::MatrixX3d mobility(const LatticeModel& model) {
+  Eigen::MatrixX3d result(Eigen::Index(model.particles.size()), 3);
+  for (std::size_t p = 0; p < model.particles.size(); ++p) {
+    const std::uint32_t i = model.particles[p];
+    const std::array<int, 3> at = model.place(i);
+    for (std::size_t d = 0; d < 3; ++d)
+      result(Eigen::Index(p), Eigen::Index(d)) =
+          model.sector.holds(d, at[d]) ? 0.0 : std::sqrt(model.inverse_mass[i]);
+  }
+  return result;
+}
 
 SpectralBounds spectral_bounds(const LatticeModel& model, const RodBody* rod) {
   SpectralBounds bounds;

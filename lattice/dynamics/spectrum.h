@@ -18,6 +18,9 @@ struct SpectralBounds {
   double longest_retardation = 0.0;   ///< largest mu/k [s]
 };
 
+/// m^(-1/2) per particle and axis of the grid, 0 along which a mirror plane holds it [kg^(-1/2)].
+Eigen::MatrixX3d mobility(const LatticeModel& model);
+
 /// Rigorous upper bounds for a lattice of springs and ligaments alone: lambda <= max over particles
 /// of the largest eigenvalue of (2/m) Σ k d̂d̂ᵀ, ligaments added particle by particle. `rod` null:
 /// bonded to a rod that cannot move.

@@ -25,11 +25,11 @@ SpectrumSearch::Ritz SpectrumSearch::ritz(const Projection& projected, Index col
 }
 
 SpectrumSearch::SpectrumSearch(const LatticeModel& model, const Team& team)
-    : model_(&model), team_(team), forces_(model, team_), force_(model.points()) {
-  scale_.resize(Index(model.particles.size()));
-  for (std::size_t p = 0; p < model.particles.size(); ++p) {
-    scale_[Index(p)] = std::sqrt(model.inverse_mass[model.particles[p]]);
-  }
+    : model_(&model),
+      team_(team),
+      forces_(model, team_),
+      force_(model.points()),
+      scale_(mobility(model)) {
   partial_.setZero(vectors, (rows() + rows_per_sum - 1) / rows_per_sum);
 }
 
@@ -164,12 +164,12 @@ void SpectrumSearch::start_chain(Memory& memory) {
 /// Moves the state (its velocity) along the next column, by so much that differences of forces are
 /// meaningful; returns how far.
 double SpectrumSearch::move_along(Memory& memory) {
-  const Index count = scale_.size();
+  const Index count = scale_.rows();
   const auto q = memory.basis.col(memory.count).reshaped(count, 3);
   in_portions(count, [&](Index n, Index first, Index size) {
     double longest = 0.0;
     for (Index p = first; p < first + size; ++p) {
-      longest = std::max(longest, scale_[p] * q.row(p).norm());
+      longest = std::max(longest, scale_.row(p).maxCoeff() * q.row(p).norm());
     }
     partial_(0, n) = longest;
   });
@@ -182,7 +182,8 @@ double SpectrumSearch::move_along(Memory& memory) {
     for (std::size_t c = 0; c < 3; ++c) {
       for (Index p = first; p < first + size; ++p) {
         const std::size_t i = model_->particles[std::size_t(p)];
-        moved.component[c][i] = base.component[c][i] + amplitude * scale_[p] * q(p, Index(c));
+        moved.component[c][i] =
+            base.component[c][i] + amplitude * scale_(p, Index(c)) * q(p, Index(c));
       }
     }
   });
@@ -191,7 +192,7 @@ double SpectrumSearch::move_along(Memory& memory) {
 
 /// Finds the image of the next column from how forces change with the displacement (velocity).
 void SpectrumSearch::apply(Memory& memory) {
-  const Index count = scale_.size(), column = memory.count;
+  const Index count = scale_.rows(), column = memory.count;
   const double amplitude = move_along(memory);
   forces_.accumulate(memory.moved, force_);
   auto image = memory.image.col(column).reshaped(count, 3);
@@ -199,8 +200,8 @@ void SpectrumSearch::apply(Memory& memory) {
     for (std::size_t c = 0; c < 3; ++c) {
       for (Index p = first; p < first + size; ++p) {
         const std::size_t i = model_->particles[std::size_t(p)];
-        image(p, Index(c)) =
-            scale_[p] / amplitude * (memory.force.component[c][i] - force_.component[c][i]);
+        image(p, Index(c)) = scale_(p, Index(c)) / amplitude *
+                             (memory.force.component[c][i] - force_.component[c][i]);
       }
     }
   });

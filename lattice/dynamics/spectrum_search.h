@@ -70,7 +70,7 @@ class SpectrumSearch {
   void finish_quantity(Memory& memory);
   double move_along(Memory& memory);
 
-  Eigen::Index rows() const { return 3 * scale_.size(); }
+  Eigen::Index rows() const { return scale_.size(); }
   template <typename Body>
   void in_portions(Eigen::Index rows, const Body& body);
   Coefficients project(const Eigen::MatrixXd& columns, Eigen::Index count,
@@ -82,7 +82,7 @@ class SpectrumSearch {
   Team team_;
   InternalForces forces_;
   VectorField force_;
-  Eigen::VectorXd scale_;                                   ///< m^(-1/2) per particle [kg^(-1/2)]
+  Eigen::MatrixX3d scale_;                                  ///< mobility()
   Eigen::Matrix<double, vectors, Eigen::Dynamic> partial_;  ///< sums over fixed portions of rows
 };
 

@@ -54,9 +54,9 @@ double elastic_energy(const LatticeModel& model, const State& state) {
 
 double elastic_energy(const LatticeModel& model, const State& state, Team& team) {
   double energy = cell_energy(model.cell_lattice, state.displacement, team);
-  if (!model.has_springs()) return energy;
-  for (int s = 0; s < directions; ++s) energy += spring_energy(model, state, s);
-  return energy;
+  if (model.has_springs())
+    for (int s = 0; s < directions; ++s) energy += spring_energy(model, state, s);
+  return model.sector.count() * energy;
 }
 
 double kinetic_energy(const LatticeModel& model, const State& state) {
@@ -65,15 +65,16 @@ double kinetic_energy(const LatticeModel& model, const State& state) {
 }
 
 double kinetic_energy(const LatticeModel& model, const State& state, Team& team) {
-  return sum_in_portions<16>(team, model.blocks.size(), [&](std::size_t begin, std::size_t end) {
-    return kinetic_energy(model, state, begin, end);
-  });
+  const double part = sum_in_portions<16>(
+      team, model.blocks.size(),
+      [&](std::size_t begin, std::size_t end) { return kinetic_energy(model, state, begin, end); });
+  return model.sector.count() * part;
 }
 
 Vector3 linear_momentum(const LatticeModel& model, const State& state) {
   Vector3 sum = Vector3::Zero();
   for (const std::size_t i : model.particles) sum += model.mass[i] * state.velocity.at(i);
-  return model.grid.axes * sum;
+  return model.sector.whole(Vector3(model.grid.axes * sum));
 }
 
 }  // namespace fingertip::lattice

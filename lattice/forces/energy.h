@@ -1,4 +1,4 @@
-/// Energies of the lattice; the ligaments' is in bond.h.
+/// Energies of the lattice, of the whole tip where a part is computed; the ligaments' is in bond.h.
 #pragma once
 
 #include "lattice/kernels/parallel.h"

@@ -78,8 +78,11 @@ CellExtremes InternalForces::respond(const VectorField& displacement, const Stat
   // Damping of small strains and what relaxes there change the displacement that cells see.
   const bool on_the_way =
       springs_ == nullptr && &displacement == &state.displacement && past.values == nullptr;
-  if (energy != nullptr && on_the_way)
-    return cells_.add(displacement, state.velocity, force, *energy);
+  if (energy != nullptr && on_the_way) {
+    const CellExtremes extremes = cells_.add(displacement, state.velocity, force, *energy);
+    *energy *= model_->sector.count();
+    return extremes;
+  }
   if (energy != nullptr) *energy = elastic_energy(*model_, state, *team_);
   return cells_.add(displacement, state.velocity, force, past);
 }

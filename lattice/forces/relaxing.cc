@@ -123,8 +123,9 @@ BranchEnergy branch_energy(const LatticeModel& model, const RelaxingMemory& memo
     });
     const CellLattice& cells = model.cell_lattice;
     const double held = model.relaxation.bulk ? elastic_energy(model, lagging, team)
-                                              : cell_energy(cells, cells.material.shear_alone(),
-                                                            lagging.displacement, team);
+                                              : model.sector.count() *
+                                                    cell_energy(cells, cells.material.shear_alone(),
+                                                                lagging.displacement, team);
     energy.stored += held / b;
     energy.dissipation += 2.0 * held / (b * own);
   }

@@ -77,8 +77,22 @@ double largest_eigenvalue(const Matrix3d& matrix) {
       .maxCoeff();
 }
 
+/// What a particle on mirror planes meets in the other parts does not couple its motions across a
+/// plane and along it.
+void decouple(const Sector& sector, const std::array<int, 3>& at, Matrix3d& stiffness) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!sector.holds(d, at[d])) continue;
+    const auto c = Eigen::Index(d);
+    const double own = stiffness(c, c);
+    stiffness.row(c).setZero();
+    stiffness.col(c).setZero();
+    stiffness(c, c) = own;
+  }
+}
+
 /// Largest eigenvalue of a particle's stiffness, per particle of `cells` [N/m].
-std::vector<double> particle_stiffness(const GridCells& cells, const Formulation& formulation) {
+std::vector<double> particle_stiffness(const LatticeModel& model, const GridCells& cells,
+                                       const Formulation& formulation) {
   std::vector<Matrix3d> sum(cells.particles(), Matrix3d::Zero());
   for (const CutCell& cell : cells.cells()) {
     const auto corners = cells.corners(cell);
@@ -86,7 +100,10 @@ std::vector<double> particle_stiffness(const GridCells& cells, const Formulation
     for (std::size_t c = 0; c < 8; ++c) sum[corners[c]] += stiffness[c];
   }
   std::vector<double> result;
-  for (const Matrix3d& matrix : sum) result.push_back(largest_eigenvalue(matrix));
+  for (std::size_t p = 0; p < sum.size(); ++p) {
+    decouple(model.sector, model.place(cells.point(p)), sum[p]);
+    result.push_back(largest_eigenvalue(sum[p]));
+  }
   return result;
 }
 
@@ -102,11 +119,11 @@ double whole_frequency(const Formulation& formulation, double spacing, double de
 
 void raise_light_masses(LatticeModel& model, const CutTip& tip, double density) {
   const double limit = frequency_ratio * whole_frequency(tip.formulation, model.spacing(), density);
-  const std::vector<double> stiffness = particle_stiffness(tip.cells, tip.formulation);
+  const std::vector<double> stiffness = particle_stiffness(model, tip.cells, tip.formulation);
   for (std::size_t p = 0; p < tip.cells.particles(); ++p) {
     const std::size_t i = tip.cells.point(p);
     const double missing = std::max(0.0, stiffness[p] / limit - model.mass[i]);
-    model.added_mass += missing;
+    model.added_mass += model.sector.count() * missing;
     model.mass[i] += missing;
     model.inverse_mass[i] = 1.0 / model.mass[i];
   }
@@ -129,9 +146,10 @@ std::vector<EmbeddedPoint> on_grid(std::vector<EmbeddedPoint> points, const Grid
 }  // namespace
 
 LatticeModel build_cut_model(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
-                             const LatticeSettings& settings) {
-  CutTip tip = cut_tip(geometry, rubber, settings, 1, row_margin);
-  LatticeModel model = build_model(tip.cells, settings.model, tip.formulation, rubber.density);
+                             const LatticeSettings& settings, int sectors) {
+  CutTip tip = cut_tip(geometry, rubber, settings, sectors, row_margin);
+  LatticeModel model = build_model(tip.cells, settings.model, tip.formulation, rubber.density,
+                                   Sector(sectors, tip.cells.grid().axes));
   raise_light_masses(model, tip, rubber.density);
   if (tip.formulation.cell_law && !tip.formulation.central_springs) list_edges(model, tip);
   find_boundary(model, geometry);
@@ -142,9 +160,10 @@ LatticeModel build_cut_model(const meshes::Geometry& geometry, const meshes::Rub
 }
 
 LatticeModel build_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
-                       const LatticeSettings& settings) {
-  return settings.model == ModelKind::published ? build_published_tip(geometry, rubber, settings)
-                                                : build_cut_model(geometry, rubber, settings);
+                       const LatticeSettings& settings, int sectors) {
+  return settings.model == ModelKind::published
+             ? build_published_tip(geometry, rubber, settings, sectors)
+             : build_cut_model(geometry, rubber, settings, sectors);
 }
 
 }  // namespace fingertip::lattice

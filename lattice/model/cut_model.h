@@ -11,12 +11,12 @@ namespace fingertip::lattice {
 /// squared frequency of a particle among whole cells: the far corners of slivers would otherwise
 /// dictate the time step (R/12: 0.5 instead of 0.9 of the infinite lattice's). That adds, at R/8
 /// and R/12, 0.2 to 0.4 % of the rubber's mass, 0.6 to 1.2 % with central springs (`added_mass`);
-/// forces in equilibrium do not see it. Throws InvalidInput as cut_tip does.
+/// forces in equilibrium do not see it. `sectors` as of cut_tip. Throws InvalidInput as that does.
 LatticeModel build_cut_model(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
-                             const LatticeSettings& settings);
+                             const LatticeSettings& settings, int sectors = 1);
 
 /// The published tip or a cut one.
 LatticeModel build_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
-                       const LatticeSettings& settings);
+                       const LatticeSettings& settings, int sectors = 1);
 
 }  // namespace fingertip::lattice

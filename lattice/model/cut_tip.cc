@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lattice/model/sector.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 
@@ -47,36 +48,29 @@ void check_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   };
   check_factor("lattice.ligament_stiffness", settings.ligament_stiffness);
   check_factor("lattice.contact_stiffness", settings.contact_stiffness);
-  if ((sectors != 1 && sectors != 2 && sectors != 4) ||
-      sectors > grid_symmetry(geometry, settings)) {
-    found.push_back(
-        {"sectors", std::to_string(sectors),
-         "the tip divides into 1, 2 or 4 parts, and into several only along planes "
-         "of grid points",
-         "compute the whole tip, or remove offset and rotation; a solid is always whole"});
-  }
+  append(found, sector_violations(geometry, settings, sectors));
   if (!found.empty()) throw meshes::InvalidInput(found);
 }
 
 /// The grid, its directions renamed in turn so that x is the one nearest the finger's axis: rows of
 /// whole cells are longest there, and forces are computed row by row (cell_lattice.h).
-CubicGrid grid_of(const Geometry& geometry, const LatticeSettings& settings) {
+CubicGrid grid_of(const Geometry& geometry, const LatticeSettings& settings, int sectors) {
   Eigen::Index nearest = 0;
   settings.axes.row(2).cwiseAbs().maxCoeff(&nearest);
   Eigen::Matrix3d order = Eigen::Matrix3d::Zero();
   for (Eigen::Index d = 0; d < 3; ++d) order((nearest + d) % 3, d) = 1.0;
-  return meshes::covering_grid(geometry, settings.spacing, order.transpose() * settings.offset, 1,
-                               settings.axes * order);
+  CubicGrid grid = meshes::covering_grid(
+      geometry, settings.spacing, order.transpose() * settings.offset, 1, settings.axes * order);
+  Sector(sectors, grid.axes).crop(grid);
+  return grid;
 }
 
-/// Leaves the cells of the sector alone.
-void keep_sector(const CubicGrid& grid, int sectors, std::vector<CutCell>& cells) {
-  if (sectors == 1) return;
+/// Leaves the cells of the sector alone, but for those in the layer before its mirror planes.
+void keep_sector(const Sector& sector, std::vector<CutCell>& cells) {
   std::erase_if(cells, [&](const CutCell& cell) {
-    // Cells lie on one side of the mirror planes, so any point within tells.
-    const Vector3 at = grid.position(cell.index[0], cell.index[1], cell.index[2]) +
-                       Vector3::Constant(0.5 * grid.spacing);
-    return at.y() < 0.0 || (sectors == 4 && at.x() < 0.0);
+    for (std::size_t d = 0; d < 3; ++d)
+      if (sector.mirrors(d) && cell.index[d] == 0) return true;
+    return false;
   });
 }
 
@@ -101,10 +95,10 @@ std::vector<EmbeddedPoint> embedded_surface(const GridCells& cells, const Geomet
 CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSettings& settings,
                int sectors, int spare_rows) {
   check_tip(geometry, rubber, settings, sectors);
-  CubicGrid grid = grid_of(geometry, settings);
+  CubicGrid grid = grid_of(geometry, settings, sectors);
   grid.size[0] += spare_rows;
   std::vector<CutCell> cut = meshes::cut_cells(geometry, grid, smallest_fraction);
-  keep_sector(grid, sectors, cut);
+  keep_sector(Sector(sectors, grid.axes), cut);
   CutTip tip{
       GridCells(grid, largest_piece(grid, cut)), formulation_for(rubber, settings), {}, {}, {}};
   const double stiffness = tie_stiffness * tip.formulation.shear / grid.spacing;
@@ -132,6 +126,16 @@ int grid_symmetry(const Geometry& geometry, const LatticeSettings& settings) {
   if (geometry.solid) return 1;
   if (!settings.axes.isIdentity(0.0) || settings.offset.y() != 0.0) return 1;
   return settings.offset.x() == 0.0 ? 4 : 2;
+}
+
+std::vector<Violation> sector_violations(const Geometry& geometry, const LatticeSettings& settings,
+                                         int sectors) {
+  const bool known = sectors == 1 || sectors == 2 || sectors == 4;
+  if (known && sectors <= grid_symmetry(geometry, settings)) return {};
+  return {
+      {"sectors", std::to_string(sectors),
+       "the tip divides into 1, 2 or 4 parts, and into several only along planes of grid points",
+       "compute the whole tip, or remove offset and rotation; a solid is always whole"}};
 }
 
 double lowest_contact(const Geometry& geometry) {

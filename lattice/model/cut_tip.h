@@ -33,8 +33,9 @@ struct CutTip {
 };
 
 /// `sectors` = 4, 2 or 1 asks for the quarter (x, y >= 0), half (y >= 0) or whole tip; mirror
-/// planes must go through grid points. The directions of `cells.grid()` are those
-/// of the settings, renamed in turn so that x is nearest the finger's axis. `spare_rows` adds that
+/// planes must go through grid points, and the grid of a part begins a layer before them. The
+/// directions of `cells.grid()` are those of the settings, renamed in turn so that x is nearest the
+/// finger's axis. `spare_rows` adds that
 /// many empty points at the end of every row of the grid. Throws InvalidInput for a specimen that
 /// breaks a rule, the published model, a spacing above (R - r)/2 or below R/320, a rotation or
 /// offset out of range, constants that are negative or without a diagonal, nu < 0 in the network at
@@ -48,6 +49,10 @@ std::vector<meshes::Violation> rotation_violations(const Eigen::Matrix3d& axes);
 /// 4, 2 or 1: into how many mirror images the grid's planes through x = 0 and y = 0 divide the tip;
 /// 1 for a solid.
 int grid_symmetry(const meshes::Geometry& geometry, const LatticeSettings& settings);
+
+/// Empty if the tip divides into so many parts along planes of grid points.
+std::vector<meshes::Violation> sector_violations(const meshes::Geometry& geometry,
+                                                 const LatticeSettings& settings, int sectors);
 
 /// Deepest height at which the outer surface can meet the plane [m]: a sleeve as long as the rubber
 /// is thick, since no press goes deeper than that.

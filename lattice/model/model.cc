@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lattice/model/cut_tip.h"
 #include "meshes/files.h"
 #include "meshes/shape.h"
 
@@ -17,13 +18,18 @@ double LatticeModel::rest_length(Family family) const {
   return grid.spacing * std::sqrt(double(family) + 1.0);
 }
 
-Vector3 LatticeModel::rest_position(std::size_t point) const {
+std::array<int, 3> LatticeModel::place(std::size_t point) const {
   const std::size_t nx = std::size_t(grid.size[0]), ny = std::size_t(grid.size[1]);
-  return grid.position(int(point % nx), int(point / nx % ny), int(point / (nx * ny)));
+  return {int(point % nx), int(point / nx % ny), int(point / (nx * ny))};
+}
+
+Vector3 LatticeModel::rest_position(std::size_t point) const {
+  const auto [i, j, k] = place(point);
+  return grid.position(i, j, k);
 }
 
 double LatticeModel::total_mass() const {
-  return std::accumulate(mass.begin(), mass.end(), 0.0);
+  return sector.count() * std::accumulate(mass.begin(), mass.end(), 0.0);
 }
 
 std::size_t LatticeModel::spring_count() const {
@@ -84,8 +90,11 @@ void connect_particles(LatticeModel& model, std::vector<std::uint8_t> is_particl
   model.is_particle = std::move(is_particle);
   allocate(model);
   model.particles = marked_points(model.is_particle);
+  double count = 0.0;  // of the whole tip's
+  for (const std::size_t i : model.particles)
+    count += model.sector.count() * model.sector.share(model.place(i));
   for (const std::size_t i : model.particles) {
-    model.mass[i] = mass / double(model.particles.size());
+    model.mass[i] = mass / count;
     for (int s = 0; s < directions; ++s) {
       const std::size_t j = i + std::size_t(neighbour_offset(model.grid.size, s));
       if (model.is_particle[j]) model.weight[std::size_t(s)][i] = 1.0;
@@ -119,18 +128,44 @@ void connect_cells(LatticeModel& model, const GridCells& cells, bool central_spr
   }
 }
 
-/// Traversal order and inverse masses.
+/// Traversal order, inverse masses and what mirror planes hold.
 void finish(LatticeModel& model) {
   model.blocks = covering_blocks(model.grid, model.is_particle);
-  for (const std::size_t i : model.particles) model.inverse_mass[i] = 1.0 / model.mass[i];
+  for (const std::uint32_t i : model.particles) {
+    model.inverse_mass[i] = 1.0 / model.mass[i];
+    const std::array<int, 3> at = model.place(i);
+    for (std::size_t d = 0; d < 3; ++d)
+      if (model.sector.holds(d, at[d])) model.held[d].push_back(i);
+  }
+}
+
+/// Of whole springs, masses and ligaments on its mirror planes a published part keeps its share.
+void share_out(LatticeModel& model) {
+  for (const std::size_t i : model.particles) {
+    const std::array<int, 3> at = model.place(i);
+    model.mass[i] *= model.sector.share(at);
+    model.inverse_mass[i] = 1.0 / model.mass[i];
+    for (std::size_t s = 0; s < directions; ++s) {
+      const Direction& d = half_stencil[s];
+      constexpr int leaves = -1;  // the planes across this axis
+      model.weight[s][i] *= model.sector.share(
+          {d.dx == 0 ? at[0] : leaves, d.dy == 0 ? at[1] : leaves, d.dz == 0 ? at[2] : leaves});
+    }
+  }
+  for (Ligament& ligament : model.ligaments) {
+    const double share = model.sector.share(model.place(ligament.particle));
+    ligament.stiffness *= share;
+    ligament.damping *= share;
+  }
 }
 
 /// Particles joined as in connect_particles, with the paper's dampers.
 LatticeModel published_model(Kinematics kinematics, const SpringConstants& constants,
                              const CubicGrid& grid, std::vector<std::uint8_t> is_particle,
-                             double mass) {
+                             double mass, const Sector& sector = {}) {
   require_finite(constants);
   LatticeModel model;
+  model.sector = sector;
   model.kind = ModelKind::published;
   model.kinematics = kinematics;
   model.constants = constants;
@@ -146,11 +181,18 @@ LatticeModel published_model(Kinematics kinematics, const SpringConstants& const
   return model;
 }
 
+/// Beyond a mirror plane there is what lies before it.
 std::size_t neighbour_count(const LatticeModel& model, std::size_t i) {
+  const std::array<int, 3> at = model.place(i);
+  const auto mirrored = [&](std::size_t d, int step) {
+    return at[d] + (model.sector.holds(d, at[d]) ? std::abs(step) : step);
+  };
   std::size_t count = 0;
-  for (int s = 0; s < directions; ++s) {
-    const std::size_t step = std::size_t(neighbour_offset(model.grid.size, s));
-    count += std::size_t(model.is_particle[i + step]) + std::size_t(model.is_particle[i - step]);
+  for (const Direction& d : half_stencil) {
+    for (const int way : {1, -1}) {
+      count += model.is_particle[model.grid.index(mirrored(0, way * d.dx), mirrored(1, way * d.dy),
+                                                  mirrored(2, way * d.dz))];
+    }
   }
   return count;
 }
@@ -184,30 +226,52 @@ void hang_on_ligaments(LatticeModel& model, const Geometry& geometry, double lay
   }
 }
 
+/// Of the other parts.
+void leave_layer_before(const CubicGrid& grid, const Sector& sector,
+                        std::vector<std::uint8_t>& is_particle) {
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        const bool before = (sector.mirrors(0) && i == 0) || (sector.mirrors(1) && j == 0) ||
+                            (sector.mirrors(2) && k == 0);
+        if (before) is_particle[grid.index(i, j, k)] = 0;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 LatticeModel build_published_tip(const Geometry& geometry, const meshes::Rubber& rubber,
-                                 const LatticeSettings& settings) {
+                                 const LatticeSettings& settings, int sectors) {
   if (settings.model != ModelKind::published) {
     throw meshes::InvalidInput({"lattice.model", std::string(name(settings.model)),
                                 "only the published lattice has no cells",
                                 "take build_cut_model, which cuts the cells of the others"});
   }
+  const auto violations = sector_violations(geometry, settings, sectors);
+  if (!violations.empty()) throw meshes::InvalidInput(violations);
   CubicGrid grid = meshes::covering_grid(geometry, settings.spacing, settings.offset, 1);
   grid.size[0] += row_margin;
-  LatticeModel model = published_model(settings.kinematics, settings.constants, grid,
-                                       meshes::sample_particles(geometry, grid),
-                                       rubber.density * geometry.tip_volume());
+  const Sector sector(sectors, grid.axes);
+  sector.crop(grid);
+  std::vector<std::uint8_t> is_particle = meshes::sample_particles(geometry, grid);
+  leave_layer_before(grid, sector, is_particle);
+  LatticeModel model =
+      published_model(settings.kinematics, settings.constants, grid, std::move(is_particle),
+                      rubber.density * geometry.tip_volume(), sector);
   find_boundary(model, geometry);
   hang_on_ligaments(model, geometry,
                     settings.ligament_stiffness * rubber.youngs_modulus * model.spacing());
+  share_out(model);
   return model;
 }
 
 LatticeModel build_model(const GridCells& cells, ModelKind kind, const Formulation& formulation,
-                         double density) {
+                         double density, const Sector& sector) {
   require_finite(formulation.constants);
   LatticeModel model;
+  model.sector = sector;
   model.kind = kind;
   model.kinematics = formulation.finite ? Kinematics::finite : Kinematics::small;
   model.constants = formulation.constants;

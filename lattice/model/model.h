@@ -15,6 +15,7 @@
 #include "lattice/model/formulation.h"
 #include "lattice/model/grid_cells.h"
 #include "lattice/model/lattice_settings.h"
+#include "lattice/model/sector.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/geometry.h"
 #include "meshes/rubber.h"
@@ -43,6 +44,10 @@ struct LatticeModel {
   Kinematics kinematics = Kinematics::small;
   SpringConstants constants;
   meshes::CubicGrid grid;
+  /// Which part of the tip this is. Masses, springs and ties on its mirror planes are its share.
+  Sector sector;
+  /// Per axis of the grid: the particles on the mirror plane across it, which do not move along it.
+  std::array<std::vector<std::uint32_t>, 3> held;
 
   std::vector<std::uint8_t> is_particle;  ///< per point: 1 where a particle sits
   std::vector<double> mass;               ///< per point [kg], 0 where there is no particle
@@ -80,7 +85,8 @@ struct LatticeModel {
   double spacing() const { return grid.spacing; }            ///< a [m]
   double rest_length(Family family) const;                   ///< l0 [m]
   meshes::Vector3 rest_position(std::size_t point) const;    ///< X [m]
-  double total_mass() const;                                 ///< [kg]
+  std::array<int, 3> place(std::size_t point) const;         ///< its indices on the grid
+  double total_mass() const;                                 ///< of the whole tip [kg]
   std::size_t spring_count() const;                          ///< springs and fibres
   bool has_springs() const { return stiffness[0] + stiffness[1] + stiffness[2] > 0.0; }
   bool is_cut() const { return !outer.empty(); }  ///< whether it has true surfaces
@@ -88,9 +94,9 @@ struct LatticeModel {
 
 /// The published tip: the paper's particles, a full spring between every two neighbours, ligaments.
 /// Throws InvalidInput for another model, a spacing or offset outside their ranges or constants
-/// that are not finite.
+/// that are not finite. `sectors` as of cut_tip (cut_tip.h).
 LatticeModel build_published_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
-                                 const LatticeSettings& settings);
+                                 const LatticeSettings& settings, int sectors = 1);
 
 /// Empty points at the end of every row of a model's grid, so that a block that starts at a row's
 /// last particle does not reach the particles of the next row.
@@ -101,7 +107,7 @@ inline constexpr int row_margin = int(lanes) - 1;
 /// and row_margin more at the end of its rows. Throws InvalidInput for constants that are not
 /// finite.
 LatticeModel build_model(const GridCells& cells, ModelKind kind, const Formulation& formulation,
-                         double density);
+                         double density, const Sector& sector = {});
 
 /// Fills in `boundary`.
 void find_boundary(LatticeModel& model, const meshes::Geometry& geometry);

@@ -75,7 +75,7 @@ std::vector<std::uint8_t> BoundaryView::held(const std::vector<std::uint8_t>& of
   return result;
 }
 
-FingerPicture take_picture(const Finger& finger, const BoundaryView& view, double indentation) {
+FingerPicture bare_picture(const Finger& finger, double indentation) {
   FingerPicture picture;
   picture.time = finger.time();
   picture.indentation = indentation;
@@ -83,6 +83,11 @@ FingerPicture take_picture(const Finger& finger, const BoundaryView& view, doubl
   picture.endpoint = finger.rod().endpoint();
   picture.on_rod = finger.bond();
   picture.plane = finger.plane();
+  return picture;
+}
+
+FingerPicture take_picture(const Finger& finger, const BoundaryView& view, double indentation) {
+  FingerPicture picture = bare_picture(finger, indentation);
   picture.boundary = view.deformed(finger.state());
   picture.held = view.held(finger.held());
   return picture;

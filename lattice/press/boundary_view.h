@@ -54,7 +54,10 @@ struct FingerPicture {
   std::vector<std::uint8_t> held;         ///< BoundaryView::held()
 };
 
-/// What `view` shows of `finger` now. `indentation` [m] is the caller's.
+/// Rod and plane of `finger` now, without what is drawn of its tip. `indentation` [m] is the
+/// caller's.
+FingerPicture bare_picture(const Finger& finger, double indentation);
+/// The same with what `view` shows of the tip.
 FingerPicture take_picture(const Finger& finger, const BoundaryView& view, double indentation);
 
 }  // namespace fingertip::lattice

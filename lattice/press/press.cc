@@ -43,6 +43,13 @@ LatticeCensus take_census(const PressSetup& setup, const LatticeModel& model) {
   return census;
 }
 
+/// The finger of a press, or a part of it.
+FingerSetup computed_finger(const PressSetup& setup, const PressWay& way) {
+  FingerSetup finger = pressed_finger(setup, way);
+  finger.sectors = moving_sectors(setup);
+  return finger;
+}
+
 /// One press from start to depth, or to the end of its program.
 class Press {
  public:
@@ -96,11 +103,12 @@ Press::Press(const PressSetup& setup, const PressObserver& observer, const Press
     : setup_(setup),
       observer_(observer),
       way_(setup.protocol, setup.geometry),
-      finger_(pressed_finger(setup, way_)),
+      finger_(computed_finger(setup, way_)),
       motion_(setup.protocol),
       recorder_(setup.protocol, motion_, finger_.finger().plane(), finger_.finger(), outcome_),
       pictures_(setup, finger_.finger(), expected_time(), film, outcome_) {
-  outcome_.census = take_census(setup, finger_.model());
+  outcome_.census = take_census(setup, pictures_.model());
+  outcome_.sectors = finger_.setup().sectors;
   outcome_.step = finger_.step_report(setup.controller.period);
   if (finger_.setup().prescribed) {
     finger_.write([this](double time) {

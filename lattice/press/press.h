@@ -44,6 +44,7 @@ struct PressOutcome : PressShapes {
   StepCount steps;
   long force_evaluations = 0;  ///< of springs and cells
   LatticeCensus census;
+  int sectors = 1;                            ///< moving_sectors(): 1, 2 or 4; one was computed
   double simulated_time = 0.0;                ///< [s]
   double wall_time = 0.0;                     ///< of the step loop alone [s]
   double first_touch_time = meshes::unknown;  ///< [s]

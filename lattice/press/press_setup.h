@@ -39,6 +39,8 @@ struct PressSetup {
   double tolerance = 1e-6;          ///< of runge_kutta, > 0 (integrators/runge_kutta.h)
   double energy_bound = 1e-7;       ///< of energy_controlled, > 0 (integrators/energy_stepper.h)
   int threads = 0;                  ///< 0: fastest_threads. The result does not depend on it.
+  bool symmetry = true;  ///< computes one of the parts that are mirror images of each other, where
+                         ///< a moving press has such (moving_sectors)
 
   /// Every broken rule of specimen, protocol, lattice, rod and controller, and what is
   /// beyond_the_lattice.

@@ -1,6 +1,7 @@
 #include "lattice/press/press_task.h"
 
 #include "lattice/press/press_deviation.h"
+#include "lattice/statics/cut_lattice.h"
 
 namespace fingertip::lattice {
 
@@ -32,6 +33,17 @@ FingerSetup finger_setup(const PressSetup& setup, const PressWay& way) {
   finger.energy_bound = setup.energy_bound;
   finger.threads = setup.threads;
   return finger;
+}
+
+int moving_sectors(const PressSetup& setup) {
+  const HardwareSettings& hardware = setup.hardware;
+  bool noise = false;
+  for (const SensorChannel* channel :
+       {&hardware.position, &hardware.orientation, &hardware.velocity, &hardware.angular_velocity,
+        &hardware.force, &hardware.torque})
+    noise = noise || channel->noise > 0.0;
+  if (!setup.symmetry || setup.make_controller || noise) return 1;
+  return way_symmetry(setup.geometry, setup.lattice, setup.protocol);
 }
 
 FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way) {

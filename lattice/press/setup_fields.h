@@ -104,7 +104,7 @@ template <Fields<PressSetup> T>
 void visit_fields(T& setup, auto&& visit) {
   auto& [geometry, rubber, protocol, lattice, rod, controller, make_controller, controller_identity,
          follows_path, hardware, duration, gravity, integrator, time_step, tolerance, energy_bound,
-         threads] = setup;
+         threads, symmetry] = setup;
   visit("geometry", geometry, "");
   visit("rubber", rubber, "");
   visit("protocol", protocol, "");
@@ -120,6 +120,7 @@ void visit_fields(T& setup, auto&& visit) {
   visit("time_step", time_step, "s");
   visit("tolerance", tolerance, "");
   visit("energy_bound", energy_bound, "");
+  visit("symmetry", symmetry, "");
 }
 
 constexpr auto values(ModelKind) {

@@ -8,6 +8,7 @@
 #include "lattice/model/rod.h"
 #include "lattice/press/press_setup.h"
 #include "lattice/press/press_shapes.h"
+#include "lattice/press/whole_tip.h"
 #include "lattice/statics/lattice_body.h"
 #include "lattice/statics/static_contact.h"
 
@@ -34,19 +35,11 @@ class StaticPictures {
   std::vector<std::uint8_t> held(const StaticContact& contact,
                                  const Eigen::VectorXd& displacement) const;
 
-  /// A particle of the body and one of its mirror images among the model's points.
-  struct Image {
-    std::size_t particle, point;
-    meshes::Vector3 mirror;  ///< signs of x, y, z
-  };
-
   const PressSetup& setup_;
   const LatticeBody& body_;
-  const LatticeModel model_;
+  WholeTip whole_;
   const BoundaryView view_;
   ShapeRecorder recorder_;
-  std::vector<Image> images_;
-  State state_;
 };
 
 }  // namespace fingertip::lattice

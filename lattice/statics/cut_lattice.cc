@@ -169,6 +169,11 @@ LatticeBody build_free_block(const Rubber& rubber, const LatticeSettings& settin
 int largest_symmetry(const Geometry& geometry, const LatticeSettings& settings,
                      const meshes::PressProtocol& protocol) {
   if (settings.model == ModelKind::published) return 1;
+  return way_symmetry(geometry, settings, protocol);
+}
+
+int way_symmetry(const Geometry& geometry, const LatticeSettings& settings,
+                 const meshes::PressProtocol& protocol) {
   const int sectors = grid_symmetry(geometry, settings);
   const bool straight = protocol.tilt == 0.0 && protocol.lateral == 0.0;
   return straight && protocol.obstacle.mirrored() ? sectors : std::min(sectors, 2);

@@ -38,9 +38,12 @@ LatticeBody body_of(const LatticeModel& model, const meshes::Geometry& geometry,
 LatticeBody build_free_block(const meshes::Rubber& rubber, const LatticeSettings& settings,
                              const std::array<int, 3>& cells);
 
-/// 4, 2 or 1: how many equal parts the press and the grid allow. Offsets along x and y must vanish
-/// and the grid must not be rotated; tilt and lateral motion leave y -> -y alone; the published
-/// lattice and a solid are always computed whole.
+/// 4, 2 or 1: into how many mirror images grid, obstacle and way divide a press. Offsets along x
+/// and y must vanish and the grid must not be rotated; tilt and lateral motion leave y -> -y alone;
+/// a solid has none.
+int way_symmetry(const meshes::Geometry& geometry, const LatticeSettings& settings,
+                 const meshes::PressProtocol& protocol);
+/// How many of them serve in equilibrium: the published lattice is computed whole.
 int largest_symmetry(const meshes::Geometry& geometry, const LatticeSettings& settings,
                      const meshes::PressProtocol& protocol);
 

@@ -134,6 +134,8 @@ ordered_json press_entry(Session& session, const LoadedConfig& loaded, const Ben
           {"runs", pace.at("runs")},
           {"ns_per_mass_step", pace.at("ns_per_mass_step")},
           {"particles", pace.at("particles")},
+          {"parts", pace.at("parts")},
+          {"whole", press.whole},
           {"steps", pace.at("steps")}};
 }
 

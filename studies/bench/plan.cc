@@ -13,18 +13,20 @@ constexpr double scaled_step = 1e-3;
 /// `spacings`: R/a. Masses are scaled in the models that consist of cells.
 std::vector<PressedLattice> presses(const std::vector<int>& spacings) {
   std::vector<PressedLattice> all;
-  const auto add = [&](ModelKind model, int threads, bool scaled) {
+  const auto add = [&](ModelKind model, int threads, bool scaled, bool whole = false) {
     for (const int n : spacings) {
       PressedLattice press{model, n, threads};
       if (scaled) {
         press.integrator = Integrator::mass_scaled;
         press.time_step = scaled_step;
       }
+      press.whole = whole;
       all.push_back(press);
     }
   };
   for (const bool scaled : {false, true})
     for (const int threads : {1, 2}) add(ModelKind::network, threads, scaled);
+  for (const int threads : {1, 2}) add(ModelKind::network, threads, true, true);
   for (const bool scaled : {false, true}) add(ModelKind::hookean, 1, scaled);
   add(ModelKind::published, 1, false);
   return all;
@@ -59,7 +61,8 @@ BenchPlan smallest_plan() {
   plan.seconds = 0.001;
   plan.sizes = {20};
   plan.presses = {{ModelKind::network, 4, 1},
-                  {ModelKind::network, 4, 1, Integrator::mass_scaled, scaled_step}};
+                  {ModelKind::network, 4, 1, Integrator::mass_scaled, scaled_step},
+                  {ModelKind::network, 4, 1, Integrator::mass_scaled, scaled_step, true}};
   plan.depth = 0.0005;
   plan.error_from = 0.0002;
   plan.reference_degree = 1;

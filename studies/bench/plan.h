@@ -16,6 +16,7 @@ struct PressedLattice {
   int threads = 1;
   lattice::Integrator integrator = lattice::Integrator::symplectic_euler;
   std::optional<double> time_step = {};  ///< [s]; the largest safe one when empty
+  bool whole = false;  ///< also where the press is its own mirror image (run.symmetry)
 };
 
 /// A continuum on one mesh.

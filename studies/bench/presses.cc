@@ -60,18 +60,20 @@ void run_pace(lattice::PressSetup setup, int threads, const std::filesystem::pat
   runs = runs_of(outcome);
   while (timing.runs < runs) run();
   outcome.response.write_csv(folder / "response.csv");
-  write_json({{"real_time_factor", number_or_null(timing.slowest.wall)},
-              {"real_time_factor_processor",
-               threads == 1 ? number_or_null(timing.slowest.processor) : nlohmann::ordered_json()},
-              {"whole_press_factor", number_or_null(timing.whole)},
-              {"runs", timing.runs},
-              {"ns_per_mass_step",
-               number_or_null(1e9 * timing.processor /
-                              (double(outcome.steps.accepted) * double(outcome.census.particles)))},
-              {"step", outcome.step.step},
-              {"steps", outcome.steps.accepted},
-              {"particles", outcome.census.particles}},
-             folder / "pace.json");
+  write_json(
+      {{"real_time_factor", number_or_null(timing.slowest.wall)},
+       {"real_time_factor_processor",
+        threads == 1 ? number_or_null(timing.slowest.processor) : nlohmann::ordered_json()},
+       {"whole_press_factor", number_or_null(timing.whole)},
+       {"runs", timing.runs},
+       {"ns_per_mass_step", number_or_null(1e9 * timing.processor /
+                                           (double(outcome.steps.accepted) *
+                                            double(outcome.census.particles) / outcome.sectors))},
+       {"step", outcome.step.step},
+       {"steps", outcome.steps.accepted},
+       {"particles", outcome.census.particles},
+       {"parts", outcome.sectors}},
+      folder / "pace.json");
 }
 
 }  // namespace
@@ -79,9 +81,12 @@ void run_pace(lattice::PressSetup setup, int threads, const std::filesystem::pat
 LoadedConfig press_config(const LoadedConfig& loaded, const PressedLattice& press, double depth) {
   const std::string model(lattice::name(press.model));
   std::vector<std::string> sets = {
-      "press.contact=stick", fmt::format("press.depth=\"{:.12g} m\"", depth),
-      "lattice.model=" + model, fmt::format("lattice.spacing=tip_radius/{}", press.per_radius),
-      fmt::format("run.integrator={}", lattice::name(press.integrator))};
+      "press.contact=stick",
+      fmt::format("press.depth=\"{:.12g} m\"", depth),
+      "lattice.model=" + model,
+      fmt::format("lattice.spacing=tip_radius/{}", press.per_radius),
+      fmt::format("run.integrator={}", lattice::name(press.integrator)),
+      fmt::format("run.symmetry={}", !press.whole)};
   if (press.time_step) sets.push_back(fmt::format("run.time_step=\"{:.12g} s\"", *press.time_step));
   return loaded.with(sets);
 }
@@ -110,8 +115,9 @@ Job pace_job(const LoadedConfig& loaded, const PressedLattice& press, double dep
 
 std::string press_name(const PressedLattice& press) {
   const bool plain = press.integrator == lattice::Integrator::symplectic_euler;
-  return fmt::format("{}{}{}_R{}_{}t", lattice::name(press.model), plain ? "" : "_",
-                     plain ? "" : lattice::name(press.integrator), press.per_radius, press.threads);
+  return fmt::format("{}{}{}_R{}_{}t{}", lattice::name(press.model), plain ? "" : "_",
+                     plain ? "" : lattice::name(press.integrator), press.per_radius, press.threads,
+                     press.whole ? "_whole" : "");
 }
 
 }  // namespace fingertip::studies

@@ -221,8 +221,10 @@ void print_press_facts(const std::filesystem::path& folder, bool reused) {
     return;
   }
   fmt::print("time step {:.3g} s: {}\n", summary.step.step, summary.step.explanation);
-  fmt::print("real-time factor {:.2f} (simulated over wall time, threads: {}{})\n",
+  const long parts = summary.census.sectors;
+  fmt::print("real-time factor {:.2f} (simulated over wall time, threads: {}{}{})\n",
              summary.real_time_factor, summary.threads,
+             parts > 1 ? fmt::format("; one of {} parts that are mirror images", parts) : "",
              reused ? "; of the run that computed it" : "");
   if (summary.controlled()) print_control(summary);
 }

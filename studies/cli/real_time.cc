@@ -117,7 +117,9 @@ std::string errors_text(const TransferObstacleEntry& errors) {
 
 RealTimeRun real_time_run(const CommandLine& line) {
   watch_for_interrupts();
-  const LoadedConfig asked = with_any_integrator(load_checked(line));
+  LoadedConfig asked = with_any_integrator(load_checked(line));
+  // In the live view people push the rod wherever they like.
+  if (line.verb == "live") asked = asked.with({"run.symmetry=false"});
   if (line.verb == "press" && asked.config.press.protocol.mode == meshes::DriveMode::equilibrium)
     throw ConfigError(
         {{"--real-time", "press.mode", "static",

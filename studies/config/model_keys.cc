@@ -208,6 +208,11 @@ std::vector<Key> run_keys() {
             "one per "
             "1000 masses (volume over spacing cubed); results do not depend on it",
             at(&Config::press, &lattice::PressSetup::threads)),
+      plain("run", "symmetry", {},
+            "press a quarter or half of the tip where all is its own mirror image: grid, obstacle "
+            "and way, under the built-in servo without noise; false: the whole tip, whose rod may "
+            "tilt and sway",
+            at(&Config::press, &lattice::PressSetup::symmetry)),
       choice("run", "units",
              {{"si", "mN, mm, kPa"}, {"paper", "gf, cm, gf/cm^2, as in the paper of 1996"}},
              "units of screens, pages, figures and the live view; files keep theirs, and no result "

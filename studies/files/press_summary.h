@@ -106,9 +106,9 @@ constexpr auto fields_of(const StepsEntry*) {
                &Whole::forced, &Whole::force_evaluations);
 }
 
-/// What a lattice in time consists of.
+/// What a lattice in time consists of, of `sectors` mirror images of which one was computed.
 struct CensusEntry {
-  long particles = 0;
+  long sectors = 1, particles = 0;
   double expected_particles = meshes::unknown;
   long springs = 0, cells = 0, boundary_particles = 0, ligaments = 0;
   double mass = meshes::unknown, added_mass = meshes::unknown, exact_mass = meshes::unknown;
@@ -116,12 +116,13 @@ struct CensusEntry {
 constexpr auto fields_of(const CensusEntry*) {
   using meshes::named;
   using Whole = CensusEntry;
-  return named(
-      "particles expected_particles springs cells boundary_particles ligaments mass added_mass "
-      "exact_mass",
-      &Whole::particles, &Whole::expected_particles, &Whole::springs, &Whole::cells,
-      &Whole::boundary_particles, &Whole::ligaments, &Whole::mass, &Whole::added_mass,
-      &Whole::exact_mass);
+  return std::tuple_cat(
+      named("particles expected_particles springs cells boundary_particles ligaments mass "
+            "added_mass exact_mass",
+            &Whole::particles, &Whole::expected_particles, &Whole::springs, &Whole::cells,
+            &Whole::boundary_particles, &Whole::ligaments, &Whole::mass, &Whole::added_mass,
+            &Whole::exact_mass),
+      meshes::newer(named("sectors", &Whole::sectors)));
 }
 
 /// What a lattice at rest consists of.

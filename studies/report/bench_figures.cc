@@ -22,13 +22,20 @@ double pace_of(const JsonEntry& press) {
   return std::isfinite(processor) ? processor : number_if_any(press, "real_time_factor");
 }
 
+/// Whether the whole tip was asked for where a part would have done.
+bool is_whole(const JsonEntry& press) {
+  return press.contains("whole") && press.at("whole").flag();
+}
+
 /// Colour tells the model, the marker the integrator: circles for plain steps, triangles for scaled
-/// masses; hollow where something else than one core against law A is meant.
+/// masses, upside down of the whole tip; hollow where something else than one core against law A is
+/// meant.
 struct Family {
   std::string label, model, integrator, error_key;
   double threads = 1.0;
   bool hollow = false;
   double label_height = 0.84;  ///< where "R/n" is written, over the point's error; 0: nowhere
+  bool whole = false;
 };
 
 std::string integrator_of(const JsonEntry& press) {
@@ -50,6 +57,7 @@ void add_family(Panel& panel, const JsonEntry& bench, const Family& family) {
   Series series;
   series.label = family.label;
   series.style = family_style(family.model, family.integrator == usual_integrator);
+  if (family.whole) series.style.point = 11;
   if (family.hollow) {
     series.style.point -= 1;
     series.style.dash = "(2,4)";
@@ -57,7 +65,7 @@ void add_family(Panel& panel, const JsonEntry& bench, const Family& family) {
   }
   for (const JsonEntry& press : array_if_any(bench, "press")) {
     if (text_if_any(press, "model") != family.model || integrator_of(press) != family.integrator ||
-        number_if_any(press, "threads") != family.threads)
+        number_if_any(press, "threads") != family.threads || is_whole(press) != family.whole)
       continue;
     const double error = 100.0 * number_if_any(press, family.error_key), pace = pace_of(press);
     if (!std::isfinite(error) || !std::isfinite(pace)) continue;
@@ -79,6 +87,8 @@ void add_lattices(Panel& panel, const JsonEntry& bench) {
   add_family(panel, bench, {"network, scaled masses", "network", scaled, law_a, 1.0, false, above});
   add_family(panel, bench,
              {"… on two cores (wall clock)", "network", scaled, law_a, 2.0, true, 0.0});
+  add_family(panel, bench,
+             {"… the whole tip (one core)", "network", scaled, law_a, 1.0, true, 0.0, true});
   add_family(panel, bench, {"hookean", "hookean", usual, law_a, 1.0, false, above});
   add_family(panel, bench, {"… against small strain", "hookean", usual, small, 1.0, true, 0.0});
   add_family(panel, bench,
@@ -132,6 +142,11 @@ Range roomy(const std::vector<Series>& all, bool vertical, double include) {
 }
 
 }  // namespace
+
+double parts_of(const JsonEntry& press) {
+  const double parts = number_if_any(press, "parts");
+  return std::isfinite(parts) ? parts : 1.0;
+}
 
 Figure pace_figure(const JsonEntry& bench) {
   Panel panel;
@@ -227,9 +242,9 @@ Figure press_growth_figure(const JsonEntry& bench) {
       series.style = family_style(model, usual);
       for (const JsonEntry& press : array_if_any(bench, "press")) {
         if (text_if_any(press, "model") != model || integrator_of(press) != integrator ||
-            number_if_any(press, "threads") != 1.0)
+            number_if_any(press, "threads") != 1.0 || is_whole(press))
           continue;
-        series.x.push_back(number_if_any(press, "particles"));
+        series.x.push_back(number_if_any(press, "particles") / parts_of(press));
         series.y.push_back(number_if_any(press, "ns_per_mass_step"));
       }
       if (!series.x.empty()) panel.series.push_back(std::move(series));

@@ -6,6 +6,9 @@
 
 namespace fingertip::studies::reporting {
 
+/// Mirror images of a press's tip of which one was computed; runs of earlier versions knew none.
+double parts_of(const JsonEntry& press);
+
 /// Error of the force against the real-time factor: every way of simulating the press.
 Figure pace_figure(const JsonEntry& bench);
 

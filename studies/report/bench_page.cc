@@ -37,6 +37,7 @@ Table press_table(const JsonEntry& bench) {
   Table table;
   table.header = {plain("Lattice", "strain, steps"),
                   plain("a", "masses"),
+                  plain("Of the tip"),
                   plain("Threads"),
                   plain("Real-time factor", "processor time"),
                   plain("… in edge lists"),
@@ -57,6 +58,7 @@ Table press_table(const JsonEntry& bench) {
         {plain(text_if_any(press, "model"), text_if_any(press, "kinematics") + " strain" +
                                                 (is_scaled(press) ? ", scaled masses" : "")),
          plain(spacing_text(press), count(number_if_any(press, "particles"))),
+         plain(parts_of(press) == 1.0 ? "all" : "1/" + count(parts_of(press))),
          plain(count(number_if_any(press, "threads"))),
          plain(number(number_if_any(press, "real_time_factor"), 3),
                std::isfinite(processor) ? number(processor, 3) : ""),

@@ -25,6 +25,10 @@ std::vector<Quantity> size_quantities() {
   using S = PressSummary;
   return {{"Spacing", "", [](const S& s) { return length(s.spacing); }},
           {"Particles", "", [](const S& s) { return count(double(s.census.particles)); }},
+          {"Computed", "of mirror images one",
+           [](const S& s) {
+             return s.census.sectors > 1 ? fmt::format("1/{}", s.census.sectors) : "all";
+           }},
           {"Expected V/a³", "", [](const S& s) { return count(s.census.expected_particles); }},
           {"Springs", "", [](const S& s) { return count(double(s.census.springs)); }},
           {"Cells", "", [](const S& s) { return count(double(s.census.cells)); }},

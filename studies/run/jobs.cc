@@ -130,7 +130,7 @@ ordered_json inputs_of(const lattice::PressSetup& setup) {
   if (!moves) drop(inputs["rubber"], {"density", "retardation_time"});
   if (!moves)
     drop(inputs, {"controller", "duration", "gravity", "integrator", "time_step", "tolerance",
-                  "energy_bound"});
+                  "energy_bound", "symmetry"});
   return inputs;
 }
 

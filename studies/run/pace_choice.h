@@ -11,7 +11,7 @@ namespace fingertip::studies {
 /// A press that may be taken, as coarse or fine as it is.
 struct PaceCandidate {
   double spacing = 0.0;    ///< [m]
-  double particles = 0.0;  ///< V/a³
+  double particles = 0.0;  ///< V/a³, of the part of the tip that is computed
   lattice::Integrator integrator = lattice::Integrator::symplectic_euler;
   double step = 0.0;  ///< [s]
   int threads = 1;

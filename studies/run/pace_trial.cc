@@ -8,6 +8,7 @@
 
 #include "calibration/words.h"
 #include "lattice/press/press.h"
+#include "lattice/press/press_task.h"
 #include "meshes/files.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/pace.h"
@@ -35,8 +36,10 @@ double seconds_until(Moment moment) {
   return std::chrono::duration<double>(moment - std::chrono::steady_clock::now()).count();
 }
 
-/// Prescribed, so that neither a controller's answers nor its trouble with another speed are in it.
+/// Prescribed, so that neither a controller's answers nor its trouble with another speed are in it;
+/// of the part of the tip that the press itself computes.
 PressSetup trial_of(PressSetup setup) {
+  setup.symmetry = lattice::moving_sectors(setup) > 1;
   meshes::PressProtocol& protocol = setup.protocol;
   protocol.mode = meshes::DriveMode::quasi_static;
   for (const meshes::PressStage& stage : protocol.program)

@@ -7,6 +7,7 @@
 #include "lattice/dynamics/thread_choice.h"
 #include "lattice/press/press.h"
 #include "lattice/press/press_deviation.h"
+#include "lattice/press/press_task.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/fields_json.h"
 #include "source_hash.h"
@@ -28,8 +29,10 @@ using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-CensusEntry census_of(const lattice::LatticeCensus& census) {
-  return {.particles = long(census.particles),
+CensusEntry census_of(const lattice::PressOutcome& outcome) {
+  const lattice::LatticeCensus& census = outcome.census;
+  return {.sectors = outcome.sectors,
+          .particles = long(census.particles),
           .expected_particles = census.expected_particles,
           .springs = long(census.springs),
           .cells = long(census.cells),
@@ -68,7 +71,7 @@ PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOu
       moduli_entry(calibration::homogenised_moduli(setup.lattice.constants, setup.lattice.spacing));
   summary.step = {step.step,        step.smallest,       step.omega0,
                   step.paper_bound, step.spectral_bound, step.explanation};
-  summary.census = census_of(outcome.census);
+  summary.census = census_of(outcome);
   summary.steps = {outcome.steps.accepted, outcome.steps.rejected, outcome.steps.forced,
                    outcome.force_evaluations};
   summary.simulated_time = outcome.simulated_time;
@@ -124,11 +127,10 @@ class PressJournal {
 
 void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path& folder,
                    const JobContext& context) {
-  setup.threads = setup.threads > 0
-                      ? context.threads
-                      : lattice::fastest_threads(
-                            meshes::expected_particle_count(setup.geometry, setup.lattice.spacing),
-                            context.threads);
+  const double particles = meshes::expected_particle_count(setup.geometry, setup.lattice.spacing) /
+                           lattice::moving_sectors(setup);
+  setup.threads =
+      setup.threads > 0 ? context.threads : lattice::fastest_threads(particles, context.threads);
   PressJournal recorder(setup, folder, context);
   std::optional<Movie> movie;
   if (movie_pictures > 0) movie.emplace(folder / "movie", setup.geometry);
@@ -160,8 +162,9 @@ void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path
 
 double press_weight(const lattice::PressSetup& setup) {
   const double finer = setup.geometry.tip_radius / (12.0 * setup.lattice.spacing);
-  return setup.protocol.mode == meshes::DriveMode::equilibrium ? 2.0 * std::pow(finer, 6)
-                                                               : 10.0 * std::pow(finer, 4);
+  return setup.protocol.mode == meshes::DriveMode::equilibrium
+             ? 2.0 * std::pow(finer, 6)
+             : 10.0 * std::pow(finer, 4) / lattice::moving_sectors(setup);
 }
 
 Job press_job(const lattice::PressSetup& setup, int movie_pictures) {

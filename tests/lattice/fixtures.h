@@ -86,6 +86,13 @@ inline lattice::State random_state(const lattice::LatticeModel& model, double am
   return state;
 }
 
+/// Leaves out what mirror planes hold of a part of a tip.
+inline lattice::VectorField held(const lattice::LatticeModel& model, lattice::VectorField field) {
+  for (std::size_t c = 0; c < 3; ++c)
+    for (const std::uint32_t p : model.held[c]) field.component[c][p] = 0.0;
+  return field;
+}
+
 /// -df/du (`rates` false) or -df/dv about a state, by central differences of the plain forces;
 /// exact for linear ones. Degree of freedom 3 p + c is axis c of the p-th entry of model.particles.
 inline Eigen::MatrixXd tangent(const lattice::LatticeModel& model, lattice::State state,

@@ -275,7 +275,7 @@ const World worlds[] = {
              // The rods are driven as the grip says; it takes symplectic Euler alone.
              {"obstacle.", "press.mode", "press.tilt", "press.lateral", "press.depth",
               "press.speed", "press.samples", "press.program", "press.gravity", "press.duration",
-              "run.integrator", "run.tolerance", "run.energy_bound"}})},
+              "run.integrator", "run.tolerance", "run.energy_bound", "run.symmetry"}})},
     {"continuum",
      {"press.lateral=1 mm"},
      continuum,

@@ -25,7 +25,7 @@ double EnergyBalance::dissipation(const State& state) {
   for (const std::uint32_t i : model.particles) {
     sum += state.velocity.at(i).dot(undamped_.at(i) - force_.at(i));
   }
-  return sum;
+  return model.sector.count() * sum;
 }
 
 EnergyInstant EnergyBalance::measure(bool prescribed) {
@@ -44,11 +44,12 @@ EnergyInstant EnergyBalance::measure(bool prescribed) {
   now.spin = rod.angular_velocity();
   const Vector3& gravity = finger_->gravity();
   if (!gravity.isZero(0.0)) {
-    Vector3 moment =
-        prescribed ? Vector3(Vector3::Zero()) : Vector3(rod.body().mass * rod.centre());
+    Vector3 moment = Vector3::Zero();
     for (const std::uint32_t i : model.particles) {
       moment += model.mass[i] * (model.grid.axes * state.displacement.at(i));
     }
+    moment = model.sector.whole(moment);
+    if (!prescribed) moment += rod.body().mass * rod.centre();
     now.weight = -gravity.dot(moment);
   }
   const Wrench& by_plane = trial.surfaces.plane;

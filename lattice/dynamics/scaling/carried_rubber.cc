@@ -92,7 +92,8 @@ CarriedRubber::Sums CarriedRubber::sums(const MultigridFields::Field& accelerati
   std::array<double, 16> total{};
   for (const auto& part : scratch.partial)
     for (std::size_t k = 0; k < total.size(); ++k) total[k] += part[k];
-  return {Vector6(total.data()), body_inertia(total[6], &total[7], &total[10])};
+  return {model_->sector.whole_on_grid(Vector6(total.data())),
+          model_->sector.whole_on_grid(body_inertia(total[6], &total[7], &total[10]))};
 }
 
 CarriedRubber::Moved CarriedRubber::move(const Vector6& motion, const Restraint* restraint,
@@ -126,13 +127,16 @@ CarriedRubber::Moved CarriedRubber::move(const Vector6& motion, const Restraint*
       }
     }
   });
-  Moved moved;
+  Vector6 momentum = Vector6::Zero(), kept = Vector6::Zero();
+  double kinetic_energy = 0.0;
   for (const auto& part : scratch.partial) {
-    moved.momentum += Vector3(part.data());
-    moved.kinetic_energy += 0.5 * part[3];
-    if (restraint != nullptr) moved.kept += Vector6(part.data() + 4);
+    momentum.head<3>() += Vector3(part.data());
+    kinetic_energy += 0.5 * part[3];
+    if (restraint != nullptr) kept += Vector6(part.data() + 4);
   }
-  return moved;
+  const Sector& sector = model_->sector;
+  return {sector.whole_on_grid(momentum).head<3>(), sector.count() * kinetic_energy,
+          sector.whole_on_grid(kept)};
 }
 
 }  // namespace fingertip::lattice

@@ -17,8 +17,8 @@ namespace fingertip::lattice {
 /// (force, moment about the origin) of a force [N] that acts at x [m].
 Vector6 acting_at(const meshes::Vector3& x, const meshes::Vector3& force);
 
-/// Sums over the particles where they are now, about the origin, along the grid's axes. A rigid
-/// motion (a, w) accelerates the point x by a + w x x.
+/// Sums over the whole tip's particles where they are now, about the origin, along the grid's axes.
+/// A rigid motion (a, w) accelerates the point x by a + w x x.
 class CarriedRubber {
  public:
   explicit CarriedRubber(const LatticeModel& model);

@@ -52,6 +52,7 @@ GridLevel particles(const LatticeModel& model) {
   level.is_node = model.is_particle;
   level.is_node.resize(stored_points(level.size), 0);
   level.blocks = model.blocks;
+  level.held = model.held;
   return level;
 }
 
@@ -69,6 +70,11 @@ GridLevel coarsened(const GridLevel& fine) {
     }
   }
   coarse.blocks = runs(coarse.is_node);
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (fine.held[d].empty()) continue;
+    for (std::uint32_t p = 0; p < coarse.is_node.size(); ++p)
+      if (coarse.is_node[p] != 0 && place(coarse, p)[d] == 1) coarse.held[d].push_back(p);
+  }
   return coarse;
 }
 

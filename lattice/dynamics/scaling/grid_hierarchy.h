@@ -19,6 +19,9 @@ struct GridLevel {
   std::array<std::ptrdiff_t, 3> next{};  ///< to the next point along x, y, z
   std::vector<std::uint8_t> is_node;     ///< per point: 1 at a particle, or at what carries one
   std::vector<std::uint32_t> blocks;     ///< first points of runs of `lanes` that cover the nodes
+  /// Per axis: nodes on the mirror plane across it, at index 1 of every grid; they do not move
+  /// along it. The coarser grid's are interpolated to it alone.
+  std::array<std::vector<std::uint32_t>, 3> held;
   /// Per block: where the up to four rows of the sheet start from which its points are interpolated
   /// with equal weights (some of them the same).
   std::vector<std::array<std::uint32_t, 4>> parents;

@@ -168,6 +168,7 @@ void MassScaling::find_inertia(const State& state, const PlaneHold& plane,
     turned += (tie.along - tie.tangential) * tilt * tilt.transpose();
   }
   restraint.inertia.bottomRightCorner<3, 3>() += turned;
+  restraint.inertia = ground_->model->sector.whole_on_grid(restraint.inertia);
 }
 
 /// The forces as they are, D a, in the frame of a rod that accelerates as expected.
@@ -195,14 +196,15 @@ Reactions MassScaling::accelerate(const State& state, const OuterLoads& outer,
   set_load(expected, state, force, outer.plane, team, finest);
   grids_.solve(outer.plane.normal, team, fields.grids);
 
-  Reactions reactions;
-  reactions.plane << outer.plane.wrench.force, outer.plane.wrench.torque;
+  Vector6 taken = Vector6::Zero();
   for (const ContactInertia& tie : outer.plane.ties) {
     const std::size_t i = tie.particle;
     const Vector3 change = vector_at(finest.solution, i) - inverse_mass[i] * force.at(i);
-    reactions.plane -=
-        acting_at(tie.rest + state.displacement.at(i), outer.plane.taken(tie, change));
+    taken += acting_at(tie.rest + state.displacement.at(i), outer.plane.taken(tie, change));
   }
+  Reactions reactions;
+  reactions.plane << outer.plane.wrench.force, outer.plane.wrench.torque;
+  reactions.plane -= ground_->model->sector.whole_on_grid(taken);
   const CarriedRubber::Sums sums = rubber.sums(finest.solution, state, team, fields.carried);
   const Vector6 on_rubber =
       reactions.plane - sums.taken + sums.inertia.leftCols<3>() * outer.gravity;

@@ -83,6 +83,8 @@ struct Reactions {
 /// missing in the balance of momentum: without a plane momentum and angular momentum are those of
 /// the outer forces to round-off whatever B, and what does not deform moves as its mass does.
 ///
+/// Of a part of a tip (LatticeModel::sector) all that acts on rod and plane is the whole's.
+///
 /// (Two ways that are stable for less: ties that act on the rod by themselves, with the rubber not
 /// carried along, up to m/M = 1/3, m what they feel of the rubber: for stiff ties a deviation p
 /// goes on as p' = -2 r p - q, q' = -r p, r = m/M. And rubber that follows the rod rigidly up to

@@ -1,6 +1,7 @@
 #include "lattice/dynamics/scaling/multigrid.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "lattice/kernels/by_width.h"
 #include "lattice/kernels/stencil.h"
@@ -131,6 +132,8 @@ void Multigrid::finish(std::size_t level, Team& team) {
   team.split(grid.blocks.size(), sweeps_at_once, [&](std::size_t from, std::size_t to) {
     loops().find_relaxation(a, grid.blocks.data() + from, to - from);
   });
+  for (std::size_t c = 0; c < 3; ++c)
+    for (const std::uint32_t p : grid.held[c]) matrix.relaxation[c][p] = 0.0F;
 }
 
 /// Of the two points below and above on an axis, which may be the same, each gets half.
@@ -206,8 +209,14 @@ class Multigrid::Cycle {
   std::array<Single, 3> relaxed(const Matrix& matrix, const PointTie& tie,
                                 const std::array<Single, 3>& residual) const {
     const auto share = at(matrix.relaxation, tie.point);
-    const Single rubber = 1.0F / std::min({share[0], share[1], share[2]});
-    return product(residual, 1.0F / (rubber + tie.along), 1.0F / (rubber + tie.tangential));
+    Single least = std::numeric_limits<Single>::max();
+    for (const Single free : share)
+      if (free > 0.0F) least = std::min(least, free);
+    const Single rubber = 1.0F / least;
+    auto step = product(residual, 1.0F / (rubber + tie.along), 1.0F / (rubber + tie.tangential));
+    for (std::size_t c = 0; c < 3; ++c)
+      if (share[c] == 0.0F) step[c] = 0.0F;
+    return step;
   }
 
   /// along n nᵀ u + tangential (1 - n nᵀ) u
@@ -250,8 +259,10 @@ class Multigrid::Cycle {
       const auto before = at(fields.solution, tie.point), plain = at(fields.residual, tie.point);
       const auto taken = product(before, tie.along, tie.tangential);
       std::array<Single, 3> residual{};
-      for (std::size_t c = 0; c < 3; ++c)
-        residual[c] = (plain[c] - before[c]) / matrix.relaxation[c][tie.point] - taken[c];
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Single relaxation = matrix.relaxation[c][tie.point];
+        if (relaxation > 0.0F) residual[c] = (plain[c] - before[c]) / relaxation - taken[c];
+      }
       const auto step = relaxed(matrix, tie, residual);
       put(fields.residual, tie.point,
           {before[0] + step[0], before[1] + step[1], before[2] + step[2]});

@@ -45,7 +45,9 @@ struct MultigridFields {
 /// R A)(1 - P Ac⁻¹ Pᵀ A)(1 - R A), whose middle factor is not negative in the product <., A .>, and
 /// neither is the whole. Trottenberg, Oosterlee & Schueller, Multigrid (2001), has the cycle.
 ///
-/// What planes add is told with every solve; coarser grids get their shares of it.
+/// What planes add is told with every solve; coarser grids get their shares of it. Where a mirror
+/// plane holds a component its relaxation is 0 on every grid, and so is the solution: coarse points
+/// on the plane alone are interpolated to it, and what it passes on goes to these.
 class Multigrid {
  public:
   /// Of zero matrices.
@@ -66,7 +68,7 @@ class Multigrid {
   struct Matrix {
     EdgeInertia edge;
     std::vector<Single> inertia;                 ///< D
-    Field relaxation;                            ///< 1/(D + 13/10 of S's diagonal)
+    Field relaxation;                            ///< 1/(D + 13/10 of S's diagonal); 0: held
     std::array<std::vector<Single>, 10> sheets;  ///< scratch: of the nine kinds of edges, and D
   };
   class Cycle;

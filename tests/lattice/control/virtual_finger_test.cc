@@ -50,6 +50,35 @@ TEST(VirtualFinger, GoesOnFromASavedStateWithTheSameBits) {
   }
 }
 
+/// Of a wrench and a rod's motion what is its own mirror image is as of the whole tip, the rest
+/// held.
+TEST(VirtualFinger, OfAPartKeepsToItsMirrorPlanes) {
+  lattice::FingerSetup setup = coarse_finger(0.1e-3);
+  setup.time_step = 5e-5;
+  const Wrench all{Vector3(0.01, 0.02, 0.3), Vector3(2e-5, 1e-5, 3e-5)};
+  const auto pushed = [&](int sectors, const Wrench& wrench) {
+    setup.sectors = sectors;
+    VirtualFinger finger(setup);
+    finger.write(wrench);
+    finger.do_step(0.025);
+    EXPECT_GT(finger.finger().touching(), 0);
+    EXPECT_LT(finger.finger().momentum_defect(), 1e-12 * finger.finger().largest_impulse());
+    return finger.read();
+  };
+  const Wrench of_half{Vector3(0.01, 0.0, 0.3), Vector3(0.0, 1e-5, 0.0)},
+      of_quarter{Vector3(0.0, 0.0, 0.3), Vector3::Zero()};
+  for (const auto& [sectors, even] : {std::pair(2, of_half), std::pair(4, of_quarter)}) {
+    const lattice::Measurement part = pushed(sectors, all), whole = pushed(1, even);
+    SCOPED_TRACE(sectors);
+    EXPECT_GT((whole.pose.position - setup.geometry.rod_endpoint()).norm(), 1e-4);
+    EXPECT_LT((part.pose.position - whole.pose.position).norm(), 1e-12);
+    EXPECT_LT((part.pose.orientation.inverse() * whole.pose.orientation).vec().norm(), 1e-10);
+    EXPECT_LT((part.wrench.force - whole.wrench.force).norm(), 1e-9 * whole.wrench.force.norm());
+    EXPECT_LT((part.wrench.torque - whole.wrench.torque).norm(), 1e-9 * 0.01 * 0.3);
+    EXPECT_EQ(part.contact->touching, whole.contact->touching);
+  }
+}
+
 TEST(VirtualFinger, ResetIsAsBuilt) {
   const lattice::FingerSetup setup = coarse_finger(0.1e-3);
   VirtualFinger finger(setup), fresh(setup);

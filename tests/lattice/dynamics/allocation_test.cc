@@ -135,12 +135,16 @@ TEST(Allocation, NoneInStepsWithScaledMasses) {
 }
 
 TEST(Allocation, NoneInStepsOfAFreeRodThatCarriesItsRubber) {
-  for (const int threads : {1, 2}) {
-    lattice::VirtualFinger finger(pushed_finger(
-        {ModelKind::network, Kinematics::finite, ContactMode::stick, Integrator::mass_scaled},
-        threads));
-    finger.write(lattice::Wrench{Vector3(2e-3, 1e-3, 0.04), Vector3(0.0, 1e-5, 0.0)});
-    EXPECT_EQ(allocations_until(finger, 0.05), 0) << threads << " threads";
-    EXPECT_GT(finger.finger().touching(), 0);
+  for (const int sectors : {1, 4}) {
+    for (const int threads : {1, 2}) {
+      lattice::FingerSetup setup = pushed_finger(
+          {ModelKind::network, Kinematics::finite, ContactMode::stick, Integrator::mass_scaled},
+          threads);
+      setup.sectors = sectors;
+      lattice::VirtualFinger finger(setup);
+      finger.write(lattice::Wrench{Vector3(2e-3, 1e-3, 0.04), Vector3(0.0, 1e-5, 0.0)});
+      EXPECT_EQ(allocations_until(finger, 0.05), 0) << sectors << " parts, " << threads;
+      EXPECT_GT(finger.finger().touching(), 0);
+    }
   }
 }

@@ -242,7 +242,7 @@ TEST(AdaptiveSteps, ComeToTheSameBitsFromASavedState) {
     setup.contact = meshes::ContactMode::stick;
     setup.energy_bound = 1e-6;
     VirtualFinger finger(setup);
-    finger.write(lattice::Wrench{{0.0, 0.0, 0.5}, {}});
+    finger.write(lattice::Wrench{Vector3(0.0, 0.0, 0.5), Vector3::Zero()});
     finger.do_step(6.0 * period);
     const VirtualFinger::Snapshot snapshot = finger.save();
     finger.do_step(1.5 * period);

@@ -85,7 +85,8 @@ TEST(PressPictures, SnapshotsAreBeforeContactAtTouchAtHalfDepthAndAtTheEnd) {
   ASSERT_EQ(outcome.snapshots.size(), 4u);
   const auto& [before, touch, half, full] = std::tie(outcome.snapshots[0], outcome.snapshots[1],
                                                      outcome.snapshots[2], outcome.snapshots[3]);
-  const double step = 0.05 * 3e-4;  // how far the rod gets in a step, at most [m]
+  // How far the rod gets, at most, in the step that begins at a depth and the one before [m].
+  const double step = 2.0 * setup.protocol.speed * outcome.step.step;
   EXPECT_NEAR(before.indentation, -1e-3, step);
   EXPECT_EQ(std::ranges::count(before.held, 1), 0);
   EXPECT_NEAR(touch.time, outcome.first_touch_time, 1e-12);

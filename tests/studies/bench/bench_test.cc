@@ -73,7 +73,7 @@ TEST(Bench, TheSmallestRunKeepsTheContractAndMakesAPage) {
   const ordered_json bench = bench_in(folder, studies::smallest_plan());
   expect_contract(bench);
   EXPECT_EQ(bench.at("kernels").empty(), !kernels_are_built());
-  ASSERT_EQ(bench.at("press").size(), 2u);
+  ASSERT_EQ(bench.at("press").size(), 3u);
   const ordered_json &press = bench.at("press")[0], &scaled = bench.at("press")[1];
   EXPECT_EQ(press.at("integrator"), "symplectic-euler");
   EXPECT_EQ(scaled.at("integrator"), "mass-scaled");
@@ -81,6 +81,10 @@ TEST(Bench, TheSmallestRunKeepsTheContractAndMakesAPage) {
   EXPECT_LT(scaled.at("steps").get<int>(), press.at("steps").get<int>());
   EXPECT_GT(scaled.at("static_error").get<double>(), 0.0);
   EXPECT_EQ(scaled.at("static_error"), press.at("static_error"));
+  const ordered_json& whole = bench.at("press")[2];
+  EXPECT_EQ(scaled.at("parts"), 4);
+  EXPECT_EQ(whole.at("parts"), 1);
+  EXPECT_EQ(whole.at("particles"), scaled.at("particles"));
   EXPECT_EQ(press.at("model"), "network");
   EXPECT_EQ(press.at("kinematics"), "finite");
   EXPECT_EQ(press.at("mode"), "pid");

@@ -51,6 +51,7 @@ lattice::PressSetup press_with(const lattice::ControllerFactory& factory) {
   setup.protocol.samples = {0.4e-3};
   setup.make_controller = factory;
   setup.threads = 1;
+  setup.symmetry = false;  // as under controllers of others
   return setup;
 }
 
