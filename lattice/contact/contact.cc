@@ -20,7 +20,11 @@ PlaneContact::PlaneContact(const LatticeModel& model, const Plane& plane, const 
   }
 }
 
-/// The published lattice is aligned with the tip's frame.
+/// Of a particle, in world axes.
+Vector3 PlaneContact::world(const VectorField& field, std::size_t particle) const {
+  return model_->grid.axes * field.at(particle);
+}
+
 Vector3 PlaneContact::place(const Candidate& c, const Vector3& displacement) const {
   return c.rest + displacement;
 }
@@ -44,10 +48,10 @@ Wrench PlaneContact::resolve(State& state, const VectorField& force, const Plane
     Wrench impulse;
     if (c.held) {
       impulse = hold(c, state, force, sweep);
-    } else if (sweep.end.gap(place(c, state.displacement.at(c.particle))) < 0.0) {
+    } else if (sweep.end.gap(place(c, world(state.displacement, c.particle))) < 0.0) {
       impulse = touch(c, state, sweep);
     } else {
-      c.displacement = state.displacement.at(c.particle);
+      c.displacement = world(state.displacement, c.particle);
       continue;
     }
     sum.force += impulse.force;
@@ -76,8 +80,9 @@ bool PlaneContact::gives(Candidate& c, const Vector3& sticking, const Vector3& n
 
 void PlaneContact::set_state(Candidate& c, State& state, const Vector3& displacement,
                              const Vector3& velocity) {
-  state.displacement.set(c.particle, displacement);
-  state.velocity.set(c.particle, velocity);
+  const Eigen::Matrix3d to_grid = model_->grid.axes.transpose();
+  state.displacement.set(c.particle, to_grid * displacement);
+  state.velocity.set(c.particle, to_grid * velocity);
   c.displacement = displacement;
   c.velocity = velocity;
 }
@@ -89,10 +94,10 @@ Wrench PlaneContact::hold(Candidate& c, State& state, const VectorField& force,
   const Vector3 fixed = sweep.start.fixed(start);
   const Vector3 carried = sweep.end.place(fixed) - sweep.start.place(fixed);
   const Vector3 with_plane = carried / sweep.step;
-  const Vector3 sticking = mass * (with_plane - c.velocity) - sweep.step * force.at(c.particle);
+  const Vector3 sticking = mass * (with_plane - c.velocity) - sweep.step * world(force, c.particle);
   if (law_.mode != ContactMode::stick && normal.dot(sticking) < 0.0) {  // the plane does not pull
     c.held = c.sliding = false;
-    c.displacement = state.displacement.at(c.particle);
+    c.displacement = world(state.displacement, c.particle);
     anchored_ -= c.images;
     return {};
   }
@@ -101,17 +106,18 @@ Wrench PlaneContact::hold(Candidate& c, State& state, const VectorField& force,
     set_state(c, state, c.displacement + carried, with_plane);
     return {given, start.cross(given)};
   }
-  Vector3 moved = state.displacement.at(c.particle) + sweep.step / mass * given;
+  Vector3 moved = world(state.displacement, c.particle) + sweep.step / mass * given;
   const Vector3 back = -sweep.end.gap(place(c, moved)) * normal;  // on what turns or is curved
   moved += back;
   given += mass / sweep.step * back;
-  set_state(c, state, moved, state.velocity.at(c.particle) + given / mass);
+  set_state(c, state, moved, world(state.velocity, c.particle) + given / mass);
   return {given, start.cross(given)};
 }
 
 Wrench PlaneContact::touch(Candidate& c, State& state, const Sweep& sweep) {
   const double mass = model_->mass[c.particle];
-  const Vector3 moved = state.displacement.at(c.particle), velocity = state.velocity.at(c.particle);
+  const Vector3 moved = world(state.displacement, c.particle),
+                velocity = world(state.velocity, c.particle);
   const double before = std::max(sweep.start.gap(place(c, c.displacement)), 0.0);
   const double after = sweep.end.gap(place(c, moved));
   const double fraction = std::clamp(before / (before - after), 0.0, 1.0);

@@ -61,6 +61,7 @@ class PlaneContact {
     double step;  ///< [s]
   };
 
+  meshes::Vector3 world(const VectorField& field, std::size_t particle) const;
   meshes::Vector3 place(const Candidate& c, const meshes::Vector3& displacement) const;
   Wrench hold(Candidate& c, State& state, const VectorField& force, const Sweep& sweep);
   Wrench touch(Candidate& c, State& state, const Sweep& sweep);

@@ -52,19 +52,6 @@ void check_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   if (!found.empty()) throw meshes::InvalidInput(found);
 }
 
-/// The grid, its directions renamed in turn so that x is the one nearest the finger's axis: rows of
-/// whole cells are longest there, and forces are computed row by row (cell_lattice.h).
-CubicGrid grid_of(const Geometry& geometry, const LatticeSettings& settings, int sectors) {
-  Eigen::Index nearest = 0;
-  settings.axes.row(2).cwiseAbs().maxCoeff(&nearest);
-  Eigen::Matrix3d order = Eigen::Matrix3d::Zero();
-  for (Eigen::Index d = 0; d < 3; ++d) order((nearest + d) % 3, d) = 1.0;
-  CubicGrid grid = meshes::covering_grid(
-      geometry, settings.spacing, order.transpose() * settings.offset, 1, settings.axes * order);
-  Sector(sectors, grid.axes).crop(grid);
-  return grid;
-}
-
 /// Leaves the cells of the sector alone, but for those in the layer before its mirror planes.
 void keep_sector(const Sector& sector, std::vector<CutCell>& cells) {
   std::erase_if(cells, [&](const CutCell& cell) {
@@ -95,7 +82,7 @@ std::vector<EmbeddedPoint> embedded_surface(const GridCells& cells, const Geomet
 CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSettings& settings,
                int sectors, int spare_rows) {
   check_tip(geometry, rubber, settings, sectors);
-  CubicGrid grid = grid_of(geometry, settings, sectors);
+  CubicGrid grid = tip_grid(geometry, settings, sectors);
   grid.size[0] += spare_rows;
   std::vector<CutCell> cut = meshes::cut_cells(geometry, grid, smallest_fraction);
   keep_sector(Sector(sectors, grid.axes), cut);
@@ -112,6 +99,18 @@ CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
                        sectors, stiffness * settings.contact_stiffness);
   if (tip.formulation.material.large_strain()) tip.contact = layer_law(rubber.energy, grid.spacing);
   return tip;
+}
+
+// x is nearest the finger's axis: rows are longest there, and forces are computed row by row.
+CubicGrid tip_grid(const Geometry& geometry, const LatticeSettings& settings, int sectors) {
+  Eigen::Index nearest = 0;
+  settings.axes.row(2).cwiseAbs().maxCoeff(&nearest);
+  Eigen::Matrix3d order = Eigen::Matrix3d::Zero();
+  for (Eigen::Index d = 0; d < 3; ++d) order((nearest + d) % 3, d) = 1.0;
+  CubicGrid grid = meshes::covering_grid(
+      geometry, settings.spacing, order.transpose() * settings.offset, 1, settings.axes * order);
+  Sector(sectors, grid.axes).crop(grid);
+  return grid;
 }
 
 std::vector<Violation> rotation_violations(const Eigen::Matrix3d& axes) {

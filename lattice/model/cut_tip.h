@@ -43,6 +43,11 @@ struct CutTip {
 CutTip cut_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
                const LatticeSettings& settings, int sectors, int spare_rows = 0);
 
+/// The grid of a tip or of one of `sectors` parts of it, which CutTip describes, for any model.
+/// Throws InvalidInput for a spacing, offset or rotation out of range.
+meshes::CubicGrid tip_grid(const meshes::Geometry& geometry, const LatticeSettings& settings,
+                           int sectors);
+
 /// Empty if `axes` is a rotation.
 std::vector<meshes::Violation> rotation_violations(const Eigen::Matrix3d& axes);
 

@@ -251,10 +251,11 @@ LatticeModel build_published_tip(const Geometry& geometry, const meshes::Rubber&
   }
   const auto violations = sector_violations(geometry, settings, sectors);
   if (!violations.empty()) throw meshes::InvalidInput(violations);
-  CubicGrid grid = meshes::covering_grid(geometry, settings.spacing, settings.offset, 1);
+  LatticeSettings straight = settings;
+  straight.axes.setIdentity();
+  CubicGrid grid = tip_grid(geometry, straight, sectors);
   grid.size[0] += row_margin;
   const Sector sector(sectors, grid.axes);
-  sector.crop(grid);
   std::vector<std::uint8_t> is_particle = meshes::sample_particles(geometry, grid);
   leave_layer_before(grid, sector, is_particle);
   LatticeModel model =

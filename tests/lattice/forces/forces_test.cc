@@ -190,8 +190,9 @@ TEST(Ligaments, ForcesAreMinusTheGradientWithRespectToParticlesAndRod) {
   }
   Vector3 sum = wrench.force, moment = wrench.torque;
   for (const std::size_t i : model.particles) {
-    sum += force.at(i);
-    moment += (lattice::position(model, state, i) - pivot).cross(force.at(i));
+    const Vector3 on_particle = model.grid.axes * force.at(i);
+    sum += on_particle;
+    moment += (lattice::position(model, state, i) - pivot).cross(on_particle);
   }
   EXPECT_LT(sum.norm(), 1e-13 * wrench.force.norm());
   EXPECT_LT(moment.norm(), 1e-13 * wrench.torque.norm());
@@ -205,8 +206,9 @@ TEST(Ligaments, RigidMotionOfRodAndTipIsFreeOfForce) {
   State state(model);
   for (const std::size_t i : model.particles) {
     const Vector3 x = rod.pose() * model.rest_position(i);
-    state.displacement.set(i, x - model.rest_position(i));
-    state.velocity.set(i, rod.velocity_at(x));
+    const Eigen::Matrix3d to_grid = model.grid.axes.transpose();
+    state.displacement.set(i, to_grid * (x - model.rest_position(i)));
+    state.velocity.set(i, to_grid * rod.velocity_at(x));
   }
   VectorField force(model.points());
   lattice::add_ligament_forces(model, state, rod, force);
