@@ -181,6 +181,8 @@ void print_control(const PressSummary& summary) {
   if (!std::isnan(tilt))
     text +=
         fmt::format(" tilt within {} degrees", tilt < 1e-9 ? "1e-9" : fmt::format("{:.2g}", tilt));
+  else if (summary.census.sectors > 1)
+    text += " no tilt on mirror planes (run.symmetry)";
   fmt::print("{}\n", text);
 }
 
@@ -224,7 +226,7 @@ void print_press_facts(const std::filesystem::path& folder, bool reused) {
   const long parts = summary.census.sectors;
   fmt::print("real-time factor {:.2f} (simulated over wall time, threads: {}{}{})\n",
              summary.real_time_factor, summary.threads,
-             parts > 1 ? fmt::format("; one of {} parts that are mirror images", parts) : "",
+             parts > 1 ? fmt::format("; 1/{} of the tip computed, forces are of all", parts) : "",
              reused ? "; of the run that computed it" : "");
   if (summary.controlled()) print_control(summary);
 }

@@ -214,7 +214,8 @@ Table tracking_table(const std::vector<MovingPress>& presses, bool forces) {
         {plain(press.label, press.status == "finished" || press.status == "ok" ? "" : press.status),
          plain(number(shown_units().speed(press.approach_speed()))),
          plain(shown(touch_time(press), "", 4)), deviation(tracking.speed_deviation),
-         deviation(tracking.speed_deviation_at_touch), plain(degrees(tracking.tilt_deg)),
+         deviation(tracking.speed_deviation_at_touch),
+         plain(std::isnan(tracking.tilt_deg) ? "–" : degrees(tracking.tilt_deg)),
          plain(number(shown_units().force(peak)), si_note(peak, "N"))});
     if (!forces) continue;
     const double overshoot = force_overshoot(press.trace);
@@ -240,7 +241,8 @@ std::string control_answer(const std::vector<MovingPress>& presses) {
   for (const MovingPress& press : presses) force = std::fmax(force, press.force_error);
   Words words;
   words["speed"] = if_known(speed, percent_magnitude(speed));
-  words["tilt"] = degrees(worst_of(presses, &TrackingEntry::tilt_deg));
+  const double tilt = worst_of(presses, &TrackingEntry::tilt_deg);
+  words["tilt"] = if_known(tilt, degrees(tilt));
   words["force"] = if_known(force, percent_magnitude(force));
   return sentences("answer_control", words);
 }

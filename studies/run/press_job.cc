@@ -54,13 +54,15 @@ ScalingEntry scaling_of(const lattice::PressSetup& setup) {
 
 TrackingEntry tracking_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome) {
   const Tracking tracking = measure_tracking(outcome.trace, outcome.first_touch_time);
-  return {.speed_deviation = tracking.speed_deviation,
-          .speed_deviation_at_touch = tracking.speed_deviation_at_touch,
-          .tilt_deg = tracking.tilt * 180.0 / std::numbers::pi,
-          .wanted_force = tracking.wanted_force,
-          .held_force = tracking.held_force,
-          .force_deviation = tracking.force_deviation,
-          .follows_path = setup.follows_path};
+  return {
+      .speed_deviation = tracking.speed_deviation,
+      .speed_deviation_at_touch = tracking.speed_deviation_at_touch,
+      // Mirror planes hold the rod of a part: no merit of the controller.
+      .tilt_deg = outcome.sectors > 1 ? meshes::unknown : tracking.tilt * 180.0 / std::numbers::pi,
+      .wanted_force = tracking.wanted_force,
+      .held_force = tracking.held_force,
+      .force_deviation = tracking.force_deviation,
+      .follows_path = setup.follows_path};
 }
 
 PressSummary summary_of(const lattice::PressSetup& setup, const lattice::PressOutcome& outcome,
