@@ -51,12 +51,7 @@ double particle_bound(const LatticeModel& model, const std::array<double, 3>& fa
       const Vector3 direction = Vector3(d.dx, d.dy, d.dz).normalized();
       sum += weight * family_value[d.family] * direction * direction.transpose();
     }
-    const std::array<int, 3> at = model.place(i);
-    for (std::size_t d = 0; d < 3; ++d) {
-      if (!model.sector.holds(d, at[d])) continue;
-      sum.row(Eigen::Index(d)).setZero();
-      sum.col(Eigen::Index(d)).setZero();
-    }
+    model.sector.hold(model.place(i), sum);
     bound = std::max(bound, (2.0 * largest_eigenvalue(sum) + ligament[i]) / model.mass[i]);
   }
   return bound;

@@ -77,19 +77,6 @@ double largest_eigenvalue(const Matrix3d& matrix) {
       .maxCoeff();
 }
 
-/// What a particle on mirror planes meets in the other parts does not couple its motions across a
-/// plane and along it.
-void decouple(const Sector& sector, const std::array<int, 3>& at, Matrix3d& stiffness) {
-  for (std::size_t d = 0; d < 3; ++d) {
-    if (!sector.holds(d, at[d])) continue;
-    const auto c = Eigen::Index(d);
-    const double own = stiffness(c, c);
-    stiffness.row(c).setZero();
-    stiffness.col(c).setZero();
-    stiffness(c, c) = own;
-  }
-}
-
 /// Largest eigenvalue of a particle's stiffness, per particle of `cells` [N/m].
 std::vector<double> particle_stiffness(const LatticeModel& model, const GridCells& cells,
                                        const Formulation& formulation) {
@@ -101,7 +88,10 @@ std::vector<double> particle_stiffness(const LatticeModel& model, const GridCell
   }
   std::vector<double> result;
   for (std::size_t p = 0; p < sum.size(); ++p) {
-    decouple(model.sector, model.place(cells.point(p)), sum[p]);
+    // The other parts do not couple its motions across a mirror plane and along it.
+    const Vector3 own = sum[p].diagonal();
+    model.sector.hold(model.place(cells.point(p)), sum[p]);
+    sum[p].diagonal() = own;
     result.push_back(largest_eigenvalue(sum[p]));
   }
   return result;
@@ -148,8 +138,8 @@ std::vector<EmbeddedPoint> on_grid(std::vector<EmbeddedPoint> points, const Grid
 LatticeModel build_cut_model(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
                              const LatticeSettings& settings, int sectors) {
   CutTip tip = cut_tip(geometry, rubber, settings, sectors, row_margin);
-  LatticeModel model = build_model(tip.cells, settings.model, tip.formulation, rubber.density,
-                                   Sector(sectors, tip.cells.grid().axes));
+  LatticeModel model =
+      build_model(tip.cells, settings.model, tip.formulation, rubber.density, tip.sector);
   raise_light_masses(model, tip, rubber.density);
   if (tip.formulation.cell_law && !tip.formulation.central_springs) list_edges(model, tip);
   find_boundary(model, geometry);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "lattice/model/sector.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 
@@ -52,15 +51,6 @@ void check_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   if (!found.empty()) throw meshes::InvalidInput(found);
 }
 
-/// Leaves the cells of the sector alone, but for those in the layer before its mirror planes.
-void keep_sector(const Sector& sector, std::vector<CutCell>& cells) {
-  std::erase_if(cells, [&](const CutCell& cell) {
-    for (std::size_t d = 0; d < 3; ++d)
-      if (sector.mirrors(d) && cell.index[d] == 0) return true;
-    return false;
-  });
-}
-
 /// Points of a surface above `lowest` [m], in the sector, embedded with `stiffness` [Pa/m].
 std::vector<EmbeddedPoint> embedded_surface(const GridCells& cells, const Geometry& geometry,
                                             Surface surface, double lowest, int sectors,
@@ -85,9 +75,14 @@ CutTip cut_tip(const Geometry& geometry, const Rubber& rubber, const LatticeSett
   CubicGrid grid = tip_grid(geometry, settings, sectors);
   grid.size[0] += spare_rows;
   std::vector<CutCell> cut = meshes::cut_cells(geometry, grid, smallest_fraction);
-  keep_sector(Sector(sectors, grid.axes), cut);
-  CutTip tip{
-      GridCells(grid, largest_piece(grid, cut)), formulation_for(rubber, settings), {}, {}, {}};
+  const Sector sector(sectors, grid.axes);
+  std::erase_if(cut, [&](const CutCell& cell) { return sector.is_before(cell.index); });
+  CutTip tip{GridCells(grid, largest_piece(grid, cut)),
+             sector,
+             formulation_for(rubber, settings),
+             {},
+             {},
+             {}};
   const double stiffness = tie_stiffness * tip.formulation.shear / grid.spacing;
   // All of the bond holds, wherever it lies; of a profile's contact what round-off may put below.
   constexpr double everywhere = -std::numeric_limits<double>::infinity();

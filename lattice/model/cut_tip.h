@@ -8,6 +8,7 @@
 #include "lattice/model/formulation.h"
 #include "lattice/model/grid_cells.h"
 #include "lattice/model/lattice_settings.h"
+#include "lattice/model/sector.h"
 #include "lattice/model/tie_layer.h"
 #include "meshes/geometry.h"
 #include "meshes/rubber.h"
@@ -27,6 +28,7 @@ inline constexpr double smallest_fraction = 1e-6;
 /// central springs; the network's outer ones stiffen with the depth as layers of its rubber do.
 struct CutTip {
   GridCells cells;
+  Sector sector;
   Formulation formulation;
   std::vector<EmbeddedPoint> bond, outer;
   TieLaw contact;  ///< of the outer ones

@@ -232,9 +232,7 @@ void leave_layer_before(const CubicGrid& grid, const Sector& sector,
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
-        const bool before = (sector.mirrors(0) && i == 0) || (sector.mirrors(1) && j == 0) ||
-                            (sector.mirrors(2) && k == 0);
-        if (before) is_particle[grid.index(i, j, k)] = 0;
+        if (sector.is_before({i, j, k})) is_particle[grid.index(i, j, k)] = 0;
       }
     }
   }

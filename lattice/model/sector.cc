@@ -42,6 +42,20 @@ void Sector::crop(meshes::CubicGrid& grid) const {
   }
 }
 
+bool Sector::is_before(const std::array<int, 3>& index) const {
+  for (std::size_t d = 0; d < 3; ++d)
+    if (mirrors_[d] && index[d] == 0) return true;
+  return false;
+}
+
+void Sector::hold(const std::array<int, 3>& index, Eigen::Matrix3d& matrix) const {
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!holds(d, index[d])) continue;
+    matrix.row(Eigen::Index(d)).setZero();
+    matrix.col(Eigen::Index(d)).setZero();
+  }
+}
+
 double Sector::share(const std::array<int, 3>& index) const {
   double share = 1.0;
   for (std::size_t d = 0; d < 3; ++d)

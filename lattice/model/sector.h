@@ -24,14 +24,16 @@ class Sector {
   Sector(int count, const Eigen::Matrix3d& axes);
 
   int count() const { return count_; }
-  /// Whether a mirror plane lies across an axis of the grid.
-  bool mirrors(std::size_t axis) const { return mirrors_[axis]; }
   /// The grid of the part: from a layer before its mirror planes, at index 1, on.
   void crop(meshes::CubicGrid& grid) const;
+  /// Whether a place on the cropped grid lies in the layer before a mirror plane: of another part.
+  bool is_before(const std::array<int, 3>& index) const;
   /// 1 over the number of parts that own a place, given by its indices on the cropped grid.
   double share(const std::array<int, 3>& index) const;
   /// Whether a mirror plane across `axis` goes through a place on the cropped grid.
   bool holds(std::size_t axis, int index) const { return mirrors_[axis] && index == 1; }
+  /// Leaves out of a matrix that belongs to a place on the cropped grid what mirror planes hold.
+  void hold(const std::array<int, 3>& index, Eigen::Matrix3d& matrix) const;
 
   /// Of all parts together. Wrenches and momenta about points on the axis, in world axes ...
   Wrench whole(const Wrench& part) const;
@@ -45,7 +47,7 @@ class Sector {
 
  private:
   int count_ = 1;
-  std::array<bool, 3> mirrors_{};
+  std::array<bool, 3> mirrors_{};  ///< per axis of the grid: whether a plane lies across it
   Vector6 world_ = Vector6::Ones(), grid_ = Vector6::Ones();  ///< 1: its own mirror image, or 0
 };
 

@@ -2,6 +2,7 @@
 
 #include "lattice/press/press_deviation.h"
 #include "lattice/statics/cut_lattice.h"
+#include "meshes/cubic_grid.h"
 
 namespace fingertip::lattice {
 
@@ -44,6 +45,11 @@ int moving_sectors(const PressSetup& setup) {
     noise = noise || channel->noise > 0.0;
   if (!setup.symmetry || setup.make_controller || noise) return 1;
   return way_symmetry(setup.geometry, setup.lattice, setup.protocol);
+}
+
+double moving_particles(const PressSetup& setup) {
+  return meshes::expected_particle_count(setup.geometry, setup.lattice.spacing) /
+         moving_sectors(setup);
 }
 
 FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way) {

@@ -35,14 +35,16 @@ struct PressWay {
 /// The finger of `setup`, clear of the plane.
 FingerSetup finger_setup(const PressSetup& setup, const PressWay& way);
 
+/// The same as it is pressed: with scaled masses as far as they serve.
+FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way);
+
 /// 4, 2 or 1: how many parts of a moving press are each other's mirror images, of which one is
 /// computed: those of grid, obstacle and way (way_symmetry). 1 where something may push the rod off
 /// the mirror planes: a controller but the built-in servo, or noise; or where nobody wants it
 /// (PressSetup::symmetry). What would sway on such a rod does not sway: loop_stability.h tells.
 int moving_sectors(const PressSetup& setup);
-
-/// The same as it is pressed: with scaled masses as far as they serve.
-FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way);
+/// V/a³ of the part that is computed.
+double moving_particles(const PressSetup& setup);
 
 /// What the controller is asked to do: to follow the way of the press.
 ControlTask control_task(const PressSetup& setup, const PressWay& way, const RodBody& rod);

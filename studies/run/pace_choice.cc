@@ -6,7 +6,6 @@
 #include "lattice/dynamics/thread_choice.h"
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/press_task.h"
-#include "meshes/cubic_grid.h"
 
 namespace fingertip::studies {
 
@@ -57,8 +56,7 @@ double divided(double period, double step) {
 PaceCandidate candidate_at(const PressSetup& setup, bool scalable) {
   PaceCandidate candidate;
   candidate.spacing = setup.lattice.spacing;
-  candidate.particles = meshes::expected_particle_count(setup.geometry, candidate.spacing) /
-                        lattice::moving_sectors(setup);
+  candidate.particles = lattice::moving_particles(setup);
   candidate.integrator = setup.integrator;
   const double period = setup.controller.period;
   if (scalable && !setup.time_step) {

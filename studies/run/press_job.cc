@@ -8,7 +8,6 @@
 #include "lattice/press/press.h"
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/press_task.h"
-#include "meshes/cubic_grid.h"
 #include "meshes/fields_json.h"
 #include "source_hash.h"
 #include "studies/run/controller_choice.h"
@@ -129,10 +128,9 @@ class PressJournal {
 
 void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path& folder,
                    const JobContext& context) {
-  const double particles = meshes::expected_particle_count(setup.geometry, setup.lattice.spacing) /
-                           lattice::moving_sectors(setup);
-  setup.threads =
-      setup.threads > 0 ? context.threads : lattice::fastest_threads(particles, context.threads);
+  setup.threads = setup.threads > 0
+                      ? context.threads
+                      : lattice::fastest_threads(lattice::moving_particles(setup), context.threads);
   PressJournal recorder(setup, folder, context);
   std::optional<Movie> movie;
   if (movie_pictures > 0) movie.emplace(folder / "movie", setup.geometry);

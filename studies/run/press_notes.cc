@@ -7,7 +7,6 @@
 
 #include "lattice/press/press_deviation.h"
 #include "lattice/press/press_task.h"
-#include "meshes/cubic_grid.h"
 #include "meshes/press_motion.h"
 #include "studies/run/progress.h"
 
@@ -69,9 +68,7 @@ constexpr double plain_cost = 5e-8;
 
 double pressing_time(const PressSetup& setup, double step, double cost, int threads) {
   const double time = meshes::PressMotion(setup.protocol).duration(),
-               particles = 1.4 *
-                           meshes::expected_particle_count(setup.geometry, setup.lattice.spacing) /
-                           lattice::moving_sectors(setup);
+               particles = 1.4 * lattice::moving_particles(setup);
   const double gain = 1.0 + 0.8 * (std::max(threads, 1) - 1);
   return time / step * particles * cost / gain;
 }
