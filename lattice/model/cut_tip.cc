@@ -105,6 +105,14 @@ CubicGrid tip_grid(const Geometry& geometry, const LatticeSettings& settings, in
   CubicGrid grid = meshes::covering_grid(
       geometry, settings.spacing, order.transpose() * settings.offset, 1, settings.axes * order);
   Sector(sectors, grid.axes).crop(grid);
+  // Planes through the finger's axis lie where a part has its mirror planes: at an odd index.
+  const Vector3 middle = grid.coordinates(Vector3::Zero());
+  for (std::size_t d = 1; d < 3; ++d) {
+    double& origin = grid.origin[Eigen::Index(d)];
+    if (std::lround(middle[Eigen::Index(d)]) % 2 != 0) continue;
+    origin -= grid.spacing;
+    ++grid.size[d];
+  }
   return grid;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <ostream>
 #include <random>
 #include <string>
 
@@ -13,6 +14,14 @@
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
 #include "tests/lattice/reference.h"
+
+namespace fingertip::lattice {
+
+inline void PrintTo(ModelKind kind, std::ostream* out) {
+  *out << name(kind);
+}
+
+}  // namespace fingertip::lattice
 
 namespace fixtures {
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "program.h"
 #include "tests/temporary_folder.h"
 
@@ -14,6 +16,10 @@ struct BadInput {
   std::string set;                ///< section.key=value
   std::vector<std::string> told;  ///< what the message must contain
 };
+
+void PrintTo(const BadInput& bad, std::ostream* out) {
+  *out << bad.set;
+}
 
 void expect_refused(const fs::path& folder, const std::vector<std::string>& arguments,
                     const std::vector<std::string>& told) {
@@ -67,6 +73,10 @@ struct BadLattice {
   std::vector<std::string> sets;  ///< section.key=value
   std::vector<std::string> told;  ///< what the message must contain
 };
+
+void PrintTo(const BadLattice& bad, std::ostream* out) {
+  for (const std::string& set : bad.sets) *out << (&set == &bad.sets.front() ? "" : ", ") << set;
+}
 
 class BadStaticLattice : public testing::TestWithParam<BadLattice> {};
 

@@ -83,6 +83,19 @@ sweeps::EdgeFactors EdgeInertiaRule::factors(double elastic, double viscous) con
           Single(both * 2.0 * c44)};
 }
 
+/// Against stretch, weighted with the cells' rubber: a measure of S.
+double EdgeInertiaRule::sum_of_moduli() const {
+  double sum = 0.0;
+  for (const sweeps::EdgePack& pack : packs_) {
+    Single of_pack = 0.0F;
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < lanes; ++i)
+        of_pack += pack.moduli[c][c][i] * shares_[pack.shares].majorant[4 * c][i];
+    sum += double(of_pack);
+  }
+  return sum;
+}
+
 double EdgeInertiaRule::find(const State& state, double step, double allowance, Team& team,
                              EdgeInertia& edges) {
   const CellLattice& cells = model_->cell_lattice;
@@ -105,12 +118,7 @@ double EdgeInertiaRule::find(const State& state, double step, double allowance, 
                               edge.data());
     }
   });
-  constexpr std::size_t some = 8;  // are enough to measure it
-  double sum = 0.0;
-  for (std::size_t p = 0; p < packs_.size(); p += some) {
-    for (std::size_t c = 0; c < 3; ++c) sum += double(packs_[p].moduli[c][c][0]);
-  }
-  return sum;
+  return sum_of_moduli();
 }
 
 }  // namespace fingertip::lattice

@@ -12,10 +12,13 @@
 namespace fingertip::lattice {
 
 /// One grid: its points, and how fields on it are passed on to the grid of twice the spacing, whose
-/// point i lies at 2i - 1 along every axis. In two sweeps: along y and z onto a sheet, rows of the
-/// coarser grid with the points of this one, and then along x.
+/// point i lies at 2 (i - lead) - 1 along every axis. In two sweeps: along y and z onto a sheet,
+/// rows of the coarser grid with the points of this one, and then along x.
 struct GridLevel {
-  std::array<int, 3> size{};             ///< with a layer of empty points on every side
+  std::array<int, 3> size{};  ///< with a layer or more of empty points on every side
+  /// Where the planes through the finger's axis lie; on the coarser grid, too, unless it is even.
+  std::array<int, 3> middle{};
+  std::array<int, 3> lead{};             ///< 0 or 1, so that every grid's middle is odd; along x 0
   std::array<std::ptrdiff_t, 3> next{};  ///< to the next point along x, y, z
   std::vector<std::uint8_t> is_node;     ///< per point: 1 at a particle, or at what carries one
   std::vector<std::uint32_t> blocks;     ///< first points of runs of `lanes` that cover the nodes
@@ -34,7 +37,8 @@ struct GridLevel {
 };
 
 /// From the particles to a handful of points. A coarse point is a node if a finer node is
-/// interpolated from it.
+/// interpolated from it. Those of a whole tip are mirror images where the tip is, and those of its
+/// parts are parts of them (Sector).
 class GridHierarchy {
  public:
   explicit GridHierarchy(const LatticeModel& model);

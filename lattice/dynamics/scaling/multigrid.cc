@@ -1,7 +1,6 @@
 #include "lattice/dynamics/scaling/multigrid.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "lattice/kernels/by_width.h"
 #include "lattice/kernels/stencil.h"
@@ -118,6 +117,16 @@ void Multigrid::set(const std::vector<double>& inertia, Team& team) {
   }
 }
 
+Single Multigrid::Matrix::diagonal(const GridLevel& grid, std::size_t component,
+                                   std::size_t point) const {
+  Single sum = 0.0F;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::vector<Single>& along = edge[component][d];
+    sum += along[point] + along[point - std::size_t(grid.next[d])];
+  }
+  return inertia[point] + sweep_damping * sum;
+}
+
 void Multigrid::finish(std::size_t level, Team& team) {
   const GridLevel& grid = hierarchy_->levels()[level];
   Matrix& matrix = matrices_[level];
@@ -205,14 +214,16 @@ class Multigrid::Cycle {
     });
   }
 
-  /// A damped Jacobi step at a contact's point, the same for all directions of the rubber.
-  std::array<Single, 3> relaxed(const Matrix& matrix, const PointTie& tie,
+  /// A damped Jacobi step at a contact's point, the same for all directions of the rubber, whether
+  /// held or not.
+  std::array<Single, 3> relaxed(const GridLevel& grid, const Matrix& matrix, const PointTie& tie,
                                 const std::array<Single, 3>& residual) const {
     const auto share = at(matrix.relaxation, tie.point);
-    Single least = std::numeric_limits<Single>::max();
-    for (const Single free : share)
-      if (free > 0.0F) least = std::min(least, free);
-    const Single rubber = 1.0F / least;
+    Single rubber = 0.0F;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const bool held = share[c] == 0.0F;
+      rubber = std::max(rubber, held ? matrix.diagonal(grid, c, tie.point) : 1.0F / share[c]);
+    }
     auto step = product(residual, 1.0F / (rubber + tie.along), 1.0F / (rubber + tie.tangential));
     for (std::size_t c = 0; c < 3; ++c)
       if (share[c] == 0.0F) step[c] = 0.0F;
@@ -235,7 +246,7 @@ class Multigrid::Cycle {
       loops().first_sweep(a, grid.blocks.data() + from, to - from);
     });
     over_contact(fields, [&](const PointTie& tie) {
-      put(fields.solution, tie.point, relaxed(matrix, tie, at(fields.load, tie.point)));
+      put(fields.solution, tie.point, relaxed(grid, matrix, tie, at(fields.load, tie.point)));
     });
   }
 
@@ -263,7 +274,7 @@ class Multigrid::Cycle {
         const Single relaxation = matrix.relaxation[c][tie.point];
         if (relaxation > 0.0F) residual[c] = (plain[c] - before[c]) / relaxation - taken[c];
       }
-      const auto step = relaxed(matrix, tie, residual);
+      const auto step = relaxed(grid, matrix, tie, residual);
       put(fields.residual, tie.point,
           {before[0] + step[0], before[1] + step[1], before[2] + step[2]});
     });

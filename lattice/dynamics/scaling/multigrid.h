@@ -70,6 +70,8 @@ class Multigrid {
     std::vector<Single> inertia;                 ///< D
     Field relaxation;                            ///< 1/(D + 13/10 of S's diagonal); 0: held
     std::array<std::vector<Single>, 10> sheets;  ///< scratch: of the nine kinds of edges, and D
+    /// What relaxation is one over, also where it is held.
+    Single diagonal(const GridLevel& grid, std::size_t component, std::size_t point) const;
   };
   class Cycle;
   void finish(std::size_t level, Team& team);

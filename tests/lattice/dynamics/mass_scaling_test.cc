@@ -312,6 +312,11 @@ struct HeavyHold {
   double moduli, retardation_time, rod_density;
 };
 
+void PrintTo(const HeavyHold& hold, std::ostream* out) {
+  *out << "moduli " << hold.moduli << ", tau " << hold.retardation_time << " s, rod "
+       << hold.rod_density;
+}
+
 class FreeRodOnATipThatSticks : public testing::TestWithParam<HeavyHold> {};
 
 }  // namespace

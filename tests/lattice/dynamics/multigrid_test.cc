@@ -18,7 +18,8 @@ using lattice::VectorField;
 
 namespace {
 
-/// A tip cut at random places, or a quarter of one, with the inertia that steps of `step` ask for.
+/// A tip cut at random places, or one that is its own mirror image or a part of it, with the
+/// inertia that steps of `step` ask for.
 struct Scene {
   LatticeModel model;
   lattice::EdgeInertia edges;
@@ -26,21 +27,26 @@ struct Scene {
   std::vector<lattice::PointTie> contact;
   Vector3 normal = Vector3(1.0, -2.0, 2.0) / 3.0;
 
-  Scene(int per_radius, double step, bool touches, int sectors) {
+  Scene(int per_radius, double step, bool touches, int sectors)
+      : Scene(per_radius, step, touches, sectors, sectors > 1) {}
+
+  Scene(int per_radius, double step, bool touches, int sectors, bool even) {
     lattice::LatticeSettings settings =
         settings_for(lattice::ModelKind::network, lattice::Kinematics::finite, per_radius);
     settings.constants = lattice::hookean_constants({}, settings.spacing);
-    settings.offset = sectors == 1 ? Vector3(0.3, -0.2, 0.1) : Vector3(0.0, 0.0, 0.1);
+    settings.offset = even ? Vector3(0.0, 0.0, 0.1) : Vector3(0.3, -0.2, 0.1);
     model = lattice::build_tip({}, {}, settings, sectors);
-    if (sectors > 1) normal = model.grid.axes.transpose() * Vector3(0.0, 0.0, -1.0);
+    if (even) normal = model.grid.axes.transpose() * Vector3(0.0, 0.0, -1.0);
     hierarchy = std::make_shared<GridHierarchy>(model);
     const std::size_t points = hierarchy->levels().front().points();
     for (auto& component : edges) component.fill(std::vector<float>(points, 0.0F));
     lattice::Team team(1);
     lattice::EdgeInertiaRule(model).find(lattice::State(model), step, 1.0, team, edges);
-    for (std::size_t n = 0; touches && n < model.particles.size(); n += 3) {
-      const std::uint32_t i = model.particles[n];
-      contact.push_back({i, float(50.0 * model.mass[i]), float(double(n % 2) * model.mass[i])});
+    for (const std::uint32_t i : model.particles) {
+      const Vector3 at = (model.rest_position(i) / settings.spacing).cwiseAbs();
+      const long place = std::lround(at.x()) + 2 * std::lround(at.y()) + std::lround(at.z());
+      if (!touches || place % 3 != 0) continue;
+      contact.push_back({i, float(50.0 * model.mass[i]), float(double(place % 2) * model.mass[i])});
     }
   }
 
@@ -128,6 +134,8 @@ class VCycle : public testing::TestWithParam<std::tuple<int, double, bool, int>>
                      std::get<3>(GetParam())};
 };
 
+class VCycleOfAPart : public testing::TestWithParam<std::tuple<int, double, bool, int>> {};
+
 }  // namespace
 
 TEST_P(VCycle, IsSymmetric) {
@@ -154,3 +162,35 @@ INSTANTIATE_TEST_SUITE_P(Steps, VCycle,
                          testing::Combine(testing::Values(4, 6, 8),
                                           testing::Values(1e-5, 2.5e-4, 1e-3), testing::Bool(),
                                           testing::Values(1, 4)));
+
+/// Of a load that is its own mirror image: the coarse grids of a part are parts of the whole's.
+TEST_P(VCycleOfAPart, IsThatOfTheWholeTip) {
+  const auto& [per_radius, step, touches, sectors] = GetParam();
+  const auto solved = [&, n = per_radius, dt = step, tied = touches](int parts) {
+    const Scene scene(n, dt, tied, parts, true);
+    VectorField load(scene.model.points());
+    for (const std::uint32_t i : scene.model.particles) {
+      const Vector3 x = scene.model.rest_position(i) / 0.01;
+      const Vector3 even(x.x() * std::sin(9.0 * x.z()), x.y() * x.x() * x.x(),
+                         std::cos(7.0 * x.y()) + x.z());
+      load.set(i, scene.model.mass[i] * (scene.model.grid.axes.transpose() * even));
+    }
+    return std::pair(scene.model, Solver(scene).solve(held(scene.model, load)));
+  };
+  const auto [part, of_part] = solved(sectors);
+  const auto [whole, of_whole] = solved(1);
+  double largest = 0.0, apart = 0.0;
+  for (const std::uint32_t i : part.particles) {
+    const Vector3 at = whole.grid.coordinates(part.rest_position(i));
+    const std::size_t other = whole.grid.index(int(std::lround(at.x())), int(std::lround(at.y())),
+                                               int(std::lround(at.z())));
+    ASSERT_LT((whole.rest_position(other) - part.rest_position(i)).norm(), 1e-12);
+    largest = std::max(largest, of_part.at(i).norm());
+    apart = std::max(apart, (of_part.at(i) - of_whole.at(other)).norm());
+  }
+  EXPECT_LT(apart, 1e-5 * largest);
+}
+
+INSTANTIATE_TEST_SUITE_P(Steps, VCycleOfAPart,
+                         testing::Combine(testing::Values(4, 6, 8, 9), testing::Values(1e-5, 1e-3),
+                                          testing::Bool(), testing::Values(2, 4)));

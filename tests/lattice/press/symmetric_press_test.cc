@@ -103,14 +103,15 @@ class SymmetricPress : public testing::TestWithParam<Case> {};
 
 }  // namespace
 
-/// The same steps lead both the same way, but for the order of sums.
+/// The same steps lead both the same way, but for the order of sums, of single precision where
+/// masses are scaled.
 TEST_P(SymmetricPress, OfAPartIsThatOfTheWholeTip) {
   const PressSetup setup = setup_of(GetParam());
   const PressOutcome part = pressed(setup, true), whole = pressed(setup, false);
   EXPECT_EQ(part.sectors, GetParam().tilt == 0.0 ? 4 : 2);
   EXPECT_EQ(whole.sectors, 1);
   ASSERT_GT(whole.response.samples().back().normal_force, 1e-3);
-  expect_same(part, whole, 1e-8);
+  expect_same(part, whole, GetParam().integrator == Integrator::mass_scaled ? 1e-6 : 1e-8);
   EXPECT_LT(part.momentum_defect, 1e-10);
 }
 
@@ -129,10 +130,15 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{ModelKind::hookean, Kinematics::finite, Integrator::symplectic_euler,
                          DriveMode::quasi_static, ContactMode::stick, 4e-5},
                     Case{ModelKind::network, Kinematics::finite, Integrator::symplectic_euler,
-                         DriveMode::pid, ContactMode::stick, 4e-5, 0.1}));
+                         DriveMode::pid, ContactMode::stick, 4e-5, 0.1},
+                    Case{ModelKind::network, Kinematics::finite, Integrator::mass_scaled,
+                         DriveMode::pid, ContactMode::stick, 1e-3},
+                    Case{ModelKind::hookean, Kinematics::small, Integrator::mass_scaled,
+                         DriveMode::quasi_static, ContactMode::frictionless, 5e-4, 0.0, 9.81},
+                    Case{ModelKind::network, Kinematics::finite, Integrator::mass_scaled,
+                         DriveMode::pid, ContactMode::coulomb, 5e-4, 0.1}));
 
-/// Steps that errors or energies choose, and masses scaled by a V-cycle whose coarse grids lie
-/// otherwise in the whole tip: the same within what these leave open.
+/// Steps that errors or energies choose: the same within what these leave open.
 TEST(SymmetricPress, IsThatOfTheWholeTipWhateverTakesTheSteps) {
   const auto deviation = [](const PressSetup& setup, double from) {
     const PressOutcome part = pressed(setup, true), whole = pressed(setup, false);
@@ -157,16 +163,6 @@ TEST(SymmetricPress, IsThatOfTheWholeTipWhateverTakesTheSteps) {
   accurate.tolerance = 1e-8;
   EXPECT_LT(deviation(accurate, 2e-4), 1e-4);
   EXPECT_LT(deviation(setup_for(ModelKind::network, Integrator::energy_controlled), 2e-4), 1e-4);
-  PressSetup scaled = setup_for(ModelKind::network, Integrator::mass_scaled);
-  scaled.lattice.spacing = 0.01 / 8.0;
-  scaled.lattice.constants = lattice::hookean_constants(scaled.rubber, scaled.lattice.spacing);
-  scaled.protocol.mode = DriveMode::pid;
-  scaled.protocol.speed = 0.01;
-  scaled.protocol.clearance = 5e-4;
-  scaled.protocol.depth = 3e-3;
-  scaled.protocol.samples = {1e-3, 2e-3, 3e-3};
-  scaled.time_step = 1e-3;
-  EXPECT_LT(deviation(scaled, 9e-4), 5e-3);
   PressSetup relaxing = setup_for(ModelKind::hookean, Integrator::symplectic_euler);
   relaxing.rubber.relaxation.branches = {{0.3, 0.02}};
   relaxing.time_step = 4e-5;
