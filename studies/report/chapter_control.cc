@@ -122,6 +122,11 @@ Panel deviation_panel(const Group& group) {
   return panel;
 }
 
+/// Its rod keeps to mirror planes: that it does not tilt is no result.
+bool is_part(const MovingPress& press) {
+  return press.summary.census.sectors > 1;
+}
+
 Panel tilt_panel(const Group& group) {
   Panel panel =
       trace_panel(group, "tilt [degrees]", scaled_column(&TraceRow::tilt, degree_per_radian));
@@ -270,11 +275,16 @@ Chapter control_chapter(const std::vector<MovingPress>& presses) {
   const std::vector<Group> tracked = groups_of(presses, false), forced = groups_of(presses, true);
   if (tracked.empty() && forced.empty()) return {};
   const bool forces = std::ranges::any_of(presses, &MovingPress::controls_force);
+  const bool may_tilt = !std::ranges::all_of(presses, is_part);
   ChapterData chapter("control");
   chapter["forces"] = forces;
+  chapter["may_tilt"] = may_tilt;
+  chapter["parts"] = std::ranges::any_of(presses, is_part);
+  std::vector<Panel (*)(const Group&)> followed{speed_panel, deviation_panel, tilt_panel,
+                                                command_panel, force_panel};
+  if (!may_tilt) std::erase(followed, tilt_panel);
   chapter.figures = {
-      columns_figure("tracking", tracked,
-                     {speed_panel, deviation_panel, tilt_panel, command_panel, force_panel}),
+      columns_figure("tracking", tracked, followed),
       columns_figure("force_control", forced, {speed_panel, command_panel, force_panel})};
   chapter.tables["tracking"] = tracking_table(presses, forces);
   return written(std::move(chapter));

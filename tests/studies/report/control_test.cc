@@ -60,7 +60,7 @@ void write_sphere(const fs::path& folder) {
              "0.000980665,0,0,0,0.01,0,0,-1\n");
 }
 
-void write_press(const fs::path& folder, double speed, bool force_control) {
+void write_press(const fs::path& folder, double speed, bool force_control, int sectors = 1) {
   std::vector<lattice::TraceRow> trace;
   for (int i = 0; i <= 100; ++i) {
     const double force = 0.002 * i;
@@ -81,7 +81,8 @@ void write_press(const fs::path& folder, double speed, bool force_control) {
   summary.first_touch_time = 0.1;
   summary.tracking.speed_deviation = 0.004;
   summary.tracking.speed_deviation_at_touch = 0.021;
-  summary.tracking.tilt_deg = 0.003;
+  summary.tracking.tilt_deg = sectors == 1 ? 0.003 : meshes::unknown;
+  summary.census.sectors = sectors;
   meshes::write_json_file(summary, folder / "summary.json");
 }
 
@@ -150,6 +151,25 @@ TEST(ControlReport, ShowsSpeedsSideBySideSnapshotsAndForceControl) {
   EXPECT_TRUE(has(text, "Control <1>"));
   const std::string svg = read_text(run / "figures/snapshots_1.svg");
   EXPECT_TRUE(has(svg, "2 mm deep, force 98.07 mN, torque 980.7 mN mm"));
+}
+
+/// Mirror planes hold the rod of a part: its tilt is neither drawn nor told as a result.
+TEST(ControlReport, APartOfATipHasNoTilt) {
+  const TemporaryFolder folder;
+  const auto shown = [&](int sectors) {
+    const fs::path press = folder.path() / std::to_string(sectors);
+    write_press(press, 0.01, false, sectors);
+    studies::write_report(press);
+    return std::pair(report_testing::visible_text(read_text(press / "report.html")),
+                     read_text(press / "figures/tracking.csv"));
+  };
+  const auto [of_part, drawn_of_part] = shown(4);
+  EXPECT_TRUE(has(of_part, "With run.symmetry = false it may tilt"));
+  EXPECT_FALSE(has(drawn_of_part, "tilt"));
+  const auto [of_whole, drawn_of_whole] = shown(1);
+  EXPECT_FALSE(has(of_whole, "run.symmetry"));
+  EXPECT_TRUE(has(of_whole, "0.0030 degrees"));
+  EXPECT_TRUE(has(drawn_of_whole, "tilt"));
 }
 
 TEST(ControlReport, SnapshotsHideTheBackOfTheTip) {
