@@ -110,12 +110,14 @@ double EdgeInertiaRule::find(const State& state, double step, double allowance, 
     edge_loops().find_moduli(arrays, now, packs_.data() + begin, end - begin);
   });
   const Single spread = Single((elastic + viscous) * cells.material.bending);
-  team.split(9, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      std::vector<Single>& edge = edges[n / 3][n % 3];
-      std::fill(edge.begin(), edge.end(), 0.0F);
-      edge_loops().add_blocks(arrays, packs_.data(), packs_.size(), n / 3, n % 3, spread,
-                              edge.data());
+  team.split(3, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t d = begin; d < end; ++d) {
+      Single* along[3];
+      for (std::size_t c = 0; c < 3; ++c) {
+        std::fill(edges[c][d].begin(), edges[c][d].end(), 0.0F);
+        along[c] = edges[c][d].data();
+      }
+      edge_loops().add_blocks(arrays, packs_.data(), packs_.size(), d, spread, along);
     }
   });
   return sum_of_moduli();

@@ -79,16 +79,22 @@ void find_moduli(const EdgeArrays& arrays, const EdgeFactors& f, EdgePack* packs
   }
 }
 
-void add_blocks(const EdgeArrays& arrays, const EdgePack* packs, std::size_t count, std::size_t c,
-                std::size_t d, Single spread, Single* edges) {
+void add_blocks(const EdgeArrays& arrays, const EdgePack* packs, std::size_t count, std::size_t d,
+                Single spread, Single* const* edges) {
+  std::ptrdiff_t to[4];
+  for (std::size_t e = 0; e < 4; ++e) to[e] = to_edge(arrays, d, e);
   for (std::size_t p = 0; p < count; ++p) {
     const EdgePack& pack = packs[p];
     const EdgeShares& shares = arrays.shares[pack.shares];
-    const Eight modulus = read(pack.moduli[c][d]);
+    const Eight moduli[3] = {read(pack.moduli[0][d]), read(pack.moduli[1][d]),
+                             read(pack.moduli[2][d])};
     for (std::size_t e = 0; e < 4; ++e) {
-      Single* const start = edges + (std::ptrdiff_t(pack.first) + to_edge(arrays, d, e));
-      write(start, read(start) + (modulus * read(shares.majorant[4 * d + e]) +
-                                  spread * read(shares.spread[4 * d + e])));
+      const Eight majorant = read(shares.majorant[4 * d + e]),
+                  same = spread * read(shares.spread[4 * d + e]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        Single* const start = edges[c] + (std::ptrdiff_t(pack.first) + to[e]);
+        write(start, read(start) + (moduli[c] * majorant + same));
+      }
     }
   }
 }

@@ -44,9 +44,9 @@ struct EdgeLoops {
   /// Finds the packs' moduli.
   void (*find_moduli)(const EdgeArrays& arrays, const EdgeFactors& factors, EdgePack* packs,
                       std::size_t count);
-  /// Adds up what cells give to the edges of component c along axis d.
+  /// Adds up what cells give to the edges along axis d, of every component.
   void (*add_blocks)(const EdgeArrays& arrays, const EdgePack* packs, std::size_t count,
-                     std::size_t c, std::size_t d, Single spread, Single* edges);
+                     std::size_t d, Single spread, Single* const* edges);
 };
 template <int width>
 const EdgeLoops& edge_loops_at();

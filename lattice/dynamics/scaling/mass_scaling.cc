@@ -137,8 +137,13 @@ void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFi
 
 void MassScaling::take_share(const Vector3& direction, const MultigridFields::Field& follows,
                              std::vector<Single>& share) const {
-  for (const std::uint32_t p : ground_->model->particles)
-    share[p] = Single(std::clamp(direction.dot(vector_at(follows, p)), 0.0, 1.0));
+  const auto count = Eigen::Index(share.size());
+  const auto part = [&](std::size_t c) {
+    return Single(direction[Eigen::Index(c)]) *
+           Eigen::Map<const Eigen::ArrayXf>(follows[c].data(), count);
+  };
+  Eigen::Map<Eigen::ArrayXf>(share.data(), count) =
+      (part(0) + part(1) + part(2)).max(0.0F).min(1.0F);
 }
 
 /// Finds the patch's centre, and what the rod feels: the patch as a whole by what Y leaves of C,
