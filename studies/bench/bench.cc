@@ -96,7 +96,7 @@ ordered_json static_error(Session& session, const LoadedConfig& loaded, const Be
   if (press.per_radius > plan.static_finest) return {};
   const PlannedJob planned{
       fmt::format("static_{}_R{}", lattice::name(press.model), press.per_radius),
-      static_job(loaded, press, truth_depths(plan)), true};
+      static_job(loaded, press, error_depths(plan, 9)), true};
   if (!session.run(planned).ok()) return {};
   const auto response = PressResponse::read_csv(session.path_of(planned) / "response.csv");
   return number_or_null(worst_force_error(response, truth.finite, plan.error_from, plan.depth));

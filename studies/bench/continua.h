@@ -13,9 +13,8 @@
 
 namespace fingertip::studies {
 
-/// Where the truth is computed [m]; all of its indentations from plan.error_from on, and one
-/// before.
-std::vector<double> truth_depths(const BenchPlan& plan);
+/// `count` even indentations [m] from plan.error_from to the plan's depth, and one before.
+std::vector<double> error_depths(const BenchPlan& plan, int count);
 
 /// Sticking contact, law A at finite strain or small strain, to the plan's depth.
 Job truth_job(const LoadedConfig& loaded, const BenchPlan& plan, bool finite);

@@ -24,14 +24,15 @@ Pace slowest_pace(const lattice::PressOutcome& outcome, double window) {
 
 double worst_force_error(const meshes::PressResponse& response,
                          const meshes::PressResponse& reference, double from, double to) {
-  constexpr int steps = 40;
+  constexpr double slack = 1e-6;
   const double reached = std::min(response.depth(), reference.depth());
-  if (!(reached >= to * (1.0 - 1e-6))) return meshes::unknown;
-  double worst = 0.0;
-  for (int i = 0; i <= steps; ++i) {
-    const double depth = std::min(from + (to - from) * i / steps, reached);
-    const double error = response.normal_force_at(depth) / reference.normal_force_at(depth) - 1.0;
-    worst = std::max(worst, std::abs(error));
+  if (!(reached >= to * (1.0 - slack))) return meshes::unknown;
+  double worst = meshes::unknown;
+  for (const meshes::PressSample& sample : response.pressing()) {
+    const double depth = sample.indentation;
+    if (depth < from * (1.0 - slack) || depth > to * (1.0 + slack)) continue;
+    const double wanted = reference.normal_force_at(std::min(depth, reference.depth()));
+    worst = std::fmax(worst, std::abs(sample.normal_force / wanted - 1.0));
   }
   return worst;
 }

@@ -19,8 +19,8 @@ inline constexpr double pace_window = 0.01;
 /// trace, from the first touch on.
 Pace slowest_pace(const lattice::PressOutcome& outcome, double window);
 
-/// Largest |F/F_reference - 1| at 41 even indentations from `from` to `to` [m], between samples by
-/// the responses' monotone interpolation; NaN where one of them does not reach as far.
+/// Largest |F/F_reference - 1| at the samples of the response from `from` to `to` [m], between
+/// those of the reference by monotone interpolation; NaN where one of them does not reach as far.
 double worst_force_error(const meshes::PressResponse& response,
                          const meshes::PressResponse& reference, double from, double to);
 

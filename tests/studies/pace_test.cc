@@ -69,6 +69,22 @@ TEST(ForceError, IsTheLargestRelativeOne) {
   EXPECT_NEAR(studies::worst_force_error(line(0.9), line(1.0), 1e-3, 3e-3), 0.1, 1e-9);
 }
 
+/// A dense reference interpolates nothing, a response with few samples is judged at these.
+TEST(ForceError, IsTakenAtTheSamplesOfTheResponse) {
+  const auto hertz = [](int samples, double factor) {
+    meshes::PressResponse curve;
+    for (int i = 1; i <= samples; ++i) {
+      meshes::PressSample sample;
+      sample.indentation = 3e-3 * i / samples;
+      sample.normal_force = factor * std::pow(sample.indentation, 1.5);
+      curve.append(sample);
+    }
+    return curve;
+  };
+  EXPECT_NEAR(studies::worst_force_error(hertz(3, 1.02), hertz(60, 1.0), 1e-3, 3e-3), 0.02, 1e-9);
+  EXPECT_NEAR(studies::worst_force_error(hertz(60, 1.02), hertz(60, 1.0), 1e-3, 3e-3), 0.02, 1e-9);
+}
+
 TEST(ForceError, UnknownBeyondThePress) {
   EXPECT_TRUE(std::isnan(studies::worst_force_error(line(1.0), line(1.0), 1e-3, 4e-3)));
 }
