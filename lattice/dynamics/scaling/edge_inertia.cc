@@ -1,5 +1,6 @@
 #include "lattice/dynamics/scaling/edge_inertia.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -83,19 +84,6 @@ sweeps::EdgeFactors EdgeInertiaRule::factors(double elastic, double viscous) con
           Single(both * 2.0 * c44)};
 }
 
-/// Against stretch, weighted with the cells' rubber: a measure of S.
-double EdgeInertiaRule::sum_of_moduli() const {
-  double sum = 0.0;
-  for (const sweeps::EdgePack& pack : packs_) {
-    Single of_pack = 0.0F;
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < lanes; ++i)
-        of_pack += pack.moduli[c][c][i] * shares_[pack.shares].majorant[4 * c][i];
-    sum += double(of_pack);
-  }
-  return sum;
-}
-
 double EdgeInertiaRule::find(const State& state, double step, double allowance, Team& team,
                              EdgeInertia& edges) {
   const CellLattice& cells = model_->cell_lattice;
@@ -120,7 +108,14 @@ double EdgeInertiaRule::find(const State& state, double step, double allowance, 
       edge_loops().add_blocks(arrays, packs_.data(), packs_.size(), d, spread, along);
     }
   });
-  return sum_of_moduli();
+  double sum = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::vector<Single>& stretched = edges[c][c];
+    sum += Eigen::Map<const Eigen::ArrayXf>(stretched.data(), Eigen::Index(stretched.size()))
+               .cast<double>()
+               .sum();
+  }
+  return sum;
 }
 
 }  // namespace fingertip::lattice

@@ -42,13 +42,12 @@ class EdgeInertiaRule {
   explicit EdgeInertiaRule(const LatticeModel& model);
 
   /// For steps of `step` [s] > 0 about a state, multiplied with `allowance`: what cells may stiffen
-  /// by later; never less than at rest. `edges` of at least the model's points. Returns a measure
-  /// of S, to be compared with that of other states [kg].
+  /// by later; never less than at rest. `edges` of at least the model's points. Returns the sum
+  /// of those that stretch, a measure of S [kg].
   double find(const State& state, double step, double allowance, Team& team, EdgeInertia& edges);
 
  private:
   sweeps::EdgeFactors factors(double elastic, double viscous) const;
-  double sum_of_moduli() const;
 
   const LatticeModel* model_;
   std::vector<sweeps::EdgeShares> shares_;  ///< the first is that of whole cells

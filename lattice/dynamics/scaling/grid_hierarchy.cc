@@ -47,7 +47,8 @@ void set_strides(GridLevel& level) {
   level.next = {1, level.size[0], std::ptrdiff_t(level.size[0]) * level.size[1]};
 }
 
-/// Sees to it that the coarser grid's middle is odd where this one's is.
+/// Sees to it that the coarser grid's middle is odd where this one's is. Along rows nothing is
+/// mirrored.
 void set_lead(GridLevel& level) {
   for (std::size_t d = 1; d < 3; ++d) level.lead[d] = level.middle[d] % 4 == 3 ? 1 : 0;
 }
@@ -119,7 +120,7 @@ void connect(GridLevel& fine, const GridLevel& coarse) {
   }
   for (const std::uint32_t block : coarse.blocks) {
     const auto [x, y, z] = place(coarse, block);
-    fine.coarser_sheets.push_back(std::uint32_t(point(sheet, finer(x, 0), y, z)));
+    fine.coarser_sheets.push_back(std::uint32_t(point(sheet, finer(x, fine.lead[0]), y, z)));
   }
 }
 
@@ -145,7 +146,8 @@ int longest(const GridLevel& level) {
 
 CoarsePoints coarse_points(const GridLevel& fine, const GridLevel& coarse, std::uint32_t p) {
   const auto [x, y, z] = place(fine, p);
-  const auto across = around(x, 0), along = around(y, fine.lead[1]), up = around(z, fine.lead[2]);
+  const auto across = around(x, fine.lead[0]), along = around(y, fine.lead[1]),
+             up = around(z, fine.lead[2]);
   CoarsePoints found;
   for (int k = up[0]; k <= up[1]; ++k)
     for (int j = along[0]; j <= along[1]; ++j)

@@ -36,6 +36,18 @@ void turn(Restraint& restraint, const Vector3& normal) {
   beside = normal.cross(across);
 }
 
+/// The part of `follows` along a direction, from 0 to 1.
+void take_share(const Vector3& direction, const MultigridFields::Field& follows,
+                std::vector<Single>& share) {
+  const auto count = Eigen::Index(share.size());
+  const auto part = [&](std::size_t c) {
+    return Single(direction[Eigen::Index(c)]) *
+           Eigen::Map<const Eigen::ArrayXf>(follows[c].data(), count);
+  };
+  Eigen::Map<Eigen::ArrayXf>(share.data(), count) =
+      (part(0) + part(1) + part(2)).max(0.0F).min(1.0F);
+}
+
 }  // namespace
 
 ScalingGround::ScalingGround(const LatticeModel& lattice)
@@ -133,17 +145,6 @@ void MassScaling::find_shares(const PlaneHold& plane, Team& team, AccelerationFi
     for (std::size_t n = first; n < last; ++n)
       take_share(restraint.directions[n], finest.solution, restraint.share[n]);
   }
-}
-
-void MassScaling::take_share(const Vector3& direction, const MultigridFields::Field& follows,
-                             std::vector<Single>& share) const {
-  const auto count = Eigen::Index(share.size());
-  const auto part = [&](std::size_t c) {
-    return Single(direction[Eigen::Index(c)]) *
-           Eigen::Map<const Eigen::ArrayXf>(follows[c].data(), count);
-  };
-  Eigen::Map<Eigen::ArrayXf>(share.data(), count) =
-      (part(0) + part(1) + part(2)).max(0.0F).min(1.0F);
 }
 
 /// Finds the patch's centre, and what the rod feels: the patch as a whole by what Y leaves of C,

@@ -125,8 +125,6 @@ class MassScaling {
   void set_contact(const PlaneHold& plane, MultigridFields::Level& finest) const;
   void find_shares(const PlaneHold& plane, Team& team, AccelerationFields& fields,
                    Restraint& restraint) const;
-  void take_share(const meshes::Vector3& direction, const MultigridFields::Field& follows,
-                  std::vector<Single>& share) const;
   void find_inertia(const State& state, const PlaneHold& plane, Restraint& restraint) const;
   void set_load(const Vector6& expected, const State& state, const VectorField& force,
                 const PlaneHold& plane, Team& team, MultigridFields::Level& finest) const;
