@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,6 +33,11 @@ struct CubicGrid {
   /// Grid coordinates, in cells, of a point [m] of the tip's frame: the inverse of `position`.
   Vector3 coordinates(const Vector3& position) const {
     return (axes.transpose() * position - origin) / spacing;
+  }
+  /// Indices of the point next to a point [m] of the tip's frame; it may lie outside the grid.
+  std::array<int, 3> nearest(const Vector3& position) const {
+    const Vector3 at = coordinates(position);
+    return {int(std::lround(at.x())), int(std::lround(at.y())), int(std::lround(at.z()))};
   }
 };
 

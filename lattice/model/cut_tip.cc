@@ -106,11 +106,10 @@ CubicGrid tip_grid(const Geometry& geometry, const LatticeSettings& settings, in
       geometry, settings.spacing, order.transpose() * settings.offset, 1, settings.axes * order);
   Sector(sectors, grid.axes).crop(grid);
   // Planes through the finger's axis lie where a part has its mirror planes: at an odd index.
-  const Vector3 middle = grid.coordinates(Vector3::Zero());
+  const std::array<int, 3> middle = grid.nearest(Vector3::Zero());
   for (std::size_t d = 1; d < 3; ++d) {
-    double& origin = grid.origin[Eigen::Index(d)];
-    if (std::lround(middle[Eigen::Index(d)]) % 2 != 0) continue;
-    origin -= grid.spacing;
+    if (middle[d] % 2 != 0) continue;
+    grid.origin[Eigen::Index(d)] -= grid.spacing;
     ++grid.size[d];
   }
   return grid;

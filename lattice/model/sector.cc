@@ -1,7 +1,5 @@
 #include "lattice/model/sector.h"
 
-#include <cmath>
-
 namespace fingertip::lattice {
 
 using meshes::Vector3;
@@ -34,11 +32,11 @@ Sector::Sector(int count, const Eigen::Matrix3d& axes)
 }
 
 void Sector::crop(meshes::CubicGrid& grid) const {
+  const std::array<int, 3> middle = grid.nearest(Vector3::Zero());
   for (std::size_t d = 0; d < 3; ++d) {
-    double& origin = grid.origin[Eigen::Index(d)];
     if (!mirrors_[d]) continue;
-    grid.size[d] -= int(std::lround(-origin / grid.spacing)) - 1;
-    origin = -grid.spacing;
+    grid.size[d] -= middle[d] - 1;
+    grid.origin[Eigen::Index(d)] = -grid.spacing;
   }
 }
 

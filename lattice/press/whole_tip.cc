@@ -1,7 +1,5 @@
 #include "lattice/press/whole_tip.h"
 
-#include <cmath>
-
 #include "lattice/model/cut_model.h"
 
 namespace fingertip::lattice {
@@ -22,9 +20,8 @@ std::vector<Vector3> mirrors(int sectors) {
 }
 
 std::size_t grid_point(const meshes::CubicGrid& grid, const Vector3& rest) {
-  const Vector3 place = grid.coordinates(rest);
-  return grid.index(int(std::lround(place.x())), int(std::lround(place.y())),
-                    int(std::lround(place.z())));
+  const auto [i, j, k] = grid.nearest(rest);
+  return grid.index(i, j, k);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "lattice/dynamics/scaling/grid_hierarchy.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "lattice/kernels/stencil.h"
@@ -66,8 +65,7 @@ GridLevel particles(const LatticeModel& model) {
   level.is_node.resize(stored_points(level.size), 0);
   level.blocks = model.blocks;
   level.held = model.held;
-  const meshes::Vector3 axis = model.grid.coordinates(meshes::Vector3::Zero());
-  for (std::size_t d = 0; d < 3; ++d) level.middle[d] = int(std::lround(axis[Eigen::Index(d)]));
+  level.middle = model.grid.nearest(meshes::Vector3::Zero());
   set_lead(level);
   return level;
 }

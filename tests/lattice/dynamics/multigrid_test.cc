@@ -181,9 +181,8 @@ TEST_P(VCycleOfAPart, IsThatOfTheWholeTip) {
   const auto [whole, of_whole] = solved(1);
   double largest = 0.0, apart = 0.0;
   for (const std::uint32_t i : part.particles) {
-    const Vector3 at = whole.grid.coordinates(part.rest_position(i));
-    const std::size_t other = whole.grid.index(int(std::lround(at.x())), int(std::lround(at.y())),
-                                               int(std::lround(at.z())));
+    const auto [x, y, z] = whole.grid.nearest(part.rest_position(i));
+    const std::size_t other = whole.grid.index(x, y, z);
     ASSERT_LT((whole.rest_position(other) - part.rest_position(i)).norm(), 1e-12);
     largest = std::max(largest, of_part.at(i).norm());
     apart = std::max(apart, (of_part.at(i) - of_whole.at(other)).norm());
