@@ -9,7 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "meshes/blas_threads.h"
+#include "meshes/blas.h"
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "fem_reference/run.h"
+#include "meshes/blas.h"
 #include "meshes/cad_surface.h"
 #include "meshes/errors.h"
 
@@ -97,6 +98,7 @@ void start_without_network() {
 
 int main(int argc, char** argv) {
   keep_freed_memory();
+  fingertip::meshes::leave_oldest_blas_kernels();
   start_without_network();
   if (argc == 4 && std::strcmp(argv[1], "--triangles") == 0)
     return write_triangles(argv[2], argv[3]);

@@ -43,6 +43,7 @@ struct EquilibriumSolver::Implementation {
   }
   void hold_fixed();
   double round_off_force() const;
+  double round_off_energy(double energy) const;
   bool find_step(VectorXd& step);
   bool factorise();
   bool iterate(VectorXd& step);
@@ -101,6 +102,12 @@ void EquilibriumSolver::Implementation::hold_fixed() {
 /// What no iteration removes [N].
 double EquilibriumSolver::Implementation::round_off_force() const {
   return round_off * tangent.diagonal().maxCoeff() * extent;
+}
+
+/// How far energies of the same state may be apart [J]: an energy is a sum of small differences of
+/// what the cells store, which at first touch is far more than it.
+double EquilibriumSolver::Implementation::round_off_energy(double energy) const {
+  return std::max(1e-10 * std::abs(energy), round_off_force() * extent);
 }
 
 /// Where the tangent is not positive definite (springs snapping through), a multiple of the
@@ -174,7 +181,7 @@ bool EquilibriumSolver::Implementation::search(const StaticContact& contact, con
     const double now = energy(contact, displacement);
     if (!std::isfinite(now)) continue;
     if (now <= start - sufficient_decrease * length * slope) return true;
-    if (std::abs(now - start) > 1e-10 * std::abs(start)) continue;
+    if (std::abs(now - start) > round_off_energy(start)) continue;
     evaluate(contact, displacement, nullptr);
     if (force.norm() < before) return true;
   }

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "lattice/control/controller.h"
-#include "meshes/blas_threads.h"
+#include "meshes/blas.h"
 #include "meshes/cannot_write.h"
 #include "meshes/errors.h"
 #include "studies/cli/standard_streams.h"
@@ -72,6 +72,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  meshes::leave_oldest_blas_kernels();
   meshes::keep_blas_to_one_thread();
   studies::StandardStreams streams;
   const int code = run(argc, argv);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/blas_threads.h"
+#include "meshes/blas.h"
 #include "studies/cli/verbs.h"
 #include "studies/python/errors.h"
 #include "studies/python/finger.h"
@@ -64,6 +64,7 @@ void check(const std::filesystem::path& config, const std::vector<std::string>& 
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The compiled part of fingertip.";
+  meshes::leave_oldest_blas_kernels();
   translate_errors();
   add_tables(module);
   add_keys(module);

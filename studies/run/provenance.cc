@@ -16,6 +16,8 @@
 #include <fstream>
 #include <thread>
 
+#include "meshes/blas.h"
+
 namespace fingertip::studies {
 
 namespace {
@@ -31,6 +33,13 @@ std::string field(const char* file, const std::string& label, char separator) {
     return first == line.npos ? "" : line.substr(first, last - first + 1);
   }
   return "unknown";
+}
+
+std::string blas_in_words() {
+  const meshes::BlasKernels kernels = meshes::blas_kernels();
+  if (kernels.name.empty()) return "not OpenBLAS";
+  return "OpenBLAS with kernels for " + kernels.name +
+         (kernels.by_features ? " (it does not know this processor, which can run them)" : "");
 }
 
 }  // namespace
@@ -66,6 +75,7 @@ nlohmann::ordered_json host_description() {
   const auto pages = std::uint64_t(::sysconf(_SC_PHYS_PAGES));
   return {{"cpu", field("/proc/cpuinfo", "model name", ':')},
           {"cores", std::thread::hardware_concurrency()},
+          {"blas", blas_in_words()},
           {"memory [B]", pages * std::uint64_t(::sysconf(_SC_PAGE_SIZE))},
           {"os", field("/etc/os-release", "PRETTY_NAME", '=')},
           {"kernel", system.release}};

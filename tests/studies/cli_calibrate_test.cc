@@ -114,56 +114,6 @@ TEST(Calibrate, FindsTheRubberBehindARig) {
   EXPECT_NE(unit.err.find("compliance: "), std::string::npos) << unit.err;
 }
 
-/// At R/4 the finite law finds no equilibrium while the tip sticks; nobody has said that it does.
-TEST(Calibrate, TakesTheContactThatHasAnAnswer) {
-  const TemporaryFolder folder;
-  for (const double stiffness : {30.0, 33.0}) {
-    std::ostringstream csv;
-    csv << "position [mm];force [mN]\n";
-    for (int i = 0; i <= 20; ++i) {
-      const double depth = std::max(0.0, 0.05 * i - 0.2);
-      csv << 0.05 * i << ';' << stiffness * depth * std::sqrt(depth) << '\n';
-    }
-    write_text(folder / (stiffness == 30.0 ? "a.csv" : "b.csv"), csv.str());
-  }
-  const auto fit = [&](const char* out, const std::vector<std::string>& more) {
-    return run_program(folder.path(), with({"calibrate",
-                                            "--set",
-                                            "calibration.problem=experiment",
-                                            "--set",
-                                            "calibration.data=[\"a.csv\", \"b.csv\"]",
-                                            "--set",
-                                            "calibration.parameters=[\"modulus\"]",
-                                            "--set",
-                                            "calibration.candidates=[]",
-                                            "--set",
-                                            "calibration.bias=false",
-                                            "--set",
-                                            "lattice.model=network",
-                                            "--set",
-                                            "lattice.spacing=tip_radius/4",
-                                            "--set",
-                                            "calibration.rig={force_offset = \"fit\"}",
-                                            "--force",
-                                            "--out",
-                                            out},
-                                           more));
-  };
-  const ProgramResult sticks = fit("sticks", {"--set", "press.contact=stick"});
-  ASSERT_EQ(sticks.code, 3) << sticks.err;
-  const ProgramResult slips = fit("slips", {"--set", "press.contact=frictionless"});
-  ASSERT_EQ(slips.code, 0) << slips.err;
-  const ProgramResult either = fit("either", {});
-  ASSERT_EQ(either.code, 0) << either.err;
-  const json expected = read(folder / "slips" / "calibration.json"),
-             found = read(folder / "either" / "calibration.json");
-  EXPECT_EQ(found["parameters"], expected["parameters"]);
-  EXPECT_NE(either.out.find("frictionless is taken, since stick contact has no answer"),
-            std::string::npos)
-      << either.out;
-  EXPECT_TRUE(fs::exists(folder / "either" / "material.toml"));
-}
-
 TEST(Calibrate, FindsTheRubberOfMeasuredPresses) {
   const TemporaryFolder folder;
   write_measured(folder.path(), "frictionless", "a.csv");

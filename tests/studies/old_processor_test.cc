@@ -110,5 +110,23 @@ TEST_P(OldProcessor, FindsTheSameEquilibrium) {
   expect_same_response(1e-9);
 }
 
+/// OpenBLAS falls back to kernels without AVX on a Xeon made after it (family 6, model 207).
+TEST(UnknownProcessor, GetsKernelsThatItCanRun) {
+  if (::access(emulator, X_OK) != 0) GTEST_SKIP() << "needs the Debian package qemu-user";
+  ::unsetenv("OPENBLAS_CORETYPE");
+  const TemporaryFolder folder;
+  const auto doctor = [&](const char* processor) {
+    return run_program(folder.path(), {"-cpu", processor, FINGERTIP_PROGRAM, "doctor"}, emulator)
+        .out;
+  };
+  const std::string unknown = doctor("Haswell,model=207"), known = doctor("Haswell");
+  EXPECT_NE(unknown.find("OpenBLAS with kernels for Haswell (it does not know"), unknown.npos)
+      << unknown;
+  EXPECT_NE(known.find("OpenBLAS with kernels for Haswell\n"), known.npos) << known;
+  ::setenv("OPENBLAS_CORETYPE", "Prescott", 1);
+  const std::string asked = doctor("Haswell,model=207");
+  EXPECT_NE(asked.find("OpenBLAS with kernels for Prescott\n"), asked.npos) << asked;
+}
+
 INSTANTIATE_TEST_SUITE_P(WithoutAvx, OldProcessor, ::testing::ValuesIn(old_processors),
                          [](const auto& processor) { return std::string(processor.param); });

@@ -162,6 +162,22 @@ TEST(PressSlopes, AgreeWithDifferencesCentralSprings) {
       press_at(6, {0.1}, ContactMode::frictionless, ModelKind::hookean, Kinematics::finite));
 }
 
+/// At first touch the elastic energy is far below the round-off of what the cells store; forces are
+/// balanced all the same, and grow with depth, whatever the last bits of a factorisation.
+TEST(PressSlopes, FirstTouchesHaveEquilibria) {
+  double last = 0.0;
+  for (int i = 1; i <= 40; ++i) {
+    const double first = 1.75e-3 + 2e-5 * i;  // the first point touches at 1.74e-3 cm
+    const PressSetup setup =
+        press_at(4, {first, 0.005}, ContactMode::stick, ModelKind::network, Kinematics::finite);
+    const auto press =
+        lattice::run_static_press_with_slopes(setup, press_parameters(setup.lattice));
+    const double force = press.outcome.response.samples().front().normal_force;
+    EXPECT_GT(force, last) << first << " cm";
+    last = force;
+  }
+}
+
 /// Tilted and dragged, so that lateral forces count and anchors move with the plane.
 TEST(PressSlopes, AgreeWithDifferencesTilted) {
   PressSetup setup =
