@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace fingertip::calibration {
 
@@ -10,6 +11,13 @@ namespace fingertip::calibration {
 inline std::string rounded(double value, int digits = 4) {
   char text[40];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+/// Of sentences without a full stop one.
+inline std::string in_one(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
   return text;
 }
 

@@ -7,6 +7,7 @@
 
 #include "calibration/curves/curve_residuals.h"
 #include "calibration/curves/fit_coordinates.h"
+#include "calibration/words.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 
@@ -132,6 +133,14 @@ double worst_relative_error(const VectorXd& residuals, const Curve& curve) {
 double relative_rms(const VectorXd& residuals, const VectorXd& values) {
   const double size = values.norm();
   return size > 0.0 ? residuals.norm() / size : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::optional<std::string> missed(const std::string& model, const std::string& name,
+                                  const VectorXd& residuals, const VectorXd& values, double most) {
+  const double share = relative_rms(residuals, values);
+  if (!(share > most)) return std::nullopt;
+  return model + " does not describe the data: " + name + " is missed by " + percent(share) + " (" +
+         std::string(name_of_relative_rms) + ")";
 }
 
 std::vector<LeftOut> leave_one_out(const std::vector<Curve>& curves,

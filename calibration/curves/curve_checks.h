@@ -30,6 +30,12 @@ double relative_rms(const Eigen::VectorXd& residuals, const Eigen::VectorXd& val
 inline constexpr std::string_view name_of_relative_rms =
     "root mean square of the residuals over that of the data";
 
+/// A sentence where relative_rms of `name` is more than `most`, which no noise explains: `model`,
+/// "the model" or "the law", does not describe it.
+std::optional<std::string> missed(const std::string& model, const std::string& name,
+                                  const Eigen::VectorXd& residuals, const Eigen::VectorXd& values,
+                                  double most);
+
 /// One per curve, each sought from `fit`'s estimates alone. Throws InvalidInput for less than two
 /// curves, Interrupted.
 std::vector<LeftOut> leave_one_out(const std::vector<Curve>& curves,

@@ -28,12 +28,9 @@ void judge_misfit(Sentences& found, const FitRecord& record) {
   if (fit.chi_square_probability) return;
   for (std::size_t c = 0; c < record.curves.size(); ++c) {
     const auto& y = record.curves[c].y;
-    const double missed =
-        relative_rms(fit.residuals[c], Eigen::VectorXd::Map(y.data(), Index(y.size())));
-    if (missed > largest_misfit)
-      found.push_back("the model does not describe the data: " + record.curves[c].name +
-                      " is missed by " + percent(missed) + " (" +
-                      std::string(name_of_relative_rms) + ")");
+    if (auto sentence = missed("the model", record.curves[c].name, fit.residuals[c],
+                               Eigen::VectorXd::Map(y.data(), Index(y.size())), largest_misfit))
+      found.push_back(*std::move(sentence));
   }
 }
 

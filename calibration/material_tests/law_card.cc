@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <ostream>
 #include <set>
 
@@ -87,6 +88,7 @@ std::string card_toml(const LawCard& card) {
   text += "provenance = " + toml_text(card.provenance) + '\n';
   add("program", card.program);
   add("date", card.date);
+  add("rejected", card.rejected);
   text += "contradictions = " + list_text(card.contradictions) + '\n';
   // Last, so that a file cut short is noticed.
   return text + "statement = " + toml_text(card.statement) + '\n';
@@ -212,6 +214,7 @@ class CardReader : TomlFile {
     card.provenance = text("about", "provenance");
     card.program = maybe("program");
     card.date = maybe("date");
+    card.rejected = maybe("rejected");
     const toml::array* list = node("about", "contradictions").as_array();
     for (std::size_t i = 0; list != nullptr && i < list->size(); ++i)
       if (const auto sentence = list->get(i)->value_exact<std::string>())
@@ -238,6 +241,7 @@ class CardReader : TomlFile {
                                                  "about.provenance",
                                                  "about.program",
                                                  "about.date",
+                                                 "about.rejected",
                                                  "about.contradictions",
                                                  "about.statement"};
     for (const auto& [section, content] : table()) {
@@ -342,10 +346,12 @@ LawCard card_of(const LawFit& fit, const std::vector<MaterialTest>& tests,
   add(tests, fit.fitted, true);
   add(held_back, fit.predicted, false);
   card.contradictions = fit.contradictions;
+  card.rejected = in_one(fit.failed);
   if (!fit.bulk_modulus)
     card.contradictions.push_back(
         "no test tells the bulk modulus: a press takes its own Poisson's ratio");
-  card.statement = "The law " + name(fit.choice) + " met " + std::to_string(fit.fitted.size()) +
+  card.statement = (card.rejected.empty() ? "The law " : "Not accepted: the law ") +
+                   name(fit.choice) + " met " + std::to_string(fit.fitted.size()) +
                    " test(s) between the principal stretches " + rounded(fit.tested[0]) + " and " +
                    rounded(fit.tested[1]) + "; " +
                    (card.contradictions.empty() ? "nothing seen contradicts it."
@@ -366,12 +372,15 @@ LawCard read_law_card(const std::filesystem::path& file) {
 std::vector<std::string> warnings(const LawCard& card,
                                   const std::optional<std::array<double, 2>>& used) {
   std::vector<std::string> found;
+  if (!card.rejected.empty()) found.push_back("the fit failed its own tests: " + card.rejected);
   if (used && ((*used)[0] < 0.999 * card.tested[0] || (*used)[1] > 1.001 * card.tested[1]))
     found.push_back("principal stretches from " + rounded((*used)[0]) + " to " +
                     rounded((*used)[1]) + " are asked for, and the law was fitted between " +
                     rounded(card.tested[0]) + " and " + rounded(card.tested[1]) +
                     ": beyond, it is a guess");
-  found.insert(found.end(), card.contradictions.begin(), card.contradictions.end());
+  std::ranges::copy_if(card.contradictions, std::back_inserter(found), [&](const auto& sentence) {
+    return card.rejected.find(sentence) == std::string::npos;
+  });
   return found;
 }
 

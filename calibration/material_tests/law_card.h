@@ -42,6 +42,7 @@ struct LawCard {
   std::string material, source, licence;    ///< may be empty
   std::string provenance;                   ///< files with SHA-256
   std::string program, date;                ///< may be empty
+  std::string rejected;                     ///< why the fit failed its own tests; empty: it passed
   std::string statement;                    ///< what it is good for, in words
 
   SizedLaw law() const;  ///< after long times; throws as sized_law does

@@ -5,8 +5,10 @@
 
 namespace fingertip::calibration {
 
-/// Of the fit itself; looks for instabilities and for branches that the tests do not reach.
-void add_contradictions(LawFit& result, const LawFitOptions& options);
+/// Of the fit to `tests` itself; looks for instabilities, for branches that the tests do not reach
+/// and for what it misses.
+void add_contradictions(LawFit& result, const std::vector<MaterialTest>& tests,
+                        const LawFitOptions& options);
 
 /// Predictions that miss, and loops that the law does not make, or makes too large.
 void add_missed_predictions(LawFit& result);

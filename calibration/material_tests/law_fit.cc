@@ -255,7 +255,7 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
   result.tested = stretch_range(tests);
   for (const MaterialTest& test : tests)
     result.fitted.push_back(predict(result, test, options.weights));
-  add_contradictions(result, options);
+  add_contradictions(result, tests, options);
   return result;
 }
 
@@ -312,12 +312,8 @@ const LawFit* recommended(const std::vector<LawFit>& ranking) {
     return fit.failure.empty() && !fit.unstable_in_tests && !fit.unstable_in_use &&
            !fit.unstable_in_press;
   };
-  const auto settled = [&](const LawFit& fit) {
-    return stable(fit) && fit.fit.converged && fit.fit.unidentifiable.empty() &&
-           fit.open_branches.empty() &&
-           std::ranges::none_of(fit.fit.at_bound, [](bool at) { return at; });
-  };
-  auto found = std::ranges::find_if(ranking, settled);
+  const auto accepted = [](const LawFit& fit) { return fit.failure.empty() && fit.failed.empty(); };
+  auto found = std::ranges::find_if(ranking, accepted);
   if (found == ranking.end()) found = std::ranges::find_if(ranking, stable);
   if (found == ranking.end()) found = ranking.begin();
   return found == ranking.end() || !found->failure.empty() ? nullptr : &*found;

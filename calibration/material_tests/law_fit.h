@@ -80,6 +80,11 @@ struct LawFit {
   /// What contradicts it, in plain sentences: residuals of structure, predictions that miss,
   /// coefficients that are open or at a bound, instabilities. Empty: nothing seen.
   std::vector<std::string> contradictions;
+  /// Those of them for which it must not be used as it is; none: it passed its own tests. It fails
+  /// where the search did not end, a coefficient ended at a bound, a direction or a branch is open,
+  /// where it is unstable (Drucker), and where it misses a test, or a side of one, by more than
+  /// 15 % (relative_rms) that no sigma explains.
+  std::vector<std::string> failed;
   /// Why there is no fit; all but `choice` is then empty.
   std::string failure;
 };
@@ -105,8 +110,8 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
 /// Into the order of rank_laws.
 void sort_ranking(std::vector<LawFit>& ranking);
 
-/// The first of a ranking that is stable in the tests and in the range of use, no coefficient or
-/// branch open or at a bound; else the first that is stable, else the first. Null without any fit.
+/// The first of a ranking that passed its own tests; else the first that is stable, else the first.
+/// Null without any fit.
 const LawFit* recommended(const std::vector<LawFit>& ranking);
 
 /// E, G, the energy and the relaxation of a fit as a rubber; nu is that of `bulk_modulus`, or

@@ -105,15 +105,20 @@ LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<Materia
   const LawFit* best = recommended(ranking);
   if (best == nullptr) {
     file.statement = "No law could be fitted: " + ranking.front().failure;
+    file.failed = {file.statement};
     return file;
   }
   file.recommended = name(best->choice);
+  file.failed = best->failed;
+  const bool first = best == &ranking.front();
   file.statement = "Of " + std::to_string(ranking.size()) + " laws " +
                    name(ranking.front().choice) + " has the least AICc";
-  file.statement +=
-      best == &ranking.front()
-          ? " and is taken."
-          : "; " + file.recommended + " is taken, being stable and its coefficients settled.";
+  if (file.failed.empty())
+    file.statement += first ? " and is taken."
+                            : "; " + file.recommended + " is taken, which passes its own tests.";
+  else
+    file.statement = "Not accepted: no law passes its own tests. " + file.statement +
+                     (first ? "." : "; " + file.recommended + " is shown.");
   for (std::size_t i = 0; i < held_back.size(); ++i)
     file.statement += " It predicts " + held_back[i].name + " within " +
                       rounded(100.0 * best->predicted[i].rms_relative, 3) + " % (rms), " +

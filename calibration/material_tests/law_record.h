@@ -79,6 +79,7 @@ struct LawsFile {
   double smallest_stretch = meshes::unknown, largest_stretch = meshes::unknown;
   double shortest_time = meshes::unknown, longest_time = meshes::unknown;  ///< of tests in time
   std::vector<LawEntry> laws;                                              ///< the least AICc first
+  std::vector<std::string> failed;  ///< LawFit::failed of the recommended one; or why there is none
   std::string statement;
 };
 constexpr auto fields_of(const LawsFile*) {
@@ -88,7 +89,8 @@ constexpr auto fields_of(const LawsFile*) {
       named("problem weights recommended smallest_stretch largest_stretch laws statement",
             &Whole::problem, &Whole::weights, &Whole::recommended, &Whole::smallest_stretch,
             &Whole::largest_stretch, &Whole::laws, &Whole::statement),
-      newer(named("shortest_time longest_time", &Whole::shortest_time, &Whole::longest_time)));
+      newer(named("shortest_time longest_time failed", &Whole::shortest_time, &Whole::longest_time,
+                  &Whole::failed)));
 }
 
 /// law_data.csv: a measured stress beside those of a law.

@@ -39,6 +39,21 @@ std::string_view name(TestKind kind) {
   return "unknown";
 }
 
+std::string_view name(DeformationMode mode) {
+  switch (mode) {
+    case DeformationMode::tension: return "tension";
+    case DeformationMode::compression: return "compression";
+    case DeformationMode::shear: return "shear";
+  }
+  return "unknown";
+}
+
+DeformationMode mode_of(TestKind kind, double deformation) {
+  if (kind != TestKind::uniaxial && kind != TestKind::equibiaxial) return DeformationMode::shear;
+  return (kind == TestKind::uniaxial) == (deformation > 1.0) ? DeformationMode::tension
+                                                             : DeformationMode::compression;
+}
+
 std::string_view name(StressMeasure measure) {
   return measure == StressMeasure::nominal ? "nominal" : "true";
 }

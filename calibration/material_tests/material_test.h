@@ -27,6 +27,21 @@ constexpr auto values(TestKind) {
   return std::array{uniaxial, equibiaxial, planar, simple_shear, volumetric};
 }
 
+/// How an incompressible body deforms, whatever the test. A column in compression and a sheet that
+/// is pulled both ways are one: two stretches are alike and longer than the third.
+enum class DeformationMode {
+  tension,      ///< (l, l^(-1/2), l^(-1/2)), l > 1
+  compression,  ///< (l, l, l^-2)
+  shear,        ///< (l, 1, 1/l), turned in simple shear
+};
+std::string_view name(DeformationMode mode);
+constexpr auto values(DeformationMode) {
+  using enum DeformationMode;
+  return std::array{tension, compression, shear};
+}
+/// Of a test of shape at a deformation.
+DeformationMode mode_of(TestKind kind, double deformation);
+
 /// Force over the area at rest, or over the area now. In simple shear both are the same; the mean
 /// stress of a volumetric test is the true one whatever is said.
 enum class StressMeasure { nominal, cauchy };

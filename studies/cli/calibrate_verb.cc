@@ -102,21 +102,23 @@ void print_rubber(const ordered_json& content) {
              fmt::arg("u", stress.ascii));
 }
 
-/// Exit code of a fit that failed its own tests, with what that means on stderr.
-int verdict(const ordered_json& content, bool written) {
-  const ordered_json failed = content.value("failed", ordered_json::array());
-  for (const ordered_json& reason : failed)
-    fmt::print(stderr, "fingertip: not accepted: {}\n",
-               in_shown_units(reason.get<std::string>(), Spelling::terminal));
+int verdict_of(const ordered_json& content, bool written) {
+  return verdict(content.value("failed", std::vector<std::string>()),
+                 content.value("converged", true), written);
+}
+
+}  // namespace
+
+int verdict(const std::vector<std::string>& failed, bool converged, bool written) {
+  for (const std::string& reason : failed)
+    fmt::print(stderr, "fingertip: not accepted: {}\n", in_shown_units(reason, Spelling::terminal));
   if (!failed.empty())
     fmt::print(stderr, "fingertip: {}\n",
                written ? "material.toml is written as --force asks, and says so"
                        : "no material.toml is written; --force writes it all the same");
-  if (!content.value("converged", true)) return 3;
+  if (!converged) return 3;
   return failed.empty() ? 0 : 4;
 }
-
-}  // namespace
 
 int run_calibrate(const CommandLine& line) {
   const LoadedConfig loaded = load_checked(line);
@@ -135,7 +137,7 @@ int run_calibrate(const CommandLine& line) {
     const std::filesystem::path& folder = session.folder().path();
     const ordered_json content = read_json(folder / "calibration.json");
     const bool written = std::filesystem::exists(folder / "material.toml");
-    if (line.quiet) return verdict(content, written);
+    if (line.quiet) return verdict_of(content, written);
     fmt::print("{}\n\n",
                in_shown_units(content["statement"].get<std::string>(), Spelling::terminal));
     if (content.contains("parameters")) {
@@ -150,7 +152,7 @@ int run_calibrate(const CommandLine& line) {
           JsonEntry(content["next"], folder / "calibration.json")));
     if (!computed) fmt::print("(result from an earlier run with the same input)\n");
     fmt::print("run folder: {}\n", folder.string());
-    return verdict(content, written);
+    return verdict_of(content, written);
   });
 }
 

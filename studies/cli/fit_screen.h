@@ -12,6 +12,10 @@ namespace fingertip::studies {
 /// A value as the table of units shows it, and its unit.
 std::pair<double, std::string> as_shown(double value, const std::string& si);
 
+/// Exit code of a fit that failed its own tests, with what that means on stderr; 0 without
+/// `failed`. `written`: its material.toml is there.
+int verdict(const std::vector<std::string>& failed, bool converged, bool written);
+
 /// A row per further measurement: by how many times it would narrow the interval of each parameter.
 void print_next(const std::vector<calibration::NextEntry>& next);
 

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "calibration/material_tests/law_record.h"
+#include "studies/cli/fit_screen.h"
 #include "studies/cli/run_verb.h"
 #include "studies/cli/verbs.h"
 #include "studies/files/read_fields.h"
@@ -49,7 +51,8 @@ void print_ranking(const calibration::LawsFile& file) {
       "AICc less the least\n");
 }
 
-void print_coefficients(const LawEntry& law) {
+/// `told`: contradictions that stand elsewhere.
+void print_coefficients(const LawEntry& law, const std::vector<std::string>& told) {
   fmt::print("\n{:<24}{:>14}{:>14}{:>14}  {}\n", law.law, "estimate", "95 % from", "to", "unit");
   for (const auto& parameter : law.parameters) {
     const ShownUnit* shown = shown_units().of(parameter.unit);
@@ -63,7 +66,8 @@ void print_coefficients(const LawEntry& law) {
       fmt::print("loops of {}: {:.4g} J/m^3 measured, {:.4g} by the law\n", test.name,
                  test.loop_measured, test.loop_computed);
   for (const std::string& sentence : law.contradictions)
-    fmt::print("- {}\n", in_shown_units(sentence, Spelling::terminal));
+    if (std::ranges::find(told, sentence) == told.end())
+      fmt::print("- {}\n", in_shown_units(sentence, Spelling::terminal));
 }
 
 }  // namespace
@@ -79,18 +83,22 @@ int run_material(const CommandLine& line, const LoadedConfig& loaded) {
     const std::filesystem::path& folder = session.folder().path();
     const auto file = struct_of<calibration::LawsFile>(
         JsonEntry(read_json(folder / "laws.json"), folder / "laws.json"));
-    const bool written = std::filesystem::exists(folder / "material.toml");
+    const std::filesystem::path card = folder / "material.toml",
+                                taken = folder / "cards" / (file.recommended + ".toml");
+    if (!file.failed.empty()) std::filesystem::remove(card);  // of an earlier attempt
+    if (!file.failed.empty() && line.force && std::filesystem::exists(taken))
+      std::filesystem::copy_file(taken, card);
+    const bool written = std::filesystem::exists(card);
     if (!line.quiet) {
       fmt::print("{}\n\n", in_shown_units(file.statement, Spelling::terminal));
       print_ranking(file);
       for (const LawEntry& law : file.laws)
-        if (law.law == file.recommended) print_coefficients(law);
+        if (law.law == file.recommended) print_coefficients(law, file.failed);
       if (result.reused) fmt::print("(result from an earlier run with the same input)\n");
-      if (written)
-        fmt::print("card: {} (use: --set rubber.card=PATH)\n", (folder / "material.toml").string());
+      if (written) fmt::print("card: {} (use: --set rubber.card=PATH)\n", card.string());
       fmt::print("run folder: {}\n", folder.string());
     }
-    return written ? 0 : 4;
+    return verdict(file.failed, true, written);
   });
 }
 

@@ -8,6 +8,7 @@
 #include "calibration/curves/curve_checks.h"
 #include "calibration/curves/fit_statistics.h"
 #include "calibration/curves/model_error.h"
+#include "calibration/words.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/fields_json.h"
 #include "source_hash.h"
@@ -72,8 +73,7 @@ void write(const calibration::FitRecord& record, const fs::path& folder) {
   calibration::write_fit_data(record, folder / "fit_data.csv");
   calibration::Material material = record.material;
   material.statement = calibration::fit_statement(record);
-  for (const std::string& reason : failed)
-    material.rejected += (material.rejected.empty() ? "" : "; ") + reason;
+  material.rejected = calibration::in_one(failed);
   if (material.violations().empty())
     calibration::write_material_toml(material, folder / estimates_name);
   write_json({{"problem", record.problem},

@@ -75,7 +75,7 @@ void write_cards(const std::vector<LawFit>& ranking, const LawInput& input,
     const calibration::LawCard card = card_of_fit(fit, input);
     if (!card.violations().empty()) continue;
     write_law_card(card, folder / "cards" / (name(fit.choice) + ".toml"));
-    if (&fit == best) write_law_card(card, folder / "material.toml");
+    if (&fit == best && card.rejected.empty()) write_law_card(card, folder / "material.toml");
   }
 }
 
@@ -149,6 +149,7 @@ void run_laws(LawInput input, const fs::path& folder, const JobContext& context)
   write_cards(ranking, input, folder);
   write_json({{"problem", "material"},
               {"status", "finished"},
+              {"failed", file.failed},
               {"recommended", file.recommended},
               {"laws", input.laws.size()},
               {"tests", fitted.size()},

@@ -24,9 +24,9 @@ LawInput law_input(const LoadedConfig& loaded);
 
 /// Tests between plates that stick are fitted with the factors of the continuum (plate_factor.h),
 /// whose runs are plates_LAW_N/ beside the job.
-/// Files: laws.json, law_data.csv, material.toml (the card of the recommended law; none without a
-/// fit), cards/LAW.toml (of every law that has a fit and whose coefficients make a rubber),
-/// summary.json.
+/// Files: laws.json, law_data.csv, material.toml (the card of the recommended law where it passed
+/// its own tests), cards/LAW.toml (of every law that has a fit and whose coefficients make a
+/// rubber; it says so where the fit failed), summary.json.
 Job law_job(const LawInput& input);
 
 }  // namespace fingertip::studies

@@ -127,6 +127,49 @@ TEST_F(MaterialInTime, FromFilesToACardThatPressesAsItsKeysDo) {
   EXPECT_NE(refused.err.find("rubber.relaxation = []"), std::string::npos) << refused.err;
 }
 
+/// A foam, 0.6 MPa in tension and 0.25 MPa in compression, which no law that keeps its volume
+/// meets.
+TEST(MaterialVerdict, WhatIsNotMetIsNotAcceptedButByForce) {
+  const TemporaryFolder folder;
+  std::string pulled = "e,s\n", pressed = pulled;
+  for (int i = 1; i <= 20; ++i) {
+    pulled += std::to_string(0.01 * i) + "," + std::to_string(0.006 * i) + "\n";
+    pressed += std::to_string(-0.01 * (21 - i)) + "," + std::to_string(-0.0025 * (21 - i)) + "\n";
+  }
+  write_text(folder / "pulled.csv", pulled);
+  write_text(folder / "pressed.csv", pressed);
+  write_text(folder / "tests.toml",
+             "[data]\nstrain = {column = \"e\", is = \"engineering\"}\n"
+             "stress = {column = \"s\", is = \"nominal\", unit = \"MPa\"}\n"
+             "[[test]]\nkind = \"uniaxial\"\nname = \"tension\"\npath = \"pulled.csv\"\n"
+             "[[test]]\nkind = \"uniaxial\"\nname = \"compression\"\npath = \"pressed.csv\"\n");
+  const auto fit = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = {"calibrate", "--set", "calibration.problem=material", "--set",
+                                    "calibration.tests=tests.toml"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run_program(folder.path(), all);
+  };
+  const ProgramResult refused = fit({"--out", "foam"});
+  EXPECT_EQ(refused.code, 4) << refused.err;
+  EXPECT_EQ(refused.out.rfind("Not accepted: ", 0), 0u) << refused.out;
+  for (const char* part : {"not accepted: the law does not describe the data: ",
+                           "compression and tension contradict each other", " kPa in tension",
+                           "Is it compressible", "no material.toml is written"})
+    EXPECT_NE(refused.err.find(part), std::string::npos) << part << " in " << refused.err;
+  EXPECT_FALSE(fs::exists(folder / "foam/material.toml"));
+  const ProgramResult forced = fit({"--out", "foam", "--force"});
+  EXPECT_EQ(forced.code, 4);
+  EXPECT_NE(contents(folder / "foam/material.toml").find("rejected = \"the law does not describe"),
+            std::string::npos);
+  const ProgramResult checked =
+      run_program(folder.path(), {"press", "--set", "rubber.card=foam/material.toml", "--set",
+                                  "rubber.poissons_ratio=0.45", "--set", "press.mode=static",
+                                  "--set", "press.depth=0.02 cm", "--set", "lattice.model=network",
+                                  "--set", "lattice.spacing=tip_radius/5", "--out", "press"});
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_NE(checked.err.find("the fit failed its own tests: "), std::string::npos) << checked.err;
+}
+
 /// Of two cases one needs data that are not here: the other is carried out, and that is told.
 TEST_F(MaterialInTime, ACaseWithoutItsDataIsSkippedAmongOthers) {
   const std::string fit =

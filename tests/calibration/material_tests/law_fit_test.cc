@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -165,6 +166,69 @@ TEST(LawFit, UnstableCoefficientsAreToldWithTheirStretch) {
   EXPECT_NEAR(fit.unstable_in_tests->stretch, 0.735, 0.001);
   EXPECT_NE(fit.contradictions[0].find("unstable (Drucker) from the stretch"), std::string::npos);
   EXPECT_FALSE(rubber_of(fit, 0.49).energy.violations().empty());
+}
+
+/// Stress `modulus` times strain, nominal, to `strain` from rest, in ten equal steps.
+MaterialTest straight(TestKind kind, double modulus, double strain) {
+  MaterialTest test;
+  test.name = std::string(name(kind)) + (strain < 0.0 ? " compressed" : "");
+  test.kind = kind;
+  for (int i = 1; i <= 10; ++i) {
+    const double e = strain * 0.1 * (strain < 0.0 ? 11 - i : i);
+    test.deformation.push_back(rest_of(kind) + e);
+    test.stress.push_back(modulus * e);
+  }
+  return test;
+}
+
+bool tells(const std::vector<std::string>& sentences, const std::string& part) {
+  return std::ranges::any_of(sentences,
+                             [&](const std::string& each) { return each.find(part) != each.npos; });
+}
+
+/// Foams in tension, compression and shear: an incompressible rubber of E = 0.6 MPa in tension has
+/// the same in compression, and G = 0.2 MPa.
+TEST(LawFit, TestsThatContradictEachOtherAreNotAccepted) {
+  const MaterialTest pulled = straight(TestKind::uniaxial, 0.6e6, 0.2),
+                     foam = straight(TestKind::uniaxial, 0.26e6, -0.2),
+                     other_foam = straight(TestKind::uniaxial, 0.25e6, -0.2),
+                     sheared = straight(TestKind::simple_shear, 0.11e6, 0.3);
+  MaterialTest both = other_foam;  // one file through rest
+  both.deformation.insert(both.deformation.end(), pulled.deformation.begin(),
+                          pulled.deformation.end());
+  both.stress.insert(both.stress.end(), pulled.stress.begin(), pulled.stress.end());
+  for (const std::vector<MaterialTest>& tests :
+       {std::vector{pulled, foam, sheared}, std::vector{pulled, other_foam}, std::vector{both}}) {
+    const auto ranking = rank_laws(tests, {}, known_laws());
+    const LawFit* best = recommended(ranking);
+    ASSERT_NE(best, nullptr);
+    SCOPED_TRACE(name(best->choice) + ", tests: " + std::to_string(tests.size()));
+    EXPECT_TRUE(tells(best->failed, "the law does not describe the data: uniaxial"));
+    // At rest 0.6/3 = 0.2 and 0.25/3 = 0.083 MPa; secants of neo-Hooke to 20 % lie beside.
+    EXPECT_TRUE(tells(best->failed, "contradict each other"));
+    EXPECT_TRUE(tells(best->failed, "Is it compressible"));
+    for (const LawFit& fit : ranking) EXPECT_FALSE(fit.failed.empty()) << name(fit.choice);
+  }
+}
+
+/// Two batches of one rubber differ by 14 %, and a law may miss each by half of that.
+TEST(LawFit, TestsThatDifferAsSpecimensDoAreAccepted) {
+  auto tension = made(yeoh, yeoh_rubber, TestKind::uniaxial, 1.05, 2.5, 20, 100.0);
+  auto sheet = made(yeoh, yeoh_rubber, TestKind::equibiaxial, 1.05, 1.8, 20, 100.0, 5);
+  for (double& stress : tension.stress) stress *= 1.07;
+  for (double& stress : sheet.stress) stress *= 0.93;
+  const auto ranking = rank_laws({tension, sheet}, {}, known_laws());
+  const LawFit* best = recommended(ranking);
+  ASSERT_NE(best, nullptr);
+  EXPECT_TRUE(best->failed.empty()) << best->failed.front();
+}
+
+/// A scatter of a third is not the law's, where sigma says so; without it nobody can know.
+TEST(LawFit, NoiseThatSigmaExplainsIsNoMisfit) {
+  auto test = made(neo, vector_of({20e3}), TestKind::uniaxial, 1.1, 1.5, 40, 5e3);
+  EXPECT_TRUE(tells(fit_law({test}, neo).failed, "is missed by"));
+  test.sigma.assign(40, 5e3);
+  EXPECT_TRUE(fit_law({test}, neo).failed.empty());
 }
 
 TEST(LawFit, RefusesWhatCannotBeFitted) {
