@@ -206,7 +206,7 @@ lattice::SpringConstants at_spacing(const Material& material, double spacing) {
 Sentences lattice_warnings(const Material& material, const PressSetup& setup) {
   Sentences found;
   if (!material.rejected.empty())
-    found.push_back("the fit failed its own tests: " + material.rejected);
+    found.push_back(std::string(failed_its_tests) + material.rejected);
   warn_of_spacing(found, material.validity, setup);
   warn_of_geometry(found, material.validity, setup);
   warn_of_kinematics(found, material, setup);

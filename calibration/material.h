@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lattice/press/press_setup.h"
@@ -52,6 +53,9 @@ struct Material {
   /// Every broken rule, with keys of material.toml: "constants.k1".
   std::vector<meshes::Violation> violations() const;
 };
+
+/// How a warning of a material or a law begins whose fit failed its own tests.
+inline constexpr std::string_view failed_its_tests = "the fit failed its own tests: ";
 
 /// The constants for another spacing [m], > 0: k ∝ a leaves the moduli (∝ k/a) as they are, and
 /// kappa is a modulus itself.

@@ -231,7 +231,7 @@ std::string material_toml(Material material) {
 void write_material_toml(const Material& material, const std::filesystem::path& file) {
   const std::vector<meshes::Violation> broken = material.violations();
   if (!broken.empty()) throw InvalidInput(broken);
-  write_toml(material_toml(material), file);
+  write_toml(material_toml(material), material.rejected, file);
 }
 
 Material read_material_toml(const std::filesystem::path& file) {

@@ -109,7 +109,8 @@ double TomlFile::number_in(const std::string& written, std::string_view unit,
   return value;
 }
 
-void write_toml(const std::string& text, const std::filesystem::path& file) {
+void write_toml(const std::string& text, const std::string& rejected,
+                const std::filesystem::path& file) {
   try {
     static_cast<void>(toml::parse(text));
   } catch (const toml::parse_error& error) {
@@ -117,7 +118,10 @@ void write_toml(const std::string& text, const std::filesystem::path& file) {
         {"about", "", "the texts on a material must be UTF-8: " + std::string(error.description()),
          "rename the files it names"});
   }
-  meshes::write_atomically(file, [&](std::ostream& out) { out << text; });
+  meshes::write_atomically(file, [&](std::ostream& out) {
+    if (!rejected.empty()) out << "# NOT ACCEPTED: the fit failed its own tests, see rejected.\n";
+    out << text;
+  });
 }
 
 }  // namespace fingertip::calibration

@@ -70,7 +70,8 @@ class TomlFile {
 };
 
 /// Writes what tells of a material, atomically; throws InvalidInput where a text in it is not
-/// UTF-8.
-void write_toml(const std::string& text, const std::filesystem::path& file);
+/// UTF-8. Why its fit was not accepted: where that is not empty, the first line says so.
+void write_toml(const std::string& text, const std::string& rejected,
+                const std::filesystem::path& file);
 
 }  // namespace fingertip::calibration

@@ -247,13 +247,14 @@ std::string lack_of_fit(const FitRecord& record) {
 }  // namespace
 
 std::string fit_statement(const FitRecord& record) {
-  std::string text = estimates(record.fit) + misfit(record) + open_directions(record.fit) +
-                     other_minima(record.fit) + collinearity(record) + assumptions(record) +
-                     structures(record) + fading(record) + loops(record) + lack_of_fit(record);
+  std::string text;
+  for (const std::string& failed : failed_tests(record)) text += "Not accepted: " + failed + ". ";
+  text += estimates(record.fit) + misfit(record) + open_directions(record.fit) +
+          other_minima(record.fit) + collinearity(record) + assumptions(record) +
+          structures(record) + fading(record) + loops(record) + lack_of_fit(record);
   const std::string next =
       prospect_statement(record.next, record.fit.labels, rubber_parameters(record.fit));
   if (!next.empty()) text += " " + next;
-  for (const std::string& failed : failed_tests(record)) text += " Not accepted: " + failed + ".";
   return text;
 }
 

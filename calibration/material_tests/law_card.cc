@@ -6,6 +6,7 @@
 #include <ostream>
 #include <set>
 
+#include "calibration/material.h"
 #include "calibration/toml_file.h"
 #include "calibration/words.h"
 #include "meshes/files.h"
@@ -362,7 +363,7 @@ LawCard card_of(const LawFit& fit, const std::vector<MaterialTest>& tests,
 void write_law_card(const LawCard& card, const std::filesystem::path& file) {
   const std::vector<Violation> broken = card.violations();
   if (!broken.empty()) throw InvalidInput(broken);
-  write_toml(card_toml(card), file);
+  write_toml(card_toml(card), card.rejected, file);
 }
 
 LawCard read_law_card(const std::filesystem::path& file) {
@@ -372,7 +373,7 @@ LawCard read_law_card(const std::filesystem::path& file) {
 std::vector<std::string> warnings(const LawCard& card,
                                   const std::optional<std::array<double, 2>>& used) {
   std::vector<std::string> found;
-  if (!card.rejected.empty()) found.push_back("the fit failed its own tests: " + card.rejected);
+  if (!card.rejected.empty()) found.push_back(std::string(failed_its_tests) + card.rejected);
   if (used && ((*used)[0] < 0.999 * card.tested[0] || (*used)[1] > 1.001 * card.tested[1]))
     found.push_back("principal stretches from " + rounded((*used)[0]) + " to " +
                     rounded((*used)[1]) + " are asked for, and the law was fitted between " +

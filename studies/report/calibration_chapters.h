@@ -27,6 +27,8 @@ std::string estimate_words(const FitParameter& parameter);
 Chapter transfer_chapter(const CalibrationData& data);
 /// The result of one fit in a few sentences, of several how many describe their data.
 std::string fits_answer(const CalibrationData& data);
+/// Why a run's only fit is not accepted; none: it is, or it is one of several, which a case judges.
+std::vector<std::string> fit_failures(const CalibrationData& data);
 /// The run's result in one paragraph.
 std::string calibration_answer(const CalibrationData& data);
 /// Fits with their parameters and worst errors, as plain ASCII for a terminal.

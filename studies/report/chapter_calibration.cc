@@ -156,6 +156,7 @@ std::string fit_answer(const Fit& fit) {
   words["worst"] = if_known(worst, percent_magnitude(worst));
   words["left_out"] = if_known(left_out, percent_magnitude(left_out));
   words["travel"] = fit.file.rig.has_value();
+  words["rejected"] = !fit.file.failed.empty();
   words["open"] = !fit.file.unidentifiable.empty();
   return sentences("answer_fit", words);
 }
@@ -176,6 +177,10 @@ Chapter fits_chapter(const CalibrationData& data) {
 }
 
 }  // namespace
+
+std::vector<std::string> fit_failures(const CalibrationData& data) {
+  return data.fits.size() == 1 ? data.fits.front().file.failed : std::vector<std::string>();
+}
 
 std::string fits_answer(const CalibrationData& data) {
   if (data.fits.size() == 1) return fit_answer(data.fits.front());

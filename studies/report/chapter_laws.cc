@@ -173,7 +173,9 @@ Table ranking_table(const LawResult& result) {
   const double least = result.file.laws.front().aicc;
   for (const LawEntry& law : result.file.laws) {
     if (!law.failure.empty()) continue;
-    std::vector<Cell> row = {plain(law.law, law.law == result.file.recommended ? "taken" : ""),
+    std::vector<Cell> row = {plain(law.law, law.law != result.file.recommended ? ""
+                                            : result.file.failed.empty()       ? "taken"
+                                                                               : "not accepted"),
                              plain(count(double(law.parameters.size()))),
                              plain(number(law.aicc - least)), plain(stability(law))};
     for (const LawTestEntry& test : law.tests)

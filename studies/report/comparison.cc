@@ -292,9 +292,20 @@ std::string following_text(const Comparison& comparison) {
   return text;
 }
 
+/// "press: the fit failed its own tests: ..."
+std::vector<std::string> rejected_curves(const Comparison& comparison) {
+  std::vector<std::string> found;
+  for (const ComparedCurve& curve : comparison.curves)
+    for (const std::string& reason : curve.rejected) found.push_back(curve.label + ": " + reason);
+  return found;
+}
+
 std::string screen_text(const Comparison& comparison) {
   const std::vector<ComparedCurve>& curves = comparison.curves;
-  std::string text = table_text(comparison);
+  std::string text;
+  for (const std::string& reason : rejected_curves(comparison))
+    text += "NOT ACCEPTED: " + in_shown_units(reason, Spelling::terminal) + "\n";
+  text += table_text(comparison);
   text += fmt::format("{:>38}", "relative L2 difference");
   for (std::size_t i = 1; i < curves.size(); ++i) {
     const double l2 = overall(curves[i], curves.front()).l2;
@@ -333,6 +344,8 @@ Page comparison_page(const Comparison& comparison, FolderReader& reader) {
   Page page;
   page.title = fmt::format("Comparison of {} force curves", curves.size());
   page.subtitle = "Relative differences are against " + curves.front().label;
+  for (const std::string& reason : rejected_curves(comparison))
+    page.rejected.push_back(as_shown(reason));
   page.answer = summary_sentence(comparison);
   page.chapters.push_back(written(std::move(chapter)));
   std::vector<fs::path> folders;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "calibration/material.h"
 #include "meshes/errors.h"
 #include "studies/report/format.h"
 #include "studies/report/run_data.h"
@@ -27,13 +28,28 @@ CurveForce told_force(const ComparedCurve& curve, double depth) {
   return {curve.response.normal_force_at(depth), true};
 }
 
+/// A press with a fit that was not accepted tells so in its warnings.
+std::vector<std::string> read_rejected(const fs::path& folder, FolderReader& reader) {
+  return reader.attempt([&] {
+    std::vector<std::string> found;
+    for (const JsonEntry& warning : array_if_any(reader.json(folder / "summary.json"), "warnings"))
+      if (warning.text().find(calibration::failed_its_tests) != std::string::npos)
+        found.push_back(warning.text());
+    return found;
+  });
+}
+
 /// The curves of a run: its own, or those of the runs inside it, continuum first.
 std::vector<ComparedCurve> read_curves(const fs::path& folder, FolderReader& reader) {
   const std::string label = folder_name(folder);
   const auto curve = [&](const fs::path& place, const std::string& name, const std::string& model) {
-    return ComparedCurve{
-        name, model, place, read_condition(place, reader), reader.response(place / "response.csv"),
-        {}};
+    return ComparedCurve{name,
+                         model,
+                         place,
+                         read_condition(place, reader),
+                         read_rejected(place, reader),
+                         reader.response(place / "response.csv"),
+                         {}};
   };
   if (fs::exists(folder / "response.csv")) return {curve(folder, label, label)};
   std::vector<ComparedCurve> curves;

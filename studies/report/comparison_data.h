@@ -21,6 +21,7 @@ struct ComparedCurve {
   std::string model;  ///< name of the folder, perhaps that of a model
   std::filesystem::path folder;
   std::optional<PressCondition> condition;
+  std::vector<std::string> rejected;  ///< why the fit of what was pressed was not accepted
   meshes::PressResponse response;
   Style style;
 

@@ -90,7 +90,7 @@ class BlockData {
 };
 
 std::string render(const Page& page, const fs::path& figures) {
-  data chapters{List()}, missing{List()}, damaged{List()};
+  data chapters{List()}, missing{List()}, damaged{List()}, rejected{List()};
   for (const Chapter& chapter : page.chapters) {
     if (chapter.blocks.empty()) continue;
     data blocks{List()};
@@ -107,6 +107,7 @@ std::string render(const Page& page, const fs::path& figures) {
     entry.set("files", item.missing);
     missing << entry;
   }
+  for (const std::string& reason : page.rejected) rejected << data("reason", reason);
   for (const Damaged& item : page.damaged) {
     data entry;
     entry.set("place", item.place);
@@ -116,6 +117,8 @@ std::string render(const Page& page, const fs::path& figures) {
   data root;
   root.set("damaged", damaged);
   root.set("has_damaged", !page.damaged.empty());
+  root.set("rejected", rejected);
+  root.set("has_rejected", !page.rejected.empty());
   root.set("page_title", page.title);
   root.set("subtitle", page.subtitle);
   root.set("page_status", page.status);

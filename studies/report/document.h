@@ -71,9 +71,10 @@ struct Damaged {
 
 struct Page {
   std::string title, subtitle;
-  std::string status;             ///< one line below the title, may be empty
-  std::string answer;             ///< the result in one paragraph, may be empty
-  std::vector<Chapter> chapters;  ///< those without blocks are left out
+  std::string status;                 ///< one line below the title, may be empty
+  std::vector<std::string> rejected;  ///< why the result is not accepted: first, in red
+  std::string answer;                 ///< the result in one paragraph, may be empty
+  std::vector<Chapter> chapters;      ///< those without blocks are left out
   std::vector<NotRun> not_run;
   std::vector<Damaged> damaged;
 };

@@ -104,6 +104,7 @@ class PageMaker {
                                                   : study_page();
     if (!run_.status.empty() && run_.status != "ok")
       page.status = "Status of the run: " + run_.status;
+    if (fits_alone) refuse(page, fit_failures(calibration));
     page.answer =
         joined(words([&] { return fits_alone ? calibration_answer(calibration) : std::string(); }),
                words([&] { return answer(run_, reader_); }));
@@ -112,6 +113,12 @@ class PageMaker {
   }
 
  private:
+  /// What failed its own tests is not "finished".
+  static void refuse(Page& page, const std::vector<std::string>& reasons) {
+    for (const std::string& reason : reasons) page.rejected.push_back(as_shown(reason));
+    if (!reasons.empty()) page.status.clear();
+  }
+
   /// A text, empty where its data are damaged.
   template <typename Make>
   std::string words(const Make& make) {
@@ -275,6 +282,7 @@ class PageMaker {
     page.title = "Soft fingertip: laws of a rubber";
     page.subtitle = words(
         [&] { return with_case(run_, "Laws fitted to material tests, and what they predict"); });
+    refuse(page, laws.file.failed);
     page.answer = words([&] { return law_answer(laws); });
     add(page, [&] { return law_chapter(laws); });
     end(page);

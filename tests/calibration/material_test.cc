@@ -188,6 +188,7 @@ TEST_F(MaterialFile, SaysWhatIsNotKnownAndWhatIsNotAccepted) {
   wanted.rejected = "chi-square is 313 at 20 degrees of freedom";
   write_material_toml(wanted, file_);
   EXPECT_EQ(read_text(file_).find("density"), std::string::npos);
+  EXPECT_EQ(read_text(file_).rfind("# NOT ACCEPTED", 0), 0u);
   const Material got = read_material_toml(file_);
   expect_equal(got, wanted);
   lattice::PressSetup setup;

@@ -140,8 +140,16 @@ class Calibration(Run):
         return file if file.exists() else None
 
     @property
+    def failed(self) -> list[str]:
+        """Why the fit is not accepted, a sentence each; empty: it is."""
+        return self.result.get("failed", [])
+
+    @property
     def statement(self) -> str:
         return self.result.get("statement", "")
+
+    def __repr__(self) -> str:
+        return super().__repr__() + "".join(f"\nnot accepted: {reason}" for reason in self.failed)
 
     def _repr_html_(self) -> str:
         rows = "".join(
@@ -151,7 +159,9 @@ class Calibration(Run):
             if entry.get("lower") is not None
         )
         table = f"<table><tr><th></th><th>estimate</th><th>95 %</th><th></th></tr>{rows}</table>" if rows else ""
-        return f"<p>{html.escape(self.statement)}</p>{table}"
+        reasons = "".join(f"<li>{html.escape(reason)}</li>" for reason in self.failed)
+        refused = f'<div style="color:#c62828"><b>Not accepted</b><ul>{reasons}</ul></div>' if reasons else ""
+        return f"{refused}<p>{html.escape(self.statement)}</p>{table}"
 
 
 class Comparison(Run):

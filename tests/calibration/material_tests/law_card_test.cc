@@ -102,9 +102,23 @@ TEST_F(Cards, ARelaxationThatIsNoneIsRefused) {
   refused("+prony-2", "+prony-7", "must be one of");
 }
 
+TEST_F(Cards, OneThatIsNotAcceptedSaysSoFirst) {
+  LawCard written = ogden_card();
+  written.rejected = "one; it is a foam";
+  write_law_card(written, file());
+  EXPECT_EQ(read_text(file()).rfind("# NOT ACCEPTED", 0), 0u);
+  const LawCard read = read_law_card(file());
+  EXPECT_EQ(read.rejected, written.rejected);
+  const auto told = warnings(read, std::nullopt);
+  ASSERT_EQ(told.size(), 2u);  // "one" stands in the first
+  EXPECT_EQ(told[0], "the fit failed its own tests: one; it is a foam");
+  EXPECT_EQ(told[1], "a second \\ one");
+}
+
 TEST_F(Cards, ReadBackToTheSameBits) {
   const LawCard written = ogden_card();
   write_law_card(written, file());
+  EXPECT_EQ(read_text(file()).find("ACCEPTED"), std::string::npos);
   const LawCard read = read_law_card(file());
   EXPECT_EQ(read.choice, written.choice);
   for (std::size_t i = 0; i < 4; ++i)

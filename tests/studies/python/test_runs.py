@@ -88,6 +88,22 @@ class Results(InFolder):
                             rubber_poissons_ratio=0.3)  # fmt: skip
 
 
+class Rejected(InFolder):
+    def test_says_so_first(self):
+        Path("fit").mkdir()
+        Path("fit/calibration.json").write_text(json.dumps({"failed": ["G < 0"], "statement": "E = 1 Pa."}))
+        fit = fingertip.Calibration("fit")
+        self.assertIsNone(fit.material)
+        self.assertEqual(repr(fit), "Calibration('fit')\nnot accepted: G < 0")
+        page = fit._repr_html_()
+        self.assertLess(page.index("Not accepted"), page.index("E = 1 Pa."))
+        self.assertIn("<li>G &lt; 0</li>", page)
+        Path("fit/calibration.json").write_text(json.dumps({"failed": [], "statement": "E = 1 Pa."}))
+        good = fingertip.Calibration("fit")
+        self.assertEqual(repr(good), "Calibration('fit')")
+        self.assertNotIn("ccepted", good._repr_html_())
+
+
 class Beside(InFolder):
     def test_other_threads_go_on(self):
         counted, stop = [0], threading.Event()

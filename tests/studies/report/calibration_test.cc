@@ -109,6 +109,25 @@ TEST_F(FitReport, WarnsOnlyWhereThereIsSomethingToWarnOf) {
   EXPECT_TRUE(has(visible_text(ratio), "ν ended at the limit set for the search"));
 }
 
+/// What must not be used does not look as if it might be: why stands first, in red, in shown units.
+TEST_F(FitReport, ARejectedFitSaysSoFirst) {
+  const std::string accepted = report();
+  EXPECT_FALSE(has(accepted, "class=\"rejected\""));
+  EXPECT_FALSE(has(visible_text(accepted), "ot accepted"));
+  const std::string html = report([](json& result) {
+    result["failed"] = {"E = 0.5 Pa is no rubber's", "G ended at a bound"};
+  });
+  const std::string text = visible_text(html);
+  const auto box = html.find("<div class=\"rejected\""), answer = html.find("<p class=\"answer\"");
+  ASSERT_NE(box, html.npos);
+  EXPECT_LT(box, answer);
+  EXPECT_TRUE(has(html, ".rejected + .answer { border-left-color: #c62828; }"));
+  EXPECT_TRUE(has(text, "E = 0.0005 kPa is no rubber")) << text.substr(0, 600);
+  EXPECT_TRUE(has(text, "G ended at a bound"));
+  EXPECT_LT(text.find("This fit is not accepted."), text.find("has E = 4.000 kPa"));
+  EXPECT_FALSE(has(text, "Status of the run"));
+}
+
 TEST_F(FitReport, CurvesAreInMillinewtonAndResidualsInSigma) {
   report();
   const auto measured = rows("fit_curves", "stick measured");

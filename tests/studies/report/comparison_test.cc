@@ -84,6 +84,25 @@ std::string inputs_of(const std::string& geometry) {
   return R"({"geometry":)" + geometry + R"(,"protocol":{"contact":"stick"},"lattice":{}})";
 }
 
+/// A press with a fit that was not accepted is no measure of anything without that word.
+TEST(Comparison, APressOfARejectedFitSaysSoFirst) {
+  TemporaryFolder folder;
+  write_line(folder.path() / "plain", 1.0, 0.002);
+  write_line(folder.path() / "foam", 1.25, 0.002);
+  report_testing::write_file(
+      folder.path() / "foam" / "summary.json",
+      R"({"warnings": ["deep", "material.toml: the fit failed its own tests: E = 0.5 Pa"]})");
+  const auto result = studies::write_comparison({folder.path() / "plain", folder.path() / "foam"},
+                                                folder.path() / "out");
+  EXPECT_EQ(result.text.rfind("NOT ACCEPTED: foam: material.toml: the fit failed", 0), 0u)
+      << result.text;
+  const std::string html = read_text(folder.path() / "out" / "comparison.html");
+  EXPECT_LT(html.find("<div class=\"rejected\""), html.find("<p class=\"answer\""));
+  const std::string text = report_testing::visible_text(html);
+  EXPECT_NE(text.find("foam: material.toml: the fit failed its own tests"), std::string::npos);
+  EXPECT_EQ(text.find("deep"), std::string::npos);
+}
+
 TEST(Comparison, TellsOfShapesWhatHoldsForBoth) {
   const TemporaryFolder folder;
   const auto finger = [](const std::string& lengths, const std::string& shape) {

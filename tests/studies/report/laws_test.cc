@@ -110,6 +110,19 @@ TEST_F(LawsReport, ShowsRankingTestsLoopsAndWhatContradicts) {
   EXPECT_TRUE(has(csv, "time [s]"));
 }
 
+TEST_F(LawsReport, ARejectedLawSaysSoFirst) {
+  EXPECT_FALSE(has(report(), "class=\"rejected\""));
+  auto file = nlohmann::json::parse(read_text(run_ / "laws.json"));
+  file["failed"] = {"the law does not describe the data: tension is missed by 27 %"};
+  write_text(run_ / "laws.json", file.dump());
+  const std::string html = report(), text = report_testing::visible_text(html);
+  const auto box = html.find("<div class=\"rejected\"");
+  ASSERT_NE(box, html.npos);
+  EXPECT_LT(box, html.find("<p class=\"answer\""));
+  EXPECT_TRUE(has(text, "What follows must not be used as it is:")) << text.substr(0, 600);
+  EXPECT_TRUE(has(text, "tension is missed by 27 %"));
+}
+
 TEST_F(LawsReport, TellsSumsOfSquaresThatOthersPublished) {
   const std::string text = report_testing::visible_text(report());
   EXPECT_TRUE(has(text, "over those that others published")) << text;
