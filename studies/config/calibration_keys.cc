@@ -176,15 +176,17 @@ std::vector<Key> calibration_keys() {
                at(&Config::calibration, &CalibrationSettings::depth)),
       entry("points", {2, 200, true}, "indentations of each of the continuum's curves",
             &Order::points),
-      with_rule(entry("parameters", any, "what is free; none: what the problem usually frees",
-                      &Order::parameters),
-                "youngs_modulus, shear_modulus: E and G; modulus: E, Poisson's ratio held; "
-                "lame_shear, lambda: of law A; k1, k2, k3, kappa: of the lattice; bond, contact: "
-                "factors on the ties; retardation_time. experiment and curve know all but the "
-                "last, finite-strain the moduli and law A's, damping the last alone. experiment "
-                "knows besides relaxation: shares and times of the branches of rubber.relaxation, "
-                "of one if it has none; or relaxation_g1, relaxation_tau1 ...: some of them",
-                {}),
+      with_rule(
+          entry("parameters", any, "what is free; none: what the problem usually frees",
+                &Order::parameters),
+          "youngs_modulus, shear_modulus: E and G; modulus, or one of these alone: E, Poisson's "
+          "ratio held; "
+          "lame_shear, lambda: of law A; k1, k2, k3, kappa: of the lattice; bond, contact: "
+          "factors on the ties; retardation_time. experiment and curve know all but the "
+          "last, finite-strain the moduli and law A's, damping the last alone. experiment "
+          "knows besides relaxation: shares and times of the branches of rubber.relaxation, "
+          "of one if it has none; or relaxation_g1, relaxation_tau1 ...: some of them",
+          {}),
       forward_key(),
       only_with("calibration.problem", {"experiment"}, rig_key()),
       only_with("calibration.problem", {"experiment"},

@@ -1,5 +1,7 @@
 #include "studies/run/fit_parameters.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -57,6 +59,13 @@ std::vector<MaterialParameter> usual_parameters(const CalibrationSettings& setti
   }
 }
 
+/// E or G alone is meant at the rubber's Poisson's ratio: were the other modulus held, a rubber
+/// twice as stiff would have another ratio, soon one that no rubber has.
+void hold_the_ratio(std::vector<MaterialParameter>& chosen) {
+  if (std::ranges::count_if(chosen, calibration::is_modulus) == 1)
+    std::ranges::replace_if(chosen, calibration::is_modulus, modulus);
+}
+
 std::vector<MaterialParameter> free_parameters(const LoadedConfig& loaded) {
   const CalibrationSettings& settings = loaded.config.calibration;
   if (settings.parameters.empty())
@@ -81,6 +90,7 @@ std::vector<MaterialParameter> free_parameters(const LoadedConfig& loaded) {
                     "name some of them, or none for the usual ones");
     chosen.push_back(*found);
   }
+  hold_the_ratio(chosen);
   std::ranges::stable_partition(chosen, std::not_fn(calibration::is_of_the_relaxation));
   if (!chosen.empty() && calibration::is_of_the_relaxation(chosen.front()))
     chosen.insert(chosen.begin(), modulus);
@@ -102,13 +112,6 @@ double scale_of(MaterialParameter parameter, const lattice::PressSetup& base) {
 bool frees(const FitInput& input, MaterialParameter parameter) {
   return std::ranges::find(input.options.free, parameter, &FreeParameter::parameter) !=
          input.options.free.end();
-}
-
-/// Of one of the two, the other being held; it starts within.
-void bound_modulus(FreeParameter& free, double lower, double upper) {
-  free.lower = lower;
-  free.upper = upper;
-  free.start = std::clamp(free.start, lower, upper);
 }
 
 }  // namespace
@@ -141,6 +144,20 @@ std::vector<FreeParameter> free_list(const LoadedConfig& loaded, const lattice::
   return list;
 }
 
+std::optional<std::string> held_ratio_note(const LoadedConfig& loaded, const FitInput& input) {
+  const std::vector<std::string>& asked = loaded.config.calibration.parameters;
+  if (!frees(input, modulus) || std::ranges::find(asked, "modulus") != asked.end())
+    return std::nullopt;
+  for (const MaterialParameter one : {youngs_modulus, shear_modulus})
+    if (std::ranges::find(asked, calibration::name(one)) != asked.end())
+      return fmt::format(
+          "calibration.parameters frees {} alone: Poisson's ratio is held at the rubber's, {:.4g}, "
+          "and E, with it G, is fitted as modulus; to seek the ratio, too, name youngs_modulus and "
+          "shear_modulus",
+          calibration::name(one), input.base.rubber.poissons_ratio());
+  return std::nullopt;
+}
+
 void bound_poissons_ratio(const LoadedConfig& loaded, FitInput& input) {
   const CalibrationSettings& wanted = loaded.config.calibration;
   calibration::CurveFitOptions& options = input.options;
@@ -154,20 +171,12 @@ void bound_poissons_ratio(const LoadedConfig& loaded, FitInput& input) {
                    std::max(range[0], options.lowest_poissons_ratio),
                highest = options.highest_poissons_ratio = range[1];
   const meshes::Rubber& rubber = input.base.rubber;
-  if (options.free.size() > 0 && frees(input, modulus) &&
+  if (loaded.entries.at("calibration.poisson_range").given && frees(input, modulus) &&
       (rubber.poissons_ratio() < lowest || rubber.poissons_ratio() > highest))
     throw refused(loaded, "calibration.poisson_range", "",
                   "the rubber's Poisson's ratio, which is held, is " +
                       meshes::to_text(rubber.poissons_ratio()) + ", outside of the range",
                   "widen the range, or give another rubber");
-  if (frees(input, youngs_modulus) == frees(input, shear_modulus)) return;
-  for (FreeParameter& free : options.free) {
-    const double e = rubber.youngs_modulus, g = rubber.shear_modulus;
-    if (free.parameter == youngs_modulus)
-      bound_modulus(free, 2.0 * g * (1.0 + lowest), 2.0 * g * (1.0 + highest));
-    if (free.parameter == shear_modulus)
-      bound_modulus(free, 0.5 * e / (1.0 + highest), 0.5 * e / (1.0 + lowest));
-  }
 }
 
 std::vector<double> start_ratios(const FitInput& input) {

@@ -121,6 +121,7 @@ FitSetup assembled(const LoadedConfig& given, Presses presses) {
   fit.input.problem = wanted.problem;
   fit.input.base = base_of(loaded);
   fit.input.options.free = free_list(given, fit.input.base);
+  if (const auto note = held_ratio_note(given, fit.input)) fit.notes.push_back(*note);
   if (knows_relaxation(wanted)) fit.input.branches = branches_of(given, fit.input.options.free);
   if (presses == Presses::planned) check_plan(given, fit.input);
   fit.input.options.robust_width = wanted.robust_width;

@@ -177,6 +177,30 @@ TEST(Calibrate, FindsARubberAHundredTimesStiffer) {
   EXPECT_EQ(material.find("density"), std::string::npos) << "a default is not known";
 }
 
+/// Whoever frees E or G alone means it at the rubber's Poisson's ratio, here 0.4286: forces 1.3
+/// times as large are those of a rubber 1.3 times as stiff.
+TEST(Calibrate, OneModulusAloneIsFittedAtTheGivenPoissonsRatio) {
+  const TemporaryFolder folder;
+  write_measured(folder.path(), "frictionless", "a.csv", 1.3);
+  const auto fit = [&](const char* out, const std::string& free) {
+    return run_program(folder.path(),
+                       with(experiment, {"--set", "calibration.data=[\"a.csv\"]", "--set",
+                                         "calibration.parameters=" + free, "--out", out}));
+  };
+  for (const char* one : {"youngs_modulus", "shear_modulus"}) {
+    const ProgramResult run = fit(one, "[\"" + std::string(one) + "\"]");
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("Poisson's ratio is held at the rubber's, 0.4286"), std::string::npos)
+        << run.err;
+    const json found = read(folder / one / "calibration.json");
+    const double e = found["rubber"]["youngs_modulus"], g = found["rubber"]["shear_modulus"];
+    EXPECT_NEAR(e, 1.3 * 3922.66, 0.01 * 3922.66);
+    EXPECT_NEAR(e / (2.0 * g) - 1.0, 40.0 / 28.0 - 1.0, 1e-9);
+  }
+  const ProgramResult both = fit("both", "[\"youngs_modulus\", \"modulus\"]");
+  EXPECT_EQ(both.code, 2) << "E at a held ratio, and E with another one";
+}
+
 /// Forces of nu = 0.43 cannot be met between 0.2 and 0.3, where the search then ends.
 TEST(Calibrate, PoissonsRatioStaysInItsRangeAndTheFitIsNotAccepted) {
   const TemporaryFolder folder;
