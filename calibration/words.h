@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fingertip::calibration {
@@ -19,6 +20,12 @@ inline std::string in_one(const std::vector<std::string>& sentences) {
   std::string text;
   for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
   return text;
+}
+
+/// The same with its SI unit behind it, from which `in_shown_units` makes what people read; "1": a
+/// number without one.
+inline std::string quantity_text(double value, std::string_view unit, int digits = 5) {
+  return rounded(value, digits) + (unit == "1" ? "" : " " + std::string(unit));
 }
 
 /// A share [-] in percent, to two digits.

@@ -44,8 +44,8 @@ void judge_bounds(Sentences& found, const FitRecord& record) {
   }
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
     if (fit.at_bound[i])
-      found.push_back(fit.labels[i] + " ended at a bound, " + rounded(fit.estimates(Index(i)), 5) +
-                      " " + std::string(unit(fit.parameters[i])));
+      found.push_back(fit.labels[i] + " ended at a bound, " +
+                      quantity_text(fit.estimates(Index(i)), unit(fit.parameters[i])));
 }
 
 /// Half of what elastic solids have, -1 to 1/2.

@@ -17,11 +17,6 @@ constexpr double improbable = 0.01;
 /// A minimum whose chi-square is within this of the least one is as good (95 %, one parameter).
 constexpr double as_good = 3.84;
 
-std::string with_unit(double value, MaterialParameter parameter) {
-  const std::string_view symbol = unit(parameter);
-  return rounded(value, 5) + (symbol == "1" ? "" : " " + std::string(symbol));
-}
-
 std::string ratio_text(const CurveFit& fit) {
   const auto estimate = [&](MaterialParameter parameter) {
     return fit.estimates(std::ranges::find(fit.parameters, parameter) - fit.parameters.begin());
@@ -39,7 +34,7 @@ std::string estimates(const CurveFit& fit) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const MaterialParameter parameter = fit.parameters[i];
     text += (text.empty() ? "" : "; ") + fit.labels[i] + " = " +
-            with_unit(fit.estimates(Index(i)), parameter);
+            quantity_text(fit.estimates(Index(i)), unit(parameter));
     const bool by_ratio = fit.poissons_ratio_bound && is_modulus(parameter);
     if (by_ratio) continue;
     const double lower = fit.lower(Index(i)), upper = fit.upper(Index(i));
@@ -110,8 +105,8 @@ std::string other_minima(const CurveFit& fit) {
     if (same || 2.0 * (minimum.loss - best->loss) > as_good || !fit.chi_square) continue;
     std::string text = " Another answer describes the data as well:";
     for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-      text +=
-          " " + fit.labels[i] + " = " + with_unit(minimum.estimates(Index(i)), fit.parameters[i]);
+      text += " " + fit.labels[i] + " = " +
+              quantity_text(minimum.estimates(Index(i)), unit(fit.parameters[i]));
     return text + ".";
   }
   return "";

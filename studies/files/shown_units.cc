@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <regex>
+#include <vector>
 
 namespace fingertip::studies {
 
@@ -21,7 +23,8 @@ constexpr ShownUnits tables[] = {{UnitSystem::si,
                                   {"stiffness", "N/m", "N/m", "N/m", 1.0},
                                   {"torque", "N m", "mN mm", "mN mm", 1e6},
                                   {"speed", "m/s", "mm/s", "mm/s", 1e3},
-                                  {"compliance", "m/N", "mm/N", "mm/N", 1e3}},
+                                  {"compliance", "m/N", "mm/N", "mm/N", 1e3},
+                                  {"force rate", "N/s", "mN/s", "mN/s", 1e3}},
                                  {UnitSystem::paper,
                                   {"length", "m", "cm", "cm", 1.0 / cm},
                                   {"force", "N", "gf", "gf", 1.0 / gf},
@@ -29,7 +32,8 @@ constexpr ShownUnits tables[] = {{UnitSystem::si,
                                   {"stiffness", "N/m", "gf/cm", "gf/cm", cm / gf},
                                   {"torque", "N m", "gf cm", "gf cm", 1.0 / (gf * cm)},
                                   {"speed", "m/s", "cm/s", "cm/s", 1.0 / cm},
-                                  {"compliance", "m/N", "cm/gf", "cm/gf", gf / cm}}};
+                                  {"compliance", "m/N", "cm/gf", "cm/gf", gf / cm},
+                                  {"force rate", "N/s", "gf/s", "gf/s", 1.0 / gf}}};
 
 UnitSystem today = UnitSystem::si;
 
@@ -40,9 +44,30 @@ int digits_of(std::string_view number) {
   return int(std::ranges::count_if(number, [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-std::string converted(const std::string& number, const ShownUnit& unit) {
-  return fmt::format("{:.{}g}", unit(std::strtod(number.c_str(), nullptr)),
-                     std::max(4, digits_of(number)));
+/// Amounts of one sentence, an estimate and its interval, in `unit` and with as many decimals as
+/// the largest needs for its digits; without an exponent unless it is huge or tiny.
+std::vector<std::string> converted(const std::vector<std::string>& amounts, const ShownUnit& unit) {
+  int digits = 4;
+  double largest = 0.0;
+  for (const std::string& number : amounts) {
+    digits = std::max(digits, digits_of(number));
+    largest = std::max(largest, std::abs(unit(std::strtod(number.c_str(), nullptr))));
+  }
+  const bool plain = largest == 0.0 || (largest >= 1e-4 && largest < 1e7);
+  const int before = plain && largest > 0.0 ? int(std::floor(std::log10(largest))) : 0;
+  std::vector<std::string> texts;
+  for (const std::string& number : amounts) {
+    const double value = unit(std::strtod(number.c_str(), nullptr));
+    std::string& text =
+        texts.emplace_back(plain ? fmt::format("{:.{}f}", value, std::max(0, digits - 1 - before))
+                                 : fmt::format("{:.{}g}", value, digits));
+    if (plain && text.find('.') != text.npos) {
+      text.erase(text.find_last_not_of('0') + 1);
+      if (text.ends_with('.')) text.pop_back();
+    }
+    if (text == "-0") text = "0";
+  }
+  return texts;
 }
 
 }  // namespace
@@ -68,8 +93,8 @@ std::string ShownUnit::decimals(double value) const {
   return text == "-0.0000" ? text.substr(1) : text;
 }
 
-std::array<const ShownUnit*, 7> ShownUnits::all() const {
-  return {&length, &force, &stress, &stiffness, &torque, &speed, &compliance};
+std::array<const ShownUnit*, 8> ShownUnits::all() const {
+  return {&length, &force, &stress, &stiffness, &torque, &speed, &compliance, &force_rate};
 }
 
 const ShownUnit* ShownUnits::of(std::string_view si) const {
@@ -91,7 +116,7 @@ std::string in_shown_units(std::string_view words, Spelling spelling) {
   // may be damaged, and the library's search takes stack for every character that repeats.
   static const std::regex amount(
       R"((^|[^\w.+-]|\+-)([-+]?\d{1,20}(?:\.\d{1,20})?(?:e[-+]?\d{1,3})?) )"
-      R"((N/m|N m|m/N|m/s|Pa|N|m)(?![\w/^]))"
+      R"((N/m|N m|N/s|m/N|m/s|Pa|N|m)(?![\w/^]))"
       R"((?:( \(95 %: )([-+.e\d]{1,24})( to )([-+.e\d]{1,24}))?)",
       std::regex::optimize);
   std::string text;
@@ -100,11 +125,12 @@ std::string in_shown_units(std::string_view words, Spelling spelling) {
        found != end; ++found) {
     const std::cmatch& part = *found;
     const ShownUnit& unit = *shown_units().of(part.str(3));
-    text += part.prefix().str() + part.str(1) + converted(part.str(2), unit) + " ";
+    std::vector<std::string> amounts = {part.str(2)};
+    if (part[4].matched) amounts.insert(amounts.end(), {part.str(5), part.str(7)});
+    amounts = converted(amounts, unit);
+    text += part.prefix().str() + part.str(1) + amounts[0] + " ";
     text += spelling == Spelling::page ? unit.name : unit.ascii;
-    if (part[4].matched)
-      text +=
-          part.str(4) + converted(part.str(5), unit) + part.str(6) + converted(part.str(7), unit);
+    if (part[4].matched) text += part.str(4) + amounts[1] + part.str(6) + amounts[2];
     rest = words.begin() + (part[0].second - words.data());
   }
   return text + std::string(rest, words.end());

@@ -38,9 +38,9 @@ struct ShownUnit {
 
 struct ShownUnits {
   UnitSystem system;
-  ShownUnit length, force, stress, stiffness, torque, speed, compliance;
+  ShownUnit length, force, stress, stiffness, torque, speed, compliance, force_rate;
 
-  std::array<const ShownUnit*, 7> all() const;
+  std::array<const ShownUnit*, 8> all() const;
   /// That of a quantity whose unit in files is `si`; null when the table has none.
   const ShownUnit* of(std::string_view si) const;
 };
@@ -53,7 +53,8 @@ const ShownUnits& shown_units();
 enum class Spelling { page, terminal };
 /// Words of a result, whose amounts are in SI as files have them, with these as they are shown:
 /// "E = 2.5e+05 Pa (95 %: 2.4e+05 to 2.6e+05)" becomes "E = 250 kPa (95 %: 240 to 260)". Digits are
-/// kept, four at least; units that the table does not have stay.
+/// kept, four at least, with the decimals that the largest of the three needs; units that the table
+/// does not have stay.
 std::string in_shown_units(std::string_view words, Spelling spelling);
 
 /// Shows in `system` as long as this lives. For one thread at a time: pages and screens are made

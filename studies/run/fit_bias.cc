@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calibration/words.h"
 #include "meshes/interpolation.h"
 #include "studies/run/json_file.h"
 
@@ -18,12 +19,15 @@ std::string statement(const ordered_json& parameters) {
   std::string text =
       " The lattice's own error, measured by the continuum at the estimates, shifts them; with that"
       " the 95 % intervals are";
-  for (const ordered_json& parameter : parameters)
-    text += fmt::format("{} {} {:.5g} to {:.5g} (shifted by {:+.2g} %)",
+  for (const ordered_json& parameter : parameters) {
+    const std::string unit = parameter["unit"];
+    text += fmt::format("{} {} {} to {} (shifted by {:+.2g} %)",
                         &parameter == &parameters.front() ? "" : ",",
-                        parameter["name"].get<std::string>(), number_of(parameter["lower"]),
-                        number_of(parameter["upper"]),
+                        parameter["name"].get<std::string>(),
+                        calibration::quantity_text(number_of(parameter["lower"]), unit),
+                        calibration::quantity_text(number_of(parameter["upper"]), unit),
                         100.0 * number_of(parameter["bias"]) / number_of(parameter["estimate"]));
+  }
   return text + ".";
 }
 

@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "calibration/fit_file.h"
+#include "calibration/words.h"
 #include "meshes/fields_json.h"
 #include "studies/run/json_file.h"
 
 namespace fingertip::studies {
 
+using calibration::quantity_text;
 using meshes::ContactMode;
 using nlohmann::ordered_json;
 
@@ -21,9 +23,10 @@ ContactMode opposite(ContactMode contact) {
 }
 
 std::string estimate_words(const ordered_json& parameter) {
-  return fmt::format("{} = {:.5g} (95 %: {:.5g} to {:.5g})", parameter["name"].get<std::string>(),
-                     number_of(parameter["estimate"]), number_of(parameter["lower"]),
-                     number_of(parameter["upper"]));
+  return fmt::format(
+      "{} = {} (95 %: {:.5g} to {:.5g})", parameter["name"].get<std::string>(),
+      quantity_text(number_of(parameter["estimate"]), parameter["unit"].get<std::string>()),
+      number_of(parameter["lower"]), number_of(parameter["upper"]));
 }
 
 std::string statement(const ordered_json& other, const std::string& taken, const std::string& name,
@@ -37,7 +40,7 @@ std::string statement(const ordered_json& other, const std::string& taken, const
   if (std::isfinite(own) && std::isfinite(rival))
     text += fmt::format(", chi-square {:.4g} in place of {:.4g}", rival, own);
   else
-    text += fmt::format(", residuals of {:.3g} in place of {:.3g} N",
+    text += fmt::format(", residuals of {:.3g} N in place of {:.3g} N",
                         number_of(other["residual_deviation"]),
                         number_of(calibration["residual_deviation"]));
   return text + ". The intervals that are told cover both.";

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "studies/files/shown_units.h"
+#include "studies/run/fit_contact.h"
+
 using namespace fingertip;
 using namespace fingertip::studies;
 using nlohmann::ordered_json;
@@ -23,7 +26,11 @@ struct StraightLine {
     return {{"statement", "Found."},
             {"influence", {influence}},
             {"parameters",
-             {{{"name", "p"}, {"estimate", estimate()}, {"lower", 4.8}, {"upper", 5.0}}}}};
+             {{{"name", "p"},
+               {"unit", "1"},
+               {"estimate", estimate()},
+               {"lower", 4.8},
+               {"upper", 5.0}}}}};
   }
 };
 
@@ -55,6 +62,41 @@ TEST(FitBias, AModelThatIsTooStiffMakesTheEstimateTooSmall) {
   EXPECT_NEAR(found["upper"].get<double>(), 5.0 + std::abs(bias), 1e-12);
   EXPECT_NE(calibration["statement"].get<std::string>().find("shifted by -2"), std::string::npos)
       << calibration["statement"];
+}
+
+/// Whoever reads kPa and mm reads these in every sentence.
+TEST(FitBias, SentencesOnAnotherContactAndOnTheBiasHaveUnits) {
+  const auto fit = [](double modulus, double touch, double deviation) {
+    const auto parameter = [](const char* name, const char* unit, double value) {
+      return ordered_json{{"name", name},
+                          {"unit", unit},
+                          {"estimate", value},
+                          {"lower", 0.9 * value},
+                          {"upper", 1.1 * value},
+                          {"interval", "profile"},
+                          {"standard_error", 0.05 * value}};
+    };
+    return ordered_json{{"parameters",
+                         {parameter("modulus", "Pa", modulus),
+                          parameter("touch_offset", "m", touch), parameter("bond", "1", 0.5)}},
+                        {"chi_square", nullptr},
+                        {"residual_deviation", deviation},
+                        {"influence", {{0.0}, {0.0}, {0.0}}},
+                        {"statement", ""}};
+  };
+  ordered_json calibration = fit(2.0e5, 2.0e-4, 0.0498);
+  add_other_contact(fit(2.4162e5, 2.4807e-4, 0.0509), "stick", "frictionless", calibration);
+  const auto shown = [&] {
+    return in_shown_units(calibration["statement"].get<std::string>(), Spelling::terminal);
+  };
+  EXPECT_NE(shown().find("With frictionless contact modulus = 241.62 kPa (95 %: 217.46 to 265.78); "
+                         "touch_offset = 0.24807 mm (95 %: 0.22326 to 0.27288); bond = 0.5 (95 %: "
+                         "0.45 to 0.55), residuals of 50.9 mN in place of 49.8 mN."),
+            std::string::npos)
+      << shown();
+  add_bias(Eigen::VectorXd::Zero(1), calibration);
+  EXPECT_NE(shown().find("are modulus 180 kPa to 265.78 kPa (shifted"), std::string::npos)
+      << shown();
 }
 
 /// The continuum at two of four depths; between them the relative error is linear.

@@ -41,9 +41,16 @@ TEST(Format, AmountsInWordsAreShownInTheUnitsOfTheRun) {
       "-2.2741e-05 to 0.00023447). K1 m, 3 measured, 1.5 mm, 0.25 s, 40 Pa/s stay; k = 8.62 N/m, "
       "c = 5e-05 m/N, +-0.02 N, 1e999 Pa.";
   EXPECT_EQ(in_shown_units(words, Spelling::terminal),
-            "modulus = 258.91 kPa (95 %: 256.27 to 261.55); touch = 0.23094 mm (95 %: -0.022741 to "
+            "modulus = 258.91 kPa (95 %: 256.27 to 261.55); touch = 0.23094 mm (95 %: -0.02274 to "
             "0.23447). K1 m, 3 measured, 1.5 mm, 0.25 s, 40 Pa/s stay; k = 8.62 N/m, c = 0.05 "
             "mm/N, +-20 mN, inf kPa.");
+  // An estimate and its interval look alike, whatever their digits.
+  EXPECT_EQ(
+      in_shown_units("E = 1.1965e+07 Pa (95 %: 1.134e+07 to 1.259e+07), 2e+08 Pa, drift 0.0012 N/s",
+                     Spelling::terminal),
+      "E = 11965 kPa (95 %: 11340 to 12590), 200000 kPa, drift 1.2 mN/s");
+  EXPECT_EQ(in_shown_units("touch = 0 m (95 %: -1e-07 to 1e-07)", Spelling::terminal),
+            "touch = 0 mm (95 %: -0.0001 to 0.0001)");
   const ShowIn paper(UnitSystem::paper);
   EXPECT_EQ(in_shown_units("E = 3922.66 Pa", Spelling::terminal), "E = 40 gf/cm^2");
   EXPECT_EQ(in_shown_units("E = 3922.66 Pa", Spelling::page), "E = 40 gf/cm²");
