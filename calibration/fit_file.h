@@ -94,7 +94,7 @@ constexpr auto fields_of(const RepeatsEntry*) {
 struct CourseEntry {
   std::size_t rows = 0;
   double noise = meshes::unknown, rows_per_value = 1.0, loop = meshes::unknown,
-         hold_time = meshes::unknown, relaxation = meshes::unknown;
+         play = meshes::unknown, hold_time = meshes::unknown, relaxation = meshes::unknown;
   std::vector<double> back_x, back_y;
 
   /// Of a value that is fitted, the mean of some rows.
@@ -103,11 +103,11 @@ struct CourseEntry {
 constexpr auto fields_of(const CourseEntry*) {
   using meshes::named;
   using Whole = CourseEntry;
-  return std::tuple_cat(
-      named("rows noise", &Whole::rows, &Whole::noise),
-      newer(named("rows_per_value", &Whole::rows_per_value)),
-      named("loop hold_time relaxation back_x back_y", &Whole::loop, &Whole::hold_time,
-            &Whole::relaxation, &Whole::back_x, &Whole::back_y));
+  return std::tuple_cat(named("rows noise", &Whole::rows, &Whole::noise),
+                        newer(named("rows_per_value", &Whole::rows_per_value)),
+                        named("loop", &Whole::loop), newer(named("play", &Whole::play)),
+                        named("hold_time relaxation back_x back_y", &Whole::hold_time,
+                              &Whole::relaxation, &Whole::back_x, &Whole::back_y));
 }
 
 /// A curve of a fit.

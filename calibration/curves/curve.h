@@ -14,7 +14,9 @@ struct Course {
   std::size_t rows = 0;            ///< of the file; 0: unknown
   double noise = meshes::unknown;  ///< standard deviation of a single row [y]
   double rows_per_value = 1.0;     ///< that were averaged
-  double loop = meshes::unknown;   ///< area between loading and unloading over the loading's work
+  /// Area between loading and unloading over the loading's work. Below 0 the way back lies above:
+  /// no rubber gives work, it is the machine's play or lag, which shifts it by `play` [m].
+  double loop = meshes::unknown, play = meshes::unknown;
   /// Of the longest hold under load: how long [s], and the share by which the force falls.
   double hold_time = meshes::unknown, relaxation = meshes::unknown;
   std::vector<double> back_x, back_y;  ///< the way back, thinned

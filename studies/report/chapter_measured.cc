@@ -18,8 +18,15 @@ using calibration::CourseEntry;
 using calibration::RepeatsEntry;
 using calibration::RigEntry;
 
+/// With its sign where it is negative: a force that rises in a hold.
 std::string share_words(double share) {
-  return std::isfinite(share) ? percent_magnitude(share) : "–";
+  return share < 0.0 ? percent(share) : percent_magnitude(share);
+}
+
+/// A way back above the loading is the machine's.
+Cell loop_cell(const CourseEntry& course) {
+  return plain(share_words(course.loop),
+               course.play > 0.0 ? "play or lag, " + amount(course.play, "m") : "");
 }
 
 /// Root mean square of measured less fitted.
@@ -49,7 +56,7 @@ Table file_table(const Fit& fit) {
         {plain(curve.name, curve.condition), plain(count(double(course.rows))),
          plain(count(double(curve.x.size()))), plain(shown(noise)),
          plain(shown(misfit), std::isfinite(ratio) ? number(ratio, 2) + " × noise" : ""),
-         plain(share_words(course.loop)),
+         loop_cell(course),
          plain(share_words(course.relaxation),
                timed ? "in " + number(course.hold_time, 3) + gap + "s" : "")});
   }

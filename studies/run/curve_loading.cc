@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/files/shown_units.h"
 #include "studies/run/curve_rows.h"
 
 namespace fingertip::studies {
@@ -16,6 +17,10 @@ double work(const std::vector<CurveRow>& rows) {
   for (std::size_t i = 1; i < rows.size(); ++i)
     sum += 0.5 * (rows[i].y + rows[i - 1].y - 2.0 * rows.front().y) * (rows[i].x - rows[i - 1].x);
   return sum;
+}
+
+double largest_force(const std::vector<CurveRow>& rows) {
+  return std::ranges::max(rows, {}, &CurveRow::y).y;
 }
 
 /// Rows from `first` up to, without, `end`, in which the machine stands still.
@@ -82,15 +87,25 @@ void tell_hold(const std::vector<CurveRow>& rows, const Hold& hold, Holds use,
   std::string text =
       fmt::format("a hold, {} rows from line {}, is {}", hold.end - hold.first,
                   rows[hold.first].line, use == Holds::kept ? "fitted" : "not fitted");
-  const bool pressed = start > 0.05 * std::ranges::max(rows, {}, &CurveRow::y).y;
+  const bool pressed = start > 0.05 * largest_force(rows);
   if (pressed) {
     const double fall = 1.0 - end / start;
-    text += fmt::format("; in it the force falls by {:.2g} %", 100.0 * fall);
+    text += fmt::format("; in it the force {} by {:.2g} %", fall < 0.0 ? "rises" : "falls",
+                        100.0 * std::abs(fall));
     if (std::isnan(course.relaxation) || time >= course.hold_time)
       course.relaxation = fall, course.hold_time = time;
   }
   if (time > 0.0) text += fmt::format(" in {:.3g} s", time);
   notes.push_back(text);
+}
+
+std::string loop_words(const calibration::Course& course) {
+  const double share = 100.0 * course.loop;
+  if (share >= 0.0) return fmt::format("the loop takes {:.2g} % of the work of the loading", share);
+  return fmt::format(
+      "the way back lies above the loading, by {:.2g} % of its work: not the rubber, which gives "
+      "back no more than it took, but {} of play or lag of the machine's travel",
+      -share, shown_units().length.text(course.play));
 }
 
 /// The unloading, thinned to what a figure shows.
@@ -131,10 +146,11 @@ std::vector<CurveRow> loading(std::vector<CurveRow> rows, calibration::Course& c
     keep_way_back(rows, at_end.end, course);
     if (done > 0.0) {
       course.loop = around / done;
+      // A way back that is shifted by the play leaves an area of play times force.
+      if (around < 0.0) course.play = -around / (largest_force(rows) - rows.front().y);
       notes.push_back(
-          fmt::format("the loading, {} rows, is fitted and the unloading, {} rows, is not; the "
-                      "loop takes {:.2g} % of the work of the loading",
-                      count, rows.size() - at_end.end, 100.0 * course.loop));
+          fmt::format("the loading, {} rows, is fitted and the unloading, {} rows, is not; {}",
+                      count, rows.size() - at_end.end, loop_words(course)));
     }
   }
   const std::vector<Hold> holds =

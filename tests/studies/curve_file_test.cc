@@ -399,6 +399,27 @@ TEST_F(MeasuredData, OfALoopTheLoadingIsTakenAndTheAreaTold) {
   EXPECT_NE(file.notes[0].find("the loop takes 39 %"), std::string::npos) << file.notes[0];
 }
 
+/// An axis that loses 0.1 mm where it turns: the way back lies above the loading of F = x/2 to 3
+/// mm, by 0.1 mm · 1.5 N of 2.25 N mm. No rubber gives work.
+TEST_F(MeasuredData, AWayBackAboveTheLoadingIsPlay) {
+  std::string text = "position [mm],force [N]\n";
+  const auto row = [&](double x, double told) {
+    text += std::to_string(told) + "," + std::to_string(0.5 * x) + "\n";
+  };
+  for (int i = 0; i <= 300; ++i) row(0.01 * i, 0.01 * i);
+  for (int i = 0; i < 10; ++i) row(3.0, 3.0 - 0.01 * (i + 1));
+  for (int i = 299; i >= 0; --i) row(0.01 * i, 0.01 * i - 0.1);
+  const MeasuredFile file = read(text);
+  EXPECT_NEAR(file.curve.course.loop, -0.15 / 2.25, 1e-3);
+  EXPECT_NEAR(file.curve.course.play, 1e-4, 2e-6);
+  const std::string notes = testing::PrintToString(file.notes);
+  EXPECT_NE(notes.find("above the loading, by 6.7 % of its work: not the rubber"),
+            std::string::npos)
+      << notes;
+  EXPECT_NE(notes.find("mm of play or lag of the machine's travel"), std::string::npos) << notes;
+  EXPECT_EQ(notes.find("the loop takes"), std::string::npos) << notes;
+}
+
 TEST_F(MeasuredData, AnEncoderThatStandsStillIsAveraged) {
   std::string text = "position [mm],force [N]\n";
   for (int i = 0; i < 100; ++i)

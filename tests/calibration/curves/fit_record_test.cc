@@ -163,3 +163,15 @@ TEST(FitRecord, TellsWhichValuesOfARigWereGiven) {
   record.rig[0].given = true;
   EXPECT_FALSE(says(fit_statement(record), "No compliance"));
 }
+
+TEST(FitRecord, ALoopIsTheRubbersOrTheMachinesByItsSign) {
+  Curve curve = measured("a", {1.0, 2.0, 3.0, 4.0, 5.0}, 0.1);
+  curve.course.loop = 0.067;
+  EXPECT_TRUE(says(fit_statement(record_of({curve}, one_modulus())), "because the rubber relaxes"));
+  curve.course.loop = -0.067;
+  curve.course.play = 1e-4;
+  const std::string told = fit_statement(record_of({curve}, one_modulus()));
+  EXPECT_TRUE(says(told, "lies above the loading by 6.7 % of its work")) << told;
+  EXPECT_TRUE(says(told, "0.0001 m of play or lag of the machine's travel")) << told;
+  EXPECT_FALSE(says(told, "relaxes")) << told;
+}
