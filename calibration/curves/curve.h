@@ -32,7 +32,8 @@ struct Curve {
   /// Standard deviation of every y, > 0; empty where unknown, in all curves of a fit or in none:
   /// then every y of every curve counts as equally uncertain.
   std::vector<double> sigma;
-  std::vector<double> time = {};  ///< of every value [s]; empty where unknown or of no interest
+  /// Of every value, from the first row on [s]; empty where unknown or of no interest.
+  std::vector<double> time = {};
   bool is_travel = false;         ///< x is the travel of a machine, whose zero is anywhere
   bool in_time = false;           ///< values follow each other in time, and x may stand still
   Course course = {};

@@ -258,6 +258,7 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
   problems_.throw_if_any();
   calibration::Course course;
   course.rows = rows_.size();
+  const double begin = rows_.front().time;
   const bool in_time = wants_time_ && time_;
   if (is_travel() || in_time)
     rows_ =
@@ -271,6 +272,8 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
   } else {
     result_.curve = curve_of(rows_, abscissa, problems_, result_.notes);
   }
+  // A clock's zero is years away: a drift over it would be told from the force's zero by nothing.
+  for (double& time : result_.curve.time) time -= begin;
   result_.curve.is_travel = is_travel();
   result_.x_title = x_.title, result_.x_unit = x_.unit;
   if (!result_.curve.x.empty())

@@ -63,7 +63,8 @@ struct MeasuredFile {
 ///   stretch and frequency must be positive.
 /// - A position may have any sign and stand still or tremble: then its rows are averaged as below.
 ///   Rows after the largest one, a hold or an unloading, are left out with a note that tells the
-///   loop's share of the work. A column time goes along.
+///   loop's share of the work. A column time goes along,
+///   counted from the first row.
 /// - Another x must increase from row to row. More than 200 rows are averaged in at most 200 bins
 /// of equal
 ///   width, with weights 1/sigma² and the mean's sigma (sum of the weights)^(-1/2), which supposes

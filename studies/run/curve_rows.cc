@@ -179,8 +179,8 @@ bool goes_on(const std::vector<CurveRow>& rows, FileProblems& problems) {
       rows, [](const CurveRow& a, const CurveRow& b) { return b.time <= a.time; });
   if (back == rows.end()) return true;
   problems.add(
-      (back + 1)->line, "time", fmt::format("{:.6g} s", (back + 1)->time),
-      fmt::format("must increase from row to row; line {} has {:.6g} s", back->line, back->time),
+      (back + 1)->line, "time", fmt::format("{:.12g} s", (back + 1)->time),
+      fmt::format("must increase from row to row; line {} has {:.12g} s", back->line, back->time),
       "correct it: of a rubber that relaxes forces depend on time");
   return false;
 }

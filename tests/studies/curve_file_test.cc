@@ -495,6 +495,22 @@ TEST_F(MeasuredData, HoldsAreKeptInTime) {
   EXPECT_THROW(read_measured({folder_ / "back.csv"}, every, true), ConfigError);
 }
 
+/// A logger's clock counts seconds since 1970: a drift over it would be told from the force's zero
+/// by nothing.
+TEST_F(MeasuredData, TimesCountFromTheFirstRow) {
+  const auto at = [&](double begin) {
+    std::string text = "time [s],position [mm],force [N]\n";
+    for (int i = 0; i <= 150; ++i)
+      text += std::to_string(begin + 0.1 * i) + "," + std::to_string(0.02 * i) + "," +
+              std::to_string(0.01 * i) + "\n";
+    return read(text).curve.time;
+  };
+  const std::vector<double> own = at(0.0), clock = at(1761841220.0);
+  ASSERT_EQ(own.size(), clock.size());
+  for (std::size_t i = 0; i < own.size(); ++i) EXPECT_NEAR(clock[i], own[i], 2e-6) << i;
+  EXPECT_EQ(clock.front(), 0.0);
+}
+
 /// Rows that become ever sparser stand nowhere still.
 TEST_F(MeasuredData, DenseRowsAreNoHold) {
   std::string text = "position [mm],force [N]\n";
