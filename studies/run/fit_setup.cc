@@ -182,16 +182,13 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit, Presses p
                              const std::vector<std::vector<double>>& excess) {
   double most = 0.0, depth = 0.0;
   for (std::size_t i = 0; i < excess.size(); ++i)
-    if (std::abs(excess[i].back()) > most) {
-      most = std::abs(excess[i].back());
+    if (std::abs(excess[i].back()) > std::abs(most)) {
+      most = excess[i].back();
       const lattice::PressSetup& press = fit.input.presses[i];
       depth = press.protocol.depth / press.geometry.thickness();
     }
-  if (most <= small_excess) return fit;
-  const std::string said = fmt::format(
-      "the data go to {:.0f} % of the rubber's thickness, where a neo-Hookean solid is "
-      "{:.0f} % stiffer than small strain has it",
-      100.0 * depth, 100.0 * most);
+  if (std::abs(most) <= small_excess) return fit;
+  const std::string said = strain_words(depth, most);
   if (may_be_finite(loaded, fit.input)) {
     FitSetup finite = assembled(loaded.with({"lattice.model=network"}), presses);
     finite.notes.push_back(said +
@@ -237,6 +234,13 @@ FitSetup set_up(const LoadedConfig& loaded, Presses presses) {
 }
 
 }  // namespace
+
+std::string strain_words(double depth, double excess) {
+  return fmt::format(
+      "the data go to {:.0f} % of the rubber's thickness, where a neo-Hookean solid is "
+      "{:.0f} % {} than small strain has it",
+      100.0 * depth, 100.0 * std::abs(excess), excess < 0.0 ? "softer" : "stiffer");
+}
 
 fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
                                              lattice::Kinematics kinematics) {

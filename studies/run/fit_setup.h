@@ -1,6 +1,7 @@
 /// From a configuration to the input of a fit.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "fem_reference/job.h"
@@ -26,6 +27,10 @@ FitSetup fit_setup(const LoadedConfig& loaded);
 /// The same of presses that are planned: no file is read, y and sigma are empty. Throws ConfigError
 /// also for another problem than experiment.
 FitSetup plan_setup(const LoadedConfig& loaded);
+
+/// What finite strain adds to the deepest force, relative: a shell may be softer by it. `depth`:
+/// the data's, over the rubber's thickness.
+std::string strain_words(double depth, double excess);
 
 /// The continuum beside a press: static, linear or law A as `kinematics` says, without fields.
 fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
