@@ -95,7 +95,7 @@ struct CourseEntry {
   std::size_t rows = 0;
   double noise = meshes::unknown, rows_per_value = 1.0, loop = meshes::unknown,
          play = meshes::unknown, hold_time = meshes::unknown, relaxation = meshes::unknown;
-  std::vector<double> back_x, back_y;
+  std::vector<double> back_x, back_y, held_time, held_y;
 
   /// Of a value that is fitted, the mean of some rows.
   double noise_of_value() const { return noise / std::sqrt(std::max(1.0, rows_per_value)); }
@@ -107,7 +107,8 @@ constexpr auto fields_of(const CourseEntry*) {
                         newer(named("rows_per_value", &Whole::rows_per_value)),
                         named("loop", &Whole::loop), newer(named("play", &Whole::play)),
                         named("hold_time relaxation back_x back_y", &Whole::hold_time,
-                              &Whole::relaxation, &Whole::back_x, &Whole::back_y));
+                              &Whole::relaxation, &Whole::back_x, &Whole::back_y),
+                        newer(named("held_time held_y", &Whole::held_time, &Whole::held_y)));
 }
 
 /// A curve of a fit.

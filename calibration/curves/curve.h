@@ -17,8 +17,10 @@ struct Course {
   /// Area between loading and unloading over the loading's work. Below 0 the way back lies above:
   /// no rubber gives work, it is the machine's play or lag, which shifts it by `play` [m].
   double loop = meshes::unknown, play = meshes::unknown;
-  /// Of the longest hold under load: how long [s], and the share by which the force falls.
+  /// Of the longest hold under load: how long [s], and the share by which the force falls from that
+  /// at the end of the loading; forces [y] over the time since then [s], thinned.
   double hold_time = meshes::unknown, relaxation = meshes::unknown;
+  std::vector<double> held_time, held_y;
   std::vector<double> back_x, back_y;  ///< the way back, thinned
 };
 
@@ -34,8 +36,8 @@ struct Curve {
   std::vector<double> sigma;
   /// Of every value, from the first row on [s]; empty where unknown or of no interest.
   std::vector<double> time = {};
-  bool is_travel = false;         ///< x is the travel of a machine, whose zero is anywhere
-  bool in_time = false;           ///< values follow each other in time, and x may stand still
+  bool is_travel = false;  ///< x is the travel of a machine, whose zero is anywhere
+  bool in_time = false;    ///< values follow each other in time, and x may stand still
   Course course = {};
 };
 

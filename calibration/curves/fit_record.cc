@@ -110,9 +110,9 @@ CurveEntry curve_entry(const FitRecord& record, std::size_t i) {
   }
   const Course& course = curve.course;
   if (course.rows > 0)
-    entry.course = {course.rows,       course.noise,  course.rows_per_value,
-                    course.loop,       course.play,   course.hold_time,
-                    course.relaxation, course.back_x, course.back_y};
+    entry.course = {course.rows,   course.noise,     course.rows_per_value, course.loop,
+                    course.play,   course.hold_time, course.relaxation,     course.back_x,
+                    course.back_y, course.held_time, course.held_y};
   return entry;
 }
 

@@ -126,6 +126,26 @@ Figure scatter_figure(const RepeatsEntry& group, const std::string& name) {
   return figure;
 }
 
+/// Force over time in the longest hold of every file that has one.
+Figure hold_figure(const Fit& fit, const std::string& name) {
+  Figure figure{name, 760, 400, 1, {}};
+  Panel panel;
+  panel.x_label = "time since the end of the loading [s]";
+  panel.key = "top right";
+  for (const FitCurve& curve : fit.curves) {
+    if (!curve.course || curve.course->held_time.empty()) continue;
+    panel.y_label = shown_units().force.label("force");
+    panel.series.push_back({curve.name,
+                            curve.name,
+                            curve.course->held_time,
+                            in_unit(curve.course->held_y, shown_units().force.factor),
+                            {},
+                            numbered_style(panel.series.size())});
+  }
+  if (!panel.series.empty()) figure.panels = {panel};
+  return figure;
+}
+
 /// Largest |factor - 1|.
 double widest(const RepeatsEntry& group) {
   double most = 0.0;
@@ -152,6 +172,9 @@ Chapter measured_chapter(const Fit& fit, const std::string& prefix) {
     chapter.figures.push_back(scatter_figure(group, name));
   }
   chapter["groups"] = std::move(groups);
+  Figure held = hold_figure(fit, prefix + "_hold");
+  chapter["hold"] = held.panels.empty() ? "" : held.name;
+  if (!held.panels.empty()) chapter.figures.push_back(std::move(held));
   return written(std::move(chapter));
 }
 

@@ -31,6 +31,19 @@ struct Hold {
 /// Times as many rows as usual, and rows, that make a hold.
 constexpr std::size_t hold_share = 5, hold_rows = 10;
 
+/// The first row of a hold at which the machine stands where it does in the middle of it: the
+/// loading's last one, or where it comes to rest.
+std::size_t arrival(const std::vector<CurveRow>& rows, const Hold& hold) {
+  std::vector<double> xs;
+  for (std::size_t i = hold.first; i < hold.end; ++i) xs.push_back(rows[i].x);
+  const auto half = xs.begin() + std::ptrdiff_t(xs.size() / 2);
+  std::ranges::nth_element(xs, half);
+  std::size_t row = hold.first;
+  while (rows[row].x < *half) ++row;
+  while (row > 0 && rows[row - 1].x >= *half) --row;
+  return row;
+}
+
 /// Holds among rows on the way up: stretches of rows within a bin.
 std::vector<Hold> holds_in(const std::vector<CurveRow>& rows, double width) {
   std::vector<Hold> stretches;
@@ -52,13 +65,7 @@ std::vector<Hold> holds_in(const std::vector<CurveRow>& rows, double width) {
   const std::size_t usual = *middle, least_count = std::max(hold_rows, hold_share * usual);
   std::erase_if(stretches, [&](const Hold& h) { return h.end - h.first < least_count; });
   // At its begin the machine still moves.
-  for (Hold& hold : stretches) {
-    std::vector<double> xs;
-    for (std::size_t i = hold.first; i < hold.end; ++i) xs.push_back(rows[i].x);
-    const auto half = xs.begin() + std::ptrdiff_t(xs.size() / 2);
-    std::ranges::nth_element(xs, half);
-    while (rows[hold.first].x < *half) ++hold.first;
-  }
+  for (Hold& hold : stretches) hold.first = arrival(rows, hold);
   // Dense rows on the way are no hold.
   std::erase_if(stretches, [&](const Hold& hold) {
     const std::size_t quarter = std::max<std::size_t>(1, (hold.end - hold.first) / 4);
@@ -70,30 +77,57 @@ std::vector<Hold> holds_in(const std::vector<CurveRow>& rows, double width) {
   return stretches;
 }
 
-/// Mean force of up to a tenth of a hold's rows, at its begin or end.
-double force_of(const std::vector<CurveRow>& rows, const Hold& hold, bool at_end) {
-  const std::size_t count = std::max<std::size_t>(1, (hold.end - hold.first) / 10);
+/// Mean force of so many rows, the last of them being row `last`.
+double mean_force(const std::vector<CurveRow>& rows, std::size_t last, std::size_t count) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i)
-    sum += rows[at_end ? hold.end - 1 - i : hold.first + i].y / double(count);
+  for (std::size_t i = 0; i < count; ++i) sum += rows[last - i].y / double(count);
   return sum;
+}
+
+/// The row at which the machine has arrived and the force begins to fall; of dense rows the mean of
+/// so few that the loading hardly goes on in them.
+double force_on_arrival(const std::vector<CurveRow>& rows, std::size_t arrival) {
+  constexpr std::size_t dense = 1000;
+  return mean_force(rows, arrival, std::min(arrival + 1, 1 + rows.size() / dense));
+}
+
+constexpr std::size_t most_shown = 100;
+
+/// Force over the time since the machine has arrived, thinned to what a figure shows: evenly in the
+/// logarithm of time, in which a force falls evenly.
+void keep_hold(const std::vector<CurveRow>& rows, std::size_t arrival, std::size_t end,
+               calibration::Course& course) {
+  course.held_time.clear(), course.held_y.clear();
+  const double span = rows[end - 1].time - rows[arrival].time;
+  double next = 0.0;
+  for (std::size_t i = arrival; i < end; ++i) {
+    const double time = rows[i].time - rows[arrival].time;
+    if (time < next && i + 1 < end) continue;
+    course.held_time.push_back(time);
+    course.held_y.push_back(rows[i].y);
+    next = std::max(time * std::pow(1e4, 1.0 / most_shown), time + 1e-4 * span);
+  }
 }
 
 void tell_hold(const std::vector<CurveRow>& rows, const Hold& hold, Holds use,
                calibration::Course& course, std::vector<std::string>& notes) {
-  const double start = force_of(rows, hold, false) - rows.front().y,
-               end = force_of(rows, hold, true) - rows.front().y,
-               time = rows[hold.end - 1].time - rows[hold.first].time;
+  const std::size_t begin = arrival(rows, hold), count = hold.end - hold.first;
+  const double start = force_on_arrival(rows, begin) - rows.front().y,
+               end = mean_force(rows, hold.end - 1, std::max<std::size_t>(1, count / 10)) -
+                     rows.front().y,
+               time = rows[hold.end - 1].time - rows[begin].time;
   std::string text =
-      fmt::format("a hold, {} rows from line {}, is {}", hold.end - hold.first,
-                  rows[hold.first].line, use == Holds::kept ? "fitted" : "not fitted");
+      fmt::format("a hold, {} rows from line {}, is {}", count, rows[hold.first].line,
+                  use == Holds::kept ? "fitted" : "not fitted");
   const bool pressed = start > 0.05 * largest_force(rows);
   if (pressed) {
     const double fall = 1.0 - end / start;
     text += fmt::format("; in it the force {} by {:.2g} %", fall < 0.0 ? "rises" : "falls",
                         100.0 * std::abs(fall));
-    if (std::isnan(course.relaxation) || time >= course.hold_time)
+    if (std::isnan(course.relaxation) || time >= course.hold_time) {
       course.relaxation = fall, course.hold_time = time;
+      if (time > 0.0) keep_hold(rows, begin, hold.end, course);
+    }
   }
   if (time > 0.0) text += fmt::format(" in {:.3g} s", time);
   notes.push_back(text);
@@ -111,8 +145,7 @@ std::string loop_words(const calibration::Course& course) {
 /// The unloading, thinned to what a figure shows.
 void keep_way_back(const std::vector<CurveRow>& rows, std::size_t first,
                    calibration::Course& course) {
-  constexpr std::size_t most = 100;
-  const std::size_t step = std::max<std::size_t>(1, (rows.size() - first) / most);
+  const std::size_t step = std::max<std::size_t>(1, (rows.size() - first) / most_shown);
   for (std::size_t i = first; i < rows.size(); i += step) {
     course.back_x.push_back(rows[i].x);
     course.back_y.push_back(rows[i].y);

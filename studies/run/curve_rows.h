@@ -33,8 +33,8 @@ inline constexpr std::size_t most_rows = 200;
 /// the way back, goes into `course`; both are told in `notes`.
 /// - The loop is the area between loading and unloading over the work of the loading.
 /// - Where the machine stands still (at the end, or on the way for five times as many rows as it
-///   takes elsewhere for 1/200 of its way) it holds; the force's fall there over the force then,
-///   both over that of the first row, is the relaxation of the longest hold.
+///   takes elsewhere for 1/200 of its way) it holds; the force's fall there over the force at the
+///   end of the loading, both over that of the first row, is the relaxation of the longest hold.
 /// With `holds` kept, which asks for times, they stay where they are, also the one at the largest
 /// x.
 enum class Holds { left_out, kept };
