@@ -15,17 +15,17 @@ inline std::string rounded(double value, int digits = 4) {
   return text;
 }
 
+/// The same with its SI unit behind it, from which `in_shown_units` makes what people read; "1": a
+/// number without one.
+inline std::string quantity_text(double value, std::string_view unit, int digits = 5) {
+  return rounded(value, digits) + (unit == "1" ? "" : " " + std::string(unit));
+}
+
 /// Of sentences without a full stop one.
 inline std::string in_one(const std::vector<std::string>& sentences) {
   std::string text;
   for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
   return text;
-}
-
-/// The same with its SI unit behind it, from which `in_shown_units` makes what people read; "1": a
-/// number without one.
-inline std::string quantity_text(double value, std::string_view unit, int digits = 5) {
-  return rounded(value, digits) + (unit == "1" ? "" : " " + std::string(unit));
 }
 
 /// A share [-] in percent, to two digits.
