@@ -74,20 +74,7 @@ double Geometry::reach(double tilt) const {
 double Geometry::thickness() const {
   if (is_dome()) return tip_radius - rod_radius;
   if (solid) return solid->pole() - solid->bond_top();
-  double held = lowest();
-  for (std::size_t i = 0; i < profile.size(); ++i) {
-    const ProfileCorner &corner = profile[i], &next = profile[(i + 1) % profile.size()];
-    if (corner.surface != ProfileSurface::bond) continue;
-    held = std::max({held, corner.z, next.z});
-    if (corner.curve != ProfileCurve::arc) continue;
-    // The arc's top, where the middle of the arc is nearer to it than its ends are.
-    const double r = corner.r - corner.centre_r, z = corner.z - corner.centre_z;
-    const double across = 0.5 * (r + next.r - corner.centre_r),
-                 up = 0.5 * (z + next.z - corner.centre_z), half = std::hypot(across, up);
-    if (half > 0.0 && up * std::hypot(r, z) >= across * r + up * z)
-      held = std::max(held, corner.centre_z + std::hypot(r, z));
-  }
-  return pole() - held;
+  return pole() - Meridian(*this).bond_top();
 }
 
 double Geometry::coarsest_spacing() const {

@@ -76,15 +76,27 @@ void Meridian::measure() {
   pole_ = bond_top_ = -none;
   lowest_ = none;
   bool on_axis = false;
+  double covered_bond = -none, lowest_on_axis = none;
   Vector2 top(0.0, -none), highest_contact = top;
-  for (const MonotonePart& part : parts_) lowest_ = std::min(lowest_, part.lowest());
+  double highest = -none;
+  for (const MonotonePart& part : parts_) {
+    lowest_ = std::min(lowest_, part.lowest());
+    highest = std::max(highest, part.highest());
+  }
+  const double grain = 1e-9 * (highest - lowest_);
   for (const MeridianPiece& piece : pieces_) {
     std::vector<double> at = piece.turning_points();
     at.insert(at.end(), {0.0, 1.0});
     for (const double t : at) {
       const Vector2 x = piece.at(t);
       radius_ = std::max(radius_, x.x());
-      if (piece.surface() == ProfileSurface::bond) bond_top_ = std::max(bond_top_, x.y());
+      if (piece.surface() == ProfileSurface::bond) {
+        bond_top_ = std::max(bond_top_, x.y());
+        const Vector2 above(x.x(), x.y() + grain);
+        if (contains(above)) covered_bond = std::max(covered_bond, x.y());
+      }
+      if (piece.surface() != ProfileSurface::axis && x.x() == 0.0)
+        lowest_on_axis = std::min(lowest_on_axis, x.y());
       if (piece.surface() == ProfileSurface::contact) {
         if (x.y() > pole_) on_axis = false;
         pole_ = std::max(pole_, x.y());
@@ -102,6 +114,12 @@ void Meridian::measure() {
                                                      : "something must be able to touch",
                      "name at least one piece " + std::string(name(surface)));
   if (!on_axis || top.y() > pole_) refuse_top(*this, on_axis, top, highest_contact);
+  // Glued at its side a finger is as thick as over what holds it below; a membrane that is glued at
+  // its side alone, along the axis.
+  if (covered_bond > -none)
+    bond_top_ = covered_bond;
+  else if (bond_top_ >= pole_)
+    bond_top_ = lowest_on_axis;
 }
 
 double Meridian::bond_radius() const {

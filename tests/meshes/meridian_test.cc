@@ -187,6 +187,27 @@ TEST(Meridian, BondsArcsReachAsHighAsTheyBulge) {
   EXPECT_NEAR(geometry.thickness(), geometry.pole() - Meridian(geometry).bond_top(), 1e-12);
 }
 
+TEST(Meridian, GluedAtTheSideItIsAsThickAsAlongTheAxis) {
+  // In a cup up to its face; in a bowl; a membrane in a ring.
+  const Geometry cup = Geometry::of_profile({{0.0032, 0.0, bond, straight},
+                                             {0.0032, 0.00796, contact, straight},
+                                             {0.0, 0.00796, axis, straight},
+                                             {0.0, 0.0, bond, straight}}),
+                 bowl = Geometry::of_profile({{0.002, 0.001, bond, straight},
+                                              {0.004, 0.006, contact, straight},
+                                              {0.0, 0.006, axis, straight},
+                                              {0.0, 0.001, bond, straight}}),
+                 ring = Geometry::of_profile({{0.006, 0.001, bond, straight},
+                                              {0.006, 0.003, contact, straight},
+                                              {0.0, 0.003, axis, straight},
+                                              {0.0, 0.001, free, straight}});
+  EXPECT_NEAR(cup.thickness(), 0.00796, 1e-15);
+  EXPECT_NEAR(bowl.thickness(), 0.005, 1e-15);
+  EXPECT_NEAR(ring.thickness(), 0.002, 1e-15);
+  EXPECT_NEAR(cup.coarsest_spacing(), 0.25 * 0.00796, 1e-9);
+  EXPECT_NEAR(ring.coarsest_spacing(), 0.25 * 0.002, 1e-9);
+}
+
 /// Cells, whatever the grid's place: volume, centroid and second moments of bodies known in closed
 /// form.
 TEST(Meridian, CutCellsAddUpToTheBody) {
