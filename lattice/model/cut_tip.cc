@@ -23,8 +23,6 @@ namespace {
 
 /// Surface points lie a third of a spacing apart.
 constexpr double points_per_spacing = 3.0;
-/// The finest lattice: beyond, surface_points has none that near, and the grid would not fit.
-constexpr double smallest_spacing = 3.1e-3;  // of R
 
 void append(std::vector<Violation>& found, const std::vector<Violation>& more) {
   found.insert(found.end(), more.begin(), more.end());

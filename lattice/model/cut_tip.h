@@ -20,6 +20,9 @@ namespace fingertip::lattice {
 inline constexpr double tie_stiffness = 160.0;
 /// Cells with less rubber than this are left out.
 inline constexpr double smallest_fraction = 1e-6;
+/// The finest lattice over R: beyond, surface_points has none that near, and the grid would not
+/// fit.
+inline constexpr double smallest_spacing = 3.1e-3;
 
 /// Immutable. Corners of embedded points are particle numbers of `cells`. Bond and outer points lie
 /// at most a/3 apart; the outer ones cover the hemisphere and R - r of the sleeve. Ties:
@@ -60,6 +63,10 @@ int grid_symmetry(const meshes::Geometry& geometry, const LatticeSettings& setti
 /// Empty if the tip divides into so many parts along planes of grid points.
 std::vector<meshes::Violation> sector_violations(const meshes::Geometry& geometry,
                                                  const LatticeSettings& settings, int sectors);
+
+/// That a model of this geometry can be built with: through the thinnest wall, and for the bond to
+/// a dome's rod [m].
+double coarsest_spacing(const meshes::Geometry& geometry, ModelKind model);
 
 /// Deepest height at which the outer surface can meet the plane [m]: a sleeve as long as the rubber
 /// is thick, since no press goes deeper than that.

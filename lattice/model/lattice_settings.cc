@@ -1,6 +1,8 @@
 #include "lattice/model/lattice_settings.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lattice/model/cut_tip.h"
 #include "meshes/files.h"
@@ -42,6 +44,13 @@ void add_model(std::vector<Violation>& found, const LatticeSettings& l,
                      "take the model network, or lattice.kinematics = small"});
 }
 
+/// The bond's area shrinks with the rod; a thread through a cell holds nothing.
+double coarsest_for_bond(const meshes::Geometry& geometry, ModelKind model) {
+  return model != ModelKind::published && geometry.is_dome()
+             ? 10.0 * geometry.rod_radius
+             : std::numeric_limits<double>::infinity();
+}
+
 /// Ties to rod and plane. Within these factors forces are those of nearly rigid or of soft ties;
 /// far beyond, round-off of the ties hides what the rubber does.
 void add_ties(std::vector<Violation>& found, const LatticeSettings& l,
@@ -60,9 +69,7 @@ void add_ties(std::vector<Violation>& found, const LatticeSettings& l,
     found.push_back({"lattice.contact_stiffness", meshes::to_text(l.contact_stiffness),
                      "only lattices with true surfaces have penalty contact with the plane",
                      "take another model, or leave it at 1"});
-  // The bond's area shrinks with the rod; a thread through a cell holds nothing.
-  if (l.model != ModelKind::published && geometry.is_dome() &&
-      geometry.rod_radius < 0.1 * l.spacing)
+  if (l.spacing > coarsest_for_bond(geometry, l.model))
     found.push_back({"lattice.spacing", meshes::to_text(l.spacing) + " m",
                      "the spacing must be at most ten times the rod's radius, or the bond does not "
                      "hold the rubber",
@@ -70,6 +77,10 @@ void add_ties(std::vector<Violation>& found, const LatticeSettings& l,
 }
 
 }  // namespace
+
+double coarsest_spacing(const meshes::Geometry& geometry, ModelKind model) {
+  return std::min(geometry.coarsest_spacing(), coarsest_for_bond(geometry, model));
+}
 
 std::vector<Violation> LatticeSettings::violations(const meshes::Geometry& geometry,
                                                    const meshes::Rubber& rubber) const {

@@ -37,11 +37,10 @@ int run_check(const CommandLine& line) {
     const std::vector<std::string> on_data = notes_on_data(study_case.loaded);
     if (line.quiet) continue;
     for (const std::string& note : on_data) fmt::print("{}: note: {}\n", file, note);
-    for (const std::string& note : with_material(study_case.loaded, LatticeUse::press).notes)
-      fmt::print("{}: note: {}\n", file, note);
+    const LoadedConfig complete = with_material(study_case.loaded, LatticeUse::press);
+    for (const std::string& note : complete.notes) fmt::print("{}: note: {}\n", file, note);
     // No error: the continuum can do it.
-    const auto limits = lattice::beyond_the_lattice(study_case.loaded.config.press);
-    const ConfigError located = study_case.loaded.locate(limits);
+    const ConfigError located = complete.locate(beyond_the_lattice(complete));
     for (const Problem& limit : located.problems()) {
       fmt::print("{}: note: for press and validate: {}\n", file, to_string(limit));
     }

@@ -80,7 +80,7 @@ fs::path exported(const CommandLine& line) {
 
 /// Laws of contact, fitted to the continuum.
 int export_contact(const CommandLine& line) {
-  const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::modes);
+  const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::none);
   const std::vector<Problem> lost = lost_in_contact(loaded);
   if (!lost.empty() && !line.lossy) throw ConfigError(lost);
   const ContactCurves curves = contact_curves(line.format, loaded);

@@ -330,10 +330,8 @@ int run_modes(const CommandLine& line) {
 }
 
 int run_reference(const CommandLine& line) {
-  const LoadedConfig loaded = with_material(load_config(line.config), LatticeUse::modes);
-  // The usual spacing may be too coarse for a profile, which is nothing to the continuum.
-  const bool asked = loaded.entries.at("lattice.spacing").given;
-  if (loaded.config.press.geometry.is_dome() || asked) check_all(loaded);
+  const LoadedConfig loaded = with_material(load_config(line.config), LatticeUse::none);
+  check_all(loaded);
   const fem_reference::ReferenceJob reference = continuum_setup(loaded);
   return run_in_folder(line, loaded, {}, [&](Session& session) {
     const JobResult result = session.run({"", reference_job(reference), false});

@@ -10,6 +10,7 @@
 #include "calibration/toml_depth.h"
 #include "meshes/files.h"
 #include "studies/config/elasticity.h"
+#include "studies/config/finger_defaults.h"
 #include "studies/config/key_table.h"
 #include "studies/config/law_card_keys.h"
 #include "studies/config/press_depths.h"
@@ -280,6 +281,7 @@ LoadedConfig Reader::finish() {
   }
   press.lattice.kinematics = config.kinematics.value_or(default_kinematics(press.lattice.model));
   const meshes::PressProtocol& protocol = press.protocol;
+  choose_for_finger(loaded_);
   resolve_depths(loaded_, problems_);
   config.reference.geometry = press.geometry;
   config.reference.rubber = press.rubber;
@@ -336,7 +338,7 @@ ConfigError LoadedConfig::locate(const std::vector<meshes::Violation>& violation
       if (!related.given) continue;
       problem.rule += " (here " + other + " = " + shortened(unquoted(related.literal)) + ", " +
                       shortened(related.place) + ")";
-      if (problem.place == default_place) problem.place = related.place;
+      if (problem.place.starts_with(default_place)) problem.place = related.place;
     }
     if (problem.place.empty()) problem.place = "input";
     problems.push_back(std::move(problem));

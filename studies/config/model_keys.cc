@@ -136,7 +136,8 @@ std::vector<Key> lattice_keys() {
           "a, distance of neighbouring masses along the axes",
           at(&Config::press, &lattice::PressSetup::lattice, &lattice::LatticeSettings::spacing)),
       "at most (tip_radius - rod_radius)/2, of another shape a quarter of its thinnest wall, "
-      "and no more than 20 million masses",
+      "and no more than 20 million masses; where the default is coarser than that, the coarsest "
+      "tip_radius/N that is not",
       {"geometry.tip_radius", "geometry.rod_radius"});
   const double divisor = meshes::Geometry().tip_radius / lattice::LatticeSettings().spacing;
   spacing.preset = "\"tip_radius/" + calibration::rounded(divisor, 12) + '"';

@@ -106,7 +106,8 @@ std::vector<Key> press_keys() {
                 protocol(&PressProtocol::lateral_samples))),
       with_rule(quantity("press", "depth", "cm", "m", positive, "final indentation",
                          protocol(&PressProtocol::depth)),
-                "less than tip_radius - rod_radius, of a profile than the pole is above the bond",
+                "less than tip_radius - rod_radius, of a profile than the pole is above the bond; "
+                "where the default is not, a tenth of that",
                 {"press.samples", "geometry.tip_radius", "geometry.rod_radius"}),
       quantity("press", "speed", "cm/s", "m/s", positive,
                "approach speed of the rod; the continuum's, too, when reference.mode is transient",

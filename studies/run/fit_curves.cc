@@ -102,8 +102,13 @@ void name_once(const std::vector<Curve>& others, Curve& curve) {
     curve.name = name + " (" + std::to_string(copy) + ")";
 }
 
+LatticeUse lattice_of_fit(const LoadedConfig& loaded) {
+  return loaded.config.calibration.forward == ForwardKind::continuum ? LatticeUse::none
+                                                                     : LatticeUse::press;
+}
+
 void add_press(FitSetup& fit, const LoadedConfig& own, CurveKind kind, Curve curve) {
-  const lattice::PressSetup press = press_setup(own);
+  const lattice::PressSetup press = press_setup(own, lattice_of_fit(own));
   if (press.protocol.slides_after())
     throw own.locate(
         {{"press.lateral_path", "after",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "studies/run/fit_setup.h"
+#include "studies/run/press_setup.h"
 
 namespace fingertip::studies {
 
@@ -30,6 +31,7 @@ std::string samples_setting(const std::vector<double>& depths);
 std::string described(const lattice::PressSetup& setup);
 
 /// Lattice or continuum, as calibration.forward says.
+LatticeUse lattice_of_fit(const LoadedConfig& loaded);
 CurveKind press_kind(const CalibrationSettings& settings);
 
 /// Numbers a curve whose name others have: two files of one stem, two fingers under one contact.

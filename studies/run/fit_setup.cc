@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "calibration/curves/forward_model.h"
+#include "studies/config/finger_defaults.h"
 #include "studies/run/continuum_model.h"
 #include "studies/run/fit_curves.h"
 #include "studies/run/fit_parameters.h"
@@ -74,7 +75,7 @@ void check_models(const LoadedConfig& loaded, const FitInput& input) {
 
 /// The lattice is needed where constants are sought or the press is the lattice's.
 lattice::PressSetup base_of(const LoadedConfig& loaded) {
-  return press_setup(loaded.with({"press.mode=static"}));
+  return press_setup(loaded.with({"press.mode=static"}), lattice_of_fit(loaded));
 }
 
 /// Presses that are planned have no times.
@@ -228,6 +229,8 @@ FitSetup set_up(const LoadedConfig& loaded, Presses presses) {
   if (fit.input.base.lattice.kinematics == lattice::Kinematics::small)
     fit.input.finite_excess = excess;
   set_budget(loaded, fit);
+  if (lattice_of_fit(loaded) != LatticeUse::none)
+    for (const std::string& note : spacing_notes(loaded)) fit.notes.push_back(note);
   fit.input.candidates = candidates_of(
       knows_relaxation(loaded.config.calibration) ? lasting(fit.loaded) : fit.loaded, fit);
   return fit;

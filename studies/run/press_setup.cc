@@ -1,12 +1,18 @@
 #include "studies/run/press_setup.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "calibration/material.h"
 #include "calibration/words.h"
+#include "lattice/model/cut_tip.h"
+#include "lattice/press/loop_stability.h"
 #include "lattice/press/press_deviation.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/files.h"
+#include "studies/config/finger_defaults.h"
 #include "studies/config/key_table.h"
 #include "studies/config/law_card_keys.h"
 #include "studies/config/units.h"
@@ -116,33 +122,59 @@ lattice::SpringConstants resolve_constants(const LoadedConfig& loaded) {
              : lattice::published_constants(config.press.rubber, spacing);
 }
 
-void check_spacing(const LoadedConfig& loaded) {
+/// Of a lattice that nobody could build, or hold in memory.
+std::vector<meshes::Violation> broken_by_spacing(const LoadedConfig& loaded) {
   const meshes::Geometry& geometry = loaded.config.press.geometry;
   const double spacing = loaded.config.press.lattice.spacing, radius = geometry.tip_radius;
-  std::vector<meshes::Violation> broken;
-  if (!(spacing <= geometry.coarsest_spacing())) {
-    broken.push_back(meshes::too_coarse(geometry, spacing));
-  } else if (meshes::expected_particle_count(geometry, spacing) > most_particles) {
-    const double finest = std::cbrt(geometry.tip_volume() / most_particles);
-    broken.push_back({"lattice.spacing", calibration::rounded(spacing) + " m",
-                      "the tip would consist of more than 20 million masses",
-                      "choose a coarser lattice, at most tip_radius/" +
-                          calibration::rounded(std::floor(radius / finest), 6)});
-  }
-  if (!broken.empty()) throw loaded.locate(broken);
+  if (!(spacing <= geometry.coarsest_spacing())) return {meshes::too_coarse(geometry, spacing)};
+  const bool too_many = meshes::expected_particle_count(geometry, spacing) > most_particles;
+  if (!too_many && spacing >= lattice::smallest_spacing * radius) return {};
+  const double finest = std::max(std::cbrt(geometry.tip_volume() / most_particles),
+                                 lattice::smallest_spacing * radius);
+  return {{"lattice.spacing", calibration::rounded(spacing) + " m",
+           too_many ? "the tip would consist of more than 20 million masses"
+                    : "the spacing must be at least R/320",
+           finest <= geometry.coarsest_spacing()
+               ? "choose a coarser lattice, at most tip_radius/" +
+                     calibration::rounded(std::floor(radius / finest), 6)
+               : "make the thin part thicker or leave it out, or press the continuum (reference), "
+                 "which needs no lattice"}};
 }
 
-}  // namespace
+bool is_chosen(const LoadedConfig& loaded) {
+  return !loaded.entries.at("lattice.spacing").given;
+}
 
-LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use) {
-  if (loaded.config.constants != ConstantsSource::file) return loaded;
-  const calibration::Material& material = material_of(loaded);
-  LoadedConfig complete = loaded;
+/// A rod of the usual density may be too light for this finger under the controller: nobody chose
+/// it, so take one that is not.
+void choose_rod(LoadedConfig& loaded) {
+  lattice::PressSetup& press = loaded.config.press;
+  Entry& entry = loaded.entries.at("rod.density");
+  if (entry.given || press.protocol.mode != meshes::DriveMode::pid ||
+      !broken_by_spacing(loaded).empty())
+    return;
+  const double usual = press.rod.density;
+  const double rod = lattice::rod_body(press.geometry, press.rod).mass,
+               tip = press.rubber.density * press.geometry.tip_volume();
+  press.rod.density *= std::max(1.0, tip / rod);
+  if (const auto sways = lattice::swaying_hand(press)) press.rod.density = sways->density;
+  if (press.rod.density == usual) return;
+  const std::string heavier = fmt::format("{:.3g} g/cm^3", 1.05e-3 * press.rod.density);
+  press.rod.density = parse_quantity(heavier, "kg/m^3", heavier);
+  entry = {'"' + heavier + '"', "default for this finger", false};
+  loaded.notes.push_back("rod.density = " + heavier +
+                         ": under the controller a rod of the usual density is too light for this "
+                         "finger");
+}
+
+/// What the file of the constants says.
+void add_material(LatticeUse use, LoadedConfig& complete) {
+  const calibration::Material& material = material_of(complete);
   take_over(material, complete);
   const lattice::PressSetup& press = complete.config.press;
   const auto warnings = use == LatticeUse::press ? calibration::warnings(material, press)
                                                  : calibration::lattice_warnings(material, press);
-  const std::string place = loaded.config.constants_file.filename().string() + ": ";
+  const std::string place = complete.config.constants_file.filename().string() + ": ";
   for (const std::string& warning : warnings) complete.notes.push_back(place + warning);
   // The stiffness is the material's, of the lattice and of the continuum beside it.
   meshes::Rubber& continuum = complete.config.reference.rubber;
@@ -153,6 +185,16 @@ LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use) {
     rubber->youngs_modulus = material.rubber.youngs_modulus;
     rubber->shear_modulus = material.rubber.shear_modulus;
   }
+}
+
+}  // namespace
+
+LoadedConfig with_material(const LoadedConfig& loaded, LatticeUse use) {
+  LoadedConfig complete = loaded;
+  if (use != LatticeUse::none)
+    for (const std::string& note : spacing_notes(loaded)) complete.notes.push_back(note);
+  if (loaded.config.constants == ConstantsSource::file) add_material(use, complete);
+  if (use == LatticeUse::press) choose_rod(complete);
   return complete;
 }
 
@@ -169,8 +211,10 @@ bool serves_scaled(lattice::PressSetup setup) {
 
 }  // namespace
 
-lattice::PressSetup press_setup(const LoadedConfig& loaded) {
-  check_spacing(loaded);
+lattice::PressSetup press_setup(const LoadedConfig& loaded, LatticeUse use) {
+  const bool any_spacing = use == LatticeUse::none && is_chosen(loaded);
+  if (const auto broken = broken_by_spacing(loaded); !broken.empty() && !any_spacing)
+    throw loaded.locate(broken);
   check_constants_source(loaded);
   lattice::PressSetup setup = loaded.config.press;
   if (loaded.config.constants == ConstantsSource::file) {
@@ -190,7 +234,7 @@ lattice::PressSetup press_setup(const LoadedConfig& loaded) {
 
 lattice::PressSetup free_press(ConfigSource source) {
   source.sets.emplace_back("press.mode=pid");
-  return press_setup(load_config(source));
+  return press_setup(with_material(load_config(source), LatticeUse::press));
 }
 
 fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded) {
@@ -214,7 +258,17 @@ calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::M
   return options;
 }
 
+std::vector<meshes::Violation> beyond_the_lattice(const LoadedConfig& loaded) {
+  const std::vector<meshes::Violation> broken = broken_by_spacing(loaded);
+  return broken.empty() ? lattice::beyond_the_lattice(loaded.config.press) : broken;
+}
+
 void check_all(const LoadedConfig& loaded) {
+  continuum_setup(loaded);
+  if (const auto broken = broken_by_spacing(loaded); !broken.empty()) {
+    if (is_chosen(loaded)) return;  // whoever builds a lattice will be told
+    throw loaded.locate(broken);
+  }
   LoadedConfig within_the_lattice = loaded;
   meshes::PressProtocol& protocol = within_the_lattice.config.press.protocol;
   const meshes::PressProtocol straight;
@@ -225,7 +279,6 @@ void check_all(const LoadedConfig& loaded) {
   if (!lattice::beyond_the_lattice(within_the_lattice.config.press).empty())
     protocol.mode = meshes::DriveMode::equilibrium;
   press_setup(within_the_lattice);
-  continuum_setup(loaded);
 }
 
 void check_validation(const LoadedConfig& loaded) {

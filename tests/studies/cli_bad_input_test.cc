@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadLattice{{"lattice.spacing=0.26 cm"},
                    {"--set lattice.spacing=0.26 cm", "(R - r)/2", "two cells", "finer lattice"}},
-        BadLattice{{"geometry.rod_radius=0.9 cm", "press.depth=0.5 mm"},
+        BadLattice{{"geometry.rod_radius=0.9 cm", "lattice.spacing=tip_radius/12"},
                    {"lattice.spacing = tip_radius/12", "(R - r)/2", "finer lattice"}},
         BadLattice{{"lattice.spacing=tip_radius/400"},
                    {"--set lattice.spacing=tip_radius/400", "20 million", "coarser lattice"}},

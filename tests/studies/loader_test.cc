@@ -47,6 +47,46 @@ TEST(Loader, TemplateGivesTheDefaults) {
   EXPECT_EQ(from_file.config.press.lattice.spacing, defaults.config.press.lattice.spacing);
 }
 
+TEST(Loader, DefaultsSuitTheFinger) {
+  const TemporaryFolder folder;
+  write_text(folder / "hollow.csv",
+             "r [mm],z [mm],surface,curve\n12.5,0,contact,\n12.5,12.5,contact,arc 0 12.5\n"
+             "0,25,axis,\n0,22.5,free,arc 0 12.5\n10,12.5,free,\n10,0,bond,\n");
+  write_text(folder / "pad.csv",
+             "r [mm],z [mm],surface,curve\n6,0,free,\n6,2,contact,\n0,2,axis,\n0,0,bond,\n");
+  const auto profile = [&](const char* file) {
+    return std::vector<std::string>{"geometry.shape=profile",
+                                    "geometry.profile=" + (folder / file).string()};
+  };
+  struct Case {
+    std::vector<std::string> sets;
+    double spacing, depth;  // [m]
+  };
+  // A quarter of a wall of 2.5 mm and of a pad of 2 mm; half of the rubber around a thick rod; ten
+  // times a thin one's radius. Depths: the usual one, or a tenth of the rubber's thickness.
+  const Case cases[] = {{{}, 0.01 / 12, 3e-3},
+                        {profile("hollow.csv"), 0.625e-3, 3e-3},
+                        {profile("pad.csv"), 0.5e-3, 0.2e-3},
+                        {{"geometry.rod_radius=9 mm"}, 0.5e-3, 0.1e-3},
+                        {{"geometry.rod_radius=0.05 mm"}, 0.5e-3, 3e-3}};
+  for (const Case& each : cases) {
+    const LoadedConfig loaded = load_config({{}, each.sets, {}});
+    const auto& press = loaded.config.press;
+    EXPECT_NEAR(press.lattice.spacing, each.spacing, 1e-12);
+    EXPECT_NEAR(press.protocol.depth, each.depth, 1e-12);
+    EXPECT_LT(loaded.config.calibration.depth, press.geometry.thickness());
+    EXPECT_TRUE(press.lattice.spacing <= press.geometry.coarsest_spacing());
+    // A run can be repeated with what its parameters say.
+    write_text(folder / "again.toml", parameters_toml(loaded, "again"));
+    const auto& again = load_config({folder / "again.toml", {}, {}}).config.press;
+    EXPECT_EQ(again.lattice.spacing, press.lattice.spacing);
+    EXPECT_EQ(again.protocol.depth, press.protocol.depth);
+  }
+  auto asked = profile("hollow.csv");
+  asked.push_back("lattice.spacing=tip_radius/12");
+  EXPECT_EQ(load_config({{}, asked, {}}).config.press.lattice.spacing, 0.0125 / 12);
+}
+
 TEST(Loader, ParametersFileReproducesEveryKey) {
   const TemporaryFolder folder;
   write_text(folder / "material.toml", "");

@@ -38,6 +38,54 @@ TEST(PressSetup, AutoTakesEachModelsOwnConstants) {
   EXPECT_NEAR(central.shear_modulus, 1372.931, 1e-5);
 }
 
+/// A lip of 0.05 mm would take a lattice of billions of masses, which nobody asks for.
+TEST(PressSetup, ASpacingThatNobodyGaveIsCheckedWhereALatticeIsBuilt) {
+  const TemporaryFolder folder;
+  write_text(folder / "lip.csv",
+             "r [mm],z [mm],surface,curve\n0,0,bond,\n9,0,free,\n13,0,contact,\n"
+             "13,0.05,contact,\n10,0.05,contact,\n10,8,contact,arc 0 8\n0,18,axis,\n");
+  std::vector<std::string> sets = {"geometry.shape=profile",
+                                   "geometry.profile=" + (folder / "lip.csv").string()};
+  const LoadedConfig lip = load_config({{}, sets, {}});
+  EXPECT_NO_THROW(check_all(lip));
+  EXPECT_EQ(beyond_the_lattice(lip).size(), 1U);
+  try {
+    press_setup(lip);
+    ADD_FAILURE() << "billions of masses";
+  } catch (const ConfigError& error) {
+    for (const char* part : {"20 million", "leave it out", "reference"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+  for (const char* given : {"lattice.spacing=tip_radius/12", "lattice.spacing=0.0125 mm"}) {
+    sets.resize(2);
+    sets.emplace_back(given);
+    EXPECT_THROW(check_all(load_config({{}, sets, {}})), ConfigError) << given;
+  }
+}
+
+/// A pad of 2 mm radius on a rod as thin would sway under the controller, and rubber around a
+/// needle weighs more than it.
+TEST(PressSetup, ARodThatNobodyGaveIsHeavyEnough) {
+  const TemporaryFolder folder;
+  write_text(
+      folder / "pad.csv",
+      "r [mm],z [mm],surface,curve\n3.2,0,bond,\n3.2,7.96,contact,\n0,7.96,axis,\n0,0,bond,\n");
+  for (const std::vector<std::string>& sets :
+       {std::vector<std::string>{"geometry.shape=profile",
+                                 "geometry.profile=" + (folder / "pad.csv").string()},
+        {"geometry.rod_radius=1 mm", "lattice.spacing=tip_radius/10"}}) {
+    const LoadedConfig loaded = load_config({{}, sets, {}});
+    EXPECT_THROW(press_setup(loaded), ConfigError);
+    const LoadedConfig complete = with_material(loaded, LatticeUse::press);
+    const auto setup = press_setup(complete);
+    EXPECT_GT(setup.rod.density, 2700.0);
+    EXPECT_EQ(complete.notes.size(), 1U);
+    write_text(folder / "again.toml", parameters_toml(complete, "again"));
+    EXPECT_EQ(load_config({folder / "again.toml", {}, {}}).config.press.rod.density,
+              setup.rod.density);
+  }
+}
+
 TEST(PressSetup, CalibratedHookeanAgreesWithItsClosedForm) {
   const auto fitted = moduli_of(setup_of({"lattice.constants=calibrated"}));
   const auto closed = moduli_of(setup_of({"lattice.constants=rule"}));

@@ -1,0 +1,16 @@
+/// Defaults that depend on the finger: what nobody set never makes a valid finger refuse.
+#pragma once
+
+#include "studies/config/loader.h"
+
+namespace fingertip::studies {
+
+/// Where lattice.spacing, press.depth and calibration.depth are left at defaults that this finger
+/// cannot have, values that it can: a spacing of tip_radius/N, N whole, just fine enough for its
+/// walls; a tenth of its thickness. The entries say so in place of "default".
+void choose_for_finger(LoadedConfig& loaded);
+
+/// What choose_for_finger has taken for a lattice; empty where the default stands or one is given.
+std::vector<std::string> spacing_notes(const LoadedConfig& loaded);
+
+}  // namespace fingertip::studies
