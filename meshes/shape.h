@@ -49,7 +49,7 @@ class Shape {
   virtual double pole() const = 0;                        ///< largest z of `contact`
   virtual double lowest() const = 0;
   virtual double largest_radius() const = 0;  ///< from the axis
-  virtual double bond_top() const = 0;        ///< largest z of `bond`
+  virtual double bond_top() const = 0;        ///< largest z of `bond` under rubber
   virtual double bond_radius() const = 0;     ///< largest distance of `bond` from the axis
   /// Radius of curvature at the pole; of a flat or pointed one the largest radius.
   virtual double pole_radius() const = 0;
