@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <iomanip>
 #include <memory>
 #include <sstream>
 
@@ -48,6 +49,22 @@ FingerSetup computed_finger(const PressSetup& setup, const PressWay& way) {
   FingerSetup finger = pressed_finger(setup, way);
   finger.sectors = moving_sectors(setup);
   return finger;
+}
+
+/// What the actuator lacks, where the rod falls behind: the larger of what was expected and twice
+/// what it had.
+std::string beyond_its_limits(const PressSetup& setup) {
+  const PidSettings& servo = setup.controller;
+  const ActuatorLimits suitable = suitable_limits(setup);
+  std::ostringstream text;
+  text << std::setprecision(3)
+       << "the controller's limits are too low, controller.force_limit = " << servo.force_limit
+       << " N and controller.torque_limit = " << servo.torque_limit << " N m, where some "
+       << expected_force(setup) << " N are expected; take controller.force_limit = \""
+       << std::max(suitable.force, 2.0 * servo.force_limit)
+       << " N\" and controller.torque_limit = \""
+       << std::max(suitable.torque, 2.0 * servo.torque_limit) << " N m\", or press less deep";
+  return text.str();
 }
 
 /// One press from start to depth, or to the end of its program.
@@ -225,12 +242,12 @@ void Press::check_sanity() {
   const double allowed = 0.1 * setup_.geometry.thickness();
   const bool off_path = setup_.follows_path && !(ahead <= allowed);
   if (setup_.follows_path && motion_.stops() && ahead < -allowed)
-    give_up("the rod did not follow the program: the controller's limits are too low");
+    give_up("the rod did not follow the program: " + beyond_its_limits(setup_));
   if (row.tilt > 0.5 || off_path) {
     give_up("the controller lost the rod: controller.natural_frequency is too high for its period");
   }
   if (!setup_.duration && finger_.time() > time_limit_) {
-    give_up("the rod did not reach the depth: the controller's limits are too low");
+    give_up("the rod did not reach the depth: " + beyond_its_limits(setup_));
   }
 }
 
@@ -239,7 +256,7 @@ void Press::take_energy(const Finger::Energy& energy) {
   recorder_.set_energy(energy);
   const double largest = 1e3 * setup_.rubber.longitudinal_modulus() * setup_.geometry.tip_volume();
   if (!(energy.kinetic + energy.elastic < largest))
-    give_up("the lattice blew up: its energy left every bound");
+    give_up("the lattice blew up, its energy left every bound: take smaller steps (run.time_step)");
 }
 
 void Press::report(bool in_any_case) {

@@ -133,6 +133,50 @@ double rough_force(const Geometry& geometry, const Rubber& rubber, double indent
   return RoughForce(geometry, rubber, {}).value(indentation);
 }
 
+namespace {
+
+/// Of the free surface from the axis, on the side of +x, at a height [m].
+double radius_at(const meshes::Shape& shape, double height) {
+  double inside = 0.0, outside = shape.largest_radius();
+  while (outside - inside > 1e-3 * shape.largest_radius()) {
+    const double middle = 0.5 * (inside + outside);
+    (shape.signed_distance({middle, 0.0, height}) < 0.0 ? inside : outside) = middle;
+  }
+  return 0.5 * (inside + outside);
+}
+
+/// To two digits, upward.
+double in_two_digits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return unit * std::ceil(value / unit * (1.0 - 1e-12));
+}
+
+}  // namespace
+
+double expected_force(const PressSetup& setup) {
+  Rubber rubber = setup.rubber;
+  rubber.youngs_modulus *= rubber.relaxation.instant();
+  rubber.shear_modulus *= rubber.relaxation.instant();
+  const auto shape = meshes::shape_of(setup.geometry);
+  const double depth = setup.protocol.depth, thickness = shape->wall();
+  const RoughForce round(setup.geometry, rubber, setup.protocol.obstacle);
+  double radius = radius_at(*shape, shape->pole() - 0.5 * depth);
+  if (!setup.protocol.obstacle.is_plane())
+    radius = std::min(radius, std::sqrt(round.pole_radius * depth));
+  const double shape_factor = 0.5 * radius / thickness,
+               modulus = std::min(rubber.youngs_modulus * (1.0 + 2.0 * shape_factor * shape_factor),
+                                  rubber.longitudinal_modulus());
+  return std::max(round.value(depth),
+                  modulus * std::numbers::pi * radius * radius * depth / thickness);
+}
+
+ActuatorLimits suitable_limits(const PressSetup& setup) {
+  constexpr double margin = 3.0;
+  const double force = in_two_digits(margin * expected_force(setup)),
+               lever = setup.geometry.pole() + setup.geometry.rod_length;
+  return {force, in_two_digits(force * lever)};
+}
+
 std::vector<ForceDeviation> scaling_deviations(const PressSetup& setup_with_program, double step) {
   const PressSetup setup = pressed_once(setup_with_program);
   const meshes::PressProtocol& protocol = setup.protocol;

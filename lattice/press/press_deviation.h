@@ -72,4 +72,22 @@ double plain_step(const PressSetup& setup);
 double rough_force(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
                    double indentation);
 
+/// At the depth of the press, pressed at once where the rubber relaxes [N]: the larger one of
+/// rough_force and, for poles that are flat, of a layer as wide as the finger is at half the depth,
+/// r, bonded at one side and held by friction at the other, h thick:
+///
+///   F = E (1 + 2 S²) pi r² depth/h,  S = r/(2 h),
+///
+/// at most M in place of E (1 + 2 S²) (A. N. Gent, Engineering with Rubber, 2012, section 8.3: of
+/// an incompressible block, whose shape factor S is loaded over free area). Right within a factor
+/// of three for domes and pads up to a third of their thickness.
+double expected_force(const PressSetup& setup);
+
+/// What the actuator of such a press does not meet: three times the expected force [N], and that at
+/// the distance of the pole from the endpoint [N m]; two digits.
+struct ActuatorLimits {
+  double force = 0.0, torque = 0.0;
+};
+ActuatorLimits suitable_limits(const PressSetup& setup);
+
 }  // namespace fingertip::lattice

@@ -152,9 +152,13 @@ std::vector<Key> controller_keys() {
             "share of the measured bond force and torque that is fed forward",
             pid(&PidSettings::bond_compensation)),
       quantity("controller", "force_limit", "N", "N", positive,
-               "largest force of the actuator along each axis", pid(&PidSettings::force_limit)),
-      quantity("controller", "torque_limit", "N m", "N m", positive,
-               "largest torque of the actuator about each axis", pid(&PidSettings::torque_limit)),
+               "largest force of the actuator along each axis; the default grows with what a press "
+               "is expected to take",
+               pid(&PidSettings::force_limit)),
+      quantity(
+          "controller", "torque_limit", "N m", "N m", positive,
+          "largest torque of the actuator about each axis; the default grows with force_limit's",
+          pid(&PidSettings::torque_limit)),
   };
   for (const auto& part : {adaptation_keys(), force_keys(), external_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lattice/model/cut_tip.h"
+#include "lattice/press/press_deviation.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
 
@@ -45,6 +46,20 @@ void choose_for_finger(LoadedConfig& loaded) {
   if (protocol.samples.empty() && protocol.program.empty())
     choose_depth(loaded, "press.depth", protocol.depth);
   choose_depth(loaded, "calibration.depth", loaded.config.calibration.depth);
+}
+
+void choose_limits(LoadedConfig& loaded) {
+  lattice::PressSetup& press = loaded.config.press;
+  if (press.protocol.mode != meshes::DriveMode::pid) return;
+  const lattice::ActuatorLimits suitable = lattice::suitable_limits(press);
+  const auto choose = [&](const char* key, double wanted, double& limit, const char* unit) {
+    Entry& entry = loaded.entries.at(key);
+    if (entry.given || !(wanted > limit)) return;
+    limit = std::stod(fmt::format("{:.2g}", wanted));  // as it will be read again
+    entry = {fmt::format("\"{} {}\"", limit, unit), chosen_place, false};
+  };
+  choose("controller.force_limit", suitable.force, press.controller.force_limit, "N");
+  choose("controller.torque_limit", suitable.torque, press.controller.torque_limit, "N m");
 }
 
 std::vector<std::string> spacing_notes(const LoadedConfig& loaded) {

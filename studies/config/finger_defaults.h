@@ -10,6 +10,10 @@ namespace fingertip::studies {
 /// walls; a tenth of its thickness. The entries say so in place of "default".
 void choose_for_finger(LoadedConfig& loaded);
 
+/// The same of controller.force_limit and torque_limit, where a press under the controller is
+/// expected to meet them: lattice::suitable_limits. The configuration must be valid.
+void choose_limits(LoadedConfig& loaded);
+
 /// What choose_for_finger has taken for a lattice; empty where the default stands or one is given.
 std::vector<std::string> spacing_notes(const LoadedConfig& loaded);
 

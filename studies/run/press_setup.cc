@@ -185,6 +185,7 @@ void add_material(LatticeUse use, LoadedConfig& complete) {
     rubber->youngs_modulus = material.rubber.youngs_modulus;
     rubber->shear_modulus = material.rubber.shear_modulus;
   }
+  choose_limits(complete);
 }
 
 }  // namespace

@@ -82,6 +82,18 @@ TEST(Loader, DefaultsSuitTheFinger) {
     EXPECT_EQ(again.lattice.spacing, press.lattice.spacing);
     EXPECT_EQ(again.protocol.depth, press.protocol.depth);
   }
+  // Of a rubber of 60 Shore A the actuator must push some hundred newtons, and may anything else.
+  const auto& stiff = load_config({{}, {"rubber.shore_hardness=60"}, {}});
+  EXPECT_GT(stiff.config.press.controller.force_limit, 300.0);
+  EXPECT_GT(stiff.config.press.controller.torque_limit, 300.0 * 0.04);
+  write_text(folder / "again.toml", parameters_toml(stiff, "again"));
+  EXPECT_EQ(load_config({folder / "again.toml", {}, {}}).config.press.controller.force_limit,
+            stiff.config.press.controller.force_limit);
+  EXPECT_EQ(load_config({{}, {"rubber.shore_hardness=60", "controller.force_limit=5 N"}, {}})
+                .config.press.controller.force_limit,
+            5.0);
+  EXPECT_EQ(load_config({}).config.press.controller.force_limit, 20.0);
+
   auto asked = profile("hollow.csv");
   asked.push_back("lattice.spacing=tip_radius/12");
   EXPECT_EQ(load_config({{}, asked, {}}).config.press.lattice.spacing, 0.0125 / 12);

@@ -9,6 +9,7 @@
 
 #include "lattice/press/press.h"
 #include "lattice/press/press_deviation.h"
+#include "lattice/press/static_press.h"
 #include "tests/lattice/fixtures.h"
 
 namespace press_deviation {

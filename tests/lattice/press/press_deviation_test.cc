@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -33,6 +34,42 @@ TEST(PressDeviation, RoughForceIsThatOfTheContinuum) {
     ++compared;
   }
   EXPECT_GE(compared, 8);
+}
+
+/// Static lattices tell the force: a dome deep and shallow, a flat pad, a ball on either.
+TEST(PressDeviation, TheExpectedForceIsRightWithinAFactorOfThree) {
+  using meshes::ProfileCurve, meshes::ProfileSurface;
+  const auto pad = meshes::Geometry::of_profile({{0.006, 0.0, ProfileSurface::free},
+                                                 {0.006, 0.003, ProfileSurface::contact},
+                                                 {0.0, 0.003, ProfileSurface::axis},
+                                                 {0.0, 0.0, ProfileSurface::bond}});
+  meshes::Obstacle ball;
+  ball.shape = meshes::ObstacleShape::sphere;
+  ball.radius = 4e-3;
+  struct Case {
+    meshes::Geometry geometry;
+    meshes::Obstacle obstacle;
+    double depth;
+  };
+  for (const Case& each : {Case{{}, {}, 0.5e-3}, Case{{}, {}, 3e-3}, Case{{}, ball, 1.5e-3},
+                           Case{pad, {}, 0.2e-3}, Case{pad, {}, 1e-3}, Case{pad, ball, 1e-3}}) {
+    PressSetup setup;
+    setup.geometry = each.geometry;
+    setup.protocol.mode = meshes::DriveMode::equilibrium;
+    setup.protocol.obstacle = each.obstacle;
+    setup.protocol.depth = each.depth;
+    setup.protocol.samples = {each.depth};
+    setup.lattice.spacing = std::min(0.25 * setup.geometry.thickness(), 1.25e-3);
+    setup.lattice.constants = lattice::hookean_constants(setup.rubber, setup.lattice.spacing);
+    const double force = lattice::run_static_press(setup).response.samples().back().normal_force;
+    const double expected = lattice::expected_force(setup);
+    EXPECT_LT(expected, 3.0 * force) << each.depth;
+    EXPECT_GT(expected, force / 3.0) << each.depth;
+    EXPECT_GT(lattice::suitable_limits(setup).force, force);
+    // In time a rubber that relaxes is stiffer.
+    setup.rubber.relaxation.branches = {{0.5, 1.0}};
+    EXPECT_NEAR(lattice::expected_force(setup), 2.0 * expected, 1e-9 * expected);
+  }
 }
 
 TEST(PressDeviation, StepsThatAreChosenHoldAndStepsThatAreGivenAreTold) {

@@ -234,12 +234,18 @@ TEST(Press, AnActuatorTooWeakEndsAsNotConverged) {
   PressSetup setup = setup_for(ModelKind::hookean, 5, DriveMode::pid, ContactMode::stick);
   setup.controller.force_limit = 0.02;
   PressOutcome last;
-  EXPECT_THROW(lattice::run_press(setup,
-                                  [&](const PressOutcome& so_far, double) {
-                                    last = so_far;
-                                    return true;
-                                  }),
-               meshes::NotConverged);
+  try {
+    lattice::run_press(setup, [&](const PressOutcome& so_far, double) {
+      last = so_far;
+      return true;
+    });
+    ADD_FAILURE() << "pressed with 0.02 N";
+  } catch (const meshes::NotConverged& error) {
+    const std::string text = error.what();
+    for (const char* part : {"controller.force_limit = 0.02 N", "controller.torque_limit = 1 N m",
+                             "take controller.force_limit = \"", " N m\", or press less deep"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
   EXPECT_GT(last.response.depth(), 0.0);
   EXPECT_FALSE(last.trace.empty());
 }
