@@ -49,6 +49,17 @@ class Elasticity {
       : loaded_(loaded), problems_(problems), rubber_(loaded.config.press.rubber) {}
 
   void resolve() {
+    find_moduli();
+    const double ratio = rubber_.poissons_ratio();
+    if (ratio < 0.0 && ratio > -1.0)
+      note("Poisson's ratio is " + calibration::rounded(ratio, 3) + " of E = " +
+           kilopascal(rubber_.youngs_modulus) + " and G = " + kilopascal(rubber_.shear_modulus) +
+           ": pulled, such a solid grows wider; a rubber has some 0.49, with G = " +
+           kilopascal(rubber_.youngs_modulus / (2.0 * (1.0 + usual_poissons_ratio))));
+  }
+
+ private:
+  void find_moduli() {
     if (!resolve_law()) return;
     for (const char* key : {youngs, hardness, shear, poisson, bulk})
       if (says_something(loaded_, key)) given_.emplace_back(key);
@@ -60,8 +71,6 @@ class Elasticity {
     if (stiffness() && (has(shear) || coefficients_)) return;
     with_poissons_ratio();
   }
-
- private:
   bool has(std::string_view key) const { return std::ranges::find(given_, key) != given_.end(); }
   /// The key that E comes from.
   const char* stiffness() const {

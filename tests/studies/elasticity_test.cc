@@ -56,6 +56,15 @@ TEST(Elasticity, OneModulusTakesTheUsualPoissonsRatioAndSaysSo) {
   EXPECT_TRUE(with({}).notes.empty());
 }
 
+TEST(Elasticity, ANegativePoissonsRatioIsTold) {
+  const LoadedConfig loaded =
+      with({"rubber.youngs_modulus=0.69 MPa", "rubber.shear_modulus=1 MPa"});
+  ASSERT_EQ(loaded.notes.size(), 1U);
+  for (const char* part : {"Poisson's ratio is -0.655", "E = 690 kPa", "G = 1000 kPa", "231.5 kPa"})
+    EXPECT_NE(loaded.notes[0].find(part), std::string::npos) << loaded.notes[0];
+  EXPECT_EQ(with({"rubber.youngs_modulus=1 MPa", "rubber.poissons_ratio=-0.2"}).notes.size(), 1U);
+}
+
 // Gent's paper and tables made with his formula: 30, 50, 70 Shore A are 1.14, 2.46, 5.55 MPa.
 TEST(Elasticity, HardnessStandsForYoungsModulus) {
   EXPECT_NEAR(youngs_modulus_of_hardness(30.0), 1.142e6, 2e3);
