@@ -1,11 +1,13 @@
 #include "studies/run/curve_text.h"
 
 #include <fmt/format.h>
+#include <iconv.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <fstream>
+#include <utility>
 
 namespace fingertip::studies {
 
@@ -84,6 +86,10 @@ std::optional<std::string> from_utf16(string_view bytes, bool little) {
   return text;
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 bool is_utf8(string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i++]);
@@ -100,12 +106,44 @@ bool is_utf8(string_view text) {
   return true;
 }
 
-/// Machines write UTF-16 with a byte order mark, and Latin-1 for the micro sign and umlauts.
+/// Chinese characters of GB 2312 and its supersets stand in pairs of high bytes; two umlauts side
+/// by side are rare in Latin-1, and nothing but pairs of them does not occur.
+bool is_chinese(string_view bytes) {
+  std::size_t run = 0, characters = 0;
+  for (const char c : bytes) {
+    if (static_cast<unsigned char>(c) >= 0xA1) {
+      ++run;
+      continue;
+    }
+    if (run % 2 != 0 || static_cast<unsigned char>(c) >= 0x80) return false;
+    characters += std::exchange(run, 0) / 2;
+  }
+  return run % 2 == 0 && characters + run / 2 >= 2;
+}
+
+/// None where the system does not know the encoding, or the text breaks its rules.
+std::optional<std::string> from_chinese(string_view bytes) {
+  const iconv_t converter = iconv_open("UTF-8", "GB18030");
+  if (converter == iconv_t(-1)) return {};
+  std::string in(bytes), out(2 * bytes.size(), '\0');
+  char *from = in.data(), *to = out.data();
+  std::size_t left = in.size(), room = out.size();
+  const bool whole = iconv(converter, &from, &left, &to, &room) != std::size_t(-1);
+  iconv_close(converter);
+  if (!whole) return {};
+  out.resize(out.size() - room);
+  return out;
+}
+
+/// Machines write UTF-16 with a byte order mark, GB 18030 in China, and Latin-1 for the micro sign
+/// and umlauts.
 std::optional<std::string> in_utf8(string_view bytes) {
   if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes.substr(2), true);
   if (bytes.starts_with("\xFE\xFF")) return from_utf16(bytes.substr(2), false);
   if (bytes.find('\0') != bytes.npos) return {};
   if (is_utf8(bytes)) return std::string(bytes);
+  if (is_chinese(bytes))
+    if (auto text = from_chinese(bytes)) return text;
   std::string text;
   for (const char c : bytes) append_utf8(text, static_cast<unsigned char>(c));
   return text;
@@ -178,6 +216,45 @@ std::optional<double> number_in(string_view cell) {
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size()) return {};
   return value;
+}
+
+std::optional<std::string> plain_number(string_view cell, NumberStyle style) {
+  constexpr string_view minus = "\xE2\x88\x92";
+  constexpr string_view blanks[] = {"\xC2\xA0", "\xE2\x80\xAF"};
+  std::string text;
+  while (!cell.empty()) {
+    std::size_t length = 1;
+    char c = cell.front();
+    if (cell.starts_with(minus)) c = '-', length = minus.size();
+    for (const string_view blank : blanks)
+      if (cell.starts_with(blank)) c = ' ', length = blank.size();
+    text += c;
+    cell.remove_prefix(length);
+  }
+  std::string result;
+  std::size_t groups = 0, since = 0;  // digits since the last separator of thousands
+  bool whole = true;
+  for (const char c : text) {
+    if (whole && style.thousands != 0 && c == style.thousands) {
+      const bool first_group = groups++ == 0;
+      const bool fits = first_group ? since >= 1 && since <= 3 : since == 3;
+      if (!fits || (first_group && result.ends_with('0') && since == 1)) return {};
+      since = 0;
+    } else if (whole && !is_digit(c) && c != '-' && c != '+') {
+      if (c != style.decimal && c != 'e' && c != 'E') return {};
+      if (groups > 0 && since != 3) return {};
+      whole = false;
+      result += c == style.decimal ? '.' : c;
+    } else if (c == ',') {
+      return {};
+    } else {
+      since += is_digit(c) ? 1 : 0;
+      result += c;
+    }
+  }
+  if (whole && groups > 0 && since != 3) return {};
+  if (!number_in(result)) return {};
+  return result;
 }
 
 }  // namespace fingertip::studies

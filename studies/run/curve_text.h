@@ -1,6 +1,7 @@
 /// Tables as text: lines, cells, numbers, and what is wrong with them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -33,9 +34,10 @@ class FileProblems {
 /// What a message may show of a file's text: printable and at most 40 characters.
 std::string shown(std::string_view text);
 
-/// A file's text in UTF-8 without byte order mark: UTF-16 with one and Latin-1, which is what is
-/// no UTF-8, are converted. Throws ConfigError, by `problems`, for what is no readable file and for
-/// text with zero characters or halves of them.
+/// A file's text in UTF-8 without byte order mark: UTF-16 with one, GB 18030 where all that is no
+/// ASCII are pairs of its bytes, and Latin-1, which is what else is no UTF-8, are converted. Throws
+/// ConfigError, by `problems`, for what is no readable file and for text with zero characters or
+/// halves of them.
 std::string text_of(const std::filesystem::path& file, FileProblems& problems);
 
 struct Line {
@@ -60,5 +62,18 @@ void split(std::string_view line, char separator, std::vector<std::string_view>&
 
 /// The number that the whole cell is, with a decimal point; it may be infinite or NaN.
 std::optional<double> number_in(std::string_view cell);
+
+/// How numbers are written.
+struct NumberStyle {
+  char decimal = '.';
+  char thousands = 0;  ///< 0: none; ' ' also for the blanks of typographers
+};
+
+/// The simple ones first.
+inline constexpr std::array<NumberStyle, 7> number_styles = {
+    {{'.', 0}, {',', 0}, {'.', ','}, {',', '.'}, {'.', ' '}, {',', ' '}, {'.', '\''}}};
+
+/// "1.234,5" as "1234.5"; none for what is no number in this style.
+std::optional<std::string> plain_number(std::string_view cell, NumberStyle style);
 
 }  // namespace fingertip::studies

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -15,60 +14,6 @@ namespace fingertip::studies {
 namespace {
 
 using std::string_view;
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-/// How numbers are written.
-struct NumberStyle {
-  char decimal = '.';
-  char thousands = 0;  ///< 0: none; ' ' also for the blanks of typographers
-};
-
-/// The simple ones first.
-constexpr std::array<NumberStyle, 7> styles = {
-    {{'.', 0}, {',', 0}, {'.', ','}, {',', '.'}, {'.', ' '}, {',', ' '}, {'.', '\''}}};
-
-/// "1.234,5" as "1234.5"; none for what is no number in this style.
-std::optional<std::string> plain_number(string_view cell, NumberStyle style) {
-  constexpr string_view minus = "\xE2\x88\x92";
-  constexpr string_view blanks[] = {"\xC2\xA0", "\xE2\x80\xAF"};
-  std::string text;
-  while (!cell.empty()) {
-    std::size_t length = 1;
-    char c = cell.front();
-    if (cell.starts_with(minus)) c = '-', length = minus.size();
-    for (const string_view blank : blanks)
-      if (cell.starts_with(blank)) c = ' ', length = blank.size();
-    text += c;
-    cell.remove_prefix(length);
-  }
-  std::string result;
-  std::size_t groups = 0, since = 0;  // digits since the last separator of thousands
-  bool whole = true;
-  for (const char c : text) {
-    if (whole && style.thousands != 0 && c == style.thousands) {
-      const bool first_group = groups++ == 0;
-      const bool fits = first_group ? since >= 1 && since <= 3 : since == 3;
-      if (!fits || (first_group && result.ends_with('0') && since == 1)) return {};
-      since = 0;
-    } else if (whole && !is_digit(c) && c != '-' && c != '+') {
-      if (c != style.decimal && c != 'e' && c != 'E') return {};
-      if (groups > 0 && since != 3) return {};
-      whole = false;
-      result += c == style.decimal ? '.' : c;
-    } else if (c == ',') {
-      return {};
-    } else {
-      since += is_digit(c) ? 1 : 0;
-      result += c;
-    }
-  }
-  if (whole && groups > 0 && since != 3) return {};
-  if (!number_in(result)) return {};
-  return result;
-}
 
 bool is_unit(string_view text) {
   for (const char* si : {"m", "N", "s", "Pa", "Hz"}) {
@@ -91,7 +36,7 @@ string_view bare(string_view cell) {
 bool is_words(string_view cell) {
   std::string letters;
   for (const char c : cell) {
-    if (is_digit(c) && letters.empty()) return false;
+    if (c >= '0' && c <= '9' && letters.empty()) return false;
     const auto byte = static_cast<unsigned char>(c);
     if (std::isalpha(byte) != 0 || byte >= 0x80) letters += char(std::tolower(byte));
   }
@@ -140,7 +85,10 @@ class TableFinder {
   bool begins_numbered(const Line& line);
   bool holds_units();
   void read_row(const Line& line);
+  bool cannot_be_row(const TextTable& table, const Line& line) const;
   void add_row(const Line& line);
+  void add_cells(TextTable& table, std::size_t line, std::vector<std::string> cells);
+  void end_table();
   void rewrite_numbers(TextTable& table);
   void tell();
 
@@ -153,6 +101,13 @@ class TableFinder {
   bool first_is_words_ = false;   ///< in rows
   std::size_t words_in_row_ = 0;  ///< in rows
   std::vector<std::string> passed_;
+  struct Odd {
+    std::size_t line;
+    std::string text;
+    std::vector<std::string> cells;
+  };
+  std::vector<Odd> odd_;       ///< since the last row
+  std::size_t last_line_ = 0;  ///< that was a row, or odd
   std::size_t above_ = 0;
   bool commas_ = false, thousands_ = false;
   TextTables result_;
@@ -171,6 +126,7 @@ bool TableFinder::begins_table(const Line& line) {
       for (const string_view cell : cells_) table.titles.push_back(title_of(cell));
       table.needed = choose_(table.titles, line.number);
       if (table.needed.empty()) continue;
+      end_table();
       table.header_line = line.number;
       table.separator = separator;
       result_.tables.push_back(std::move(table));
@@ -190,7 +146,8 @@ bool TableFinder::begins_numbered(const Line& line) {
     table.needed = choose_(table.titles, line.number);
     const bool numbers =
         !table.needed.empty() && std::ranges::all_of(table.needed, [&](std::size_t column) {
-          return time_in(cells_[column]) || std::ranges::any_of(styles, [&](NumberStyle style) {
+          return time_in(cells_[column]) ||
+                 std::ranges::any_of(number_styles, [&](NumberStyle style) {
                    return plain_number(cells_[column], style).has_value();
                  });
         });
@@ -233,6 +190,7 @@ void TableFinder::read_row(const Line& line) {
     return;
   }
   if (words_in_row_ >= 2 && table.header_line == 0) {
+    end_table();
     const TextTable before = table;
     TextTable& next = result_.tables.emplace_back();
     next.titles = before.titles, next.needed = before.needed, next.separator = before.separator;
@@ -241,27 +199,63 @@ void TableFinder::read_row(const Line& line) {
   add_row(line);
 }
 
-/// `cells_` as the next one.
+/// Whether `cells_` have a gap where a row has its values, or are no row and stand apart. What is
+/// filled up to a place and no further may be a row that is cut.
+bool TableFinder::cannot_be_row(const TextTable& table, const Line& line) const {
+  const bool apart = line.number > last_line_ + 1, of_a_row = cells_.size() == table.titles.size();
+  const auto first_empty = std::ranges::find(cells_, string_view());
+  const bool gap =
+      std::any_of(first_empty, cells_.end(), [](string_view cell) { return !cell.empty(); });
+  if (!of_a_row) return apart || gap;
+  const bool lacks_value =
+      std::any_of(table.needed.begin(),
+                  table.needed.begin() + std::min<std::ptrdiff_t>(2, std::ssize(table.needed)),
+                  [&](std::size_t column) { return cells_[column].empty(); });
+  return lacks_value && (apart || gap || first_empty == cells_.begin());
+}
+
+/// `cells_` as the next one; what cannot be a row is one, and wrong, where another follows.
 void TableFinder::add_row(const Line& line) {
   TextTable& table = result_.tables.back();
-  if (cells_.size() != table.titles.size()) {
-    const bool comma = table.separator == ',' && cells_.size() == 2 * table.titles.size();
-    problems_.add(line.number, "", "",
-                  fmt::format("has {} cells, the {} {} {}", cells_.size(),
+  std::vector<std::string> cells(cells_.begin(), cells_.end());
+  const bool odd = !table.rows.empty() && cannot_be_row(table, line);
+  last_line_ = line.number;
+  if (odd) {
+    odd_.push_back({line.number,
+                    fmt::format("line {}, '{}'", line.number, shown(trimmed(line.text))),
+                    std::move(cells)});
+    return;
+  }
+  for (Odd& earlier : odd_) add_cells(table, earlier.line, std::move(earlier.cells));
+  odd_.clear();
+  add_cells(table, line.number, std::move(cells));
+}
+
+/// What is left below the rows.
+void TableFinder::end_table() {
+  for (Odd& below : odd_) passed_.push_back(std::move(below.text));
+  odd_.clear();
+}
+
+void TableFinder::add_cells(TextTable& table, std::size_t line, std::vector<std::string> cells) {
+  if (cells.size() != table.titles.size()) {
+    const bool comma = table.separator == ',' && cells.size() == 2 * table.titles.size();
+    problems_.add(line, "", "",
+                  fmt::format("has {} cells, the {} {} {}", cells.size(),
                               table.header_line > 0 ? "header" : "first row", table.titles.size(),
                               table.header_line > 0 ? "titles" : "cells"),
                   comma ? "write decimals with a point, or separate cells by semicolons"
                         : "give every row a cell per title; the file may be truncated");
     return;
   }
-  table.rows.emplace_back(cells_.begin(), cells_.end());
-  table.lines.push_back(line.number);
+  table.rows.push_back(std::move(cells));
+  table.lines.push_back(line);
 }
 
 void TableFinder::rewrite_numbers(TextTable& table) {
   NumberStyle best;
   std::size_t most = 0;
-  for (const NumberStyle& style : styles) {
+  for (const NumberStyle& style : number_styles) {
     if (layout_.decimal_comma && *layout_.decimal_comma != (style.decimal == ',')) continue;
     std::size_t numbers = 0;
     for (const auto& row : table.rows)
@@ -292,7 +286,9 @@ void TableFinder::tell() {
   const std::size_t count = passed_.size();
   if (count == 0) return;
   passed_.resize(std::min(count, enough));
-  notes.push_back(fmt::format("{} lines of words among the rows are not read: {}{}", count,
+  notes.push_back(fmt::format("{} among or below the rows {} not read: {}{}",
+                              count == 1 ? "1 line" : fmt::format("{} lines", count),
+                              count == 1 ? "is no row and is" : "are no rows and are",
                               fmt::join(passed_, "; "), count > enough ? "; ..." : ""));
 }
 
@@ -322,6 +318,7 @@ TextTables TableFinder::found() {
     else
       read_row(*line);
   }
+  end_table();
   for (TextTable& table : result_.tables) rewrite_numbers(table);
   tell();
   return std::move(result_);
@@ -329,8 +326,16 @@ TextTables TableFinder::found() {
 
 }  // namespace
 
-TableTitle title_of(string_view cell) {
-  TableTitle title{shown(cell), "", {}};
+TableTitle title_of(string_view written) {
+  // Typographers' and East Asian brackets and apostrophes.
+  std::string own(written);
+  for (const auto& [other, usual] : {std::pair<string_view, char>("\xEF\xBC\x88", '('),
+                                     {"\xEF\xBC\x89", ')'},
+                                     {"\xE2\x80\x99", '\''}})
+    for (std::size_t at = 0; (at = own.find(other, at)) != own.npos; ++at)
+      own.replace(at, other.size(), 1, usual);
+  const string_view cell = own;
+  TableTitle title{shown(written), "", {}};
   const std::size_t end = cell.find_first_of("[(/");
   for (const char c : trimmed(cell.substr(0, end)))
     title.name += c == ' ' ? '_' : char(std::tolower(static_cast<unsigned char>(c)));

@@ -51,11 +51,12 @@ using ChooseColumns =
 /// units may come first. It ends at the next such header, with numbered columns at two lines of
 /// words. Lines of words (a first cell of three
 /// letters or more where the first row has a number) above, between and below rows are statistics
-/// or remarks: passed over and told. Cells may stand in double quotes; empty ones at the end of a
-/// row do not count. Numbers in the needed columns are rewritten with a decimal point and without
-/// separators of thousands, by the style in which most of them are numbers (a point where several
-/// are as good); a cell that is none stays as it stands. Adds rows of another length to `problems`.
-/// Keeps no reference to `choose`; `comments` refer to `text`.
+/// or remarks: passed over and told, as are lines below the last row that cannot be rows: they
+/// stand apart or have a gap where a row has a value. Cells may stand in double quotes; empty ones
+/// at the end of a row do not count. Numbers in the needed columns are rewritten with a decimal
+/// point and without separators of thousands, by the style in which most of them are numbers (a
+/// point where several are as good); a cell that is none stays as it stands. Adds rows of another
+/// length to `problems`. Keeps no reference to `choose`; `comments` refer to `text`.
 TextTables tables_in(std::string_view text, const TableLayout& layout, const ChooseColumns& choose,
                      FileProblems& problems);
 

@@ -379,3 +379,52 @@ TEST_F(MachineFiles, TimesOfTheDayAreSeconds) {
   EXPECT_FALSE(time_in("1:2:3:4"));
   EXPECT_FALSE(time_in(""));
 }
+
+/// A cell that was forgotten below the table, a mean without a word: told and not read. A file cut
+/// within a row is one that lost data, and a gap among the rows is wrong.
+TEST_F(MachineFiles, WhatCannotBeARowBelowTheTableIsTold) {
+  const std::string text =
+      "Zeit [s];Weg [mm];Kraft [N]\n" + table([](const Row& row) {
+        return with_commas(fmt::format("{:.2f};{:.4f};{:.5f}", row.time, row.position, row.force));
+      });
+  for (const char* below :
+       {";0,5514\n", ";0,5514;\n", ";;\n", ";;0,5514\n", "\n12,5;0,55\n", "\n;;0,5\n;0,7\n"}) {
+    expect_the_press(text + below);
+    const std::string notes = testing::PrintToString(read(text + below)[0].notes);
+    EXPECT_NE(notes.find("line 8"), std::string::npos) << notes << below;
+    EXPECT_NE(notes.find("not read"), std::string::npos) << notes << below;
+  }
+  expect_refused(text + "40,5;2,84", "",
+                 {"press.csv:83", "has 2 cells, the header 3", "truncated"});
+  expect_refused(text + "40,5;2,84;", "", {"press.csv:83", "the cell is empty"});
+  expect_refused(text + ";0,5514\n41;2,9;9,9\n", "", {"press.csv:83", "has 2 cells"});
+}
+
+/// A name over every column, titles in the second line, units in the third.
+TEST_F(MachineFiles, KnowsTheTitlesOfSeveralLanguages) {
+  const std::string rows = table([](const Row& row) {
+    return fmt::format("{:.2f};{:.4f};{:.5f}", row.time, row.position, row.force);
+  });
+  for (const char* titles :
+       {"Prüfzeit;Traversenweg;Prüfkraft", "Temps d'essai;Allongement;Force standard",
+        "Temps;Déplacement;Charge", "Tiempo;Desplazamiento;Fuerza", "Tiempo;Posición;Carga",
+        "Tempo;Spostamento;Forza", "TEMPO;Corsa;Carico", "Time;Compression;Compressive force",
+        "时间;位移;试验力"})
+    expect_the_press("Probe 1;Probe 1;Probe 1\n" + std::string(titles) + "\ns;mm;N\n" + rows);
+  expect_the_press(
+      "Temps d\xE2\x80\x99"
+      "essai (s);Allongement (mm);Force standard (N)\n" +
+      rows);
+  // GB 2312, with the brackets of its printers: "time", "displacement", "test force".
+  expect_the_press(
+      "\xCA\xB1\xBC\xE4\xA3\xA8s\xA3\xA9;\xCE\xBB\xD2\xC6\xA3\xA8mm\xA3\xA9;"
+      "\xCA\xD4\xD1\xE9\xC1\xA6\xA3\xA8N\xA3\xA9\n" +
+      rows);
+}
+
+TEST_F(MachineFiles, RefusalsShowTheTitlesAndBothColumns) {
+  expect_refused("Probe 1;Probe 1\nEmpuje;Camino\nN;mm\n0,1;0,2\n0,3;0,4\n", "",
+                 {"press.csv:2", "'Empuje, Camino'", "begin in line 4", "column = 3"});
+  expect_refused("Weg [mm];Kraft [N];Load [N]\n0,1;0,2;0,3\n0,2;0,4;0,5\n", "",
+                 {"Load [N]", "'Kraft [N]', column 2", "force = {column = 2} or {column = 3}"});
+}
