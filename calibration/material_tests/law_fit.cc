@@ -96,21 +96,6 @@ void add_bulk_modulus(const std::vector<MaterialTest>& tests, CurveFitOptions& o
   }
 }
 
-/// A series of fewer terms, and a further one that is next to nothing: what has more terms must not
-/// be worse.
-void add_term_to(const LawFit& fewer, CurveFitOptions& options) {
-  const Index known = 2 * Index(fewer.choice.terms);
-  for (const double exponent : {-4.0, 4.0, 12.0}) {
-    VectorXd start(known + 2);
-    start.head(known) = fewer.fit.estimates.head(known);
-    start.tail(2) << 1e-4 * fewer.law.shear_modulus, exponent;
-    for (Index i = 0; i < start.size(); ++i)
-      start(i) = std::clamp(start(i), options.free[std::size_t(i)].lower,
-                            options.free[std::size_t(i)].upper);
-    options.other_starts.push_back(start);
-  }
-}
-
 double corrected_criterion(const CurveFit& fit, Index points, bool has_sigma) {
   const double n = double(points), k = double(fit.estimates.size()) + (has_sigma ? 0.0 : 1.0);
   if (n <= k + 1.0) return infinite;
@@ -184,7 +169,8 @@ using Fits = std::map<std::string, LawFit>;
 const LawFit& fitted(const std::vector<MaterialTest>& tests, const LawChoice& choice,
                      const LawFitOptions& options, Fits& done);
 
-/// The search for a law and its relaxation: from the law alone, then from a branch less.
+/// The search for a law and its relaxation: from the law alone, then from a branch less, then from
+/// the laws that are cases of it.
 CurveFitOptions starts_of(const std::vector<MaterialTest>& tests,
                           const std::vector<std::vector<double>>& scales, const LawChoice& choice,
                           const LawFitOptions& options, Fits& done) {
@@ -194,8 +180,14 @@ CurveFitOptions starts_of(const std::vector<MaterialTest>& tests,
       return fitted(tests, {choice.law, choice.terms, branches}, options, done);
     };
     add_branches(tests, scales, choice, with(0), with(choice.branches - 1), fit);
-  } else if (choice.law == meshes::RubberLaw::ogden && choice.terms > 1) {
-    add_term_to(fitted(tests, {choice.law, choice.terms - 1}, options, done), fit);
+  }
+  for (const LawChoice& nested : nested_laws(choice)) {
+    try {
+      const LawFit& found = fitted(tests, nested, options, done);
+      for (const VectorXd& start : as_more_general(nested, found.fit.estimates, choice))
+        fit.other_starts.push_back(within_bounds(start, fit.free));
+    } catch (const meshes::NotConverged&) {  // nothing to begin from
+    }
   }
   add_bulk_modulus(tests, fit);
   fit.max_iterations = 200;
@@ -240,7 +232,8 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
   result.choice = choice;
   result.fit = fit_curves(curves, addresses, fit);
   if (const auto sorted = sorted_branches(choice, result.fit.estimates)) {
-    for (Index i = 0; i < sorted->size(); ++i) fit.free[std::size_t(i)].start = (*sorted)(i);
+    const VectorXd start = within_bounds(*sorted, fit.free);
+    for (Index i = 0; i < start.size(); ++i) fit.free[std::size_t(i)].start = start(i);
     fit.other_starts.clear();
     result.fit = fit_curves(curves, addresses, fit);
   }
@@ -277,11 +270,13 @@ LawFit fit_law(const std::vector<MaterialTest>& tests, const LawChoice& choice,
 
 std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
                               const std::vector<MaterialTest>& held_back,
-                              const std::vector<LawChoice>& laws, const LawFitOptions& options) {
+                              const std::vector<LawChoice>& laws, const LawFitOptions& options,
+                              const std::function<void(double, const LawChoice&)>& next) {
   check_tests(tests);
   std::vector<LawFit> ranking;
   Fits done;
   for (const LawChoice& law : laws) {
+    if (next) next(double(ranking.size()) / double(laws.size()), law);
     LawFit fit;
     try {
       fit = fitted(tests, law, options, done);
@@ -296,15 +291,11 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
     }
     ranking.push_back(std::move(fit));
   }
-  sort_ranking(ranking);
-  return ranking;
-}
-
-void sort_ranking(std::vector<LawFit>& ranking) {
   std::ranges::stable_sort(ranking, [](const LawFit& a, const LawFit& b) {
     if (a.failure.empty() != b.failure.empty()) return a.failure.empty();
     return a.aicc < b.aicc;
   });
+  return ranking;
 }
 
 const LawFit* recommended(const std::vector<LawFit>& ranking) {

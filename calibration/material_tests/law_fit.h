@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -101,14 +102,13 @@ TestMisfit predict(const LawFit& fit, const MaterialTest& test,
                    TestWeights weights = TestWeights::test);
 
 /// The laws, fitted to `tests` and asked for `held_back`, the least AICc first, those without a fit
-/// last. Throws as fit_law does where no law can be fitted for the tests' sake.
+/// last. None fits worse than a law that is a case of it. `next` is told each law before its fit,
+/// and the share of laws behind it; it may throw to stop. Throws as fit_law does where no law can
+/// be fitted for the tests' sake.
 std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
                               const std::vector<MaterialTest>& held_back,
-                              const std::vector<LawChoice>& laws,
-                              const LawFitOptions& options = {});
-
-/// Into the order of rank_laws.
-void sort_ranking(std::vector<LawFit>& ranking);
+                              const std::vector<LawChoice>& laws, const LawFitOptions& options = {},
+                              const std::function<void(double, const LawChoice&)>& next = {});
 
 /// The first of a ranking that passed its own tests; else the first that is stable, else the first.
 /// Null without any fit.

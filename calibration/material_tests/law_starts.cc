@@ -203,4 +203,57 @@ CurveFitOptions law_starts(const std::vector<MaterialTest>& tests,
   return fit;
 }
 
+std::vector<LawChoice> nested_laws(const LawChoice& choice) {
+  const auto like = [&](RubberLaw law, int terms) {
+    return LawChoice{law, terms, choice.branches};
+  };
+  const LawChoice neo = like(RubberLaw::neo_hookean, 1);
+  switch (choice.law) {
+    case RubberLaw::neo_hookean: return {};
+    case RubberLaw::yeoh:
+      return {choice.terms == 2 ? neo : like(RubberLaw::yeoh, choice.terms - 1)};
+    case RubberLaw::ogden:
+      if (choice.terms == 1) return {neo};
+      if (choice.terms == 2) return {like(RubberLaw::ogden, 1), like(RubberLaw::mooney_rivlin, 1)};
+      return {like(RubberLaw::ogden, choice.terms - 1)};
+    default: return {neo};
+  }
+}
+
+std::vector<VectorXd> as_more_general(const LawChoice& nested, const VectorXd& coefficients,
+                                      const LawChoice& choice) {
+  const VectorXd law = coefficients.head(Index(law_coefficients(nested).size()));
+  const double first = law(0);
+  std::vector<std::vector<double>> starts = {{law.begin(), law.end()}};
+  if (choice.law == RubberLaw::gent) {
+    starts = {{first, std::numeric_limits<double>::max()}};
+  } else if (choice.law != RubberLaw::ogden) {
+    if (nested.law == RubberLaw::neo_hookean) starts[0][0] = 0.5 * first;  // G = 2 C1
+    starts[0].push_back(0.0);
+  } else if (nested.law == RubberLaw::mooney_rivlin) {
+    starts = {{2.0 * first, 2.0, 2.0 * law(1), -2.0}};
+  } else if (nested.law == RubberLaw::neo_hookean) {
+    starts[0].push_back(2.0);
+  } else {
+    const std::vector<double> known = std::exchange(starts, {}).front();
+    for (const double exponent : {-4.0, 4.0, 12.0}) {
+      starts.push_back(known);
+      starts.back().insert(starts.back().end(), {1e-4 * first, exponent});
+    }
+  }
+  std::vector<VectorXd> all;
+  for (const std::vector<double>& start : starts) {
+    VectorXd& whole = all.emplace_back(Index(start.size()) + 2 * choice.branches);
+    whole << VectorXd::Map(start.data(), Index(start.size())),
+        coefficients.segment(law.size(), 2 * choice.branches);
+  }
+  return all;
+}
+
+VectorXd within_bounds(VectorXd start, const std::vector<FreeParameter>& free) {
+  for (Index i = 0; i < start.size(); ++i)
+    start(i) = std::clamp(start(i), free[std::size_t(i)].lower, free[std::size_t(i)].upper);
+  return start;
+}
+
 }  // namespace fingertip::calibration

@@ -15,4 +15,16 @@ CurveFitOptions law_starts(const std::vector<MaterialTest>& tests,
                            const std::vector<std::vector<double>>& scales, const LawChoice& choice,
                            const LawFitOptions& options);
 
+/// The next simpler laws, of as many branches, that are cases of this one.
+std::vector<LawChoice> nested_laws(const LawChoice& choice);
+
+/// Coefficients of `choice` that make it a nested law of `coefficients`, nearly where it would have
+/// to be at a bound; several where a further exponent may be anything.
+std::vector<Eigen::VectorXd> as_more_general(const LawChoice& nested,
+                                             const Eigen::VectorXd& coefficients,
+                                             const LawChoice& choice);
+
+/// A start that a search may begin from.
+Eigen::VectorXd within_bounds(Eigen::VectorXd start, const std::vector<FreeParameter>& free);
+
 }  // namespace fingertip::calibration

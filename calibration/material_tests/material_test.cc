@@ -180,7 +180,11 @@ std::array<double, 2> observed_times(const MaterialTest& test) {
   if (test.course == TestCourse::cycles || test.time.size() < 2)
     return {last / double(std::max<std::size_t>(1, test.time.size() - 1)), last};
   const double held = test.path.held_from(rest_of(test.kind)), ramp = held - start;
-  const auto after = std::ranges::upper_bound(test.time, held);
+  const auto before = std::ranges::upper_bound(test.time, start),
+             after = std::ranges::upper_bound(test.time, held);
+  // Rows of the ramp tell of it as those of cycles do.
+  if (const auto rows = after - before; rows > 1)
+    return {(*(after - 1) - start) / double(rows), last};
   const double first = after == test.time.end() ? last : *after - held;
   return {std::max(ramp, first), last};
 }

@@ -109,9 +109,10 @@ struct MaterialTest {
 /// The deformation of a specimen at rest: 0 in shear, else 1.
 double rest_of(TestKind kind);
 
-/// From the first time that a test tells of how its stress fades to the last [s]: of a relaxation
-/// after a ramp, which hides what is faster, from the ramp's duration or the first stress after it,
-/// whichever is later; of cycles from their mean step in time. Not for a slow course.
+/// From the first time that a test tells of how its stress fades to the last [s]: of cycles, and of
+/// a ramp with several stresses before its hold, from their mean step in time; of a relaxation
+/// whose ramp was not measured, which hides what is faster, from its duration or the first stress
+/// after it, whichever is later. Not for a slow course.
 std::array<double, 2> observed_times(const MaterialTest& test);
 
 /// What was done to a specimen of volume 1 m³, less what it gave back: the area within the curve of

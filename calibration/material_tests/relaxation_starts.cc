@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "calibration/material_tests/law_starts.h"
 #include "calibration/surrogate/non_negative.h"
 #include "calibration/words.h"
 #include "meshes/errors.h"
@@ -176,10 +177,7 @@ void add_branches(const std::vector<MaterialTest>& tests,
     }
     options.free.push_back(free);
   }
-  for (VectorXd& start : starts)
-    for (Index i = 0; i < start.size(); ++i)
-      start(i) = std::clamp(start(i), options.free[std::size_t(i)].lower,
-                            options.free[std::size_t(i)].upper);
+  for (VectorXd& start : starts) start = within_bounds(std::move(start), options.free);
   for (Index i = 0; i < starts.front().size(); ++i)
     options.free[std::size_t(i)].start = starts.front()(i);
   options.other_starts.assign(starts.begin() + 1, starts.end());

@@ -80,24 +80,11 @@ void write_cards(const std::vector<LawFit>& ranking, const LawInput& input,
 }
 
 std::vector<LawFit> ranked(const LawInput& input, const JobContext& context) {
-  std::vector<LawFit> ranking;
-  // A law and its branches begin from each other.
-  const auto alike = [](const calibration::LawChoice& a, const calibration::LawChoice& b) {
-    return a.law == b.law && a.terms == b.terms;
-  };
-  for (auto from = input.laws.begin(); from != input.laws.end();) {
-    const auto to =
-        std::find_if(from, input.laws.end(), [&](const auto& law) { return !alike(law, *from); });
-    const double done = double(from - input.laws.begin()) / double(input.laws.size());
-    if (!context.report(done, name(*from)))
-      throw meshes::Interrupted("the fit of laws was stopped");
-    for (LawFit& fit :
-         rank_laws(input.tests.fitted, input.tests.held_back, {from, to}, input.options))
-      ranking.push_back(std::move(fit));
-    from = to;
-  }
-  calibration::sort_ranking(ranking);
-  return ranking;
+  return rank_laws(input.tests.fitted, input.tests.held_back, input.laws, input.options,
+                   [&](double done, const calibration::LawChoice& law) {
+                     if (!context.report(done, name(law)))
+                       throw meshes::Interrupted("the fit of laws was stopped");
+                   });
 }
 
 /// The test `i` of those fitted and, after them, those held back.
