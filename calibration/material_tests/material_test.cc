@@ -182,8 +182,8 @@ std::array<double, 2> observed_times(const MaterialTest& test) {
   const double held = test.path.held_from(rest_of(test.kind)), ramp = held - start;
   const auto before = std::ranges::upper_bound(test.time, start),
              after = std::ranges::upper_bound(test.time, held);
-  // Rows of the ramp tell of it as those of cycles do.
-  if (const auto rows = after - before; rows > 1)
+  // Rows of the ramp tell of it as those of cycles do; two are its ends.
+  if (const auto rows = after - before; rows > 2)
     return {(*(after - 1) - start) / double(rows), last};
   const double first = after == test.time.end() ? last : *after - held;
   return {std::max(ramp, first), last};

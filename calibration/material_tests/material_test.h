@@ -110,7 +110,7 @@ struct MaterialTest {
 double rest_of(TestKind kind);
 
 /// From the first time that a test tells of how its stress fades to the last [s]: of cycles, and of
-/// a ramp with several stresses before its hold, from their mean step in time; of a relaxation
+/// a ramp with three stresses or more, from their mean step in time; of a relaxation
 /// whose ramp was not measured, which hides what is faster, from its duration or the first stress
 /// after it, whichever is later. Not for a slow course.
 std::array<double, 2> observed_times(const MaterialTest& test);
