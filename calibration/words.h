@@ -1,6 +1,7 @@
 /// Numbers in sentences.
 #pragma once
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -28,9 +29,12 @@ inline std::string in_one(const std::vector<std::string>& sentences) {
   return text;
 }
 
-/// A share [-] in percent, to two digits.
+/// A share [-] in percent, to two digits, from 100 % on to whole ones.
 inline std::string percent(double share) {
-  return rounded(100.0 * share, 2) + " %";
+  const double hundredths = 100.0 * share;
+  return (std::abs(hundredths) < 100.0 ? rounded(hundredths, 2)
+                                       : rounded(std::round(hundredths), 9)) +
+         " %";
 }
 
 }  // namespace fingertip::calibration

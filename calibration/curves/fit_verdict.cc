@@ -42,8 +42,17 @@ void judge_bounds(Sentences& found, const FitRecord& record) {
                     "ratio), or widen its range where such a rubber is possible");
     return;
   }
+  // Noise makes an estimate negative where there is none: twice the interval lies below zero.
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
-    if (fit.at_bound[i])
+    if (fit.parameters[i] == MaterialParameter::compliance &&
+        (2.0 * fit.upper(Index(i)) < fit.estimates(Index(i)) ||
+         (fit.at_bound[i] && fit.estimates(Index(i)) < 0.0)))
+      found.push_back(fit.labels[i] + " = " +
+                      quantity_text(fit.estimates(Index(i)), unit(fit.parameters[i])) +
+                      " is below zero, which no machine has: the force grows faster with depth "
+                      "than the model's (sticking, a law that stiffens, another obstacle or "
+                      "shape); hold the compliance, and mend that");
+    else if (fit.at_bound[i])
       found.push_back(fit.labels[i] + " ended at a bound, " +
                       quantity_text(fit.estimates(Index(i)), unit(fit.parameters[i])));
 }

@@ -225,6 +225,12 @@ std::string assumptions(const FitRecord& record) {
 /// A cause counts as told by data where chance makes its decrease less often than this.
 constexpr double by_no_chance = 1e-3;
 
+/// How much of it there would be: an absurd amount shows that it is not the cause.
+std::string amount_of(const Accusation& each) {
+  return each.unit == "1" ? percent(each.amount) + " of " + each.share_of
+                          : quantity_text(each.amount, each.unit, 3);
+}
+
 /// What freeing the gravest suspects would do, where the fit misses its data.
 std::string lack_of_fit(const FitRecord& record) {
   bool missed = record.fit.birge_ratio > 1.0;
@@ -241,7 +247,8 @@ std::string lack_of_fit(const FitRecord& record) {
     text += (i == 0 ? " What is missed looks most like " : "; then ") + named +
             ", which alone would "
             "take away " +
-            percent(std::min(1.0, each.decrease / all)) + " of the misfit (" + each.cause + ")";
+            percent(std::min(1.0, each.decrease / all)) + " of the misfit (" + amount_of(each) +
+            ": " + each.cause + ")";
   }
   return text.empty() ? text : text + ".";
 }

@@ -79,7 +79,7 @@ std::vector<Accusation> accusations(const CurveFit& fit, const CurveFitOptions& 
     const double amount = std::clamp(shared / square, suspect.least, suspect.most);
     const double decrease = std::max(0.0, amount * (2.0 * shared - amount * square));
     found.push_back({suspect.name, suspect.of, suspect.cause, suspect.unit, amount, decrease,
-                     probability_of(decrease, fit)});
+                     probability_of(decrease, fit), suspect.share_of});
   }
   std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);
   return found;
@@ -105,7 +105,8 @@ Accusation accusation(const CurveFit& before, const CurveFit& after, const Suspe
           what.unit,
           after.estimates(after.estimates.size() - 1),
           decrease,
-          probability_of(decrease, before)};
+          probability_of(decrease, before),
+          what.share_of};
 }
 
 VectorXd fading(const VectorXd& forces, const std::vector<double>& times, double constant) {

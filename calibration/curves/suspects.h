@@ -21,14 +21,16 @@ struct Suspect {
   /// What the number can be at all: of another theory, which is 1, no more than that by far.
   double least = -std::numeric_limits<double>::infinity(),
          most = std::numeric_limits<double>::infinity();
+  std::string share_of = {};  ///< what a number of unit "1" is a share of, "the force at once"
 };
 
 /// What freeing that number beside the fit's own parameters would do, to first order.
 struct Accusation {
   std::string name, of, cause, unit;
-  double amount = 0.0;       ///< the number then, in `unit`
-  double decrease = 0.0;     ///< of chi-square; without sigma of squares over their variance
-  double probability = 1.0;  ///< of at least that decrease if the number were 0
+  double amount = 0.0;        ///< the number then, in `unit`
+  double decrease = 0.0;      ///< of chi-square; without sigma of squares over their variance
+  double probability = 1.0;   ///< of at least that decrease if the number were 0
+  std::string share_of = {};  ///< as in Suspect
 };
 
 /// Rao's score test of every suspect, the largest decrease first: with whitened residuals r and

@@ -26,7 +26,12 @@ namespace {
 /// Another theory is there or not; coarse lattices tell its forces to a half.
 constexpr double most_excess = 1.5;
 
-constexpr const char* relaxation_name = "relaxation";
+constexpr const char
+    *relaxation_name = "relaxation",
+    *stiffening_name = "stiffening",
+    *stiffening_cause =
+        "the force grows faster with depth than the model's, and no machine makes "
+        "that: the rubber sticks, its law stiffens, or obstacle or shape are others";
 
 /// Causes of smooth curves resemble each other: such a share of the best one's decrease is as good.
 constexpr double nearly_all = 0.9;
@@ -68,6 +73,8 @@ struct Freed {
   std::size_t kind = 0;
   std::string of;
   std::vector<std::size_t> curves;
+  /// A compliance below zero, which no machine has: what stiffens with the force is something else.
+  bool stiffens = false;
 };
 
 /// Fits of the forces' scale, of what of the rigs is fitted and of one thing more.
@@ -96,9 +103,20 @@ class Trials {
     before_ = fitted({});
   }
 
-  /// Throws as fits do.
-  Accusation of(const Suspect& what, const Freed& freed) {
-    return calibration::accusation(before_, fitted({freed}), what);
+  /// Throws as fits do. A stiffening is told by what c < 0 adds to the deepest force, -c dF/dx of
+  /// it with 3/2 of the force over the travel as the slope.
+  Accusation of(const Freed& freed) {
+    const MaterialParameter parameter = rig_parameters[freed.kind];
+    Suspect what{std::string(calibration::name(parameter)),
+                 freed.of,
+                 cause_of(parameter),
+                 std::string(calibration::unit(parameter)),
+                 {}};
+    if (freed.stiffens)
+      what = {stiffening_name, freed.of, stiffening_cause, "1", {}, 0.0, 0.0, "the deepest force"};
+    Accusation found = calibration::accusation(before_, fitted({freed}), what);
+    if (freed.stiffens) found.amount *= -1.5 / parameter_of(freed).scale;
+    return found;
   }
 
   /// Chi-square, or squares over their variance, that is left with all of these freed.
@@ -110,7 +128,7 @@ class Trials {
 
  private:
   static constexpr int most_trials = 200;
-  static constexpr double lowest_compliance = 0.1, highest_compliance = 0.9;
+  static constexpr double most_stiffening = 0.1, highest_compliance = 0.9;
 
   static double squares_of(const calibration::CurveFit& fit) {
     return fit.chi_square.value_or(double(fit.degrees_of_freedom));
@@ -131,8 +149,9 @@ class Trials {
     free.scale = scales[freed.kind];
     free.of = freed.of;
     if (rig_parameters[freed.kind] == MaterialParameter::compliance) {
-      free.lower = free.start - lowest_compliance * free.scale;
-      free.upper = free.start + highest_compliance * free.scale;
+      free.lower = freed.stiffens ? -most_stiffening * free.scale : 0.0;
+      free.upper = freed.stiffens ? 0.0 : free.start + highest_compliance * free.scale;
+      free.start = std::clamp(free.start, free.lower, free.upper);
     }
     return free;
   }
@@ -198,8 +217,9 @@ std::vector<Freed> held_by(const FitInput& input) {
   for (std::size_t k = 0; k < rig_members.size(); ++k) {
     if (rig_parameters[k] == MaterialParameter::compliance) {
       for (const auto& [machine, which] : machines)
-        if (!is_fitted(input, which.front(), k))
-          held.push_back({k, machines.size() == 1 ? "" : machine, which});
+        for (const bool stiffens : {false, true})
+          if (!is_fitted(input, which.front(), k))
+            held.push_back({k, machines.size() == 1 ? "" : machine, which, stiffens});
       continue;
     }
     for (std::size_t i = 0; i < curves; ++i) {
@@ -273,7 +293,8 @@ std::optional<Suspect> relaxation(const FitInput& input, const Stack& stack) {
       "1",
       VectorXd::Zero(stack.values),
       0.0,
-      0.0};
+      0.0,
+      "the force at once"};
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const Curve& curve = input.curves[i];
     const VectorXd& forces = stack.fitted[i];
@@ -303,7 +324,7 @@ std::vector<std::string> best_pair(Trials& trials, const std::vector<Freed>& hel
     for (std::size_t b = a + 1; b < rig_members.size(); ++b) {
       std::vector<Freed> both;
       for (const Freed& each : held)
-        if (each.kind == a || each.kind == b) both.push_back(each);
+        if (!each.stiffens && (each.kind == a || each.kind == b)) both.push_back(each);
       const auto is = [&](std::size_t kind) {
         return std::ranges::find(both, kind, &Freed::kind) != both.end();
       };
@@ -336,8 +357,9 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
   const Stack stack = stacked(input, fit);
   std::vector<Suspect> suspects;
   for (const Excess& excess : excesses_of(input)) {
-    Suspect& suspect = suspects.emplace_back(Suspect{
-        excess.name, "", excess.cause, "1", VectorXd::Zero(stack.values), 0.0, most_excess});
+    Suspect& suspect = suspects.emplace_back(Suspect{excess.name, "", excess.cause, "1",
+                                                     VectorXd::Zero(stack.values), 0.0, most_excess,
+                                                     "what coarse lattices compute for it"});
     for (std::size_t i = 0; i < input.curves.size(); ++i) {
       const std::vector<double> relative = at_values(input, i, excess.at_samples[i]);
       suspect.change.segment(stack.first[i], Index(relative.size())) =
@@ -350,24 +372,19 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
   const auto gravest_first = [&] {
     std::ranges::stable_sort(found, std::greater<>(), &Accusation::decrease);
     // What explains as much and shows itself besides goes first: no other cause makes a loop.
-    const auto fades = std::ranges::find(found, relaxation_name, &Accusation::name);
-    if (fades != found.end() && fades->decrease > nearly_all * found.front().decrease)
-      std::rotate(found.begin(), fades, fades + 1);
+    // A stiffening has no cause of its own: those that are named go before it.
+    const bool unnamed = !found.empty() && found.front().name == stiffening_name;
+    const auto better = std::ranges::find_if(found, [&](const Accusation& each) {
+      return each.decrease > nearly_all * found.front().decrease &&
+             (each.name == relaxation_name || (unnamed && each.name != stiffening_name));
+    });
+    if (better != found.end()) std::rotate(found.begin(), better, better + 1);
   };
   gravest_first();
   if_it_can_be([&] {  // a press without forces has no rig
     Trials trials(input, fit, options, models);
     const std::vector<Freed> held = held_by(input);
-    for (const Freed& each : held)
-      if_it_can_be([&] {
-        const MaterialParameter parameter = rig_parameters[each.kind];
-        found.push_back(trials.of({std::string(calibration::name(parameter)),
-                                   each.of,
-                                   cause_of(parameter),
-                                   std::string(calibration::unit(parameter)),
-                                   {}},
-                                  each));
-      });
+    for (const Freed& each : held) if_it_can_be([&] { found.push_back(trials.of(each)); });
     gravest_first();
     const std::vector<std::string> pair = best_pair(trials, held, found);
     std::ranges::stable_partition(found, [&](const Accusation& each) {

@@ -114,6 +114,54 @@ TEST(Calibrate, FindsTheRubberBehindARig) {
   EXPECT_NE(unit.err.find("compliance: "), std::string::npos) << unit.err;
 }
 
+/// The lattice's own press, once behind a machine that gives way by 2 mm/N, once with forces that
+/// grow faster, by 20 % at 1 mm: as a compliance that would be one below zero, which no machine
+/// has.
+TEST(Calibrate, WhatIsMissedHasAnAmountAndNoMachinePushesBack) {
+  const TemporaryFolder folder;
+  std::string samples;
+  for (int i = 1; i <= 24; ++i)
+    samples += (i > 1 ? ",\"" : "\"") + std::to_string(0.005 * i) + " cm\"";
+  const ProgramResult press = run_program(
+      folder.path(), {"press", "--set", "press.mode=static", "--set", "press.contact=frictionless",
+                      "--set", "lattice.spacing=tip_radius/5", "--set",
+                      "press.samples=[" + samples + "]", "--out", "press"});
+  ASSERT_EQ(press.code, 0) << press.err;
+  const auto response =
+      fingertip::meshes::PressResponse::read_csv(folder / "press" / "response.csv");
+  const auto fit = [&](double compliance, double stiffening, const char* out) {
+    std::ostringstream csv;
+    csv << "# press.contact = \"frictionless\"\nposition [mm];force [mN]\n0;0\n";
+    for (const auto& sample : response.samples()) {
+      const double depth = 1e3 * sample.indentation,
+                   force = 1e3 * sample.normal_force * (1.0 + stiffening * std::pow(depth, 3));
+      csv << 0.1 + depth + compliance * force << ';' << force << '\n';
+    }
+    write_text(folder / "travel.csv", csv.str());
+    const ProgramResult run = run_program(
+        folder.path(), with(experiment, {"--set", "calibration.data=[\"travel.csv\"]", "--set",
+                                         "calibration.parameters=[\"modulus\"]", "--out", out}));
+    EXPECT_TRUE(run.code == 0 || run.code == 4) << run.err;
+    for (const json& each : read(folder / out / "calibration.json")["lack_of_fit"])
+      EXPECT_TRUE(each["name"] != "compliance" || each["amount"].get<double>() >= 0.0) << each;
+    return run.out;
+  };
+  const std::string soft = fit(2e-3, 0.0, "soft");
+  EXPECT_NE(soft.find("looks most like compliance, which alone would"), std::string::npos) << soft;
+  const json found = read(folder / "soft" / "calibration.json")["lack_of_fit"][0];
+  EXPECT_NEAR(found["amount"].get<double>(), 2e-3, 4e-4);
+  EXPECT_NE(soft.find(" mm/N: frame, load cell"), std::string::npos) << soft;
+
+  const std::string stiff = fit(0.0, 0.2, "stiff");
+  EXPECT_EQ(stiff.find("frame, load cell"), std::string::npos) << stiff;
+  EXPECT_NE(stiff.find("(150 % of what coarse lattices compute for it: "), std::string::npos)
+      << stiff;
+  bool stiffens = false;
+  for (const json& each : read(folder / "stiff" / "calibration.json")["lack_of_fit"])
+    stiffens = stiffens || (each["name"] == "stiffening" && each["amount"].get<double>() > 0.05);
+  EXPECT_TRUE(stiffens);
+}
+
 TEST(Calibrate, FindsTheRubberOfMeasuredPresses) {
   const TemporaryFolder folder;
   write_measured(folder.path(), "frictionless", "a.csv");
