@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibration/moduli_file.h"
@@ -46,6 +47,14 @@ constexpr auto fields_of(const ParameterEntry*) {
                         newer(named("bound_of", &Whole::bound_of)),
                         named("start prior bias", &Whole::start, &Whole::prior, &Whole::bias),
                         newer(named("interval", &Whole::interval)));
+}
+
+/// Whether the data leave open what has `unit`: its 95 % interval exceeds it. A travel at touch, a
+/// load cell's zero and what else a machine adds may well be zero and count by what they do to the
+/// forces, which the directions of a fit tell.
+inline bool is_open(std::string_view unit, double estimate, double lower, double upper) {
+  const bool has_size = unit == "Pa" || unit == "N/m" || unit == "s" || unit == "1" || unit.empty();
+  return has_size && !(upper - lower <= 2.0 * std::abs(estimate));
 }
 
 /// What the runs test says of a curve's residuals.

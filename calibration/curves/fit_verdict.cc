@@ -71,8 +71,11 @@ void judge_identifiability(Sentences& found, const FitRecord& record) {
   const CurveFit& fit = record.fit;
   if (fit.poissons_ratio_bound) return;
   std::string remedy =
-      ": hold Poisson's ratio (parameters: modulus), give a prior, or add a curve of another "
-      "contact";
+      fit.poissons_ratio_error
+          ? ": hold Poisson's ratio (parameters: modulus), give a prior, or add a curve of another "
+            "contact"
+          : ": hold what is known, of the machine by calibration.rig, give a prior, or add a press "
+            "against another obstacle or a rigid blank";
   if (std::ranges::any_of(fit.unidentifiable,
                           [&](const Direction& each) { return is_of_branches(fit, each); }))
     remedy =

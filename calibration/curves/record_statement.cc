@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "calibration/curves/fit_record.h"
+#include "calibration/fit_file.h"
 #include "calibration/material_tests/relaxation_starts.h"
 #include "calibration/words.h"
 
@@ -38,9 +39,7 @@ std::string estimates(const CurveFit& fit) {
     const bool by_ratio = fit.poissons_ratio_bound && is_modulus(parameter);
     if (by_ratio) continue;
     const double lower = fit.lower(Index(i)), upper = fit.upper(Index(i));
-    // What is of the rig may well be zero.
-    const bool open =
-        !is_of_the_rig(parameter) && upper - lower > 2.0 * std::abs(fit.estimates(Index(i)));
+    const bool open = is_open(unit(parameter), fit.estimates(Index(i)), lower, upper);
     text += fit.at_bound[i] ? " (at its bound)"
             : open          ? " (open: the 95 % interval exceeds it)"
                             : " (95 %: " + rounded(lower, 5) + " to " + rounded(upper, 5) + ")";

@@ -58,11 +58,9 @@ void print_parameters(const ordered_json& content) {
     const double lower = as_shown(number_of(parameter["lower"]), si).first,
                  upper = as_shown(number_of(parameter["upper"]), si).first;
     // Where Poisson's ratio has stopped at a bound neither modulus has an interval of its own.
-    // What is of the rig may well be zero.
-    const bool stiffness = si == "Pa" || si == "N/m" || si == "s" || si == "1";
     const bool open =
-        (stiffness && !(upper - lower <= 2.0 * std::abs(value))) ||
-        (ratio_bound && stiffness && parameter["name"].get<std::string>() != "modulus");
+        calibration::is_open(si, value, lower, upper) ||
+        (ratio_bound && si == "Pa" && parameter["name"].get<std::string>() != "modulus");
     const auto end = [&](double number) {
       return open ? std::string("open") : fmt::format("{:.6g}", number);
     };

@@ -26,9 +26,18 @@ std::string in_si(const FitParameter& parameter, double value) {
                                                             : "";
 }
 
-/// An interval wider than the value on both sides tells that the data leave it open.
 bool is_open(const FitParameter& parameter) {
-  return parameter.upper - parameter.lower > 2.0 * std::abs(parameter.estimate);
+  return calibration::is_open(parameter.si_unit, parameter.estimate, parameter.lower,
+                              parameter.upper);
+}
+
+/// Relative, of what has a size; of a travel or a force's zero as it is.
+std::string standard_error(const FitParameter& parameter) {
+  if (is_open(parameter)) return "–";
+  const double error = parameter.standard_error;
+  return error > std::abs(parameter.estimate)
+             ? shown(parameter, error)
+             : percent_magnitude(error / std::abs(parameter.estimate));
 }
 
 std::string interval(const FitParameter& parameter, double factor) {
@@ -72,11 +81,7 @@ constexpr ParameterColumn parameter_columns[] = {
     {"95 % interval", "", [](const FitParameter&) { return true; }, interval_cell},
     {"Standard error", "of the estimate",
      [](const FitParameter& parameter) { return std::isfinite(parameter.standard_error); },
-     [](const FitParameter& parameter) {
-       return plain(is_open(parameter) ? "–"
-                                       : percent_magnitude(parameter.standard_error /
-                                                           std::abs(parameter.estimate)));
-     }},
+     [](const FitParameter& parameter) { return plain(standard_error(parameter)); }},
     {"Truth", "", [](const FitParameter& parameter) { return std::isfinite(parameter.truth); },
      [](const FitParameter& parameter) {
        const double error = parameter.estimate / parameter.truth - 1.0;

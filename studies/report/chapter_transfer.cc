@@ -104,7 +104,8 @@ std::string parameter_lines(const Fit& fit) {
     };
     const ShownUnit* known = shown_units().of(parameter.si_unit);
     const std::string unit = known ? std::string(known->ascii) : parameter.unit;
-    const bool open = parameter.upper - parameter.lower > 2.0 * std::abs(parameter.estimate);
+    const bool open = calibration::is_open(parameter.si_unit, parameter.estimate, parameter.lower,
+                                           parameter.upper);
     text += fmt::format(
         "  {:<18}{:>12} {:<8} 95 %: {}{}\n", ascii(parameter.name), value(parameter.estimate),
         ascii(unit),

@@ -175,3 +175,35 @@ TEST(FitRecord, ALoopIsTheRubbersOrTheMachinesByItsSign) {
   EXPECT_TRUE(says(told, "0.0001 m of play or lag of the machine's travel")) << told;
   EXPECT_FALSE(says(told, "relaxes")) << told;
 }
+
+/// Who holds Poisson's ratio already is not told to hold it.
+TEST(FitRecord, TheRemedyForAnOpenDirectionIsOneThatIsLeft) {
+  Curve curve = measured("a", {1.0, 2.0, 3.0, 4.0, 5.0}, 0.1);
+  const auto advice = [&](MaterialParameter second) {
+    CurveFitOptions options;
+    options.free = {{.parameter = second == shear_modulus ? youngs_modulus : modulus, .start = 1.0},
+                    {.parameter = second, .start = 0.36, .scale = 1.0}};
+    FitRecord record;
+    record.problem = "experiment";
+    record.curves = {curve};
+    record.conditions = {""};
+    record.options = options;
+    // The curve sees p0 alone.
+    FormulaModel model([](const VectorXd& p) {
+      const VectorXd x = VectorXd::LinSpaced(5, 1.0, 5.0);
+      MatrixXd slopes = MatrixXd::Zero(5, 2);
+      slopes.col(0) = x;
+      slopes.col(1) = 1e-9 * x.cwiseAbs2();
+      return CurveSlopes{p(0) * x + 1e-9 * p(1) * x.cwiseAbs2(), slopes};
+    });
+    record.fit = fit_curves(record.curves, {&model}, options);
+    std::string all;
+    for (const std::string& failed : failed_tests(record)) all += failed + "\n";
+    return all;
+  };
+  const std::string of_machine = advice(compliance), of_rubber = advice(shear_modulus);
+  EXPECT_TRUE(says(of_machine, "direction open)")) << of_machine;
+  EXPECT_FALSE(says(of_machine, "hold Poisson's ratio")) << of_machine;
+  EXPECT_TRUE(says(of_machine, "calibration.rig")) << of_machine;
+  EXPECT_TRUE(says(of_rubber, "hold Poisson's ratio")) << of_rubber;
+}

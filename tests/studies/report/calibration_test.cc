@@ -368,6 +368,24 @@ TEST_F(FitReport, AComplianceThatNobodyMeasuredIsAssumed) {
   }
 }
 
+/// 0.006 +- 0.013 mm is a touch that is known well; a modulus whose interval exceeds it is not.
+TEST_F(FitReport, ATouchNearZeroIsDeterminedAndAModulusLikeThatIsNot) {
+  const auto page = [&](const char* name, const char* unit) {
+    return visible_text(report([&](json& result) {
+      json& parameter = result["parameters"][1];
+      parameter["name"] = name, parameter["unit"] = unit;
+      parameter["estimate"] = 6e-6, parameter["standard_error"] = 6.6e-6;
+      parameter["lower"] = -7e-6, parameter["upper"] = 19e-6;
+      result["profile"] = nullptr;
+    }));
+  };
+  const std::string touch = page("touch_offset", "m");
+  EXPECT_FALSE(has(touch, "not determined by these data")) << touch;
+  EXPECT_TRUE(has(touch, "−0.007000 … 0.01900")) << touch;
+  EXPECT_TRUE(has(touch, "0.006600")) << "its standard error, which is no share of it";
+  EXPECT_TRUE(has(page("shear_modulus", "Pa"), "not determined by these data"));
+}
+
 TEST_F(FitReport, OtherQuantitiesKeepTheirUnitsAndTheirOwnFigures) {
   json result = report_testing::fit_result();
   result["problem"] = "damping";
