@@ -42,7 +42,6 @@ std::vector<Minimum> minima_from(CurveResiduals& residuals, const CurveFitOption
       if (i == 0) throw;
     }
   }
-  residuals.allow(std::numeric_limits<int>::max());
   return minima;
 }
 
@@ -55,6 +54,32 @@ const Minimum& best_of(const std::vector<Minimum>& minima, const CurveResiduals&
   for (const Minimum& minimum : minima)
     if (!best->converged && minimum.converged && minimum.loss <= close) best = &minimum;
   return *best;
+}
+
+/// sqrt(sum of squares / degrees of freedom) of the data alone [y].
+double deviation_of(CurveResiduals& residuals, const VectorXd& estimates) {
+  const Linearisation& at = residuals.at(estimates);
+  double squares = 0.0;
+  for (const VectorXd& misfit : residuals.misfit(at)) squares += misfit.squaredNorm();
+  return std::sqrt(squares / double(std::max<Index>(1, at.residuals.size() - estimates.size())));
+}
+
+/// Without sigma the fit's own residuals tell what priors are weighed against: sought again until
+/// the two agree.
+void agree_with_priors(CurveResiduals& residuals, const CurveFitOptions& options,
+                       std::vector<Minimum>& minima) {
+  constexpr int rounds = 10;
+  constexpr double close = 1e-3;
+  double known = 0.0;
+  for (int round = 0; round < rounds; ++round) {
+    const VectorXd start = best_of(minima, residuals).estimates;
+    const double deviation = deviation_of(residuals, start);
+    if (!(deviation > 0.0) || std::abs(deviation - known) <= close * deviation) return;
+    known = deviation;
+    residuals.weigh_priors(deviation);
+    residuals.allow(std::max(options.max_evaluations, residuals.evaluations() + 1));
+    minima = {minimise(residuals, options, start)};
+  }
 }
 
 /// What a relative change refers to: the estimate, and for what may be zero at least its size.
@@ -148,6 +173,9 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   fit.parameters = names(options);
   for (const FreeParameter& free : options.free) fit.labels.push_back(label(free));
   fit.minima = minima_from(residuals, options);
+  const bool open = !residuals.has_sigma() && residuals.priors() > 0;
+  if (open && options.value_deviation == 0.0) agree_with_priors(residuals, options, fit.minima);
+  residuals.allow(std::numeric_limits<int>::max());
   const Minimum& best = best_of(fit.minima, residuals);
   fit.estimates = best.estimates;
   fit.iterations = best.iterations;

@@ -28,8 +28,8 @@ struct FreeParameter {
   double start = 0.0;
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  std::optional<Prior> prior = std::nullopt;  ///< only where sigma is given, to weigh it against
-  double scale = 0.0;                         ///< typical size; 0: |start|
+  std::optional<Prior> prior = std::nullopt;
+  double scale = 0.0;   ///< typical size; 0: |start|
   std::string of = {};  ///< the file or rig, where several have a parameter of this name
 };
 
@@ -38,6 +38,9 @@ std::string label(const FreeParameter& free);
 
 struct CurveFitOptions {
   std::vector<FreeParameter> free;
+  /// Where sigma is not given, the deviation of a value [y] that priors are weighed against; 0:
+  /// that which the residuals of the fit yield.
+  double value_deviation = 0.0;
   /// Further vectors of start values: of all minima found, the least is reported.
   std::vector<Eigen::VectorXd> other_starts;
   /// Width w in sigma of the loss w² (sqrt(1 + r²/w²) - 1), quadratic inside, linear outside; 0:
@@ -96,8 +99,8 @@ struct CurveFit {
   std::vector<std::string> labels;  ///< theirs, for people
   Eigen::VectorXd estimates;
   /// sigma given: (Jᵀ J)⁻¹ with J whitened by sigma and model_covariance, priors as further rows;
-  /// not given: times the residual variance, and what model_covariance makes of the estimates. With
-  /// a robust loss J is weighted by the loss's slope.
+  /// not given: with the residuals' own deviation, and what model_covariance makes of the
+  /// estimates. With a robust loss J is weighted by the loss's slope.
   Eigen::MatrixXd covariance, correlation;
   Eigen::VectorXd standard_errors;
   /// 95 % intervals: normal where sigma is given, times birge_ratio, else Student's t.
@@ -148,7 +151,7 @@ struct CurveFit {
 /// Least squares by Ceres with the models' own Jacobians; a model per curve, whose parameters are
 /// `options.free` in that order. Throws InvalidInput for an empty curve, lists of different length,
 /// abscissae that are not positive and increasing, values that are not finite, sigma that is not
-/// positive, a prior or robust loss without sigma, a start outside its bounds, fewer values than
+/// positive, a robust loss without sigma, a start outside its bounds, fewer values than
 /// parameters, and for what a model refuses at the first start; NotConverged where it has no answer
 /// there; Interrupted. Iterations or evaluations that do not suffice are told by `converged`.
 CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,

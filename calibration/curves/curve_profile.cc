@@ -52,10 +52,10 @@ class Valley {
   Valley(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
          const CurveFitOptions& options, const CurveFit& fit, std::vector<Index> profiled)
       : curves_(curves),
-        options_(options),
+        options_(weighed(options, fit)),
         fit_(fit),
         profiled_(std::move(profiled)),
-        full_(curves, models, options),
+        full_(curves, models, options_),
         at_(fit.estimates) {
     for (Index i = 0; i < at_.size(); ++i)
       if (std::ranges::find(profiled_, i) == profiled_.end()) others_.push_back(i);
@@ -85,6 +85,10 @@ class Valley {
   }
 
  private:
+  static CurveFitOptions weighed(CurveFitOptions options, const CurveFit& fit) {
+    options.value_deviation = fit.residual_deviation;
+    return options;
+  }
   double loss(const VectorXd& parameters) {
     return 0.5 * full_.with_loss(full_.at(parameters)).residuals.squaredNorm();
   }
@@ -120,7 +124,7 @@ class Valley {
   }
 
   const std::vector<Curve>& curves_;
-  const CurveFitOptions& options_;
+  const CurveFitOptions options_;
   const CurveFit& fit_;
   const std::vector<Index> profiled_;
   CurveResiduals full_;

@@ -83,7 +83,7 @@ bool within_bounds(const Eigen::VectorXd& start, const CurveFitOptions& options)
   return true;
 }
 
-void add_parameters(std::vector<Violation>& found, const CurveFitOptions& options, bool has_sigma) {
+void add_parameters(std::vector<Violation>& found, const CurveFitOptions& options) {
   for (const FreeParameter& free : options.free) {
     const std::string key = "free." + std::string(name(free.parameter));
     if (!std::isfinite(free.start) || !(free.start >= free.lower && free.start <= free.upper) ||
@@ -100,10 +100,6 @@ void add_parameters(std::vector<Violation>& found, const CurveFitOptions& option
       found.push_back({key + ".prior", to_text(free.prior->deviation),
                        "a prior has a finite mean and a finite, positive standard deviation",
                        "give both in the parameter's unit"});
-    if (!has_sigma)
-      found.push_back({key + ".prior", "without sigma",
-                       "a prior is weighed against values of known standard deviation",
-                       "give the curves' sigma"});
   }
 }
 
@@ -127,7 +123,7 @@ void check_curve_fit(const std::vector<Curve>& curves, const CurveFitOptions& op
   const bool has_sigma = !curves.empty() && !curves.front().sigma.empty();
   if (options.free.empty())
     found.push_back({"free", "none", "a fit needs a free parameter", "name at least one"});
-  add_parameters(found, options, has_sigma);
+  add_parameters(found, options);
   if (!std::isfinite(options.robust_width) || options.robust_width < 0.0 ||
       (options.robust_width > 0.0 && !has_sigma))
     found.push_back({"robust_width", to_text(options.robust_width),
@@ -177,6 +173,17 @@ CurveResiduals::CurveResiduals(const std::vector<Curve>& curves,
   whiten(value, Eigen::Map<const Eigen::VectorXd>(sigma.data(), Index(sigma.size())));
   noise_ = 0.5 * (whitening_ * (1e-10 * value)).squaredNorm();
   priors_ = std::ranges::count_if(options.free, [](const auto& free) { return bool(free.prior); });
+  if (!has_sigma_ && options.value_deviation > 0.0) weigh_priors(options.value_deviation);
+}
+
+void CurveResiduals::weigh_priors(double deviation) {
+  const double weight = std::max(deviation * whitening_(0, 0), 1e-12);
+  for (Known& known : known_) {
+    known.linearisation.residuals.tail(priors_) *= weight / prior_weight_;
+    known.linearisation.jacobian.bottomRows(priors_) *= weight / prior_weight_;
+  }
+  prior_weight_ = weight;
+  forget_least();
 }
 
 Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> decomposed_covariance(
@@ -281,8 +288,8 @@ const Linearisation& CurveResiduals::at(const Eigen::VectorXd& parameters) {
   for (Index j = 0; j < parameters.size(); ++j) {
     const auto& prior = options_->free[std::size_t(j)].prior;
     if (!prior) continue;
-    now.residuals(row) = (parameters(j) - prior->mean) / prior->deviation;
-    now.jacobian(row++, j) = 1.0 / prior->deviation;
+    now.residuals(row) = prior_weight_ * (parameters(j) - prior->mean) / prior->deviation;
+    now.jacobian(row++, j) = prior_weight_ / prior->deviation;
   }
   if (!now.residuals.allFinite() || !now.jacobian.allFinite())
     throw meshes::NotConverged("curve fit: the model's values or slopes are not finite");

@@ -41,6 +41,9 @@ class CurveResiduals {
   Eigen::Index priors() const { return priors_; }
   Eigen::Index parameters() const { return Eigen::Index(options_->free.size()); }
   bool has_sigma() const { return has_sigma_; }
+  /// Where sigma is not given: priors count as if every value had this deviation [y], > 0. At first
+  /// options.value_deviation, else the values' root mean square, which makes them strong.
+  void weigh_priors(double deviation);
   /// What residuals of values are multiplied by [1/y], symmetric: the inverse root of the
   /// covariance of sigma and model error, or one over the values' root mean square.
   const Eigen::MatrixXd& whitening() const { return whitening_; }
@@ -89,6 +92,7 @@ class CurveResiduals {
   bool has_sigma_ = false;
   Eigen::MatrixXd whitening_, colouring_;  ///< colouring: the inverse of whitening
   double noise_ = 0.0;
+  double prior_weight_ = 1.0;  ///< of their rows, in the unit of the residuals
   int evaluations_ = 0, allowed_ = std::numeric_limits<int>::max();
   Eigen::VectorXd least_;
   double least_loss_ = std::numeric_limits<double>::infinity();

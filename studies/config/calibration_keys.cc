@@ -116,13 +116,17 @@ Key rig_key() {
       {"touch_offset", "m", "0.1 mm", "travel at first touch, of each file; fitted unless given"},
       {"compliance", "m/N", "0.1 mm/N", "of frame, load cell and grips; 0 unless given"},
       {"force_offset", "N", "0.02 N", "what the load cell tells without load; 0 unless given"},
-      {"drift", "N/s", "0.001 N/s", "of that in the file's column time; 0 unless given"}};
+      {"drift", "N/s", "0.001 N/s", "of that in the file's column time; 0 unless given"},
+      {"blank", "", "blank.csv",
+       "a press of a rigid blank by this machine, whose line tells the compliance with its "
+       "interval"}};
   key.help = "the machine of files that tell its travel in a column position";
   key.rule =
       "each is \"fit\", a quantity, or a quantity with its standard deviation before the fit, "
-      "\"0.1 +- 0.02 mm/N\"";
+      "\"0.1 +- 0.02 mm/N\"; blank is a file, in place of compliance";
   key.assign = [](Config& config, const Value& value) {
     RigSettings& rig = config.calibration.rig = {};
+    rig.blank = value.word;
     const std::pair<std::string_view, RigSetting*> entries[] = {{"touch_offset", &rig.touch_offset},
                                                                 {"compliance", &rig.compliance},
                                                                 {"force_offset", &rig.force_offset},

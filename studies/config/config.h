@@ -78,6 +78,7 @@ struct RigSettings {
   RigSetting compliance;          ///< [m/N]
   RigSetting force_offset;        ///< [N]
   RigSetting drift;               ///< of the force [N/s]
+  std::filesystem::path blank;  ///< a press of a rigid blank, which tells the compliance; absolute
 };
 
 /// What intervals of parameters are (key calibration.intervals).

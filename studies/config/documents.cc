@@ -40,7 +40,8 @@ std::string_view kind_name(const Key& key) {
 std::string constraints(const Key& key) {
   std::string text(kind_name(key));
   for (const Field& field : key.fields)
-    text += (&field == &key.fields.front() ? " of " : ", ") + field.name + " [" + field.unit + "]";
+    text += (&field == &key.fields.front() ? " of " : ", ") + field.name + " [" +
+            (field.unit.empty() ? "path" : field.unit) + "]";
   if (!key.unit.empty()) text += " in units of " + key.unit;
   if (!key.allowed().empty()) text += "; " + key.allowed();
   if (!key.rule.empty()) text += "; " + key.rule;
@@ -66,8 +67,9 @@ nlohmann::json element_schema(const Key& key) {
     case Kind::fields:
       schema = {{"type", "object"}, {"additionalProperties", false}};
       for (const Field& field : key.fields)
-        schema["properties"][field.name] = {{"type", "string"},
-                                            {"description", field.help + " [" + field.unit + "]"}};
+        schema["properties"][field.name] = {
+            {"type", "string"},
+            {"description", field.help + (field.unit.empty() ? "" : " [" + field.unit + "]")}};
       return schema;
     case Kind::choice:
       schema["enum"] = json::array();

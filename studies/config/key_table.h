@@ -36,11 +36,13 @@ struct Value {
   double number = 0.0;          ///< quantity, number, integer, boolean (0 or 1)
   std::vector<double> numbers;  ///< quantities, terms, numbers; three of a stage as in PressStage;
                                 ///< three of a field: 1 for "fit", the quantity, its deviation
-  std::string word;  ///< choice, source, text, file; for a quantity the word given instead of one
+  std::string word;  ///< choice, source, text, file, also of a field; for a quantity the word given
+                     ///< instead of one
   std::vector<std::string> words;  ///< texts, files; of fields the names given
 };
 
-/// An entry of a key that is a table: "fit", a quantity, or a quantity with its standard deviation.
+/// An entry of a key that is a table: "fit", a quantity, or a quantity with its standard deviation;
+/// without a unit the path of a file, of which a table has one.
 struct Field {
   std::string name, unit, example, help;
 };

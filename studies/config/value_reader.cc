@@ -246,6 +246,13 @@ Value read_fields(const Key& key, const toml::node& node) {
     if (field == key.fields.end())
       refuse("knows no " + std::string(name.str()),
              "did you mean " + nearest_word(std::string(name.str()), names) + "?");
+    if (field->unit.empty()) {
+      const auto* file = entry.as_string();
+      if (file == nullptr || file->get().empty())
+        refuse(field->name + " must be the path of a file", "write e.g. \"" + field->example + '"');
+      value.word = file->get();
+      continue;
+    }
     const std::array<double, 3> numbers = read_field(*field, entry);
     value.words.push_back(field->name);
     value.numbers.insert(value.numbers.end(), numbers.begin(), numbers.end());
@@ -308,13 +315,20 @@ void locate_files(const Key& key, const std::filesystem::path& base, Value& valu
     file = std::filesystem::absolute(base / file).lexically_normal().string();
   };
   if (key.kind == Kind::source && !is_choice(key, value.word)) locate(value.word);
-  if (key.kind == Kind::file && !value.word.empty()) locate(value.word);
+  const bool may_be_file = key.kind == Kind::file || key.kind == Kind::fields;
+  if (may_be_file && !value.word.empty()) locate(value.word);
   if (key.kind == Kind::files) std::ranges::for_each(value.words, locate);
 }
 
 std::string located_literal(const Key& key, const Value& value, const std::string& literal) {
   if (key.kind == Kind::source || key.kind == Kind::file)
     return toml_literal(toml::value<std::string>(value.word));
+  if (key.kind == Kind::fields && !value.word.empty()) {
+    toml::table whole = toml::parse("v = " + literal);
+    for (const Field& field : key.fields)
+      if (field.unit.empty()) whole["v"].as_table()->insert_or_assign(field.name, value.word);
+    return toml_literal(*whole.get("v"));
+  }
   if (key.kind != Kind::files) return literal;
   toml::array files;
   for (const std::string& file : value.words) files.push_back(file);

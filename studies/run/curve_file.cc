@@ -98,6 +98,7 @@ void CurveReader::choose_pair() {
 }
 
 void CurveReader::choose_sigma() {
+  if (source_.sigma > 0.0) return;
   auto index = columns_.find(*table_, "sigma");
   own_error_ = !index && quantities_.y.name == "force" && source_.columns.empty();
   if (own_error_) index = columns_.find(*table_, "force_error");
@@ -133,6 +134,7 @@ std::optional<double> CurveReader::read_cell(const CurveColumn& column, std::siz
 
 /// False where the row cannot be used.
 bool CurveReader::read_sigma(CurveRow& row, std::size_t place) {
+  row.sigma = source_.sigma;
   if (!sigma_) return true;
   const string_view cell = table_->rows[place][sigma_->index];
   if (own_error_ && (cell.empty() || number_in(cell) == 0.0)) {

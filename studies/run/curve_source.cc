@@ -24,9 +24,9 @@ constexpr KnownColumn known_columns[] = {{"position", "m", "mm"},
                                          {"time", "s", "s"},
                                          {"sigma", "N", "N"}};
 
-const std::set<string_view> shared_press_keys = {"condition",   "block",    "separator", "decimal",
-                                                 "skip",        "header",   "rows",      "force",
-                                                 "indentation", "position", "time",      "sigma"};
+const std::set<string_view> shared_press_keys = {
+    "condition", "block",       "separator", "decimal", "skip",  "header", "rows",
+    "force",     "indentation", "position",  "time",    "sigma", "finger"};
 
 ColumnWish wish(const TestTable& table, const KnownColumn& known) {
   table.check_keys({"column", "unit", "sign"});
@@ -43,8 +43,11 @@ void add_press(const TestTable& press, std::vector<CurveSource>& sources) {
   source.rows = press.pair("rows");
   source.block = std::size_t(press.whole("block", 0, 1, 1000000));
   source.condition = press.text("condition").value_or("");
+  source.rigid = press.word<bool>("finger", {{"soft", false}, {"rigid", true}}, false);
   for (const KnownColumn& known : known_columns)
-    if (const auto table = press.table(known.quantity))
+    if (known.quantity == string_view("sigma") && press.is_text(known.quantity))
+      source.sigma = *press.quantity(known.quantity, known.unit, "0.01 N");
+    else if (const auto table = press.table(known.quantity))
       source.columns.push_back(wish(*table, known));
   if (press.has("position") && press.has("indentation"))
     press.refuse("indentation", "", "beside position", "leave one of the two out");

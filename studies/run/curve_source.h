@@ -30,6 +30,8 @@ struct CurveSource {
       {};                      ///< the first and last of a table that count, from 1
   std::size_t block = 0;       ///< the table of the file that counts, from 1; 0: each of them
   std::string condition = {};  ///< settings of the press, "press.contact=stick; ..."
+  bool rigid = false;          ///< a blank in place of the finger, which tells the machine alone
+  double sigma = 0.0;          ///< of every row [N], where no column tells it; 0: unknown
 };
 
 /// The files that an entry of calibration.data means: itself, or, where it is TOML,
@@ -38,7 +40,9 @@ struct CurveSource {
 ///   [[press]] path (or a list of paths: repeats), name, condition, block (a number from 1),
 ///             separator ("comma", "semicolon", "tab", "whitespace"), decimal ("point", "comma"),
 ///             skip (lines), header (true, false), rows ([first, last]),
-///             position or indentation, force, time, sigma = {column, unit, sign}
+///             position or indentation, force, time, sigma = {column, unit, sign},
+///             or sigma = "0.01 N", the same of every row;
+///             finger ("soft", "rigid": a blank in its place)
 ///
 /// A column is a name of the header or a number from 1; `sign` is 1 or -1. Separator and decimals
 /// are found, units read from the file where they are not said. Paths are relative to the TOML

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "calibration/curves/curve_residuals.h"
 #include "calibration/curves/stretch_models.h"
@@ -84,17 +85,26 @@ void check_depth(const std::filesystem::path& path, const MeasuredFile& file, do
   problems.throw_if_any();
 }
 
+/// Presses of a rigid blank, by the machine that they tell of.
+using Blanks = std::map<std::string, std::vector<CurveSource>>;
+
 void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const CurveSource& source,
                         const MeasuredFile& file, CurveKind kind,
-                        const std::vector<std::string>& further) {
+                        const std::vector<std::string>& further, const Blanks& blanks) {
   std::vector<std::string> condition;
   for (const MeasuredSetting& setting : file.settings) condition.push_back(setting.assignment());
   condition.insert(condition.end(), further.begin(), further.end());
   std::vector<double> depths = file.curve.x;
   if (kind == CurveKind::press || kind == CurveKind::continuum) {
     std::optional<Travel>& travel = fit.input.travels.emplace_back();
-    const Config own = under(loaded, condition, {"press.mode=static"}).config;
-    if (file.curve.is_travel) travel = travel_of(file.curve, own.calibration);
+    Config own = under(loaded, condition, {"press.mode=static"}).config;
+    if (file.curve.is_travel) {
+      const auto blank = blanks.find(own.calibration.machine);
+      own.calibration.rig =
+          with_blank(own.calibration.rig,
+                     blank == blanks.end() ? std::vector<CurveSource>{} : blank->second, fit.notes);
+      travel = travel_of(file.curve, own.calibration);
+    }
     check_depth(source.path, file, travel ? travel->reach : std::ranges::max(depths),
                 own.press.geometry);
     if (travel) depths = travel->depths;
@@ -207,7 +217,7 @@ std::vector<CurveSource> sources_of(const LoadedConfig& loaded,
 }
 
 void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSource& source,
-                        MeasuredFile file, const std::string& condition) {
+                        MeasuredFile file, const std::string& condition, const Blanks& blanks) {
   const CalibrationSettings& settings = loaded.config.calibration;
   const CurveKind kind = kind_of(file, settings);
   const bool press =
@@ -223,7 +233,7 @@ void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
     std::vector<std::string> sets = settings_in(source.condition);
     std::ranges::copy(settings_in(condition), std::back_inserter(sets));
     try {
-      add_measured_press(fit, loaded, source, file, kind, sets);
+      add_measured_press(fit, loaded, source, file, kind, sets, blanks);
     } catch (const meshes::InvalidInput& error) {
       throw placed_in(source.path, file, loaded.locate(error.violations()));
     } catch (const ConfigError& error) {
@@ -253,17 +263,26 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
     throw refused(loaded, "calibration.conditions", "",
                   "there must be one per file of calibration.data, or none", "complete the list");
   fit.input.provenance = "measured data: ";
-  std::vector<std::filesystem::path> files;
-  for (std::size_t i = 0; i < settings.data.size(); ++i) {
-    const auto condition = settings.conditions.empty() ? "" : settings.conditions[i];
-    for (const CurveSource& source : sources_of(loaded, settings.data[i])) {
-      fit.input.provenance += (files.empty() ? "" : ", ") + source.path.filename().string() +
-                              " (SHA-256 " + sha256(content_of(source.path)) + ")";
-      for (MeasuredFile& file :
-           read_measured(source, quantities_of(settings.problem), !fit.input.branches.empty())) {
-        add_measured_curve(fit, loaded, source, std::move(file), condition);
-        files.push_back(source.path);
+  std::vector<std::pair<CurveSource, std::string>> sources;
+  Blanks blanks;
+  for (std::size_t i = 0; i < settings.data.size(); ++i)
+    for (CurveSource& source : sources_of(loaded, settings.data[i])) {
+      const std::string condition = settings.conditions.empty() ? "" : settings.conditions[i];
+      if (!source.rigid) {
+        sources.emplace_back(std::move(source), condition);
+        continue;
       }
+      const auto own = under(loaded, settings_in(source.condition + ";" + condition), {});
+      blanks[own.config.calibration.machine].push_back(std::move(source));
+    }
+  std::vector<std::filesystem::path> files;
+  for (const auto& [source, condition] : sources) {
+    fit.input.provenance += (files.empty() ? "" : ", ") + source.path.filename().string() +
+                            " (SHA-256 " + sha256(content_of(source.path)) + ")";
+    for (MeasuredFile& file :
+         read_measured(source, quantities_of(settings.problem), !fit.input.branches.empty())) {
+      add_measured_curve(fit, loaded, source, std::move(file), condition, blanks);
+      files.push_back(source.path);
     }
   }
   add_rigs(fit, loaded);

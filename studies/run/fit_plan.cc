@@ -85,7 +85,12 @@ void add_planned_curves(FitSetup& fit, const LoadedConfig& loaded) {
     curve.is_travel = asked.entries.at("calibration.rig").given;
     curve.time = times_of(curve.x, protocol.speed);
     any_travel = any_travel || curve.is_travel;
-    rigs.push_back(curve.is_travel ? asked.config.calibration.rig : rigid());
+    try {
+      rigs.push_back(curve.is_travel ? with_blank(asked.config.calibration.rig, {}, fit.notes)
+                                     : rigid());
+    } catch (const meshes::InvalidInput& error) {
+      throw asked.locate(error.violations());
+    }
     const std::vector<double> depths =
         curve.is_travel ? calibration::depths_for_rig(curve.x.back()) : curve.x;
     add_press(fit, under(loaded, condition, {"press.mode=static", samples_setting(depths)}),

@@ -7,6 +7,7 @@
 #include "calibration/curves/fit_record.h"
 #include "calibration/curves/rig_model.h"
 #include "studies/config/config.h"
+#include "studies/run/curve_source.h"
 
 namespace fingertip::studies {
 
@@ -30,6 +31,18 @@ struct Travel {
 /// Nothing of it free, at the settings' values.
 calibration::Rig rig_of(const RigSettings& settings);
 
+/// What a rigid blank tells of its machine: the line F = (x - x0)/c through its forces from a tenth
+/// of the largest on. The deviation is that of the slope, as wide as Student's t, and of c between
+/// the lower and the upper half of these forces where they differ by more. Throws InvalidInput for
+/// fewer than six such forces, and where the force does not grow.
+RigSetting compliance_of_blank(const calibration::Curve& curve);
+
+/// `rig` with the compliance that its blank tells, or those `others` of its machine, if there is
+/// one; what is said of that goes into `notes`, once. Throws InvalidInput (key calibration.rig) for
+/// a compliance beside a blank, and as readers of files do.
+RigSettings with_blank(RigSettings rig, std::vector<CurveSource> others,
+                       std::vector<std::string>& notes);
+
 /// The settings that concern `curve`, and what its forces tell of the touch: F^(2/3) of Hertz is
 /// straight in delta, from 5 to 40 % of the largest force. Throws InvalidInput (key
 /// calibration.rig) for a travel that ends before the given touch, for no force, and for a drift
@@ -37,8 +50,8 @@ calibration::Rig rig_of(const RigSettings& settings);
 Travel travel_of(const calibration::Curve& curve, const CalibrationSettings& settings);
 
 /// Appends what of the rigs is fitted to the free parameters: an offset of touch, one of force and
-/// a drift per curve, a compliance per machine. Throws InvalidInput where files of one machine say
-/// different compliances.
+/// a drift per curve, a compliance per machine, which one of its files may tell for all. Throws
+/// InvalidInput where files of one machine say different compliances.
 void free_rigs(FitInput& input);
 
 /// Of the fit's free parameters those that the presses themselves depend on; they stand first.

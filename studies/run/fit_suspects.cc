@@ -94,6 +94,7 @@ class Trials {
     options_.other_starts.clear();
     options_.progress = {};
     options_.max_evaluations = most_trials;
+    options_.value_deviation = fit.residual_deviation;  // the same for all that are compared
     for (std::size_t k = rubber; k < options.free.size(); ++k) {
       options_.free.push_back(options.free[k]);
       options_.free.back().start = fit.estimates(Index(k));

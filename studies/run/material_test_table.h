@@ -37,6 +37,7 @@ class TestTable {
   bool has_own(std::string_view key) const { return own_.get(key) != nullptr; }
 
   std::optional<std::string> text(std::string_view key) const;
+  bool is_text(std::string_view key) const { return has(key) && find(key)->is_string(); }
   long whole(std::string_view key, long usual, long least, long most) const;
   bool flag(std::string_view key, bool usual) const;
   /// Its own keys.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -106,6 +107,41 @@ TEST(Calibrate, FindsTheRubberBehindARig) {
   // A column tells how deep the finger was.
   EXPECT_NE(read_text(folder / "known" / "fit_data.csv").find("left_out,indentation"),
             std::string::npos);
+  // The same from a rigid blank on that machine; these data have no sigma.
+  write_text(folder / "travel.csv",
+             std::regex_replace(std::regex_replace(csv.str(), std::regex(";[^;\n]*\n"), "\n"),
+                                std::regex(";sigma \\[mN\\]"), ""));
+  std::ostringstream blank;
+  blank << "position [mm];force [mN]\n0;0\n";
+  for (int i = 0; i <= 50; ++i)
+    blank << 0.3 + 2e-3 * (5.0 * i + 0.02 * (i % 3 - 1)) << ';' << 5.0 * i << '\n';
+  write_text(folder / "blank.csv", blank.str());
+  const ProgramResult pressed = fit("{blank = \"blank.csv\"}", "blank");
+  ASSERT_EQ(pressed.code, 0) << pressed.err;
+  EXPECT_NE(pressed.err.find("blank blank.csv: the machine gives way by 2 +- "), std::string::npos)
+      << pressed.err;
+  const json by_blank = read(folder / "blank" / "calibration.json");
+  const json& compliance = by_blank["rig"]["compliance"][0];
+  EXPECT_EQ(compliance["fitted"], true);
+  EXPECT_NEAR(compliance["value"].get<double>(), 2e-3, 2e-5);
+  EXPECT_LT(compliance["lower"].get<double>(), 2e-3);
+  EXPECT_GT(compliance["upper"].get<double>(), 2e-3);
+  EXPECT_LT(by_blank["parameters"][0]["lower"].get<double>(), truth);
+  EXPECT_GT(by_blank["parameters"][0]["upper"].get<double>(), truth);
+  const ProgramResult both = fit("{blank = \"blank.csv\", compliance = \"2 mm/N\"}", "both");
+  EXPECT_EQ(both.code, 2);
+  EXPECT_NE(both.err.find("leave one of them out"), std::string::npos) << both.err;
+  // The blank among the presses: it is no curve of the fit.
+  write_text(folder / "presses.toml",
+             "[[press]]\npath = \"travel.csv\"\n[[press]]\npath = \"blank.csv\"\n"
+             "finger = \"rigid\"\n");
+  const ProgramResult among = run_program(
+      folder.path(), with(experiment, {"--set", "calibration.data=[\"presses.toml\"]", "--set",
+                                       "calibration.parameters=[\"modulus\"]", "--out", "among"}));
+  ASSERT_EQ(among.code, 0) << among.err;
+  const json by_press = read(folder / "among" / "calibration.json");
+  EXPECT_EQ(by_press["curves"].size(), 1U);
+  EXPECT_EQ(by_press["parameters"], by_blank["parameters"]);
   const ProgramResult wrong = fit("{comliance = \"2 mm/N\"}", "wrong");
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.err.find("did you mean compliance?"), std::string::npos) << wrong.err;

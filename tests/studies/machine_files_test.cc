@@ -322,6 +322,15 @@ TEST_F(MachineFiles, SeveralTestsInOneFileAreCurves) {
   expect_refused(text, "block = 3\n", {"block = 3", "has 2 tables"});
 }
 
+/// A load cell's data sheet tells one deviation for all rows.
+TEST_F(MachineFiles, OneSigmaMayHoldForEveryRow) {
+  const std::string rows = "position [mm];force [N]\n0.1;0.0\n0.2;0.2\n0.3;0.5\n";
+  const auto files = read(rows, "sigma = \"10 mN\"\n");
+  EXPECT_EQ(files.at(0).curve.sigma, (std::vector<double>{0.01, 0.01, 0.01}));
+  expect_refused(rows, "sigma = \"-10 mN\"\n", {"sigma", "must be positive"});
+  expect_refused(rows, "sigma = \"10 mm\"\n", {"sigma", "dimension"});
+}
+
 TEST_F(MachineFiles, LinesThatAreNotReadAreTold) {
   const auto files = read(
       "a remark\nposition [mm];force [N]\n0.1;0.0\n0.2;0.2\nEvent: light off\n"
