@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "calibration/curves/curve_checks.h"
@@ -31,10 +32,10 @@ constexpr double least_side = 0.1;
 /// Up to this logarithmic strain rubbers are neo-Hookean enough for a modulus [1], and moduli that
 /// differ by more than this factor contradict each other.
 constexpr double small_strain = 0.3, contradiction = 1.3;
-/// A prediction that misses by more contradicts the law.
-constexpr double miss = 0.1;
 /// Stretches that presses ask for, and StrainEnergy's own rule.
 constexpr std::array<double, 2> press_range = {0.5, 2.0};
+/// A prediction that misses by more contradicts the law.
+constexpr double miss = 0.1;
 
 std::string instability_text(const meshes::Instability& at, const char* where) {
   return "the law is unstable (Drucker) from the stretch " + rounded(at.stretch) + " on in " +
@@ -99,6 +100,7 @@ double strain_size(TestKind kind, double deformation) {
 /// Points of a test that deform the rubber in one way.
 struct TestPart {
   std::string name, way;  ///< of the test, and its side where it has both; "biaxial tension"
+  DeformationMode mode = DeformationMode::shear;
   std::vector<std::size_t> points;
   double strain = 0.0;  ///< the largest
 };
@@ -114,6 +116,7 @@ std::vector<TestPart> parts_of(const MaterialTest& test) {
   for (std::size_t i = 0; i < test.deformation.size(); ++i) {
     const DeformationMode mode = mode_of(test.kind, test.deformation[i]);
     TestPart& side = sides[mode];
+    side.mode = mode;
     side.way = way_of(test.kind, mode);
     side.name = test.name + " in " + side.way;
     side.points.push_back(i);
@@ -204,6 +207,50 @@ void add_contradictions(LawFit& result, const std::vector<MaterialTest>& tests,
   if (result.times) result.open_branches = open_branches(result.relaxation, *result.times);
   for (const std::string& sentence : result.open_branches) fail(result, sentence);
   add_misfits(result, tests);
+}
+
+std::vector<UntestedMode> untested_modes(const LawFit& fit, const std::vector<MaterialTest>& tests,
+                                         const LawFitOptions& options) {
+  std::set<DeformationMode> known;
+  for (const MaterialTest& test : tests)
+    if (test.kind != TestKind::volumetric)
+      for (const TestPart& part : parts_of(test)) known.insert(part.mode);
+  if (known.size() != 1) return {};
+  const auto strain = [](const std::array<double, 2>& range) {
+    return std::max(-std::log(range[0]), std::log(range[1]));
+  };
+  const double reach =
+      std::min(strain(fit.tested), strain(options.range_of_use.value_or(press_range)));
+  const auto told = [&](DeformationMode mode) {
+    const double stretch = std::exp(mode == DeformationMode::compression ? -reach : reach);
+    const TestKind kind = mode == DeformationMode::shear ? TestKind::planar : TestKind::uniaxial;
+    return UntestedMode{mode, stretch, test_stress(fit.law, kind, StressMeasure::nominal, stretch)};
+  };
+  std::vector<UntestedMode> modes;
+  for (const DeformationMode mode : values(DeformationMode()))
+    if (!known.contains(mode)) modes.push_back(told(mode));
+  for (UntestedMode& mode : modes) mode.share = std::abs(mode.stress / told(*known.begin()).stress);
+  return modes;
+}
+
+void add_differences(std::vector<LawFit>& ranking) {
+  const std::vector<const LawFit*> laws = equals(ranking);
+  if (laws.empty() || laws.front()->untested.empty()) return;
+  std::string text;
+  for (std::size_t i = 0; i < laws.front()->untested.size(); ++i) {
+    const auto stress = [&](const LawFit* law) { return std::abs(law->untested[i].stress); };
+    const auto [least, most] = std::ranges::minmax(laws, {}, stress);
+    const UntestedMode& mode = least->untested[i];
+    text += std::string(i == 0 ? "in " : "; in ") + std::string(name(mode.mode)) +
+            " to the stretch " + rounded(mode.stretch, 3) + " from " + rounded(stress(least), 3) +
+            " Pa (" + name(least->choice) + ") to " + rounded(stress(most), 3) + " Pa (" +
+            name(most->choice) + ")";
+  }
+  for (LawFit& fit : ranking)
+    if (std::ranges::find(laws, &fit) != laws.end() && laws.size() > 1)
+      fit.contradictions.push_back("the tests deform the rubber in one way alone, and " +
+                                   std::to_string(laws.size()) +
+                                   " laws that meet them alike differ in others: " + text);
 }
 
 void add_missed_predictions(LawFit& result) {

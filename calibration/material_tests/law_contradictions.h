@@ -10,6 +10,13 @@ namespace fingertip::calibration {
 void add_contradictions(LawFit& result, const std::vector<MaterialTest>& tests,
                         const LawFitOptions& options);
 
+/// LawFit::untested of a fit to `tests`.
+std::vector<UntestedMode> untested_modes(const LawFit& fit, const std::vector<MaterialTest>& tests,
+                                         const LawFitOptions& options);
+
+/// How far laws that meet the tests alike differ where these know one way of deforming alone.
+void add_differences(std::vector<LawFit>& ranking);
+
 /// Predictions that miss, and loops that the law does not make, or makes too large.
 void add_missed_predictions(LawFit& result);
 

@@ -248,6 +248,7 @@ LawFit fit_with(const std::vector<MaterialTest>& tests, const LawChoice& choice,
   result.tested = stretch_range(tests);
   for (const MaterialTest& test : tests)
     result.fitted.push_back(predict(result, test, options.weights));
+  result.untested = untested_modes(result, tests, options);
   add_contradictions(result, tests, options);
   return result;
 }
@@ -295,17 +296,70 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
     if (a.failure.empty() != b.failure.empty()) return a.failure.empty();
     return a.aicc < b.aicc;
   });
+  add_differences(ranking);
   return ranking;
 }
 
+namespace {
+
+using Laws = std::vector<const LawFit*>;
+
+/// So well do specimens repeat.
+constexpr double repeatable = 0.02;
+/// So much more stress is no wilder.
+constexpr double little_more = 1.1;
+
+double worst(const std::vector<TestMisfit>& misfits) {
+  double error = 0.0;
+  for (const TestMisfit& misfit : misfits) error = std::max(error, misfit.rms_relative);
+  return error;
+}
+
+const LawFit* best_supported(const Laws& laws) {
+  for (const LawFit* law : laws)
+    if (worst(law->predicted) <= supporting_error) return law;
+  return *std::ranges::min_element(laws, {}, [](const LawFit* law) {
+    return std::max(worst(law->fitted), worst(law->predicted));
+  });
+}
+
+/// By how many times it asks for more stress, beside that of the way tested, than the law that asks
+/// for least does.
+double wildness(const LawFit& law, const Laws& laws) {
+  double most = 1.0;
+  for (std::size_t i = 0; i < law.untested.size(); ++i) {
+    const auto share = [&](const LawFit* each) { return each->untested[i].share; };
+    most = std::max(most, share(&law) / share(*std::ranges::min_element(laws, {}, share)));
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<const LawFit*> equals(const std::vector<LawFit>& ranking) {
+  Laws laws;
+  for (const LawFit& fit : ranking)
+    if (fit.failure.empty() && fit.failed.empty()) laws.push_back(&fit);
+  if (laws.empty() || !laws.front()->predicted.empty() || laws.front()->untested.empty())
+    return laws;
+  double least = infinite;
+  for (const LawFit* law : laws) least = std::min(least, worst(law->fitted));
+  std::erase_if(laws, [&](const LawFit* law) { return worst(law->fitted) > least + repeatable; });
+  return laws;
+}
+
 const LawFit* recommended(const std::vector<LawFit>& ranking) {
-  const auto stable = [](const LawFit& fit) {
+  if (const Laws laws = equals(ranking); !laws.empty()) {
+    if (!laws.front()->predicted.empty()) return best_supported(laws);
+    const auto wild = [&](const LawFit* law) { return wildness(*law, laws); };
+    const double tamest = wild(*std::ranges::min_element(laws, {}, wild));
+    return *std::ranges::find_if(
+        laws, [&](const LawFit* law) { return wild(law) <= little_more * tamest; });
+  }
+  auto found = std::ranges::find_if(ranking, [](const LawFit& fit) {
     return fit.failure.empty() && !fit.unstable_in_tests && !fit.unstable_in_use &&
            !fit.unstable_in_press;
-  };
-  const auto accepted = [](const LawFit& fit) { return fit.failure.empty() && fit.failed.empty(); };
-  auto found = std::ranges::find_if(ranking, accepted);
-  if (found == ranking.end()) found = std::ranges::find_if(ranking, stable);
+  });
   if (found == ranking.end()) found = ranking.begin();
   return found == ranking.end() || !found->failure.empty() ? nullptr : &*found;
 }

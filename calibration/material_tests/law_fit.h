@@ -58,6 +58,14 @@ struct TestMisfit {
   ResidualStructure structure;
 };
 
+/// What a law says of a way of deforming that no test tells of.
+struct UntestedMode {
+  DeformationMode mode = DeformationMode::shear;
+  double stretch = 1.0;  ///< of a tension, a compression or a planar tension
+  double stress = 0.0;   ///< nominal, after long times [Pa]
+  double share = 0.0;    ///< |stress| over that in the way tested, at the same largest stretch
+};
+
 struct LawFit {
   LawChoice choice;
   /// Over scaled stresses, without whitening and influence; coefficients, then bulk_modulus where
@@ -76,6 +84,9 @@ struct LawFit {
   /// Branches outside of those times, which the tests hardly know, and what would show them.
   std::vector<std::string> open_branches;
   std::vector<TestMisfit> fitted, predicted;
+  /// Where the fitted tests know one way of deforming alone, the others, as far as that was
+  /// strained and the law will be used.
+  std::vector<UntestedMode> untested;
   /// Drucker's rule: within the stretches tested, used, and between 0.5 and 2, which presses ask.
   std::optional<meshes::Instability> unstable_in_tests, unstable_in_use, unstable_in_press;
   /// What contradicts it, in plain sentences: residuals of structure, predictions that miss,
@@ -110,9 +121,20 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
                               const std::vector<LawChoice>& laws, const LawFitOptions& options = {},
                               const std::function<void(double, const LawChoice&)>& next = {});
 
-/// The first of a ranking that passed its own tests; else the first that is stable, else the first.
-/// Null without any fit.
+/// Beyond it a prediction does not support a law, by rms_relative.
+inline constexpr double supporting_error = 0.15;
+
+/// Of a ranking the law to be used; null without any fit. Of those that passed their own tests the
+/// first that predicts all tests held back within 15 % (rms_relative), or, where none does, the one
+/// whose largest error, of fit or prediction, is least. Where nothing was held back and the tests
+/// know one way of deforming alone, laws that meet them within 2 % of the stress of the best one
+/// are equals, for so well do specimens repeat; of these the first that asks for little stress in
+/// other ways of deforming, at most a tenth more than the one that asks for least. Where no law
+/// passed its tests, the first that is stable, else the first.
 const LawFit* recommended(const std::vector<LawFit>& ranking);
+
+/// The laws that it chooses among; none where none passed its own tests.
+std::vector<const LawFit*> equals(const std::vector<LawFit>& ranking);
 
 /// E, G, the energy and the relaxation of a fit as a rubber; nu is that of `bulk_modulus`, or
 /// `poissons_ratio` where it is unknown. Its rules may be broken: Rubber::violations tells.

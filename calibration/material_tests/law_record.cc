@@ -87,6 +87,24 @@ LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
   return entry;
 }
 
+/// Why it is taken, as far as AICc does not tell.
+std::string reason_of_choice(const LawFit& best, const std::vector<LawFit>& ranking) {
+  const std::size_t count = equals(ranking).size();
+  if (best.predicted.empty() && !best.untested.empty() && count > 1)
+    return ", which asks for little stress in other ways of deforming: tests of one way do not "
+           "choose among the " +
+           std::to_string(count) + " laws that meet them alike. Measure another way.";
+  const bool missed = std::ranges::any_of(best.predicted, [](const TestMisfit& misfit) {
+    return !(misfit.rms_relative <= supporting_error);
+  });
+  if (missed)
+    return ": none predicts what was held back within " + percent(supporting_error) +
+           ", and it errs least.";
+  if (&best == &ranking.front()) return ".";
+  return best.predicted.empty() ? ", which passes its own tests."
+                                : ", which passes its own tests and predicts what was held back.";
+}
+
 }  // namespace
 
 LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<MaterialTest>& tests,
@@ -114,8 +132,8 @@ LawsFile laws_file(const std::vector<LawFit>& ranking, const std::vector<Materia
   file.statement = "Of " + std::to_string(ranking.size()) + " laws " +
                    name(ranking.front().choice) + " has the least AICc";
   if (file.failed.empty())
-    file.statement += first ? " and is taken."
-                            : "; " + file.recommended + " is taken, which passes its own tests.";
+    file.statement += (first ? " and is taken" : "; " + file.recommended + " is taken") +
+                      reason_of_choice(*best, ranking);
   else
     file.statement = "Not accepted: no law passes its own tests. " + file.statement +
                      (first ? "." : "; " + file.recommended + " is shown.");
