@@ -78,9 +78,22 @@ fs::path exported(const CommandLine& line) {
   return folder;
 }
 
+/// With the frictionless contact where none is given: the default sticks, and no law can say that.
+LoadedConfig load_for_law(const CommandLine& line) {
+  LoadedConfig loaded = load_checked(line);
+  if (loaded.entries.at("press.contact").given) return loaded;
+  ConfigSource slips = line.config;
+  slips.sets.push_back("press.contact=frictionless");
+  loaded = load_config(slips);
+  loaded.notes.push_back(
+      "press.contact is not given: frictionless is taken, since a contact law of another program "
+      "knows no rubber that sticks");
+  return loaded;
+}
+
 /// Laws of contact, fitted to the continuum.
 int export_contact(const CommandLine& line) {
-  const LoadedConfig loaded = with_material(load_checked(line), LatticeUse::none);
+  const LoadedConfig loaded = with_material(load_for_law(line), LatticeUse::none);
   const std::vector<Problem> lost = lost_in_contact(loaded);
   if (!lost.empty() && !line.lossy) throw ConfigError(lost);
   const ContactCurves curves = contact_curves(line.format, loaded);

@@ -127,10 +127,11 @@ std::vector<Problem> lost_in_contact(const LoadedConfig& loaded) {
     add("press.contact",
         "rubber that sticks is stiffer than rubber that slips, by traction along the surface that "
         "is not handed over: the other program would add its own friction to it",
-        "choose frictionless, or say --lossy");
+        "add --set press.contact=frictionless, or --lossy to go on with this");
   if (!press.rubber.relaxation.empty())
     add("rubber.relaxation", "what is fitted to a press at rest knows no time",
-        "leave it out: the forces are then those after long times; or say --lossy");
+        "add --set rubber.relaxation=[]: the forces are then those after long times; or --lossy to "
+        "go on with this");
   return lost;
 }
 

@@ -198,7 +198,8 @@ std::vector<meshes::Violation> beyond_lammps(const LatticeModel& model) {
     found.push_back({"lattice.model", kind,
                      "its cells store energy in their volume or mean deformation, a force among "
                      "eight masses at once that no bond of LAMMPS is",
-                     "choose published, or central with lattice.kinematics = \"finite\""});
+                     "add --set lattice.model=published, or --set lattice.model=central --set "
+                     "lattice.kinematics=finite --set exchange.hold=free"});
   } else if (model.kinematics == lattice::Kinematics::small) {
     found.push_back(
         {"lattice.kinematics", "small",

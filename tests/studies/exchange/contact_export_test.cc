@@ -204,18 +204,37 @@ TEST(ContactExport, LibsdformatAcceptsDrakesFile) {
 #endif
 }
 
+/// The default press sticks; who says nothing of the contact must not be refused for it.
+TEST(ContactExport, AContactNotGivenIsFrictionless) {
+  const TemporaryFolder folder;
+  const ProgramResult made = run_program(folder.path(), contact_export("pressure-law", {}));
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.err.find("note: press.contact is not given: frictionless is taken"),
+            std::string::npos)
+      << made.err;
+  const json taken = json::parse(read_text(folder / "run/transfer.json"));
+  EXPECT_TRUE(taken["lost"].empty());
+  std::vector<std::string> given = contact_export("pressure-law", slips);
+  given[4] = "given";
+  ASSERT_EQ(run_program(folder.path(), given).code, 0);
+  EXPECT_EQ(taken, json::parse(read_text(folder / "given/transfer.json")));
+}
+
 TEST(ContactExport, WhatAFormatCannotSayIsRefusedUnlessAskedFor) {
   const TemporaryFolder folder;
-  const ProgramResult sticks = run_program(folder.path(), contact_export("pressure-law", {}));
+  const std::vector<std::string> stick = {"--set", "press.contact=stick"};
+  const ProgramResult sticks = run_program(folder.path(), contact_export("pressure-law", stick));
   EXPECT_EQ(sticks.code, 2);
-  EXPECT_NE(sticks.err.find("press.contact"), std::string::npos) << sticks.err;
-  EXPECT_NE(sticks.err.find("--lossy"), std::string::npos) << sticks.err;
+  EXPECT_NE(sticks.err.find("add --set press.contact=frictionless, or --lossy"), std::string::npos)
+      << sticks.err;
   const ProgramResult tilted = run_program(
       folder.path(), contact_export("drake", {"--lossy", "--set", "press.tilt=0.1 rad"}));
   EXPECT_EQ(tilted.code, 2);
   EXPECT_NE(tilted.err.find("press.tilt"), std::string::npos) << tilted.err;
   EXPECT_TRUE(made_in(folder.path()).empty());
-  ASSERT_EQ(run_program(folder.path(), contact_export("pressure-law", {"--lossy"})).code, 0);
+  std::vector<std::string> lossy = contact_export("pressure-law", stick);
+  lossy.push_back("--lossy");
+  ASSERT_EQ(run_program(folder.path(), lossy).code, 0);
   const json transfer = json::parse(read_text(folder / "run/transfer.json"));
   ASSERT_EQ(transfer["lost"].size(), 1U);
   EXPECT_NE(transfer["lost"][0].get<std::string>().find("press.contact"), std::string::npos);
