@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "meshes/errors.h"
@@ -84,6 +85,29 @@ void check_hold(const TestTable& description, const MaterialTest& test) {
                      "give a longer hold, the rate of a faster ramp, or kind = \"cycles\"");
 }
 
+/// Rows of a plateau without force, behind a pull, of a specimen that is never pressed.
+std::vector<bool> slack_rows(const TimedRows& rows, const MaterialTest& test) {
+  constexpr double nothing = 0.01;    // of the largest stress
+  constexpr std::size_t plateau = 3;  // rows
+  const std::size_t n = rows.time.size();
+  std::vector<bool> slack(n, false);
+  if (test.course != TestCourse::cycles || test.kind == calibration::TestKind::simple_shear ||
+      *std::ranges::min_element(test.path.deformation) < 1.0)
+    return slack;
+  const auto size = [](double stress) { return std::abs(stress); };
+  const double largest = size(*std::ranges::max_element(rows.stress, {}, size));
+  const auto bears = [&](double stress) { return size(stress) > nothing * largest; };
+  for (auto from = std::ranges::find_if(rows.stress, bears); from != rows.stress.end();) {
+    from = std::find_if_not(from, rows.stress.end(), bears);
+    const auto to = std::find_if(from, rows.stress.end(), bears);
+    if (std::size_t(to - from) >= plateau)
+      std::fill(slack.begin() + (from - rows.stress.begin()),
+                slack.begin() + (to - rows.stress.begin()), true);
+    from = to;
+  }
+  return slack;
+}
+
 }  // namespace
 
 void TimedRows::keep(std::size_t first, std::size_t end) {
@@ -96,16 +120,12 @@ void TimedRows::keep(std::size_t first, std::size_t end) {
   cut(lines);
 }
 
-std::size_t TimedRows::drop_empty() {
+std::size_t TimedRows::drop(const std::function<bool(std::size_t)>& unwanted) {
   const std::size_t all = time.size();
   std::size_t kept = 0;
-  const std::array columns = {&time, &strain, &stress, &sigma};
   for (std::size_t i = 0; i < all; ++i) {
-    const auto gap = [&](const std::vector<double>* column) {
-      return !column->empty() && std::isnan((*column)[i]);
-    };
-    if (std::ranges::any_of(columns, gap)) continue;
-    for (std::vector<double>* column : columns)
+    if (unwanted(i)) continue;
+    for (std::vector<double>* column : {&time, &strain, &stress, &sigma})
       if (!column->empty()) (*column)[kept] = (*column)[i];
     lines[kept++] = lines[i];
   }
@@ -117,7 +137,12 @@ void put_in_time(const TestTable& description, const std::filesystem::path& file
                  const StrainColumn& strain, const StressColumn& stress, TimedRows rows,
                  std::size_t points, MaterialTest& test, std::vector<std::string>& notes) {
   const std::string name = file.filename().string();
-  if (const std::size_t empty = rows.drop_empty(); empty > 0)
+  const auto has_gap = [&](std::size_t i) {
+    return std::ranges::any_of(
+        std::array{&rows.time, &rows.strain, &rows.stress, &rows.sigma},
+        [&](const auto* column) { return !column->empty() && std::isnan((*column)[i]); });
+  };
+  if (const std::size_t empty = rows.drop(has_gap); empty > 0)
     notes.push_back(fmt::format("{}: {} rows with empty cells were left out", name, empty));
   if (rows.time.size() < 2)
     description.refuse("path", name, "fewer than two rows are left",
@@ -143,6 +168,12 @@ void put_in_time(const TestTable& description, const std::filesystem::path& file
     }
   }
   if (test.course == TestCourse::relaxation) check_hold(description, test);
+  const std::vector<bool> slack = slack_rows(rows, test);
+  if (const auto left_out = rows.drop([&](std::size_t i) { return slack[i]; }); left_out > 0)
+    notes.push_back(
+        fmt::format("{}: {} rows without force between a pull and the next were left "
+                    "out: the specimen is slack there",
+                    name, left_out));
   std::vector<std::size_t> chosen = every_so_many(rows.time.size(), rows.time.size());
   if (chosen.size() > points) {
     chosen = test.course == TestCourse::relaxation

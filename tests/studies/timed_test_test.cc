@@ -109,6 +109,28 @@ TEST_F(TimedFiles, CyclesOfShearKeepTheirSigns) {
             std::string::npos);
 }
 
+/// A strip that has crept is slack on the way back: 0 N is what the machine reads, no stress of the
+/// rubber at that stretch, where a law that relaxes has -15 kPa.
+TEST_F(TimedFiles, RowsOfASlackSpecimenAreLeftOut) {
+  std::string description = by_column;
+  description.replace(description.find("relaxation"), 10, "cycles");
+  const std::string pulled = "t,l,s\n0,1,0\n1,1.2,6\n2,1.4,9\n3,1.3,4\n4,1.2,0.05\n";
+  const auto file = read(description, pulled + "5,1.1,0\n6,1.0,0\n7,1.1,-0.02\n8,1.3,5\n");
+  const MaterialTest& test = file.fitted.at(0);
+  EXPECT_EQ(test.deformation, (std::vector{1.0, 1.2, 1.4, 1.3, 1.3}));
+  EXPECT_EQ(test.stress.back(), 5e3);
+  EXPECT_EQ(test.path.time.size(), 9u) << "the machine went on";
+  ASSERT_EQ(file.notes.size(), 1u);
+  EXPECT_EQ(file.notes[0],
+            "data.csv: 4 rows without force between a pull and the next were left out: the "
+            "specimen is slack there");
+  // A curve that crosses zero is no plateau, and what is pressed as well is never slack.
+  EXPECT_EQ(read(description, pulled + "5,1.2,6\n").fitted.at(0).time.size(), 6u);
+  EXPECT_EQ(
+      read(description, pulled + "5,1.1,0\n6,0.9,0\n7,1.1,0\n8,1.3,5\n").fitted.at(0).time.size(),
+      9u);
+}
+
 TEST_F(TimedFiles, LongFilesAreThinnedAndSaySo) {
   std::string hold = "t,s\n", cycles = "t,l,s\n";
   for (int i = 1; i <= 30000; ++i) {
