@@ -45,7 +45,7 @@ constexpr Verb verbs[] = {
     {"report", "write report.html anew", "RUN", "run folders", units_option},
     {"sweep", "run a verb for all combinations of values, whole or in shards", "VERB",
      "press (default), modes, reference or grasp", everything},
-    {"export", "write the finger for other programs", "", "", config_options | out_options},
+    {"export", "write the finger for other programs", "", "", everything},
     {"import", "take back what LAMMPS made of it: table, deviation, time, frames", "RUN",
      "folder of an export", 0U},
     {"check", "check a configuration file", "FILE", "the file", config_options},

@@ -13,6 +13,7 @@
 #include "meshes/solid.h"
 #include "meshes/stl_file.h"
 #include "studies/cli/verbs.h"
+#include "studies/config/finger_defaults.h"
 #include "studies/config/profile_file.h"
 #include "studies/report/figure.h"
 
@@ -117,6 +118,8 @@ void print_lattices(const Geometry& geometry) {
         std::ceil(10.0 * geometry.tip_radius / spacing) / 10.0, spacing / mm, masses,
         least_memory + masses * memory_per_mass);
   }
+  if (const std::string thin = thin_part(geometry); !thin.empty())
+    fmt::print("                    {}\n", thin);
 }
 
 /// Whether the axis between the bond and the pole leaves the rubber.

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lattice/model/cut_tip.h"
 #include "lattice/press/press_deviation.h"
+#include "meshes/cubic_grid.h"
+#include "meshes/shape.h"
+#include "meshes/surface_points.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"
 
@@ -62,14 +66,62 @@ void choose_limits(LoadedConfig& loaded) {
   choose("controller.torque_limit", suitable.torque, press.controller.torque_limit, "N m");
 }
 
+namespace {
+
+/// Straight inward behind all but the thinnest share of what may touch [m].
+double wall_of_most(const meshes::Geometry& geometry, double share) {
+  struct Behind {
+    double depth, area;
+  };
+  const auto shape = meshes::shape_of(geometry);
+  const double near = 1e-4 * geometry.tip_radius;
+  std::vector<Behind> all;
+  double left = 0.0;
+  for (const meshes::SurfacePoint& point :
+       meshes::surface_points(geometry, meshes::Surface::outer, geometry.tip_radius / 12.0)) {
+    // As far as no surface is near, until the other side is met.
+    double depth = near, step = near;
+    while (step > 0.5 * near) {
+      step = -shape->signed_distance(point.position - depth * point.normal);
+      depth += std::max(step, 0.0);
+    }
+    all.push_back({depth, point.area});
+    left += share * point.area;
+  }
+  std::ranges::sort(all, {}, &Behind::depth);
+  std::size_t first = 0;
+  while (first + 1 < all.size() && (left -= all[first].area) > 0.0) ++first;
+  return all[first].depth;
+}
+
+}  // namespace
+
+std::string thin_part(const meshes::Geometry& geometry) {
+  constexpr double share = 0.25, worth_telling = 1.5;
+  if (geometry.is_dome()) return {};
+  const double wall = meshes::shape_of(geometry)->wall(), rest = wall_of_most(geometry, share);
+  if (!(rest > worth_telling * wall)) return {};
+  const double divisor = std::max(12.0, std::ceil(4.0 * geometry.tip_radius / rest));
+  return fmt::format(
+      "the thinnest wall, {:.3g} mm, asks for this; behind three quarters of what may touch lie at "
+      "least {:.3g} mm, for which tip_radius/{:.0f} would do, {:.2g} masses",
+      1e3 * wall, 1e3 * rest, divisor,
+      meshes::expected_particle_count(geometry, geometry.tip_radius / divisor));
+}
+
 std::vector<std::string> spacing_notes(const LoadedConfig& loaded) {
+  constexpr double many = 1e6;
   const Entry& entry = loaded.entries.at("lattice.spacing");
   if (entry.place != chosen_place) return {};
+  const meshes::Geometry& geometry = loaded.config.press.geometry;
+  const double spacing = loaded.config.press.lattice.spacing,
+               masses = meshes::expected_particle_count(geometry, spacing);
+  const std::string thin = masses > many ? thin_part(geometry) : "";
   return {
-      fmt::format("lattice.spacing = {} ({:.3g} mm) is the coarsest that this finger's walls "
-                  "allow; the usual {} is too coarse for them",
-                  entry.literal, 1e3 * loaded.config.press.lattice.spacing,
-                  find_key("lattice.spacing")->preset)};
+      fmt::format("lattice.spacing = {} ({:.3g} mm, some {:.2g} masses) is the coarsest that "
+                  "this finger's walls allow; the usual {} is too coarse for them{}{}",
+                  entry.literal, 1e3 * spacing, masses, find_key("lattice.spacing")->preset,
+                  thin.empty() ? "" : "; ", thin)};
 }
 
 }  // namespace fingertip::studies

@@ -17,4 +17,8 @@ void choose_limits(LoadedConfig& loaded);
 /// What choose_for_finger has taken for a lattice; empty where the default stands or one is given.
 std::vector<std::string> spacing_notes(const LoadedConfig& loaded);
 
+/// Where little of what may touch rules the spacing: how much rubber lies behind the rest, and what
+/// lattice would do for that. Empty for fingers of nearly one wall, and for domes.
+std::string thin_part(const meshes::Geometry& geometry);
+
 }  // namespace fingertip::studies

@@ -108,7 +108,7 @@ std::vector<Key> specimen_keys() {
       with_rule(plain("rubber", "shore_hardness", {10.0, 90.0, true},
                       "Shore A hardness instead of E, by Gent's formula: rough; auto: none",
                       at(&Config::shore_hardness)),
-                "not beside youngs_modulus", {}),
+                "the A scale: of Shore 00 or D give E; not beside youngs_modulus", {}),
       with_rule(or_auto(quantity("rubber", "bulk_modulus", "", "Pa", positive,
                                  "K, bulk modulus, beside one of E and G; auto: from the others",
                                  coefficients(&LawCoefficients::bulk_modulus))),

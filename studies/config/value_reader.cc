@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "meshes/files.h"
+#include "studies/config/trimmed.h"
 #include "studies/config/units.h"
 
 namespace fingertip::studies {
@@ -19,8 +20,24 @@ namespace {
   throw UnitError(std::move(rule), std::move(remedy));
 }
 
+/// The default, or where that is a word in place of a value, a value.
 std::string preset_advice(const Key& key) {
-  return "write e.g. " + key.name + " = " + key.preset;
+  std::string literal = key.preset;
+  if (literal == "\"auto\"" && key.kind == Kind::quantity) literal = '"' + key.example() + '"';
+  if (literal == "\"auto\"" && key.kind == Kind::number)
+    literal = meshes::to_text(std::isfinite(key.range.minimum + key.range.maximum)
+                                  ? 0.5 * (std::max(0.0, key.range.minimum) + key.range.maximum)
+                                  : std::max(1.0, key.range.minimum));
+  return "write e.g. " + key.name + " = " + literal;
+}
+
+/// The number that somebody has put into quotes, or given a unit; else an example.
+std::string number_advice(const Key& key, const toml::node& node) {
+  const std::string text(trimmed(node.value_or(std::string())));
+  double number = 0.0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || !key.range.contains(number)) return preset_advice(key);
+  return "write " + key.name + " = " + std::string(text.data(), rest);
 }
 
 void check_range(const Key& key, double value) {
@@ -155,8 +172,9 @@ Value read_number(const Key& key, const toml::node& node) {
   }
   if (!node.is_number())
     refuse("must be a number without quotes or unit" +
-               (key.word.empty() ? "" : ", or \"" + key.word + '"'),
-           preset_advice(key));
+               (key.word.empty() ? "" : ", or \"" + key.word + '"') +
+               (key.rule.empty() ? "" : " (" + key.rule + ')'),
+           number_advice(key, node));
   value.number = number_in(node);
   check_range(key, value.number);
   return value;

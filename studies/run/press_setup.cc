@@ -131,9 +131,11 @@ std::vector<meshes::Violation> broken_by_spacing(const LoadedConfig& loaded) {
   if (!too_many && spacing >= lattice::smallest_spacing * radius) return {};
   const double finest = std::max(std::cbrt(geometry.tip_volume() / most_particles),
                                  lattice::smallest_spacing * radius);
+  const std::string thin = thin_part(geometry);
   return {{"lattice.spacing", calibration::rounded(spacing) + " m",
-           too_many ? "the tip would consist of more than 20 million masses"
-                    : "the spacing must be at least R/320",
+           (too_many ? std::string("the tip would consist of more than 20 million masses")
+                     : std::string("the spacing must be at least R/320")) +
+               (thin.empty() ? "" : ": " + thin),
            finest <= geometry.coarsest_spacing()
                ? "choose a coarser lattice, at most tip_radius/" +
                      calibration::rounded(std::floor(radius / finest), 6)

@@ -20,6 +20,11 @@ TEST(Verbs, HelpAndVersion) {
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.out.rfind("fingertip ", 0), 0U);
   EXPECT_EQ(run_program(folder.path(), {"press", "--help"}).code, 0);
+  // Whatever runs for minutes can be watched, stopped and gone on with.
+  for (const char* verb : {"press", "reference", "export", "sweep"})
+    for (const char* option : {"--threads", "--progress", "--resume"})
+      EXPECT_NE(run_program(folder.path(), {verb, "--help"}).out.find(option), std::string::npos)
+          << verb << option;
 }
 
 TEST(Verbs, ShapeTellsMeasuresAndDraws) {

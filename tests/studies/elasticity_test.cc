@@ -65,6 +65,18 @@ TEST(Elasticity, ANegativePoissonsRatioIsTold) {
   EXPECT_EQ(with({"rubber.youngs_modulus=1 MPa", "rubber.poissons_ratio=-0.2"}).notes.size(), 1U);
 }
 
+TEST(Elasticity, RemediesAreValuesThatServe) {
+  const auto holds = [](const char* set, const char* part) {
+    const std::string text = refusal({set});
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  holds("rubber.shore_hardness=60 A", "write shore_hardness = 60");
+  holds("rubber.shore_hardness=60 A", "of Shore 00 or D give E");
+  holds("rubber.shore_hardness=soft", "write e.g. shore_hardness = 50");
+  holds("rubber.poissons_ratio=\"0.45\"", "write poissons_ratio = 0.45");
+  holds("rubber.bulk_modulus=true", "write e.g. bulk_modulus = \"1 Pa\"");
+}
+
 // Gent's paper and tables made with his formula: 30, 50, 70 Shore A are 1.14, 2.46, 5.55 MPa.
 TEST(Elasticity, HardnessStandsForYoungsModulus) {
   EXPECT_NEAR(youngs_modulus_of_hardness(30.0), 1.142e6, 2e3);

@@ -53,7 +53,7 @@ TEST(PressSetup, ASpacingThatNobodyGaveIsCheckedWhereALatticeIsBuilt) {
     press_setup(lip);
     ADD_FAILURE() << "billions of masses";
   } catch (const ConfigError& error) {
-    for (const char* part : {"20 million", "leave it out", "reference"})
+    for (const char* part : {"20 million", "0.05 mm", "tip_radius/", "leave it out", "reference"})
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
   for (const char* given : {"lattice.spacing=tip_radius/12", "lattice.spacing=0.0125 mm"}) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "studies/run/file_lock.h"
 #include "studies/run/json_file.h"
 #include "tests/temporary_folder.h"
@@ -183,4 +185,17 @@ TEST(RunFolder, RefusesAFolderThatCannotBeWritten) {
   write_text(place / "file", "");
   EXPECT_THROW(RunFolder(into(place / "file/run"), load_config({})), ConfigError);
   EXPECT_THROW(RunFolder(into("/proc/fingertip/run"), load_config({})), ConfigError);
+}
+
+/// The lock of the launcher's build is held; what waits for it is ended before it does anything.
+TEST(Launcher, TellsThatItWaitsForAnotherCallsBuild) {
+  const TemporaryFolder folder;
+  const std::string place = folder.path().string(), sources = FINGERTIP_SOURCES;
+  const std::string held = "exec 8>'" + place + "/.lock'; flock 8; FINGERTIP_BUILD_DIR='" + place +
+                           "' timeout 4 '" + sources + "/fingertip' doctor 2>'" + place +
+                           "/said' 8>&-";
+  EXPECT_NE(std::system(held.c_str()), 0);
+  EXPECT_EQ(read_text(folder / "said"), "fingertip: another call builds in " + place +
+                                            "; this one waits for it (its log: " + place +
+                                            "/build.log)\n");
 }
