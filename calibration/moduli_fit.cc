@@ -305,10 +305,10 @@ ModuliFit fit_moduli(const meshes::Rubber& rubber, const ModuliFitOptions& optio
   const Solution best = *std::ranges::min_element(solutions, {}, &Solution::loss);
   const bool met = best.error < reached;
   if (!met && !(problem.is_compromise() && is_least(problem, best.constants)))
-    throw meshes::NotConverged("moduli fit: none of " + std::to_string(options.starts) +
-                               " random starts reached " +
-                               (problem.is_compromise() ? "a minimum" : "the targets to 1e-9") +
-                               "; the best is off by " + meshes::to_text(best.error));
+    throw meshes::NotConverged(
+        "moduli fit: none of " + std::to_string(options.starts) + " random starts reached " +
+        (problem.is_compromise() ? "a minimum" : "the targets to 1e-9") + "; the best is off by " +
+        meshes::to_text(best.error) + "; take more starts (calibration.starts)");
 
   ModuliFit fit;
   fit.model = options.model;

@@ -10,6 +10,7 @@
 #include "fem_reference/press_model.h"
 #include "fem_reference/run_progress.h"
 #include "meshes/errors.h"
+#include "meshes/no_equilibrium.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -125,9 +126,13 @@ PressState ContinuumPress::advance(double place) {
       self.model->step(next, next == place, effort);
       ++effort.steps;
       limit = std::min(1.0, 1.5 * limit);
-    } catch (const meshes::NotConverged&) {
+    } catch (const meshes::NotConverged& error) {
       self.model->abandon();
-      if (self.one_step() || limit < std::pow(0.5, most_halvings)) throw;
+      if (self.one_step() || limit < std::pow(0.5, most_halvings)) {
+        const meshes::PressPose pose = self.model->course().at(self.model->place());
+        throw meshes::NoEquilibrium("the continuum", pose.indentation, pose.lateral, error.what(),
+                                    "take another first mesh (reference.refinement)");
+      }
       limit /= 2;
     }
   }

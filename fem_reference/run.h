@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <limits>
 #include <string>
 
 namespace fingertip::fem_reference {
@@ -13,6 +14,8 @@ struct RunOutcome {
   enum class Status { ok, interrupted, not_converged };
   Status status = Status::ok;
   std::string message;  ///< empty when ok
+  /// Of a press that found equilibrium no further [m]; else NaN.
+  double reached = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Reads `folder`/job.json and writes the results into `folder` (README lists the files).

@@ -8,6 +8,7 @@
 
 #include "meshes/errors.h"
 #include "meshes/fields_json.h"
+#include "meshes/no_equilibrium.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -82,6 +83,8 @@ RunOutcome outcome_of(const std::function<void()>& work) {
     work();
   } catch (const meshes::Interrupted& stop) {
     return {RunOutcome::Status::interrupted, stop.what()};
+  } catch (const meshes::NoEquilibrium& failure) {
+    return {RunOutcome::Status::not_converged, failure.what(), failure.indentation()};
   } catch (const meshes::NotConverged& failure) {
     return {RunOutcome::Status::not_converged, failure.what()};
   }
@@ -95,6 +98,7 @@ RunSummary summary_head(const RunOutcome& outcome, const ReferenceJob& job) {
   summary.program = "fingertip-fem";
   summary.status = name(outcome.status);
   summary.message = outcome.message;
+  summary.reached = outcome.reached;
   summary.analysis = fem_reference::name(job.analysis);
   summary.degree = job.degree;
   summary.volumetric = fem_reference::name(job.volumetric);

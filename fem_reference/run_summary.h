@@ -98,7 +98,7 @@ struct RunSummary {
   std::string program, status, message, analysis;
   long degree = 0;
   std::string volumetric;
-  double refinement = meshes::unknown, tolerance = meshes::unknown;
+  double reached = meshes::unknown, refinement = meshes::unknown, tolerance = meshes::unknown;
   long ranks = 0;
   std::string contact, strain, law;
   double speed = meshes::unknown, worst_relative_error = meshes::unknown;
@@ -131,7 +131,7 @@ constexpr auto fields_of(const RunSummary*) {
   using Whole = RunSummary;
   return std::tuple_cat(
       named("program status", &Whole::program, &Whole::status),
-      if_known(named("message", &Whole::message)),
+      if_known(named("message", &Whole::message)), if_known(named("reached", &Whole::reached)),
       named("analysis degree volumetric refinement tolerance ranks", &Whole::analysis,
             &Whole::degree, &Whole::volumetric, &Whole::refinement, &Whole::tolerance,
             &Whole::ranks),

@@ -14,6 +14,7 @@
 #include "fem_reference/run_progress.h"
 #include "fem_reference/run_tables.h"
 #include "meshes/errors.h"
+#include "meshes/no_equilibrium.h"
 #include "meshes/table_rows.h"
 
 namespace fingertip::fem_reference {
@@ -150,6 +151,13 @@ class TransientRun {
       try {
         states_.push_back(press->advance(places_[i]));
         states_.back().sample.stage = course_.stage(i);
+      } catch (const meshes::NotConverged& error) {
+        steps_ = press->steps();
+        if (steps_.empty()) throw;
+        throw meshes::NoEquilibrium(
+            "the press in time", steps_.back().indentation, 0.0,
+            error.what() + (", at " + to_text(steps_.back().time) + " s"),
+            "press more slowly (press.speed), or at rest (reference.mode = static)");
       } catch (...) {
         steps_ = press->steps();
         throw;

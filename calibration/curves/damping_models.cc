@@ -148,7 +148,8 @@ VectorXd press(lattice::PressSetup setup, double retardation_time) {
     if (next < depths.size() && std::abs(sample.indentation - depths[next]) <= 1e-12 * depths[next])
       force(Index(next++)) = sample.normal_force;
   if (next < depths.size())
-    throw meshes::NotConverged("moving press: no force at " + to_text(depths[next]) + " m");
+    throw meshes::NotConverged("moving press: no force at " + to_text(depths[next]) +
+                               " m; press less deep (calibration.depth)");
   return force;
 }
 

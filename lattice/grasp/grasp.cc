@@ -187,9 +187,12 @@ void Grasp::run_period() {
 void Grasp::judge(const GraspRow& row) {
   const double thickness = setup_.hand.finger.geometry.thickness();
   if (row.indentation > 0.7 * thickness) {
-    give_up("the grip force needs an indentation beyond 70 % of the rubber's thickness");
+    give_up(
+        "the grip force needs an indentation beyond 70 % of the rubber's thickness: lower "
+        "grasp.force, or take a stiffer rubber or a thicker tip");
   }
-  if (!std::isfinite(row.height) || std::abs(row.velocity) > 1e3) give_up("the grasp blew up");
+  if (!std::isfinite(row.height) || std::abs(row.velocity) > 1e3)
+    give_up("the grasp blew up: take smaller steps (run.time_step) or a smaller grasp.force");
   if (!all_slide(row)) stuck_ = row.time;
   const bool slides_along = row.time - stuck_ > slide_time;
   if (row.phase == GripPhase::load && (slides_along || row.finger_height > thickness)) {

@@ -1,7 +1,7 @@
 #include "lattice/press/press_slopes.h"
 
-#include "meshes/errors.h"
 #include "meshes/files.h"
+#include "meshes/no_equilibrium.h"
 
 namespace fingertip::lattice {
 
@@ -75,9 +75,12 @@ void SlopeSystem::respond(EquilibriumSolver& solver, const StaticContact& contac
                           const VectorXd& displacement, StateSlopes& slopes) const {
   const MatrixXd pushes = forces(contact, displacement, slopes);
   if (solver.respond(contact, displacement, pushes, slopes.displacement)) return;
-  throw meshes::NotConverged("the force has no derivative at an indentation of " +
-                             meshes::to_text(contact.pose().indentation) +
-                             " m, where the lattice's tangent stiffness is not positive definite");
+  const double indentation = contact.pose().indentation;
+  throw meshes::NoEquilibrium("the force has no derivative at an indentation of " +
+                                  meshes::to_text(indentation) +
+                                  " m, where the lattice's tangent stiffness is not positive "
+                                  "definite; press less deep, or take a finer lattice",
+                              indentation);
 }
 
 void SlopeSystem::anchor(const std::vector<FirstTouch>& touches, const StateSlopes& start,

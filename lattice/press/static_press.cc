@@ -17,6 +17,7 @@
 #include "lattice/statics/equilibrium.h"
 #include "lattice/statics/static_contact.h"
 #include "meshes/files.h"
+#include "meshes/no_equilibrium.h"
 
 namespace fingertip::lattice {
 
@@ -168,11 +169,9 @@ void StaticPress::march_to(double target) {
     }
     step_ = 0.5 * left / std::max(count, 1.0);
     if (step_ < smallest_share * largest_step_) {
-      throw meshes::NotConverged("the static press found no equilibrium beyond an indentation of " +
-                                 meshes::to_text(now_.contact.pose().indentation) +
-                                 " m and a lateral displacement of " +
-                                 meshes::to_text(now_.contact.pose().lateral) +
-                                 " m; take a finer lattice, press less deep or move less far");
+      const meshes::PressPose pose = now_.contact.pose();
+      throw meshes::NoEquilibrium("the static press", pose.indentation, pose.lateral, "",
+                                  "take a finer lattice (lattice.spacing)");
     }
   }
 }

@@ -180,7 +180,7 @@ void CalibrationStages::choose_contact(const fs::path& run) {
       " Whether the rubber sticks is not told (press.contact): {} is taken, since {} contact has "
       "no "
       "answer ({}).",
-      rival, name, own.substr(own.find(": ") + 2));
+      rival, name, own.substr(0, own.find('\n')).substr(own.find(": ") + 2));
 }
 
 /// Of a lattice that answered for measured forces: the continuum at the estimates tells its error.

@@ -282,10 +282,13 @@ MeasuredFile CurveReader::read_table(const TextTable& table) {
     course.rows_per_value = double(rows_.size()) / double(result_.curve.x.size());
   result_.curve.course = std::move(course);
   problems_.throw_if_any();
-  if (in_time) return std::move(result_);
-  for (const double x : result_.curve.x)
-    result_.lines.push_back(
-        std::ranges::find_if(rows_, [&](const CurveRow& row) { return row.x >= x; })->line);
+  if (!in_time)
+    for (const double x : result_.curve.x)
+      result_.lines.push_back(
+          std::ranges::find_if(rows_, [&](const CurveRow& row) { return row.x >= x; })->line);
+  for (const std::size_t line : result_.lines)
+    result_.rows.push_back(
+        std::size_t(std::ranges::lower_bound(table.lines, line) - table.lines.begin()) + 1);
   return std::move(result_);
 }
 

@@ -47,7 +47,8 @@ struct MeasuredFile {
   std::string x_quantity, y_quantity;  ///< names of the pair found, e.g. "indentation", "force"
   std::string x_title, x_unit;         ///< as the file has them, "Weg [mm]" and "mm"
   std::vector<std::size_t>
-      lines;  ///< of every point of the curve: its row, or the first of its bin
+      lines;                      ///< of every point of the curve: its row, or the first of its bin
+  std::vector<std::size_t> rows;  ///< the same as `rows` counts them, from 1 in the table
   std::vector<MeasuredSetting> settings;  ///< in the order of the file, each key once
   std::vector<std::string> notes;         ///< what was ignored, left out or averaged
 };

@@ -8,12 +8,15 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <set>
 
 #include "meshes/errors.h"
+#include "meshes/no_equilibrium.h"
 #include "studies/run/fem_launch.h"
+#include "studies/run/json_file.h"
 
 namespace fingertip::studies {
 
@@ -169,8 +172,14 @@ std::string lost_message(int signal, const std::filesystem::path& folder,
   const std::string words = watch.last_words();
   if (code == 130 || watch.asked_to_stop()) throw meshes::Interrupted("the continuum was stopped");
   if (code > signal_base) throw ProcessLost(lost_message(code - signal_base, folder, words));
-  if (code == 3)
-    throw meshes::NotConverged(words.empty() ? "the continuum did not converge" : words);
+  if (code == 3) {
+    const std::string text = words.empty() ? "the continuum did not converge" : words;
+    const auto file = folder / "summary.json";
+    const double reached =
+        std::filesystem::exists(file) ? number_of(read_json(file)["reached"]) : meshes::unknown;
+    if (!std::isnan(reached)) throw meshes::NoEquilibrium(text, reached);
+    throw meshes::NotConverged(text);
+  }
   if (code == 2) {
     throw meshes::InvalidInput({"reference", "", words.empty() ? "refused by fingertip-fem" : words,
                                 "correct the configuration"});

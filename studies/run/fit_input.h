@@ -31,6 +31,13 @@ enum class CurveKind {
 
 struct FitInput;
 
+/// The rows of a file that a curve's values begin with, as its `rows` counts them; from `first` on.
+struct RowsOfValues {
+  std::string file;
+  std::size_t first = 1;
+  std::vector<std::size_t> rows;
+};
+
 /// A measurement that might follow, of which the fit tells what it would tell.
 struct Candidate {
   std::string name;    ///< "ball"
@@ -55,6 +62,7 @@ struct FitInput {
   /// Per curve; empty where no curve is one over the travel of a machine. The samples of `presses`
   /// and `continua` then are Travel::depths.
   std::vector<std::optional<Travel>> travels;
+  std::vector<RowsOfValues> rows;  ///< per curve; none where these are not measured
   /// Of a rubber that relaxes, with places among all free parameters; curves then have times, and
   /// an entry in `travels` each. The moduli, as of all presses here, are those after long times.
   std::vector<calibration::FitBranch> branches;

@@ -228,6 +228,8 @@ void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
                   "fit them one by one");
   file.curve.x_quantity = with_unit(file.x_quantity);
   file.curve.y_quantity = with_unit(file.y_quantity);
+  fit.input.rows.push_back({source.path.string(), source.rows ? std::size_t((*source.rows)[0]) : 1,
+                            std::move(file.rows)});
   for (const std::string& note : file.notes) fit.notes.push_back(file.curve.name + ": " + note);
   if (press) {
     std::vector<std::string> sets = settings_in(source.condition);

@@ -10,6 +10,7 @@
 #include "lattice/press/setup_fields.h"
 #include "lattice/press/static_press.h"
 #include "meshes/fields_json.h"
+#include "meshes/no_equilibrium.h"
 #include "studies/run/continuum_model.h"
 #include "studies/run/digest.h"
 #include "studies/run/jobs.h"
@@ -26,6 +27,48 @@ namespace {
 
 /// The stiffness of a ramp errs by the square of the samples' distance.
 constexpr int ramp_samples = 40;
+
+/// What leaves out the values that lie beyond an indentation [m], as text to copy; empty where that
+/// leaves fewer than three. A press behind a rig is computed deeper than its values go.
+std::string rows_up_to(const FitInput& input, std::size_t i, double indentation) {
+  if (i >= input.rows.size()) return {};
+  const RowsOfValues& known = input.rows[i];
+  std::vector<double> depths = input.curves[i].x;
+  constexpr double margin = 0.98;  // the last step failed close by
+  double reached = margin * indentation;
+  if (is_travel(input, i)) {
+    depths = input.travels[i]->indentations(input.curves[i], start_of(input.options));
+    reached *= std::ranges::max(depths) / input.travels[i]->depths.back();
+  }
+  const auto beyond = std::ranges::find_if(depths, [&](double depth) { return depth > reached; });
+  constexpr std::ptrdiff_t fewest = 3;
+  if (beyond == depths.end() || beyond - depths.begin() < fewest) return {};
+  return fmt::format(
+      "\nThe fit without the rows beyond: in the TOML file that describes {}, or one that stands "
+      "in "
+      "its place in calibration.data (studies/manual/files.md),\n[[press]]\npath = '{}'\nrows = "
+      "[{}, {}]",
+      known.file, known.file, known.first, known.rows[std::size_t(beyond - depths.begin())] - 1);
+}
+
+/// A press that tells which rows lie beyond what it can answer for.
+class MeasuredPress final : public ForwardModel {
+ public:
+  MeasuredPress(std::unique_ptr<ForwardModel> model, std::function<std::string(double)> remedy)
+      : model_(std::move(model)), remedy_(std::move(remedy)) {}
+
+  calibration::CurveSlopes evaluate(const Eigen::VectorXd& parameters) override {
+    try {
+      return model_->evaluate(parameters);
+    } catch (const meshes::NoEquilibrium& error) {
+      throw meshes::NotConverged(error.what() + remedy_(error.indentation()));
+    }
+  }
+
+ private:
+  std::unique_ptr<ForwardModel> model_;
+  std::function<std::string(double)> remedy_;
+};
 
 /// From first touch at the press's speed to its depth, then held.
 std::unique_ptr<ForwardModel> ramp_model(lattice::PressSetup setup, const std::vector<double>& time,
@@ -159,7 +202,9 @@ FitModels::FitModels(const FitInput& input, const fs::path& folder, const JobCon
   fs::create_directories(folder / "evaluations");
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const bool travel = is_travel(input, i);
-    models_.push_back(model_of(input, i, context, go_on));
+    models_.push_back(std::make_unique<MeasuredPress>(
+        model_of(input, i, context, go_on),
+        [input, i](double indentation) { return rows_up_to(input, i, indentation); }));
     remembering_.push_back(std::make_unique<calibration::RememberedModel>(
         *models_[i], folder / "evaluations" / fmt::format("curve_{}.jsonl", i + 1),
         Eigen::Index(travel ? input.travels[i]->depths.size() : input.curves[i].x.size()),

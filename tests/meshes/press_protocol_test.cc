@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "meshes/no_equilibrium.h"
+
 using namespace fingertip::meshes;
 
 namespace {
@@ -199,6 +201,20 @@ TEST(PressProtocol, NamesTellTheModesApart) {
   EXPECT_EQ(name(ContactMode::coulomb), "coulomb");
   EXPECT_EQ(name(LateralPath::diagonal), "diagonal");
   EXPECT_EQ(name(LateralPath::after), "after");
+}
+
+/// Depth and remedies as a user can copy them.
+TEST(NoEquilibrium, TellsHowDeepAndWhatHelps) {
+  const fingertip::meshes::NoEquilibrium straight("the press", 0.0096499999, 0.0, "it buckles",
+                                                  "refine");
+  EXPECT_STREQ(straight.what(),
+               "the press found no equilibrium beyond an indentation of 0.00965 m (it buckles); "
+               "press less deep, press.depth = \"9.64 mm\", or refine");
+  EXPECT_EQ(straight.indentation(), 0.0096499999);
+  const fingertip::meshes::NoEquilibrium aside("the press", 0.0, 1e-3, "", "refine");
+  EXPECT_STREQ(aside.what(),
+               "the press found no equilibrium beyond an indentation of 0 m and a lateral "
+               "displacement of 0.001 m; press less deep, move less far, or refine");
 }
 
 }  // namespace

@@ -112,6 +112,43 @@ TEST_F(LostProcess, AContinuumThatDidNotConvergeGoesOn) {
   expect_it_goes_on(result, "run it with other settings");
 }
 
+/// Data deeper than the continuum finds equilibrium: how deep it does, and the rows it can answer
+/// for, as text to copy.
+TEST_F(LostProcess, AFitTellsWhichRowsLieBeyondEquilibrium) {
+  std::string csv = "indentation [mm];force [mN]\n";
+  for (int i = 1; i <= 48; ++i) csv += std::to_string(0.1 * i) + ';' + std::to_string(3 * i) + '\n';
+  write_text(place_ / "deep.csv", csv);
+  ends_with(
+      "echo '{\"reached\": 0.0033}' > summary.json\n"
+      "echo 'no equilibrium beyond an indentation of 0.0033 m' >&2; exit 3\n");
+  const auto fit = [&](const char* data, const char* out) {
+    return run_program(
+        place_.path(),
+        {"calibrate", "--set", "calibration.problem=experiment", "--set",
+         "calibration.forward=continuum", "--set",
+         "calibration.data=[\"" + std::string(data) + "\"]", "--set",
+         "calibration.parameters=[\"modulus\"]", "--set", "calibration.candidates=[]", "--set",
+         "lattice.spacing=tip_radius/4", "--set", "lattice.kinematics=small", "--set",
+         "press.contact=stick", "--out", out},
+        program_.string());
+  };
+  const ProgramResult whole = fit("deep.csv", "whole");
+  ASSERT_EQ(whole.code, 3) << whole.err;
+  EXPECT_NE(whole.err.find("no equilibrium beyond an indentation of 0.0033 m"), std::string::npos);
+  // 2 % less deep than 3.3 mm: the rows down to 3.2 mm.
+  const auto begin = whole.err.find("[[press]]"), end = whole.err.find("rows = [1, 32]", begin);
+  ASSERT_NE(end, std::string::npos) << whole.err;
+  write_text(place_ / "press.toml", whole.err.substr(begin, end - begin) + "rows = [1, 32]\n");
+  fit("press.toml", "cut");
+  const std::filesystem::path job = place_ / "cut/continuum_1";
+  ASSERT_TRUE(fs::exists(job)) << "the copied text describes the file";
+  for (const auto& folder : fs::directory_iterator(job)) {
+    const json samples = json::parse(read_text(folder.path() / "job.json"))["protocol"]["samples"];
+    EXPECT_NEAR(samples.back().get<double>(), 3.2e-3, 1e-12);
+    EXPECT_EQ(samples.size(), 32U);
+  }
+}
+
 TEST_F(LostProcess, AnInterruptedContinuumGoesOn) {
   ends_with("trap 'exit 130' INT\ntouch waiting\nwhile true; do sleep 0.05; done\n");
   Program program(place_.path(), words(), program_.string());

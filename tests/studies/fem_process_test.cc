@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-#include "meshes/errors.h"
+#include "meshes/no_equilibrium.h"
 #include "studies/run/fem_launch.h"
 #include "tests/temporary_folder.h"
 
@@ -87,6 +87,13 @@ TEST_F(FemProcess, ExitCodesBecomeExceptions) {
     FAIL();
   } catch (const meshes::NotConverged& error) {
     EXPECT_NE(std::string(error.what()).find("contact did not converge"), std::string::npos);
+  }
+  try {
+    run("echo '{\"reached\": 0.0062}' > \"$1/summary.json\"; echo 'no further' >&2; exit 3");
+    FAIL();
+  } catch (const meshes::NoEquilibrium& error) {
+    EXPECT_EQ(error.indentation(), 0.0062);
+    EXPECT_STREQ(error.what(), "no further");
   }
 }
 
