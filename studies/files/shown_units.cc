@@ -44,6 +44,14 @@ int digits_of(std::string_view number) {
   return int(std::ranges::count_if(number, [](char c) { return c >= '0' && c <= '9'; }));
 }
 
+/// To so many digits; of larger numbers those before the point, not a power of ten.
+std::string in_digits(double value, int digits) {
+  constexpr double most = 1e7;
+  const double size = std::abs(value);
+  return size < most && size >= std::pow(10.0, digits - 1) ? fmt::format("{:.0f}", value)
+                                                           : fmt::format("{:.{}g}", value, digits);
+}
+
 /// Amounts of one sentence, an estimate and its interval, in `unit` and with as many decimals as
 /// the largest needs for its digits; without an exponent unless it is huge or tiny.
 std::vector<std::string> converted(const std::vector<std::string>& amounts, const ShownUnit& unit) {
@@ -85,7 +93,7 @@ std::string ShownUnit::label(std::string_view what) const {
 }
 
 std::string ShownUnit::text(double value) const {
-  return fmt::format("{:.4g} {}", factor * value, name);
+  return fmt::format("{} {}", in_digits(factor * value, 4), name);
 }
 
 std::string ShownUnit::decimals(double value) const {

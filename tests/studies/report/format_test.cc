@@ -51,6 +51,14 @@ TEST(Format, AmountsInWordsAreShownInTheUnitsOfTheRun) {
       "E = 11965 kPa (95 %: 11340 to 12590), 200000 kPa, drift 1.2 mN/s");
   EXPECT_EQ(in_shown_units("touch = 0 m (95 %: -1e-07 to 1e-07)", Spelling::terminal),
             "touch = 0 mm (95 %: -0.0001 to 0.0001)");
+  // No power of ten stands beside a number without one.
+  EXPECT_EQ(in_shown_units("E = 1.1965e+07 Pa (95 %: 1.134e+07 to 9.99996e+08)", Spelling::page),
+            "E = 11965 kPa (95 %: 11340 to 999996)");
+  EXPECT_EQ(in_shown_units("E = 9.9996e+06 Pa, 2e+11 Pa", Spelling::page),
+            "E = 9999.6 kPa, 2e+08 kPa");
+  EXPECT_EQ(shown_units().stress.text(9.9997e6), "10000 kPa");
+  EXPECT_EQ(shown_units().stress.text(1.23456e7), "12346 kPa");
+  EXPECT_EQ(shown_units().stress.text(1234.56), "1.235 kPa");
   const ShowIn paper(UnitSystem::paper);
   EXPECT_EQ(in_shown_units("E = 3922.66 Pa", Spelling::terminal), "E = 40 gf/cm^2");
   EXPECT_EQ(in_shown_units("E = 3922.66 Pa", Spelling::page), "E = 40 gf/cm²");
