@@ -95,7 +95,9 @@ int run_material(const CommandLine& line, const LoadedConfig& loaded) {
       for (const LawEntry& law : file.laws)
         if (law.law == file.recommended) print_coefficients(law, file.failed);
       if (result.reused) fmt::print("(result from an earlier run with the same input)\n");
-      if (written) fmt::print("card: {} (use: --set rubber.card=PATH)\n", card.string());
+      if (written)
+        fmt::print("card: {} (use: --set rubber.card=PATH --set lattice.model=network)\n",
+                   card.string());
       fmt::print("run folder: {}\n", folder.string());
     }
     return verdict(file.failed, true, written);

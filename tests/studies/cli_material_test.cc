@@ -71,6 +71,8 @@ TEST_F(MaterialInTime, FromFilesToACardThatPressesAsItsKeysDo) {
   const ProgramResult fitted = fit();
   ASSERT_EQ(fitted.code, 0) << fitted.err;
   EXPECT_NE(fitted.out.find("loops of to and fro: "), std::string::npos) << fitted.out;
+  EXPECT_NE(fitted.out.find("rubber.card=PATH --set lattice.model=network"), std::string::npos)
+      << "the lattice that takes a law";
   const std::string card = contents(folder_ / "laws/material.toml");
   EXPECT_NE(card.find("name = \"neo-hookean+prony-1\""), std::string::npos) << card;
   EXPECT_NE(card.find("relaxation_tau1_interval"), std::string::npos);
