@@ -235,7 +235,7 @@ std::vector<UntestedMode> untested_modes(const LawFit& fit, const std::vector<Ma
 
 void add_differences(std::vector<LawFit>& ranking) {
   const std::vector<const LawFit*> laws = equals(ranking);
-  if (laws.empty() || laws.front()->untested.empty()) return;
+  if (laws.empty() || laws.front()->untested.empty() || !laws.front()->predicted.empty()) return;
   std::string text;
   for (std::size_t i = 0; i < laws.front()->untested.size(); ++i) {
     const auto stress = [&](const LawFit* law) { return std::abs(law->untested[i].stress); };
