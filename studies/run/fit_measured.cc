@@ -20,6 +20,27 @@ using calibration::Curve;
 
 namespace {
 
+/// What is said of several files alike is said once: "a, b, c: note".
+class NotesOnFiles {
+ public:
+  void add(const std::string& name, const std::string& note) {
+    const auto same = std::ranges::find(notes_, note, &Note::text);
+    if (same == notes_.end())
+      notes_.push_back({note, name});
+    else
+      same->names += ", " + name;
+  }
+  void tell(std::vector<std::string>& notes) const {
+    for (const Note& note : notes_) notes.push_back(note.names + ": " + note.text);
+  }
+
+ private:
+  struct Note {
+    std::string text, names;
+  };
+  std::vector<Note> notes_;
+};
+
 std::vector<CurveQuantities> quantities_of(CalibrationProblem problem) {
   switch (problem) {
     case CalibrationProblem::finite_strain: return {measured::uniaxial, measured::simple_shear};
@@ -217,7 +238,8 @@ std::vector<CurveSource> sources_of(const LoadedConfig& loaded,
 }
 
 void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSource& source,
-                        MeasuredFile file, const std::string& condition, const Blanks& blanks) {
+                        MeasuredFile file, const std::string& condition, const Blanks& blanks,
+                        NotesOnFiles& notes) {
   const CalibrationSettings& settings = loaded.config.calibration;
   const CurveKind kind = kind_of(file, settings);
   const bool press =
@@ -230,7 +252,7 @@ void add_measured_curve(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
   file.curve.y_quantity = with_unit(file.y_quantity);
   fit.input.rows.push_back({source.path.string(), source.rows ? std::size_t((*source.rows)[0]) : 1,
                             std::move(file.rows)});
-  for (const std::string& note : file.notes) fit.notes.push_back(file.curve.name + ": " + note);
+  for (const std::string& note : file.notes) notes.add(file.curve.name, note);
   if (press) {
     std::vector<std::string> sets = settings_in(source.condition);
     std::ranges::copy(settings_in(condition), std::back_inserter(sets));
@@ -277,16 +299,18 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
       const auto own = under(loaded, settings_in(source.condition + ";" + condition), {});
       blanks[own.config.calibration.machine].push_back(std::move(source));
     }
+  NotesOnFiles notes;
   std::vector<std::filesystem::path> files;
   for (const auto& [source, condition] : sources) {
     fit.input.provenance += (files.empty() ? "" : ", ") + source.path.filename().string() +
                             " (SHA-256 " + sha256(content_of(source.path)) + ")";
     for (MeasuredFile& file :
          read_measured(source, quantities_of(settings.problem), !fit.input.branches.empty())) {
-      add_measured_curve(fit, loaded, source, std::move(file), condition, blanks);
+      add_measured_curve(fit, loaded, source, std::move(file), condition, blanks, notes);
       files.push_back(source.path);
     }
   }
+  notes.tell(fit.notes);
   add_rigs(fit, loaded);
   check_curves(loaded, fit.input, files);
 }

@@ -98,6 +98,26 @@ TEST(Verbs, InitWritesWhatCheckAccepts) {
   EXPECT_EQ(run_program(folder.path(), {"init"}).out, read_text(folder / "all.toml"));
 }
 
+/// A fit by the continuum asks for no lattice, whose usual spacing this wall does not stand; and
+/// what is said of two files alike is said once.
+TEST(Verbs, CheckTakesTheFitOfAHollowFinger) {
+  const TemporaryFolder folder;
+  write_text(folder / "finger.csv",
+             "r [mm],z [mm],surface,curve\n12.5,0,contact,\n12.5,12.5,contact,arc 0 12.5\n"
+             "0,25,axis,\n0,22.5,free,arc 0 12.5\n10,12.5,free,\n10,0,bond,\n");
+  write_text(folder / "fit.toml",
+             "[geometry]\nshape = \"profile\"\nprofile = \"finger.csv\"\n[calibration]\nproblem = "
+             "\"experiment\"\nforward = \"continuum\"\nparameters = [\"modulus\"]\ndata = "
+             "[\"a.csv\", \"b.csv\"]\n[lattice]\nkinematics = \"small\"\n");
+  for (const char* file : {"a.csv", "b.csv"})
+    write_text(folder / file, "indentation [mm],force [mN],room\n0.3,2,21\n0.6,5,21\n0.9,9,21\n");
+  const ProgramResult check = run_program(folder.path(), {"check", "fit.toml"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_NE(check.out.find("a, b: columns that are not used: room"), std::string::npos)
+      << check.out;
+  EXPECT_NE(check.out.find("OK"), std::string::npos) << check.out;
+}
+
 TEST(Verbs, CheckReadsTheDataOfACalibration) {
   const TemporaryFolder folder;
   write_text(folder / "fit.toml",
