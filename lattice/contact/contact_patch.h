@@ -18,7 +18,8 @@ struct LoadedPoint {
 struct ForceMoments {
   /// Σ force x^i y^j up to the fourth order, at `place(i, j)` [N m^(i+j)].
   std::array<double, 15> power{};
-  double area = 0.0;  ///< Σ force area [N m²]
+  double area = 0.0;     ///< Σ force area [N m²]
+  double touched = 0.0;  ///< Σ area of points with a force [m²]
 
   static constexpr std::size_t place(std::size_t i, std::size_t j) {
     return (i + j) * (i + j + 1) / 2 + j;
@@ -45,6 +46,11 @@ struct ContactPatch {
 /// pressures, law A to 0.7 of the rubber's thickness, sticking or not, this gives their radius
 /// within 1 % (Hertz alone: up to 8 % too small) and P within 3 %.
 /// A point's own patch counts as a disc.
+///
+/// That is one ellipse. With z = u + i v, u and v along axes in which S is 1, it has <z^4> =
+/// <z^3 z'> = 0. Where points are many and these or q say otherwise - two pads, a ring, the face of
+/// a block - the radius is that of the points' own area, which is true of flat faces and at most
+/// that of round ones, and the largest pressure is meshes::unknown.
 ///
 /// `sectors` (1, 2 or 4): the points are the whole contact, its half t2 >= 0 or its quarter
 /// t1, t2 >= 0. Zeros without a loaded point.

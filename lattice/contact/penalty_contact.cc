@@ -375,6 +375,7 @@ ContactPatch PenaltyContact::patch() const {
   for (const kernel::PatchSums& p : part) {
     for (std::size_t i = 0; i < sums.power.size(); ++i) sums.power[i] += p.power[i];
     sums.area += p.area;
+    sums.touched += p.touched;
   }
   return contact_patch(sums, model_->sector.count());
 }

@@ -100,7 +100,8 @@ struct PatchView {
 /// tangents: 1; x, y; xx, xy, yy; … yyyy.
 struct PatchSums {
   double power[15] = {};
-  double area = 0.0;  ///< times the surface that a point stands for, projected on the plane
+  double area = 0.0;     ///< times the surface that a point stands for, projected on the plane
+  double touched = 0.0;  ///< that surface alone, of points that are pushed
 };
 
 /// Two calls at a time write the same place only if they are for the same group.

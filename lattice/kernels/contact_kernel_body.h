@@ -159,7 +159,7 @@ struct ContactBody : Packs<Pack> {
   static void add_up(const ContactGroup& group, const ContactMemory& memory, const PatchView& view,
                      PatchSums& sums) {
     std::array<std::array<Vector, parts>, 5> powers;
-    std::array<Pack, parts> area;
+    std::array<Pack, parts> area, touched;
     for (std::size_t part = 0; part < parts; ++part) {
       const std::size_t lane = part * width;
       const Vector at = load(view.at_rest ? group.rest : memory.place, lane);
@@ -171,8 +171,10 @@ struct ContactBody : Packs<Pack> {
       powers[2][part] = {xx * x, xx * y, xy * y};
       powers[3][part] = {yy * y, xx * x * x, xx * x * y};
       powers[4][part] = {xx * y * y, xy * y * y, yy * y * y};
-      area[part] =
-          push * std::experimental::abs(dot(broadcast(view.normal), load(group.facing, lane)));
+      const Pack own =
+          std::experimental::abs(dot(broadcast(view.normal), load(group.facing, lane)));
+      area[part] = push * own;
+      touched[part] = choose(push > Pack(0.0), own, Pack(0.0));
     }
     for (std::size_t k = 0; k < powers.size(); ++k) {
       double three[3];
@@ -180,6 +182,7 @@ struct ContactBody : Packs<Pack> {
       for (std::size_t i = 0; i < 3; ++i) sums.power[3 * k + i] += three[i];
     }
     sums.area += Base::total(area);
+    sums.touched += Base::total(touched);
   }
 
   /// The part of a tie in the plane, not longer than `longest`; its share of what it was.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -91,6 +92,44 @@ TEST(SolidPress, ACylinderOnABlockIsHertzsLineContact) {
     const double area = std::numbers::pi * std::pow(sample.contact_radius, 2);
     EXPECT_NEAR(area / width, 2.0 * half_width, 2.0 * spacing) << sample.indentation;
   }
+}
+
+/// A bridge upside down: two pads of 4 x 10 mm, whose area is that of the contact, at rest and in
+/// motion.
+TEST(SolidPress, TwoPadsAreNoRoundSpot) {
+  constexpr double mm = 1e-3;
+  meshes::TriangleMesh mesh;
+  constexpr std::array<std::array<double, 2>, 8> outline{
+      {{-10, 0}, {10, 0}, {10, 10}, {6, 10}, {6, 4}, {-6, 4}, {-6, 10}, {-10, 10}}};
+  for (const double y : {-5.0, 5.0})
+    for (const auto& [x, z] : outline) mesh.vertices.emplace_back(x * mm, y * mm, z * mm);
+  for (const auto& [a, b, c] :
+       {std::array{0, 1, 4}, {1, 2, 3}, {1, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}}) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({c + 8, b + 8, a + 8});
+  }
+  for (int a = 0; a < 8; ++a) {
+    const int b = (a + 1) % 8;
+    mesh.triangles.push_back({b, a, a + 8});
+    mesh.triangles.push_back({b, a + 8, b + 8});
+  }
+  PressSetup press = press_of(Geometry::of_solid(std::make_shared<meshes::Solid>(
+                                  mesh, meshes::Region{{{2, true, 0.5 * mm}}})),
+                              ModelKind::hookean);
+  press.lattice.spacing = 1.0 * mm;
+  press.lattice.constants = lattice::hookean_constants(press.rubber, press.lattice.spacing);
+  press.protocol.samples = {0.1 * mm, 0.2 * mm};
+  press.protocol.depth = 0.2 * mm;
+  const auto expect_pads = [](const meshes::PressResponse& response) {
+    for (const auto& sample : response.samples()) {
+      EXPECT_GT(sample.normal_force, 0.0);
+      EXPECT_NEAR(sample.contact_radius, std::sqrt(80.0 / std::numbers::pi) * mm, 0.025 * mm);
+      EXPECT_TRUE(std::isnan(sample.max_pressure)) << sample.max_pressure;
+    }
+  };
+  expect_pads(lattice::run_static_press(press).response);
+  press.protocol.mode = DriveMode::quasi_static;
+  expect_pads(lattice::run_press(press).response);
 }
 
 /// A turned grid cuts the same rubber.

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -268,6 +271,38 @@ TEST(ContactPatch, MeasuresAPeakedPressure) {
   const auto patch = contact_patch(points, 4);
   EXPECT_NEAR(patch.radius, 1.0, 0.01);
   EXPECT_NEAR(patch.max_pressure, 1.0, 0.02);
+}
+
+/// Pads, a ring and the face of a block bear alike all over. A turned ellipse is one.
+TEST(ContactPatch, TellsWhatIsNoEllipse) {
+  constexpr double raster = 0.1;
+  const auto where = [](const std::function<bool(double, double)>& bears) {
+    std::vector<LoadedPoint> points;
+    for (double x = -10.0 + raster / 2; x < 10.0; x += raster)
+      for (double y = -10.0 + raster / 2; y < 10.0; y += raster)
+        if (bears(x, y))
+          points.push_back({{x + 3.0, y - 1.0}, 5.0 * raster * raster, raster * raster});
+    return contact_patch(points);
+  };
+  const auto pads =
+                 where([](double x, double y) { return std::abs(x) > 6.0 && std::abs(y) < 5.0; }),
+             face =
+                 where([](double x, double y) { return std::abs(x) < 3.0 && std::abs(y) < 5.0; }),
+             disc = where([](double x, double y) { return std::hypot(x, y) < 5.0; }),
+             ring = where([](double x, double y) {
+               return std::hypot(x, y) > 5.0 && std::hypot(x, y) < 8.0;
+             });
+  for (const auto& [patch, area] :
+       {std::pair(pads, 80.0), std::pair(face, 60.0), std::pair(disc, 25.0 * std::numbers::pi),
+        std::pair(ring, 39.0 * std::numbers::pi)}) {
+    EXPECT_NEAR(patch.radius, std::sqrt(area / std::numbers::pi), 2e-3 * patch.radius) << area;
+    EXPECT_TRUE(std::isnan(patch.max_pressure)) << area;
+  }
+  std::vector<LoadedPoint> turned = hertzian_points(1.6, 0.8, 0.05, 0.0);
+  for (LoadedPoint& point : turned) point.place = Eigen::Rotation2Dd(0.5) * point.place;
+  const auto ellipse = contact_patch(turned);
+  EXPECT_NEAR(ellipse.radius, std::sqrt(1.6 * 0.8), 5e-3);
+  EXPECT_NEAR(ellipse.max_pressure, 1.0, 0.02);
 }
 
 TEST(ContactPatch, SectorsAreMirrored) {
