@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "calibration/curves/curve_minimum.h"
 #include "calibration/curves/curve_residuals.h"
 #include "calibration/curves/fit_coordinates.h"
 #include "calibration/curves/fit_statistics.h"
+#include "calibration/curves/residual_structure.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 
@@ -18,6 +20,9 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
+
+/// Less than one good fit in a hundred has so large a chi-square, or so few changes of sign.
+constexpr double improbable = 0.01;
 
 std::vector<MaterialParameter> names(const CurveFitOptions& options) {
   std::vector<MaterialParameter> parameters;
@@ -82,6 +87,26 @@ void agree_with_priors(CurveResiduals& residuals, const CurveFitOptions& options
   }
 }
 
+/// Of values whose errors follow each other as a first-order autoregression with correlation r do,
+/// n (1 - r)/(1 + r) are independent; their signs change with the probability arccos(r)/pi (the
+/// arcsine law). Fewer than two independent ones are none.
+double values_per_independent(const VectorXd& residuals) {
+  const ResidualStructure structure = residual_structure(residuals);
+  if (!(structure.probability < improbable)) return 1.0;
+  const auto count = double(residuals.size());
+  const double changes = std::max(1.0, structure.runs - 1.0) / (count - 1.0);
+  return std::min(std::pow(std::tan(0.5 * std::numbers::pi * changes), -2), 0.5 * count);
+}
+
+double order_ratio_of(const std::vector<VectorXd>& residuals) {
+  double values = 0.0, weight = 0.0;
+  for (const VectorXd& curve : residuals) {
+    values += double(curve.size());
+    weight += double(curve.size()) * values_per_independent(curve);
+  }
+  return std::sqrt(std::max(1.0, weight / values));
+}
+
 /// What a relative change refers to: the estimate, and for what may be zero at least its size.
 VectorXd sizes(const VectorXd& estimates, const CurveFitOptions& options) {
   VectorXd sizes = estimates.cwiseAbs();
@@ -90,9 +115,6 @@ VectorXd sizes(const VectorXd& estimates, const CurveFitOptions& options) {
       sizes(Index(i)) = std::max(sizes(Index(i)), size_of(options.free[i]));
   return sizes;
 }
-
-/// Less than one good fit in a hundred has so large a chi-square.
-constexpr double improbable = 0.01;
 
 void add_uncertainty(CurveFit& fit, const Eigen::MatrixXd& covariance, double quantile) {
   fit.covariance = covariance;
@@ -191,6 +213,8 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   const VectorXd size = sizes(fit.estimates, options);
   Eigen::MatrixXd covariance = Sensitivity(jacobian, size).covariance();
   fit.influence = covariance * fit.jacobian.transpose() * fit.whitening;
+  if (options.serial && !residuals.has_sigma()) fit.order_ratio = order_ratio_of(fit.residuals);
+  covariance *= fit.order_ratio * fit.order_ratio;
   // Found without regard to the models' errors, which come through.
   if (!residuals.has_sigma() && options.model_covariance.size() > 0)
     covariance += fit.influence * options.model_covariance * fit.influence.transpose();

@@ -34,6 +34,42 @@ void judge_misfit(Sentences& found, const FitRecord& record) {
   }
 }
 
+/// What a file must show of its largest force before it contradicts a touch.
+constexpr double shown_share = 0.01, shown_noises = 4.0;
+
+/// What the load cell tells of a curve without load [N].
+double zero_of(const FitRecord& record, const Curve& curve) {
+  for (const RigValue& value : record.rig)
+    if (value.quantity == MaterialParameter::force_offset && value.of == curve.name)
+      return value.place ? record.fit.estimates(Index(*value.place)) : value.held;
+  return 0.0;
+}
+
+/// A touch before a file's first row says that the finger was pressed there already: a force that
+/// the file must show, at least half of it.
+void judge_touch(Sentences& found, const FitRecord& record) {
+  const CurveFit& fit = record.fit;
+  for (const RigValue& value : record.rig) {
+    if (value.quantity != MaterialParameter::touch_offset || !value.place) continue;
+    const auto curve = std::ranges::find(record.curves, value.of, &Curve::name);
+    if (curve == record.curves.end() || curve->x.empty()) continue;
+    const double touch = fit.estimates(Index(*value.place)), zero = zero_of(record, *curve),
+                 measured = curve->y.front() - zero,
+                 pressed = measured - fit.residuals[std::size_t(curve - record.curves.begin())](0),
+                 largest = *std::ranges::max_element(curve->y) - zero;
+    if (touch >= curve->x.front() || measured > 0.5 * pressed || pressed < shown_share * largest ||
+        pressed < shown_noises * curve->course.noise)
+      continue;
+    found.push_back(fit.labels[*value.place] + " = " + quantity_text(touch, "m", 3) +
+                    " lies before the first row of " + curve->name + ", " +
+                    quantity_text(curve->x.front(), "m", 3) + ", where the model has " +
+                    quantity_text(pressed, "N", 2) + " (" + percent(pressed / largest) +
+                    " of the largest) and " + quantity_text(measured, "N", 2) +
+                    " were measured: obstacle, shape or law are others, or the load cell was "
+                    "zeroed under load (rig: force_offset = \"fit\")");
+  }
+}
+
 void judge_bounds(Sentences& found, const FitRecord& record) {
   const CurveFit& fit = record.fit;
   if (fit.poissons_ratio_bound) {
@@ -124,6 +160,7 @@ std::vector<std::string> failed_tests(const FitRecord& record) {
                     ", and the estimates are the best seen so far: allow more, free "
                     "fewer parameters, or leave out depths that the model does not resolve");
   judge_misfit(found, record);
+  judge_touch(found, record);
   judge_bounds(found, record);
   judge_identifiability(found, record);
   judge_material(found, record);

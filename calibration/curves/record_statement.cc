@@ -118,6 +118,9 @@ std::string structures(const FitRecord& record) {
     if (structure.probability < improbable)
       text += " " + record.curves[c].name + ": " + structure.statement + ".";
   }
+  if (record.fit.order_ratio > 1.0)
+    text += " Values whose errors follow each other tell less: the intervals are wider by " +
+            rounded(record.fit.order_ratio, 2) + " for that.";
   return text;
 }
 

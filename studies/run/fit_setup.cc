@@ -127,6 +127,7 @@ FitSetup assembled(const LoadedConfig& given, Presses presses) {
   if (presses == Presses::planned) check_plan(given, fit.input);
   fit.input.options.robust_width = wanted.robust_width;
   fit.input.options.tolerance = search_tolerance;
+  fit.input.options.serial = wanted.problem == CalibrationProblem::experiment;
   fit.input.program = "fingertip " + program_version();
   fit.input.profile = wanted.profile;
   fit.input.density_known = loaded.entries.at("rubber.density").given;
