@@ -92,7 +92,7 @@ RelativeSize relative_size(const VectorXd& residuals, const Curve& curve) {
 CurveEntry curve_entry(const FitRecord& record, std::size_t i) {
   const Curve& curve = record.curves[i];
   const ResidualStructure structure = structure_of(record, i);
-  const RelativeSize size = relative_size(record.fit.residuals[i], curve);
+  const RelativeSize size = relative_size(own_residuals(record, i), curve);
   CurveEntry entry;
   entry.name = curve.name;
   entry.condition = record.conditions[i];
@@ -265,12 +265,14 @@ std::vector<double> total_sigma(const FitRecord& record, std::size_t curve) {
   return result;
 }
 
+const VectorXd& own_residuals(const FitRecord& record, std::size_t curve) {
+  return record.own_residuals.empty() ? record.fit.residuals[curve] : record.own_residuals[curve];
+}
+
 ResidualStructure structure_of(const FitRecord& record, std::size_t curve) {
   const VectorXd& residuals = record.fit.residuals[curve];
   const std::vector<double>& sigma = record.curves[curve].sigma;
-  if (sigma.empty())
-    return residual_structure(record.own_residuals.empty() ? residuals
-                                                           : record.own_residuals[curve]);
+  if (sigma.empty()) return residual_structure(own_residuals(record, curve));
   const MatrixXd& known = record.options.model_covariance;
   if (known.size() == 0) return residual_structure(residuals);
   const Index first = first_value(record, curve);
@@ -289,7 +291,7 @@ std::size_t rubber_parameters(const CurveFit& fit) {
 double worst_relative_residual(const FitRecord& record) {
   double worst = 0.0;
   for (std::size_t c = 0; c < record.curves.size(); ++c)
-    worst = std::max(worst, worst_relative_error(record.fit.residuals[c], record.curves[c]));
+    worst = std::max(worst, worst_relative_error(own_residuals(record, c), record.curves[c]));
   return worst;
 }
 

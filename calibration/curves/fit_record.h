@@ -55,6 +55,9 @@ struct FitRecord {
   double wall_time = 0.0;  ///< [s]
 };
 
+/// Measured minus computed of a curve [y], of repeats that scatter with a factor of its own.
+const Eigen::VectorXd& own_residuals(const FitRecord& record, std::size_t curve);
+
 /// Order in the residuals of a curve, press by press of repeats: whitened by its own covariance
 /// where sigma is given, so that known errors of the model, which keep their sign, are no sign of
 /// something missed, nor is the order of another curve that shares them.

@@ -28,7 +28,7 @@ void judge_misfit(Sentences& found, const FitRecord& record) {
   if (fit.chi_square_probability) return;
   for (std::size_t c = 0; c < record.curves.size(); ++c) {
     const auto& y = record.curves[c].y;
-    if (auto sentence = missed("the model", record.curves[c].name, fit.residuals[c],
+    if (auto sentence = missed("the model", record.curves[c].name, own_residuals(record, c),
                                Eigen::VectorXd::Map(y.data(), Index(y.size())), largest_misfit))
       found.push_back(*std::move(sentence));
   }

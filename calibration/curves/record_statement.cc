@@ -57,8 +57,8 @@ std::string misfit(const FitRecord& record) {
   bool travel = false;
   for (std::size_t c = 0; c < record.curves.size(); ++c) {
     const Curve& curve = record.curves[c];
-    residuals.insert(residuals.end(), record.fit.residuals[c].begin(),
-                     record.fit.residuals[c].end());
+    const Eigen::VectorXd& own = own_residuals(record, c);
+    residuals.insert(residuals.end(), own.begin(), own.end());
     values.insert(values.end(), curve.y.begin(), curve.y.end());
     travel = travel || curve.is_travel;
   }
@@ -84,6 +84,18 @@ std::string misfit(const FitRecord& record) {
            rounded(fit.birge_ratio, 2) + ".";
   return text + ", which " + known + " explain (probability " +
          rounded(*fit.chi_square_probability, 2) + ").";
+}
+
+/// What scatters between repeats is no error of the model.
+std::string repeats(const FitRecord& record) {
+  std::string text;
+  for (const Repeats& group : record.repeats)
+    if (group.deviation > 0.0)
+      text += " The " + std::to_string(group.curves.size()) + " repeats of " +
+              record.curves[group.curves.front()].name + " differ by " + percent(group.deviation) +
+              " (standard deviation of a factor on the force of each): what is found is that of "
+              "their mean, and the intervals follow from so many.";
+  return text;
 }
 
 std::string open_directions(const CurveFit& fit) {
@@ -260,7 +272,7 @@ std::string lack_of_fit(const FitRecord& record) {
 std::string fit_statement(const FitRecord& record) {
   std::string text;
   for (const std::string& failed : failed_tests(record)) text += "Not accepted: " + failed + ". ";
-  text += estimates(record.fit) + misfit(record) + open_directions(record.fit) +
+  text += estimates(record.fit) + misfit(record) + repeats(record) + open_directions(record.fit) +
           other_minima(record.fit) + collinearity(record) + assumptions(record) +
           structures(record) + fading(record) + loops(record) + lack_of_fit(record);
   const std::string next =

@@ -52,12 +52,11 @@ void add_profile(const FitInput& input, const std::vector<ForwardModel*>& models
 /// are found.
 void add_intervals(const std::vector<ForwardModel*>& models, calibration::FitRecord& record) {
   calibration::CurveFit& fit = record.fit;
-  const double half_width = fit.birge_ratio * (record.curves.front().sigma.empty()
-                                                   ? calibration::student_95(fit.degrees_of_freedom)
-                                                   : calibration::normal_95());
   record.profiled.assign(fit.labels.size(), false);
   for (std::size_t i = 0; i < fit.labels.size(); ++i) {
-    if (fit.at_bound[i]) continue;
+    if (fit.at_bound[i] || !(fit.standard_errors(Eigen::Index(i)) > 0.0)) continue;
+    const double half_width = 0.5 * (fit.upper(Eigen::Index(i)) - fit.lower(Eigen::Index(i))) /
+                              fit.standard_errors(Eigen::Index(i));
     const auto own =
         calibration::profile_interval(record.curves, models, record.options, fit, i, half_width);
     if (!std::isfinite(own.lower) || !std::isfinite(own.upper)) continue;
@@ -182,7 +181,9 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   if (scatter(record.repeats)) record.own_residuals = own.residuals;
   record.options = input.options;
   stage = "intervals";
-  if (input.profile_intervals && record.fit.converged && record.fit.degrees_of_freedom > 0)
+  // Without sigma the scatter of repeats is in the fit alone, not in what profiles know.
+  const bool known = !scatter(record.repeats) || !input.curves.front().sigma.empty();
+  if (input.profile_intervals && known && record.fit.converged && record.fit.degrees_of_freedom > 0)
     add_intervals(list, record);
   stage = "curves left out";
   if (input.curves.size() > 1)
@@ -190,7 +191,7 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
   stage = "profile";
   if (!input.profile.empty()) add_profile(input, list, record);
   stage = "lack of fit";
-  record.lack_of_fit = accusations_of(input, own, record.options, models);
+  record.lack_of_fit = accusations_of(input, own, record.options, models, scatter(record.repeats));
   if (record.fit.converged && !input.candidates.empty())
     record.next =
         outlook(input, models, record.fit.estimates, record.fit.residual_deviation, folder, context,

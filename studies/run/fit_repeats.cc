@@ -1,8 +1,11 @@
 #include "studies/run/fit_repeats.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <map>
 
+#include "calibration/curves/fit_statistics.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/fields_json.h"
 
@@ -86,20 +89,87 @@ bool scatter(const std::vector<calibration::Repeats>& repeats) {
       repeats, [](const calibration::Repeats& group) { return group.deviation > 0.0; });
 }
 
-calibration::CurveFit fit_with_scatter(FitInput& input,
-                                       const std::vector<calibration::ForwardModel*>& models,
-                                       const calibration::CurveFit& first,
-                                       const std::vector<calibration::Repeats>& repeats) {
-  const Eigen::MatrixXd more =
-      calibration::covariance_of(repeats, input.curves, first, zeros(input, first.estimates));
-  Eigen::MatrixXd& covariance = input.options.model_covariance;
-  covariance = covariance.size() == 0 ? more : Eigen::MatrixXd(covariance + more);
+namespace {
+
+using calibration::Curve, calibration::CurveFit, calibration::Repeats;
+using Eigen::Index, Eigen::MatrixXd;
+
+/// From where `before` ended, with that covariance.
+CurveFit fit_again(const FitInput& input, const std::vector<calibration::ForwardModel*>& models,
+                   const std::vector<Curve>& curves, const CurveFit& before,
+                   const MatrixXd& covariance) {
   calibration::CurveFitOptions options = input.options;
+  options.model_covariance = covariance;
   options.other_starts.clear();
   for (std::size_t i = 0; i < options.free.size(); ++i)
-    options.free[i].start = first.estimates(Eigen::Index(i));
-  calibration::CurveFit fit = calibration::fit_curves(input.curves, models, options);
-  fit.evaluations += first.evaluations;
+    options.free[i].start = before.estimates(Index(i));
+  CurveFit fit = calibration::fit_curves(curves, models, options);
+  fit.evaluations += before.evaluations;
+  return fit;
+}
+
+std::vector<Curve> with_sigma(std::vector<Curve> curves, double sigma) {
+  for (Curve& curve : curves) curve.sigma.assign(curve.y.size(), sigma);
+  return curves;
+}
+
+/// Whitened by the values' own deviation alone, as a fit without sigma is, whose chi-square tells
+/// nothing.
+void make_plain(CurveFit& fit, double deviation) {
+  const Index count = fit.whitening.rows();
+  fit.jacobian = fit.whitening.ldlt().solve(fit.jacobian) / deviation;
+  fit.whitening = MatrixXd::Identity(count, count) / deviation;
+  fit.whitened_residuals.clear();
+  fit.chi_square.reset(), fit.chi_square_probability.reset();
+  fit.birge_ratio = 1.0;
+}
+
+/// The variance between repeats is known from as many as there are.
+void widen(CurveFit& fit, const std::vector<Repeats>& repeats, const MatrixXd& scattered) {
+  int freedom = 0;
+  for (const Repeats& group : repeats)
+    if (group.deviation > 0.0) freedom += int(group.curves.size()) - 1;
+  const MatrixXd between = fit.influence * scattered * fit.influence.transpose();
+  for (Index i = 0; i < fit.estimates.size(); ++i) {
+    const double within = std::max(0.0, fit.covariance(i, i) - between(i, i)),
+                 quantile = calibration::normal_95() * fit.birge_ratio;
+    const double half = std::hypot(quantile * std::sqrt(within),
+                                   calibration::student_95(freedom) * std::sqrt(between(i, i)));
+    fit.lower(i) = fit.estimates(i) - half;
+    fit.upper(i) = fit.estimates(i) + half;
+  }
+}
+
+}  // namespace
+
+CurveFit fit_with_scatter(FitInput& input, const std::vector<calibration::ForwardModel*>& models,
+                          const CurveFit& first, std::vector<Repeats>& repeats) {
+  constexpr int rounds = 8;
+  constexpr double close = 0.01;  // of a standard error
+  const bool known = !input.curves.front().sigma.empty();
+  MatrixXd& covariance = input.options.model_covariance;
+  const MatrixXd base = covariance;
+  CurveFit fit = first;
+  MatrixXd scattered;
+  for (int round = 0; round < (known ? 1 : rounds); ++round) {
+    const CurveFit before = fit;
+    scattered = calibration::covariance_of(repeats, input.curves, fit, zeros(input, fit.estimates));
+    covariance = base.size() == 0 ? scattered : MatrixXd(base + scattered);
+    if (known) {
+      fit = fit_again(input, models, input.curves, fit, covariance);
+      break;
+    }
+    const double deviation = std::max(1.0 / fit_apart(input, fit, repeats).whitening(0, 0),
+                                      1e-9 * fit.residual_deviation);
+    fit = fit_again(input, models, with_sigma(input.curves, deviation), fit, covariance);
+    make_plain(fit, deviation);
+    const std::vector<Repeats> again = repeats_in(input, fit);
+    if (!scatter(again)) break;
+    repeats = again;
+    const Eigen::VectorXd step = (fit.estimates - before.estimates).cwiseAbs();
+    if ((step.array() <= close * fit.standard_errors.array()).all()) break;
+  }
+  widen(fit, repeats, scattered);
   return fit;
 }
 

@@ -24,10 +24,13 @@ calibration::CurveFit fit_apart(const FitInput& input, const calibration::CurveF
 bool scatter(const std::vector<calibration::Repeats>& repeats);
 
 /// The fit once more, from where it ended, the scatter in the covariance of all values
-/// (input.options.model_covariance).
+/// (input.options.model_covariance): every repeat has a factor on its force, which no touch has to
+/// take up, and what is found is that of their mean. Without sigma the values are weighed by what
+/// each repeat leaves of itself, and `repeats` are sought again until they stay. The part of the
+/// intervals that repeats make is Student's of their number.
 calibration::CurveFit fit_with_scatter(FitInput& input,
                                        const std::vector<calibration::ForwardModel*>& models,
                                        const calibration::CurveFit& first,
-                                       const std::vector<calibration::Repeats>& repeats);
+                                       std::vector<calibration::Repeats>& repeats);
 
 }  // namespace fingertip::studies

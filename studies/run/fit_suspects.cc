@@ -56,16 +56,19 @@ bool is_fitted(const FitInput& input, std::size_t i, std::size_t k) {
   return is_travel(input, i) && (input.travels[i]->rig.*rig_members[k]).place;
 }
 
-/// The press of a rubber that is found, times a factor.
+/// The press of a rubber that is found, times a factor, that of a place among the parameters.
 class ScaledPress final : public calibration::ForwardModel {
  public:
-  explicit ScaledPress(VectorXd forces) : forces_(std::move(forces)) {}
+  ScaledPress(VectorXd forces, Index place) : forces_(std::move(forces)), place_(place) {}
   calibration::CurveSlopes evaluate(const VectorXd& parameters) override {
-    return {parameters(0) * forces_, forces_};
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(forces_.size(), parameters.size());
+    slopes.col(place_) = forces_;
+    return {parameters(place_) * forces_, slopes};
   }
 
  private:
   VectorXd forces_;
+  Index place_;
 };
 
 /// One of `rig_parameters` of a curve, or of the curves of a machine.
@@ -81,16 +84,16 @@ struct Freed {
 class Trials {
  public:
   Trials(const FitInput& input, const calibration::CurveFit& fit,
-         const calibration::CurveFitOptions& options, const FitModels& models)
-      : input_(input), options_(options) {
+         const calibration::CurveFitOptions& options, const FitModels& models, bool scatter)
+      : input_(input), options_(options), scales_(scatter ? Index(input.curves.size()) : 1) {
     const std::size_t rubber = material_parameters(input);
-    shift_ = Index(rubber) - 1;
+    shift_ = Index(rubber) - scales_;
     FreeParameter scale{.parameter = MaterialParameter::modulus, .start = 1.0};
     const auto& first = options.free.front();
-    if (rubber == 1 && first.prior)
+    if (rubber == 1 && scales_ == 1 && first.prior)
       scale.prior = calibration::Prior{first.prior->mean / fit.estimates(0),
                                        first.prior->deviation / fit.estimates(0)};
-    options_.free = {scale};
+    options_.free.assign(std::size_t(scales_), scale);
     options_.other_starts.clear();
     options_.progress = {};
     options_.max_evaluations = most_trials;
@@ -100,7 +103,8 @@ class Trials {
       options_.free.back().start = fit.estimates(Index(k));
     }
     for (std::size_t i = 0; i < input.curves.size(); ++i)
-      presses_.emplace_back(models.press_forces(i, fit.estimates.head(Index(rubber))));
+      presses_.emplace_back(models.press_forces(i, fit.estimates.head(Index(rubber))),
+                            scatter ? Index(i) : 0);
     before_ = fitted({});
   }
 
@@ -176,8 +180,8 @@ class Trials {
         if (std::ranges::find(freed[f].curves, i) != freed[f].curves.end())
           (rig.*rig_members[freed[f].kind]).place = own + Index(f);
       models.push_back(std::make_unique<calibration::RigModel>(
-          presses_[i], travel ? input_.travels[i]->depths : input_.presses[i].protocol.samples, 1,
-          rig, input_.curves[i].x, input_.curves[i].time, count, branches));
+          presses_[i], travel ? input_.travels[i]->depths : input_.presses[i].protocol.samples,
+          scales_, rig, input_.curves[i].x, input_.curves[i].time, count, branches));
       list.push_back(models.back().get());
     }
     return calibration::fit_curves(input_.curves, list, options);
@@ -185,6 +189,7 @@ class Trials {
 
   const FitInput& input_;
   calibration::CurveFitOptions options_;
+  Index scales_ = 1;  ///< of the forces: one, or one of each curve
   Index shift_ = 0;
   std::deque<ScaledPress> presses_;
   calibration::CurveFit before_;
@@ -233,7 +238,6 @@ std::vector<Freed> held_by(const FitInput& input) {
   return held;
 }
 
-/// What throws tells nothing.
 template <typename Do>
 void if_it_can_be(const Do& act) {
   try {
@@ -286,16 +290,13 @@ std::vector<Excess> excesses_of(const FitInput& input) {
 /// Of files that show a loop or a hold: a branch of the rubber that fades as long as their loading
 /// takes, which is where it bends the loading most. Without times the speed counts as constant.
 std::optional<Suspect> relaxation(const FitInput& input, const Stack& stack) {
-  Suspect suspect{
-      relaxation_name,
-      "",
-      "the rubber's force falls with time, as its loop or hold shows; give its branches "
-      "in rubber.relaxation, or fit them: calibration.parameters with \"relaxation\"",
-      "1",
-      VectorXd::Zero(stack.values),
-      0.0,
-      0.0,
-      "the force at once"};
+  Suspect suspect;
+  suspect.name = relaxation_name, suspect.share_of = "the force at once";
+  suspect.cause =
+      "the rubber's force falls with time, as its loop or hold shows; give its branches in "
+      "rubber.relaxation, or fit them: calibration.parameters with \"relaxation\"";
+  suspect.change = VectorXd::Zero(stack.values);
+  suspect.least = suspect.most = 0.0;
   for (std::size_t i = 0; i < input.curves.size(); ++i) {
     const Curve& curve = input.curves[i];
     const VectorXd& forces = stack.fitted[i];
@@ -352,7 +353,7 @@ std::vector<std::vector<double>> excess_of_finite_strain(const FitInput& input) 
 
 std::vector<Accusation> accusations_of(const FitInput& input, const calibration::CurveFit& fit,
                                        const calibration::CurveFitOptions& options,
-                                       const FitModels& models) {
+                                       const FitModels& models, bool scatter) {
   std::vector<Accusation> found;
   if (input.problem != CalibrationProblem::experiment || input.presses.empty()) return found;
   const Stack stack = stacked(input, fit);
@@ -383,7 +384,7 @@ std::vector<Accusation> accusations_of(const FitInput& input, const calibration:
   };
   gravest_first();
   if_it_can_be([&] {  // a press without forces has no rig
-    Trials trials(input, fit, options, models);
+    Trials trials(input, fit, options, models, scatter);
     const std::vector<Freed> held = held_by(input);
     for (const Freed& each : held) if_it_can_be([&] { found.push_back(trials.of(each)); });
     gravest_first();

@@ -12,7 +12,8 @@ namespace fingertip::studies {
 /// empty where a theory of large strain is fitted, or where none could be pressed so far.
 std::vector<std::vector<double>> excess_of_finite_strain(const FitInput& input);
 
-/// Of measured presses, at the estimates of `fit`, the gravest first: touch offset and zero of the
+/// Of measured presses, at the estimates of `fit`, each with a factor of its own where they
+/// `scatter`, the gravest first: touch offset and zero of the
 /// force of every curve and compliance of every machine, which is not below zero, where they are
 /// not fitted, drift where there are times, each fitted together with the scale of the forces and
 /// the rig's own parameters; a stiffening that no compliance makes; and to first order finite
@@ -22,6 +23,6 @@ std::vector<std::vector<double>> excess_of_finite_strain(const FitInput& input);
 std::vector<calibration::Accusation> accusations_of(const FitInput& input,
                                                     const calibration::CurveFit& fit,
                                                     const calibration::CurveFitOptions& options,
-                                                    const FitModels& models);
+                                                    const FitModels& models, bool scatter);
 
 }  // namespace fingertip::studies

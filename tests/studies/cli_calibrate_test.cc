@@ -198,6 +198,45 @@ TEST(Calibrate, WhatIsMissedHasAnAmountAndNoMachinePushesBack) {
   EXPECT_TRUE(stiffens);
 }
 
+/// One press, four times: its forces times 0.95, 1, 0.55 and 1.13, touched at 0.1 mm. Each keeps
+/// its touch, E is that of their mean, 0.9075, and the interval that of the mean of four: Student's
+/// t of three degrees, 3.18, times 0.249/2.
+TEST(Calibrate, RepeatsThatScatterHaveAFactorEachAndTellTheirMean) {
+  const TemporaryFolder folder;
+  std::string samples, files;
+  for (int i = 1; i <= 24; ++i)
+    samples += (i > 1 ? ",\"" : "\"") + std::to_string(0.005 * i) + " cm\"";
+  const ProgramResult press = run_program(
+      folder.path(), {"press", "--set", "press.mode=static", "--set", "press.contact=frictionless",
+                      "--set", "lattice.spacing=tip_radius/5", "--set",
+                      "press.samples=[" + samples + "]", "--out", "press"});
+  ASSERT_EQ(press.code, 0) << press.err;
+  const auto response =
+      fingertip::meshes::PressResponse::read_csv(folder / "press" / "response.csv");
+  for (const double factor : {0.95, 1.0, 0.55, 1.13}) {
+    std::ostringstream csv;
+    csv << "# press.contact = \"frictionless\"\nposition [mm];force [mN]\n0;0\n0.05;0\n";
+    for (const auto& sample : response.samples())
+      csv << 0.1 + 1e3 * sample.indentation << ';' << 1e3 * factor * sample.normal_force << '\n';
+    const std::string name = "repeat" + std::to_string(factor) + ".csv";
+    write_text(folder / name, csv.str());
+    files += (files.empty() ? "\"" : ",\"") + name + "\"";
+  }
+  const ProgramResult run = run_program(
+      folder.path(), with(experiment, {"--set", "calibration.data=[" + files + "]", "--set",
+                                       "calibration.parameters=[\"modulus\"]", "--out", "fit"}));
+  EXPECT_EQ(run.code, 0) << run.err << run.out;
+  const json fit = read(folder / "fit" / "calibration.json");
+  constexpr double truth = 3922.66 * 0.9075, wide = 3.182 * 0.2489 / 2.0 * 3922.66;
+  const json& modulus = fit["parameters"][0];
+  EXPECT_NEAR(modulus["estimate"].get<double>(), truth, 0.02 * truth);
+  EXPECT_NEAR(modulus["upper"].get<double>() - modulus["estimate"].get<double>(), wide, 0.1 * wide);
+  for (const json& touch : fit["rig"]["touch_offset"])
+    EXPECT_NEAR(touch["value"].get<double>(), 1e-4, 1e-5);
+  EXPECT_NE(run.out.find("The 4 repeats of repeat0"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("differ by 27 %"), std::string::npos) << run.out;
+}
+
 TEST(Calibrate, FindsTheRubberOfMeasuredPresses) {
   const TemporaryFolder folder;
   write_measured(folder.path(), "frictionless", "a.csv");
