@@ -1,5 +1,5 @@
 /// fingertip-fem RUN_FOLDER: carries out the reference job in RUN_FOLDER/job.json.
-/// fingertip-fem --triangles CAD STL: the surface of a CAD solid.
+/// fingertip-fem --triangles CAD STL UP: the surface of a CAD solid.
 #include <deal.II/base/mpi.h>
 
 #include <malloc.h>
@@ -61,9 +61,9 @@ int carry_out(const char* folder) {
 }  // namespace
 
 /// Without the continuum: what a configuration's geometry.file is, seen as triangles.
-int write_triangles(const char* cad, const char* stl) {
+int write_triangles(const char* cad, const char* stl, const char* up) {
   try {
-    fingertip::meshes::write_cad_surface(cad, stl);
+    fingertip::meshes::write_cad_surface(cad, stl, up);
     return ok;
   } catch (const fingertip::meshes::InvalidInput& error) {
     std::cerr << error.what() << '\n';
@@ -100,14 +100,15 @@ int main(int argc, char** argv) {
   keep_freed_memory();
   fingertip::meshes::leave_oldest_blas_kernels();
   start_without_network();
-  if (argc == 4 && std::strcmp(argv[1], "--triangles") == 0)
-    return write_triangles(argv[2], argv[3]);
+  if (argc == 5 && std::strcmp(argv[1], "--triangles") == 0)
+    return write_triangles(argv[2], argv[3], argv[4]);
   if (argc != 2 || std::strcmp(argv[1], "--help") == 0) {
     std::cerr
         << "usage: fingertip-fem RUN_FOLDER\n"
            "Presses the continuum as RUN_FOLDER/job.json says and writes the results beside it.\n"
-           "       fingertip-fem --triangles CAD_FILE STL_FILE\n"
-           "Writes the surface of a solid in a STEP or BREP file as triangles.\n";
+           "       fingertip-fem --triangles CAD_FILE STL_FILE UP\n"
+           "Writes the surface of a solid in a STEP or BREP file as triangles; UP (\"+z\", \"-y\", "
+           "...) points to what touches first.\n";
     return argc == 2 ? ok : bad_input;
   }
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);

@@ -2,6 +2,8 @@
 
 #include <gmsh.h>
 
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -33,6 +35,8 @@ class Gmsh {
   Gmsh() {
     gmsh::initialize();
     gmsh::option::setNumber("General.Terminal", 0.0);
+    // OpenCASCADE would count entities on the screen, in colours.
+    Message::DefaultMessenger()->ChangePrinters().Clear();
   }
   ~Gmsh() { gmsh::finalize(); }
   Gmsh(const Gmsh&) = delete;
@@ -98,22 +102,30 @@ std::vector<double> curved(const gmsh::vectorpair& surfaces) {
 }
 
 /// Facets at the top are to be small where these surfaces are. `box`: of the solid, lowest and
-/// highest corner.
-void refine_top(const std::array<double, 6>& box, const std::vector<double>& surfaces) {
+/// highest corner; the top is where `up` points to.
+void refine_top(const std::array<double, 6>& box, const std::string& up,
+                const std::vector<double>& surfaces) {
   if (surfaces.empty()) return;
   const double extent = std::max({box[3] - box[0], box[4] - box[1], box[5] - box[2]});
-  const double width = std::min(box[3] - box[0], box[4] - box[1]);
+  const std::size_t along = std::size_t(up.back() - 'x');
+  double width = extent;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (axis != along) width = std::min(width, box[axis + 3] - box[axis]);
   const int top = gmsh::model::mesh::field::add("Box");
-  for (const auto& [option, value] :
-       std::map<std::string, double>{{"VIn", top_edge * width},
-                                     {"VOut", longest_edge * extent},
-                                     {"XMin", box[0] - extent},
-                                     {"XMax", box[3] + extent},
-                                     {"YMin", box[1] - extent},
-                                     {"YMax", box[4] + extent},
-                                     {"ZMin", box[5] - top_height * width},
-                                     {"ZMax", box[5] + extent},
-                                     {"Thickness", top_height * width}})
+  std::map<std::string, double> options{{"VIn", top_edge * width},
+                                        {"VOut", longest_edge * extent},
+                                        {"Thickness", top_height * width}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string name(1, char('X' + axis));
+    options[name + "Min"] = box[axis] - extent;
+    options[name + "Max"] = box[axis + 3] + extent;
+  }
+  const std::string name(1, char('X' + along));
+  if (up.front() == '-')
+    options[name + "Max"] = box[along] + top_height * width;
+  else
+    options[name + "Min"] = box[along + 3] - top_height * width;
+  for (const auto& [option, value] : options)
     gmsh::model::mesh::field::setNumber(top, option, value);
   const int there = gmsh::model::mesh::field::add("Restrict");
   gmsh::model::mesh::field::setNumber(there, "InField", top);
@@ -122,7 +134,7 @@ void refine_top(const std::array<double, 6>& box, const std::vector<double>& sur
 }
 
 /// In the file's numbers.
-TriangleMesh facets_of(const std::filesystem::path& cad) {
+TriangleMesh facets_of(const std::filesystem::path& cad, const std::string& up) {
   const Gmsh session;
   gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
   gmsh::vectorpair shapes, solids, surfaces;
@@ -136,7 +148,7 @@ TriangleMesh facets_of(const std::filesystem::path& cad) {
   gmsh::model::getBoundingBox(3, solids[0].second, box[0], box[1], box[2], box[3], box[4], box[5]);
   const double extent = std::max({box[3] - box[0], box[4] - box[1], box[5] - box[2]});
   gmsh::model::getBoundary(solids, surfaces, false, true);
-  refine_top(box, curved(surfaces));
+  refine_top(box, up, curved(surfaces));
   for (const auto& [option, value] :
        std::map<std::string, double>{{"Mesh.MeshSizeFromCurvature", edges_around},
                                      {"Mesh.MeshSizeMax", longest_edge * extent},
@@ -157,10 +169,11 @@ TriangleMesh facets_of(const std::filesystem::path& cad) {
 
 }  // namespace
 
-void write_cad_surface(const std::filesystem::path& cad, const std::filesystem::path& stl) {
+void write_cad_surface(const std::filesystem::path& cad, const std::filesystem::path& stl,
+                       const std::string& up) {
   TriangleMesh mesh;
   try {
-    mesh = facets_of(cad);
+    mesh = facets_of(cad, up);
   } catch (const std::string& words) {  // as gmsh throws
     refuse_cad(cad, "gmsh cannot mesh it: " + words, "mend the solid in the CAD program");
   } catch (const InvalidInput&) {

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace fingertip::meshes {
 
 /// Writes the surface of the one solid in a STEP or BREP file as a binary STL file, in the file's
 /// numbers (STEP: mm), to about 1e-4 of its size: vertices on the surface, finer where it is more
-/// curved and at the top, which touches first. Faces that have names in a STEP file keep them.
-/// Throws InvalidInput when there is no solid, or more than one, or no mesh of it.
-void write_cad_surface(const std::filesystem::path& cad, const std::filesystem::path& stl);
+/// curved and at the top, the end that `up` points to ("+z", "-y", ...), which touches first. Faces
+/// that have names in a STEP file keep them. Throws InvalidInput when there is no solid, or more
+/// than one, or no mesh of it.
+void write_cad_surface(const std::filesystem::path& cad, const std::filesystem::path& stl,
+                       const std::string& up = "+z");
 
 }  // namespace fingertip::meshes

@@ -23,6 +23,11 @@ constexpr double in_plane = 1e-9;
 /// The cap whose area tells the curvature at the pole, over the height of the pole above the bond.
 constexpr double cap_height = 0.05;
 
+/// To a millionth of a millimetre: files have seven digits.
+std::string in_mm(double length) {
+  return to_text(std::round(1e9 * length) / 1e6 + 0.0);
+}
+
 [[noreturn]] void refuse_bond(const std::string& value, const std::string& rule,
                               const std::string& remedy) {
   throw InvalidInput({"geometry.bond", value, rule, remedy});
@@ -126,6 +131,24 @@ std::string digest_of(const TriangleMesh& mesh, const std::vector<int>& groups) 
   return to_string(generator(numbers.data(), numbers.size() * sizeof(double)));
 }
 
+/// Whether the axis between two heights meets what the tree holds, or runs in a hole: everywhere
+/// beside it stands some of it.
+bool surrounds_axis(const TriangleTree& tree, double low, double high) {
+  constexpr int heights = 64, directions = 16;
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  for (int i = 0; i < heights; ++i) {
+    const Vector3 place(0.0, 0.0, low + (i + 0.5) / heights * (high - low));
+    if (tree.contains(place)) return true;
+    int met = 0;
+    for (int d = 0; d < directions && met == d; ++d) {
+      const double angle = 2.0 * std::numbers::pi * d / directions;
+      met += tree.first_on_ray(place, {std::cos(angle), std::sin(angle), 0.0}, none).has_value();
+    }
+    if (met == directions) return true;
+  }
+  return false;
+}
+
 /// Projected on the plane z = 0, of the part above a height: [m²], positive where it faces up.
 double shadow_above(const Triangle& corners, double height) {
   std::vector<Vector3> polygon;
@@ -173,6 +196,13 @@ void Solid::complete() {
   neighbours_ = neighbours_of(mesh_);
   measure();
   tree_ = std::make_unique<TriangleTree>(mesh_, groups_, 2);
+  if (surrounds_axis(*tree_, lowest_, pole_)) return;
+  Eigen::AlignedBox3d box;
+  for (const Vector3& vertex : mesh_.vertices) box.extend(vertex);
+  throw InvalidInput({"geometry.file", "x and y around " + place_of(box.center()),
+                      "the axis x = y = 0 must pass through the finger",
+                      "put it through what touches first, geometry.origin = \"touch\", or through "
+                      "a place of the file, geometry.origin = [\"X mm\", \"Y mm\", \"Z mm\"]"});
 }
 
 bool Solid::is(ProfileSurface surface, std::size_t triangle) const {
@@ -202,7 +232,6 @@ void Solid::measure() {
     }
   }
   lowest_ = box.min().z();
-  const auto in_mm = [](double length) { return to_text(std::round(1e9 * length) / 1e6 + 0.0); };
   const std::string heights =
       "heights " + in_mm(box.min().z()) + " to " + in_mm(box.max().z()) + " mm";
   if (bond_area_ == 0.0)
@@ -215,13 +244,10 @@ void Solid::measure() {
                 "give half spaces that leave some of the surface free");
   if (bond_top_ >= pole_)
     refuse_bond(
-        "bond up to z = " + to_text(1e3 * bond_top_) + " mm",
-        "no bond may lie higher than what may touch, which ends at " + to_text(1e3 * pole_) + " mm",
-        "turn the finger so that it points along +z, or change the half spaces");
-  if (box.min().head<2>().maxCoeff() > 0.0 || box.max().head<2>().minCoeff() < 0.0)
-    throw InvalidInput({"geometry.file", "x and y around " + place_of(box.center()),
-                        "the axis x = y = 0 must pass through the finger",
-                        "put the origin of the coordinates on the finger's axis"});
+        "bond up to z = " + in_mm(bond_top_) + " mm",
+        "no bond may lie higher than what may touch, which ends at " + in_mm(pole_) + " mm",
+        "say which direction of the file points to the obstacle, e.g. geometry.up = \"-z\" (one of "
+        "+x, -x, +y, -y, +z, -z), or change the half spaces");
   const double height = cap_height * (pole_ - bond_top_);
   double shadow = 0.0;
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)

@@ -5,8 +5,6 @@
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <Bnd_Box.hxx>
 #include <Interface_InterfaceModel.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
 #include <STEPControl_Reader.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <TCollection_HAsciiString.hxx>
@@ -65,7 +63,6 @@ std::map<const TopoDS_TShape*, std::string> names_in(const STEPControl_Reader& r
 }  // namespace
 
 StepFaces::StepFaces(const std::filesystem::path& step) : faces_(std::make_unique<Faces>()) {
-  Message::DefaultMessenger()->ChangePrinters().Clear();  // it would count entities on the screen
   STEPControl_Reader reader;
   if (reader.ReadFile(step.c_str()) != IFSelect_RetDone || reader.TransferRoots() == 0) return;
   const auto names = names_in(reader);

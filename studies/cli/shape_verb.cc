@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -74,6 +75,7 @@ Outline outline(const Meridian& meridian, ProfileSurface surface) {
 /// Where facets meet the plane y = 0.
 Outline outline(const Solid& solid, ProfileSurface surface) {
   Outline outline;
+  if (surface == ProfileSurface::free) return outline;  // what is not held may touch
   for (std::size_t t = 0; t < solid.mesh().triangles.size(); ++t) {
     if (solid.is_bond(t) != (surface == ProfileSurface::bond)) continue;
     int crossings = 0;
@@ -122,15 +124,20 @@ void print_lattices(const Geometry& geometry) {
     fmt::print("                    {}\n", thin);
 }
 
-/// Whether the axis between the bond and the pole leaves the rubber.
+/// Whether most of the axis runs outside the rubber, from the bond to where it leaves at the top: a
+/// recess or a notch is no cavity that a wall surrounds.
 bool is_hollow(const meshes::Shape& shape) {
   constexpr int places = 64;
-  for (int i = 0; i < places; ++i) {
+  int rubber = 0, empty = 0;
+  for (int i = places - 1; i >= 0; --i) {
     const double share = (i + 0.5) / places;
     const double z = shape.bond_top() + share * (shape.pole() - shape.bond_top());
-    if (shape.signed_distance({0.0, 0.0, z}) > 0.0) return true;
+    if (shape.signed_distance({0.0, 0.0, z}) <= 0.0)
+      ++rubber;
+    else if (rubber > 0)
+      ++empty;
   }
-  return false;
+  return empty >= rubber;
 }
 
 /// Of a hollow finger the wall. Of a solid one the shortest way through it, unless nothing is
@@ -148,7 +155,8 @@ void print_thinnest(const meshes::Shape& shape) {
 
 void print_measures(const Geometry& geometry, const meshes::Shape& shape) {
   fmt::print("  height            {:.4g} mm, from {:.4g} to the pole at {:.4g} mm\n",
-             (shape.pole() - shape.lowest()) / mm, shape.lowest() / mm, shape.pole() / mm);
+             (shape.pole() - shape.lowest()) / mm, (shape.lowest() + 0.0) / mm,
+             (shape.pole() + 0.0) / mm);
   fmt::print("  largest radius    {:.4g} mm\n", shape.largest_radius() / mm);
   fmt::print("  rubber            {:.5g} mm^3\n", shape.volume() / (mm * mm * mm));
   for (const Look& look : looks)
@@ -176,6 +184,13 @@ Geometry solid_of(const CommandLine& line, const std::filesystem::path& file) {
   Config config = load_config(source).config;
   config.solid.file = std::filesystem::absolute(file);
   return Geometry::of_solid(read_solid(config.solid), config.endpoint);
+}
+
+/// A table, unless its name is that of a solid or of another kind of surface.
+bool is_meridian(const std::filesystem::path& file) {
+  if (file.extension() != ".txt" && !boost::iequals(file.extension().string(), ".csv"))
+    check_kind_of_solid(file);
+  return !is_solid_file(file);
 }
 
 /// Of a meridian: triangles of its surface, and how far they are from it.
@@ -216,7 +231,7 @@ int run_shape(const CommandLine& line) {
     const fs::path file = word;
     const std::string stem = file.stem().string() + "_section";
     reporting::Figure figure;
-    if (!is_solid_file(file)) {
+    if (is_meridian(file)) {
       const Geometry geometry = Geometry::of_profile(read_profile(file));
       const Meridian meridian(geometry);
       fmt::print("{}: a closed meridian of {} pieces\n", word, meridian.pieces().size());

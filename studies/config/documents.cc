@@ -39,6 +39,7 @@ std::string_view kind_name(const Key& key) {
 /// "Pa; > 0 Pa; greater than youngs_modulus/3": unit, range and rule in one line.
 std::string constraints(const Key& key) {
   std::string text(kind_name(key));
+  if (key.kind == Kind::quantities && !key.word.empty()) text += " or \"" + key.word + '"';
   for (const Field& field : key.fields)
     text += (&field == &key.fields.front() ? " of " : ", ") + field.name + " [" +
             (field.unit.empty() ? "path" : field.unit) + "]";
@@ -110,6 +111,7 @@ nlohmann::json key_schema(const Key& key) {
                              : key.kind == Kind::number_pair ? 2
                                                              : key.length;
   if (length > 0) schema["minItems"] = schema["maxItems"] = length;
+  if (list && !key.word.empty()) schema = {{"anyOf", {schema, {{"const", key.word}}}}};
   schema["description"] = key.help + " (" + constraints(key) + ")";
   // The defaults are TOML literals of the kind that JSON shares.
   schema["default"] = nlohmann::json::parse(key.preset);

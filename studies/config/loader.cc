@@ -200,6 +200,10 @@ void Reader::resolve_shape() {
     return;
   }
   try {
+    if (profile && is_solid_file(file))
+      throw meshes::InvalidInput({key, file.filename().string(),
+                                  "a profile is the meridian of a body of revolution, a CSV file",
+                                  "write geometry.shape = \"solid\" and geometry.file"});
     config.press.geometry =
         profile ? meshes::Geometry::of_profile(read_profile(file), config.endpoint)
                 : meshes::Geometry::of_solid(read_solid(config.solid), config.endpoint);

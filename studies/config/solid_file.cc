@@ -176,6 +176,37 @@ double metres_per(const SolidFile& solid, const char* with_unit) {
   }
 }
 
+/// The shortest turn that makes `up` +z; of -z half a turn about x.
+meshes::Vector3 turned(const std::string& up, const meshes::Vector3& w) {
+  const double sign = up.front() == '-' ? -1.0 : 1.0;
+  switch (up.back()) {
+    case 'x': return {-sign * w.z(), w.y(), sign * w.x()};
+    case 'y': return {w.x(), -sign * w.z(), sign * w.y()};
+    default: return {w.x(), sign * w.y(), sign * w.z()};
+  }
+}
+
+/// By a plane across z: the highest vertex; of a flat top the middle of its area, of an edge that
+/// of its vertices.
+meshes::Vector3 first_touched(const TriangleMesh& mesh) {
+  constexpr double level = 1e-6;  // over the height: digits of a file
+  const auto height = [](const meshes::Vector3& w) { return w.z(); };
+  const auto [low, high] = std::ranges::minmax_element(mesh.vertices, {}, height);
+  if (low == mesh.vertices.end()) return meshes::Vector3::Zero();
+  const double least = high->z() - level * (high->z() - low->z());
+  meshes::Vector3 moment = meshes::Vector3::Zero(), sum = meshes::Vector3::Zero();
+  double area = 0.0, count = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    int corners = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      if (mesh.corner(t, c).z() >= least) sum += mesh.corner(t, c), ++count, ++corners;
+    if (corners < 3) continue;
+    area += mesh.area_vector(t).norm();
+    moment += mesh.area_vector(t).norm() * mesh.centroid(t);
+  }
+  return area > 0.0 ? meshes::Vector3(moment / area) : meshes::Vector3(sum / count);
+}
+
 }  // namespace
 
 bool is_solid_file(const fs::path& file) {
@@ -229,18 +260,30 @@ Bond parse_bond(const std::string& text, const Names& faces) {
   return bond;
 }
 
+void check_kind_of_solid(const fs::path& file) {
+  const std::string kind = kind_of_file(file);
+  if (kind == ".csv" || is_solid_file(file)) return;
+  const bool cad = kind == ".igs" || kind == ".iges";
+  throw InvalidInput({"geometry.file", file.string(),
+                      "a solid is an STL, STEP or BREP file, or a meridian's CSV file",
+                      std::string("export it as ") + (cad ? ".step" : ".stl") +
+                          ": a .stl, .step, .brep or .csv file is read"});
+}
+
 std::shared_ptr<const meshes::Solid> read_solid(const SolidFile& solid) {
+  check_kind_of_solid(solid.file);
   const std::string kind = kind_of_file(solid.file);
   const bool step = kind == ".step" || kind == ".stp", meridian = kind == ".csv";
-  if (!meridian && !is_solid_file(solid.file))
-    throw InvalidInput({"geometry.file", solid.file.string(),
-                        "a solid is an STL, STEP or BREP file, or a meridian's CSV file",
-                        "name a .stl, .step, .brep or .csv file"});
   const double metres = metres_per(solid, step       ? "a STEP file"
                                           : meridian ? "a meridian's file"
                                                      : nullptr);
-  TriangleMesh mesh = read_stl(kind == ".stl" ? solid.file : triangulated(solid.file));
-  for (meshes::Vector3& vertex : mesh.vertices) vertex *= metres;
+  TriangleMesh mesh = read_stl(kind == ".stl" ? solid.file : triangulated(solid.file, solid.up));
+  for (meshes::Vector3& vertex : mesh.vertices)
+    vertex = turned(solid.up, metres * vertex - solid.origin);
+  if (solid.touch) {
+    const meshes::Vector3 top = first_touched(mesh);
+    for (meshes::Vector3& vertex : mesh.vertices) vertex.head<2>() -= top.head<2>();
+  }
   const Bond bond = parse_bond(solid.bond, mesh.face_names);
   return std::make_shared<meshes::Solid>(mesh, bond.region, bond.faces);
 }

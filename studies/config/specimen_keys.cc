@@ -39,6 +39,26 @@ std::vector<Key> specimen_keys() {
   const auto of_solid = [](Key key) {
     return only_with("geometry.shape", {"solid"}, std::move(key));
   };
+  Key up = plain("geometry", "up", any,
+                 "direction of the file that points to the obstacle, which becomes +z",
+                 at(&Config::solid, &SolidFile::up));
+  up.kind = Kind::choice;
+  up.choices = {{"+z", "as it stands"},   {"-z", "upside down, turned about x"},
+                {"+x", "turned about y"}, {"-x", "turned about y"},
+                {"+y", "turned about x"}, {"-y", "turned about x"}};
+  Key origin = plain("geometry", "origin", any,
+                     "place in the file that becomes the origin, [x, y, z] before it is turned; "
+                     "touch: the axis goes through what a plane touches first",
+                     at(&Config::solid, &SolidFile::origin));
+  origin.kind = Kind::quantities;
+  origin.preset = "[\"0 mm\", \"0 mm\", \"0 mm\"]";
+  origin.unit = "m";
+  origin.length = 3;
+  origin.word = "touch";
+  origin.assign = [store = origin.assign](Config& config, const Value& value) {
+    config.solid.touch = !value.word.empty();
+    if (value.word.empty()) store(config, value);
+  };
   Key terms = plain("rubber", "ogden", any,
                     "pairs of mu and alpha, [[\"2 kPa\", 1.3], ...]; G is "
                     "the sum of the mu",
@@ -64,16 +84,19 @@ std::vector<Key> specimen_keys() {
                         "closed meridian, a CSV file with the columns r [mm],z [mm],surface,curve",
                         at(&Config::profile))),
       of_solid(choice("geometry", "file", {{"none", "only for a solid"}},
-                      "closed surface of one body that points along +z: .stl, .step, .brep, "
-                      "or the .csv of a meridian, made into triangles",
+                      "closed surface of one body: .stl, .step, .brep, or the .csv of a "
+                      "meridian, made into triangles",
                       at(&Config::solid, &SolidFile::file))),
       of_solid(plain("geometry", "unit", any,
                      "unit of length of the numbers in geometry.file (STEP and CSV have their own)",
                      at(&Config::solid, &SolidFile::unit))),
+      of_solid(std::move(up)),
+      of_solid(std::move(origin)),
       of_solid(plain("geometry", "bond", any,
                      "what of a solid's surface the hand holds: half spaces like z < 1 mm, joined "
                      "by and, or; names of faces in a STEP file, or of solids in an STL text, "
-                     "joined by or; the rest may touch",
+                     "joined by or; of the finger as geometry.up and origin place it; the rest "
+                     "may touch",
                      at(&Config::solid, &SolidFile::bond))),
       only_with("geometry.shape", {"profile", "solid"},
                 quantity("geometry", "endpoint", "cm", "m", any,

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of how the triangles are made: another one makes those in the cache stale.
-constexpr const char* version = "4";
+constexpr const char* version = "5";
 
 std::string digest_of(const std::string& content) {
   boost::uuids::name_generator_sha1 generator(boost::uuids::ns::oid());
@@ -44,7 +44,8 @@ void write_meridian(const fs::path& csv, const fs::path& stl) {
   meshes::write_stl(meshes::revolved_surface(meridian), mm, "surface of a meridian", stl);
 }
 
-void write_cad(const fs::path& cad, const fs::path& stl, const fs::path& folder) {
+void write_cad(const fs::path& cad, const std::string& up, const fs::path& stl,
+               const fs::path& folder) {
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {
     throw meshes::InvalidInput({"geometry.file", cad.filename().string(), rule, remedy});
   };
@@ -53,10 +54,10 @@ void write_cad(const fs::path& cad, const fs::path& stl, const fs::path& folder)
            "build with FINGERTIP_FEM=ON (./fingertip does), or export an STL");
   const std::string own = std::to_string(::getpid());
   const fs::path unfinished = folder / ("." + own + ".stl"), words = folder / ("." + own + ".txt");
-  const int code =
-      run_process({{reference_program().string(), "--triangles", cad.string(), unfinished.string()},
-                   {"OMP_NUM_THREADS=1"}},
-                  words);
+  const int code = run_process(
+      {{reference_program().string(), "--triangles", cad.string(), unfinished.string(), up},
+       {"OMP_NUM_THREADS=1"}},
+      words);
   const std::string said = meshes::read_text(words);
   fs::remove(words);
   if (code != 0) {
@@ -71,15 +72,15 @@ void write_cad(const fs::path& cad, const fs::path& stl, const fs::path& folder)
 
 }  // namespace
 
-fs::path triangulated(const fs::path& file) {
+fs::path triangulated(const fs::path& file, const std::string& up) {
   const std::string content = meshes::read_text(file);
   const fs::path folder = folder_for_surfaces();
-  const fs::path stl = folder / (digest_of(content) + ".stl");
+  const fs::path stl = folder / (digest_of(up + content) + ".stl");
   if (fs::exists(stl)) return stl;
   if (boost::iequals(file.extension().string(), ".csv"))
     write_meridian(file, stl);
   else
-    write_cad(file, stl, folder);
+    write_cad(file, up, stl, folder);
   return stl;
 }
 

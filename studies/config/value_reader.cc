@@ -89,14 +89,21 @@ Value read_quantity(const Key& key, const toml::node& node) {
 }
 
 Value read_quantities(const Key& key, const toml::node& node) {
+  Value value;
+  if (!key.word.empty() && node.value<std::string>() == key.word) {
+    value.word = key.word;
+    return value;
+  }
   const auto* list = node.as_array();
   if (list == nullptr)
-    refuse("must be a list of quantities", "write e.g. [\"" + key.example() + "\"]");
+    refuse("must be a list of quantities" + (key.word.empty() ? "" : ", or \"" + key.word + '"'),
+           "write e.g. [\"" + key.example() + "\"]");
   if (key.length > 0 && list->size() != key.length)
     refuse("must be a list of " + std::to_string(key.length) + " quantities", preset_advice(key));
-  Value value;
+  Key each = key;
+  each.word.clear();
   for (const toml::node& element : *list) {
-    value.numbers.push_back(read_quantity(key, element).number);
+    value.numbers.push_back(read_quantity(each, element).number);
   }
   return value;
 }

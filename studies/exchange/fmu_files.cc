@@ -39,10 +39,10 @@ fs::path file_of(const Config& config, const std::string& key) {
 }
 
 /// As it lies in the unit: of a CAD solid its triangles, for which no other program is needed.
-FmuExport::File packed(const fs::path& file) {
+FmuExport::File packed(const fs::path& file, const std::string& up) {
   if (!is_solid_file(file) || boost::iequals(file.extension().string(), ".stl"))
     return {file, file.filename().string()};
-  return {triangulated(file), file.stem().string() + ".stl"};
+  return {triangulated(file, up), file.stem().string() + ".stl"};
 }
 
 /// What was given, with its files beside it.
@@ -55,7 +55,7 @@ std::string settings_of(const LoadedConfig& loaded, std::vector<FmuExport::File>
       if (key.section != section || !entry.given || key.full_name() == "press.mode") continue;
       std::string literal = entry.literal;
       if (const fs::path file = file_of(loaded.config, key.full_name()); !file.empty()) {
-        files.push_back(packed(file));
+        files.push_back(packed(file, loaded.config.solid.up));
         literal = '"' + files.back().name + '"';
       }
       keys += key.name + " = " + literal + "\n";

@@ -276,10 +276,32 @@ TEST(Solid, RefusesWhatIsNoFinger) {
   expect_refused(microns, base, {"geometry.unit", "2e-05 m across"});
   expect_refused(box, {{{2, true, -0.001}}}, {"geometry.bond", "held by the hand"});
   expect_refused(box, {{{2, true, 0.1}}}, {"geometry.bond", "able to touch"});
-  expect_refused(box, {{{2, false, 0.015}}}, {"geometry.bond", "points along +z"});
+  expect_refused(box, {{{2, false, 0.015}}}, {"geometry.bond", "geometry.up = \"-z\""});
   TriangleMesh aside = box;
   for (Vector3& w : aside.vertices) w.x() += 0.1;
-  expect_refused(aside, base, {"axis x = y = 0", "origin"});
+  expect_refused(aside, base, {"axis x = y = 0", "geometry.origin = \"touch\""});
+  // In the empty corner of an angle the axis is in the box around it, not in the finger.
+  TriangleMesh angle;
+  constexpr std::array<std::array<double, 2>, 6> corner{
+      {{-10, -10}, {10, -10}, {10, -4}, {-4, -4}, {-4, 10}, {-10, 10}}};
+  for (const double z : {0.0, 20.0})
+    for (const auto& [x, y] : corner) angle.vertices.push_back(1e-3 * Vector3(x, y, z));
+  for (int b = 1; b < 5; ++b) {
+    angle.triangles.push_back({0, b + 1, b});
+    angle.triangles.push_back({6, b + 6, b + 7});
+  }
+  for (int a = 0; a < 6; ++a) {
+    const int b = (a + 1) % 6;
+    angle.triangles.push_back({a, b, b + 6});
+    angle.triangles.push_back({a, b + 6, a + 6});
+  }
+  expect_refused(angle, base, {"axis x = y = 0", "geometry.origin = \"touch\""});
+  for (Vector3& w : angle.vertices) w.x() += 0.006;  // into an arm
+  EXPECT_NO_THROW(Solid(angle, base));
+  // In a tube it runs through the finger's middle.
+  EXPECT_NO_THROW(Solid(
+      fingers::revolved({{4e-3, 0.0}, {6e-3, 0.0}, {6e-3, 1e-2}, {4e-3, 1e-2}, {4e-3, 0.0}}, 24),
+      base));
   expect_refused(TriangleMesh{}, base, {"0 facets", "at least four"});
   TriangleMesh broken = box;
   broken.vertices[3].x() = std::nan("");

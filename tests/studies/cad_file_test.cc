@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cstdlib>
 #include <functional>
+#include <numbers>
 #include <set>
 
 #include "lattice/press/static_press.h"
@@ -91,6 +92,27 @@ TEST(CadFile, PlanesHaveFewFacets) {
       Geometry::of_solid(studies::read_solid({folder / "block.stl", "mm", "z < 1 mm"}), 0.0);
   EXPECT_NEAR(block.tip_volume(), 1.44e-6, 1e-14);
   EXPECT_LT(block.solid->mesh().triangles.size(), 5000U);
+}
+
+/// What touches first is finer wherever it points in the file.
+TEST(CadFile, TheEndThatPointsUpIsFiner) {
+  const TemporaryFolder folder;
+  std::vector<double> counts;
+  for (const char* up : {"+z", "+y"}) {
+    write_cad(folder / "dome.step", [&] {
+      make_dome();
+      gmsh::vectorpair all;
+      gmsh::model::occ::getEntities(all, 3);
+      if (up[1] == 'y')  // z becomes y
+        gmsh::model::occ::rotate(all, 0, 0, 0, 1, 0, 0, -0.5 * std::numbers::pi);
+    });
+    meshes::write_cad_surface(folder / "dome.step", folder / "dome.stl", up);
+    const auto solid = studies::read_solid({folder / "dome.stl", "mm", rod, up});
+    counts.push_back(double(solid->mesh().triangles.size()));
+    EXPECT_NEAR(solid->pole(), 10e-3, 1e-5) << up;
+    EXPECT_NEAR(solid->bond_top(), 5e-3, 1e-5) << up;
+  }
+  EXPECT_NEAR(counts[1] / counts[0], 1.0, 0.1);
 }
 
 /// Four upright edges are sharp, those of the top round. With refinement 0.5 the sizes first tried
@@ -293,6 +315,7 @@ TEST(CadFile, RefusesWhatIsNoSolid) {
   const ProgramResult checked = run_program(folder.path(), {"check", "case.toml"});
   EXPECT_EQ(checked.code, 2);
   EXPECT_NE(checked.err.find("case.toml:3"), std::string::npos) << checked.err;
+  EXPECT_EQ(checked.err.find('\033'), std::string::npos) << checked.err;  // colours
 }
 
 }  // namespace

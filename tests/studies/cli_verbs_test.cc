@@ -64,10 +64,42 @@ TEST(Verbs, ShapeTellsMeasuresAndDraws) {
       folder.path(), {"shape", "finger.stl", "--set", "geometry.bond=z < 0 mm", "--out", "drawn"});
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_NE(again.out.find("rubber            420"), std::string::npos) << again.out;
+  // Of a solid what is not held may touch.
+  const std::string drawing = read_text(folder / "drawn/finger_section.svg");
+  EXPECT_NE(drawing.find("contact: may touch"), std::string::npos);
+  EXPECT_EQ(drawing.find(">free<"), std::string::npos);
   const ProgramResult twice =
       run_program(folder.path(), {"shape", "finger.csv", "--out", "drawn", "--stl", "finger.stl"});
   EXPECT_EQ(twice.code, 2);
   EXPECT_NE(twice.err.find("exists already"), std::string::npos) << twice.err;
+
+  // A recess in the base, and a top beside the axis, are no wall.
+  write_text(folder / "recess.csv",
+             "r [mm],z [mm],surface,curve\n4.9,0,contact,\n7.5,0,contact,\n7.5,9,contact,arc 0 9\n"
+             "0,16.5,axis,\n0,1.5,bond,\n4.9,1.5,bond,\n");
+  run_program(folder.path(), {"shape", "recess.csv", "--out", "drawn", "--stl", "recess.stl"});
+  for (const auto& sets :
+       {std::vector<std::string>{}, std::vector<std::string>{"geometry.up=+x",
+                                                             "geometry.origin=[\"0 mm\", \"5 mm\", "
+                                                             "\"8 mm\"]"}}) {
+    std::vector<std::string> words{
+        "shape", "recess.stl",
+        "--out", "drawn",
+        "--set", sets.empty() ? "geometry.bond=z < 0.5 mm" : "geometry.bond=z < -6 mm"};
+    for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
+    const ProgramResult solid = run_program(folder.path(), words);
+    EXPECT_EQ(solid.code, 0) << solid.err;
+    EXPECT_EQ(solid.out.find("thinnest wall"), std::string::npos) << solid.out;
+  }
+  for (const auto& [file, remedy] :
+       {std::pair("part.obj", "export it as .stl"), std::pair("part.ply", "export it as .stl"),
+        std::pair("part.igs", "export it as .step")}) {
+    write_text(folder / file, "v 0 0 0\n");
+    const ProgramResult other = run_program(folder.path(), {"shape", file});
+    EXPECT_EQ(other.code, 2);
+    EXPECT_NE(other.err.find(remedy), std::string::npos) << other.err;
+    EXPECT_EQ(other.err.find("first line"), std::string::npos) << other.err;
+  }
 
   write_text(folder / "open.csv", "r [mm],z [mm],surface,curve\n5,0,contact,\n0,9,axis,\n");
   const ProgramResult bad = run_program(folder.path(), {"shape", "open.csv"});

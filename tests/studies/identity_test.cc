@@ -183,8 +183,8 @@ const Sets nowhere = {  // At small strain E and G alone count; see KnowsTheLawA
     "controller.address", "controller.timeout", "controller.connect_timeout", "controller.library",
     "controller.schedule",
     // Of other shapes, see below.
-    "geometry.shape", "geometry.profile", "geometry.file", "geometry.unit", "geometry.bond",
-    "geometry.endpoint",
+    "geometry.shape", "geometry.profile", "geometry.file", "geometry.unit", "geometry.up",
+    "geometry.origin", "geometry.bond", "geometry.endpoint",
     // Its keys count, and of material tests what they say (law_job_test).
     "rubber.card", "calibration.tests", "calibration.laws", "calibration.weights",
     "calibration.branches", "calibration.stretch_range",
@@ -525,6 +525,9 @@ TEST(IdentityOfAJob, KnowsASolidByItsContent) {
     EXPECT_EQ(identity_of(identity, sets("same.stl")), base);
     for (const Sets& other : {sets("other.stl"), sets("a.stl", {"geometry.bond=z < 2 mm"}),
                               sets("a.stl", {"geometry.unit=cm", "geometry.bond=z < 1 cm"}),
+                              sets("a.stl", {"geometry.up=+x", "geometry.bond=z < -5 mm"}),
+                              sets("a.stl", {"geometry.origin=touch"}),
+                              sets("a.stl", {"geometry.origin=[\"1 mm\", \"0 mm\", \"0 mm\"]"}),
                               sets("a.stl", {"geometry.endpoint=-1 mm"})}) {
       EXPECT_TRUE(identity_of(identity, other)) << other.back();
       EXPECT_NE(identity_of(identity, other), base) << other.back();

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numbers>
 #include <random>
 #include <string>
@@ -89,6 +92,61 @@ TEST(SolidFile, MakesTheFingerOfAConfiguration) {
   const auto centimetres =
       load_config({folder / "case.toml", {"geometry.unit=cm", "geometry.bond=z < 1 cm"}, {}});
   EXPECT_NEAR(centimetres.config.press.geometry.tip_volume() / geometry.tip_volume(), 1000.0, 1e-6);
+}
+
+/// The block is 10 x 12 x 20 mm; what points up in the file becomes +z, the shortest way.
+TEST(SolidFile, TurnsAndShiftsTheFinger) {
+  const TemporaryFolder folder;
+  write_text(folder / "finger.stl", stl_text(finger()));
+  const Vector3 low(-0.006, -0.005, 0.0), high(0.004, 0.007, 0.02);
+  const auto read = [&](const std::string& up, const Vector3& origin, bool touch = false) {
+    const auto solid = read_solid({folder / "finger.stl", "mm", "z < -2.9 mm", up, origin, touch});
+    EXPECT_NEAR(solid->volume(), 2.4e-6, 1e-15) << up;
+    return solid;
+  };
+  const auto box_of = [](const meshes::Solid& solid) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3& vertex : solid.mesh().vertices) box.extend(vertex);
+    return box;
+  };
+  // Rows: the file's directions, with their signs, that are x, y and z then.
+  const std::map<std::string, std::array<int, 3>> turns = {{"+z", {1, 2, 3}},  {"-z", {1, -2, -3}},
+                                                           {"+x", {-3, 2, 1}}, {"-x", {3, 2, -1}},
+                                                           {"+y", {1, -3, 2}}, {"-y", {1, 3, -2}}};
+  for (const auto& [up, rows] : turns) {
+    const Vector3 origin(1e-3, 2e-3, 10e-3);
+    const auto box = box_of(*read(up, origin));
+    for (int axis = 0; axis < 3; ++axis) {
+      const int from = std::abs(rows[std::size_t(axis)]) - 1;
+      const double a = (low - origin)[from], b = (high - origin)[from];
+      const double sign = rows[std::size_t(axis)] < 0 ? -1.0 : 1.0;
+      EXPECT_NEAR(box.min()[axis], std::min(sign * a, sign * b), 1e-9) << up << axis;
+      EXPECT_NEAR(box.max()[axis], std::max(sign * a, sign * b), 1e-9) << up << axis;
+    }
+  }
+  // The middle of the end is on the axis; heights stay.
+  const auto touched = box_of(*read("+y", Vector3(0.0, 0.0, 0.0), true));
+  EXPECT_NEAR(touched.center().x(), 0.0, 1e-9);
+  EXPECT_NEAR(touched.center().y(), 0.0, 1e-9);
+  EXPECT_NEAR(touched.max().z(), 0.007, 1e-9);
+  // As keys.
+  write_text(folder / "case.toml", settings);
+  const auto loaded = [&](std::vector<std::string> sets) {
+    sets.emplace_back("geometry.bond=z < -4 mm");
+    return box_of(*load_config({folder / "case.toml", sets, {}}).config.press.geometry.solid);
+  };
+  EXPECT_NEAR(loaded({"geometry.up=+y", "geometry.origin=touch"}).center().y(), 0.0, 1e-9);
+  EXPECT_NEAR(loaded({"geometry.origin=[\"1 mm\", \"0 mm\", \"1 cm\"]"}).max().z(), 0.01, 1e-9);
+  const auto refused = [&](const std::string& geometry) {
+    return refusal_of(stl_text(finger()), with(settings, "shape", geometry + "\nshape"));
+  };
+  expect_refused(refused("up = \"y\""), {"case.toml:2", "geometry.up", "+y"});
+  expect_refused(refused("origin = \"top\""), {"case.toml:2", "list of quantities", "touch"});
+  expect_refused(refused("origin = [\"touch\", \"0 mm\", \"0 mm\"]"), {"case.toml:2", "touch"});
+  expect_refused(refusal_of(stl_text(finger()), with(settings, "z < 1 mm", "z > 15.3 mm")),
+                 {"bond up to z = 20 mm", "no bond may lie higher", "geometry.up = \"-z\""});
+  expect_refused(refused("origin = [\"9 mm\", \"0 mm\", \"0 mm\"]"),
+                 {"axis x = y = 0", "geometry.origin = \"touch\""});
 }
 
 /// A meridian's file is made into an STL file, in mm, which is read as any other.
@@ -181,7 +239,9 @@ TEST(SolidFile, RefusesWithPlaceAndRemedy) {
   };
   expect_refused(asked("file = \"finger.stl\"\n", ""), {"case.toml:2", "geometry.file", "surface"});
   expect_refused(asked("finger.stl", "other.stl"), {"other.stl", "no such file"});
-  expect_refused(asked("finger.stl", "finger.obj"), {"case.toml:3", "finger.obj", ".step"});
+  expect_refused(asked("finger.stl", "finger.obj"),
+                 {"case.toml:3", "finger.obj", "export it as .stl"});
+  expect_refused(asked("finger.stl", "finger.igs"), {"case.toml:3", "export it as .step"});
   expect_refused(asked("bond = \"z < 1 mm\"\n", ""), {"geometry.bond = \"z < 1 mm\"", "held"});
   expect_refused(asked("z < 1 mm", "z < 1"), {"case.toml:4", "z < 1", "unit"});
   expect_refused(asked("z < 1 mm", "w < 1 mm"), {"case.toml:4", "x, y or z"});
