@@ -120,21 +120,22 @@ StepController::StepController(const LatticeModel& model, const RodBody* rod, In
   const bool scaled = integrator == Integrator::mass_scaled;
   const SpectralBounds bounds = scaled ? scaled_bounds() : tightest_bounds(model, rod);
   if (scaled && !wanted) wanted = usual_step;
-  report_.omega0 = paper_frequency(model);
-  report_.paper_bound = 1.0 / report_.omega0;
-  report_.spectral_bound = largest_stable_step(bounds, integrator);
-  if (!(report_.spectral_bound > 0.0)) {
+  if (model.kind == ModelKind::published) {
+    report_.omega0 = paper_frequency(model);
+    report_.paper_bound = 1.0 / report_.omega0;
+  }
+  const double stable = largest_stable_step(bounds, integrator);
+  if (!scaled) report_.spectral_bound = stable;
+  if (!(stable > 0.0)) {
     throw meshes::InvalidInput(
         {"run.integrator", std::string(name(integrator)),
          "explicit Euler is unstable at any step without damping: it adds energy to every mode",
          "use symplectic-euler, or give rubber.retardation_time a positive value"});
   }
   why_ = scaled ? "with scaled masses accuracy rules, not stability"
-                : ruling(bounds, integrator, report_.spectral_bound);
-  if (wanted && !(*wanted > 0.0 && *wanted <= report_.spectral_bound)) {
-    refuse(*wanted, report_.spectral_bound, why_);
-  }
-  largest_ = now_.present = wanted ? *wanted : safety_ * report_.spectral_bound;
+                : ruling(bounds, integrator, stable);
+  if (wanted && !(*wanted > 0.0 && *wanted <= stable)) refuse(*wanted, stable, why_);
+  largest_ = now_.present = wanted ? *wanted : safety_ * stable;
   const bool follows = !scaled && integrator != Integrator::runge_kutta;
   if (follows && model.kinematics == Kinematics::finite && !model.cell_lattice.empty()) {
     search_ = std::make_unique<SpectrumSearch>(model, team);
@@ -205,11 +206,15 @@ StepReport StepController::report(double step) const {
   report.step = step;
   std::ostringstream text;
   text.precision(3);
-  text << "step " << step * 1e6 << " us = " << step / report.spectral_bound
-       << " of the spectral bound " << report.spectral_bound * 1e6
-       << " us = " << step * report.omega0 << "/omega0 with the paper's omega0 = " << report.omega0
-       << " rad/s, whose bound 1/omega0 = " << report.paper_bound * 1e6
-       << " us sees a single spring of those around a particle; " << why_;
+  text << name(integrator_) << " with steps of " << step * 1e6 << " us";
+  if (!std::isnan(report.spectral_bound))
+    text << ", " << step / report.spectral_bound << " of the spectral bound "
+         << report.spectral_bound * 1e6 << " us";
+  if (!std::isnan(report.omega0))
+    text << ", " << step * report.omega0 << "/omega0 with the paper's omega0 = " << report.omega0
+         << " rad/s, whose bound 1/omega0 = " << report.paper_bound * 1e6
+         << " us sees a single spring of those around a particle";
+  text << "; " << why_;
   report.explanation = text.str();
   return report;
 }

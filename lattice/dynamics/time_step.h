@@ -13,16 +13,18 @@
 #include "lattice/model/model.h"
 #include "lattice/model/rod.h"
 #include "lattice/model/state.h"
+#include "meshes/press_response.h"
 
 namespace fingertip::lattice {
 
-/// How the time step was chosen; `explanation` says which bound rules.
+/// How the time step was chosen; `explanation` says which integrator steps and which bound rules.
 struct StepReport {
-  double step = 0.0;            ///< at rest [s]
-  double smallest = 0.0;        ///< used [s]; smaller where compression stiffened the cells
-  double omega0 = 0.0;          ///< the paper's estimate sqrt(2k/m) [rad/s]
-  double paper_bound = 0.0;     ///< 1/omega0 [s]
-  double spectral_bound = 0.0;  ///< largest stable step by the computed stiffness and damping [s]
+  double step = 0.0;                ///< at rest [s]
+  double smallest = 0.0;            ///< used [s]; smaller where compression stiffened the cells
+  double omega0 = meshes::unknown;  ///< published: the paper's estimate sqrt(2k/m) [rad/s]
+  double paper_bound = meshes::unknown;  ///< 1/omega0 [s]
+  /// Largest stable step by the computed stiffness and damping [s]; unknown with scaled masses.
+  double spectral_bound = meshes::unknown;
   std::string explanation;
 };
 
