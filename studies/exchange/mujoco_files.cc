@@ -22,10 +22,15 @@ using meshes::to_text;
 constexpr double carriage = 0.1;
 /// Time step times the angular frequency of the stiffest spring, and the longest step [s].
 constexpr double calm = 0.3, longest_step = 1e-3;
-/// The servo's stiffness over the contact's.
-constexpr double servo = 10.0;
+/// The servo's stiffness over the contact's largest, F' <= S: at rest it gives way by F/(servo S),
+/// at most 1/servo of the indentation, and at full depth the force by 1/servo.
+constexpr double servo = 300.0;
 constexpr double vertex_impedance = 0.9;  ///< of a flex's contacts, constant
 constexpr double least_damping = 1e-4;    ///< of a flex [s]; without any it would ring for ever
+
+/// Of a flex; what an older version says of it.
+constexpr const char* needed =
+    "It loads from MuJoCo 3.13 on (older ones: invalid keyword 'discrete')";
 
 std::string comment(const LoadedConfig& loaded, const ContactCurve& curve) {
   return fmt::format(
@@ -121,6 +126,7 @@ std::string flex_model(const LoadedConfig& loaded, const ContactCurve& curve,
   const FlexModuli moduli(flex.youngs_modulus, flex.poissons_ratio);
   std::string text =
       "<mujoco model=\"soft finger\">\n" + comment(loaded, curve) +
+      fmt::format("<!-- {}. -->\n", needed) +
       fmt::format(
           "<compiler angle=\"degree\"/>\n"
           "<option timestep=\"{:.3g}\" integrator=\"discrete\" solver=\"CG\" cone=\"elliptic\" "
@@ -147,7 +153,8 @@ std::string mujoco_readme(const ContactCurve& curve, const SoftContact& contact,
       "# A finger for MuJoCo\n\n"
       "`finger_rigid.xml`: a rigid sphere whose contact gives way as the finger does. The servo "
       "`press` moves it up against the obstacle:\n"
-      "its target is the indentation, in metres.\n\n"
+      "its target `ctrl` is the indentation in metres, which it reaches within {:.1f} % at rest "
+      "(`qpos`).\n\n"
       "    F(r) = K r d²/(dmax² (1 - d)),  K = {:.6g} N/m,  d from solimp = {:.4g} {:.4g} {:.4g} "
       "{:.4g} {:.4g}\n\n"
       "MuJoCo's `solref` are accelerations, so they depend on what the geom hangs on. On your own "
@@ -158,8 +165,8 @@ std::string mujoco_readme(const ContactCurve& curve, const SoftContact& contact,
       "```\n"
       "Damping is the critical one, chosen for calm. The contact is the same on every obstacle; "
       "the finger is not.\n\n",
-      contact.stiffness, contact.dmin, contact.dmax, contact.width, contact.midpoint, contact.power,
-      contact.stiffness, contact.stiffness);
+      100.0 / servo, contact.stiffness, contact.dmin, contact.dmax, contact.width, contact.midpoint,
+      contact.power, contact.stiffness, contact.stiffness);
   if (flex == nullptr) {
     text += fmt::format(
         "There is no flex: its forces are foretold under a plane only, and this is a {}.\n\n",
@@ -172,8 +179,8 @@ std::string mujoco_readme(const ContactCurve& curve, const SoftContact& contact,
              "`finger_flex.xml`: a flex, bonded where the finger is (`pin`). The mocap body "
              "`obstacle` presses: lower its z by the indentation.\n{} MuJoCo 3.14 counts lambda of "
              "a flex twice (measured), so the file says\nyoung = {:.6g}, poisson = {:.4g}, whose "
-             "forces are those of E and nu.{}\n\n",
-             description(*flex), moduli.young, moduli.poisson, flex->limit(curve));
+             "forces are those of E and nu.{}\n{}.\n\n",
+             description(*flex), moduli.young, moduli.poisson, flex->limit(curve), needed);
 }
 
 }  // namespace

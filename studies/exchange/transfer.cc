@@ -39,9 +39,11 @@ std::string percent(double share) {
   return std::isnan(share) ? "–" : fmt::format("{:+.1f} %", 100.0 * share);
 }
 
-/// "from 0.25 to 3 mm"
+/// "from 0.25 to 3 mm", "at 0.25 mm alone"
 std::string stretch(const TransferModelEntry& model) {
   if (std::ranges::all_of(model.error, [](double error) { return std::isnan(error); })) return "–";
+  if (model.carries_from == model.carries_to)
+    return fmt::format("at {:.3g} mm alone", 1e3 * model.carries_to);
   return std::isnan(model.carries_to)
              ? "nowhere"
              : fmt::format("from {:.3g} to {:.3g} mm", 1e3 * model.carries_from,

@@ -160,6 +160,7 @@ TEST(ContactExport, AMeshNeedsOnePress) {
   EXPECT_FALSE(std::filesystem::exists(folder / "run/continuum/2"));
 }
 
+/// At the servo's target; and its README tells which version it needs.
 TEST(ContactExport, MuJoCoPressesAsForetold) {
   const std::string library = FINGERTIP_MUJOCO;
   if (!std::filesystem::exists(library))
@@ -185,6 +186,10 @@ TEST(ContactExport, MuJoCoPressesAsForetold) {
           << file << ", depth " << i;
     }
   EXPECT_GE(compared, 8);
+  for (const char* file : {"README.md", "finger_flex.xml"})
+    EXPECT_NE(read_text(folder / "run" / file).find("MuJoCo 3.13"), std::string::npos) << file;
+  // So few tetrahedra meet the continuum at one depth.
+  EXPECT_NE(made.out.find("at 0.5 mm alone"), std::string::npos) << made.out;
 }
 
 TEST(ContactExport, LibsdformatAcceptsDrakesFile) {

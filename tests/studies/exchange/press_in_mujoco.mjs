@@ -34,11 +34,9 @@ function rest(world, seconds, move) {
 function rigid() {
   const world = load('finger_rigid.xml');
   return indentation.map(depth => {
-    // The servo gives way: its target goes beyond the depth by as much.
-    for (let turn = 0; turn < 4; ++turn) {
-      world.data.ctrl[0] += depth - world.data.qpos[0];
-      rest(world, 0.3);
-    }
+    // As its README says: the servo's target is the indentation.
+    world.data.ctrl[0] = depth;
+    rest(world, 0.3);
     return force(world);
   });
 }
