@@ -41,8 +41,8 @@ void refuse_crossed_sides(const dealii::FEValues<dim>& values) {
   for (unsigned q = 0; q < values.n_quadrature_points; ++q)
     if (!(values.JxW(q) > 0.0))
       throw meshes::NotConverged(
-          "an element of the mesh is turned inside out by its curved sides; choose another "
-          "reference.refinement, or round the edges of the finger");
+          "an element of the mesh is turned inside out by its curved sides; halve "
+          "reference.refinement, or leave out fillets that are small beside the elements");
 }
 
 /// What a thread needs to integrate elements.

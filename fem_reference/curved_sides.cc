@@ -12,6 +12,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -26,8 +27,9 @@ using meshes::PhysicalTag;
 
 /// Distance of a corner from its part, over the side's size, that is more than round-off.
 constexpr double off_part = 1e-6;
-/// Smallest Jacobian of a cell that is not turned, over the lengths of its tangents.
-constexpr double least_jacobian = 0.05;
+/// Smallest Jacobian of a cell that is not turned, over the lengths of its tangents: at hidden
+/// edges, and elsewhere, where a cell with straight sides may have 0.03.
+constexpr double least_at_edges = 0.05, least_jacobian = 0.01;
 /// Newton's method for a place on parabolas, whose coordinates run from 0 to 1.
 constexpr int most_steps = 20;
 constexpr double small_step = 1e-13;
@@ -130,30 +132,41 @@ class ParabolaManifold : public dealii::ChartManifold<3, 3, own> {
   dealii::TensorProductPolynomials<own> shapes_;
 };
 
-/// Sides of a solid's first mesh at edges that it hides, by their numbers.
-class HiddenEdges {
+/// Sides of the first mesh that follow the boundary, by their numbers: on their parts, or where the
+/// mesh hides an edge, on parabolas.
+class BoundarySides {
   using Line = Triangulation<3>::line_iterator;
   using Face = Triangulation<3>::face_iterator;
 
  public:
-  HiddenEdges(Body<3>& body, TurnedParts<3> boundary, dealii::types::manifold_id first_free)
+  BoundarySides(Body<3>& body, TurnedParts<3> boundary, dealii::types::manifold_id first_free)
       : triangulation_(body.triangulation),
         mapping_(body.mapping),
         boundary_(std::move(boundary)),
         next_(first_free) {}
 
-  void add(const Face& face, int part) { faces_.try_emplace(face->index(), face, part); }
-  void add(const Line& line, int part) { lines_.try_emplace(line->index(), line, part); }
+  /// `hidden`: the part where the side hides an edge of it; none where it has its manifold already.
+  void add(const Face& face, std::optional<int> hidden) {
+    faces_.try_emplace(face->index(), face, hidden);
+  }
+  void add(const Line& line, std::optional<int> hidden) {
+    lines_.try_emplace(line->index(), line, hidden);
+  }
 
   /// Fewer sides bend in every round, until no cell is turned inside out.
   void bend() {
-    std::set<int> cells = cells_at_sides(), turned;
+    const std::set<int> at_edges =
+        cells_at([](const auto& side) { return side.hidden.has_value(); });
+    std::set<int> cells = cells_at([](const auto&) { return true; }), turned;
     do {
       for (auto& [number, line] : lines_) bend(line);
       for (auto& [number, face] : faces_) bend(face);
-      turned = turned_among(cells);
+      turned = turned_among(cells, at_edges);
+      ++round_;
       for (const auto& cell : triangulation_.cell_iterators())
         if (turned.contains(cell->index())) flatten(cell);
+      // The others are as they were.
+      cells = cells_at([this](const auto& side) { return side.flat_since == round_; });
       for (const int cell : turned) cells.erase(cell);
     } while (!turned.empty());
   }
@@ -162,31 +175,40 @@ class HiddenEdges {
   template <typename Side>
   struct Bent {
     Side side;
-    int part;
-    bool is_flat = false;
+    std::optional<int> hidden;
+    int flat_since = -1;  ///< round; -1: it is bent
     dealii::types::manifold_id number = dealii::numbers::flat_manifold_id;
 
-    Bent(const Side& own, int on) : side(own), part(on) {}
+    Bent(const Side& own, std::optional<int> part) : side(own), hidden(part) {}
+    void flatten(int round) {
+      if (flat_since < 0) flat_since = round;
+      side->set_manifold_id(dealii::numbers::flat_manifold_id);
+    }
   };
 
-  std::set<int> cells_at_sides() const {
+  /// Those with a side that is `wanted`.
+  std::set<int> cells_at(const auto& wanted) const {
     std::set<int> cells;
+    const auto look = [&](const auto& cell, const auto& side, const auto& all) {
+      const auto found = all.find(side->index());
+      if (found != all.end() && wanted(found->second)) cells.insert(cell->index());
+    };
     for (const auto& cell : triangulation_.cell_iterators()) {
-      for (const unsigned l : cell->line_indices())
-        if (lines_.contains(cell->line(l)->index())) cells.insert(cell->index());
-      for (const auto& face : cell->face_iterators())
-        if (faces_.contains(face->index())) cells.insert(cell->index());
+      for (const unsigned l : cell->line_indices()) look(cell, cell->line(l), lines_);
+      for (const auto& face : cell->face_iterators()) look(cell, face, faces_);
     }
     return cells;
   }
 
   void bend(Bent<Line>& own) {
     const Line& line = own.side;
-    set<1>(own, {line->vertex(0), boundary_.on({own.part}, line->center()), line->vertex(1)});
+    if (!own.hidden || own.flat_since >= 0) return;
+    set<1>(own, {line->vertex(0), boundary_.on({*own.hidden}, line->center()), line->vertex(1)});
   }
 
   void bend(Bent<Face>& own) {
     const Face& face = own.side;
+    if (!own.hidden || own.flat_since >= 0) return;
     std::array<dealii::Point<3>, 4> corners, middles;
     dealii::Point<3> within;  // the sides' transfinite interpolation
     for (unsigned i = 0; i < 4; ++i) {
@@ -194,29 +216,26 @@ class HiddenEdges {
       middles[i] = face->line(i)->center(true);
       within += 0.5 * middles[i] - 0.25 * corners[i];
     }
-    set<2>(own, {corners[0], middles[2], corners[1], middles[0], boundary_.on({own.part}, within),
-                 middles[1], corners[2], middles[3], corners[3]});
+    set<2>(own,
+           {corners[0], middles[2], corners[1], middles[0], boundary_.on({*own.hidden}, within),
+            middles[1], corners[2], middles[3], corners[3]});
   }
 
   template <int dim, typename Side>
   void set(Bent<Side>& own, std::vector<dealii::Point<3>> nodes) {
     if (std::ranges::any_of(own.side->vertex_indices(), [&](unsigned v) {
           const dealii::Point<3> corner = own.side->vertex(v);
-          return boundary_.on({own.part}, corner).distance(corner) >
+          return boundary_.on({*own.hidden}, corner).distance(corner) >
                  off_part * own.side->diameter();
         }))
-      own.is_flat = true;
-    if (own.is_flat) {
-      own.side->set_manifold_id(dealii::numbers::flat_manifold_id);
-      return;
-    }
+      return own.flatten(round_);
     if (own.number == dealii::numbers::flat_manifold_id) own.number = next_++;
     triangulation_.set_manifold(own.number, ParabolaManifold<dim>(std::move(nodes)));
     own.side->set_manifold_id(own.number);
   }
 
   /// Those that are turned, or nearly so, or would be when they are divided.
-  std::set<int> turned_among(const std::set<int>& cells) const {
+  std::set<int> turned_among(const std::set<int>& cells, const std::set<int>& at_edges) const {
     if (cells.empty()) return {};
     dealii::Triangulation<3> divided;
     divided.copy_triangulation(triangulation_);
@@ -227,19 +246,20 @@ class HiddenEdges {
     dealii::FEValues<3> values(mapping_, no_element,
                                dealii::QGaussLobatto<3>(mapping_.get_degree() + 1),
                                dealii::update_jacobians);
-    const auto is_turned = [&](const auto& cell) {
+    const auto is_turned = [&](const auto& cell, double least) {
       values.reinit(cell);
-      return std::ranges::any_of(values.get_jacobians(), [](const auto& jacobian) {
+      return std::ranges::any_of(values.get_jacobians(), [least](const auto& jacobian) {
         const dealii::Tensor<2, 3> columns = transpose(dealii::Tensor<2, 3>(jacobian));
         const double cube = columns[0].norm() * columns[1].norm() * columns[2].norm();
-        return !(determinant(columns) > least_jacobian * cube);
+        return !(determinant(columns) > least * cube);
       });
     };
     std::set<int> turned;
     for (const auto& cell : divided.cell_iterators_on_level(0)) {
       if (!cells.contains(cell->index())) continue;
-      bool any = is_turned(cell);
-      for (unsigned c = 0; c < cell->n_children(); ++c) any |= is_turned(cell->child(c));
+      const double least = at_edges.contains(cell->index()) ? least_at_edges : least_jacobian;
+      bool any = is_turned(cell, least);
+      for (unsigned c = 0; c < cell->n_children(); ++c) any |= is_turned(cell->child(c), least);
       if (any) turned.insert(cell->index());
     }
     return turned;
@@ -249,16 +269,17 @@ class HiddenEdges {
   void flatten(const Cell& cell) {
     for (const unsigned l : cell->line_indices())
       if (const auto line = lines_.find(cell->line(l)->index()); line != lines_.end())
-        line->second.is_flat = true;
+        line->second.flatten(round_);
     for (const unsigned f : cell->face_indices())
       if (const auto face = faces_.find(cell->face(f)->index()); face != faces_.end())
-        face->second.is_flat = true;
+        face->second.flatten(round_);
   }
 
   Triangulation<3>& triangulation_;
   const dealii::MappingQ<3>& mapping_;
   TurnedParts<3> boundary_;
   dealii::types::manifold_id next_;
+  int round_ = 0;
   std::map<int, Bent<Line>> lines_;
   std::map<int, Bent<Face>> faces_;
 };
@@ -299,17 +320,18 @@ void follow_boundary(Body<dim>& body, const meshes::Geometry& geometry, double t
   for (const auto& [parts, number] : numbers)
     triangulation.set_manifold(number, PartsManifold<dim>(boundary, {parts.begin(), parts.end()}));
   if constexpr (dim == 3) {
-    HiddenEdges hidden(body, boundary, dealii::types::manifold_id(numbers.size()));
+    BoundarySides sides(body, boundary, dealii::types::manifold_id(numbers.size()));
     const auto add = [&](const auto& side, const std::map<int, PartSet>& all) {
       const auto found = all.find(side->index());
-      if (found != all.end() && hides_edges(found->second))
-        hidden.add(side, *found->second.begin());
+      if (found == all.end()) return;
+      sides.add(side,
+                hides_edges(found->second) ? std::optional(*found->second.begin()) : std::nullopt);
     };
     for (const auto& cell : triangulation.cell_iterators()) {
       for (const auto& face : cell->face_iterators()) add(face, at_face);
       for (const unsigned l : cell->line_indices()) add(cell->line(l), at_line);
     }
-    hidden.bend();
+    sides.bend();
   }
 }
 

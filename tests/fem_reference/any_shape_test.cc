@@ -3,9 +3,11 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -149,6 +151,45 @@ TEST(AnyShape, SidesAreFlatWhereTheLastCellWouldBeTurned) {
   sides.boundary_quads.emplace_back();
   sides.boundary_quads.back().vertices = {0, 1, 4, 5};
   sides.boundary_quads.back().boundary_id = dealii::types::boundary_id(PhysicalTag::bond);
+  Body<3> body(MPI_COMM_SELF, 2);
+  body.triangulation.create_triangulation(corners, cells, sides);
+  fem_reference::follow_boundary(body, geometry, 0.0);
+  const auto cell = body.triangulation.begin();
+  for (const unsigned l : cell->line_indices())
+    EXPECT_EQ(cell->line(l)->manifold_id(), dealii::numbers::flat_manifold_id) << l;
+  for (const auto& face : cell->face_iterators())
+    EXPECT_EQ(face->manifold_id(), dealii::numbers::flat_manifold_id);
+}
+
+/// A cell across a fillet that is small beside it, on the finger's outer surface. Its side's middle
+/// is nearest to the base or to the flank: either turns a corner of the cell inside out.
+TEST(AnyShape, SidesAreFlatAtFilletsThatAreSmallBesideTheCell) {
+  std::vector<std::array<double, 2>> curve{
+      {0.0, 1.5e-3}, {4.9e-3, 1.5e-3}, {4.9e-3, 0.0}, {7.3e-3, 0.0}};
+  for (int i = 1; i <= 6; ++i) {
+    const double angle = std::numbers::pi * i / 12;
+    curve.push_back({7.3e-3 + 2e-4 * std::sin(angle), 2e-4 - 2e-4 * std::cos(angle)});
+  }
+  curve.insert(curve.end(), {{7.5e-3, 9e-3}, {0.0, 16.5e-3}});
+  const meshes::Region recess{{{0, true, 4.95e-3},
+                               {0, false, -4.95e-3},
+                               {1, true, 4.95e-3},
+                               {1, false, -4.95e-3},
+                               {2, true, 1.6e-3},
+                               {2, false, 1e-4}}};
+  const Geometry geometry =
+      Geometry::of_solid(std::make_shared<meshes::Solid>(fingers::revolved(curve, 180), recess));
+  std::vector<dealii::Point<3>> corners;
+  for (const double y : {2e-4, -2e-4})
+    for (const auto& [x, z] :
+         {std::pair{7.0e-3, 0.0}, {7.5e-3, 5e-4}, {6.9e-3, 1e-5}, {7.49e-3, 6e-4}})
+      corners.emplace_back(x, y, z);
+  std::vector<dealii::CellData<3>> cells(1);
+  for (unsigned v = 0; v < 8; ++v) cells[0].vertices[v] = v;
+  dealii::SubCellData sides;
+  sides.boundary_quads.emplace_back();
+  sides.boundary_quads.back().vertices = {0, 1, 4, 5};
+  sides.boundary_quads.back().boundary_id = dealii::types::boundary_id(PhysicalTag::outer);
   Body<3> body(MPI_COMM_SELF, 2);
   body.triangulation.create_triangulation(corners, cells, sides);
   fem_reference::follow_boundary(body, geometry, 0.0);
