@@ -153,8 +153,9 @@ void add_samples(ChapterData& chapter, SampleRange samples, const SampleAxis& ax
   chapter.tables["samples"] = std::move(table);
 }
 
-/// Pressure of the points on the plane against their distance from the contact's centre.
-Figure pressure_figure(const std::vector<ContactRow>& contact) {
+/// Pressure of the points on the plane against their distance from the contact's centre, and the
+/// peak that is told at that depth.
+Figure pressure_figure(const std::vector<ContactRow>& contact, const meshes::PressSample& last) {
   double weight = 0.0;
   meshes::Vector3 sum = meshes::Vector3::Zero();
   for (const ContactRow& point : contact) {
@@ -180,6 +181,16 @@ Figure pressure_figure(const std::vector<ContactRow>& contact) {
     series.y.push_back(shown_units().stress(point.pressure));
   }
   panel.series.push_back(std::move(series));
+  if (!std::isnan(last.max_pressure)) {
+    const double peak = shown_units().stress(last.max_pressure);
+    panel.series.push_back({"peak pressure as told",
+                            "",
+                            {0.0, shown_units().length(last.contact_radius)},
+                            {peak, peak},
+                            {},
+                            {"#333333", "(7,4)", 1.6, 0, true}});
+    panel.key = "top right";
+  }
   panel.x_range = Range{0.0, meshes::unknown};
   return {"contact_pressure", 760, 380, 1, {panel}};
 }
@@ -201,7 +212,7 @@ Chapter press_chapter(const meshes::PressResponse& response, const std::vector<C
          1,
          {curve_panel(samples, by_indentation, "contact radius",
                       &meshes::PressSample::contact_radius, shown_units().length)}});
-  if (!contact.empty()) chapter.figures.push_back(pressure_figure(contact));
+  if (!contact.empty()) chapter.figures.push_back(pressure_figure(contact, samples.back()));
   return written(std::move(chapter));
 }
 

@@ -84,12 +84,14 @@ class Drawing {
         largest_force_(largest_force),
         largest_torque_(largest_torque),
         springs_(press.boundary_springs) {
-    for (const BoundaryRow& row : press.boundary) rest_.push_back(row.rest);
+    Range height{meshes::unknown, meshes::unknown};
+    for (const BoundaryRow& row : press.boundary) {
+      rest_.push_back(row.rest);
+      height = {std::fmin(height.from, row.rest.z()), std::fmax(height.to, row.rest.z())};
+    }
+    arrow_ = 1.2 * std::fmin(shape_.tip_radius, height.to - height.from);
     if (press.summary.obstacle) obstacle_ = obstacle_of(*press.summary.obstacle);
-    if (shape_.is_dome()) return;
-    double top = -std::numeric_limits<double>::infinity();
-    for (const Vector3& rest : rest_) top = std::max(top, rest.z());
-    centre_ = top - shape_.tip_radius;
+    if (!shape_.is_dome()) centre_ = height.to - shape_.tip_radius;
   }
 
   Panel panel(const Snapshot& snapshot) const {
@@ -214,13 +216,13 @@ class Drawing {
     panel.series.push_back(std::move(held));
   }
 
-  /// An arrow from the endpoint, the largest of the press as long as the tip's radius, and what it
-  /// stands for. A vector that is round-off has none.
+  /// An arrow from the endpoint, the largest of the press as long as the tip's radius or, of a flat
+  /// pad, as its height, and what it stands for. A vector that is round-off has none.
   void add_arrow(Panel& panel, const Snapshot& snapshot, const Vector3& vector, double largest,
                  const std::string& colour, const std::string& name) const {
     const bool force = name == "force";
     if (!(largest > 0.0 && vector.norm() > 1e-3 * largest)) return;
-    const Vector3 end = snapshot.endpoint + 1.2 * shape_.tip_radius / largest * vector;
+    const Vector3 end = snapshot.endpoint + arrow_ / largest * vector;
     Series shaft{"", name, {}, {}, {}, {colour, "", 2.4, 0, true}};
     add(shaft, snapshot.endpoint);
     add(shaft, end);
@@ -233,6 +235,7 @@ class Drawing {
   meshes::Obstacle obstacle_;
   double largest_force_, largest_torque_;
   std::vector<Vector3> rest_;
+  double arrow_ = 0.0;   ///< length of the longest [m]
   double centre_ = 0.0;  ///< of the outer surface, on the axis [m]
   std::vector<BoundarySpringRow> springs_;
 };
@@ -274,8 +277,10 @@ void add_snapshots(const MovingPress& press, WordList& words, std::vector<Figure
     largest_force = std::max(largest_force, snapshot.force.norm());
     largest_torque = std::max(largest_torque, snapshot.torque.norm());
   }
-  // Of a straight press there is nothing but round-off.
-  if (largest_torque < 1e-6 * largest_force * 0.01) largest_torque = 0.0;
+  // Of a straight press there is nothing but round-off and what grid and solver leave: a torque
+  // whose lever is a thousandth of the radius at most tells nothing.
+  const double lever = 1e-3 * press.summary.geometry.tip_radius;
+  if (!(largest_torque > lever * largest_force)) largest_torque = 0.0;
   const Drawing drawing(press, snapshots.front(), largest_force, largest_torque);
   Figure figure{fmt::format("snapshots_{}", figures.size() + 1), 900, 860, 2, {}};
   for (const Snapshot& snapshot : snapshots) {

@@ -193,6 +193,38 @@ TEST(ControlReport, SnapshotsHideTheBackOfTheTip) {
   EXPECT_EQ(std::ranges::count(series, "torque"), 2);
 }
 
+/// A torque with a lever of 45 nm is what grid and solver leave; a pad of a tenth of its radius in
+/// height is not overtowered by its force.
+TEST(ControlReport, SnapshotsShowNoTorqueOfNoiseAndNoForceTallerThanAPad) {
+  const TemporaryFolder folder;
+  const fs::path press = folder.path() / "pad";
+  write_press(press, 0.01, false);
+  write_sphere(press);
+  const auto replace = [&](const char* file, const std::string& old, const std::string& put) {
+    std::string text = read_text(press / file);
+    ASSERT_TRUE(has(text, old)) << file;
+    write_file(press / file, text.replace(text.find(old), old.size(), put));
+  };
+  replace("snapshots.csv", "0.000980665", "4.4e-9");
+  std::string pad = "x [m],y [m],z [m],deformed_x [m],deformed_y [m],deformed_z [m],anchored\n";
+  for (int i = 0; i < 19 * 40; ++i) {
+    const double x = 0.01 * std::cos(0.1 * i), y = 0.01 * std::sin(0.1 * i);
+    const double z = i % 2 == 0 ? 0.009 : 0.01;
+    pad += fmt::format("{0},{1},{2},{0},{1},{2},0\n", x, y, z);
+  }
+  write_file(press / "boundary.csv", pad);
+  studies::write_report(press);
+  EXPECT_TRUE(has(read_text(press / "figures/snapshots_1.svg"), "torque 0 "));
+  const meshes::CsvTable points = meshes::read_csv(press / "figures/snapshots_1.csv");
+  const auto series = points.texts("series");
+  EXPECT_EQ(std::ranges::count(series, "torque"), 0);
+  const auto arrow = std::ranges::find(series, "force") - series.begin();
+  ASSERT_EQ(series.at(arrow + 1), "force");
+  const auto y = points.numbers("");  // a picture's axes have no names
+  EXPECT_NEAR(std::abs(y[arrow + 1] - y[arrow]), 1.2 * std::cos(14.0 * M_PI / 180.0), 0.01)
+      << "mm: of the pad's 1 mm, seen from 14 degrees above";
+}
+
 TEST(ControlReport, AComparisonOfPressesInTimeShowsThemUnderControl) {
   const TemporaryFolder folder;
   const fs::path run = write_run(folder);
@@ -243,10 +275,20 @@ TEST(ControlReport, APressAtRestHasSnapshotsWithoutTimes) {
     meshes::PressSample sample;
     sample.indentation = depth;
     sample.normal_force = 50.0 * depth;
+    sample.max_pressure = 39.5e6 * depth / 2.0;
+    sample.contact_radius = 2.0 * depth;
     response.append(sample);
   }
   response.write_csv(press / "response.csv");
+  // Single points may bear more than the peak that is told: the picture shows both.
+  std::vector<studies::ContactRow> contact(2);
+  contact[0].pressure = 73e3, contact[1].pressure = 20e3;
+  contact[1].deformed.x() = 1e-3;
+  meshes::write_rows(contact, press / "contact.csv");
   EXPECT_TRUE(studies::write_report(press).empty());
+  const std::string drawn = read_text(press / "figures/contact_pressure.csv");
+  for (const char* end : {"peak pressure as told,0,39.5\n", "peak pressure as told,4,39.5\n"})
+    EXPECT_TRUE(has(drawn, end)) << drawn;
   const std::string html = read_text(press / "report.html");
   EXPECT_TRUE(has(html, "<section id=\"snapshots\">"));
   EXPECT_FALSE(has(html, "<section id=\"control\">"));
