@@ -9,12 +9,14 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "meshes/errors.h"
+#include "meshes/files.h"
 #include "meshes/step_faces.h"
 #include "meshes/stl_file.h"
 
@@ -24,11 +26,15 @@ namespace {
 /// Edges around a full circle: chords are within pi²/(2 n²) of its radius. With 120 the rubber that
 /// they cut off takes 0.06 % of the dome's force, with 160 half of that.
 constexpr double edges_around = 160.0;
-/// Where the top, which touches first, is curved: depth counts from the highest vertex, forces from
-/// the mean facet. Height and longest edge over the solid's width.
-constexpr double top_height = 0.2, top_edge = 0.006;
-/// Longest and shortest edge over the solid's extent.
-constexpr double longest_edge = 0.1, shortest_edge = 1.0 / 400.0;
+/// Where the top, which touches first, is curved, over the solid's width w: depth counts from the
+/// highest vertex, forces from the mean facet. A facet of edge e lies e² kappa/8 below its surface,
+/// which is touched at its depth z below the top: with e = top_edge w sqrt(max(1, z/(top_depth w)))
+/// that is at most 0.2 % of z on a dome (kappa = 2/w), and facets are as many in every doubling of
+/// z.
+constexpr double top_depth = 0.005, top_edge = 0.006;
+/// Longest and shortest edge over the solid's extent. A fillet of a radius below the shortest edge
+/// is a chamfer: the rubber that this takes or adds is far less than chords around the finger take.
+constexpr double longest_edge = 0.1, shortest_edge = 1.0 / 150.0;
 
 class Gmsh {
  public:
@@ -101,34 +107,24 @@ std::vector<double> curved(const gmsh::vectorpair& surfaces) {
   return result;
 }
 
-/// Facets at the top are to be small where these surfaces are. `box`: of the solid, lowest and
+/// Facets are to be small near the top where these surfaces are. `box`: of the solid, lowest and
 /// highest corner; the top is where `up` points to.
 void refine_top(const std::array<double, 6>& box, const std::string& up,
                 const std::vector<double>& surfaces) {
   if (surfaces.empty()) return;
-  const double extent = std::max({box[3] - box[0], box[4] - box[1], box[5] - box[2]});
   const std::size_t along = std::size_t(up.back() - 'x');
-  double width = extent;
+  double width = std::numeric_limits<double>::max();
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (axis != along) width = std::min(width, box[axis + 3] - box[axis]);
-  const int top = gmsh::model::mesh::field::add("Box");
-  std::map<std::string, double> options{{"VIn", top_edge * width},
-                                        {"VOut", longest_edge * extent},
-                                        {"Thickness", top_height * width}};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string name(1, char('X' + axis));
-    options[name + "Min"] = box[axis] - extent;
-    options[name + "Max"] = box[axis + 3] + extent;
-  }
-  const std::string name(1, char('X' + along));
-  if (up.front() == '-')
-    options[name + "Max"] = box[along] + top_height * width;
-  else
-    options[name + "Min"] = box[along + 3] - top_height * width;
-  for (const auto& [option, value] : options)
-    gmsh::model::mesh::field::setNumber(top, option, value);
+  const bool down = up.front() == '-';
+  const std::string place(1, up.back());
+  const std::string share = "((" + to_text(down ? -box[along] : box[along + 3]) +
+                            (down ? "+" : "-") + place + ")/" + to_text(top_depth * width) + ")";
+  const int sizes = gmsh::model::mesh::field::add("MathEval");
+  gmsh::model::mesh::field::setString(
+      sizes, "F", to_text(top_edge * width) + "*sqrt((1+" + share + "+abs(1-" + share + "))/2)");
   const int there = gmsh::model::mesh::field::add("Restrict");
-  gmsh::model::mesh::field::setNumber(there, "InField", top);
+  gmsh::model::mesh::field::setNumber(there, "InField", sizes);
   gmsh::model::mesh::field::setNumbers(there, "SurfacesList", surfaces);
   gmsh::model::mesh::field::setAsBackgroundMesh(there);
 }
