@@ -186,7 +186,7 @@ struct ExchangeSettings {
   double wall_stiffness = 1.0;  ///< over that of an axis spring
   long steps = 1000;
   long every = 100;            ///< steps between frames; 0: none
-  double agitation = 0.01;     ///< random displacements at the start over the spacing
+  double agitation = 1e-4;     ///< random displacements at the start over the spacing
   std::optional<double> edge;  ///< of tetrahedra [m]; empty: as the finger's size asks for
 };
 
