@@ -29,9 +29,9 @@ constexpr double edges_around = 160.0;
 /// Where the top, which touches first, is curved, over the solid's width w: depth counts from the
 /// highest vertex, forces from the mean facet. A facet of edge e lies e² kappa/8 below its surface,
 /// which is touched at its depth z below the top: with e = top_edge w sqrt(max(1, z/(top_depth w)))
-/// that is at most 0.2 % of z on a dome (kappa = 2/w), and facets are as many in every doubling of
+/// that is at most 0.05 % of z on a dome (kappa = 2/w), and facets are as many in every doubling of
 /// z.
-constexpr double top_depth = 0.005, top_edge = 0.006;
+constexpr double top_depth = 0.02, top_edge = 0.006;
 /// Longest and shortest edge over the solid's extent. A fillet of a radius below the shortest edge
 /// is a chamfer: the rubber that this takes or adds is far less than chords around the finger take.
 constexpr double longest_edge = 0.1, shortest_edge = 1.0 / 150.0;

@@ -94,6 +94,40 @@ TEST(CadFile, PlanesHaveFewFacets) {
   EXPECT_LT(block.solid->mesh().triangles.size(), 5000U);
 }
 
+/// A finger of R = 7.5 mm on a recess, its bottom edge rounded by 0.2 mm: a fillet is a chamfer
+/// where it is below the shortest edge, and facets of the top grow with their depth (88 800 if they
+/// do not).
+TEST(CadFile, FilletsAndTopHaveFewFacets) {
+  const TemporaryFolder folder;
+  write_cad(folder / "fillet.step", [] {
+    namespace occ = gmsh::model::occ;
+    const auto point = [](double r, double z) { return occ::addPoint(r, 0, z); };
+    const int rim = point(4.9, 0), foot = point(7.3, 0), side = point(7.5, 0.2),
+              neck = point(7.5, 8), pole = point(0, 15.5), floor = point(0, 1.5),
+              corner = point(4.9, 1.5);
+    const std::vector<int> lines = {
+        occ::addLine(rim, foot),   occ::addCircleArc(foot, point(7.3, 0.2), side),
+        occ::addLine(side, neck),  occ::addCircleArc(neck, point(0, 8), pole),
+        occ::addLine(pole, floor), occ::addLine(floor, corner),
+        occ::addLine(corner, rim)};
+    gmsh::vectorpair turned;
+    occ::revolve({{2, occ::addPlaneSurface({occ::addCurveLoop(lines)})}}, 0, 0, 0, 0, 0, 1,
+                 2.0 * std::numbers::pi, turned);
+    occ::remove({{2, 1}}, false);
+  });
+  meshes::write_cad_surface(folder / "fillet.step", folder / "fillet.stl");
+  const auto solid =
+      studies::read_solid({folder / "fillet.stl", "mm",
+                           "z < 1.51 mm and z > 0.01 mm and x < 4.92 mm and x > -4.92 mm and "
+                           "y < 4.92 mm and y > -4.92 mm"});
+  EXPECT_LT(solid->mesh().triangles.size(), 45000U);
+  EXPECT_NEAR(solid->pole(), 15.5e-3, 1e-5);
+  // The fillet cuts (1 - pi/4) 0.04 mm² off the edge, along 2 pi 7.455 mm.
+  const double whole = std::numbers::pi * (7.5 * 7.5 * 8 + 2.0 / 3.0 * 421.875 - 4.9 * 4.9 * 1.5),
+               cut = (1.0 - std::numbers::pi / 4.0) * 0.04 * 2.0 * std::numbers::pi * 7.455;
+  EXPECT_NEAR(Geometry::of_solid(solid, 0.0).tip_volume() / (1e-9 * (whole - cut)), 1.0, 1e-3);
+}
+
 /// What touches first is finer wherever it points in the file.
 TEST(CadFile, TheEndThatPointsUpIsFiner) {
   const TemporaryFolder folder;
