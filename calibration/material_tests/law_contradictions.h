@@ -14,8 +14,8 @@ void add_contradictions(LawFit& result, const std::vector<MaterialTest>& tests,
 std::vector<UntestedMode> untested_modes(const LawFit& fit, const std::vector<MaterialTest>& tests,
                                          const LawFitOptions& options);
 
-/// How far laws that meet the tests alike differ where these know one way of deforming alone and none
-/// was held back.
+/// How far laws that meet the tests alike differ where these know one way of deforming alone and
+/// none was held back.
 void add_differences(std::vector<LawFit>& ranking);
 
 /// Predictions that miss, and loops that the law does not make, or makes too large.
