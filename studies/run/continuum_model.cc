@@ -70,7 +70,7 @@ calibration::ScaledModel continuum_model(
                       run_all = context.run_all](const std::vector<double>& ratios) {
     std::vector<PlannedJob> jobs;
     for (const double nu : ratios)
-      jobs.push_back({fmt::format("{}/{:.4f}", place, nu), reference_job(at_ratio(reference, nu))});
+      jobs.push_back({fmt::format("{}/{:.6f}", place, nu), reference_job(at_ratio(reference, nu))});
     std::vector<VectorXd> forces;
     for (const fs::path& folder : run_all(jobs)) forces.push_back(scaled_forces(folder, reference));
     return forces;
