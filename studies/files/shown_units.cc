@@ -44,28 +44,15 @@ int digits_of(std::string_view number) {
   return int(std::ranges::count_if(number, [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-/// To so many digits; of larger numbers those before the point, not a power of ten.
-std::string in_digits(double value, int digits) {
-  constexpr double most = 1e7;
-  const double size = std::abs(value);
-  return size < most && size >= std::pow(10.0, digits - 1) ? fmt::format("{:.0f}", value)
-                                                           : fmt::format("{:.{}g}", value, digits);
-}
-
-/// Amounts of one sentence, an estimate and its interval, in `unit` and with as many decimals as
-/// the largest needs for its digits; without an exponent unless it is huge or tiny.
-std::vector<std::string> converted(const std::vector<std::string>& amounts, const ShownUnit& unit) {
-  int digits = 4;
+/// With as many decimals as the largest needs for its digits; without an exponent unless it is huge
+/// or tiny.
+std::vector<std::string> alike(const std::vector<double>& values, int digits) {
   double largest = 0.0;
-  for (const std::string& number : amounts) {
-    digits = std::max(digits, digits_of(number));
-    largest = std::max(largest, std::abs(unit(std::strtod(number.c_str(), nullptr))));
-  }
+  for (const double value : values) largest = std::max(largest, std::abs(value));
   const bool plain = largest == 0.0 || (largest >= 1e-4 && largest < 1e7);
   const int before = plain && largest > 0.0 ? int(std::floor(std::log10(largest))) : 0;
   std::vector<std::string> texts;
-  for (const std::string& number : amounts) {
-    const double value = unit(std::strtod(number.c_str(), nullptr));
+  for (const double value : values) {
     std::string& text =
         texts.emplace_back(plain ? fmt::format("{:.{}f}", value, std::max(0, digits - 1 - before))
                                  : fmt::format("{:.{}g}", value, digits));
@@ -76,6 +63,17 @@ std::vector<std::string> converted(const std::vector<std::string>& amounts, cons
     if (text == "-0") text = "0";
   }
   return texts;
+}
+
+/// Amounts of one sentence, an estimate and its interval, in `unit`.
+std::vector<std::string> converted(const std::vector<std::string>& amounts, const ShownUnit& unit) {
+  int digits = 4;
+  std::vector<double> values;
+  for (const std::string& number : amounts) {
+    digits = std::max(digits, digits_of(number));
+    values.push_back(unit(std::strtod(number.c_str(), nullptr)));
+  }
+  return alike(values, digits);
 }
 
 }  // namespace
@@ -93,7 +91,7 @@ std::string ShownUnit::label(std::string_view what) const {
 }
 
 std::string ShownUnit::text(double value) const {
-  return fmt::format("{} {}", in_digits(factor * value, 4), name);
+  return fmt::format("{} {}", alike({factor * value}, 4).front(), name);
 }
 
 std::string ShownUnit::decimals(double value) const {

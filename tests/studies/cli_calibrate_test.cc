@@ -63,6 +63,19 @@ std::vector<std::string> with(std::vector<std::string> words,
   return words;
 }
 
+/// The lattice's own frictionless press to `count` depths, `step` [cm] apart.
+fingertip::meshes::PressResponse lattice_press(const fs::path& folder, int count, double step) {
+  std::string samples;
+  for (int i = 1; i <= count; ++i)
+    samples += (i > 1 ? ",\"" : "\"") + std::to_string(step * i) + " cm\"";
+  const ProgramResult press =
+      run_program(folder, {"press", "--set", "press.mode=static", "--set",
+                           "press.contact=frictionless", "--set", "lattice.spacing=tip_radius/5",
+                           "--set", "press.samples=[" + samples + "]", "--out", "press"});
+  EXPECT_EQ(press.code, 0) << press.err;
+  return fingertip::meshes::PressResponse::read_csv(folder / "press" / "response.csv");
+}
+
 }  // namespace
 
 /// The lattice's own press as a machine tells it: the travel from 0.1 mm before touch, and a frame
@@ -155,16 +168,7 @@ TEST(Calibrate, FindsTheRubberBehindARig) {
 /// has.
 TEST(Calibrate, WhatIsMissedHasAnAmountAndNoMachinePushesBack) {
   const TemporaryFolder folder;
-  std::string samples;
-  for (int i = 1; i <= 24; ++i)
-    samples += (i > 1 ? ",\"" : "\"") + std::to_string(0.005 * i) + " cm\"";
-  const ProgramResult press = run_program(
-      folder.path(), {"press", "--set", "press.mode=static", "--set", "press.contact=frictionless",
-                      "--set", "lattice.spacing=tip_radius/5", "--set",
-                      "press.samples=[" + samples + "]", "--out", "press"});
-  ASSERT_EQ(press.code, 0) << press.err;
-  const auto response =
-      fingertip::meshes::PressResponse::read_csv(folder / "press" / "response.csv");
+  const auto response = lattice_press(folder.path(), 24, 0.005);
   const auto fit = [&](double compliance, double stiffening, const char* out) {
     std::ostringstream csv;
     csv << "# press.contact = \"frictionless\"\nposition [mm];force [mN]\n0;0\n";
@@ -205,16 +209,8 @@ TEST(Calibrate, WhatIsMissedHasAnAmountAndNoMachinePushesBack) {
 /// t of three degrees, 3.18, times 0.249/2.
 TEST(Calibrate, RepeatsThatScatterHaveAFactorEachAndTellTheirMean) {
   const TemporaryFolder folder;
-  std::string samples, files;
-  for (int i = 1; i <= 24; ++i)
-    samples += (i > 1 ? ",\"" : "\"") + std::to_string(0.005 * i) + " cm\"";
-  const ProgramResult press = run_program(
-      folder.path(), {"press", "--set", "press.mode=static", "--set", "press.contact=frictionless",
-                      "--set", "lattice.spacing=tip_radius/5", "--set",
-                      "press.samples=[" + samples + "]", "--out", "press"});
-  ASSERT_EQ(press.code, 0) << press.err;
-  const auto response =
-      fingertip::meshes::PressResponse::read_csv(folder / "press" / "response.csv");
+  std::string files;
+  const auto response = lattice_press(folder.path(), 24, 0.005);
   for (const double factor : {0.95, 1.0, 0.55, 1.13}) {
     std::ostringstream csv;
     csv << "# press.contact = \"frictionless\"\nposition [mm];force [mN]\n0;0\n0.05;0\n";
