@@ -82,18 +82,9 @@ fingertip::meshes::PressResponse lattice_press(const fs::path& folder, int count
 /// that gives way by 2 mm/N.
 TEST(Calibrate, FindsTheRubberBehindARig) {
   const TemporaryFolder folder;
-  std::string samples;
-  for (int i = 1; i <= 12; ++i)
-    samples += (i > 1 ? ",\"" : "\"") + std::to_string(0.01 * i) + " cm\"";
-  const ProgramResult press = run_program(
-      folder.path(), {"press", "--set", "press.mode=static", "--set", "press.contact=frictionless",
-                      "--set", "lattice.spacing=tip_radius/5", "--set",
-                      "press.samples=[" + samples + "]", "--out", "press"});
-  ASSERT_EQ(press.code, 0) << press.err;
+  const auto response = lattice_press(folder.path(), 12, 0.01);
   std::ostringstream csv;
   csv << "# press.contact = \"frictionless\"\nposition [mm];force [mN];sigma [mN]\n0;0;0.01\n";
-  const auto response =
-      fingertip::meshes::PressResponse::read_csv(folder / "press" / "response.csv");
   for (const auto& sample : response.samples())
     csv << 0.1 + 1e3 * (sample.indentation + 2e-3 * sample.normal_force) << ';'
         << 1e3 * sample.normal_force << ';' << 10.0 * sample.normal_force << '\n';
