@@ -16,6 +16,7 @@
 #include "fem_reference/press_course.h"
 #include "fem_reference/run_files.h"
 #include "fem_reference/run_progress.h"
+#include "fem_reference/solver_choice.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 #include "meshes/volume_mesh.h"
@@ -102,6 +103,7 @@ class PressRun {
         course_(job.protocol, job.in_time()),
         places_(course_.samples()),
         progress_(progress),
+        work_(job, places_.size(), fewest_meshes),
         stop_requested_(stop_requested),
         history_(empty_history()) {}
 
@@ -120,7 +122,9 @@ class PressRun {
   void compute() {
     progress_.report("mesh", 0, 1, "meshing the tip");
     make_mesh();
-    progress_.report("assemble", 0, 1, "assembling the first mesh");
+    work_.begin(
+        expected_unknowns(job_, double(mesh_quality_.hexahedra), double(mesh_quality_.nodes)));
+    report("assemble", 0, 1, "assembling the first mesh");
     ContinuumPress press(job_, folder_ / "tip.msh", stop_requested_);
     if (!resume(press)) start_mesh(press);
     for (;;) {
@@ -140,10 +144,10 @@ class PressRun {
       if (!job_.estimate_error ||
           (history_.meshes().size() >= fewest_meshes && worst <= job_.tolerance))
         return write_pictures(press);
-      progress_.report("refine", history_.meshes().size(), history_.meshes().size() + 1,
-                       std::isnan(worst)
-                           ? "refining the mesh"
-                           : "refining the mesh: the force may be off by " + percent(worst));
+      work_.refine();
+      report("refine", history_.meshes().size(), history_.meshes().size() + 1,
+             std::isnan(worst) ? "refining the mesh"
+                               : "refining the mesh: the force may be off by " + percent(worst));
       const std::size_t cells = press.mesh().cells;
       if (most_growth * double(press.mesh().unknowns) > job_.max_unknowns) write_pictures(press);
       unwritten_.clear();
@@ -190,10 +194,15 @@ class PressRun {
   void start_mesh(const ContinuumPress& press) {
     history_.start_mesh(press.mesh());
     const MeshSummary mesh = press.mesh();
-    progress_.report("assemble", 1, 1,
-                     "mesh " + std::to_string(history_.meshes().size()) + ": " +
-                         std::to_string(mesh.unknowns) + " unknowns, " +
-                         std::string(fem_reference::name(mesh.solver)) + " solver");
+    work_.assembled(double(mesh.unknowns));
+    report("assemble", 1, 1,
+           "mesh " + std::to_string(history_.meshes().size()) + ": " +
+               std::to_string(mesh.unknowns) + " unknowns, " +
+               std::string(fem_reference::name(mesh.solver)) + " solver");
+  }
+
+  void report(const char* stage, std::size_t done, std::size_t total, const std::string& message) {
+    progress_.report(stage, done, total, message, work_.expected(progress_.wall_time()));
   }
 
   void press_on(ContinuumPress& press) {
@@ -203,9 +212,10 @@ class PressRun {
       state.sample.stage = course_.stage(i);
       history_.add(std::move(state));
       keep_sample(press, i);
-      progress_.report("press", i + 1, total,
-                       "mesh " + std::to_string(history_.meshes().size()) + ": " +
-                           sample_text(history_.finest().states[i].sample));
+      work_.pressed();
+      report("press", i + 1, total,
+             "mesh " + std::to_string(history_.meshes().size()) + ": " +
+                 sample_text(history_.finest().states[i].sample));
     }
   }
 
@@ -300,9 +310,11 @@ class PressRun {
     press.load(folder_ / place);
     history_ = MeshHistory::from_json(json.at("history"), empty_history());
     history_.set_step_errors(json.value("step_errors", std::vector<double>()));
-    progress_.report("press", history_.finest().states.size(), places_.size(),
-                     "resumed on mesh " + std::to_string(history_.meshes().size()) + " after " +
-                         std::to_string(history_.finest().states.size()) + " samples");
+    work_.resume(double(press.mesh().unknowns), history_.meshes().size(),
+                 history_.finest().states.size());
+    report("press", history_.finest().states.size(), places_.size(),
+           "resumed on mesh " + std::to_string(history_.meshes().size()) + " after " +
+               std::to_string(history_.finest().states.size()) + " samples");
     return true;
   }
 
@@ -358,6 +370,7 @@ class PressRun {
   const PressCourse course_;
   const std::vector<double> places_;  ///< of the samples on the course [m]
   RunProgress progress_;
+  PressWork work_;
   const std::function<bool()>& stop_requested_;
   Clock::time_point last_checkpoint_ = Clock::now(), last_tables_;
   std::vector<std::pair<std::size_t, std::shared_ptr<const PressSnapshot>>> unwritten_;

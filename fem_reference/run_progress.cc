@@ -3,6 +3,7 @@
 #include <mpi.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
@@ -40,10 +41,14 @@ bool first_process() {
 }
 
 void RunProgress::report(const char* stage, std::size_t done, std::size_t total,
-                         const std::string& message) {
-  if (first_process())
-    out_ << ordered_json{{"stage", stage}, {"done", done}, {"total", total}, {"message", message}}
-         << std::endl;
+                         const std::string& message, const Expected& expected) {
+  if (!first_process()) return;
+  ordered_json line{{"stage", stage}, {"done", done}, {"total", total}, {"message", message}};
+  if (!std::isnan(expected.left)) {
+    line["left"] = expected.left;
+    line["memory"] = expected.memory;
+  }
+  out_ << line << std::endl;
 }
 
 double RunProgress::wall_time() const {

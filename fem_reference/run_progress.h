@@ -11,6 +11,7 @@
 #include "fem_reference/press.h"
 #include "fem_reference/run.h"
 #include "fem_reference/run_summary.h"
+#include "fem_reference/solver_choice.h"
 #include "meshes/volume_mesh.h"
 
 namespace fingertip::fem_reference {
@@ -25,12 +26,13 @@ void stop_if_asked(const std::function<bool()>& stop_requested);
 /// all processes see together; anything else is passed on.
 RunOutcome outcome_of(const std::function<void()>& work);
 
-/// One JSON object per line, {"stage", "done", "total", "message"}, and the wall time since its
-/// construction [s].
+/// One JSON object per line, {"stage", "done", "total", "message"} and what is expected, "left" and
+/// "memory"; and the wall time since its construction [s].
 class RunProgress {
  public:
   explicit RunProgress(std::ostream& out) : out_(out) {}
-  void report(const char* stage, std::size_t done, std::size_t total, const std::string& message);
+  void report(const char* stage, std::size_t done, std::size_t total, const std::string& message,
+              const Expected& expected = {});
   double wall_time() const;
 
  private:

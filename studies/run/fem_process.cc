@@ -29,6 +29,12 @@ constexpr int signal_base = 128;
 constexpr auto patience = std::chrono::seconds(10);       ///< from SIGINT to the end by force
 constexpr auto more_patience = std::chrono::seconds(15);  ///< the same for mpirun itself
 
+constexpr double shown_memory = 1e9;  ///< [byte]
+
+double memory_of_machine() {
+  return double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
+}
+
 /// The reading end of a pipe whose writing end a child holds.
 class Pipe {
  public:
@@ -72,22 +78,37 @@ class Pipe {
   std::string rest_;
 };
 
-/// How far a run is that presses on one mesh after the other, until an error is small enough: each
-/// mesh counts half of what was left.
+/// How far a run is that presses on one mesh after the other, until an error is small enough. Where
+/// it tells the time left, by that; else each mesh counts half of what was left.
 class FemProgress {
  public:
-  void take(const std::string& stage, double done) {
+  void take(const std::string& stage, double done, double time_left) {
+    told_ = Clock::now();
+    time_left_ = time_left;
     const double within = stage == "mesh"       ? 0.05 * done
                           : stage == "assemble" ? 0.05 + 0.15 * done
                                                 : 0.2 + 0.8 * done;
     if (within < within_) left_ *= 0.5;  // from the start again: the next mesh
     within_ = within;
   }
-  double fraction() const { return 1.0 - left_ * (1.0 - 0.5 * within_); }
+  double fraction() const {
+    if (std::isnan(time_left_)) return 1.0 - left_ * (1.0 - 0.5 * within_);
+    constexpr double least = 0.1;  // of an estimate that time has overtaken
+    const auto now = Clock::now();
+    const double left = std::max(time_left_ - seconds(now - told_), least * time_left_);
+    const double past = seconds(now - start_);
+    return left > 0.0 ? past / (past + left) : 1.0 - 0.5 * least;
+  }
 
  private:
-  double within_ = 0.0;  ///< done of this mesh
-  double left_ = 1.0;    ///< share of this mesh and all later ones
+  static double seconds(Clock::duration time) {
+    return std::chrono::duration<double>(time).count();
+  }
+
+  Clock::time_point start_ = Clock::now(), told_ = start_;
+  double time_left_ = meshes::unknown;  ///< when it was told [s]
+  double within_ = 0.0;                 ///< done of this mesh
+  double left_ = 1.0;                   ///< share of this mesh and all later ones
 };
 
 /// Watches the child until it ends; asks it to stop when the user wants to.
@@ -102,12 +123,16 @@ class Watch {
       if (!line.empty()) context_.log("fem: " + line);
       return;
     }
-    stage_ = json.value("stage", stage_);
+    stage_ = json.value("stage", "");
     const double total = json.value("total", 1.0);
     const double done = total > 0.0 ? json.value("done", 0.0) / total : 0.0;
-    progress_.take(stage_, done);
+    progress_.take(stage_, done, json.value("left", meshes::unknown));
     const std::string message = json.value("message", "");
     if (!message.empty()) context_.log("fem: " + stage_ + ": " + message);
+    const double memory = json.value("memory", 0.0);
+    if (memory > shown_memory) stage_ += fmt::format(", some {:.2g} GB", 1e-9 * memory);
+    if (memory > memory_of_machine())
+      stage_ += fmt::format(" of the {:.2g} GB here", 1e-9 * memory_of_machine());
   }
 
   void take_error(const std::string& line) {

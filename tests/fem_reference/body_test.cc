@@ -12,9 +12,11 @@
 #include <numbers>
 #include <string>
 
+#include "fem_reference/solver_choice.h"
 #include "fem_reference/tip_body.h"
 #include "meshes/errors.h"
 #include "tests/fem_reference/shared_mesh.h"
+#include "tests/fingers.h"
 
 using namespace fingertip;
 using fem_reference::Body;
@@ -298,3 +300,35 @@ TEST_F(MeshFile, IsRefusedWhenAnElementIsInverted) {
 }
 
 }  // namespace
+
+TEST(Body, TheUnknownsOfAMeshAreKnownBeforeItsElements) {
+  fem_reference::ReferenceJob job;
+  job.symmetry = fem_reference::Symmetry::none;
+  for (const auto& geometry : {Geometry{}, fingers::solid_dome(24, 16)}) {
+    for (int degree = 1; degree <= 3; ++degree) {
+      job.degree = degree;
+      const Options options{.refinement = 0.4, .degree = degree, .geometry = geometry};
+      const SharedMesh mesh(options.refinement, options.sector, geometry);
+      const meshes::MeshQuality quality = meshes::inspect_tip_mesh(mesh.file());
+      const double told = fem_reference::expected_unknowns(job, double(quality.hexahedra),
+                                                           double(quality.nodes)),
+                   number = double(make_body(options)->unknowns());
+      EXPECT_NEAR(told / number, 1.0, degree == 1 ? 1e-12 : 0.1) << "degree " << degree;
+    }
+  }
+}
+
+TEST(Body, TheUnknownsOfAMeridianAreKnownExactly) {
+  fem_reference::ReferenceJob job;
+  ASSERT_TRUE(job.axisymmetric());
+  const SharedMesh mesh(0.5, Sector::meridian);
+  const meshes::MeshQuality quality = meshes::inspect_tip_mesh(mesh.file());
+  for (int degree = 1; degree <= 3; ++degree) {
+    job.degree = degree;
+    const auto body = fem_reference::read_tip<2>(MPI_COMM_SELF, mesh.file(), degree, 0.0);
+    body->number(fem_reference::tip_supports<2>());
+    EXPECT_EQ(
+        fem_reference::expected_unknowns(job, double(quality.hexahedra), double(quality.nodes)),
+        double(body->unknowns()));
+  }
+}

@@ -130,13 +130,21 @@ TEST(ReferenceRun, LeavesACompleteFolder) {
   EXPECT_FALSE(fs::exists(folder / "checkpoint"));
 
   std::istringstream progress(program.output());
-  std::size_t lines = 0;
-  for (std::string line; std::getline(progress, line); ++lines) {
-    const json entry = json::parse(line);
+  std::vector<json> lines;
+  for (std::string line; std::getline(progress, line);) lines.push_back(json::parse(line));
+  EXPECT_GT(lines.size(), 8u);
+  for (const json& entry : lines) {
     EXPECT_LE(entry.at("done"), entry.at("total"));
     EXPECT_TRUE(entry.contains("stage") && entry.contains("message"));
   }
-  EXPECT_GT(lines, 8u);
+  // What it will take is told before the first mesh is assembled, and nothing is left at the end.
+  EXPECT_EQ(lines[1].at("stage"), "assemble");
+  EXPECT_GT(lines[1].at("left"), 0.0);
+  const double told = lines[1].at("memory"), taken = summary.at("peak_memory");
+  EXPECT_LT(std::max(told / taken, taken / told), 2.0) << told << " told, taken " << taken;
+  const auto press = std::ranges::find(lines.rbegin(), lines.rend(), "press",
+                                       [](const json& entry) { return entry.at("stage"); });
+  EXPECT_EQ(press->at("left"), 0.0);
 }
 
 TEST(ReferenceRun, OneMeshIsEnoughWhenNoErrorIsWanted) {

@@ -107,6 +107,22 @@ TEST_F(FemProcess, ProgressGrowsFromMeshToMesh) {
   EXPECT_LT(fraction_, 1.0);
 }
 
+TEST_F(FemProcess, TheTimeLeftThatARunTellsIsItsProgress) {
+  const auto told = [this](const char* left, const char* memory) {
+    run(std::string("sleep 0.2; echo '{\"stage\":\"assemble\",\"done\":0,\"total\":1,\"left\":") +
+        left + ",\"memory\":" + memory + "}'; sleep 0.2");
+    return fraction_;
+  };
+  const double half = told("0.4", "2e8");
+  EXPECT_GT(half, 0.3);
+  EXPECT_LT(half, 1.0);
+  EXPECT_EQ(stage_, "assemble");
+  EXPECT_LT(told("1e5", "5e9"), 1e-4);  // of a machine that is slow to start a shell, too
+  EXPECT_EQ(stage_.find("assemble, some 5 GB"), 0u) << stage_;
+  told("1e5", "9e15");
+  EXPECT_TRUE(contains(stage_, "GB here")) << stage_;
+}
+
 TEST_F(FemProcess, ALostProcessIsToldWithItsSignalAndWhereTheSamplesAre) {
   EXPECT_TRUE(contains(loss("kill -SEGV $$"), "signal 11"));
   EXPECT_TRUE(contains(loss("kill -KILL $$"), "no sample had been finished"));
