@@ -9,11 +9,13 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <map>
 
 #include "lattice/kernels/stencil.h"
 #include "lattice/model/cell_lattice.h"
 #include "lattice/model/model.h"
 #include "lattice/model/state.h"
+#include "lattice/paper/particle_system.h"
 
 namespace reference {
 
@@ -231,35 +233,57 @@ inline void cell_forces(const CellLattice& cells, const VectorField& displacemen
   });
 }
 
-/// Equation (1) of the paper: the force spring s applies to particle i; j feels the opposite.
-inline Vector3 spring_force(const lattice::LatticeModel& model, const lattice::State& state,
-                            std::size_t i, std::size_t j, const lattice::Direction& s) {
-  const Vector3 rest = model.spacing() * Vector3(s.dx, s.dy, s.dz);
-  const Vector3 relative = state.displacement.at(j) - state.displacement.at(i);
-  const Vector3 rate = state.velocity.at(j) - state.velocity.at(i);
-  const double k = model.stiffness[s.family], mu = model.damping[s.family];
-  if (model.kinematics == lattice::Kinematics::small) {
-    const Vector3 direction = rest.normalized();
-    return (k * direction.dot(relative) + mu * direction.dot(rate)) * direction;
+/// The model's particles and springs as the paper has them, in the tip's frame.
+inline lattice::paper::ParticleSystem particle_system(const lattice::LatticeModel& model,
+                                                      const lattice::State& state) {
+  lattice::paper::ParticleSystem system;
+  std::map<std::size_t, std::size_t> number;
+  for (const std::size_t i : model.particles) {
+    number[i] = system.P.size();
+    system.P.push_back({.m = model.mass[i],
+                        .x = model.rest_position(i) + model.grid.axes * state.displacement.at(i),
+                        .v = model.grid.axes * state.velocity.at(i)});
   }
-  const Vector3 d = rest + relative, direction = d.normalized();
-  return (k * (d.norm() - rest.norm()) + mu * rate.dot(direction)) * direction;
-}
-
-/// AccumulateForces (paper, Fig. 4), an edge list and a loop, with the cells: the internal force on
-/// every particle [N], zero elsewhere.
-inline VectorField forces(const lattice::LatticeModel& model, const lattice::State& state) {
-  VectorField force(model.points());
   for (std::size_t s = 0; model.has_springs() && s < lattice::half_stencil.size(); ++s) {
+    const lattice::Family family = lattice::half_stencil[s].family;
     for (const std::size_t i : model.particles) {
       const double weight = model.weight[s][i];
       if (weight == 0.0) continue;
       const std::size_t j = i + std::size_t(lattice::neighbour_offset(model.grid.size, int(s)));
-      const Vector3 pull = weight * spring_force(model, state, i, j, lattice::half_stencil[s]);
-      force.add(i, pull);
-      force.add(j, -pull);
+      system.S.push_back({number.at(i), number.at(j), weight * model.stiffness[family],
+                          weight * model.damping[family], model.rest_length(family)});
     }
   }
+  return system;
+}
+
+/// What equation (1) is to first order in displacements and velocities.
+inline Vector3 linear_spring_force(const lattice::paper::ParticleSystem& rest,
+                                   const lattice::paper::ParticleSystem& system,
+                                   const lattice::paper::Spring& s) {
+  const Vector3 direction = (rest.P[s.j].x - rest.P[s.i].x).normalized();
+  const Vector3 relative = (system.P[s.j].x - rest.P[s.j].x) - (system.P[s.i].x - rest.P[s.i].x);
+  const Vector3 rate = system.P[s.j].v - system.P[s.i].v;
+  return (s.k * direction.dot(relative) + s.mu * direction.dot(rate)) * direction;
+}
+
+/// The internal force on every particle [N], zero elsewhere: AccumulateForces (lattice/paper) and
+/// the cells.
+inline VectorField forces(const lattice::LatticeModel& model, const lattice::State& state) {
+  lattice::paper::ParticleSystem system = particle_system(model, state);
+  if (model.kinematics == lattice::Kinematics::small) {
+    const auto rest = particle_system(model, lattice::State(model));
+    for (const lattice::paper::Spring& s : system.S) {
+      const Vector3 u = linear_spring_force(rest, system, s);
+      system.P[s.i].f += u;
+      system.P[s.j].f -= u;
+    }
+  } else {
+    lattice::paper::AccumulateForces(system);
+  }
+  VectorField force(model.points());
+  for (std::size_t p = 0; p < model.particles.size(); ++p)
+    force.add(model.particles[p], model.grid.axes.transpose() * system.P[p].f);
   // At small strain u + tau v stands for stiffness and damping together.
   VectorField displacement = state.displacement;
   if (model.kinematics == lattice::Kinematics::small) {
