@@ -315,9 +315,19 @@ double worst(const std::vector<TestMisfit>& misfits) {
   return error;
 }
 
+/// That law, or one that is a case of it and fits and predicts as well.
+const LawFit* simplest(const Laws& laws, const LawFit* chosen) {
+  for (const LawChoice& nested : nested_laws(chosen->choice))
+    for (const LawFit* law : laws)
+      if (law->choice == nested && law->aicc <= chosen->aicc + as_good_aicc &&
+          worst(law->predicted) <= worst(chosen->predicted) + repeatable)
+        return simplest(laws, law);
+  return chosen;
+}
+
 const LawFit* best_supported(const Laws& laws) {
   for (const LawFit* law : laws)
-    if (worst(law->predicted) <= supporting_error) return law;
+    if (worst(law->predicted) <= supporting_error) return simplest(laws, law);
   return *std::ranges::min_element(laws, {}, [](const LawFit* law) {
     return std::max(worst(law->fitted), worst(law->predicted));
   });
@@ -353,8 +363,9 @@ const LawFit* recommended(const std::vector<LawFit>& ranking) {
     if (!laws.front()->predicted.empty()) return best_supported(laws);
     const auto wild = [&](const LawFit* law) { return wildness(*law, laws); };
     const double tamest = wild(*std::ranges::min_element(laws, {}, wild));
-    return *std::ranges::find_if(
-        laws, [&](const LawFit* law) { return wild(law) <= little_more * tamest; });
+    return simplest(laws, *std::ranges::find_if(laws, [&](const LawFit* law) {
+                      return wild(law) <= little_more * tamest;
+                    }));
   }
   auto found = std::ranges::find_if(ranking, [](const LawFit& fit) {
     return fit.failure.empty() && !fit.unstable_in_tests && !fit.unstable_in_use &&

@@ -124,13 +124,19 @@ std::vector<LawFit> rank_laws(const std::vector<MaterialTest>& tests,
 /// Beyond it a prediction does not support a law, by rms_relative.
 inline constexpr double supporting_error = 0.15;
 
+/// Laws so near to the least AICc are supported alike (Burnham & Anderson, Model selection and
+/// multimodel inference, 2002, ch. 2: beyond 10 there is no support): of several that are tried
+/// noise always prefers one that has a coefficient too many.
+inline constexpr double as_good_aicc = 10.0;
+
 /// Of a ranking the law to be used; null without any fit. Of those that passed their own tests the
 /// first that predicts all tests held back within 15 % (rms_relative), or, where none does, the one
 /// whose largest error, of fit or prediction, is least. Where nothing was held back and the tests
 /// know one way of deforming alone, laws that meet them within 2 % of the stress of the best one
 /// are equals, for so well do specimens repeat; of these the first that asks for little stress in
-/// other ways of deforming, at most a tenth more than the one that asks for least. Where no law
-/// passed its tests, the first that is stable, else the first.
+/// other ways of deforming, at most a tenth more than the one that asks for least. A case of
+/// it that is as good (as_good_aicc, predictions within 2 %) goes before it. Where
+/// no law passed its tests, the first that is stable, else the first.
 const LawFit* recommended(const std::vector<LawFit>& ranking);
 
 /// The laws that it chooses among; none where none passed its own tests.

@@ -90,8 +90,13 @@ LawEntry law_entry(const LawFit& fit, const std::vector<MaterialTest>& tests,
 /// Why it is taken, as far as AICc does not tell.
 std::string reason_of_choice(const LawFit& best, const std::vector<LawFit>& ranking) {
   const std::size_t count = equals(ranking).size();
+  const LawFit& first = ranking.front();
+  const bool simpler = best.aicc <= first.aicc + as_good_aicc &&
+                       best.fit.estimates.size() < first.fit.estimates.size();
+  const std::string as_good = simpler ? ", as good with fewer coefficients" : "";
   if (best.predicted.empty() && !best.untested.empty() && count > 1)
-    return ", which asks for little stress in other ways of deforming: tests of one way do not "
+    return as_good +
+           ", which asks for little stress in other ways of deforming: tests of one way do not "
            "choose among the " +
            std::to_string(count) + " laws that meet them alike. Measure another way.";
   const bool missed = std::ranges::any_of(best.predicted, [](const TestMisfit& misfit) {
@@ -100,7 +105,7 @@ std::string reason_of_choice(const LawFit& best, const std::vector<LawFit>& rank
   if (missed)
     return ": none predicts what was held back within " + percent(supporting_error) +
            ", and it errs least.";
-  if (&best == &ranking.front()) return ".";
+  if (&best == &first || simpler) return as_good + ".";
   return best.predicted.empty() ? ", which passes its own tests."
                                 : ", which passes its own tests and predicts what was held back.";
 }
