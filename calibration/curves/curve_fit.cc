@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <optional>
 #include <string>
 
 #include "calibration/curves/curve_minimum.h"
 #include "calibration/curves/curve_residuals.h"
 #include "calibration/curves/fit_coordinates.h"
 #include "calibration/curves/fit_statistics.h"
-#include "calibration/curves/residual_structure.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 
@@ -21,7 +20,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Less than one good fit in a hundred has so large a chi-square, or so few changes of sign.
+/// Less than one good fit in a hundred has so large a chi-square.
 constexpr double improbable = 0.01;
 
 std::vector<MaterialParameter> names(const CurveFitOptions& options) {
@@ -87,24 +86,39 @@ void agree_with_priors(CurveResiduals& residuals, const CurveFitOptions& options
   }
 }
 
-/// Of values whose errors follow each other as a first-order autoregression with correlation r do,
-/// n (1 - r)/(1 + r) are independent; their signs change with the probability arccos(r)/pi (the
-/// arcsine law). Fewer than two independent ones are none.
-double values_per_independent(const VectorXd& residuals) {
-  const ResidualStructure structure = residual_structure(residuals);
-  if (!(structure.probability < improbable)) return 1.0;
-  const auto count = double(residuals.size());
-  const double changes = std::max(1.0, structure.runs - 1.0) / (count - 1.0);
-  return std::min(std::pow(std::tan(0.5 * std::numbers::pi * changes), -2), 0.5 * count);
-}
+/// What residuals are worth whose errors follow each other.
+struct Order {
+  double independent = 0.0;  ///< values
+  double freedom = 0.0;      ///< of Student's t
+};
 
-double order_ratio_of(const std::vector<VectorXd>& residuals) {
-  double values = 0.0, weight = 0.0;
+/// Of errors that follow each other as a first-order autoregression's do, n values with correlation
+/// r are worth n/f, f = (1 + r)/(1 - r). Each of p parameters, whose derivatives are smooth, takes
+/// f squares out of n, and as much out of the products of neighbours, so that the residuals show (n
+/// r
+/// - p f)/(n - p f). r is known to sqrt((1 - r²)/n) itself, f and so the variance to sqrt(4/(n (1 -
+/// r²))), which counts like n (1 - r²)/2 degrees of freedom. None where chance shows as much in one
+/// of ten; p + 2 values are left at least.
+std::optional<Order> order_of(const std::vector<VectorXd>& residuals, Index parameters) {
+  constexpr double one_of_ten = 1.28;
+  constexpr int rounds = 100;
+  double count = 0.0, pairs = 0.0, squares = 0.0, products = 0.0;
   for (const VectorXd& curve : residuals) {
-    values += double(curve.size());
-    weight += double(curve.size()) * values_per_independent(curve);
+    const Index steps = std::max<Index>(0, curve.size() - 1);
+    count += double(curve.size()), pairs += double(steps);
+    squares += curve.squaredNorm(), products += curve.head(steps).dot(curve.tail(steps));
   }
-  return std::sqrt(std::max(1.0, weight / values));
+  const auto taken = double(parameters);
+  if (!(squares > 0.0) || !(pairs > 0.0) || !(count > taken + 2.0)) return std::nullopt;
+  const double seen = products * count / (squares * pairs), most = count / (taken + 2.0),
+               highest = (most - 1.0) / (most + 1.0);
+  double r = 0.0, f = 1.0;
+  for (int round = 0; round < rounds; ++round) {
+    r = std::min(seen + (1.0 - seen) * taken * f / count, highest);
+    f = std::max(1.0, (1.0 + r) / (1.0 - r));
+  }
+  if (r * std::sqrt(count) < one_of_ten) return std::nullopt;
+  return Order{count / f, 1.0 / (1.0 / (count / f - taken) + 2.0 / (count * (1.0 - r * r)))};
 }
 
 /// What a relative change refers to: the estimate, and for what may be zero at least its size.
@@ -205,7 +219,14 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   fit.evaluations = residuals.evaluations();
   const Linearisation& at = residuals.at(fit.estimates);
   const double deviation = add_squares(fit, residuals, at, options);
-  const double quantile = residuals.has_sigma() ? normal_95() : student_95(fit.degrees_of_freedom);
+  double freedom = fit.degrees_of_freedom;
+  if (options.serial && !residuals.has_sigma())
+    if (const auto order = order_of(fit.residuals, fit.estimates.size())) {
+      const double lost = double(residuals.values()) - order->independent;
+      fit.order_ratio = std::sqrt(freedom / (freedom - lost));
+      freedom = order->freedom;
+    }
+  const double quantile = residuals.has_sigma() ? normal_95() : student_95(freedom);
   const VectorXd root = residuals.weights(at).cwiseSqrt();
   const Eigen::MatrixXd jacobian = root.asDiagonal() * at.jacobian / deviation;
   fit.jacobian = jacobian.topRows(residuals.values());
@@ -213,7 +234,6 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   const VectorXd size = sizes(fit.estimates, options);
   Eigen::MatrixXd covariance = Sensitivity(jacobian, size).covariance();
   fit.influence = covariance * fit.jacobian.transpose() * fit.whitening;
-  if (options.serial && !residuals.has_sigma()) fit.order_ratio = order_ratio_of(fit.residuals);
   covariance *= fit.order_ratio * fit.order_ratio;
   // Found without regard to the models' errors, which come through.
   if (!residuals.has_sigma() && options.model_covariance.size() > 0)

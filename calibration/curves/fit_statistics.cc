@@ -99,7 +99,7 @@ std::string statement_of(const Direction& direction, const Eigen::VectorXd& chan
 
 }  // namespace
 
-double student_95(int degrees_of_freedom) {
+double student_95(double degrees_of_freedom) {
   return quantile(boost::math::students_t(degrees_of_freedom), upper_tail);
 }
 

@@ -10,8 +10,8 @@
 namespace fingertip::calibration {
 
 /// Half width of the 95 % interval over the standard error: Student's t, and 1.96 for a normal
-/// distribution. `degrees_of_freedom` >= 1.
-double student_95(int degrees_of_freedom);
+/// distribution. `degrees_of_freedom` > 0.
+double student_95(double degrees_of_freedom);
 double normal_95();
 
 /// Probability that chi-square with so many degrees of freedom (>= 1) is at least that large.

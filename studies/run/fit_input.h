@@ -99,6 +99,10 @@ bool by_continuum(const FitInput& input);
 /// Of `input.options.free`, without those of rigs and relaxation, which stand behind them.
 std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input);
 
+/// Whether forces are proportional to all that is sought of the rubber: a press of every curve then
+/// tells everything, whatever rig and relaxation.
+bool asks_one_press(const FitInput& input);
+
 /// What a fit or a plan depends on.
 nlohmann::ordered_json fit_inputs(const FitInput& input);
 

@@ -48,24 +48,6 @@ void add_profile(const FitInput& input, const std::vector<ForwardModel*>& models
   record.profile_second = record.fit.parameters[second];
 }
 
-/// Intervals up to where chi-square has risen, in place of those of the covariance where both ends
-/// are found.
-void add_intervals(const std::vector<ForwardModel*>& models, calibration::FitRecord& record) {
-  calibration::CurveFit& fit = record.fit;
-  record.profiled.assign(fit.labels.size(), false);
-  for (std::size_t i = 0; i < fit.labels.size(); ++i) {
-    if (fit.at_bound[i] || !(fit.standard_errors(Eigen::Index(i)) > 0.0)) continue;
-    const double half_width = 0.5 * (fit.upper(Eigen::Index(i)) - fit.lower(Eigen::Index(i))) /
-                              fit.standard_errors(Eigen::Index(i));
-    const auto own =
-        calibration::profile_interval(record.curves, models, record.options, fit, i, half_width);
-    if (!std::isfinite(own.lower) || !std::isfinite(own.upper)) continue;
-    fit.lower(Eigen::Index(i)) = own.lower;
-    fit.upper(Eigen::Index(i)) = own.upper;
-    record.profiled[i] = true;
-  }
-}
-
 void write(const calibration::FitRecord& record, const fs::path& folder) {
   const std::vector<std::string> failed = calibration::failed_tests(record);
   calibration::write_fit_json(record, folder / "calibration.json");
@@ -169,22 +151,8 @@ void run_fit(FitInput input, const fs::path& folder, const JobContext& context) 
 
   calibration::FitRecord record = described(input);
   record.fit = search(input, models);
-  stage = "repeats";
-  record.repeats = repeats_in(input, record.fit);
-  if (scatter(record.repeats)) {
-    record.fit = fit_with_scatter(input, list, record.fit, record.repeats);
-    record.model_error +=
-        std::string(record.model_error.empty() ? "" : " and ") + "the scatter between repeats";
-  }
-  const calibration::CurveFit own =
-      scatter(record.repeats) ? fit_apart(input, record.fit, record.repeats) : record.fit;
-  if (scatter(record.repeats)) record.own_residuals = own.residuals;
-  record.options = input.options;
-  stage = "intervals";
-  // Without sigma the scatter of repeats is in the fit alone, not in what profiles know.
-  const bool known = !scatter(record.repeats) || !input.curves.front().sigma.empty();
-  if (input.profile_intervals && known && record.fit.converged && record.fit.degrees_of_freedom > 0)
-    add_intervals(list, record);
+  stage = "repeats and intervals";
+  const calibration::CurveFit own = add_scatter_and_intervals(input, list, record);
   stage = "curves left out";
   if (input.curves.size() > 1)
     record.left_out = calibration::leave_one_out(input.curves, list, record.options, record.fit);
@@ -262,6 +230,10 @@ std::vector<MaterialParameter> parameters_of(const FitInput& input) {
   for (const auto& free : input.options.free)
     if (!calibration::is_behind_the_press(free.parameter)) parameters.push_back(free.parameter);
   return parameters;
+}
+
+bool asks_one_press(const FitInput& input) {
+  return parameters_of(input) == std::vector{MaterialParameter::modulus};
 }
 
 Job fit_job(const FitInput& input) {

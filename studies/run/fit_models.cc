@@ -13,6 +13,7 @@
 #include "meshes/no_equilibrium.h"
 #include "studies/run/continuum_model.h"
 #include "studies/run/digest.h"
+#include "studies/run/fit_relaxation.h"
 #include "studies/run/jobs.h"
 
 namespace fingertip::studies {
@@ -274,6 +275,7 @@ void start_from_data(FitInput& input, const FitModels& models) {
     Eigen::VectorXd& start = input.options.other_starts.emplace_back(whole);
     start.head(Eigen::Index(count)) = other;
   }
+  add_starts_in_time(input);
 }
 
 }  // namespace fingertip::studies

@@ -22,6 +22,8 @@ constexpr double beyond = 30.0;
 constexpr double least_share = 1e-4, most_share = 0.95;
 /// Where no hold tells one.
 constexpr double usual_share = 0.2;
+/// Between starts in time.
+constexpr double time_spread = 4.0;
 /// Of the time of a loading what its curve resolves.
 constexpr double resolved = 0.05;
 
@@ -118,6 +120,21 @@ void start_branches(const LoadedConfig& loaded, FitInput& input) {
                                   : fall / sought;
       free.scale = usual_share;
     }
+  }
+}
+
+void add_starts_in_time(FitInput& input) {
+  std::vector<FreeParameter>& free = input.options.free;
+  const auto is_time = [](const FreeParameter& each) {
+    return calibration::is_of_the_relaxation(each.parameter) && branch_of(each.parameter).second;
+  };
+  if (!asks_one_press(input) || std::ranges::none_of(free, is_time)) return;
+  for (const double factor : {1.0 / time_spread, time_spread}) {
+    Eigen::VectorXd& start = input.options.other_starts.emplace_back(Eigen::Index(free.size()));
+    for (std::size_t i = 0; i < free.size(); ++i)
+      start(Eigen::Index(i)) =
+          is_time(free[i]) ? std::clamp(factor * free[i].start, free[i].lower, free[i].upper)
+                           : free[i].start;
   }
 }
 

@@ -35,6 +35,10 @@ std::array<double, 2> observed_times(const std::vector<calibration::Curve>& curv
 /// branches that `loaded` gives start there.
 void start_branches(const LoadedConfig& loaded, FitInput& input);
 
+/// Beside the start those with the free times of branches four times shorter and longer: between
+/// them lie other valleys. Only where the models answer at once (asks_one_press).
+void add_starts_in_time(FitInput& input);
+
 /// The branches at the estimates; empty: the rubber does not relax.
 meshes::Relaxation relaxation_of(const FitInput& input, const Eigen::VectorXd& estimates);
 

@@ -1,6 +1,6 @@
 #include "studies/run/fit_repeats.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -113,28 +113,28 @@ std::vector<Curve> with_sigma(std::vector<Curve> curves, double sigma) {
   return curves;
 }
 
-/// Whitened by the values' own deviation alone, as a fit without sigma is, whose chi-square tells
-/// nothing.
-void make_plain(CurveFit& fit, double deviation) {
-  const Index count = fit.whitening.rows();
-  fit.jacobian = fit.whitening.ldlt().solve(fit.jacobian) / deviation;
-  fit.whitening = MatrixXd::Identity(count, count) / deviation;
-  fit.whitened_residuals.clear();
-  fit.chi_square.reset(), fit.chi_square_probability.reset();
-  fit.birge_ratio = 1.0;
+/// Whitened otherwise: by the values' own errors alone, without the scatter.
+void whiten_by(CurveFit& fit, const MatrixXd& whitening) {
+  fit.jacobian = whitening * fit.whitening.partialPivLu().solve(fit.jacobian);
+  fit.whitening = whitening;
 }
 
-/// The variance between repeats is known from as many as there are.
+/// The variance between repeats is known from as many as there are, and with it that of what the
+/// repeats tell together, the rubber (Hartung & Knapp, Statistics in Medicine 20, 3875, 2001): of
+/// rig quantities, which each repeat tells for itself, it is a part of the variance.
 void widen(CurveFit& fit, const std::vector<Repeats>& repeats, const MatrixXd& scattered) {
   int freedom = 0;
   for (const Repeats& group : repeats)
     if (group.deviation > 0.0) freedom += int(group.curves.size()) - 1;
   const MatrixXd between = fit.influence * scattered * fit.influence.transpose();
+  const double few = calibration::student_95(freedom),
+               many = calibration::normal_95() * fit.birge_ratio;
   for (Index i = 0; i < fit.estimates.size(); ++i) {
-    const double within = std::max(0.0, fit.covariance(i, i) - between(i, i)),
-                 quantile = calibration::normal_95() * fit.birge_ratio;
-    const double half = std::hypot(quantile * std::sqrt(within),
-                                   calibration::student_95(freedom) * std::sqrt(between(i, i)));
+    const double all = fit.covariance(i, i), of_repeats = std::min(between(i, i), all);
+    const double half =
+        calibration::is_of_the_rig(fit.parameters[std::size_t(i)])
+            ? std::hypot(many * std::sqrt(all - of_repeats), few * std::sqrt(of_repeats))
+            : std::max(few, many) * std::sqrt(all);
     fit.lower(i) = fit.estimates(i) - half;
     fit.upper(i) = fit.estimates(i) + half;
   }
@@ -151,19 +151,29 @@ CurveFit fit_with_scatter(FitInput& input, const std::vector<calibration::Forwar
   const MatrixXd base = covariance;
   CurveFit fit = first;
   MatrixXd scattered;
-  for (int round = 0; round < (known ? 1 : rounds); ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const CurveFit before = fit;
     scattered = calibration::covariance_of(repeats, input.curves, fit, zeros(input, fit.estimates));
     covariance = base.size() == 0 ? scattered : MatrixXd(base + scattered);
-    if (known) {
+    MatrixXd own = first.whitening;
+    if (!known) {
+      const double deviation = std::max(1.0 / fit_apart(input, fit, repeats).whitening(0, 0),
+                                        1e-9 * fit.residual_deviation);
+      own = MatrixXd::Identity(own.rows(), own.cols()) / deviation;
+      fit = fit_again(input, models, with_sigma(input.curves, deviation), fit, covariance);
+    } else {
       fit = fit_again(input, models, input.curves, fit, covariance);
-      break;
     }
-    const double deviation = std::max(1.0 / fit_apart(input, fit, repeats).whitening(0, 0),
-                                      1e-9 * fit.residual_deviation);
-    fit = fit_again(input, models, with_sigma(input.curves, deviation), fit, covariance);
-    make_plain(fit, deviation);
-    const std::vector<Repeats> again = repeats_in(input, fit);
+    CurveFit plain = fit;
+    whiten_by(plain, own);
+    if (!known) {
+      // As a fit without sigma is, whose chi-square tells nothing.
+      plain.whitened_residuals.clear();
+      plain.chi_square.reset(), plain.chi_square_probability.reset();
+      plain.birge_ratio = 1.0;
+      fit = plain;
+    }
+    const std::vector<Repeats> again = repeats_in(input, plain);
     if (!scatter(again)) break;
     repeats = again;
     const Eigen::VectorXd step = (fit.estimates - before.estimates).cwiseAbs();
@@ -171,6 +181,50 @@ CurveFit fit_with_scatter(FitInput& input, const std::vector<calibration::Forwar
   }
   widen(fit, repeats, scattered);
   return fit;
+}
+
+namespace {
+
+/// Intervals up to where chi-square has risen, in place of those of the covariance where both ends
+/// are found.
+void add_intervals(const std::vector<calibration::ForwardModel*>& models,
+                   calibration::FitRecord& record) {
+  calibration::CurveFit& fit = record.fit;
+  record.profiled.assign(fit.labels.size(), false);
+  for (std::size_t i = 0; i < fit.labels.size(); ++i) {
+    if (fit.at_bound[i] || !(fit.standard_errors(Eigen::Index(i)) > 0.0)) continue;
+    const double half_width = 0.5 * (fit.upper(Eigen::Index(i)) - fit.lower(Eigen::Index(i))) /
+                              fit.standard_errors(Eigen::Index(i));
+    const auto own =
+        calibration::profile_interval(record.curves, models, record.options, fit, i, half_width);
+    if (!std::isfinite(own.lower) || !std::isfinite(own.upper)) continue;
+    fit.lower(Eigen::Index(i)) = own.lower;
+    fit.upper(Eigen::Index(i)) = own.upper;
+    record.profiled[i] = true;
+  }
+}
+
+}  // namespace
+
+CurveFit add_scatter_and_intervals(FitInput& input,
+                                   const std::vector<calibration::ForwardModel*>& models,
+                                   calibration::FitRecord& record) {
+  record.repeats = repeats_in(input, record.fit);
+  const bool scattered = scatter(record.repeats);
+  CurveFit own = record.fit;
+  if (scattered) {
+    record.fit = fit_with_scatter(input, models, record.fit, record.repeats);
+    record.model_error +=
+        std::string(record.model_error.empty() ? "" : " and ") + "the scatter between repeats";
+    own = fit_apart(input, record.fit, record.repeats);
+    record.own_residuals = own.residuals;
+  }
+  record.options = input.options;
+  // Without sigma the scatter of repeats is in the fit alone, not in what profiles know.
+  const bool known = !scattered || !input.curves.front().sigma.empty();
+  if (input.profile_intervals && known && record.fit.converged && record.fit.degrees_of_freedom > 0)
+    add_intervals(models, record);
+  return own;
 }
 
 }  // namespace fingertip::studies

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "calibration/curves/fit_record.h"
 #include "calibration/curves/repeats.h"
 #include "studies/run/fit_input.h"
 
@@ -25,12 +26,19 @@ bool scatter(const std::vector<calibration::Repeats>& repeats);
 
 /// The fit once more, from where it ended, the scatter in the covariance of all values
 /// (input.options.model_covariance): every repeat has a factor on its force, which no touch has to
-/// take up, and what is found is that of their mean. Without sigma the values are weighed by what
-/// each repeat leaves of itself, and `repeats` are sought again until they stay. The part of the
-/// intervals that repeats make is Student's of their number.
+/// take up, and what is found is that of their mean. `repeats` are sought again until they
+/// stay; without sigma the values are weighed by what each repeat leaves of itself. Intervals of
+/// the rubber are Student's of the number of repeats, of rigs the part that repeats make.
 calibration::CurveFit fit_with_scatter(FitInput& input,
                                        const std::vector<calibration::ForwardModel*>& models,
                                        const calibration::CurveFit& first,
                                        std::vector<calibration::Repeats>& repeats);
+
+/// What follows the search for `record.fit`: repeats, the fit with their scatter where they do,
+/// options and intervals of the record. Returns the fit as repeats leave it each with its own
+/// factor (fit_apart), which tells what the model misses.
+calibration::CurveFit add_scatter_and_intervals(
+    FitInput& input, const std::vector<calibration::ForwardModel*>& models,
+    calibration::FitRecord& record);
 
 }  // namespace fingertip::studies

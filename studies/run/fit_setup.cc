@@ -107,7 +107,7 @@ void check_model(const LoadedConfig& loaded) {
 bool has_profile_intervals(const CalibrationSettings& wanted, const FitInput& input) {
   if (wanted.problem != CalibrationProblem::experiment) return false;
   if (wanted.intervals != IntervalKind::automatic) return wanted.intervals == IntervalKind::profile;
-  return parameters_of(input) == std::vector{modulus};
+  return asks_one_press(input);
 }
 
 /// Where the presses of a fit come from.
@@ -215,7 +215,8 @@ void set_budget(const LoadedConfig& loaded, FitSetup& fit) {
   const auto& kinds = fit.input.kinds;
   const bool pressed = std::ranges::find(kinds, CurveKind::press) != kinds.end() ||
                        std::ranges::find(kinds, CurveKind::moving_press) != kinds.end();
-  if (!pressed && !loaded.entries.at("calibration.evaluations").given) return;
+  const bool costs = pressed && (fit.input.branches.empty() || !asks_one_press(fit.input));
+  if (!costs && !loaded.entries.at("calibration.evaluations").given) return;
   fit.input.options.max_evaluations = loaded.config.calibration.evaluations;
   fit.notes.push_back(
       fmt::format("the search may do {} evaluations (calibration.evaluations), each "
