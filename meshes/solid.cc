@@ -164,6 +164,28 @@ double shadow_above(const Triangle& corners, double height) {
   return area;
 }
 
+/// The highest corner below `limit` of the held facets that face up (1) or down (-1).
+double highest_held(const Solid& solid, double sign, double limit) {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < solid.mesh().triangles.size(); ++t) {
+    const bool faces = sign * solid.mesh().area_vector(t).normalized().z() > in_plane;
+    for (std::size_t c = 0; c < 3 && faces && solid.is_bond(t); ++c)
+      if (const double z = solid.mesh().corner(t, c).z(); z < limit) highest = std::max(highest, z);
+  }
+  return highest;
+}
+
+/// Of one that is held at its side up to what may touch: the highest place with rubber above it
+/// that is held, else (a membrane) the lowest on the axis.
+double bottom_of_side_bond(const Solid& solid, const TriangleTree& tree) {
+  if (const double covered = highest_held(solid, -1.0, solid.pole()); std::isfinite(covered))
+    return covered;
+  const Vector3 below(0.0, 0.0, 2.0 * solid.lowest() - solid.pole());
+  const auto hit =
+      tree.first_on_ray(below, Vector3::UnitZ(), std::numeric_limits<std::size_t>::max());
+  return hit ? hit->position.z() : solid.lowest();
+}
+
 }  // namespace
 
 Solid::Solid(const TriangleMesh& mesh, const Region& bond, const std::vector<std::string>& faces)
@@ -194,8 +216,8 @@ Solid::Solid(TriangleMesh mesh, const std::vector<bool>& bonded, const std::stri
 
 void Solid::complete() {
   neighbours_ = neighbours_of(mesh_);
-  measure();
   tree_ = std::make_unique<TriangleTree>(mesh_, groups_, 2);
+  measure();
   if (surrounds_axis(*tree_, lowest_, pole_)) return;
   Eigen::AlignedBox3d box;
   for (const Vector3& vertex : mesh_.vertices) box.extend(vertex);
@@ -242,12 +264,16 @@ void Solid::measure() {
   if (contact_area_ == 0.0)
     refuse_bond(heights, "something must be able to touch",
                 "give half spaces that leave some of the surface free");
-  if (bond_top_ >= pole_)
+  const bool held_at_side =
+      bond_top_ == pole_ &&
+      highest_held(*this, 1.0, std::numeric_limits<double>::infinity()) < pole_;
+  if (bond_top_ >= pole_ && !held_at_side)
     refuse_bond(
         "bond up to z = " + in_mm(bond_top_) + " mm",
         "no bond may lie higher than what may touch, which ends at " + in_mm(pole_) + " mm",
         "say which direction of the file points to the obstacle, e.g. geometry.up = \"-z\" (one of "
         "+x, -x, +y, -y, +z, -z), or change the half spaces");
+  if (held_at_side) bond_top_ = bottom_of_side_bond(*this, *tree_);
   const double height = cap_height * (pole_ - bond_top_);
   double shadow = 0.0;
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)

@@ -82,6 +82,20 @@ TEST(Solid, MeasuresABox) {
   EXPECT_NEAR(solid.wall(), 0.02 - 0.0012, 1e-15);
 }
 
+/// In a cup up to its face; a plate in a frame.
+TEST(Solid, GluedAtTheSideItIsAsThickAsAlongTheAxis) {
+  const Region sides = {
+      {{0, true, low.x()}}, {{0, false, high.x()}}, {{1, true, low.y()}}, {{1, false, high.y()}}};
+  Region cup = sides;
+  cup.push_back({{2, true, low.z()}});
+  for (const Region& held : {sides, cup}) {
+    const Solid solid(fingers::box(low, high), held);
+    EXPECT_EQ(solid.pole(), high.z());
+    EXPECT_NEAR(solid.pole() - solid.bond_top(), high.z() - low.z(), 1e-15);
+  }
+  EXPECT_THROW(Solid(fingers::box(low, high), {{{2, false, high.z()}}}), InvalidInput);
+}
+
 TEST(Solid, OfTheDomeIsTheDome) {
   const Geometry dome, geometry = fingers::solid_dome();
   const Solid& solid = *geometry.solid;

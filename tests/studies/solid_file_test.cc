@@ -227,7 +227,9 @@ TEST(SolidFile, SolidsOfATextAreFaces) {
   expect_refused(asked("base"),
                  {"case.toml:4", "base: no face of the file has this name", "glued base, Sides"});
   expect_refused(asked(""), {"held by the hand", "glued base, Sides"});
-  expect_refused(asked("glued base or Sides"), {"no bond may lie higher"});
+  // Up to its face, in a cup; but not by what should touch.
+  EXPECT_EQ(asked("glued base or Sides"), "");
+  expect_refused(asked("z > 20 mm"), {"no bond may lie higher"});
 }
 
 TEST(SolidFile, RefusesWithPlaceAndRemedy) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -58,6 +59,35 @@ TEST(SolidPress, TrianglesOfTheDomeAreTheDomeAtRest) {
       EXPECT_NEAR(found[i].torque_y, expected[i].torque_y, 5e-3 * force * 0.03);
     }
   }
+}
+
+/// A pad in a cup up to its face, as triangles and as a profile, under a ball.
+TEST(SolidPress, APadGluedAtItsSideIsItsProfile) {
+  constexpr double radius = 8e-3, height = 8e-3;
+  constexpr std::size_t sectors = 96;
+  using enum meshes::ProfileSurface;
+  using enum meshes::ProfileCurve;
+  meshes::TriangleMesh mesh =
+      fingers::revolved({{0.0, 0.0}, {radius, 0.0}, {radius, height}, {0.0, height}}, int(sectors));
+  mesh.faces.assign(mesh.triangles.size(), mesh.face_number("cup"));
+  std::fill(mesh.faces.end() - sectors, mesh.faces.end(), -1);  // the face
+  PressSetup profile = press_of(Geometry::of_profile({{radius, 0.0, bond, straight},
+                                                      {radius, height, contact, straight},
+                                                      {0.0, height, axis, straight},
+                                                      {0.0, 0.0, bond, straight}}),
+                                ModelKind::hookean, 10.0);
+  profile.protocol.obstacle = {.shape = meshes::ObstacleShape::sphere, .radius = 6e-3};
+  profile.protocol.samples = {4e-4, 8e-4};
+  profile.protocol.depth = 8e-4;
+  PressSetup triangles = profile;
+  triangles.geometry = Geometry::of_solid(
+      std::make_shared<meshes::Solid>(mesh, meshes::Region{}, std::vector<std::string>{"cup"}));
+  EXPECT_NEAR(triangles.geometry.thickness(), height, 1e-15);
+  const auto expected = lattice::run_static_press(profile).response.samples(),
+             found = lattice::run_static_press(triangles).response.samples();
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i].normal_force / expected[i].normal_force, 1.0, 0.01);
 }
 
 /// Line contact: a slice of a block, 2 x 1 and glued below, under a cylinder along the slice. With
