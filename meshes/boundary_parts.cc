@@ -75,7 +75,7 @@ std::vector<std::array<std::size_t, 3>> filled(const std::vector<Vector2>& polyg
 
 class RevolvedParts final : public BoundaryParts {
  public:
-  explicit RevolvedParts(const Geometry& geometry) : meridian_(geometry) {}
+  explicit RevolvedParts(const Geometry& geometry) : meridian_(geometry.corners()) {}
 
   int count() const override { return int(meridian_.pieces().size()) + 2; }
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "meshes/mesh_options.h"
 #include "meshes/tetrahedra.h"
-#include "meshes/volume_mesh.h"
 
 namespace fingertip::meshes {
 

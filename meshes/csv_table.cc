@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "meshes/errors.h"
-#include "meshes/press_response.h"
+#include "meshes/file_fields.h"
 #include "meshes/text_file.h"
 
 namespace fingertip::meshes {

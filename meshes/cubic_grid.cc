@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "meshes/files.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 
 namespace fingertip::meshes {
 

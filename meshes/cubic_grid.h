@@ -41,6 +41,19 @@ struct CubicGrid {
   }
 };
 
+/// A grid cell that holds rubber. With chi = 1 in the rubber and 0 elsewhere, and (xi, eta, zeta)
+/// in [0, 1]³ the cell's coordinates along the grid's axes from its lowest corner, the integrals of
+/// the trilinear shape functions and of their gradients over the rubber are sums of the eight
+/// moments.
+struct CutCell {
+  std::array<int, 3> index;  ///< the cell's lowest corner on the grid
+  /// [i + 2 j + 4 k]: the integral of chi xi^i eta^j zeta^k over the unit cell, 0 <= . <= 1.
+  std::array<double, 8> moments;
+
+  /// Share of the cell that is rubber, in (0, 1].
+  double fraction() const { return moments[0]; }
+};
+
 /// The grid of the paper's points w_ijk = (A i, A j, A k - L) + offset A, with i and j over both
 /// signs, large enough to hold the whole tip and `margin` further layers of points on every side.
 /// With `axes` the grid, its offset included, is turned about the centre (0, 0, -L) of the end.

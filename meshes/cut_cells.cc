@@ -305,7 +305,7 @@ std::vector<CutCell> cut_cells(const Geometry& geometry, const CubicGrid& grid,
   const double reach = 0.5 * std::numbers::sqrt3 * grid.spacing;
   const double round_off = 1e-12;
   const Vector3 to_centre = 0.5 * grid.spacing * grid.axes.rowwise().sum();
-  const Meridian meridian(geometry);
+  const Meridian meridian(geometry.corners());
   const bool along = along_axes(grid);
   std::vector<CutCell> cells;
   for (int k = 0; k + 1 < grid.size[2]; ++k) {

@@ -1,26 +1,12 @@
 /// The cells of a cubic grid cut by the tip's true boundary, as integrals over their rubber.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "meshes/cubic_grid.h"
 #include "meshes/geometry.h"
 
 namespace fingertip::meshes {
-
-/// A grid cell that holds rubber. With chi = 1 in the rubber and 0 elsewhere, and (xi, eta, zeta)
-/// in [0, 1]³ the cell's coordinates along the grid's axes from its lowest corner, the integrals of
-/// the trilinear shape functions and of their gradients over the rubber are sums of the eight
-/// moments.
-struct CutCell {
-  std::array<int, 3> index;  ///< the cell's lowest corner on the grid
-  /// [i + 2 j + 4 k]: the integral of chi xi^i eta^j zeta^k over the unit cell, 0 <= . <= 1.
-  std::array<double, 8> moments;
-
-  /// Share of the cell that is rubber, in (0, 1].
-  double fraction() const { return moments[0]; }
-};
 
 /// The cells of `grid` whose rubber is more than `smallest_fraction` of the cell, by increasing
 /// grid index of their lowest corner. Cells wholly in the rubber have exactly the moments of a

@@ -1,7 +1,7 @@
 /// Block-structured hexahedra of the dome, of the mesher's own.
 #pragma once
 
-#include "meshes/volume_mesh.h"
+#include "meshes/mesh_options.h"
 
 namespace fingertip::meshes {
 

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,9 @@
 #include <vector>
 
 namespace fingertip::meshes {
+
+/// A quantity a program does not know; an empty cell in the CSV.
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 enum class Presence {
   always,    ///< a file without it is damaged

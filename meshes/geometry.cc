@@ -24,6 +24,20 @@ std::string_view name(Surface surface) {
 
 namespace {
 
+/// The dome of the paper as a profile.
+std::vector<ProfileCorner> dome_corners(const Geometry& g) {
+  using enum ProfileSurface;
+  using enum ProfileCurve;
+  const double R = g.tip_radius, r = g.rod_radius, end = -g.sleeve_length;
+  if (end < 0.0)
+    return {{r, end, free, straight}, {R, end, contact, straight}, {R, 0.0, contact, arc},
+            {0.0, R, axis, straight}, {0.0, r, bond, arc},         {r, 0.0, bond, straight}};
+  return {{r, 0.0, free, straight},
+          {R, 0.0, contact, arc},
+          {0.0, R, axis, straight},
+          {0.0, r, bond, arc}};
+}
+
 /// The lengths of another shape than the dome.
 void take_lengths(const Shape& shape, std::optional<double> endpoint, Geometry& geometry) {
   geometry.tip_radius = shape.largest_radius();
@@ -37,7 +51,7 @@ void take_lengths(const Shape& shape, std::optional<double> endpoint, Geometry& 
 Geometry Geometry::of_profile(std::vector<ProfileCorner> corners, std::optional<double> endpoint) {
   Geometry geometry;
   geometry.profile = std::move(corners);
-  take_lengths(Meridian(geometry), endpoint, geometry);
+  take_lengths(Meridian(geometry.corners()), endpoint, geometry);
   return geometry;
 }
 
@@ -53,9 +67,16 @@ std::string_view Geometry::shape_name() const {
   return profile.empty() ? "dome" : "profile";
 }
 
+std::vector<ProfileCorner> Geometry::corners() const {
+  if (!profile.empty()) return profile;
+  const auto found = violations();
+  if (!found.empty()) throw InvalidInput(found);
+  return dome_corners(*this);
+}
+
 std::shared_ptr<const Shape> shape_of(const Geometry& geometry) {
   if (geometry.solid) return geometry.solid;
-  return std::make_shared<Meridian>(geometry);
+  return std::make_shared<Meridian>(geometry.corners());
 }
 
 double Geometry::pole() const {
@@ -74,7 +95,7 @@ double Geometry::reach(double tilt) const {
 double Geometry::thickness() const {
   if (is_dome()) return tip_radius - rod_radius;
   if (solid) return solid->pole() - solid->bond_top();
-  return pole() - Meridian(*this).bond_top();
+  return pole() - Meridian(corners()).bond_top();
 }
 
 double Geometry::coarsest_spacing() const {
@@ -114,6 +135,31 @@ std::vector<Violation> Geometry::violations() const {
           "l must be at least sleeve_length L, for the sleeve sits on the rod",
           "lengthen the rod or shorten the sleeve");
   return found;
+}
+
+std::vector<std::vector<Vector2>> held_outlines(const Geometry& geometry, int points) {
+  const double r = geometry.rod_radius;
+  if (geometry.is_dome()) {
+    std::vector<Vector2> rod{{0.0, -geometry.rod_length}, {r, -geometry.rod_length}};
+    for (int i = 0; i < points; ++i) {
+      const double latitude = 0.5 * std::numbers::pi * i / points;
+      rod.emplace_back(r * std::cos(latitude), r * std::sin(latitude));
+    }
+    rod.emplace_back(0.0, r);
+    return {rod};
+  }
+  const double low = geometry.lowest();
+  std::vector<std::vector<Vector2>> outlines{
+      {{0.0, low - 2.0 * r}, {r, low - 2.0 * r}, {r, low}, {0.0, low}}};
+  if (geometry.solid) return outlines;  // its bond is no curve
+  const Meridian meridian(geometry.corners());
+  for (const MeridianPiece& piece : meridian.pieces()) {
+    if (piece.surface() != ProfileSurface::bond) continue;
+    const int count = piece.curve() == ProfileCurve::straight ? 1 : points;
+    std::vector<Vector2>& outline = outlines.emplace_back();
+    for (int i = count; i >= 0; --i) outline.push_back(piece.at(double(i) / count));
+  }
+  return outlines;
 }
 
 Violation too_coarse(const Geometry& geometry, double spacing) {

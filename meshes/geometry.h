@@ -8,17 +8,16 @@
 /// axis is z, too, and the pole, the highest point, touches first.
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "meshes/errors.h"
+#include "meshes/profile_pieces.h"
+#include "meshes/shape.h"
 
 namespace fingertip::meshes {
-
-using Vector3 = Eigen::Vector3d;
 
 class Solid;
 
@@ -30,30 +29,6 @@ enum class Surface {
 };
 
 std::string_view name(Surface surface);
-
-/// What a piece of a profile or a facet of a solid is; a solid knows contact and bond.
-enum class ProfileSurface {
-  contact,  ///< may touch
-  bond,     ///< held rigidly by the hand
-  free,
-  axis,  ///< r = 0, no surface
-};
-std::string_view name(ProfileSurface surface);
-
-enum class ProfileCurve {
-  straight,
-  arc,     ///< of a circle, less than half of it
-  spline,  ///< consecutive pieces of one surface are one C2 cubic through their corners
-};
-std::string_view name(ProfileCurve curve);
-
-/// A corner of a profile's closed meridian [m], and the piece from it to the next corner.
-struct ProfileCorner {
-  double r = 0.0, z = 0.0;
-  ProfileSurface surface = ProfileSurface::free;
-  ProfileCurve curve = ProfileCurve::straight;
-  double centre_r = 0.0, centre_z = 0.0;  ///< of an arc
-};
 
 /// Lengths in metres. Those of another shape than the dome follow from it: `of_profile`,
 /// `of_solid`.
@@ -78,6 +53,9 @@ struct Geometry {
   bool is_dome() const { return profile.empty() && !solid; }
   /// The word of geometry.shape: dome, profile or solid.
   std::string_view shape_name() const;
+
+  /// Of its meridian: the profile's, or the dome's. Throws InvalidInput for an invalid dome.
+  std::vector<ProfileCorner> corners() const;
 
   /// Every rule this geometry breaks; empty when it is valid.
   std::vector<Violation> violations() const;
@@ -114,6 +92,13 @@ struct Geometry {
   /// The rod's endpoint (0, 0, -l) [m], where the robot holds it and force and torque are felt.
   Vector3 rod_endpoint() const { return {0.0, 0.0, -rod_length}; }
 };
+
+/// Its solid, else its meridian. Throws InvalidInput for an invalid geometry.
+std::shared_ptr<const Shape> shape_of(const Geometry& geometry);
+
+/// What the hand holds, for pictures: curves (r, z) from below upward that sweep the dome's rod, or
+/// a block below a profile and its bond; `points` on each curved piece.
+std::vector<std::vector<Vector2>> held_outlines(const Geometry& geometry, int points);
 
 /// What to say of a grid coarser than coarsest_spacing().
 Violation too_coarse(const Geometry& geometry, double spacing);

@@ -11,7 +11,6 @@
 
 #include "meshes/files.h"
 #include "meshes/peak.h"
-#include "meshes/profile_pieces.h"
 
 namespace fingertip::meshes {
 namespace {
@@ -57,7 +56,8 @@ constexpr double wedge = 4.0;
 
 }  // namespace
 
-Meridian::Meridian(const Geometry& geometry) : pieces_(profile_pieces(geometry)) {
+Meridian::Meridian(std::vector<ProfileCorner> corners)
+    : pieces_(profile_pieces(std::move(corners))) {
   for (const MeridianPiece& piece : pieces_) {
     if (piece.surface() == ProfileSurface::axis) continue;
     double from = 0.0;
@@ -308,31 +308,6 @@ double Meridian::area(ProfileSurface surface) const {
   for (const MeridianPiece& piece : pieces_)
     if (piece.surface() == surface) sum += piece.area();
   return sum;
-}
-
-std::vector<std::vector<Vector2>> held_outlines(const Geometry& geometry, int points) {
-  const double r = geometry.rod_radius;
-  if (geometry.is_dome()) {
-    std::vector<Vector2> rod{{0.0, -geometry.rod_length}, {r, -geometry.rod_length}};
-    for (int i = 0; i < points; ++i) {
-      const double latitude = 0.5 * pi * i / points;
-      rod.emplace_back(r * std::cos(latitude), r * std::sin(latitude));
-    }
-    rod.emplace_back(0.0, r);
-    return {rod};
-  }
-  const double low = geometry.lowest();
-  std::vector<std::vector<Vector2>> outlines{
-      {{0.0, low - 2.0 * r}, {r, low - 2.0 * r}, {r, low}, {0.0, low}}};
-  if (geometry.solid) return outlines;  // its bond is no curve
-  const Meridian meridian(geometry);
-  for (const MeridianPiece& piece : meridian.pieces()) {
-    if (piece.surface() != ProfileSurface::bond) continue;
-    const int count = piece.curve() == ProfileCurve::straight ? 1 : points;
-    std::vector<Vector2>& outline = outlines.emplace_back();
-    for (int i = count; i >= 0; --i) outline.push_back(piece.at(double(i) / count));
-  }
-  return outlines;
 }
 
 }  // namespace fingertip::meshes

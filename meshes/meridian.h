@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "meshes/meridian_piece.h"
+#include "meshes/profile_pieces.h"
 #include "meshes/shape.h"
 
 namespace fingertip::meshes {
@@ -15,10 +15,10 @@ namespace fingertip::meshes {
 /// Immutable. Lengths in metres.
 class Meridian final : public Shape {
  public:
-  /// Of the dome or of the profile. Throws InvalidInput with the corner when the curve is open,
-  /// crosses itself or leaves r >= 0, an arc has no centre, `contact` or `bond` is missing, the
-  /// pole is not on the axis, or the finger is smaller than 0.5 mm or larger than 0.5 m.
-  explicit Meridian(const Geometry& geometry);
+  /// Throws InvalidInput with the corner when the curve is open, crosses itself or leaves r >= 0,
+  /// an arc has no centre, `contact` or `bond` is missing, the pole is not on the axis, or the
+  /// finger is smaller than 0.5 mm or larger than 0.5 m.
+  explicit Meridian(std::vector<ProfileCorner> corners);
 
   const std::vector<MeridianPiece>& pieces() const { return pieces_; }
 
@@ -53,9 +53,5 @@ class Meridian final : public Shape {
   std::vector<MonotonePart> parts_;
   double pole_ = 0.0, lowest_ = 0.0, radius_ = 0.0, bond_top_ = 0.0;
 };
-
-/// What the hand holds, for pictures: curves (r, z) from below upward that sweep the dome's rod, or
-/// a block below a profile and its bond; `points` on each curved piece.
-std::vector<std::vector<Vector2>> held_outlines(const Geometry& geometry, int points);
 
 }  // namespace fingertip::meshes

@@ -59,7 +59,7 @@ void build_dome_meridian(const Geometry& geometry, const TipMeshOptions& options
 
 void build_meridian(const Geometry& geometry, const TipMeshOptions& options) {
   namespace geo = gmsh::model::geo;
-  const Meridian meridian(geometry);
+  const Meridian meridian(geometry.corners());
   // A quadrilateral that gmsh makes is divided into four: so it makes those of twice the size.
   const double usual = 2.0 * std::min(geometry.thickness() / options.radial_elements,
                                       meridian.wall() / std::max(2, options.radial_elements / 3));

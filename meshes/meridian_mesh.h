@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "meshes/geometry.h"
-#include "meshes/volume_mesh.h"
+#include "meshes/mesh_options.h"
 
 namespace fingertip::meshes {
 

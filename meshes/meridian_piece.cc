@@ -17,16 +17,6 @@ using PieceGauss = boost::math::quadrature::gauss<double, 15>;
 
 }  // namespace
 
-std::string_view name(ProfileSurface surface) {
-  switch (surface) {
-    case ProfileSurface::contact: return "contact";
-    case ProfileSurface::bond: return "bond";
-    case ProfileSurface::free: return "free";
-    case ProfileSurface::axis: return "axis";
-  }
-  return "";
-}
-
 std::string_view name(ProfileCurve curve) {
   switch (curve) {
     case ProfileCurve::straight: return "straight";

@@ -4,9 +4,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <vector>
 
-#include "meshes/geometry.h"
+#include "meshes/shape.h"
 
 namespace fingertip::meshes {
 
@@ -16,6 +17,13 @@ using Vector2 = Eigen::Vector2d;
 inline double cross(const Vector2& a, const Vector2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
+
+enum class ProfileCurve {
+  straight,
+  arc,     ///< of a circle, less than half of it
+  spline,  ///< consecutive pieces of one surface are one C2 cubic through their corners
+};
+std::string_view name(ProfileCurve curve);
 
 /// A piece of the curve, x(t) = (r, z) for t in [0, 1]; rubber lies to its left.
 class MeridianPiece {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "meshes/files.h"
-#include "meshes/shape.h"
 
 namespace fingertip::meshes {
 

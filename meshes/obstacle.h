@@ -70,6 +70,11 @@ ObstacleMesh obstacle_mesh(const Obstacle& obstacle, double half);
 /// The place of what may touch, in the finger's axes, that the obstacle touches first [m].
 Vector3 touched_first(const Geometry& geometry, double tilt, const Obstacle& obstacle);
 
+/// Radius of the ball on a plane that a body's pole and an obstacle are like, where they touch: 1/R
+/// = 1/R1 + 1/R2 along each axis, and the geometric mean of both (K. L. Johnson, Contact Mechanics,
+/// 1985, section 4.1) [m].
+double relative_radius(const Shape& shape, const Obstacle& obstacle);
+
 /// How far the top's plane is from the origin, along the normal, when the obstacle first touches
 /// what may touch of a finger tilted by `tilt` [rad] against it [m].
 double first_touch(const Geometry& geometry, double tilt, const Obstacle& obstacle);

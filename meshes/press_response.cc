@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "meshes/press_columns.h"
 #include "meshes/table_rows.h"
 
 namespace fingertip::meshes {

@@ -3,14 +3,12 @@
 
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <span>
 #include <vector>
 
-namespace fingertip::meshes {
+#include "meshes/file_fields.h"
 
-/// A quantity a program does not know; an empty cell in the CSV.
-inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+namespace fingertip::meshes {
 
 /// One row of response.csv, SI. Signs: n points from the plane toward the rod; normal_force = F·n
 /// >= 0 in compression with F the sum of bond forces on the rod; torque about the rod's endpoint
@@ -30,6 +28,25 @@ struct PressSample {
   double lateral_displacement = unknown;  ///< of the plane along t1, seen from the rod [m]
   double stage = unknown;                 ///< of the press's program, from 1; unknown without one
 };
+
+/// The columns of response.csv.
+constexpr auto fields_of(const PressSample*) {
+  using Row = PressSample;
+  return std::tuple{
+      field("indentation [m]", &Row::indentation),
+      field("normal_force [N]", &Row::normal_force),
+      field("lateral_force_x [N]", &Row::lateral_force_x),
+      field("lateral_force_y [N]", &Row::lateral_force_y),
+      field("torque_x [N m]", &Row::torque_x),
+      field("torque_y [N m]", &Row::torque_y),
+      field("torque_z [N m]", &Row::torque_z),
+      field("contact_radius [m]", &Row::contact_radius),
+      field("max_pressure [Pa]", &Row::max_pressure),
+      field("force_error [N]", &Row::force_error),
+      field("time [s]", &Row::time),
+      field("lateral_displacement [m]", &Row::lateral_displacement, Presence::if_known),
+      field("stage", &Row::stage, Presence::if_known)};
+}
 
 /// A curve of samples by increasing indentation, and then, where a lateral motion follows the
 /// press, at full depth by increasing distance moved laterally; of a program its first stage by

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "meshes/errors.h"
 #include "meshes/files.h"
 
 namespace fingertip::meshes {
@@ -169,20 +170,6 @@ std::vector<MeridianPiece> pieces_of(const std::vector<ProfileCorner>& corners) 
   return pieces;
 }
 
-/// The dome of the paper as a profile.
-std::vector<ProfileCorner> dome_corners(const Geometry& g) {
-  using enum ProfileSurface;
-  using enum ProfileCurve;
-  const double R = g.tip_radius, r = g.rod_radius, end = -g.sleeve_length;
-  if (end < 0.0)
-    return {{r, end, free, straight}, {R, end, contact, straight}, {R, 0.0, contact, arc},
-            {0.0, R, axis, straight}, {0.0, r, bond, arc},         {r, 0.0, bond, straight}};
-  return {{r, 0.0, free, straight},
-          {R, 0.0, contact, arc},
-          {0.0, R, axis, straight},
-          {0.0, r, bond, arc}};
-}
-
 /// Where two straight segments cross or touch, apart from a common end.
 bool meet(const std::array<Vector2, 2>& a, const std::array<Vector2, 2>& b) {
   const auto side = [](const std::array<Vector2, 2>& s, const Vector2& p) {
@@ -243,13 +230,7 @@ int chord_count(const MeridianPiece& piece, std::size_t count) {
   return std::clamp(most_chords / int(count), 2, chords);
 }
 
-std::vector<MeridianPiece> profile_pieces(const Geometry& geometry) {
-  std::vector<ProfileCorner> corners = geometry.profile;
-  if (corners.empty()) {
-    const auto found = geometry.violations();
-    if (!found.empty()) throw InvalidInput(found);
-    corners = dome_corners(geometry);
-  }
+std::vector<MeridianPiece> profile_pieces(std::vector<ProfileCorner> corners) {
   check(corners);
   std::vector<MeridianPiece> pieces = pieces_of(counter_clockwise(std::move(corners)));
   check_crossings(pieces);

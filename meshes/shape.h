@@ -2,14 +2,38 @@
 /// or a triangulated solid (solid.h).
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <limits>
-#include <memory>
-
-#include "meshes/geometry.h"
-#include "meshes/obstacle.h"
+#include <string_view>
 
 namespace fingertip::meshes {
+
+using Vector3 = Eigen::Vector3d;
+
+/// What a piece of a profile or a facet of a solid is; a solid knows contact and bond.
+enum class ProfileSurface {
+  contact,  ///< may touch
+  bond,     ///< held rigidly by the hand
+  free,
+  axis,  ///< r = 0, no surface
+};
+inline std::string_view name(ProfileSurface surface) {
+  switch (surface) {
+    case ProfileSurface::contact: return "contact";
+    case ProfileSurface::bond: return "bond";
+    case ProfileSurface::free: return "free";
+    case ProfileSurface::axis: return "axis";
+  }
+  return "";
+}
+
+/// A point that stands for a patch of a surface.
+struct SurfacePoint {
+  Vector3 position;  ///< on the surface [m]
+  Vector3 normal;    ///< unit vector out of the rubber
+  double area;       ///< of the patch [m²]
+};
 
 /// A point of a surface in space, and the unit normal out of the rubber there.
 struct NearestPoint {
@@ -57,13 +81,5 @@ class Shape {
   /// surface; at most the height of the pole over the bond.
   virtual double wall() const = 0;
 };
-
-/// Radius of the ball on a plane that a body's pole and an obstacle are like, where they touch: 1/R
-/// = 1/R1 + 1/R2 along each axis, and the geometric mean of both (K. L. Johnson, Contact Mechanics,
-/// 1985, section 4.1) [m].
-double relative_radius(const Shape& shape, const Obstacle& obstacle);
-
-/// Of the geometry: its solid, else its meridian. Throws InvalidInput for an invalid geometry.
-std::shared_ptr<const Shape> shape_of(const Geometry& geometry);
 
 }  // namespace fingertip::meshes

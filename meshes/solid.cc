@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "meshes/errors.h"
 #include "meshes/files.h"
 #include "meshes/peak.h"
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "meshes/shape.h"
-#include "meshes/surface_points.h"
 #include "meshes/triangle_mesh.h"
 
 namespace fingertip::meshes {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "meshes/cut_cells.h"
+#include "meshes/cubic_grid.h"
 #include "meshes/solid.h"
 
 namespace fingertip::meshes {

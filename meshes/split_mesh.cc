@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "meshes/boundary_parts.h"
+#include "meshes/geometry.h"
 #include "meshes/meridian_mesh.h"
-#include "meshes/shape.h"
 
 namespace fingertip::meshes {
 namespace {

@@ -1,7 +1,7 @@
 /// Hexahedra of a finger of any shape: tetrahedra within its surface, each divided into four.
 #pragma once
 
-#include "meshes/volume_mesh.h"
+#include "meshes/mesh_options.h"
 
 namespace fingertip::meshes {
 

@@ -120,7 +120,7 @@ std::vector<SurfacePoint> surface_points(const Geometry& geometry, Surface surfa
   check(geometry, spacing);
   if (geometry.solid) return geometry.solid->points(piece_of(surface), spacing);
   std::vector<SurfacePoint> points;
-  const std::vector<MeridianPiece> all = Meridian(geometry).pieces();
+  const std::vector<MeridianPiece> all = Meridian(geometry.corners()).pieces();
   // Counter-clockwise, `contact` ends at the pole.
   const bool backward = surface == Surface::outer;
   for (std::size_t i = 0; i < all.size(); ++i) {

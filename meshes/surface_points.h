@@ -7,13 +7,6 @@
 
 namespace fingertip::meshes {
 
-/// A point that stands for a patch of one of the tip's surfaces.
-struct SurfacePoint {
-  Vector3 position;  ///< on the surface [m]
-  Vector3 normal;    ///< unit vector out of the rubber
-  double area;       ///< of the patch [m²]
-};
-
 /// Quadrature of one of the surfaces (`end`: all that is free) by rings about the axis. Rings are
 /// at most `spacing` [m] wide and so are the steps along them; no point of the surface is farther
 /// than 0.75 spacing from the nearest quadrature point. Patches have equal areas within a ring,

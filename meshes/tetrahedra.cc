@@ -13,6 +13,8 @@
 #include <set>
 #include <utility>
 
+#include "meshes/errors.h"
+
 namespace fingertip::meshes {
 namespace {
 

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "meshes/errors.h"
 #include "meshes/files.h"
 
 namespace fingertip::meshes {

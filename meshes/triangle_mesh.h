@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "meshes/geometry.h"
+#include "meshes/shape.h"
 
 namespace fingertip::meshes {
 

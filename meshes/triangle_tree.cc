@@ -11,6 +11,7 @@
 #include <iterator>
 #include <utility>
 
+#include "meshes/errors.h"
 #include "meshes/triangle_mesh.h"
 
 namespace fingertip::meshes {

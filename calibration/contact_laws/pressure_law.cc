@@ -11,7 +11,8 @@
 #include "calibration/surrogate/non_negative.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
+#include "meshes/obstacle.h"
 #include "meshes/surface_points.h"
 
 namespace fingertip::calibration {

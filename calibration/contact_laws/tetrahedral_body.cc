@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "meshes/boundary_parts.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 
 namespace fingertip::calibration {
 

@@ -6,7 +6,7 @@
 
 #include "lattice/model/cut_tip.h"
 #include "meshes/files.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 
 namespace fingertip::lattice {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lattice/model/cut_tip.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 
 namespace fingertip::lattice {
 

@@ -6,8 +6,9 @@
 #include <numbers>
 
 #include "lattice/dynamics/time_step.h"
+#include "meshes/geometry.h"
+#include "meshes/obstacle.h"
 #include "meshes/press_motion.h"
-#include "meshes/shape.h"
 
 namespace fingertip::lattice {
 

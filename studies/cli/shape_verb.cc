@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "meshes/cubic_grid.h"
+#include "meshes/geometry.h"
 #include "meshes/meridian.h"
 #include "meshes/revolved_surface.h"
-#include "meshes/shape.h"
 #include "meshes/solid.h"
 #include "meshes/stl_file.h"
 #include "studies/cli/verbs.h"
@@ -233,7 +233,7 @@ int run_shape(const CommandLine& line) {
     reporting::Figure figure;
     if (is_meridian(file)) {
       const Geometry geometry = Geometry::of_profile(read_profile(file));
-      const Meridian meridian(geometry);
+      const Meridian meridian(geometry.corners());
       fmt::print("{}: a closed meridian of {} pieces\n", word, meridian.pieces().size());
       print_measures(geometry, meridian);
       if (!line.stl.empty()) write_triangles(line, triangles_of(meridian), file.stem());

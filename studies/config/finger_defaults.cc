@@ -8,7 +8,7 @@
 #include "lattice/model/cut_tip.h"
 #include "lattice/press/press_deviation.h"
 #include "meshes/cubic_grid.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 #include "meshes/surface_points.h"
 #include "studies/config/key_table.h"
 #include "studies/config/units.h"

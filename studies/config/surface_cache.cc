@@ -40,7 +40,7 @@ fs::path folder_for_surfaces() {
 constexpr double mm = 1e-3;
 
 void write_meridian(const fs::path& csv, const fs::path& stl) {
-  const meshes::Meridian meridian(meshes::Geometry::of_profile(read_profile(csv)));
+  const meshes::Meridian meridian(read_profile(csv));
   meshes::write_stl(meshes::revolved_surface(meridian), mm, "surface of a meridian", stl);
 }
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "meshes/files.h"
+#include "meshes/geometry.h"
 #include "meshes/press_response.h"
-#include "meshes/shape.h"
 #include "studies/files/shown_units.h"
 #include "studies/run/jobs.h"
 #include "studies/run/press_setup.h"

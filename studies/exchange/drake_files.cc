@@ -6,7 +6,7 @@
 
 #include "calibration/contact_laws/hydroelastic_ball.h"
 #include "meshes/files.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 
 namespace fingertip::studies {
 

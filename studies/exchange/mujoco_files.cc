@@ -8,7 +8,7 @@
 
 #include "calibration/contact_laws/soft_contact.h"
 #include "meshes/files.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 #include "studies/exchange/soft_body.h"
 
 namespace fingertip::studies {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "meshes/files.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 #include "studies/files/read_fields.h"
 
 namespace fingertip::studies {

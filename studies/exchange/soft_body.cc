@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "meshes/files.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 
 namespace fingertip::studies {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "meshes/press_columns.h"
+#include "meshes/press_response.h"
 #include "meshes/text_file.h"
 
 namespace fingertip::studies {

@@ -1,6 +1,6 @@
 /// The rows of tables that runs leave, beside those of trace.csv (lattice/press/trace.h), grasp.csv
 /// (lattice/grasp/grasp_table.h), the continuum (fem_reference/run_tables.h), fits
-/// (calibration/fit_tables.h) and response.csv (meshes/press_columns.h). SI.
+/// (calibration/fit_tables.h) and response.csv (meshes/press_response.h). SI.
 #pragma once
 
 #include <string>

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "lattice/press/trace.h"
-#include "meshes/press_columns.h"
 #include "meshes/press_response.h"
 #include "meshes/table_rows.h"
 

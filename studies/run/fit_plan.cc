@@ -6,7 +6,7 @@
 
 #include "calibration/curves/model_error.h"
 #include "meshes/files.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 #include "studies/config/key_table.h"
 #include "studies/run/fit_curves.h"
 #include "studies/run/press_setup.h"

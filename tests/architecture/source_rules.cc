@@ -197,10 +197,11 @@ const std::vector<Place>& places() {
               "the mesher belongs to fem_reference, and to tetrahedra for other programs"),
         place("meshes/cad_surface\\.h", "fem_reference/.*|meshes/cad_surface\\.cc",
               "the mesher belongs to fem_reference"),
-        place("meshes/volume_mesh\\.h",
-              "fem_reference/.*|meshes/(volume_mesh\\.cc|(dome_mesh|meridian_mesh|split_mesh|"
-              "boundary_parts)\\.h)",
-              "the mesher belongs to fem_reference")};
+        place(
+            "meshes/(volume_mesh|mesh_options)\\.h",
+            "fem_reference/.*|meshes/(volume_mesh|mesh_options|dome_mesh|meridian_mesh|split_mesh|"
+            "boundary_parts)\\.(h|cc)",
+            "the mesher belongs to fem_reference")};
   }();
   return all;
 }

@@ -15,7 +15,7 @@
 #include "fem_reference/curved_sides.h"
 #include "fem_reference/modes.h"
 #include "fem_reference/tip_body.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 #include "tests/fem_reference/pressing.h"
 #include "tests/fingers.h"
 

@@ -50,7 +50,7 @@ TEST(Meridian, OfTheDomeIsTheDome) {
   EXPECT_NEAR(profile.pole(), dome.pole(), 1e-15);
   EXPECT_NEAR(profile.thickness(), dome.thickness(), 1e-15);
   EXPECT_NEAR(profile.tip_volume() / dome.tip_volume(), 1.0, 1e-14);
-  const Meridian meridian(profile);
+  const Meridian meridian(profile.corners());
   EXPECT_NEAR(meridian.wall(), dome.thickness(), 1e-12);
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> place(-0.02, 0.02);
@@ -77,7 +77,7 @@ TEST(Meridian, MayBeginAtAnyCornerEitherWayRound) {
     }
     const Geometry geometry = Geometry::of_profile(backward);
     EXPECT_NEAR(geometry.tip_volume() / volume, 1.0, 1e-14);
-    EXPECT_NEAR(Meridian(geometry).area(bond), surface_area(dome, Surface::bond), 1e-14);
+    EXPECT_NEAR(Meridian(geometry.corners()).area(bond), surface_area(dome, Surface::bond), 1e-14);
   }
 }
 
@@ -92,7 +92,7 @@ TEST(Meridian, SplinesRunThroughTheirCornersAndMeetTheAxisSquarely) {
       EXPECT_LT(error, last / 3.5) << n;
     }
     last = error;
-    const Meridian meridian(geometry);
+    const Meridian meridian(geometry.corners());
     const MeridianPiece* top = nullptr;
     for (const MeridianPiece& piece : meridian.pieces())
       if (piece.surface() == contact && piece.to().x() == 0.0) top = &piece;
@@ -106,7 +106,7 @@ TEST(Meridian, SplinesRunThroughTheirCornersAndMeetTheAxisSquarely) {
 
 TEST(Meridian, DistanceToASplineIsThatToItsPoints) {
   const Geometry geometry = Geometry::of_profile(half_ellipsoid(0.012, 0.006, 8));
-  const Meridian meridian(geometry);
+  const Meridian meridian(geometry.corners());
   std::mt19937 generator(2);
   std::uniform_real_distribution<double> place(0.0, 0.015);
   for (int i = 0; i < 200; ++i) {
@@ -129,7 +129,7 @@ TEST(Meridian, DistanceToASplineIsThatToItsPoints) {
 
 TEST(Meridian, WallOfAHollowFinger) {
   const Geometry geometry = Geometry::of_profile(fingers::hollow());
-  EXPECT_NEAR(Meridian(geometry).wall(), 0.0025, 1e-9);
+  EXPECT_NEAR(Meridian(geometry.corners()).wall(), 0.0025, 1e-9);
   EXPECT_NEAR(geometry.thickness(), 0.025, 1e-15);
   EXPECT_NEAR(geometry.coarsest_spacing(), 0.0025 / 4, 1e-9);
   EXPECT_EQ(geometry.rod_length, 0.0);
@@ -137,7 +137,7 @@ TEST(Meridian, WallOfAHollowFinger) {
 
 TEST(Meridian, WallsAreThereAndWedgesAreNone) {
   const auto wall = [](std::vector<ProfileCorner> corners) {
-    return Meridian(Geometry::of_profile(std::move(corners))).wall();
+    return Meridian(std::move(corners)).wall();
   };
   // A shell of 1 mm, glued inside at its base, with a free rim below.
   EXPECT_NEAR(wall({{0.012, 0.0, contact, straight},
@@ -171,9 +171,9 @@ TEST(Meridian, WallsAreThereAndWedgesAreNone) {
 }
 
 TEST(Meridian, PoleRadius) {
-  EXPECT_NEAR(Meridian(Geometry{}).pole_radius(), 0.010, 1e-15);
+  EXPECT_NEAR(Meridian(Geometry{}.corners()).pole_radius(), 0.010, 1e-15);
   const Geometry pad = Geometry::of_profile(half_ellipsoid(0.012, 0.006, 24));
-  EXPECT_NEAR(Meridian(pad).pole_radius(), 0.024, 0.0003);  // a²/b
+  EXPECT_NEAR(Meridian(pad.corners()).pole_radius(), 0.024, 0.0003);  // a²/b
 }
 
 TEST(Meridian, BondsArcsReachAsHighAsTheyBulge) {
@@ -184,7 +184,8 @@ TEST(Meridian, BondsArcsReachAsHighAsTheyBulge) {
                                                   {0.0, 0.005, bond, arc, 0.004, 0.004},
                                                   {0.008, 0.005, bond, straight},
                                                   {0.008, 0.0, free, straight}});
-  EXPECT_NEAR(geometry.thickness(), geometry.pole() - Meridian(geometry).bond_top(), 1e-12);
+  EXPECT_NEAR(geometry.thickness(), geometry.pole() - Meridian(geometry.corners()).bond_top(),
+              1e-12);
 }
 
 TEST(Meridian, GluedAtTheSideItIsAsThickAsAlongTheAxis) {
@@ -271,7 +272,7 @@ TEST(Meridian, FineCellsAddUp) {
     const double spacing = geometry.tip_radius / per_radius;
     CubicGrid coarse = covering_grid(geometry, spacing, Vector3(0.3, 0.1, 0.2), 1), fine = coarse;
     fine.spacing /= 2;
-    const Meridian meridian(geometry);
+    const Meridian meridian(geometry.corners());
     for (const int i : {per_radius / 3, per_radius / 2, 2 * per_radius / 3})
       for (int j = 2; j < coarse.size[1] - 2; j += per_radius / 4) {
         const int k = coarse.size[2] - per_radius / 2;

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "meshes/geometry.h"
 #include "meshes/obstacle.h"
 #include "meshes/press_protocol.h"
-#include "meshes/shape.h"
 #include "tests/fingers.h"
 
 using namespace fingertip::meshes;

@@ -21,7 +21,7 @@ double share_of_circle(int n) {
 
 TEST(RevolvedSurface, OfTheDomeHasTwentyThousandTrianglesAndTheVolumeOfItsPolygons) {
   const Geometry dome;
-  const Meridian meridian(dome);
+  const Meridian meridian(dome.corners());
   const TriangleMesh mesh = revolved_surface(meridian);
   EXPECT_NEAR(double(mesh.triangles.size()), 20000.0, 1000.0);
   const SurfaceDeviation far = deviation(mesh, meridian);
@@ -42,7 +42,7 @@ TEST(RevolvedSurface, OfTheDomeHasTwentyThousandTrianglesAndTheVolumeOfItsPolygo
 TEST(RevolvedSurface, IsFineWhereItMayTouch) {
   const Geometry dome;
   std::set<double> heights;
-  const TriangleMesh mesh = revolved_surface(Meridian(dome));
+  const TriangleMesh mesh = revolved_surface(Meridian(dome.corners()));
   for (const Vector3& w : mesh.vertices)
     if (w.z() > 0.0 && w.norm() > 0.99 * dome.tip_radius) heights.insert(w.z());
   double above = -1.0;
@@ -57,7 +57,7 @@ TEST(RevolvedSurface, IsFineWhereItMayTouch) {
 /// Pieces that meet the axis twice or not at all, straight ones and splines.
 TEST(RevolvedSurface, ClosesAroundBodiesOfAnyMeridian) {
   for (const auto& corners : {fingers::solid(), fingers::hollow(), fingers::dome()}) {
-    const Meridian meridian(Geometry::of_profile(corners));
+    const Meridian meridian(corners);
     const TriangleMesh mesh = closed_surface(revolved_surface(meridian));
     EXPECT_NEAR(deviation(mesh, meridian).volume, 0.0, 2e-3);
     EXPECT_LT(deviation(mesh, meridian).largest, 1e-3 * meridian.largest_radius());

@@ -1,5 +1,6 @@
 // Hexahedra of a finger of any shape.
 #include "meshes/split_mesh.h"
+#include "meshes/volume_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@
 #include <vector>
 
 #include "meshes/boundary_parts.h"
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 #include "tests/fingers.h"
 #include "tests/temporary_folder.h"
 

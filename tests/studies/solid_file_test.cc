@@ -157,10 +157,10 @@ TEST(SolidFile, MakesTrianglesOfAMeridian) {
              "r [cm],z [cm],surface,curve\n1.25,0,contact,\n1.25,1.25,contact,arc 0 1.25\n"
              "0,2.5,axis,\n0,0,bond,\n");
   const auto solid = read_solid({folder / "finger.CSV", "mm", "z < 0 mm"});
-  const meshes::TriangleMesh mesh = meshes::revolved_surface(meshes::Meridian(profile));
+  const meshes::TriangleMesh mesh = meshes::revolved_surface(meshes::Meridian(profile.corners()));
   // An STL file has seven digits.
   EXPECT_NEAR(solid->volume() / profile.tip_volume(),
-              1.0 + meshes::deviation(mesh, meshes::Meridian(profile)).volume, 1e-6);
+              1.0 + meshes::deviation(mesh, meshes::Meridian(profile.corners())).volume, 1e-6);
   EXPECT_NEAR(solid->area(meshes::ProfileSurface::bond), std::numbers::pi * 0.0125 * 0.0125, 1e-6);
   meshes::write_stl(mesh, 1e-3, "a finger", folder / "finger.stl");
   const auto again = read_solid({folder / "finger.stl", "mm", "z < 0 mm"});

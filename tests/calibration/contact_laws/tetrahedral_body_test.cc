@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "meshes/shape.h"
+#include "meshes/geometry.h"
 
 using namespace fingertip;
 using namespace fingertip::calibration;

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "lattice/grasp/grasp_table.h"
-#include "meshes/press_columns.h"
+#include "meshes/press_response.h"
 #include "page_check.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/files/plan_file.h"
