@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fem_reference/force_error.h"
-#include "fem_reference/press.h"
+#include "fem_reference/press_state.h"
 
 namespace fingertip::fem_reference {
 

@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -10,9 +11,11 @@
 #include <ostream>
 
 #include "fem_reference/force_error.h"
+#include "fem_reference/job_mesh.h"
+#include "fem_reference/processes.h"
 #include "fem_reference/run_files.h"
-#include "fem_reference/run_progress.h"
 #include "fem_reference/run_tables.h"
+#include "fem_reference/tip_modes.h"
 #include "meshes/errors.h"
 #include "meshes/table_rows.h"
 
@@ -50,7 +53,7 @@ struct ModesOnMesh {
   double wall_time = 0.0;
 };
 
-std::string field_name(std::size_t index) {
+std::string mode_name(std::size_t index) {
   char text[32];
   std::snprintf(text, sizeof text, "mode_%04zu.vtu", index + 1);
   return text;
@@ -159,13 +162,13 @@ class ModesRun {
     MPI_Barrier(MPI_COMM_WORLD);
     for (std::size_t i = 0; i < modes.size(); ++i) {
       stop_if_asked(stop_requested_);
-      tip.write_fields(modes[i], folder_ / "fields" / field_name(i));
-      progress_.report("fields", i + 1, modes.size(), field_name(i));
+      tip.write_fields(modes[i], folder_ / "fields" / mode_name(i));
+      progress_.report("fields", i + 1, modes.size(), mode_name(i));
     }
     if (!first_process()) return;
     std::vector<std::pair<std::string, std::string>> series;
     for (std::size_t i = 0; i < modes.size(); ++i)
-      series.emplace_back(std::to_string(i + 1), field_name(i));
+      series.emplace_back(std::to_string(i + 1), mode_name(i));
     write_series(folder_ / "fields" / "modes.pvd", series);
   }
 
@@ -199,11 +202,6 @@ class ModesRun {
 };
 
 }  // namespace
-
-std::string name(SymmetryClass symmetry) {
-  const auto letter = [](Parity parity) { return parity == Parity::symmetric ? 'S' : 'A'; };
-  return {letter(symmetry.x), letter(symmetry.y)};
-}
 
 RunOutcome run_modes(const fs::path& folder, const ReferenceJob& job, std::ostream& progress,
                      const std::function<bool()>& stop_requested) {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fem_reference/press_model.h"
-#include "fem_reference/run_progress.h"
+#include "fem_reference/processes.h"
 #include "meshes/errors.h"
 #include "meshes/no_equilibrium.h"
 
@@ -35,33 +35,6 @@ std::unique_ptr<PressModel> make_model(const ReferenceJob& job,
 }
 
 }  // namespace
-
-meshes::Sector sector(const ReferenceJob& job) {
-  using meshes::Sector;
-  if (job.axisymmetric()) return Sector::meridian;
-  if (job.geometry.solid) return Sector::full;
-  const meshes::PressProtocol& press = job.protocol;
-  const bool mirrored = press.tilt == 0.0 && press.lateral == 0.0 && press.obstacle.mirrored();
-  return mirrored || job.analysis == Analysis::modes ? Sector::quarter : Sector::half;
-}
-
-double copies(meshes::Sector sector) {
-  switch (sector) {
-    case meshes::Sector::quarter: return 4.0;
-    case meshes::Sector::half: return 2.0;
-    case meshes::Sector::full:
-    case meshes::Sector::meridian: return 1.0;
-  }
-  return 1.0;
-}
-
-meshes::TipMeshOptions mesh_options(const ReferenceJob& job, double refinement) {
-  meshes::TipMeshOptions options = meshes::TipMeshOptions{}.refined(refinement);
-  options.sector = sector(job);
-  if (!job.geometry.is_dome() && job.analysis != Analysis::modes)
-    options.touch = meshes::touched_first(job.geometry, job.protocol.tilt, job.protocol.obstacle);
-  return options;
-}
 
 struct ContinuumPress::Implementation {
   std::unique_ptr<PressModel> model;

@@ -14,9 +14,9 @@
 #include <map>
 #include <numbers>
 
+#include "fem_reference/job_mesh.h"
 #include "fem_reference/kinematics.h"
 #include "fem_reference/press_model.h"
-#include "meshes/volume_mesh.h"
 
 namespace fingertip::fem_reference {
 namespace {
@@ -30,16 +30,6 @@ constexpr double nodes_per_edge_radius = 10.0;
 /// Found from 480 forces against forces of finer meshes: MEASUREMENTS.md, On the meridian.
 template <int dim>
 constexpr double excess_energy = dim == 2 ? 2.5 : 1.0;
-
-/// The edge is sought from the points beyond this share of the radius: the second one where the
-/// first leaves too few of them to say more than the outermost does. At large strain p² has a peak
-/// in the middle that a fit over more of the contact feels: over the outer half it is 2.5 % off at
-/// 0.3 cm of law A without friction, 14 % with stick.
-struct EdgeShare {
-  double inner;
-  int fewest_rings;
-};
-constexpr std::array<EdgeShare, 2> edge_shares = {{{0.7, 5}, {0.5, 3}}};
 
 /// Distance to the nearest other node, averaged over the candidates next to `edge`.
 double spacing_around(const std::vector<SurfaceNode>& nodes, double edge, const auto& radius) {
@@ -59,35 +49,6 @@ double spacing_around(const std::vector<SurfaceNode>& nodes, double edge, const 
 }
 
 }  // namespace
-
-double contact_edge(const std::vector<ContactPoint>& contact, double node_spacing,
-                    int nodes_per_ring) {
-  if (contact.empty()) return 0.0;
-  const double outermost = contact.back().radius;
-  for (const auto& [inner, fewest_rings] : edge_shares) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    int count = 0;
-    for (const ContactPoint& point : contact) {
-      if (point.radius < inner * outermost) continue;
-      const double s = std::pow(point.radius / outermost, 2);
-      const Eigen::Vector3d basis(1.0, s, s * s);
-      normal += basis * basis.transpose();
-      right += point.pressure * point.pressure * basis;
-      ++count;
-    }
-    if (count < fewest_rings * nodes_per_ring) continue;
-    const Eigen::Vector3d c = normal.ldlt().solve(right);
-    const double discriminant = c[1] * c[1] - 4 * c[2] * c[0];
-    if (!(discriminant >= 0.0)) return outermost;
-    // The root that a straight line has, too.
-    const double root = 2 * c[0] / (-c[1] + std::sqrt(discriminant));
-    if (!(root > 0.0)) return outermost;
-    return std::clamp(outermost * std::sqrt(root), outermost - node_spacing,
-                      outermost + node_spacing);
-  }
-  return outermost;
-}
 
 template <int dim>
 PressState TipPress<dim>::evaluate() {

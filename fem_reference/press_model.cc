@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "fem_reference/job_mesh.h"
 #include "fem_reference/kinematics.h"
 #include "fem_reference/solver_choice.h"
 #include "meshes/errors.h"

@@ -11,9 +11,9 @@
 #include "fem_reference/field_solver.h"
 #include "fem_reference/memory.h"
 #include "fem_reference/plane_contact.h"
-#include "fem_reference/press.h"
 #include "fem_reference/press_course.h"
 #include "fem_reference/press_fields.h"
+#include "fem_reference/press_state.h"
 #include "fem_reference/tip_body.h"
 
 namespace fingertip::fem_reference {

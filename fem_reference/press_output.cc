@@ -16,7 +16,7 @@
 
 #include "fem_reference/press_fields.h"
 #include "fem_reference/press_model.h"
-#include "fem_reference/run_progress.h"
+#include "fem_reference/processes.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
 

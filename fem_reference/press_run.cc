@@ -11,15 +11,15 @@
 #include <string>
 #include <utility>
 
+#include "fem_reference/job_mesh.h"
 #include "fem_reference/mesh_history.h"
 #include "fem_reference/press.h"
 #include "fem_reference/press_course.h"
+#include "fem_reference/processes.h"
 #include "fem_reference/run_files.h"
-#include "fem_reference/run_progress.h"
 #include "fem_reference/solver_choice.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
-#include "meshes/volume_mesh.h"
 
 namespace fingertip::fem_reference {
 namespace {

@@ -7,7 +7,7 @@
 #include <iosfwd>
 
 #include "fem_reference/job.h"
-#include "fem_reference/run.h"
+#include "fem_reference/run_progress.h"
 
 namespace fingertip::fem_reference {
 

@@ -4,19 +4,10 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
-#include <limits>
-#include <string>
+
+#include "fem_reference/run_progress.h"
 
 namespace fingertip::fem_reference {
-
-/// How a run ended, and in which words.
-struct RunOutcome {
-  enum class Status { ok, interrupted, not_converged };
-  Status status = Status::ok;
-  std::string message;  ///< empty when ok
-  /// Of a press that found equilibrium no further [m]; else NaN.
-  double reached = std::numeric_limits<double>::quiet_NaN();
-};
 
 /// Reads `folder`/job.json and writes the results into `folder` (README lists the files).
 /// Everything is rewritten after each sample, so that a run that ends early keeps what it has, and

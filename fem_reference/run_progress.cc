@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "fem_reference/processes.h"
 #include "meshes/errors.h"
 #include "meshes/fields_json.h"
 #include "meshes/no_equilibrium.h"
@@ -34,12 +35,6 @@ double peak_memory() {
 
 }  // namespace
 
-bool first_process() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank == 0;
-}
-
 void RunProgress::report(const char* stage, std::size_t done, std::size_t total,
                          const std::string& message, const Expected& expected) {
   if (!first_process()) return;
@@ -53,34 +48,6 @@ void RunProgress::report(const char* stage, std::size_t done, std::size_t total,
 
 double RunProgress::wall_time() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
-meshes::MeshQuality write_mesh_once(const meshes::Geometry& geometry,
-                                    const meshes::TipMeshOptions& options,
-                                    const std::filesystem::path& file) {
-  meshes::MeshQuality quality;
-  std::string failure;
-  int failed = 0;
-  if (first_process()) {
-    try {
-      quality = meshes::write_tip_mesh(geometry, options, file);
-    } catch (const std::exception& error) {
-      failure = error.what();
-      failed = 1;
-    }
-  }
-  MPI_Bcast(&failed, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  if (failed != 0)
-    throw meshes::NotConverged(failure.empty() ? "the first process could not mesh the tip"
-                                               : failure);
-  return quality;
-}
-
-void stop_if_asked(const std::function<bool()>& stop_requested) {
-  const int own = stop_requested && stop_requested() ? 1 : 0;
-  int any = 0;
-  MPI_Allreduce(&own, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-  if (any != 0) throw meshes::Interrupted("stopped on request");
 }
 
 RunOutcome outcome_of(const std::function<void()>& work) {

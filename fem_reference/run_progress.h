@@ -5,22 +5,25 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <limits>
 #include <string>
 
 #include "fem_reference/job.h"
-#include "fem_reference/press.h"
-#include "fem_reference/run.h"
+#include "fem_reference/press_state.h"
 #include "fem_reference/run_summary.h"
 #include "fem_reference/solver_choice.h"
 #include "meshes/volume_mesh.h"
 
 namespace fingertip::fem_reference {
 
-/// The first process of MPI_COMM_WORLD speaks and writes for all.
-bool first_process();
-
-/// Throws Interrupted on all processes when `stop_requested` (may be empty) says so on any.
-void stop_if_asked(const std::function<bool()>& stop_requested);
+/// How a run ended, and in which words.
+struct RunOutcome {
+  enum class Status { ok, interrupted, not_converged };
+  Status status = Status::ok;
+  std::string message;  ///< empty when ok
+  /// Of a press that found equilibrium no further [m]; else NaN.
+  double reached = std::numeric_limits<double>::quiet_NaN();
+};
 
 /// Does the work of a run, and tells how it ended: Interrupted and NotConverged are outcomes, which
 /// all processes see together; anything else is passed on.
@@ -39,11 +42,6 @@ class RunProgress {
   std::ostream& out_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-/// The first process writes the mesh; NotConverged on it becomes NotConverged on all.
-meshes::MeshQuality write_mesh_once(const meshes::Geometry& geometry,
-                                    const meshes::TipMeshOptions& options,
-                                    const std::filesystem::path& file);
 
 /// What every run's summary.json starts with: program, status, message, the discretisation that the
 /// job asked for, and the number of processes.

@@ -1,4 +1,5 @@
-/// TipModes on deal.II's side.
+#include "fem_reference/tip_modes.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -11,7 +12,6 @@
 #include <utility>
 
 #include "fem_reference/eigen_solver.h"
-#include "fem_reference/modes.h"
 #include "fem_reference/tip_body.h"
 #include "fem_reference/vtu_output.h"
 
@@ -134,6 +134,11 @@ std::size_t class_index(SymmetryClass symmetry) {
 }
 
 }  // namespace
+
+std::string name(SymmetryClass symmetry) {
+  const auto letter = [](Parity parity) { return parity == Parity::symmetric ? 'S' : 'A'; };
+  return {letter(symmetry.x), letter(symmetry.y)};
+}
 
 struct TipModes::Implementation {
   bool is_quarter;

@@ -8,11 +8,14 @@
 #include <ostream>
 #include <string>
 
+#include "fem_reference/job_mesh.h"
 #include "fem_reference/mesh_history.h"
+#include "fem_reference/press.h"
 #include "fem_reference/press_course.h"
+#include "fem_reference/processes.h"
 #include "fem_reference/run_files.h"
-#include "fem_reference/run_progress.h"
 #include "fem_reference/run_tables.h"
+#include "fem_reference/transient_press.h"
 #include "meshes/errors.h"
 #include "meshes/no_equilibrium.h"
 #include "meshes/table_rows.h"

@@ -1,4 +1,5 @@
-/// TransientPress on deal.II's side.
+#include "fem_reference/transient_press.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/data_component_interpretation.h>
@@ -15,10 +16,9 @@
 #include "fem_reference/plane_contact.h"
 #include "fem_reference/press_course.h"
 #include "fem_reference/press_fields.h"
-#include "fem_reference/run_progress.h"
+#include "fem_reference/processes.h"
 #include "fem_reference/solver_choice.h"
 #include "fem_reference/tip_body.h"
-#include "fem_reference/transient.h"
 #include "meshes/errors.h"
 
 namespace fingertip::fem_reference {

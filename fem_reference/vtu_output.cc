@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "fem_reference/run_progress.h"
+#include "fem_reference/processes.h"
 #include "meshes/files.h"
 
 namespace fingertip::fem_reference {

@@ -2,8 +2,8 @@
 #include <array>
 
 #include "fem_reference/analytic/bonded_disc.h"
+#include "fem_reference/job_mesh.h"
 #include "fem_reference/press.h"
-#include "fem_reference/run_progress.h"
 #include "fem_reference/verification/check.h"
 #include "fem_reference/verification/exact_cases.h"
 #include "fem_reference/verification/verification.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "fem_reference/analytic/hertz.h"
+#include "fem_reference/job_mesh.h"
 #include "fem_reference/press.h"
-#include "fem_reference/run_progress.h"
 #include "fem_reference/verification/check.h"
 #include "fem_reference/verification/verification.h"
 #include "meshes/files.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fem_reference/job.h"
-#include "fem_reference/run.h"
+#include "fem_reference/run_progress.h"
 #include "fem_reference/verification/elastic_problem.h"
 #include "fem_reference/verification/verification_file.h"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "fem_reference/run_progress.h"
+#include "fem_reference/processes.h"
 #include "fem_reference/verification/check.h"
 #include "fem_reference/verification/verification.h"
 #include "meshes/errors.h"

@@ -13,8 +13,8 @@
 
 #include "fem_reference/assembly.h"
 #include "fem_reference/curved_sides.h"
-#include "fem_reference/modes.h"
 #include "fem_reference/tip_body.h"
+#include "fem_reference/tip_modes.h"
 #include "meshes/geometry.h"
 #include "tests/fem_reference/pressing.h"
 #include "tests/fingers.h"

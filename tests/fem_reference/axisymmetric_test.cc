@@ -10,7 +10,7 @@
 #include "fem_reference/force_error.h"
 #include "fem_reference/mesh_history.h"
 #include "fem_reference/tip_body.h"
-#include "fem_reference/transient.h"
+#include "fem_reference/transient_press.h"
 #include "meshes/errors.h"
 #include "tests/fem_reference/pressing.h"
 #include "tests/fingers.h"

@@ -19,6 +19,7 @@
 
 #include "fem_reference/eigen_solver.h"
 #include "fem_reference/tip_body.h"
+#include "fem_reference/tip_modes.h"
 #include "tests/fem_reference/shared_mesh.h"
 
 using namespace fingertip;

@@ -1,6 +1,7 @@
 /// A press of the default specimen on a mesh of its own.
 #pragma once
 
+#include "fem_reference/job_mesh.h"
 #include "fem_reference/press.h"
 #include "tests/fem_reference/shared_mesh.h"
 

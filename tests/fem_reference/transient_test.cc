@@ -21,6 +21,7 @@
 #include "fem_reference/press.h"
 #include "fem_reference/press_course.h"
 #include "fem_reference/tip_body.h"
+#include "fem_reference/transient_press.h"
 #include "tests/fem_reference/shared_mesh.h"
 
 using namespace fingertip;
