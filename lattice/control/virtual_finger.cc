@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lattice/dynamics/integrators/make_stepper.h"
 #include "lattice/dynamics/thread_choice.h"
 #include "lattice/model/cut_model.h"
 #include "meshes/cubic_grid.h"

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lattice/kernels/by_width.h"
 #include "lattice/kernels/stencil.h"
 
 namespace fingertip::lattice::kernel {

@@ -113,14 +113,6 @@ CubicGrid tip_grid(const Geometry& geometry, const LatticeSettings& settings, in
   return grid;
 }
 
-std::vector<Violation> rotation_violations(const Eigen::Matrix3d& axes) {
-  const Eigen::Matrix3d defect = axes.transpose() * axes - Eigen::Matrix3d::Identity();
-  if (axes.allFinite() && defect.cwiseAbs().maxCoeff() < 1e-9 && axes.determinant() > 0.0)
-    return {};
-  return {{"lattice.rotation", "", "the grid's directions must be orthonormal and right-handed",
-           "give three angles, or a rotation matrix"}};
-}
-
 int grid_symmetry(const Geometry& geometry, const LatticeSettings& settings) {
   if (geometry.solid) return 1;
   if (!settings.axes.isIdentity(0.0) || settings.offset.y() != 0.0) return 1;

@@ -15,9 +15,6 @@
 
 namespace fingertip::lattice {
 
-/// Stiffness of the ties to rod and plane per area over C44/a. Softer ties are felt, stiffer ones
-/// lock the lattice (lattice/MEASUREMENTS.md).
-inline constexpr double tie_stiffness = 160.0;
 /// Cells with less rubber than this are left out.
 inline constexpr double smallest_fraction = 1e-6;
 /// The finest lattice over R: beyond, surface_points has none that near, and the grid would not
@@ -53,9 +50,6 @@ CutTip cut_tip(const meshes::Geometry& geometry, const meshes::Rubber& rubber,
 meshes::CubicGrid tip_grid(const meshes::Geometry& geometry, const LatticeSettings& settings,
                            int sectors);
 
-/// Empty if `axes` is a rotation.
-std::vector<meshes::Violation> rotation_violations(const Eigen::Matrix3d& axes);
-
 /// 4, 2 or 1: into how many mirror images the grid's planes through x = 0 and y = 0 divide the tip;
 /// 1 for a solid.
 int grid_symmetry(const meshes::Geometry& geometry, const LatticeSettings& settings);
@@ -63,10 +57,6 @@ int grid_symmetry(const meshes::Geometry& geometry, const LatticeSettings& setti
 /// Empty if the tip divides into so many parts along planes of grid points.
 std::vector<meshes::Violation> sector_violations(const meshes::Geometry& geometry,
                                                  const LatticeSettings& settings, int sectors);
-
-/// That a model of this geometry can be built with: through the thinnest wall, and for the bond to
-/// a dome's rod [m].
-double coarsest_spacing(const meshes::Geometry& geometry, ModelKind model);
 
 /// Deepest height at which the outer surface can meet the plane [m]: a sleeve as long as the rubber
 /// is thick, since no press goes deeper than that.

@@ -1,10 +1,10 @@
 #include "lattice/model/lattice_settings.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "lattice/model/cut_tip.h"
 #include "meshes/files.h"
 
 namespace fingertip::lattice {
@@ -77,6 +77,14 @@ void add_ties(std::vector<Violation>& found, const LatticeSettings& l,
 }
 
 }  // namespace
+
+std::vector<Violation> rotation_violations(const Eigen::Matrix3d& axes) {
+  const Eigen::Matrix3d defect = axes.transpose() * axes - Eigen::Matrix3d::Identity();
+  if (axes.allFinite() && defect.cwiseAbs().maxCoeff() < 1e-9 && axes.determinant() > 0.0)
+    return {};
+  return {{"lattice.rotation", "", "the grid's directions must be orthonormal and right-handed",
+           "give three angles, or a rotation matrix"}};
+}
 
 double coarsest_spacing(const meshes::Geometry& geometry, ModelKind model) {
   return std::min(geometry.coarsest_spacing(), coarsest_for_bond(geometry, model));

@@ -28,4 +28,11 @@ struct LatticeSettings {
                                             const meshes::Rubber& rubber) const;
 };
 
+/// The coarsest spacing that a model of this geometry can be built with: through the thinnest wall,
+/// and for the bond to a dome's rod [m].
+double coarsest_spacing(const meshes::Geometry& geometry, ModelKind model);
+
+/// Empty if `axes` is a rotation.
+std::vector<meshes::Violation> rotation_violations(const Eigen::Matrix3d& axes);
+
 }  // namespace fingertip::lattice

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lattice/model/cut_tip.h"
-
 namespace fingertip::lattice {
 
 TieLaw layer_law(const meshes::StrainEnergy& energy, double spacing) {

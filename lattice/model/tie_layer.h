@@ -6,6 +6,9 @@
 
 namespace fingertip::lattice {
 
+/// Stiffness of the ties to rod and plane per area over C44/a. Softer ties are felt, stiffer ones
+/// lock the lattice (lattice/MEASUREMENTS.md).
+inline constexpr double tie_stiffness = 160.0;
 /// Depth of a tie's layer at which its law is measured, over its thickness; also the deepest
 /// compression at which laws are known to be stable (meshes::StrainEnergy::violations).
 inline constexpr double layer_depth = 0.5;

@@ -6,12 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <functional>
 #include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
-
-#include "lattice/statics/cut_lattice.h"
-#include "meshes/press_motion.h"
 
 namespace fingertip::lattice {
 
@@ -19,10 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 namespace {
-
-/// What a sway grows by during a press that holds still enough, as an exponent.
-const double tolerated_growth = std::log(100.0);
-constexpr int cells_per_radius = 6;  // of the coarse lattice
 
 /// The loop in the hand's own measure: its inertia is 1 in all motions, and time passes in units of
 /// 1/omega. Without that, the units of a wrench beside those of a way spoil the eigenvalues.
@@ -112,41 +104,6 @@ LoopMotion fastest(const MatrixXd& period_map, double period) {
           std::abs(std::arg(largest)) / (2.0 * std::numbers::pi * period)};
 }
 
-/// The rubber as it answers at its own frequencies, with its damping as one time.
-double as_at_its_frequencies(const meshes::Rubber& rubber, HeldVibrations& vibrations) {
-  if (rubber.relaxation.empty()) return rubber.retardation_time;
-  double damping = 0.0;
-  for (double& square : vibrations.squares) {
-    const double frequency = std::sqrt(square), storage = rubber.relaxation.storage(frequency);
-    if (damping == 0.0)  // of the lowest: the others are damped more than by it
-      damping = rubber.relaxation.loss(frequency) / (frequency * storage);
-    square *= storage;
-  }
-  return rubber.retardation_time + damping;
-}
-
-/// None where the setup's own spacing will not do either.
-std::optional<LatticeBody> coarse_body(const PressSetup& setup) {
-  const double own = setup.lattice.spacing;
-  for (const double spacing : {std::max(own, setup.geometry.tip_radius / cells_per_radius), own}) {
-    LatticeSettings coarse;
-    coarse.spacing = spacing;
-    coarse.constants = hookean_constants(setup.rubber, spacing);
-    if (coarse.violations(setup.geometry, setup.rubber).empty())
-      return build_cut_tip(setup.geometry, setup.rubber, coarse, 1);
-  }
-  return std::nullopt;
-}
-
-/// The smallest x between `bad` and `good` for which `holds`, to a fiftieth of itself.
-double boundary(double bad, double good, const std::function<bool(double)>& holds) {
-  while (std::abs(good / bad - 1.0) > 0.02) {
-    const double middle = std::sqrt(bad * good);
-    (holds(middle) ? good : bad) = middle;
-  }
-  return good;
-}
-
 }  // namespace
 
 double inertia_ratio(const Matrix6& rubber, const Matrix6& hand) {
@@ -166,47 +123,6 @@ LoopMotion loop_motion(const Matrix6& hand, const HeldVibrations& rubber, double
                        const PidSettings& servo, double latency) {
   return fastest(one_period(measured_by_hand(hand, rubber, retardation_time, servo, latency)),
                  servo.period);
-}
-
-std::optional<SwayingHand> swaying_hand(const PressSetup& setup) {
-  if (setup.protocol.mode != meshes::DriveMode::pid || setup.make_controller ||
-      setup.lattice.model == ModelKind::published)
-    return std::nullopt;
-  const PidSettings& servo = setup.controller;
-  const double latency = setup.hardware.sensor_latency + setup.hardware.actuator_latency;
-  const Matrix6 hand = rod_body(setup.geometry, setup.rod).inertia_at_endpoint();
-  const std::optional<LatticeBody> body = coarse_body(setup);
-  if (!body) return std::nullopt;
-  const meshes::Vector3 endpoint = setup.geometry.rod_endpoint();
-  SwayingHand found;
-  found.ratio = inertia_ratio(rubber_inertia(*body, endpoint), hand);
-  if (found.ratio <= harmless_ratio(servo, latency, setup.rubber.retardation_time))
-    return std::nullopt;
-
-  HeldVibrations rubber = held_vibrations(*body, endpoint);
-  const double damping = as_at_its_frequencies(setup.rubber, rubber);
-  const double lasts = setup.duration.value_or(meshes::PressMotion(setup.protocol).duration());
-  const auto holds = [&](const LoopMotion& motion) {
-    return motion.rate * lasts <= tolerated_growth;
-  };
-  const auto with_density = [&](double factor) {
-    return loop_motion(factor * hand, rubber, damping, servo, latency);
-  };
-  const auto with_frequency = [&](double frequency) {
-    PidSettings other = servo;
-    other.natural_frequency = frequency;
-    return loop_motion(hand, rubber, damping, other, latency);
-  };
-  constexpr double heaviest = 1e4;
-  found.motion = with_density(1.0);
-  if (holds(found.motion) || !holds(with_density(heaviest))) return std::nullopt;
-  found.density =
-      setup.rod.density * boundary(1.0, heaviest, [&](double x) { return holds(with_density(x)); });
-  const double slowest = 0.05 * servo.natural_frequency;
-  if (holds(with_frequency(slowest)))
-    found.natural_frequency = boundary(servo.natural_frequency, slowest,
-                                       [&](double x) { return holds(with_frequency(x)); });
-  return found;
 }
 
 }  // namespace fingertip::lattice

@@ -1,9 +1,7 @@
 /// Whether the controller sets a hand swaying with the rubber on it.
 #pragma once
 
-#include <optional>
-
-#include "lattice/press/press_setup.h"
+#include "lattice/control/control_settings.h"
 #include "lattice/statics/held_vibrations.h"
 
 namespace fingertip::lattice {
@@ -34,19 +32,5 @@ LoopMotion loop_motion(const Matrix6& hand, const HeldVibrations& rubber, double
 ///   nu = w, while its own damping is ½ w² retardation_time there. Above sqrt(3) w the delay damps.
 /// Less than either, for the filter of the derivative delays, too.
 double harmless_ratio(const PidSettings& servo, double latency, double retardation_time);
-
-/// A hand that sways, and what would not.
-struct SwayingHand {
-  LoopMotion motion;
-  double ratio = 0.0;              ///< inertia_ratio
-  double density = 0.0;            ///< of the same hand that holds still [kg/m³]
-  double natural_frequency = 0.0;  ///< with which it holds still [Hz]; 0: with none tried
-};
-
-/// Set if the built-in controller would make a sway of this press grow more than a hundredfold
-/// while it lasts, although the bare hand's loop is stable. For valid setups. Of another controller
-/// nothing is known, and the published lattice's dampers are critical: none. Stiffness, mass and
-/// damping are those of the rubber at small strain, on a coarse lattice.
-std::optional<SwayingHand> swaying_hand(const PressSetup& setup);
 
 }  // namespace fingertip::lattice

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lattice/press/boundary_view.h"
-#include "lattice/press/press.h"
+#include "lattice/press/press_outcome.h"
 #include "lattice/press/press_shapes.h"
 #include "lattice/press/whole_tip.h"
 

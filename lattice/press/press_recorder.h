@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lattice/dynamics/finger.h"
-#include "lattice/press/press.h"
+#include "lattice/press/press_outcome.h"
 #include "meshes/press_motion.h"
 #include "meshes/press_protocol.h"
 

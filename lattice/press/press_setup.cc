@@ -1,12 +1,16 @@
 #include "lattice/press/press_setup.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <sstream>
 
 #include "lattice/model/rod.h"
 #include "lattice/press/loop_stability.h"
+#include "lattice/statics/cut_lattice.h"
 #include "meshes/files.h"
+#include "meshes/press_motion.h"
 
 namespace fingertip::lattice {
 
@@ -14,8 +18,47 @@ using meshes::Violation;
 
 namespace {
 
+/// What a sway grows by during a press that holds still enough, as an exponent.
+const double tolerated_growth = std::log(100.0);
+constexpr int cells_per_radius = 6;  // of the coarse lattice
+
 bool positive(double value) {
   return std::isfinite(value) && value > 0.0;
+}
+
+/// The rubber as it answers at its own frequencies, with its damping as one time.
+double as_at_its_frequencies(const meshes::Rubber& rubber, HeldVibrations& vibrations) {
+  if (rubber.relaxation.empty()) return rubber.retardation_time;
+  double damping = 0.0;
+  for (double& square : vibrations.squares) {
+    const double frequency = std::sqrt(square), storage = rubber.relaxation.storage(frequency);
+    if (damping == 0.0)  // of the lowest: the others are damped more than by it
+      damping = rubber.relaxation.loss(frequency) / (frequency * storage);
+    square *= storage;
+  }
+  return rubber.retardation_time + damping;
+}
+
+/// None where the setup's own spacing will not do either.
+std::optional<LatticeBody> coarse_body(const PressSetup& setup) {
+  const double own = setup.lattice.spacing;
+  for (const double spacing : {std::max(own, setup.geometry.tip_radius / cells_per_radius), own}) {
+    LatticeSettings coarse;
+    coarse.spacing = spacing;
+    coarse.constants = hookean_constants(setup.rubber, spacing);
+    if (coarse.violations(setup.geometry, setup.rubber).empty())
+      return build_cut_tip(setup.geometry, setup.rubber, coarse, 1);
+  }
+  return std::nullopt;
+}
+
+/// The smallest x between `bad` and `good` for which `holds`, to a fiftieth of itself.
+double boundary(double bad, double good, const std::function<bool(double)>& holds) {
+  while (std::abs(good / bad - 1.0) > 0.02) {
+    const double middle = std::sqrt(bad * good);
+    (holds(middle) ? good : bad) = middle;
+  }
+  return good;
 }
 
 /// To two digits, away from zero if positive, toward it if negative.
@@ -54,9 +97,8 @@ void add_swaying_hand(std::vector<Violation>& found, const PressSetup& setup) {
   const std::optional<SwayingHand> sways = swaying_hand(setup);
   if (!sways) return;
   std::ostringstream rule;
-  rule << std::setprecision(2) << "under the controller the hand would sway at "
-       << sways->motion.frequency << " Hz, a hundred times as far every "
-       << std::log(100.0) / sways->motion.rate
+  rule << std::setprecision(2) << "under the controller the hand would sway at " << sways->frequency
+       << " Hz, a hundred times as far every " << std::log(100.0) / sways->rate
        << " s: in the motion that is easiest for it the rubber has " << sways->ratio
        << " times its inertia";
   std::string remedy = "take at least " + meshes::to_text(rounded_up(sways->density)) + " kg/m^3, ";
@@ -194,6 +236,48 @@ std::vector<Violation> beyond_the_model(const PressSetup& setup) {
 }
 
 }  // namespace
+
+std::optional<SwayingHand> swaying_hand(const PressSetup& setup) {
+  if (setup.protocol.mode != meshes::DriveMode::pid || setup.make_controller ||
+      setup.lattice.model == ModelKind::published)
+    return std::nullopt;
+  const PidSettings& servo = setup.controller;
+  const double latency = setup.hardware.sensor_latency + setup.hardware.actuator_latency;
+  const Matrix6 hand = rod_body(setup.geometry, setup.rod).inertia_at_endpoint();
+  const std::optional<LatticeBody> body = coarse_body(setup);
+  if (!body) return std::nullopt;
+  const meshes::Vector3 endpoint = setup.geometry.rod_endpoint();
+  SwayingHand found;
+  found.ratio = inertia_ratio(rubber_inertia(*body, endpoint), hand);
+  if (found.ratio <= harmless_ratio(servo, latency, setup.rubber.retardation_time))
+    return std::nullopt;
+
+  HeldVibrations rubber = held_vibrations(*body, endpoint);
+  const double damping = as_at_its_frequencies(setup.rubber, rubber);
+  const double lasts = setup.duration.value_or(meshes::PressMotion(setup.protocol).duration());
+  const auto holds = [&](const LoopMotion& motion) {
+    return motion.rate * lasts <= tolerated_growth;
+  };
+  const auto with_density = [&](double factor) {
+    return loop_motion(factor * hand, rubber, damping, servo, latency);
+  };
+  const auto with_frequency = [&](double frequency) {
+    PidSettings other = servo;
+    other.natural_frequency = frequency;
+    return loop_motion(hand, rubber, damping, other, latency);
+  };
+  constexpr double heaviest = 1e4;
+  const LoopMotion motion = with_density(1.0);
+  found.rate = motion.rate, found.frequency = motion.frequency;
+  if (holds(motion) || !holds(with_density(heaviest))) return std::nullopt;
+  found.density =
+      setup.rod.density * boundary(1.0, heaviest, [&](double x) { return holds(with_density(x)); });
+  const double slowest = 0.05 * servo.natural_frequency;
+  if (holds(with_frequency(slowest)))
+    found.natural_frequency = boundary(servo.natural_frequency, slowest,
+                                       [&](double x) { return holds(with_frequency(x)); });
+  return found;
+}
 
 std::vector<Violation> beyond_the_lattice(const PressSetup& setup) {
   std::vector<Violation> found = beyond_the_model(setup);

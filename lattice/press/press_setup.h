@@ -50,7 +50,22 @@ struct PressSetup {
 /// What of a valid setup the lattice cannot do: Coulomb friction and relaxation in equilibrium; a
 /// lateral motion after the press while the rod moves; the published model, moving, is pressed
 /// straight and needs an Euler step; explicit Euler is for it alone; under a controller the rod
-/// weighs at least as much as the rubber and does not sway with it (loop_stability.h).
+/// weighs at least as much as the rubber and does not sway with it (swaying_hand).
 std::vector<meshes::Violation> beyond_the_lattice(const PressSetup& setup);
+
+/// A hand that sways, and what would not.
+struct SwayingHand {
+  double rate = 0.0;               ///< with which its sway grows [1/s]
+  double frequency = 0.0;          ///< of its sway [Hz]
+  double ratio = 0.0;              ///< inertia_ratio
+  double density = 0.0;            ///< of the same hand that holds still [kg/m³]
+  double natural_frequency = 0.0;  ///< with which it holds still [Hz]; 0: with none tried
+};
+
+/// Set if the built-in controller would make a sway of this press grow more than a hundredfold
+/// while it lasts, although the bare hand's loop is stable. For valid setups. Of another controller
+/// nothing is known, and the published lattice's dampers are critical: none. Stiffness, mass and
+/// damping are those of the rubber at small strain, on a coarse lattice.
+std::optional<SwayingHand> swaying_hand(const PressSetup& setup);
 
 }  // namespace fingertip::lattice

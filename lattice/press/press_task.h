@@ -41,7 +41,7 @@ FingerSetup pressed_finger(const PressSetup& setup, const PressWay& way);
 /// 4, 2 or 1: how many parts of a moving press are each other's mirror images, of which one is
 /// computed: those of grid, obstacle and way (way_symmetry). 1 where something may push the rod off
 /// the mirror planes: a controller but the built-in servo, or noise; or where nobody wants it
-/// (PressSetup::symmetry). What would sway on such a rod does not sway: loop_stability.h tells.
+/// (PressSetup::symmetry). What would sway on such a rod does not sway: swaying_hand tells.
 int moving_sectors(const PressSetup& setup);
 /// V/a³ of the part that is computed.
 double moving_particles(const PressSetup& setup);

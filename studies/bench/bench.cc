@@ -1,5 +1,6 @@
 #include "studies/bench/bench.h"
 
+#include "lattice/kernels/by_width.h"
 #include <fmt/format.h>
 
 #include <cstdlib>

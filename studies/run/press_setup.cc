@@ -8,7 +8,6 @@
 #include "calibration/material.h"
 #include "calibration/words.h"
 #include "lattice/model/cut_tip.h"
-#include "lattice/press/loop_stability.h"
 #include "lattice/press/press_deviation.h"
 #include "meshes/cubic_grid.h"
 #include "meshes/files.h"

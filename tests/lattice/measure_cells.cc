@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lattice/forces/cell_forces.h"
+#include "lattice/kernels/by_width.h"
 #include "lattice/kernels/kernel.h"
 #include "lattice/model/cut_tip.h"
 #include "tests/lattice/fixtures.h"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lattice/dynamics/finger.h"
+#include "lattice/kernels/by_width.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;

@@ -3,13 +3,10 @@
 
 #include <array>
 #include <functional>
-#include <memory>
-#include <optional>
 #include <string>
 #include <variant>
 
 #include "lattice/dynamics/finger.h"
-#include "lattice/dynamics/integrator.h"
 #include "lattice/dynamics/time_step.h"
 #include "meshes/errors.h"
 
@@ -65,18 +62,5 @@ class Stepper {
 
   StepCount count_;
 };
-
-/// What a stepper has to keep to.
-struct StepperSettings {
-  Integrator integrator = Integrator::symplectic_euler;
-  std::optional<double> time_step;  ///< largest one [s]
-  double tolerance = 1e-6;          ///< runge_kutta.h
-  double energy_bound = 1e-7;       ///< energy_stepper.h
-  double energy_scale = 0.0;        ///< [J]
-};
-
-/// Finger and controller must outlive it.
-std::unique_ptr<Stepper> make_stepper(const StepperSettings& settings, Finger& finger,
-                                      StepController& steps);
 
 }  // namespace fingertip::lattice

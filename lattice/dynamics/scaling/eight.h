@@ -3,21 +3,20 @@
 
 #include <experimental/simd>
 
-#include "lattice/dynamics/scaling/sweeps.h"
 #include "lattice/kernels/stencil.h"
 
 namespace fingertip::lattice::sweeps {
 
 /// Its type differs between compilations, as in kernels/packs.h.
-using Eight = std::experimental::simd<Single, std::experimental::simd_abi::deduce_t<Single, lanes>>;
+using Eight = std::experimental::simd<float, std::experimental::simd_abi::deduce_t<float, lanes>>;
 
 /// Doubles per register of this compilation.
 inline constexpr int native_width = int(std::experimental::native_simd<double>::size());
 
-[[gnu::always_inline]] inline Eight read(const Single* from) {
+[[gnu::always_inline]] inline Eight read(const float* from) {
   return Eight(from, std::experimental::element_aligned);
 }
-[[gnu::always_inline]] inline void write(Single* to, const Eight& from) {
+[[gnu::always_inline]] inline void write(float* to, const Eight& from) {
   from.copy_to(to, std::experimental::element_aligned);
 }
 

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "benchmarks.h"
+#include "lattice/kernels/by_width.h"
 #include "lattice/kernels/kernel.h"
 #include "multiply_rate.h"
 #include "probes.h"

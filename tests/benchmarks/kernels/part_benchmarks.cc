@@ -12,6 +12,7 @@
 #include "lattice/control/virtual_finger.h"
 #include "lattice/dynamics/spectrum_search.h"
 #include "lattice/forces/forces.h"
+#include "lattice/kernels/by_width.h"
 #include "lattice/kernels/kernel.h"
 #include "probes.h"
 

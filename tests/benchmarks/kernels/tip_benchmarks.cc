@@ -6,6 +6,7 @@
 #include "benchmarks.h"
 #include "lattice/dynamics/finger.h"
 #include "lattice/forces/forces.h"
+#include "lattice/kernels/by_width.h"
 #include "lattice/model/cut_model.h"
 #include "operation_count.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lattice/forces/energy.h"
+#include "lattice/kernels/by_width.h"
 #include "lattice/kernels/kernel.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/elastic_system.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "lattice/kernels/by_width.h"
 #include "lattice/kernels/kernel.h"
 #include "tests/lattice/fixtures.h"
 

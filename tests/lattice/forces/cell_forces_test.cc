@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "lattice/forces/cell_energy.h"
+#include "lattice/kernels/by_width.h"
 #include "lattice/kernels/kernel.h"
 #include "lattice/statics/cut_lattice.h"
 #include "lattice/statics/elastic_system.h"

@@ -6,6 +6,7 @@
 
 #include "lattice/contact/bond.h"
 #include "lattice/forces/energy.h"
+#include "lattice/kernels/by_width.h"
 #include "tests/lattice/fixtures.h"
 
 using namespace fingertip;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lattice/control/control_loop.h"
+#include "lattice/press/press_setup.h"
 #include "lattice/press/press_task.h"
 #include "lattice/statics/cut_lattice.h"
 #include "tests/fingers.h"

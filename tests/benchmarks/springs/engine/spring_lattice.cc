@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lattice/kernels/by_width.h"
 #include "lattice/kernels/kernel.h"
 #include "tests/benchmarks/springs/engine/lane_storage.h"
 #include "tests/benchmarks/springs/engine/sweep.h"
