@@ -119,7 +119,7 @@ std::string describe_direction(const Eigen::Vector4d& direction) {
   return text;
 }
 
-std::string fit_statement(const ModuliFit& fit, int cell_mechanisms) {
+std::string fit_statement(const ModuliFit& fit) {
   const bool body_diagonals = fit.constants.k3 > 1e-9 * fit.constants.k2;
   std::string text =
       model_part(fit) + open_directions(fit) +
@@ -127,9 +127,9 @@ std::string fit_statement(const ModuliFit& fit, int cell_mechanisms) {
       "the lattices with motions that cost nothing: k3 = " +
       (body_diagonals ? rounded(fit.constants.k3) + " N/m" : std::string("0, no body diagonals")) +
       ".";
-  text += cell_mechanisms == 0
+  text += fit.cell_mechanisms == 0
               ? " A single cell has no such motion."
-              : " A single cell has " + std::to_string(cell_mechanisms) + " of them.";
+              : " A single cell has " + std::to_string(fit.cell_mechanisms) + " of them.";
   return text + " " + std::to_string(fit.starts_agreeing) + " of " + std::to_string(fit.starts) +
          " random starts ended here.";
 }

@@ -8,10 +8,9 @@
 
 namespace fingertip::calibration {
 
-/// What `fit` (everything filled in but its statement) reached, why it cannot reach more, which
-/// constants the tests leave open and how the choice among them was made; SI. `cell_mechanisms` is
-/// the number of motions of one cell that cost no energy.
-std::string fit_statement(const ModuliFit& fit, int cell_mechanisms);
+/// What `fit` reached, why it cannot reach more, which constants the tests leave open and how the
+/// choice among them was made; SI.
+std::string fit_statement(const ModuliFit& fit);
 
 /// A direction of (k1, k2, k3, kappa) in words: "k1 + 1, k2 - 1, k3 + 0.75", scaled so that its
 /// largest component is 1.

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "calibration/cube_test.h"
-#include "calibration/fit_statement.h"
 #include "lattice/forces/cube.h"
 #include "meshes/errors.h"
 #include "meshes/files.h"
@@ -327,8 +326,8 @@ ModuliFit fit_moduli(const meshes::Rubber& rubber, const ModuliFitOptions& optio
   fit.iterations = best.iterations;
   fit.starts = options.starts;
   fit.starts_agreeing = count_agreeing(solutions, best, problem.scale());
-  fit.statement = fit_statement(
-      fit, count_mechanisms(lattice::cube_lattice(fit.model, fit.constants, fit.spacing, 1)));
+  fit.cell_mechanisms =
+      count_mechanisms(lattice::cube_lattice(fit.model, fit.constants, fit.spacing, 1));
   return fit;
 }
 

@@ -46,7 +46,7 @@ struct ModuliFit {
   int iterations = 0;       ///< of the best start
   int starts = 0;           ///< random starts tried ...
   int starts_agreeing = 0;  ///< ... and how many of them ended at these constants, to 1e-6
-  std::string statement;    ///< what was reached and what cannot be, in plain words
+  int cell_mechanisms = 0;  ///< motions of one cell that cost no energy
 
   /// Whether weights ask for more than central springs can reach.
   bool is_compromise() const { return isotropy_weight > 0.0 || bulk_weight > 0.0; }

@@ -25,7 +25,7 @@ Material material_from(const ModuliFit& fit) {
       "rubber, " +
       std::to_string(fit.starts) + " random starts";
   material.statement =
-      fit.statement +
+      fit_statement(fit) +
       " For small strain and lattices weighted per cell; for another spacing k1, k2, k3 scale with "
       "it and kappa stays.";
   return material;
@@ -44,7 +44,7 @@ void write_calibration_json(const ModuliFit& fit, const std::filesystem::path& f
         {direction(0), direction(1), direction(2), direction(3), describe_direction(direction)});
   for (std::size_t i = 0; i < fit.residual_names.size(); ++i)
     content.residuals[fit.residual_names[i]] = fit.residuals(Eigen::Index(i));
-  content.statement = fit.statement;
+  content.statement = fit_statement(fit);
   meshes::write_json_file(content, file);
 }
 

@@ -1,7 +1,7 @@
 /// What speaks against a law that was fitted, in plain sentences (LawFit::contradictions).
 #pragma once
 
-#include "calibration/material_tests/law_fit.h"
+#include "calibration/material_tests/law_result.h"
 
 namespace fingertip::calibration {
 

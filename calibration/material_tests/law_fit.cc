@@ -108,15 +108,6 @@ double corrected_criterion(const CurveFit& fit, Index points, bool has_sigma) {
 
 }  // namespace
 
-std::string_view name(TestWeights weights) {
-  switch (weights) {
-    case TestWeights::test: return "test";
-    case TestWeights::stress: return "stress";
-    case TestWeights::point: return "point";
-  }
-  return "unknown";
-}
-
 TestMisfit predict(const LawFit& fit, const MaterialTest& test, TestWeights weights) {
   const std::vector<meshes::Violation> broken = test.violations();
   if (!broken.empty()) throw InvalidInput(broken);

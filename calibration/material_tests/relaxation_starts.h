@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "calibration/material_tests/law_fit.h"
+#include "calibration/material_tests/law_result.h"
 
 namespace fingertip::calibration {
 

@@ -1,6 +1,7 @@
 #include "studies/run/jobs.h"
 
 #include "calibration/cube_test.h"
+#include "calibration/fit_statement.h"
 #include "calibration/result_io.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/fields_json.h"
@@ -37,9 +38,9 @@ void run_moduli(const meshes::Rubber& rubber, const calibration::ModuliFitOption
                               constants_entry(fit.constants),
                               moduli_entry(fit.achieved),
                               fit.iterations,
-                              fit.statement};
+                              calibration::fit_statement(fit)};
   meshes::write_json_file(summary, folder / "summary.json");
-  context.log(fit.statement);
+  context.log(summary.statement);
 }
 
 void run_cubes(const meshes::Rubber& rubber, const lattice::SpringConstants& central,

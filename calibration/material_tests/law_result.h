@@ -1,0 +1,110 @@
+/// What a fit of a law is asked for and what it yields.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/residual_structure.h"
+#include "calibration/material_tests/law_model.h"
+#include "calibration/material_tests/material_test.h"
+#include "meshes/press_response.h"
+#include "meshes/relaxation.h"
+#include "meshes/rubber.h"
+
+namespace fingertip::calibration {
+
+/// What a residual is divided by. Where all tests have a sigma, that is it.
+enum class TestWeights {
+  test,    ///< the root mean square stress of its test: tests of other size count alike
+  stress,  ///< the same for all: small stresses count little
+  point,   ///< the stress itself, at least 5 % of its test's largest: relative errors
+};
+inline std::string_view name(TestWeights weights) {
+  switch (weights) {
+    case TestWeights::test: return "test";
+    case TestWeights::stress: return "stress";
+    case TestWeights::point: return "point";
+  }
+  return "unknown";
+}
+constexpr auto values(TestWeights) {
+  return std::array{TestWeights::test, TestWeights::stress, TestWeights::point};
+}
+
+struct LawFitOptions {
+  TestWeights weights = TestWeights::test;
+  /// Searches for laws of more than one minimum (ogden, gent), from the best of `guesses` sets of
+  /// exponents that are drawn between -25 and 25.
+  int starts = 8;
+  int guesses = 400;
+  unsigned seed = 1;
+  /// Principal stretches in which the law will be used, where they are known.
+  std::optional<std::array<double, 2>> range_of_use;
+};
+
+/// How a law meets a test that it was fitted to, or predicts one.
+struct TestMisfit {
+  std::string test;
+  std::size_t points = 0;
+  double rms = 0.0;               ///< of the residuals [Pa]
+  double sum_of_squares = 0.0;    ///< of the residuals [Pa²]
+  double rms_relative = 0.0;      ///< rms over the stresses' root mean square
+  double largest_relative = 0.0;  ///< largest residual over the largest stress
+  /// Share of the points within the 95 % interval of a further measurement, by the coefficients'
+  /// covariance and the residuals' deviation; NaN without degrees of freedom. Residuals of one test
+  /// hang together, and specimens differ: a share far below 0.95 says that they do.
+  double within = 0.0;
+  bool in_range = true;        ///< the stretches are among those of the fitted tests
+  std::vector<double> stress;  ///< of the law at the test's points [Pa]
+  /// Of cycles: loop_area of the stresses measured and of the law's [J/m³]; else NaN.
+  double loop_measured = meshes::unknown, loop_computed = meshes::unknown;
+  ResidualStructure structure;
+};
+
+/// What a law says of a way of deforming that no test tells of.
+struct UntestedMode {
+  DeformationMode mode = DeformationMode::shear;
+  double stretch = 1.0;  ///< of a tension, a compression or a planar tension
+  double stress = 0.0;   ///< nominal, after long times [Pa]
+  double share = 0.0;    ///< |stress| over that in the way tested, at the same largest stretch
+};
+
+struct LawFit {
+  LawChoice choice;
+  /// Over scaled stresses, without whitening and influence; coefficients, then bulk_modulus where
+  /// it was sought.
+  CurveFit fit;
+  SizedLaw law;
+  meshes::Relaxation relaxation;       ///< the fastest branch first
+  std::optional<double> bulk_modulus;  ///< [Pa]; none: no volumetric test
+  /// n ln(S/n) + 2k + 2k(k + 1)/(n - k - 1), n residuals of weighted sum of squares S, k the
+  /// coefficients and, without sigma, the deviation (Hurvich & Tsai, Biometrika 76, 297, 1989);
+  /// with sigma S + 2k + ... Infinite where n <= k + 1.
+  double aicc = 0.0;
+  std::array<double, 2> tested = {1.0, 1.0};  ///< principal stretches of the fitted tests
+  /// Where the fitted tests tell how stress fades, from when to when [s] (observed_times).
+  std::optional<std::array<double, 2>> times;
+  /// Branches outside of those times, which the tests hardly know, and what would show them.
+  std::vector<std::string> open_branches;
+  std::vector<TestMisfit> fitted, predicted;
+  /// Where the fitted tests know one way of deforming alone, the others, as far as that was
+  /// strained and the law will be used.
+  std::vector<UntestedMode> untested;
+  /// Drucker's rule: within the stretches tested, used, and between 0.5 and 2, which presses ask.
+  std::optional<meshes::Instability> unstable_in_tests, unstable_in_use, unstable_in_press;
+  /// What contradicts it, in plain sentences: residuals of structure, predictions that miss,
+  /// coefficients that are open or at a bound, instabilities. Empty: nothing seen.
+  std::vector<std::string> contradictions;
+  /// Those of them for which it must not be used as it is; none: it passed its own tests. It fails
+  /// where the search did not end, a coefficient ended at a bound, a direction or a branch is open,
+  /// where it is unstable (Drucker), and where it misses a test, or a side of one, by more than
+  /// 15 % (relative_rms) that no sigma explains.
+  std::vector<std::string> failed;
+  /// Why there is no fit; all but `choice` is then empty.
+  std::string failure;
+};
+
+}  // namespace fingertip::calibration
