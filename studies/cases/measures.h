@@ -2,7 +2,7 @@
 /// the one table in run_measures.cc; a series; the whole case, under the names of criteria.
 #pragma once
 
-#include "studies/cases/planner.h"
+#include "studies/cases/run_result.h"
 
 namespace fingertip::studies {
 

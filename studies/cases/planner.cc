@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "studies/cases/measures.h"
+#include "studies/config/key_table.h"
 #include "studies/files/read_fields.h"
 #include "studies/run/fit_setup.h"
 #include "studies/run/grasp_job.h"
@@ -91,16 +92,6 @@ void sort(std::vector<PlannedJob>& jobs) {
 }
 
 }  // namespace
-
-RunResults blank_results(const Case& study_case) {
-  RunResults results;
-  for (const CaseRun& run : study_case.runs) {
-    if (!run.is("prediction")) results.push_back({.run = &run});
-    for (const CaseRun& prediction : study_case.runs)
-      if (is_asked(prediction, run)) results.push_back({.run = &prediction, .fit = &run});
-  }
-  return results;
-}
 
 std::string as_folder(std::string text) {
   for (char& c : text) {

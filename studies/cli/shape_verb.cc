@@ -16,7 +16,7 @@
 #include "studies/cli/verbs.h"
 #include "studies/config/finger_defaults.h"
 #include "studies/config/profile_file.h"
-#include "studies/report/figure.h"
+#include "studies/report/drawing.h"
 
 namespace fingertip::studies {
 namespace {

@@ -83,11 +83,6 @@ ContactExport all_of_them(const ContactSource& source) {
 
 }  // namespace
 
-const SoftBody& ContactSource::soft() const {
-  if (!soft_) soft_ = fitted_soft_body(loaded, curves.front());
-  return *soft_;
-}
-
 ContactExport contact_export(const std::string& format, const ContactSource& source) {
   return format == "all" ? all_of_them(source) : formats().at(format).make(source);
 }

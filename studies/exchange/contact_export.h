@@ -2,46 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "studies/exchange/contact_curves.h"
-#include "studies/exchange/soft_body.h"
-#include "studies/exchange/transfer.h"
+#include "studies/exchange/contact_source.h"
 
 namespace fingertip::studies {
-
-/// What an export is made of. The references must outlive it.
-class ContactSource {
- public:
-  ContactSource(const LoadedConfig& own_loaded, const std::vector<ContactCurve>& own_curves,
-                const std::vector<Problem>& own_lost)
-      : loaded(own_loaded), curves(own_curves), lost(own_lost) {}
-
-  const LoadedConfig& loaded;
-  const std::vector<ContactCurve>& curves;  ///< the first one is fitted, all are judged
-  const std::vector<Problem>& lost;
-
-  /// The soft body of the first curve, fitted when it is asked for first. Throws as
-  /// fitted_soft_body().
-  const SoftBody& soft() const;
-
- private:
-  mutable std::optional<SoftBody> soft_;
-};
-
-struct ContactExport {
-  struct File {
-    std::string name, text;
-  };
-  std::vector<File> files;  ///< beside transfer.json and README.md
-  std::string readme;       ///< title and how to use the files
-  std::string said;         ///< lines for the screen, of what was fitted
-  TransferFile transfer;
-  std::map<std::string, ContactExport> parts;  ///< exports in folders of their own
-};
 
 /// The curves that an export is made of. Throws ConfigError for what no press of the continuum
 /// makes good: as ContactCurves, and an obstacle that the format cannot have.

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "meshes/files.h"
-#include "studies/exchange/lammps_script.h"
 #include "studies/exchange/undamped_march.h"
 
 namespace fingertip::studies {

@@ -6,21 +6,10 @@
 #include <vector>
 
 #include "meshes/errors.h"
+#include "studies/exchange/lammps_script.h"
 #include "studies/exchange/undamped_body.h"
 
 namespace fingertip::studies {
-
-inline constexpr const char* lammps_script = "lattice.in";
-inline constexpr const char* lammps_data = "lattice.data";
-inline constexpr const char* lammps_dump = "lattice.dump";
-inline constexpr const char* lammps_log = "log.lammps";  ///< LAMMPS's own default
-
-/// How long LAMMPS is to march, and how often it writes; both can be changed on its command line
-/// (-var steps 5000 -var every 0).
-struct LammpsSettings {
-  long steps = 1000;
-  long every = 100;  ///< 0: no dump
-};
 
 /// What was written.
 struct LammpsCensus {

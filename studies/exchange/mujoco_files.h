@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "studies/exchange/contact_export.h"
+#include "studies/exchange/contact_source.h"
 
 namespace fingertip::studies {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "meshes/file_fields.h"
-#include "studies/exchange/contact_export.h"
+#include "studies/exchange/contact_source.h"
 
 namespace fingertip::studies {
 

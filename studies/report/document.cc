@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "meshes/files.h"
+#include "studies/report/drawing.h"
 #include "studies/report/templates.h"
 
 namespace fingertip::studies::reporting {
@@ -165,10 +166,6 @@ void publish(const Page& page, const fs::path& folder, const std::string& file_n
   }
   fs::rename(figures, folder / "figures");
   meshes::write_atomically(folder / file_name, [&](std::ostream& out) { out << html; });
-}
-
-std::string escaped(const std::string& text) {
-  return kainjow::mustache::html_escape(text);
 }
 
 }  // namespace fingertip::studies::reporting

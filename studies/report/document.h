@@ -83,7 +83,4 @@ struct Page {
 /// made in a hidden folder beside them first, so an error leaves the old page untouched.
 void publish(const Page& page, const std::filesystem::path& folder, const std::string& file_name);
 
-/// `text` for use inside HTML: & < > " ' as entities.
-std::string escaped(const std::string& text);
-
 }  // namespace fingertip::studies::reporting

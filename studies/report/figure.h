@@ -1,7 +1,6 @@
-/// Figures drawn by gnuplot as SVG, with the plotted numbers as CSV.
+/// Figures as data: panels of curves and surfaces, and how they look.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -112,18 +111,13 @@ struct Figure {
   std::string beside_panels() const;
 };
 
-/// Draws the figure with gnuplot (started as a process) into `folder`/NAME.svg and writes what is
-/// plotted to `folder`/NAME.csv: one row per point, `panel,series`, then one column per distinct
-/// axis label. The picture is for use inside an HTML page: without XML prolog, with ids that are
-/// unique to the figure and `title` as its accessible name.
-/// Throws std::runtime_error with gnuplot's message when it is missing or fails.
-struct Drawing {
-  std::string svg;
-  std::string points;  ///< page_points()
-};
-Drawing draw(const Figure& figure, const std::string& title, const std::filesystem::path& folder);
-
 /// `text` as a string in a gnuplot script: in single quotes, which suspend every other escape.
 std::string gnuplot_string(const std::string& text);
+
+/// Into gnuplot's log after a panel: where its axes are, for page_points() (figure_points.h).
+inline constexpr const char* tell_axes =
+    "print sprintf('axes %.6g %.6g %.6g %.6g %.9g %.9g %.9g %.9g', GPVAL_TERM_XMIN, "
+    "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX, GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, "
+    "GPVAL_Y_MAX)\n";
 
 }  // namespace fingertip::studies::reporting

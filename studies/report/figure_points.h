@@ -15,12 +15,6 @@ bool visible(const Panel& panel, const Series& series);
 /// One row per point: `panel,series`, then a column per distinct axis label.
 void write_points(const Figure& figure, const std::filesystem::path& file);
 
-/// Into gnuplot's log after a panel: where its axes are, for page_points().
-inline constexpr const char* tell_axes =
-    "print sprintf('axes %.6g %.6g %.6g %.6g %.9g %.9g %.9g %.9g', GPVAL_TERM_XMIN, "
-    "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX, GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, "
-    "GPVAL_Y_MAX)\n";
-
 /// A JSON list of panels with axes {labels, box [px of the SVG: left, right, top, bottom], x and y
 /// [from, to, whether logarithmic]} and series {label, curves: ids of their elements in the SVG, x,
 /// y, shift}, and of surfaces {title, box, colour_scale, turning_surface()}, safe inside an HTML

@@ -7,8 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "studies/report/figure_points.h"
-
 namespace fingertip::studies::reporting {
 namespace {
 

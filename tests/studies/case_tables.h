@@ -4,6 +4,7 @@
 #include <string>
 
 #include "studies/cases/measures.h"
+#include "studies/cases/planner.h"
 #include "studies/cases/validation.h"
 #include "tests/temporary_folder.h"
 
