@@ -13,6 +13,7 @@
 #include "studies/run/grasp_job.h"
 #include "studies/run/jobs.h"
 #include "studies/run/law_job.h"
+#include "studies/run/press_record.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {

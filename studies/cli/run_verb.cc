@@ -10,6 +10,7 @@
 #include "studies/run/cache.h"
 #include "studies/run/interrupt.h"
 #include "studies/run/press_setup.h"
+#include "studies/run/result_files.h"
 
 namespace fingertip::studies {
 

@@ -61,12 +61,6 @@ void mark(const Job& job, const fs::path& folder, const std::string& status, dou
   fs::remove(folder / attempt_name);
 }
 
-bool is_run_file(const fs::path& file) {
-  const fs::path name = file.filename();
-  return name == "parameters.toml" || name == "manifest.json" || name == "log.txt" ||
-         name == "real_time.json" || name.string().front() == '.';
-}
-
 fs::path Cache::default_folder() {
   return cache_folder();
 }

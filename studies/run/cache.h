@@ -7,12 +7,6 @@
 
 namespace fingertip::studies {
 
-/// Written last into a job's folder: its presence with the right key says that the job is done.
-inline constexpr const char* marker_name = "finished.json";
-
-/// Written first: names the job that is, or was when it ended early, at work in a folder.
-inline constexpr const char* attempt_name = "unfinished.json";
-
 /// Status of a job that went well.
 inline constexpr const char* finished = "finished";
 
@@ -57,8 +51,5 @@ class Cache {
   std::filesystem::path entry(const Job& job) const;
   std::filesystem::path folder_;
 };
-
-/// What belongs to the run itself: parameters.toml, manifest.json, log.txt and hidden files.
-bool is_run_file(const std::filesystem::path& file);
 
 }  // namespace fingertip::studies

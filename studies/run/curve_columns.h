@@ -4,9 +4,30 @@
 #include <cmath>
 #include <optional>
 
-#include "studies/run/curve_file.h"
+#include "studies/run/curve_source.h"
 
 namespace fingertip::studies {
+
+/// A column's name and SI unit, "1" for a number without dimension.
+struct Quantity {
+  std::string_view name, unit;
+};
+
+/// What a file may hold: y over x.
+struct CurveQuantities {
+  Quantity x, y;
+};
+
+/// The pairs that calibrations know.
+namespace measured {
+inline constexpr CurveQuantities press{{"indentation", "m"}, {"force", "N"}};
+inline constexpr CurveQuantities travel{{"position", "m"}, {"force", "N"}};
+inline constexpr CurveQuantities uniaxial{{"stretch", "1"}, {"nominal_stress", "Pa"}};
+inline constexpr CurveQuantities simple_shear{{"shear", "1"}, {"shear_stress", "Pa"}};
+inline constexpr CurveQuantities vibration{{"frequency", "Hz"}, {"loss_factor", "1"}};
+inline constexpr CurveQuantities creep{{"time", "s"}, {"creep", "1"}};
+inline constexpr CurveQuantities relaxation{{"time", "s"}, {"force", "N"}};
+}  // namespace measured
 
 /// A column that is read.
 struct CurveColumn {

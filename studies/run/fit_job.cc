@@ -20,6 +20,7 @@
 #include "studies/run/fit_suspects.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/press_record.h"
 
 namespace fingertip::studies {
 

@@ -15,6 +15,7 @@
 #include "studies/run/digest.h"
 #include "studies/run/fit_relaxation.h"
 #include "studies/run/jobs.h"
+#include "studies/run/press_record.h"
 
 namespace fingertip::studies {
 

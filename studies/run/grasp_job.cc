@@ -9,8 +9,8 @@
 #include "source_hash.h"
 #include "studies/files/grasp_summary.h"
 #include "studies/run/jobs.h"
+#include "studies/run/press_record.h"
 #include "studies/run/press_setup.h"
-#include "studies/run/static_press_job.h"
 
 namespace fingertip::studies {
 

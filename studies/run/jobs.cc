@@ -11,8 +11,8 @@
 #include "studies/files/run_tables.h"
 #include "studies/run/fem_process.h"
 #include "studies/run/json_file.h"
+#include "studies/run/press_record.h"
 #include "studies/run/provenance.h"
-#include "studies/run/static_press_job.h"
 
 namespace fingertip::studies {
 
@@ -68,30 +68,12 @@ void run_cubes(const meshes::Rubber& rubber, const lattice::SpringConstants& cen
   meshes::write_rows(rows, folder / "cubes.csv");
 }
 
-void drop(ordered_json& inputs, std::initializer_list<const char*> idle) {
-  for (const char* key : idle) inputs.erase(key);
-}
-
-ordered_json inputs_of(const meshes::PressProtocol& protocol, bool moves) {
-  ordered_json inputs = json_of(protocol);
-  if (!protocol.slides_after()) drop(inputs, {"lateral_path", "lateral_samples"});
-  if (protocol.contact != meshes::ContactMode::coulomb) drop(inputs, {"friction"});
-  if (moves) return inputs;
-  drop(inputs, {"speed", "clearance"});
-  if (protocol.program.empty()) return inputs;
-  ordered_json stages = ordered_json::array();
-  for (const meshes::PressStage& stage : protocol.program)  // without time a hold only counts
-    stages.push_back(stage.moves() ? ordered_json(stage.indentation) : ordered_json());
-  inputs["program"] = stages;
-  return inputs;
-}
-
 /// Neither mass nor damping enters an equilibrium, nor time unless the rubber relaxes; no press
 /// enters the natural frequencies, which are those of the moduli after long times.
 ordered_json inputs_of(const fem_reference::ReferenceJob& reference) {
   using fem_reference::Analysis;
   ordered_json inputs = json_of(reference);
-  inputs["protocol"] = inputs_of(reference.protocol, reference.in_time());
+  inputs["protocol"] = studies::inputs_of(reference.protocol, reference.in_time());
   drop(inputs["protocol"], {"mode"});
   // A program's rises, and with them its falls, are shorter than the clearance.
   if (reference.protocol.program.empty()) drop(inputs["protocol"], {"clearance"});
@@ -109,31 +91,6 @@ ordered_json inputs_of(const fem_reference::ReferenceJob& reference) {
 }
 
 }  // namespace
-
-ordered_json rubber_inputs(const meshes::Rubber& rubber, lattice::Kinematics kinematics) {
-  ordered_json inputs = json_of(rubber);
-  if (kinematics == lattice::Kinematics::small) drop(inputs, {"energy"});
-  return inputs;
-}
-
-ordered_json inputs_of(const lattice::PressSetup& setup) {
-  const bool moves = setup.protocol.mode != meshes::DriveMode::equilibrium;
-  ordered_json inputs = json_of(setup);
-  inputs["protocol"] = inputs_of(setup.protocol, moves);
-  if (setup.integrator != lattice::Integrator::runge_kutta) drop(inputs, {"tolerance"});
-  if (setup.integrator != lattice::Integrator::energy_controlled) drop(inputs, {"energy_bound"});
-  if (setup.protocol.mode != meshes::DriveMode::pid) {
-    drop(inputs, {"rod", "controller_identity", "follows_path", "hardware"});
-    // Steps divide it, whatever moves the rod.
-    inputs["controller"] = {{"period", setup.controller.period}};
-  }
-  inputs["rubber"] = rubber_inputs(setup.rubber, setup.lattice.kinematics);
-  if (!moves) drop(inputs["rubber"], {"density", "retardation_time"});
-  if (!moves)
-    drop(inputs, {"controller", "duration", "gravity", "integrator", "time_step", "tolerance",
-                  "energy_bound", "symmetry"});
-  return inputs;
-}
 
 Job reference_job(const fem_reference::ReferenceJob& reference) {
   Job job;

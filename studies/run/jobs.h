@@ -15,10 +15,6 @@ namespace fingertip::studies {
 /// none.
 Job press_job(const lattice::PressSetup& setup, int movie_pictures = 0);
 
-/// What a press weighs (Job::weight): masses ~ 1/a³, steps ~ 1/a; factorisations of 3-D lattices ~
-/// 1/a⁶.
-double press_weight(const lattice::PressSetup& setup);
-
 /// Natural frequencies of the lattice bonded to a fixed rod, lowest first. Files: modes.csv
 /// (`mode,frequency [Hz]` and what moves, see lattice::ModeMotion), summary.json.
 Job modes_job(const lattice::PressSetup& setup, int count);
@@ -39,12 +35,5 @@ Job moduli_job(const meshes::Rubber& rubber, const calibration::ModuliFitOptions
 /// Finite cubes of 2, 4 and 8 cells of the three models. File: cubes.csv.
 Job cubes_job(const meshes::Rubber& rubber, const lattice::SpringConstants& central,
               const lattice::SpringConstants& hookean, double spacing);
-
-/// A rubber as input of a lattice: at small strain its law has no say.
-nlohmann::ordered_json rubber_inputs(const meshes::Rubber& rubber, lattice::Kinematics kinematics);
-
-/// What a press depends on, for `Job::inputs`: all members but those that have no effect. Static
-/// presses know neither time nor controller.
-nlohmann::ordered_json inputs_of(const lattice::PressSetup& setup);
 
 }  // namespace fingertip::studies

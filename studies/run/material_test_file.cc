@@ -15,7 +15,6 @@
 #include "studies/files/json_entry.h"
 #include "studies/run/digest.h"
 #include "studies/run/material_test_table.h"
-#include "studies/run/plate_factor.h"
 #include "studies/run/strain_grid.h"
 #include "studies/run/timed_test.h"
 

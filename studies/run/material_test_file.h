@@ -15,6 +15,10 @@ struct Plates {
   double diameter = 0.0, height = 0.0;  ///< at rest [m]
 };
 
+/// Compression up to which the force between plates that hold the ends is known (plate_factor.h):
+/// beyond, the sides fold around the rims.
+inline constexpr double deepest_stuck_compression = 0.4;
+
 /// What the file says, in SI; files are read, averaged and converted.
 struct MaterialTestFile {
   std::vector<calibration::MaterialTest> fitted, held_back;

@@ -12,8 +12,6 @@
 
 namespace fingertip::studies {
 
-/// Compression up to which the factor is known: beyond, the sides fold around the rims.
-inline constexpr double deepest_stuck_compression = 0.4;
 /// Of the rubber between stuck plates: its bulk modulus is 500 times its shear modulus, which
 /// changes the force by less than the mesh does.
 inline constexpr double plate_poissons_ratio = 0.499;

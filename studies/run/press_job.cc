@@ -15,6 +15,7 @@
 #include "studies/run/movie.h"
 #include "studies/run/pace.h"
 #include "studies/run/press_notes.h"
+#include "studies/run/press_record.h"
 #include "studies/run/program_summary.h"
 #include "studies/run/snapshot_files.h"
 #include "studies/run/static_press_job.h"
@@ -159,13 +160,6 @@ void run_press_job(lattice::PressSetup setup, int movie_pictures, const fs::path
 }
 
 }  // namespace
-
-double press_weight(const lattice::PressSetup& setup) {
-  const double finer = setup.geometry.tip_radius / (12.0 * setup.lattice.spacing);
-  return setup.protocol.mode == meshes::DriveMode::equilibrium
-             ? 2.0 * std::pow(finer, 6)
-             : 10.0 * std::pow(finer, 4) / lattice::moving_sectors(setup);
-}
 
 Job press_job(const lattice::PressSetup& setup, int movie_pictures) {
   if (setup.protocol.mode == meshes::DriveMode::equilibrium) return static_press_job(setup);

@@ -4,7 +4,6 @@
 
 #include "meshes/errors.h"
 #include "meshes/text_file.h"
-#include "studies/run/cache.h"
 #include "studies/run/digest.h"
 #include "studies/run/json_file.h"
 
@@ -22,6 +21,12 @@ bool is_marker(const fs::path& file) {
 }
 
 }  // namespace
+
+bool is_run_file(const fs::path& file) {
+  const fs::path name = file.filename();
+  return name == "parameters.toml" || name == "manifest.json" || name == "log.txt" ||
+         name == "real_time.json" || name.string().front() == '.';
+}
 
 nlohmann::ordered_json result_digests(const fs::path& folder) {
   std::map<std::string, std::string> found;

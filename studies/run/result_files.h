@@ -8,6 +8,15 @@
 
 namespace fingertip::studies {
 
+/// Written last into a job's folder: its presence with the right key says that the job is done.
+inline constexpr const char* marker_name = "finished.json";
+
+/// Written first: names the job that is, or was when it ended early, at work in a folder.
+inline constexpr const char* attempt_name = "unfinished.json";
+
+/// What belongs to the run itself: parameters.toml, manifest.json, log.txt and hidden files.
+bool is_run_file(const std::filesystem::path& file);
+
 /// Every file of the job in `folder` by its name there, with its SHA-256; without what belongs to
 /// the run (is_run_file) and the markers. An entry of the marker finished.json.
 nlohmann::ordered_json result_digests(const std::filesystem::path& folder);

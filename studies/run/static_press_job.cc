@@ -8,8 +8,7 @@
 #include "meshes/table_rows.h"
 #include "source_hash.h"
 #include "studies/files/run_tables.h"
-#include "studies/run/jobs.h"
-#include "studies/run/json_file.h"
+#include "studies/run/press_record.h"
 #include "studies/run/program_summary.h"
 #include "studies/run/snapshot_files.h"
 
@@ -66,45 +65,6 @@ void run_static_job(const lattice::PressSetup& setup, const fs::path& folder,
 }
 
 }  // namespace
-
-GeometryEntry geometry_entry(const meshes::Geometry& geometry) {
-  return {geometry.tip_radius, geometry.rod_radius, geometry.sleeve_length, geometry.rod_length,
-          geometry.is_dome() ? "" : std::string(geometry.shape_name())};
-}
-
-ConstantsEntry constants_entry(const lattice::SpringConstants& constants) {
-  return {constants.k1, constants.k2, constants.k3, constants.kappa};
-}
-
-ModuliEntry moduli_entry(const calibration::ElasticModuli& moduli) {
-  return {moduli.youngs_modulus_100, moduli.youngs_modulus_110, moduli.youngs_modulus_111,
-          moduli.shear_modulus,      moduli.poissons_ratio_100, moduli.bulk_modulus,
-          moduli.anisotropy};
-}
-
-PressSummary press_summary_head(const lattice::PressSetup& setup, const std::string& status) {
-  PressSummary summary;
-  summary.model = lattice::name(setup.lattice.model);
-  summary.kinematics = lattice::name(setup.lattice.kinematics);
-  summary.mode = meshes::name(setup.protocol.mode);
-  summary.contact = meshes::name(setup.protocol.contact);
-  const meshes::Obstacle& obstacle = setup.protocol.obstacle;
-  if (!obstacle.is_plane())
-    summary.obstacle = {std::string(name(obstacle.shape)), obstacle.radius,
-                        std::string(name(obstacle.along)), obstacle.offset};
-  summary.status = status;
-  summary.spacing = setup.lattice.spacing;
-  summary.constants = constants_entry(setup.lattice.constants);
-  summary.geometry = geometry_entry(setup.geometry);
-  return summary;
-}
-
-void set_press_status(const fs::path& folder, const std::string& status) {
-  if (!fs::exists(folder / "summary.json")) return;
-  ordered_json summary = read_json(folder / "summary.json");
-  summary["status"] = status;
-  write_json(summary, folder / "summary.json");
-}
 
 Job static_press_job(const lattice::PressSetup& setup) {
   Job job;

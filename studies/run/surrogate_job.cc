@@ -6,6 +6,7 @@
 #include "source_hash.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/press_record.h"
 
 namespace fingertip::studies {
 

@@ -16,6 +16,7 @@
 #include "studies/files/folder_reader.h"
 #include "studies/files/mode_table.h"
 #include "studies/run/cache.h"
+#include "studies/run/result_files.h"
 #include "studies/sweep/sweep_run.h"
 
 namespace fingertip::studies {

@@ -20,6 +20,7 @@
 #include "studies/run/curve_file.h"
 #include "studies/run/json_file.h"
 #include "studies/run/material_test_file.h"
+#include "studies/run/result_files.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;

@@ -1,4 +1,5 @@
 #include "studies/run/cache.h"
+#include "studies/run/result_files.h"
 
 #include <gtest/gtest.h>
 
