@@ -1,11 +1,11 @@
 #include "studies/bench/bench.h"
 
-#include "lattice/kernels/by_width.h"
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <optional>
 
+#include "lattice/kernels/by_width.h"
 #include "lattice/kernels/kernel.h"
 #include "studies/bench/continua.h"
 #include "studies/bench/kernels.h"
@@ -149,10 +149,10 @@ void add_times(Session& session, const LoadedConfig& loaded, const BenchPlan& pl
     times.push_back({{"what", what}, {"seconds", result.wall_time}, {"from_cache", false}});
   };
   const LoadedConfig network =
-      loaded.with({"press.contact=stick", "lattice.model=network",
-                   fmt::format("lattice.spacing=tip_radius/{}", plan.static_finest)});
+      with_sets(loaded, {"press.contact=stick", "lattice.model=network",
+                         fmt::format("lattice.spacing=tip_radius/{}", plan.static_finest)});
   run("static_press", fmt::format("static press, network, R/{}, ten depths", plan.static_finest),
-      press_job(press_setup(network.with({"press.mode=static"}))));
+      press_job(press_setup(with_sets(network, {"press.mode=static"}))));
   run("calibration", "calibration: central springs to E and G",
       moduli_job(loaded.config.press.rubber, fit_options(loaded, lattice::ModelKind::central)));
 }

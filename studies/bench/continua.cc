@@ -22,10 +22,10 @@ fem_reference::ReferenceJob setup_for(const LoadedConfig& loaded, bool finite,
                                       const std::vector<double>& depths, int degree,
                                       double refinement) {
   return continuum_setup(
-      loaded.with({"press.contact=stick", samples_setting(depths),
-                   fmt::format("reference.strain={}", finite ? "finite" : "linear"),
-                   fmt::format("reference.degree={}", degree),
-                   fmt::format("reference.refinement={:.9g}", refinement)}));
+      with_sets(loaded, {"press.contact=stick", samples_setting(depths),
+                         fmt::format("reference.strain={}", finite ? "finite" : "linear"),
+                         fmt::format("reference.degree={}", degree),
+                         fmt::format("reference.refinement={:.9g}", refinement)}));
 }
 
 }  // namespace

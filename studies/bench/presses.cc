@@ -88,7 +88,7 @@ LoadedConfig press_config(const LoadedConfig& loaded, const PressedLattice& pres
       fmt::format("run.integrator={}", lattice::name(press.integrator)),
       fmt::format("run.symmetry={}", !press.whole)};
   if (press.time_step) sets.push_back(fmt::format("run.time_step=\"{:.12g} s\"", *press.time_step));
-  return loaded.with(sets);
+  return with_sets(loaded, sets);
 }
 
 Job static_job(const LoadedConfig& loaded, const PressedLattice& press,
@@ -96,8 +96,8 @@ Job static_job(const LoadedConfig& loaded, const PressedLattice& press,
   PressedLattice still = press;
   still.integrator = lattice::Integrator::symplectic_euler;
   still.time_step.reset();
-  return press_job(press_setup(press_config(loaded, still, depths.back())
-                                   .with({"press.mode=static", samples_setting(depths)})));
+  return press_job(press_setup(with_sets(press_config(loaded, still, depths.back()),
+                                         {"press.mode=static", samples_setting(depths)})));
 }
 
 Job pace_job(const LoadedConfig& loaded, const PressedLattice& press, double depth) {

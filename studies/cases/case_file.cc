@@ -110,9 +110,9 @@ LoadedConfig run_config(const Case& study_case, const CaseRun& run) {
   const auto kind = std::ranges::find(run_kinds(), run.kind, &RunKind::name);
   if (kind->at_rest) sets.emplace_back("press.mode=static");
   try {
-    LoadedConfig loaded = study_case.loaded.with(sets);
+    LoadedConfig loaded = with_sets(study_case.loaded, sets);
     const bool in_time = run.is("variant") && !loaded.config.press.protocol.program.empty();
-    return in_time ? loaded.with({"press.mode=quasi-static"}) : loaded;
+    return in_time ? with_sets(loaded, {"press.mode=quasi-static"}) : loaded;
   } catch (const ConfigError& error) {
     throw at_run(error, run);
   }

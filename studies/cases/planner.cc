@@ -203,7 +203,7 @@ Job Planner::job_of(const LoadedConfig& loaded, RunResult& result) {
     return moduli_job(config.press.rubber, fit_options(loaded, config.press.lattice.model));
   const auto constants_of = [&](const char* model) {
     return press_setup(
-               loaded.with({std::string("lattice.model=") + model, "lattice.constants=auto"}))
+               with_sets(loaded, {std::string("lattice.model=") + model, "lattice.constants=auto"}))
         .lattice.constants;
   };
   return cubes_job(config.press.rubber, constants_of("central"), constants_of("hookean"),
@@ -272,8 +272,8 @@ std::vector<PlannedJob> Planner::predictions(const fs::path& folder) {
     if (result.run->is("fit")) fit = &result;
     if (result.fit == nullptr) continue;
     const fs::path material = fs::absolute(folder / fit->folder / "material.toml");
-    result.setup = press_setup(predicted_config(case_, *result.fit, *result.run)
-                                   .with({"lattice.constants=" + material.string()}));
+    result.setup = press_setup(with_sets(predicted_config(case_, *result.fit, *result.run),
+                                         {"lattice.constants=" + material.string()}));
     jobs.push_back({result.folder, press_job(result.setup), true});
   }
   return jobs;

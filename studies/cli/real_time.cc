@@ -88,7 +88,7 @@ LoadedConfig pressed_straight(LoadedConfig loaded) {
   if (!loaded.entries.at("reference.strain").given &&
       loaded.config.press.lattice.kinematics == lattice::Kinematics::small)
     sets.emplace_back("reference.strain=linear");
-  return loaded.with(sets);
+  return with_sets(loaded, sets);
 }
 
 ForetoldModel this_press(const meshes::PressResponse& response) {
@@ -119,7 +119,7 @@ RealTimeRun real_time_run(const CommandLine& line) {
   watch_for_interrupts();
   LoadedConfig asked = with_any_integrator(load_checked(line));
   // In the live view people push the rod wherever they like.
-  if (line.verb == "live") asked = asked.with({"run.symmetry=false"});
+  if (line.verb == "live") asked = with_sets(asked, {"run.symmetry=false"});
   if (line.verb == "press" && asked.config.press.protocol.mode == meshes::DriveMode::equilibrium)
     throw ConfigError(
         {{"--real-time", "press.mode", "static",
@@ -131,7 +131,7 @@ RealTimeRun real_time_run(const CommandLine& line) {
   else
     run.record = record_of(search_pace_here(asked, cores_for(asked)));
   run.record.asked = identity;
-  run.loaded = asked.with(settings_of(candidate_of(run.record), asked));
+  run.loaded = with_sets(asked, settings_of(candidate_of(run.record), asked));
   return run;
 }
 

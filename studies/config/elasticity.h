@@ -1,7 +1,7 @@
 /// The rubber's two elastic constants from whichever two were given, and its law.
 #pragma once
 
-#include "studies/config/loader.h"
+#include "studies/config/loaded_config.h"
 
 namespace fingertip::studies {
 

@@ -1,7 +1,7 @@
 /// Defaults that depend on the finger: what nobody set never makes a valid finger refuse.
 #pragma once
 
-#include "studies/config/loader.h"
+#include "studies/config/loaded_config.h"
 
 namespace fingertip::studies {
 

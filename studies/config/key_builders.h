@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lattice/press/setup_fields.h"
-#include "studies/config/key_table.h"
+#include "studies/config/key.h"
 
 namespace fingertip::studies {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "studies/config/key_table.h"
+#include "studies/config/key.h"
 
 namespace fingertip::studies {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibration/material_tests/law_card.h"
-#include "studies/config/loader.h"
+#include "studies/config/loaded_config.h"
 
 namespace fingertip::studies {
 

@@ -23,20 +23,6 @@ namespace fingertip::studies {
 
 namespace {
 
-constexpr const char* default_place = "default";
-
-std::string joined(const std::vector<Problem>& problems) {
-  std::string text;
-  for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + to_string(problem);
-  return text;
-}
-
-/// A list of many values fills a screen.
-std::string shortened(const std::string& text) {
-  constexpr std::size_t most = 120;
-  return text.size() <= most ? text : text.substr(0, most) + "...";
-}
-
 /// Collects values and problems from all sources.
 class Reader {
  public:
@@ -316,44 +302,9 @@ LoadedConfig Reader::finish() {
 
 }  // namespace
 
-std::string to_string(const Problem& problem) {
-  std::string text = problem.place + ": ";
-  if (!problem.key.empty()) {
-    text += problem.key + (problem.value.empty() ? "" : " = " + problem.value) + ": ";
-  }
-  return text + problem.rule + "; " + problem.remedy;
-}
-
-ConfigError::ConfigError(std::vector<Problem> problems)
-    : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
-
-ConfigError LoadedConfig::locate(const std::vector<meshes::Violation>& violations) const {
-  std::vector<Problem> problems;
-  for (const meshes::Violation& violation : violations) {
-    Problem problem{"", violation.key, violation.value, violation.rule, violation.remedy};
-    const auto entry = entries.find(violation.key);
-    if (entry != entries.end()) {
-      problem.place = entry->second.place;
-      problem.value = unquoted(entry->second.literal);
-    }
-    // The culprit may be a key that the rule also depends on; certainly when this one is a default.
-    const Key* key = find_key(violation.key);
-    for (const std::string& other : key != nullptr ? key->related : std::vector<std::string>{}) {
-      const Entry& related = entries.at(other);
-      if (!related.given) continue;
-      problem.rule += " (here " + other + " = " + shortened(unquoted(related.literal)) + ", " +
-                      shortened(related.place) + ")";
-      if (problem.place.starts_with(default_place)) problem.place = related.place;
-    }
-    if (problem.place.empty()) problem.place = "input";
-    problems.push_back(std::move(problem));
-  }
-  return ConfigError(std::move(problems));
-}
-
-LoadedConfig LoadedConfig::with(const std::vector<std::string>& further_sets) const {
+LoadedConfig with_sets(const LoadedConfig& loaded, const std::vector<std::string>& further_sets) {
   ConfigSource source;
-  for (const auto& [name, entry] : entries) {
+  for (const auto& [name, entry] : loaded.entries) {
     if (entry.given) source.sets.push_back(name + "=" + entry.literal);
   }
   source.sets.insert(source.sets.end(), further_sets.begin(), further_sets.end());

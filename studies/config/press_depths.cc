@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "studies/config/key_builders.h"
+#include "studies/config/key_table.h"
 #include "studies/config/value_reader.h"
 
 namespace fingertip::studies {

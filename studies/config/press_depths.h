@@ -1,7 +1,7 @@
 /// Depth, speed and samples of a press, by its program or by themselves.
 #pragma once
 
-#include "studies/config/loader.h"
+#include "studies/config/loaded_config.h"
 
 namespace fingertip::studies {
 

@@ -58,8 +58,8 @@ std::optional<FitSetup> with_other_contact(const FitSetup& fit) {
       fit.contact_known || fit.input.presses.empty())
     return std::nullopt;
   const ContactMode other = opposite(fit.loaded.config.press.protocol.contact);
-  return fit_setup(fit.loaded.with({"press.contact=" + std::string(meshes::name(other)),
-                                    "calibration.candidates=[]", "calibration.profile=[]"}));
+  return fit_setup(with_sets(fit.loaded, {"press.contact=" + std::string(meshes::name(other)),
+                                          "calibration.candidates=[]", "calibration.profile=[]"}));
 }
 
 void add_other_contact(const ordered_json& other, const std::string& taken, const std::string& name,

@@ -66,7 +66,7 @@ LoadedConfig under(const LoadedConfig& loaded, const std::vector<std::string>& c
   check_condition(loaded, condition);
   std::vector<std::string> sets = condition;
   sets.insert(sets.end(), derived.begin(), derived.end());
-  return loaded.with(sets);
+  return with_sets(loaded, sets);
 }
 
 std::string samples_setting(const std::vector<double>& depths) {

@@ -41,7 +41,7 @@ std::pair<std::size_t, bool> branch_of(MaterialParameter parameter) {
 }  // namespace
 
 LoadedConfig lasting(const LoadedConfig& loaded) {
-  return given_branches(loaded).empty() ? loaded : loaded.with({"rubber.relaxation=[]"});
+  return given_branches(loaded).empty() ? loaded : with_sets(loaded, {"rubber.relaxation=[]"});
 }
 
 std::vector<MaterialParameter> relaxation_sought(const LoadedConfig& loaded) {

@@ -75,7 +75,7 @@ void check_models(const LoadedConfig& loaded, const FitInput& input) {
 
 /// The lattice is needed where constants are sought or the press is the lattice's.
 lattice::PressSetup base_of(const LoadedConfig& loaded) {
-  return press_setup(loaded.with({"press.mode=static"}), lattice_of_fit(loaded));
+  return press_setup(with_sets(loaded, {"press.mode=static"}), lattice_of_fit(loaded));
 }
 
 /// Presses that are planned have no times.
@@ -192,7 +192,7 @@ FitSetup at_the_right_strain(const LoadedConfig& loaded, FitSetup fit, Presses p
   if (std::abs(most) <= small_excess) return fit;
   const std::string said = strain_words(depth, most);
   if (may_be_finite(loaded, fit.input)) {
-    FitSetup finite = assembled(loaded.with({"lattice.model=network"}), presses);
+    FitSetup finite = assembled(with_sets(loaded, {"lattice.model=network"}), presses);
     finite.notes.push_back(said +
                            ": the finite law is fitted, lattice.model = network (small "
                            "strain on request: lattice.kinematics = small)");

@@ -109,7 +109,8 @@ PaceSearch search_pace(std::vector<PaceCandidate> candidates, double seconds,
 }
 
 LoadedConfig with_any_integrator(const LoadedConfig& asked) {
-  return asked.entries.at("run.integrator").given ? asked : asked.with({"run.integrator=auto"});
+  return asked.entries.at("run.integrator").given ? asked
+                                                  : with_sets(asked, {"run.integrator=auto"});
 }
 
 std::vector<std::string> settings_of(const PaceCandidate& taken, const LoadedConfig& asked) {
@@ -129,8 +130,8 @@ std::vector<std::string> settings_of(const PaceCandidate& taken, const LoadedCon
 PaceSearch search_pace_here(const LoadedConfig& asked, int cores) {
   const PressSetup setup = press_setup(with_material(asked, LatticeUse::press));
   const auto measure = [&](const PaceCandidate& candidate, double seconds) {
-    PressSetup press =
-        press_setup(with_material(asked.with(settings_of(candidate, asked)), LatticeUse::press));
+    PressSetup press = press_setup(
+        with_material(with_sets(asked, settings_of(candidate, asked)), LatticeUse::press));
     press.threads = candidate.threads;
     return measured_factor(press, seconds);
   };

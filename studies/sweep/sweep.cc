@@ -221,7 +221,7 @@ std::vector<SweepPoint> points_of(const Sweep& sweep, const Shard& shard) {
 LoadedConfig config_of(const Sweep& sweep, const SweepPoint& point) {
   std::vector<std::string> sets;
   for (const auto& [key, value] : point.settings) sets.push_back(key + "=" + value);
-  return sweep.base.with(sets);
+  return with_sets(sweep.base, sets);
 }
 
 std::string settings_text(const SweepPoint& point) {

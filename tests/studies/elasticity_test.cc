@@ -123,7 +123,7 @@ TEST(Elasticity, ResolvedParametersAreTheSameRubber) {
     EXPECT_EQ(first.config.press.rubber.shear_modulus, second.config.press.rubber.shear_modulus);
     EXPECT_EQ(first.config.press.rubber.energy, second.config.press.rubber.energy);
     // A further setting finds what was given, and nothing that was derived.
-    const Rubber deeper = first.with({"press.depth=1 mm"}).config.press.rubber;
+    const Rubber deeper = with_sets(first, {"press.depth=1 mm"}).config.press.rubber;
     EXPECT_EQ(first.config.press.rubber.shear_modulus, deeper.shear_modulus);
   }
 }

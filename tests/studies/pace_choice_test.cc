@@ -203,7 +203,7 @@ TEST(PaceCandidates, TheirSettingsMakeTheirPress) {
   const LoadedConfig asked = with_any_integrator(loaded({"press.contact=stick"}));
   const auto setup = press_setup(asked);
   for (const PaceCandidate& press : pace_candidates(setup, true, 1)) {
-    const auto made = press_setup(asked.with(settings_of(press, asked)));
+    const auto made = press_setup(with_sets(asked, settings_of(press, asked)));
     EXPECT_NEAR(made.lattice.spacing / press.spacing, 1.0, 1e-11);
     EXPECT_EQ(made.integrator, press.integrator);
     EXPECT_EQ(made.time_step.has_value(), press.integrator == Integrator::mass_scaled);
