@@ -31,7 +31,9 @@ void print_next(const std::vector<calibration::NextEntry>& next) {
   for (const calibration::NextEntry& entry : next) {
     fmt::print("{:<12}", entry.name);
     for (const auto& parameter : entry.parameters) fmt::print("{:>26.2f}", parameter.times);
-    fmt::print("  {}\n", entry.failure.empty() ? entry.press : "not known: " + entry.failure);
+    fmt::print("  {}\n",
+               in_shown_units(entry.failure.empty() ? entry.press : "not known: " + entry.failure,
+                              Spelling::terminal));
   }
 }
 
@@ -40,7 +42,8 @@ namespace {
 void print_plan(const PlanFile& plan) {
   fmt::print("{}\n\n", in_shown_units(plan.statement, Spelling::terminal));
   for (const PlannedPress& press : plan.presses)
-    fmt::print("{}: {}, {} values to {}, {}\n", press.name, press.condition, press.points,
+    fmt::print("{}: {}, {} values to {}, {}\n", press.name,
+               in_shown_units(press.condition, Spelling::terminal), press.points,
                shown_units().length.text(press.depth),
                shown_units().force.text(press.largest_force));
   fmt::print("\n{:<24}{:>14}{:>14}{:>14}  {}\n", "", "value", "95 % from", "to", "unit");

@@ -69,7 +69,7 @@ FitParameter read_parameter(const ParameterEntry& entry, const Truth& truth) {
 FitCurve read_curve(const CurveEntry& entry, const FitFile& file) {
   FitCurve curve;
   curve.name = entry.name;
-  curve.condition = entry.condition;
+  curve.condition = as_shown(entry.condition);
   curve.x_quantity = quantity(entry.x_quantity.empty() ? file.x_quantity : entry.x_quantity);
   curve.y_quantity = quantity(entry.y_quantity.empty() ? file.y_quantity : entry.y_quantity);
   if (entry.points > 0) curve.points = double(entry.points);

@@ -244,7 +244,8 @@ Table next_table(const Fit& fit) {
     if (!further.failure.empty()) {
       Cell failure = plain(further.failure);
       failure.words = true;
-      table.rows.push_back({plain(further.name, further.press), plain("–"), failure, plain("–")});
+      table.rows.push_back(
+          {plain(further.name, as_shown(further.press)), plain("–"), failure, plain("–")});
     }
     for (const calibration::NarrowedEntry& each : further.parameters) {
       std::string unit;
@@ -254,10 +255,11 @@ Table next_table(const Fit& fit) {
         if (!std::isfinite(value)) return std::string("–");
         return unit.empty() || unit == "1" ? number(value) : amount(value, unit);
       };
-      table.rows.push_back(
-          {&each == &further.parameters.front() ? plain(further.name, further.press) : plain(""),
-           plain(each.name), plain(shown(each.lower) + " … " + shown(each.upper)),
-           plain(number(each.times, 3))});
+      table.rows.push_back({&each == &further.parameters.front()
+                                ? plain(further.name, as_shown(further.press))
+                                : plain(""),
+                            plain(each.name), plain(shown(each.lower) + " … " + shown(each.upper)),
+                            plain(number(each.times, 3))});
     }
   }
   return table;

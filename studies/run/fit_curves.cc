@@ -90,9 +90,9 @@ std::string described(const lattice::PressSetup& setup) {
   const meshes::Obstacle& obstacle = setup.protocol.obstacle;
   if (obstacle.shape != meshes::ObstacleShape::plane)
     text += ", " + std::string(meshes::name(obstacle.shape)) + " of " +
-            meshes::to_text(1e3 * obstacle.radius) + " mm";
+            meshes::to_text(obstacle.radius) + " m";
   if (setup.protocol.lateral != 0.0)
-    text += ", lateral " + meshes::to_text(1e2 * setup.protocol.lateral) + " cm";
+    text += ", lateral " + meshes::to_text(setup.protocol.lateral) + " m";
   return text;
 }
 

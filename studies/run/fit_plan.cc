@@ -28,7 +28,7 @@ std::vector<double> even_depths(double depth, std::size_t count) {
 }
 
 std::string in_words(const std::string& press, double depth) {
-  return fmt::format("{}, to {:.3g} mm", press, 1e3 * depth);
+  return fmt::format("{}, to {:.3g} m", press, depth);
 }
 
 /// A press of which nothing is measured: its touch is where the settings say, else at zero.

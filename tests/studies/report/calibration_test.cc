@@ -71,6 +71,20 @@ class FitReport : public testing::Test {
   fs::path run_ = folder_.path() / "run";
 };
 
+/// How a curve was pressed, in the units that are asked for.
+TEST_F(FitReport, ConditionsHaveTheUnitsAskedFor) {
+  report([](json& result) {
+    result["curves"][0]["condition"] = "frictionless, ball of 0.006 m, lateral 0.0005 m";
+  });
+  const auto text = [&](studies::UnitSystem units) {
+    studies::write_report(run_, units);
+    return visible_text(read_text(run_ / "report.html"));
+  };
+  EXPECT_TRUE(has(text(studies::UnitSystem::si), "frictionless, ball of 6 mm, lateral 0.5 mm"));
+  EXPECT_TRUE(
+      has(text(studies::UnitSystem::paper), "frictionless, ball of 0.6 cm, lateral 0.05 cm"));
+}
+
 TEST_F(FitReport, TellsTheResultWithItsDoubts) {
   const std::string text = visible_text(report());
   // 4000 Pa ± 1.96 × 80 Pa; the prior is 3922.66 Pa ± 98.07 Pa.
