@@ -106,6 +106,24 @@ void check_depth(const std::filesystem::path& path, const MeasuredFile& file, do
   problems.throw_if_any();
 }
 
+/// Empty of what is no file; its reader says so.
+std::string content_of(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) return {};
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Files that were measured, once each, with what tells them apart from another of the name.
+void add_provenance(FitSetup& fit, const std::string& what, const CurveSource& source) {
+  const std::string file =
+      what + source.path.filename().string() + " (SHA-256 " + sha256(content_of(source.path)) + ")";
+  std::string& all = fit.input.provenance;
+  if (all.empty())
+    all = "measured data: " + file;
+  else if (all.find(file) == std::string::npos)
+    all += ", " + file;
+}
+
 /// Presses of a rigid blank, by the machine that they tell of.
 using Blanks = std::map<std::string, std::vector<CurveSource>>;
 
@@ -120,10 +138,13 @@ void add_measured_press(FitSetup& fit, const LoadedConfig& loaded, const CurveSo
     std::optional<Travel>& travel = fit.input.travels.emplace_back();
     Config own = under(loaded, condition, {"press.mode=static"}).config;
     if (file.curve.is_travel) {
-      const auto blank = blanks.find(own.calibration.machine);
-      own.calibration.rig =
-          with_blank(own.calibration.rig,
-                     blank == blanks.end() ? std::vector<CurveSource>{} : blank->second, fit.notes);
+      const auto known = blanks.find(own.calibration.machine);
+      const auto rigid = known == blanks.end() ? std::vector<CurveSource>{} : known->second;
+      own.calibration.rig = with_blank(own.calibration.rig, rigid, fit.notes);
+      for (const CurveSource& blank : rigid) add_provenance(fit, "blank ", blank);
+      if (!own.calibration.rig.blank.empty())
+        for (const CurveSource& blank : curve_sources(own.calibration.rig.blank))
+          add_provenance(fit, "blank ", blank);
       travel = travel_of(file.curve, own.calibration);
     }
     check_depth(source.path, file, travel ? travel->reach : std::ranges::max(depths),
@@ -149,13 +170,6 @@ std::string with_unit(const std::string& quantity) {
     for (const Quantity& axis : {pair.x, pair.y})
       if (axis.name == quantity) return quantity + " [" + std::string(axis.unit) + "]";
   return quantity;
-}
-
-/// Empty of what is no file; its reader says so.
-std::string content_of(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) return {};
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void check_stretches(const std::filesystem::path& path, const MeasuredFile& file) {
@@ -286,7 +300,6 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
   if (!settings.conditions.empty() && settings.conditions.size() != settings.data.size())
     throw refused(loaded, "calibration.conditions", "",
                   "there must be one per file of calibration.data, or none", "complete the list");
-  fit.input.provenance = "measured data: ";
   std::vector<std::pair<CurveSource, std::string>> sources;
   Blanks blanks;
   for (std::size_t i = 0; i < settings.data.size(); ++i)
@@ -302,8 +315,7 @@ void add_measured_curves(FitSetup& fit, const LoadedConfig& loaded) {
   NotesOnFiles notes;
   std::vector<std::filesystem::path> files;
   for (const auto& [source, condition] : sources) {
-    fit.input.provenance += (files.empty() ? "" : ", ") + source.path.filename().string() +
-                            " (SHA-256 " + sha256(content_of(source.path)) + ")";
+    add_provenance(fit, "", source);
     for (MeasuredFile& file :
          read_measured(source, quantities_of(settings.problem), !fit.input.branches.empty())) {
       add_measured_curve(fit, loaded, source, std::move(file), condition, blanks, notes);

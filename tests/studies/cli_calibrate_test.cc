@@ -132,6 +132,9 @@ TEST(Calibrate, FindsTheRubberBehindARig) {
   EXPECT_GT(compliance["upper"].get<double>(), 2e-3);
   EXPECT_LT(by_blank["parameters"][0]["lower"].get<double>(), truth);
   EXPECT_GT(by_blank["parameters"][0]["upper"].get<double>(), truth);
+  const std::string card = read_text(folder / "blank" / "material.toml");
+  for (const char* file : {"measured data: travel.csv (SHA-256 ", ", blank blank.csv (SHA-256 "})
+    EXPECT_NE(card.find(file), std::string::npos) << card;
   const ProgramResult both = fit("{blank = \"blank.csv\", compliance = \"2 mm/N\"}", "both");
   EXPECT_EQ(both.code, 2);
   EXPECT_NE(both.err.find("leave one of them out"), std::string::npos) << both.err;
