@@ -139,18 +139,6 @@ void add_uncertainty(CurveFit& fit, const Eigen::MatrixXd& covariance, double qu
   fit.upper = fit.estimates + quantile * fit.birge_ratio * fit.standard_errors;
 }
 
-/// nu = E/(2G) - 1.
-void add_ratio(CurveFit& fit, const CurveFitOptions& options) {
-  const auto places = places_of_moduli(options);
-  if (!places) return;
-  const auto [e, g] = *places;
-  const double modulus = fit.estimates(g), ratio = fit.estimates(e) / (2.0 * modulus);
-  VectorXd slopes = VectorXd::Zero(fit.estimates.size());
-  slopes(e) = 0.5 / modulus;
-  slopes(g) = -ratio / modulus;
-  fit.poissons_ratio_error = std::sqrt(slopes.dot(fit.covariance * slopes));
-}
-
 void add_bounds(CurveFit& fit, const CurveFitOptions& options) {
   for (std::size_t i = 0; i < options.free.size(); ++i) {
     const double p = fit.estimates(Index(i)), near = 1e-9 * size_of(options.free[i]);
@@ -239,7 +227,8 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   if (!residuals.has_sigma() && options.model_covariance.size() > 0)
     covariance += fit.influence * options.model_covariance * fit.influence.transpose();
   add_uncertainty(fit, covariance, quantile);
-  add_ratio(fit, options);
+  if (const auto slopes = ratio_slopes(fit))
+    fit.poissons_ratio_error = std::sqrt(slopes->dot(fit.covariance * *slopes));
   add_bounds(fit, options);
   describe_sensitivity(fit, jacobian.bottomRows(residuals.priors()), size,
                        options.relative_singular_value, quantile);

@@ -79,16 +79,13 @@ std::size_t rubber_parameters(const CurveFit& fit);
 
 /// Half width of the 95 % interval of Poisson's ratio where E and G are sought; else 0.
 double poissons_ratio_interval(const CurveFit& fit);
-/// A half width beyond which Poisson's ratio counts as not determined: half of what rubbers have,
-/// 0 to 1/2.
-inline constexpr double open_ratio = 0.25;
 
 /// Why constants of this fit must not be used as they are, a sentence each; none: it passed its own
 /// tests. It fails where the search did not end; where the model does not describe the data
 /// (chi-square improbable, below 1 %, or, where there is none, a curve missed by more than a tenth,
 /// relative_rms); where a parameter or Poisson's ratio ended at a bound;
-/// where the data leave a direction open, or Poisson's ratio by more than +-0.25; and where the
-/// material is no rubber: rules of Material, E outside of 100 Pa to 10 GPa.
+/// where the data leave a direction open, of E and G Poisson's ratio by more than open_ratio; and
+/// where the material is no rubber: rules of Material, E outside of 100 Pa to 10 GPa.
 std::vector<std::string> failed_tests(const FitRecord& record);
 
 /// calibration.json of the README, SI. Written atomically. Throws std::runtime_error when the file

@@ -23,6 +23,20 @@ std::string number(double value) {
   return rounded(value, 2);
 }
 
+/// Of the directions, columns in units of the sizes, the one along which Poisson's ratio is least
+/// known, where it is open; else -1.
+Index opens_ratio(const CurveFit& fit, const Eigen::MatrixXd& directions,
+                  const Eigen::VectorXd& sizes, const Eigen::MatrixXd& relative, double quantile) {
+  const auto slopes = ratio_slopes(fit);
+  if (!slopes || quantile * fit.birge_ratio * fit.poissons_ratio_error.value_or(0.0) <= open_ratio)
+    return -1;
+  Index widest = 0;
+  const Eigen::VectorXd along = directions.transpose() * sizes.cwiseProduct(*slopes),
+                        variance = (directions.transpose() * relative * directions).diagonal();
+  along.cwiseAbs2().cwiseProduct(variance).maxCoeff(&widest);
+  return widest;
+}
+
 /// An interval over the size of what it is about: beyond that size its digits tell nothing.
 std::string interval_text(double relative) {
   return relative <= 1.0 ? "is +-" + percent(relative) : "exceeds +-100 %";
@@ -125,23 +139,37 @@ Eigen::MatrixXd Sensitivity::covariance() const {
   return root * root.transpose();
 }
 
+std::optional<Eigen::VectorXd> ratio_slopes(const CurveFit& fit) {
+  const auto place = [&](MaterialParameter parameter) {
+    return std::ranges::find(fit.parameters, parameter) - fit.parameters.begin();
+  };
+  const Index e = place(MaterialParameter::youngs_modulus),
+              g = place(MaterialParameter::shear_modulus), count = Index(fit.parameters.size());
+  if (std::max(e, g) == count) return std::nullopt;
+  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(count);
+  slopes(e) = 0.5 / fit.estimates(g);
+  slopes(g) = -0.5 * fit.estimates(e) / std::pow(fit.estimates(g), 2);
+  return slopes;
+}
+
 void describe_sensitivity(CurveFit& fit, const Eigen::MatrixXd& priors,
                           const Eigen::VectorXd& sizes, double threshold, double quantile) {
   const Sensitivity seen(fit.jacobian, sizes);
   const Eigen::VectorXd inverse = sizes.cwiseInverse();
   const Eigen::MatrixXd relative = inverse.asDiagonal() * fit.covariance * inverse.asDiagonal();
   fit.singular_values = seen.singular_values();
+  const Index ratio = opens_ratio(fit, seen.directions(), sizes, relative, quantile);
   for (Index i = 0; i < sizes.size(); ++i) {
     const Eigen::VectorXd unit = seen.directions().col(i);
     const double value = fit.singular_values(i), largest = unit.cwiseAbs().maxCoeff();
     const double share = fit.singular_values(0) > 0.0 ? value / fit.singular_values(0) : 0.0;
-    if (share >= threshold && quantile * largest <= value) continue;
+    if (share >= threshold && quantile * largest <= value && i != ratio) continue;
     // A step t along unit/largest is the coordinate unit·change times `largest`.
     const double interval = quantile * largest * std::sqrt(unit.dot(relative * unit));
     Direction direction{normalised(unit), share, interval, {}};
     direction.statement = statement_of(direction, sizes.cwiseProduct(direction.changes), fit);
     const double from_priors = (priors * sizes.cwiseProduct(unit)).norm();
-    const bool closed = from_priors > value && interval <= 1.0;
+    const bool closed = from_priors > value && interval <= 1.0 && i != ratio;
     (closed ? fit.only_from_priors : fit.unidentifiable).push_back(direction);
   }
 }

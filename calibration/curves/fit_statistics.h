@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,11 +38,18 @@ class Sensitivity {
   Eigen::MatrixXd directions_;
 };
 
+/// A half width of the 95 % interval of Poisson's ratio beyond which E and G count as not told
+/// apart: half of +-1/4, which holds for every rubber (0 to 1/2) before anything is measured.
+inline constexpr double open_ratio = 0.125;
+
+/// d nu/d(parameters) where E and G are both sought, nu = E/(2G) - 1; else none.
+std::optional<Eigen::VectorXd> ratio_slopes(const CurveFit& fit);
+
 /// Fills in singular values, unidentifiable and only_from_priors of `fit`, whose parameters,
 /// labels, estimates, jacobian and covariance are known. `priors` are the priors' rows over their
 /// deviations; `quantile` is the 95 % interval's half width over a standard error. A direction is
-/// open where the curves' singular value is below `threshold` times the largest, or where their own
-/// interval along it exceeds the sizes.
+/// open where the curves' singular value is below `threshold` times the largest, where their own
+/// interval along it exceeds the sizes, and where it is the one that leaves Poisson's ratio open.
 void describe_sensitivity(CurveFit& fit, const Eigen::MatrixXd& priors,
                           const Eigen::VectorXd& sizes, double threshold, double quantile);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "calibration/curves/fit_record.h"
+#include "calibration/curves/fit_statistics.h"
 #include "calibration/words.h"
 #include "meshes/errors.h"
 
@@ -118,18 +119,16 @@ void judge_identifiability(Sentences& found, const FitRecord& record) {
         ": free fewer branches of the relaxation, hold those that are known (rubber.relaxation), "
         "or "
         "measure a longer hold after a faster ramp";
-  if (!fit.unidentifiable.empty()) {
-    found.push_back("the data do not determine every parameter (" +
-                    std::to_string(fit.unidentifiable.size()) + " direction" +
-                    (fit.unidentifiable.size() > 1 ? "s" : "") + " open)" + remedy);
-    return;
-  }
+  if (fit.unidentifiable.empty()) return;
   const double width = poissons_ratio_interval(fit);
-  if (!(width <= open_ratio)) {
-    const std::string told =
-        width <= whole_ratio ? "+-" + rounded(width, 2) : "wider than -1 to 1/2, all there is";
-    found.push_back("the data do not determine Poisson's ratio (95 %: " + told + ")" + remedy);
-  }
+  const std::string told =
+      width <= open_ratio ? "every parameter (" + std::to_string(fit.unidentifiable.size()) +
+                                " direction" + (fit.unidentifiable.size() > 1 ? "s" : "") + " open)"
+                          : "Poisson's ratio (95 %: " +
+                                (width <= whole_ratio ? "+-" + rounded(width, 2)
+                                                      : "wider than -1 to 1/2, all there is") +
+                                "), and so not E and G one by one";
+  found.push_back("the data do not determine " + told + remedy);
 }
 
 void judge_material(Sentences& found, const FitRecord& record) {

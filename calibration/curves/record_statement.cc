@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "calibration/curves/fit_record.h"
+#include "calibration/curves/fit_statistics.h"
 #include "calibration/fit_file.h"
 #include "calibration/material_tests/relaxation_starts.h"
 #include "calibration/words.h"
