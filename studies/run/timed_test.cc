@@ -133,6 +133,19 @@ std::size_t TimedRows::drop(const std::function<bool(std::size_t)>& unwanted) {
   return all - kept;
 }
 
+/// Of a file that begins with its second row: where the speed of its first step leads back to rest
+/// within little more than a step, the pull began there. Else what its first row shows is sudden.
+void add_start(const StrainColumn& strain, const TimedRows& rows, MaterialTest& test) {
+  constexpr double most_steps = 1.5;
+  const double rest = calibration::rest_of(test.kind),
+               first = strain.deformation(test.kind, rows.strain[0]),
+               way = strain.deformation(test.kind, rows.strain[1]) - first,
+               steps = (first - rest) / way;
+  if (!(steps > 0.0) || steps > most_steps) return;
+  test.path.time.push_back(rows.time[0] - steps * (rows.time[1] - rows.time[0]));
+  test.path.deformation.push_back(rest);
+}
+
 void put_in_time(const TestTable& description, const std::filesystem::path& file,
                  const StrainColumn& strain, const StressColumn& stress, TimedRows rows,
                  std::size_t points, MaterialTest& test, std::vector<std::string>& notes) {
@@ -157,6 +170,7 @@ void put_in_time(const TestTable& description, const std::filesystem::path& file
     if (corners.size() < rows.time.size())
       notes.push_back(fmt::format("{}: the strain follows {} of {} rows", name, corners.size(),
                                   rows.time.size()));
+    add_start(strain, rows, test);
     // The first row is where the course begins.
     if (corners.front() > 0) {
       test.path.time.push_back(rows.time.front());

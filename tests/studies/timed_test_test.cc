@@ -84,6 +84,21 @@ TEST_F(TimedFiles, AStrainFromItsColumn) {
   EXPECT_NEAR(times[1], 2.0, 1e-12);
 }
 
+/// A file of a ramp that begins with its second row begins at rest all the same; one that begins at
+/// the hold, or far up the ramp, begins with a step.
+TEST_F(TimedFiles, ARampWithoutItsFirstRowBeginsAtRest) {
+  const auto path = [&](const std::string& first) {
+    return read(by_column, "t,l,s\n" + first + "300,1.5,9\n1000,1.5,8\n2000,1.5,7\n")
+        .fitted.at(0)
+        .path;
+  };
+  const auto whole = path("0,1,0\n100,1.2,5\n200,1.4,7\n"), begun = path("100,1.2,5\n200,1.4,7\n");
+  EXPECT_EQ(begun.time, whole.time);
+  EXPECT_EQ(begun.deformation, whole.deformation);
+  EXPECT_EQ(path("").deformation.front(), 1.5);
+  EXPECT_EQ(path("200,1.4,7\n").deformation.front(), 1.4);
+}
+
 TEST_F(TimedFiles, CyclesOfShearKeepTheirSigns) {
   write_text(folder_ / "slow.csv", "u;F\n1;2\n3;5\n");
   const auto file = read(
