@@ -25,7 +25,6 @@ class EnergyStepper : public Stepper {
   void recall(const Memory& memory) override { next_ = memory[0]; }
   std::string explanation() const override;
 
-
  private:
   double try_step(const Drive& drive, double step);
 
