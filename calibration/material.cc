@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "calibration/curves/forward_model.h"
+#include "calibration/material_parameter.h"
 #include "calibration/moduli.h"
 #include "calibration/words.h"
 #include "meshes/files.h"

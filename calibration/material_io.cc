@@ -7,8 +7,8 @@
 #include <ostream>
 #include <string_view>
 
-#include "calibration/curves/forward_model.h"
 #include "calibration/material.h"
+#include "calibration/material_parameter.h"
 #include "calibration/toml_file.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/files.h"

@@ -23,12 +23,6 @@ namespace {
 /// Less than one good fit in a hundred has so large a chi-square.
 constexpr double improbable = 0.01;
 
-std::vector<MaterialParameter> names(const CurveFitOptions& options) {
-  std::vector<MaterialParameter> parameters;
-  for (const FreeParameter& free : options.free) parameters.push_back(free.parameter);
-  return parameters;
-}
-
 /// From the start, then from the others, each with its share of the evaluations that are left.
 /// Without an answer at one of the others there is no minimum from there.
 std::vector<Minimum> minima_from(CurveResiduals& residuals, const CurveFitOptions& options) {
@@ -181,10 +175,6 @@ double add_squares(CurveFit& fit, const CurveResiduals& residuals, const Lineari
 
 }  // namespace
 
-std::string label(const FreeParameter& free) {
-  return std::string(name(free.parameter)) + (free.of.empty() ? "" : " (" + free.of + ")");
-}
-
 CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardModel*>& models,
                     const CurveFitOptions& options) {
   check_curve_fit(curves, options);
@@ -194,7 +184,7 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   CurveResiduals residuals(curves, models, options);
 
   CurveFit fit;
-  fit.parameters = names(options);
+  fit.parameters = parameters_in(options);
   for (const FreeParameter& free : options.free) fit.labels.push_back(label(free));
   fit.minima = minima_from(residuals, options);
   const bool open = !residuals.has_sigma() && residuals.priors() > 0;
@@ -233,51 +223,6 @@ CurveFit fit_curves(const std::vector<Curve>& curves, const std::vector<ForwardM
   describe_sensitivity(fit, jacobian.bottomRows(residuals.priors()), size,
                        options.relative_singular_value, quantile);
   return fit;
-}
-
-namespace {
-
-lattice::PressSetup setup_of(const Curve& curve, lattice::PressSetup setup) {
-  const double depth = curve.x.back();
-  // The plane moves in proportion to the indentation.
-  if (setup.protocol.lateral != 0.0) setup.protocol.lateral *= depth / setup.protocol.depth;
-  setup.protocol.depth = depth;
-  setup.protocol.samples = curve.x;
-  return setup;
-}
-
-/// k1, k2, k3 mean the same rubber at one spacing only.
-void check_spacing(const std::vector<lattice::PressSetup>& conditions,
-                   const CurveFitOptions& options) {
-  const bool springs = std::ranges::any_of(
-      options.free, [](const FreeParameter& free) { return unit(free.parameter) == "N/m"; });
-  const auto& first = conditions.front().lattice;
-  for (const lattice::PressSetup& condition : conditions) {
-    const auto& lattice = condition.lattice;
-    if (!springs || (lattice.spacing == first.spacing && lattice.model == first.model)) continue;
-    throw meshes::InvalidInput(
-        {"lattice.spacing", meshes::to_text(lattice.spacing) + " m",
-         "constants of springs are common to curves of one model and spacing",
-         "take one lattice for all curves, or fit E and G"});
-  }
-}
-
-}  // namespace
-
-CurveFit fit_presses(const std::vector<Curve>& curves,
-                     const std::vector<lattice::PressSetup>& conditions,
-                     const CurveFitOptions& options, const std::function<bool()>& go_on) {
-  check_curve_fit(curves, options);
-  if (conditions.size() != curves.size())
-    throw meshes::InvalidInput({"conditions", std::to_string(conditions.size()),
-                                "every curve needs its condition", "give one per curve"});
-  check_spacing(conditions, options);
-  std::vector<LatticeForwardModel> models;
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    models.emplace_back(setup_of(curves[i], conditions[i]), names(options), go_on);
-  std::vector<ForwardModel*> addresses;
-  for (LatticeForwardModel& model : models) addresses.push_back(&model);
-  return fit_curves(curves, addresses, options);
 }
 
 }  // namespace fingertip::calibration

@@ -3,8 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "calibration/curves/curve_fit.h"
 #include "calibration/curves/curve_residuals.h"
+#include "calibration/curves/fit_options.h"
+#include "calibration/curves/fit_result.h"
 
 namespace fingertip::calibration {
 

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/curve.h"
+#include "calibration/curves/fit_options.h"
+#include "calibration/curves/forward_model.h"
 
 namespace fingertip::calibration {
 

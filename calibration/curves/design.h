@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/fit_options.h"
 #include "calibration/fit_file.h"
 
 namespace fingertip::calibration {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/fit_options.h"
 
 namespace fingertip::calibration {
 

@@ -9,11 +9,13 @@
 
 #include "calibration/curves/curve.h"
 #include "calibration/curves/curve_checks.h"
-#include "calibration/curves/curve_fit.h"
 #include "calibration/curves/design.h"
+#include "calibration/curves/fit_options.h"
+#include "calibration/curves/fit_result.h"
 #include "calibration/curves/repeats.h"
 #include "calibration/curves/suspects.h"
 #include "calibration/material.h"
+#include "calibration/material_parameter.h"
 
 namespace fingertip::calibration {
 

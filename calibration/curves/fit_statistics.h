@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/fit_result.h"
 
 namespace fingertip::calibration {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibration/curves/curve.h"
-#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/fit_result.h"
 #include "calibration/curves/rig_model.h"
 
 namespace fingertip::calibration {

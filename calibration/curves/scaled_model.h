@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibration/curves/forward_model.h"
+#include "calibration/material_parameter.h"
 #include "meshes/rubber.h"
 
 namespace fingertip::calibration {

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/curve.h"
+#include "calibration/curves/fit_options.h"
+#include "calibration/curves/fit_result.h"
 
 namespace fingertip::calibration {
 

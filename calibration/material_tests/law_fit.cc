@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 
+#include "calibration/curves/curve_fit.h"
 #include "calibration/curves/fit_statistics.h"
 #include "calibration/material_tests/law_contradictions.h"
 #include "calibration/material_tests/law_starts.h"

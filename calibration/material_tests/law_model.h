@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibration/curves/forward_model.h"
+#include "calibration/material_parameter.h"
 #include "calibration/material_tests/fading_course.h"
 #include "calibration/material_tests/material_test.h"
 #include "meshes/relaxation.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/fit_result.h"
 #include "calibration/curves/residual_structure.h"
 #include "calibration/material_tests/law_model.h"
 #include "calibration/material_tests/material_test.h"

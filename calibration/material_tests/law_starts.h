@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/fit_options.h"
 #include "calibration/material_tests/law_result.h"
 
 namespace fingertip::calibration {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibration/curves/curve.h"
-#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/fit_options.h"
 #include "calibration/curves/fit_record.h"
 #include "fem_reference/job.h"
 #include "lattice/press/press_setup.h"

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "calibration/curves/curve_checks.h"
+#include "calibration/curves/curve_fit.h"
 #include "calibration/curves/fit_statistics.h"
 #include "calibration/curves/model_error.h"
 #include "calibration/words.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "calibration/curves/forward_model.h"
+#include "calibration/curves/lattice_forward_model.h"
 #include "calibration/moduli_fit.h"
 #include "lattice/model/constants.h"
 #include "studies/run/fit_relaxation.h"

@@ -7,6 +7,7 @@
 #include <functional>
 #include <iterator>
 
+#include "calibration/curves/lattice_forward_model.h"
 #include "meshes/files.h"
 #include "studies/run/fit_curves.h"
 #include "studies/run/fit_relaxation.h"

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "calibration/curves/forward_model.h"
+#include "calibration/curves/curve.h"
+#include "calibration/curves/fit_options.h"
 #include "meshes/relaxation.h"
 #include "studies/config/loader.h"
 #include "studies/run/fit_input.h"

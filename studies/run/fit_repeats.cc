@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "calibration/curves/curve_fit.h"
 #include "calibration/curves/fit_statistics.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/fields_json.h"

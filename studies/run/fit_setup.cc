@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/curves/forward_model.h"
+#include "calibration/curves/lattice_forward_model.h"
 #include "studies/config/finger_defaults.h"
 #include "studies/run/continuum_model.h"
 #include "studies/run/fit_curves.h"

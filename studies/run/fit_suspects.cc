@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "calibration/curves/curve_fit.h"
 #include "calibration/curves/fit_statistics.h"
 #include "calibration/curves/model_error.h"
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "calibration/curves/lattice_forward_model.h"
 #include "calibration/surrogate/surrogate.h"
 #include "source_hash.h"
 #include "studies/run/jobs.h"

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "calibration/curves/forward_model.h"
+#include "calibration/material_parameter.h"
 #include "lattice/press/press_setup.h"
 #include "studies/run/job.h"
 

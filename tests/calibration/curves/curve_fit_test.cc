@@ -11,6 +11,7 @@
 #include <random>
 
 #include "calibration/curves/fit_statistics.h"
+#include "calibration/curves/lattice_forward_model.h"
 #include "fit_fixtures.h"
 
 using namespace fit_fixtures;

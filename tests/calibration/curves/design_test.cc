@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "calibration/curves/curve_fit.h"
+#include "calibration/curves/fit_options.h"
 #include "calibration/curves/suspects.h"
 #include "meshes/errors.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "calibration/curves/curve_fit.h"
-#include "calibration/curves/forward_model.h"
+#include "calibration/curves/lattice_forward_model.h"
 #include "meshes/errors.h"
 
 namespace fit_fixtures {

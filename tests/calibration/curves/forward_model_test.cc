@@ -1,10 +1,10 @@
 /// From parameters to forces: slopes against differences.
-#include "calibration/curves/forward_model.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
+#include "calibration/curves/lattice_forward_model.h"
 #include "fit_fixtures.h"
 
 using namespace fit_fixtures;
