@@ -5,7 +5,7 @@
 #include "calibration/curves/fit_record.h"
 #include "calibration/curves/fit_statistics.h"
 #include "calibration/fit_file.h"
-#include "calibration/material_tests/relaxation_starts.h"
+#include "calibration/open_branches.h"
 #include "calibration/words.h"
 
 namespace fingertip::calibration {

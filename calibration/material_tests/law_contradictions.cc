@@ -11,7 +11,7 @@
 #include <string>
 
 #include "calibration/curves/curve_checks.h"
-#include "calibration/material_tests/relaxation_starts.h"
+#include "calibration/open_branches.h"
 #include "calibration/words.h"
 
 namespace fingertip::calibration {

@@ -27,8 +27,4 @@ void add_branches(const std::vector<MaterialTest>& tests,
 std::optional<Eigen::VectorXd> sorted_branches(const LawChoice& choice,
                                                const Eigen::VectorXd& estimates);
 
-/// A sentence for each branch outside of `times`.
-std::vector<std::string> open_branches(const meshes::Relaxation& relaxation,
-                                       const std::array<double, 2>& times);
-
 }  // namespace fingertip::calibration
