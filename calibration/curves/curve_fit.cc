@@ -26,10 +26,8 @@ constexpr double improbable = 0.01;
 /// From the start, then from the others, each with its share of the evaluations that are left.
 /// Without an answer at one of the others there is no minimum from there.
 std::vector<Minimum> minima_from(CurveResiduals& residuals, const CurveFitOptions& options) {
-  VectorXd start(Index(options.free.size()));
-  for (Index i = 0; i < start.size(); ++i) start(i) = options.free[std::size_t(i)].start;
   std::vector<VectorXd> starts = options.other_starts;
-  starts.insert(starts.begin(), start);
+  starts.insert(starts.begin(), start_of(options));
   std::vector<Minimum> minima;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const int used = residuals.evaluations(), shares = int(starts.size() - i);

@@ -74,6 +74,9 @@ struct CurveFitOptions {
   std::function<bool(int evaluations, double loss)> progress = {};
 };
 
+/// Where the search starts.
+Eigen::VectorXd start_of(const CurveFitOptions& options);
+
 /// Of `options.free`, in that order.
 std::vector<MaterialParameter> parameters_in(const CurveFitOptions& options);
 

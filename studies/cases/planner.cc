@@ -9,7 +9,6 @@
 #include "studies/cases/measures.h"
 #include "studies/config/key_table.h"
 #include "studies/files/read_fields.h"
-#include "studies/run/fit_setup.h"
 #include "studies/run/grasp_job.h"
 #include "studies/run/jobs.h"
 #include "studies/run/law_job.h"

@@ -6,7 +6,7 @@
 #include "studies/files/plan_file.h"
 #include "studies/files/read_fields.h"
 #include "studies/files/shown_units.h"
-#include "studies/run/fit_setup.h"
+#include "studies/run/configured_fit.h"
 #include "studies/run/json_file.h"
 #include "studies/run/plan_job.h"
 

@@ -56,4 +56,9 @@ ConfigError LoadedConfig::locate(const std::vector<meshes::Violation>& violation
   return ConfigError(std::move(problems));
 }
 
+ConfigError refused(const LoadedConfig& loaded, const std::string& key, const std::string& value,
+                    const std::string& rule, const std::string& remedy) {
+  return loaded.locate({{key, value, rule, remedy}});
+}
+
 }  // namespace fingertip::studies

@@ -58,4 +58,8 @@ struct LoadedConfig {
   ConfigError locate(const std::vector<meshes::Violation>& violations) const;
 };
 
+/// The one key that breaks a rule, with its place; `value` stands where the key is unknown.
+ConfigError refused(const LoadedConfig& loaded, const std::string& key, const std::string& value,
+                    const std::string& rule, const std::string& remedy);
+
 }  // namespace fingertip::studies

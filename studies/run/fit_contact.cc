@@ -8,6 +8,7 @@
 #include "calibration/fit_file.h"
 #include "calibration/words.h"
 #include "meshes/fields_json.h"
+#include "studies/run/configured_fit.h"
 #include "studies/run/json_file.h"
 
 namespace fingertip::studies {

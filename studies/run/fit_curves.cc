@@ -12,11 +12,6 @@ namespace fingertip::studies {
 
 using calibration::Curve;
 
-ConfigError refused(const LoadedConfig& loaded, const std::string& key, const std::string& value,
-                    const std::string& rule, const std::string& remedy) {
-  return loaded.locate({{key, value, rule, remedy}});
-}
-
 std::vector<std::string> settings_in(std::string_view condition) {
   std::vector<std::string> sets;
   std::size_t begin = 0;

@@ -10,9 +10,6 @@
 
 namespace fingertip::studies {
 
-ConfigError refused(const LoadedConfig& loaded, const std::string& key, const std::string& value,
-                    const std::string& rule, const std::string& remedy);
-
 /// "press.contact = stick; press.tilt=20 deg" as --set texts.
 std::vector<std::string> settings_in(std::string_view condition);
 

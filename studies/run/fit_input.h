@@ -1,4 +1,4 @@
-/// Everything that a fit to curves depends on, as one job.
+/// Everything that a fit to curves depends on.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,7 @@
 #include "fem_reference/job.h"
 #include "lattice/press/press_setup.h"
 #include "studies/config/config.h"
-#include "studies/run/fit_rig.h"
-#include "studies/run/job.h"
+#include "studies/run/travel.h"
 
 namespace fingertip::studies {
 
@@ -29,14 +28,14 @@ enum class CurveKind {
   moving_press,  ///< the moving lattice
 };
 
-struct FitInput;
-
 /// The rows of a file that a curve's values begin with, as its `rows` counts them; from `first` on.
 struct RowsOfValues {
   std::string file;
   std::size_t first = 1;
   std::vector<std::size_t> rows;
 };
+
+struct FitInput;
 
 /// A measurement that might follow, of which the fit tells what it would tell.
 struct Candidate {
@@ -90,9 +89,6 @@ struct FitInput {
   std::vector<Candidate> candidates;  ///< of presses; in the order of calibration.candidates
 };
 
-/// What the fit has found, as a material, whether it may be used or not.
-inline constexpr const char* estimates_name = "estimates.toml";
-
 /// Whether the continuum answers for the curves.
 bool by_continuum(const FitInput& input);
 
@@ -102,13 +98,5 @@ std::vector<calibration::MaterialParameter> parameters_of(const FitInput& input)
 /// Whether forces are proportional to all that is sought of the rubber: a press of every curve then
 /// tells everything, whatever rig and relaxation.
 bool asks_one_press(const FitInput& input);
-
-/// What a fit or a plan depends on.
-nlohmann::ordered_json fit_inputs(const FitInput& input);
-
-/// The fit. Files: calibration.json, estimates.toml (a material.toml, which says so where the fit
-/// failed its own tests; none where the estimates are no material), fit_data.csv, summary.json;
-/// while it runs, evaluations/, from which it goes on when it is run again in the same folder.
-Job fit_job(const FitInput& input);
 
 }  // namespace fingertip::studies

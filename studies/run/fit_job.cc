@@ -1,3 +1,5 @@
+#include "studies/run/fit_job.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,6 +20,7 @@
 #include "studies/run/fit_prospects.h"
 #include "studies/run/fit_relaxation.h"
 #include "studies/run/fit_repeats.h"
+#include "studies/run/fit_rig.h"
 #include "studies/run/fit_suspects.h"
 #include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
@@ -221,21 +224,6 @@ ordered_json fit_inputs(const FitInput& input) {
     if (each.input) inputs["candidates"].back().push_back(curve_inputs(*each.input, 0));
   }
   return inputs;
-}
-
-bool by_continuum(const FitInput& input) {
-  return !input.kinds.empty() && input.kinds.front() == CurveKind::continuum;
-}
-
-std::vector<MaterialParameter> parameters_of(const FitInput& input) {
-  std::vector<MaterialParameter> parameters;
-  for (const auto& free : input.options.free)
-    if (!calibration::is_behind_the_press(free.parameter)) parameters.push_back(free.parameter);
-  return parameters;
-}
-
-bool asks_one_press(const FitInput& input) {
-  return parameters_of(input) == std::vector{MaterialParameter::modulus};
 }
 
 Job fit_job(const FitInput& input) {

@@ -13,6 +13,8 @@
 #include "studies/run/digest.h"
 #include "studies/run/fit_curves.h"
 #include "studies/run/fit_repeats.h"
+#include "studies/run/fit_rig.h"
+#include "studies/run/travel.h"
 
 namespace fingertip::studies {
 

@@ -14,6 +14,7 @@
 #include "studies/run/continuum_model.h"
 #include "studies/run/digest.h"
 #include "studies/run/fit_relaxation.h"
+#include "studies/run/fit_rig.h"
 #include "studies/run/jobs.h"
 #include "studies/run/press_record.h"
 
@@ -191,12 +192,6 @@ ordered_json curve_inputs(const FitInput& input, std::size_t i) {
   // The ramp's lattice is static, its rubber's damping is not.
   if (input.kinds[i] == CurveKind::ramp) inputs["speed"] = input.presses[i].protocol.speed;
   return inputs;
-}
-
-Eigen::VectorXd start_of(const CurveFitOptions& options) {
-  Eigen::VectorXd start(Eigen::Index(options.free.size()));
-  for (Eigen::Index i = 0; i < start.size(); ++i) start(i) = options.free[std::size_t(i)].start;
-  return start;
 }
 
 FitModels::FitModels(const FitInput& input, const fs::path& folder, const JobContext& context,

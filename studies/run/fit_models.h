@@ -16,9 +16,6 @@ namespace fingertip::studies {
 /// What the answers for curve `i` depend on, and its data.
 nlohmann::ordered_json curve_inputs(const FitInput& input, std::size_t i);
 
-/// Where the search starts.
-Eigen::VectorXd start_of(const calibration::CurveFitOptions& options);
-
 /// Models, and what remembers their answers in the folder's evaluations/. Behind a rig it is the
 /// press itself that is remembered.
 class FitModels {

@@ -9,7 +9,9 @@
 #include "meshes/geometry.h"
 #include "studies/config/key_table.h"
 #include "studies/run/fit_curves.h"
+#include "studies/run/fit_rig.h"
 #include "studies/run/press_setup.h"
+#include "studies/run/travel.h"
 
 namespace fingertip::studies {
 

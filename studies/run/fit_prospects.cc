@@ -9,6 +9,7 @@
 #include "calibration/curves/model_error.h"
 #include "meshes/interpolation.h"
 #include "studies/run/fit_rig.h"
+#include "studies/run/travel.h"
 
 namespace fingertip::studies {
 

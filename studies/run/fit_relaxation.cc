@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "studies/run/fit_curves.h"
-
 namespace fingertip::studies {
 
 using calibration::Curve;

@@ -9,6 +9,7 @@
 #include "calibration/curves/fit_statistics.h"
 #include "lattice/press/setup_fields.h"
 #include "meshes/fields_json.h"
+#include "studies/run/fit_rig.h"
 
 namespace fingertip::studies {
 

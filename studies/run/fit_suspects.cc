@@ -8,6 +8,7 @@
 #include "calibration/curves/curve_fit.h"
 #include "calibration/curves/fit_statistics.h"
 #include "calibration/curves/model_error.h"
+#include "studies/run/fit_rig.h"
 
 namespace fingertip::studies {
 

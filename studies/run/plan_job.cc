@@ -12,7 +12,9 @@
 #include "meshes/table_rows.h"
 #include "source_hash.h"
 #include "studies/files/plan_file.h"
+#include "studies/run/fit_job.h"
 #include "studies/run/fit_prospects.h"
+#include "studies/run/fit_rig.h"
 #include "studies/run/json_file.h"
 
 namespace fingertip::studies {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "studies/run/fit_input.h"
+#include "studies/run/job.h"
 
 namespace fingertip::studies {
 

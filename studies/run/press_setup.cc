@@ -249,6 +249,18 @@ fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded) {
   return loaded.config.reference;
 }
 
+fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
+                                             lattice::Kinematics kinematics) {
+  LoadedConfig own = loaded;
+  fem_reference::ReferenceJob& reference = own.config.reference;
+  reference.analysis = fem_reference::Analysis::static_press;
+  reference.strain = kinematics == lattice::Kinematics::finite ? fem_reference::Strain::finite
+                                                               : fem_reference::Strain::linear;
+  reference.rubber.energy = loaded.config.press.rubber.energy;
+  reference.write_fields = false;
+  return continuum_setup(own);
+}
+
 calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::ModelKind model) {
   calibration::ModuliFitOptions options;
   options.model = model;

@@ -33,6 +33,10 @@ lattice::PressSetup free_press(ConfigSource source);
 /// The continuum's job. Throws ConfigError.
 fem_reference::ReferenceJob continuum_setup(const LoadedConfig& loaded);
 
+/// The continuum beside a press: static, linear or law A as `kinematics` says, without fields.
+fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
+                                             lattice::Kinematics kinematics);
+
 /// Options of the fit for `model` at the configuration's spacing.
 calibration::ModuliFitOptions fit_options(const LoadedConfig& loaded, lattice::ModelKind model);
 

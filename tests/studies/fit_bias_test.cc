@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "studies/files/shown_units.h"
+#include "studies/run/configured_fit.h"
 #include "studies/run/fit_contact.h"
-#include "studies/run/fit_setup.h"
 
 using namespace fingertip;
 using namespace fingertip::studies;

@@ -12,6 +12,7 @@
 #include "studies/run/fit_relaxation.h"
 #include "studies/run/fit_repeats.h"
 #include "studies/run/fit_rig.h"
+#include "studies/run/travel.h"
 
 using namespace fingertip;
 using namespace fingertip::studies;

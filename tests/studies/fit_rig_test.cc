@@ -8,6 +8,7 @@
 
 #include "meshes/errors.h"
 #include "studies/run/fit_input.h"
+#include "studies/run/travel.h"
 
 using namespace fingertip;
 using namespace fingertip::studies;

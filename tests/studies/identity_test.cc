@@ -15,7 +15,7 @@
 #include "studies/config/key_table.h"
 #include "studies/config/value_reader.h"
 #include "studies/run/calibration_stages.h"
-#include "studies/run/fit_setup.h"
+#include "studies/run/configured_fit.h"
 #include "studies/run/grasp_job.h"
 #include "studies/run/jobs.h"
 #include "studies/run/plan_job.h"

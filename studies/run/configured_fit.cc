@@ -1,4 +1,4 @@
-#include "studies/run/fit_setup.h"
+#include "studies/run/configured_fit.h"
 
 #include <fmt/format.h>
 
@@ -245,18 +245,6 @@ std::string strain_words(double depth, double excess) {
       "the data go to {:.0f} % of the rubber's thickness, where a neo-Hookean solid is "
       "{:.0f} % {} than small strain has it",
       100.0 * depth, 100.0 * std::abs(excess), excess < 0.0 ? "softer" : "stiffer");
-}
-
-fem_reference::ReferenceJob continuum_beside(const LoadedConfig& loaded,
-                                             lattice::Kinematics kinematics) {
-  LoadedConfig own = loaded;
-  fem_reference::ReferenceJob& reference = own.config.reference;
-  reference.analysis = fem_reference::Analysis::static_press;
-  reference.strain = kinematics == lattice::Kinematics::finite ? fem_reference::Strain::finite
-                                                               : fem_reference::Strain::linear;
-  reference.rubber.energy = loaded.config.press.rubber.energy;
-  reference.write_fields = false;
-  return continuum_setup(own);
 }
 
 FitSetup fit_setup(const LoadedConfig& loaded) {
