@@ -11,9 +11,10 @@
 #include "studies/bench/kernels.h"
 #include "studies/bench/presses.h"
 #include "studies/bench/ratios.h"
-#include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/moduli_job.h"
 #include "studies/run/pace.h"
+#include "studies/run/press_job.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/provenance.h"
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "studies/run/fit_curves.h"
-#include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/pace.h"
 #include "studies/run/press_setup.h"
+#include "studies/run/reference_job.h"
 
 namespace fingertip::studies {
 

@@ -8,9 +8,9 @@
 #include "lattice/press/press.h"
 #include "studies/bench/continua.h"
 #include "studies/run/fit_curves.h"
-#include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/pace.h"
+#include "studies/run/press_job.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {

@@ -10,10 +10,12 @@
 #include "studies/config/key_table.h"
 #include "studies/files/read_fields.h"
 #include "studies/run/grasp_job.h"
-#include "studies/run/jobs.h"
 #include "studies/run/law_job.h"
+#include "studies/run/moduli_job.h"
+#include "studies/run/press_job.h"
 #include "studies/run/press_record.h"
 #include "studies/run/press_setup.h"
+#include "studies/run/reference_job.h"
 
 namespace fingertip::studies {
 

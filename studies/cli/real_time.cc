@@ -15,8 +15,8 @@
 #include "studies/files/shown_units.h"
 #include "studies/run/asked_units.h"
 #include "studies/run/interrupt.h"
-#include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/press_job.h"
 #include "studies/run/press_setup.h"
 
 namespace fingertip::studies {

@@ -6,8 +6,9 @@
 #include "meshes/geometry.h"
 #include "meshes/press_response.h"
 #include "studies/files/shown_units.h"
-#include "studies/run/jobs.h"
+#include "studies/run/press_job.h"
 #include "studies/run/press_setup.h"
+#include "studies/run/reference_job.h"
 
 namespace fingertip::studies {
 

@@ -14,9 +14,10 @@
 #include "studies/run/fit_job.h"
 #include "studies/run/fit_relaxation.h"
 #include "studies/run/fit_setup.h"
-#include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/moduli_job.h"
 #include "studies/run/press_setup.h"
+#include "studies/run/reference_job.h"
 #include "studies/run/surrogate_job.h"
 
 namespace fingertip::studies {

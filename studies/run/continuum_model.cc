@@ -6,7 +6,7 @@
 
 #include "meshes/files.h"
 #include "meshes/press_response.h"
-#include "studies/run/jobs.h"
+#include "studies/run/reference_job.h"
 
 namespace fingertip::studies {
 

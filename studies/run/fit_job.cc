@@ -22,7 +22,6 @@
 #include "studies/run/fit_repeats.h"
 #include "studies/run/fit_rig.h"
 #include "studies/run/fit_suspects.h"
-#include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_record.h"
 

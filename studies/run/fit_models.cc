@@ -15,8 +15,8 @@
 #include "studies/run/digest.h"
 #include "studies/run/fit_relaxation.h"
 #include "studies/run/fit_rig.h"
-#include "studies/run/jobs.h"
 #include "studies/run/press_record.h"
+#include "studies/run/reference_job.h"
 
 namespace fingertip::studies {
 

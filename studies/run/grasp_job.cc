@@ -8,7 +8,6 @@
 #include "meshes/fields_json.h"
 #include "source_hash.h"
 #include "studies/files/grasp_summary.h"
-#include "studies/run/jobs.h"
 #include "studies/run/press_record.h"
 #include "studies/run/press_setup.h"
 

@@ -1,3 +1,5 @@
+#include "studies/run/modes_job.h"
+
 #include <cmath>
 
 #include "lattice/press/setup_fields.h"
@@ -8,7 +10,6 @@
 #include "meshes/table_rows.h"
 #include "source_hash.h"
 #include "studies/files/run_tables.h"
-#include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 
 namespace fingertip::studies {

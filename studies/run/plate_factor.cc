@@ -5,7 +5,7 @@
 
 #include "meshes/interpolation.h"
 #include "meshes/press_response.h"
-#include "studies/run/jobs.h"
+#include "studies/run/reference_job.h"
 
 namespace fingertip::studies {
 

@@ -1,3 +1,5 @@
+#include "studies/run/press_job.h"
+
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -11,7 +13,6 @@
 #include "meshes/fields_json.h"
 #include "source_hash.h"
 #include "studies/run/controller_choice.h"
-#include "studies/run/jobs.h"
 #include "studies/run/movie.h"
 #include "studies/run/pace.h"
 #include "studies/run/press_notes.h"

@@ -5,7 +5,6 @@
 #include "calibration/curves/lattice_forward_model.h"
 #include "calibration/surrogate/surrogate.h"
 #include "source_hash.h"
-#include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
 #include "studies/run/press_record.h"
 

@@ -12,10 +12,12 @@
 #include "studies/run/file_lock.h"
 #include "studies/run/grasp_job.h"
 #include "studies/run/interrupt.h"
-#include "studies/run/jobs.h"
 #include "studies/run/json_file.h"
+#include "studies/run/modes_job.h"
+#include "studies/run/press_job.h"
 #include "studies/run/press_setup.h"
 #include "studies/run/progress.h"
+#include "studies/run/reference_job.h"
 #include "studies/run/run_folder.h"
 #include "studies/run/session.h"
 

@@ -8,7 +8,7 @@
 
 #include "meshes/errors.h"
 #include "meshes/press_response.h"
-#include "studies/run/jobs.h"
+#include "studies/run/reference_job.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip;

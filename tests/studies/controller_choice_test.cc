@@ -8,7 +8,7 @@
 #include "calibration/surrogate/surrogate.h"
 #include "lattice/control/adaptive_pid.h"
 #include "lattice/control/hybrid_controller.h"
-#include "studies/run/jobs.h"
+#include "studies/run/press_job.h"
 #include "studies/run/press_setup.h"
 #include "tests/temporary_folder.h"
 

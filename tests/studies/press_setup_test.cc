@@ -8,7 +8,10 @@
 #include "calibration/moduli.h"
 #include "lattice/press/static_press.h"
 #include "studies/config/documents.h"
-#include "studies/run/jobs.h"
+#include "studies/run/modes_job.h"
+#include "studies/run/moduli_job.h"
+#include "studies/run/press_job.h"
+#include "studies/run/reference_job.h"
 #include "tests/temporary_folder.h"
 
 using namespace fingertip::studies;
